@@ -1,0 +1,34 @@
+#pragma once
+// All that crossed the HAL in one tick and what was made of it: the tick's only local state, and
+// enough to live through the tick again.
+#include <cstdint>
+
+#include "firmware/safety/verdict.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/operator_input.h"
+#include "hal/types/outside_fix.h"
+#include "hal/types/wheels.h"
+#include "planner/localization/localizer.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+struct TickRecord {
+  Time now = kNever;
+  // In: what the devices said.
+  LaserScan scan;
+  WheelState wheels;
+  OperatorInput input;
+  OutsideFix fix;
+  // Made of it.
+  PoseEstimate pose;
+  std::uint32_t plan_sequence = 0;  ///< which submission collect() answered with
+  Time plan_stamp = kNever;
+  PlanStatus plan_status = PlanStatus::kNone;
+  Twist2 wanted;
+  Verdict verdict;
+  // Out.
+  WheelCommand command;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,35 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+namespace jaywalk {
+
+/// Why the supervisor permits less than was wanted. A set of bits.
+enum class Reason : std::uint32_t {
+  kNone = 0,
+  kStopZone = 1U << 0,       ///< limit: something stands in the way (raw scan)
+  kScanStale = 1U << 1,      ///< fault: scan too old
+  kScanInvalid = 1U << 2,    ///< fault: scan that cannot be trusted
+  kWheelsStale = 1U << 3,    ///< fault: wheel feedback too old
+  kPlanStale = 1U << 4,      ///< limit: plan too old or none
+  kEmergencyStop = 1U << 5,  ///< fault, latched
+  kSpeedLimit = 1U << 6,     ///< limit: faster than allowed
+  kAccelLimit = 1U << 7,     ///< limit: changing faster than allowed
+  kNotFinite = 1U << 8,      ///< fault: a wanted twist that is no number
+  kLatched = 1U << 9,        ///< an earlier fault waits for a reset edge
+  kUnwatched = 1U << 10,     ///< limit: nothing watches the direction of travel
+  kNoGoal = 1U << 11,        ///< nowhere to go
+};
+
+constexpr Reason operator|(Reason a, Reason b) {
+  return static_cast<Reason>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
+}
+constexpr Reason& operator|=(Reason& a, Reason b) { return a = a | b; }
+constexpr bool has(Reason set, Reason bit) {
+  return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit)) != 0;
+}
+
+/// "stop_zone|plan_stale"; empty for none. For reports, never in the loop.
+[[nodiscard]] std::string to_string(Reason reasons);
+
+}  // namespace jaywalk

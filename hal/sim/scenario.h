@@ -1,0 +1,68 @@
+#pragma once
+// A scenario file (TOML, documented in docs/scenarios.md): the world, the robot in it, what moves,
+// what goes wrong. Loading refuses everything it does not understand.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk::sim {
+
+enum class MapKind { kYaml, kAria, kCylinders };
+
+struct WanderSpec {
+  int count = 0;
+  double speed_mps = 0.4;
+  double radius_m = 0.27;
+  double turn_rate_radps = 1.0;
+  double spontaneous_turns_hz = 0.0;
+};
+
+struct RecordedSpec {
+  std::filesystem::path file;
+  double radius_m = 0.25;
+  Vec2 offset;
+  double start_at_s = 0.0;
+  bool loop = false;
+};
+
+enum class FaultKind { kScanStale, kScanNan, kScanShort, kWheelsStale, kWheelSlip, kEmergencyStop };
+
+struct FaultSpec {
+  double at_s = 0.0;
+  double for_s = 0.0;
+  FaultKind kind = FaultKind::kScanStale;
+};
+
+struct PoseSourceSpec {
+  bool enabled = false;
+  double rate_hz = 5.0;
+  double position_std_m = 0.03;
+  double heading_std_rad = 0.01;
+  double mover_std_m = 0.05;
+};
+
+struct Scenario {
+  std::string name;
+  std::uint64_t seed = 1;
+  double timeout_s = 180.0;
+  MapKind map_kind = MapKind::kYaml;
+  std::filesystem::path map_file;
+  Pose2 start;
+  Vec2 goal;
+  double goal_tolerance_m = 0.3;
+  RobotModel model;  ///< with the scenario's own speed and laser already in it
+  PoseSourceSpec pose_source;
+  std::vector<WanderSpec> wanderers;
+  std::vector<RecordedSpec> recorded;
+  std::vector<FaultSpec> faults;
+};
+
+/// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong: unreadable file, unknown key, wrong type,
+/// value out of range, missing key, missing map file.
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file);
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,65 @@
+#pragma once
+// The simulated robot in its world, behind the HAL. Time stands still until the controller sleeps;
+// then the world moves on, plant and movers in small fixed steps. One seed decides everything.
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "hal/hal.h"
+#include "hal/sim/scenario.h"
+
+namespace jaywalk::sim {
+
+struct MoverTruth {
+  std::uint32_t id = 0;
+  Vec2 position;
+  Vec2 velocity;
+  double heading = 0.0;
+  double radius_m = 0.0;
+  bool forced = false;  ///< true from the moment the robot made it turn until it walks again
+};
+
+/// What is really so, for the report. The controller never sees it.
+struct Truth {
+  Time now = kNever;
+  Pose2 map_from_robot;
+  Twist2 twist;
+  double accel_mps2 = 0.0;  ///< forward, of the plant
+  std::span<const MoverTruth> movers;
+  double clearance_m = 0.0;           ///< footprint to the nearest wall or mover; 0 in contact
+  double mover_clearance_m = 0.0;     ///< footprint to the nearest mover; +inf without movers
+  std::uint32_t contacts = 0;         ///< episodes of touching so far
+  std::uint32_t contacts_caused = 0;  ///< those begun at a robot speed over 0.05 m/s
+  std::uint32_t forced_movers = 0;    ///< so far
+};
+
+/// One straight piece of wall for pictures, in the map.
+struct WallSegment {
+  Vec2 from, to;
+};
+
+class Simulation {
+ public:
+  /// Builds the world and places the movers. Throws StartupError for a world that cannot be: an unreadable map,
+  /// a start or goal in a wall, no room for the movers.
+  Simulation(const Scenario& scenario, std::uint64_t seed);
+  ~Simulation();
+
+  [[nodiscard]] Hal hal() noexcept;  ///< clock starts at zero
+  [[nodiscard]] const Truth& truth() const noexcept;
+
+  /// Length (m) of the shortest path for the footprint's inscribed circle from start to goal among the walls alone;
+  /// infinity where there is none.
+  [[nodiscard]] double static_shortest_path_m() const;
+  /// Walls as drawn in a picture.
+  [[nodiscard]] std::span<const WallSegment> walls() const noexcept;
+  /// The wandering rule's geometry in words, for summary.json.
+  [[nodiscard]] static std::string mover_rule();
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace jaywalk::sim

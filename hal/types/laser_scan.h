@@ -1,0 +1,39 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/types/time.h"
+
+namespace jaywalk {
+
+/// Most beams that a scan may have: 360 degrees at 0.18 degrees.
+inline constexpr std::size_t kMaxBeams = 2048;
+
+/// One sweep of a planar laser scanner, in the laser's frame (x ahead, angles counter-clockwise).
+///
+/// A range is metres along its beam. Finite values in [range_min_m, range_max_m] are hits; 0, NaN,
+/// infinity and everything outside those limits are "no return": the beam proves nothing, neither
+/// an obstacle nor free space (dark or mirror surfaces return nothing too).
+struct LaserScan {
+  Time stamp = kNever;           ///< when the first beam was measured
+  std::uint32_t sequence = 0;    ///< grows by one a sweep; 0: no scan yet
+  std::uint32_t beam_count = 0;  ///< beams in use, at most kMaxBeams
+  float first_angle_rad = 0.0F;  ///< direction of beam 0
+  float angle_step_rad = 0.0F;   ///< from a beam to the next; negative for scanners turning clockwise
+  float range_min_m = 0.0F;
+  float range_max_m = 0.0F;
+  Duration sweep{0};   ///< from the first beam to the last; 0: taken all at once
+  Duration period{0};  ///< nominal time from one scan to the next
+  std::array<float, kMaxBeams> range_m{};
+
+  [[nodiscard]] bool is_hit(std::size_t beam) const {
+    const float r = range_m[beam];
+    return r >= range_min_m && r <= range_max_m && r > 0.0F;  // false for NaN
+  }
+  [[nodiscard]] double angle_rad(std::size_t beam) const {
+    return static_cast<double>(first_angle_rad) + static_cast<double>(beam) * static_cast<double>(angle_step_rad);
+  }
+};
+
+}  // namespace jaywalk

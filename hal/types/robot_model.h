@@ -1,0 +1,64 @@
+#pragma once
+// The robot's body, drive and laser: facts about a machine, shared by controller and simulator.
+#include <cstdint>
+#include <string>
+
+#include "hal/types/geometry.h"
+
+namespace jaywalk {
+
+/// A rectangle about the drive axle's middle, aligned with the robot.
+struct Footprint {
+  double front_m = 0.0;  ///< from the axle to the foremost point
+  double rear_m = 0.0;   ///< from the axle to the rearmost point, positive
+  double half_width_m = 0.0;
+
+  /// Largest circle about the axle's middle that fits inside.
+  [[nodiscard]] double inscribed_radius_m() const;
+  /// Smallest circle about the axle's middle that holds it.
+  [[nodiscard]] double circumscribed_radius_m() const;
+  /// Distance (m) from a point in the robot's frame to the rectangle; 0 inside.
+  [[nodiscard]] double distance_to(Vec2 p_in_robot) const;
+};
+
+struct DriveModel {
+  double wheel_radius_m = 0.0;
+  double track_width_m = 0.0;          ///< between the wheels' contact points
+  double max_wheel_speed_radps = 0.0;  ///< what the motors can do
+};
+
+struct MotionLimits {
+  double max_speed_mps = 0.0;
+  double max_turn_radps = 0.0;
+  double max_accel_mps2 = 0.0;  ///< comfort: speeding up and slowing down as planned
+  double max_turn_accel_radps2 = 0.0;
+  double max_jerk_mps3 = 0.0;
+  double brake_mps2 = 0.0;  ///< what the drive is proved to be able to do
+};
+
+struct LaserModel {
+  Pose2 robot_from_laser;
+  double fov_rad = 0.0;  ///< from the first beam to the last, centred ahead
+  std::uint32_t beams = 0;
+  double rate_hz = 0.0;
+  double range_min_m = 0.0;
+  double range_max_m = 0.0;
+  double noise_m = 0.0;   ///< standard deviation of a range
+  double drop_out = 0.0;  ///< share of beams that return nothing, in [0, 1]
+};
+
+struct RobotModel {
+  std::string name;
+  Footprint footprint;
+  DriveModel drive;
+  MotionLimits limits;
+  LaserModel laser;
+};
+
+/// Pioneer P3-DX: 0.455 m x 0.381 m, wheels 0.195 m across and 0.33 m apart, 1.2 m/s, 300 deg/s
+/// (maker's data sheet), with a 270 degree scanner.
+[[nodiscard]] RobotModel p3dx();
+/// A power wheelchair, 0.65 m x 1.10 m, turning about its drive axle 0.35 m from its rear.
+[[nodiscard]] RobotModel wheelchair();
+
+}  // namespace jaywalk

@@ -1,0 +1,56 @@
+#include "planner/grid/evidence_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+
+EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
+    : side_(side_cells),
+      cell_m_(cell_m),
+      evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0) {
+  const CellIndex centre = cell_at(centre_in_map);
+  low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
+}
+
+CellIndex EvidenceMap::cell_at(Vec2 p) const {
+  return {static_cast<std::int32_t>(std::floor(p.x / cell_m_)), static_cast<std::int32_t>(std::floor(p.y / cell_m_))};
+}
+
+Vec2 EvidenceMap::centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
+
+bool EvidenceMap::contains(CellIndex cell) const {
+  return cell.i >= low_.i && cell.i < low_.i + side_ && cell.j >= low_.j && cell.j < low_.j + side_;
+}
+
+std::size_t EvidenceMap::slot(CellIndex cell) const {
+  const auto mask = static_cast<std::uint32_t>(side_ - 1);
+  return static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
+         (static_cast<std::uint32_t>(cell.i) & mask);
+}
+
+std::int8_t EvidenceMap::evidence(CellIndex cell) const {
+  return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
+}
+
+void EvidenceMap::add(CellIndex cell, int change) noexcept {
+  if (!contains(cell)) return;
+  std::int8_t& e = evidence_[slot(cell)];
+  e = static_cast<std::int8_t>(std::clamp(e + change, kMin, kMax));
+}
+
+void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
+  const CellIndex centre = cell_at(centre_in_map);
+  const CellIndex off{centre.i - (low_.i + side_ / 2), centre.j - (low_.j + side_ / 2)};
+  if (std::abs(off.i) <= side_ / 4 && std::abs(off.j) <= side_ / 4) return;
+  const CellIndex old = low_;
+  low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
+  for (std::int32_t j = low_.j; j < low_.j + side_; ++j) {
+    const bool row_stays = j >= old.j && j < old.j + side_;
+    for (std::int32_t i = low_.i; i < low_.i + side_; ++i) {
+      if (!(row_stays && i >= old.i && i < old.i + side_)) evidence_[slot({i, j})] = 0;
+    }
+  }
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,58 @@
+#pragma once
+// What stands where: evidence for "occupied" against "free", a cell of the world at a time.
+#include <cstdint>
+#include <vector>
+
+#include "hal/types/geometry.h"
+
+namespace jaywalk {
+
+/// Index of a world cell: cell (i, j) covers [i, i+1) x [j, j+1) times the cell size, in the map.
+struct CellIndex {
+  std::int32_t i = 0;
+  std::int32_t j = 0;
+  constexpr bool operator==(const CellIndex&) const = default;
+};
+
+/// A square window of the world that rolls with the robot, stored as a torus: moving the window
+/// costs only the cells that enter it. It remembers everything inside; what leaves is forgotten.
+///
+/// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and
+/// both ends saturate so that the map can change its mind within a few scans.
+/// Memory: side * side bytes, taken in the constructor. Not thread-safe.
+class EvidenceMap {
+ public:
+  /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
+  EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map);
+
+  [[nodiscard]] std::int32_t side() const { return side_; }
+  [[nodiscard]] double cell_m() const { return cell_m_; }
+  [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const;
+  [[nodiscard]] Vec2 centre_of(CellIndex cell) const;
+  [[nodiscard]] bool contains(CellIndex cell) const;
+
+  /// Evidence of a cell; 0 (unknown) outside the window.
+  [[nodiscard]] std::int8_t evidence(CellIndex cell) const;
+  [[nodiscard]] bool occupied(CellIndex cell) const { return evidence(cell) > kOccupied; }
+  [[nodiscard]] bool seen_free(CellIndex cell) const { return evidence(cell) < kFree; }
+
+  /// Adds to a cell's evidence, saturating in [kMin, kMax]; nothing happens outside the window.
+  void add(CellIndex cell, int change) noexcept;
+  /// Rolls the window so that it is centred within a quarter side of `centre_in_map`; a no-op while
+  /// that holds already. Cells that enter are unknown.
+  void roll_to(Vec2 centre_in_map) noexcept;
+
+  static constexpr int kMin = -64, kMax = 64;
+  static constexpr int kOccupied = 16;  ///< above: treated as an obstacle
+  static constexpr int kFree = -16;     ///< below: has been seen free
+
+ private:
+  [[nodiscard]] std::size_t slot(CellIndex cell) const;
+
+  std::int32_t side_;
+  double cell_m_;
+  CellIndex low_;  ///< lowest cell inside
+  std::vector<std::int8_t> evidence_;
+};
+
+}  // namespace jaywalk

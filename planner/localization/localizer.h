@@ -1,0 +1,50 @@
+#pragma once
+// Where the robot is: wheels, scans matched to the map, fixes from outside.
+#include <memory>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/outside_fix.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/wheels.h"
+#include "planner/grid/evidence_map.h"
+
+namespace jaywalk {
+
+struct LocalizationConfig {
+  Pose2 map_from_robot_at_start;
+  DriveModel drive;
+  Pose2 robot_from_laser;
+  bool match_scans = true;
+};
+
+/// Pose and how sure we are of it, at `stamp`.
+struct PoseEstimate {
+  Time stamp = kNever;
+  Pose2 map_from_robot;
+  double position_std_m = 0.0;
+  double heading_std_rad = 0.0;
+};
+
+/// Thread: the loop's. The constructor allocates; update() never does, and never throws.
+class Localizer {
+ public:
+  explicit Localizer(const LocalizationConfig& config);
+  ~Localizer();
+
+  /// Moves the estimate on by the wheels' newest reading; a scan with a new sequence number is
+  /// matched against `still` (when it holds enough), a fix with a new one is blended by variance.
+  /// Without wheels (sequence 0 for ever) scans alone carry the pose.
+  [[nodiscard]] const PoseEstimate& update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,
+                                           const EvidenceMap& still) noexcept;
+
+  /// The pose at the newest scan's stamp: what the tracker wants.
+  [[nodiscard]] const Pose2& map_from_robot_at_scan() const noexcept;
+  /// Speed as the wheels (or, without them, the scans) say.
+  [[nodiscard]] const Twist2& twist() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,46 @@
+#pragma once
+// Seeing: walls into the evidence map, things that move into tracks, from the laser alone.
+#include <memory>
+#include <span>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/outside_fix.h"
+#include "hal/types/robot_model.h"
+#include "planner/grid/evidence_map.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+struct PerceptionConfig {
+  Pose2 robot_from_laser;
+  double cell_m = 0.1;
+  std::int32_t map_side_cells = 1024;
+  Vec2 map_centre;  ///< where the evidence map is centred at start
+};
+
+/// Thread: the loop's. The constructor allocates; update() never does, and never throws.
+class Tracker {
+ public:
+  explicit Tracker(const PerceptionConfig& config);
+  ~Tracker();
+
+  /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
+  /// pose at the scan's stamp. Ranges that are no returns change nothing.
+  void update(const LaserScan& scan, const Pose2& map_from_robot) noexcept;
+
+  /// Mode paper: movers come from outside, named and noisy; a Kalman filter each. Beams that end
+  /// within a mover's radius of its given position are kept out of the map by the next update().
+  void update_given(const OutsideFix& fix) noexcept;
+
+  [[nodiscard]] const EvidenceMap& still() const;
+  /// All tracks, moving or not.
+  [[nodiscard]] std::span<const Track> tracks() const;
+  /// Those that move beyond reasonable doubt: what the planner warps.
+  [[nodiscard]] std::span<const Track> moving() const;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,109 @@
+#pragma once
+// The planner's door: what it is asked, what it answers, and the two calls in between.
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+
+#include "hal/types/fixed_vector.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
+#include "planner/grid/evidence_map.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+/// How movers are marked on the grid.
+enum class PlanMode {
+  kPaper,  ///< one warp number a mover: only its future position is marked (docs/algorithm.md)
+  kFull,   ///< its present body as well
+};
+
+enum class PlanStatus : std::uint8_t {
+  kNone,           ///< nothing was planned yet
+  kOk,             ///< `path` leads to the goal
+  kNoPath,         ///< the goal cannot be reached through free cells
+  kRobotBlocked,   ///< the robot's own cell is not free and no free cell is near
+  kBadRequest,     ///< a pose or goal that is not finite
+  kBackendFailed,  ///< the executor could not run
+};
+[[nodiscard]] const char* name_of(PlanStatus status);
+
+inline constexpr std::size_t kMaxPathPoints = 4096;
+
+/// Points in the map, from the robot to the goal (or to where the goal projects onto the grid's
+/// border), 0.05 to 0.2 m apart. Empty unless the status is kOk.
+using Path = FixedVector<Vec2, kMaxPathPoints>;
+
+struct PlanRequest {
+  Time stamp = kNever;  ///< of the scan that the request rests on
+  Pose2 map_from_robot;
+  Vec2 goal_in_map;
+  double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
+  const EvidenceMap* still = nullptr;  ///< walls; read during submit only
+  std::span<const Track> moving;       ///< copied during submit
+};
+
+/// Where a mover is expected, and how it was marked.
+struct Prediction {
+  std::uint32_t track_id = 0;
+  Vec2 position_in_map;
+  double mark_radius_m = 0.0;
+  double horizon_s = 0.0;
+};
+
+struct Plan {
+  Time stamp = kNever;         ///< the request's
+  std::uint32_t sequence = 0;  ///< of the request that it answers, from 1
+  PlanStatus status = PlanStatus::kNone;
+  bool certified = false;    ///< every goal-connected free cell has a lower neighbour
+  float reach = 0.0F;        ///< share of goal-connected free cells from which descent arrives
+  std::int32_t cycles = 0;   ///< solver's work
+  double duration_ms = 0.0;  ///< measured; for reports only, no decision rests on it
+  Path path;
+  FixedVector<Prediction, kMaxTracks> predictions;
+};
+
+/// A copy of the field for pictures; see Planner::view_field.
+struct FieldView {
+  CellIndex low;  ///< world index of the window's lowest cell
+  std::int32_t width = 0, height = 0;
+  double cell_m = 0.0;
+  std::span<const float>
+      psi;  ///< -ln(1 - phi), row by row from the lowest y; NaN where not free, inf where unreachable
+};
+
+struct PlannerConfig {
+  PlanMode mode = PlanMode::kFull;
+  double cell_m = 0.1;
+  std::int32_t side_cells = 256;       ///< side of the grid at start: 256, 512 or 1024
+  std::int32_t max_side_cells = 1024;  ///< memory is taken for this; the grid doubles up to it when the goal
+                                       ///< cannot be reached inside it
+  double inflation_m = 0.3;            ///< obstacle cells grow by this: the robot's radius and a margin
+  double mover_margin_m = 0.3;         ///< the "safety distance" round a mover's predicted body
+  double horizon_cap_s = 5.0;          ///< predictions go no further
+};
+
+/// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024.
+[[nodiscard]] std::int32_t grid_side_for(Vec2 start_in_map, Vec2 goal_in_map, double cell_m);
+
+/// Plans on a window of the world. submit() hands over a request, collect() the newest finished
+/// plan: a tick later at the earliest, so that every backend has the same latency.
+///
+/// Constructor allocates everything; submit, collect and path never do, nor do they throw.
+/// Thread: the loop's.
+class Planner {
+ public:
+  virtual ~Planner() = default;
+  virtual void submit(const PlanRequest& request) noexcept = 0;
+  [[nodiscard]] virtual const Plan& collect() noexcept = 0;
+  /// The field behind the plan that collect() last returned. For pictures: never in the loop.
+  [[nodiscard]] virtual FieldView view_field() const = 0;
+  [[nodiscard]] virtual const char* backend() const noexcept = 0;
+};
+
+/// A planner on the CPU. Throws StartupError for a configuration that makes no sense.
+[[nodiscard]] std::unique_ptr<Planner> make_cpu_planner(const PlannerConfig& config);
+
+}  // namespace jaywalk

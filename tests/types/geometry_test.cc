@@ -1,0 +1,60 @@
+#include "hal/types/geometry.h"
+
+#include "hal/types/fixed_vector.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+TEST_CASE("a pose takes a point of the robot to the map") {
+  // Robot at (2, 1) looking along +y: one metre ahead of it is (2, 2), one to its left (1, 1).
+  const Pose2 map_from_robot{2.0, 1.0, kPi / 2};
+  const Vec2 ahead = map_from_robot * Vec2{1.0, 0.0};
+  CHECK(ahead.x == Approx(2.0));
+  CHECK(ahead.y == Approx(2.0));
+  const Vec2 left = map_from_robot * Vec2{0.0, 1.0};
+  CHECK(left.x == Approx(1.0));
+  CHECK(left.y == Approx(1.0));
+}
+
+TEST_CASE("a pose times its inverse stays put") {
+  const Pose2 p{3.0, -4.0, 2.5};
+  const Pose2 none = p * inverse(p);
+  CHECK(none.x == Approx(0.0).margin(1e-12));
+  CHECK(none.y == Approx(0.0).margin(1e-12));
+  CHECK(none.heading == Approx(0.0).margin(1e-12));
+}
+
+TEST_CASE("a full vector refuses and keeps what it has") {
+  FixedVector<int, 2> v;
+  CHECK(v.push_back(1));
+  CHECK(v.push_back(2));
+  CHECK_FALSE(v.push_back(3));
+  CHECK(v.size() == 2);
+  CHECK(v.back() == 2);
+}
+
+TEST_CASE("zero, NaN, infinity and what lies beyond the limits are no hits") {
+  LaserScan scan;
+  scan.range_min_m = 0.1F;
+  scan.range_max_m = 10.0F;
+  scan.beam_count = 6;
+  scan.range_m = {};
+  scan.range_m[0] = 0.0F;
+  scan.range_m[1] = NAN;
+  scan.range_m[2] = INFINITY;
+  scan.range_m[3] = 0.05F;
+  scan.range_m[4] = 10.5F;
+  scan.range_m[5] = 3.0F;
+  for (std::size_t beam = 0; beam < 5; ++beam) CHECK_FALSE(scan.is_hit(beam));
+  CHECK(scan.is_hit(5));
+}
+
+TEST_CASE("the P3-DX fits a circle of 19 cm and is held by one of 30 cm") {
+  const Footprint body = p3dx().footprint;
+  CHECK(body.inscribed_radius_m() == Approx(0.1905));
+  CHECK(body.circumscribed_radius_m() == Approx(0.29672).epsilon(1e-4));  // sqrt(0.2275^2 + 0.1905^2)
+  CHECK(body.distance_to({0.5275, 0.0}) == Approx(0.3));
+  CHECK(body.distance_to({0.0, 0.1}) == 0.0);
+}

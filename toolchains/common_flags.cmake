@@ -1,0 +1,21 @@
+# Flags that every target shares. They are part of correctness: the same source must give the same
+# bits with any optimisation level, sanitizer, compiler and processor (docs/conventions.md).
+add_library(jaywalk_flags INTERFACE)
+target_compile_features(jaywalk_flags INTERFACE cxx_std_20)
+target_include_directories(jaywalk_flags INTERFACE ${PROJECT_SOURCE_DIR})
+
+set(JAYWALK_CXX_FLAGS
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Werror
+    -ffp-contract=off # GCC fuses a*b+c by default on aarch64, which changes results
+    -fno-math-errno # lets sqrt be one instruction; its value stays the IEEE one
+    -fno-trapping-math) # lets comparisons vectorise; values stay the IEEE ones
+foreach(flag IN LISTS JAYWALK_CXX_FLAGS)
+  target_compile_options(jaywalk_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${flag}>)
+endforeach()
+
+set(JAYWALK_SANITIZE "" CACHE STRING "Sanitizers to build with, for example address,undefined")
+if(JAYWALK_SANITIZE)
+  target_compile_options(jaywalk_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:-fsanitize=${JAYWALK_SANITIZE}>
+    $<$<COMPILE_LANGUAGE:CXX>:-fno-omit-frame-pointer> $<$<COMPILE_LANGUAGE:CXX>:-fno-sanitize-recover=all>)
+  target_link_options(jaywalk_flags INTERFACE -fsanitize=${JAYWALK_SANITIZE})
+endif()
