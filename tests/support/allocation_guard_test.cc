@@ -1,0 +1,91 @@
+#include "tests/support/allocation_guard.h"
+
+#include <atomic>
+#include <cstdlib>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+// The compiler may drop a new whose pointer nobody sees.
+std::atomic<void*> seen = nullptr;
+
+struct alignas(64) CacheLine {
+  double values[8];
+};
+}  // namespace
+
+TEST_CASE("arithmetic on the stack asks nothing of the heap") {
+  const AllocationGuard guard;
+  double sum = 0.0;
+  for (int k = 1; k <= 1000; ++k) sum += 1.0 / k;
+  const auto calls = guard.calls();
+  CHECK(calls == 0);
+  CHECK(sum == Approx(7.485470860550345));  // the thousandth harmonic number
+}
+
+TEST_CASE("a new and its delete are two calls") {
+  const AllocationGuard guard;
+  int* const number = new int(1);
+  seen = number;
+  delete number;
+  const auto calls = guard.calls();
+  CHECK(calls == 2);
+}
+
+TEST_CASE("over-aligned new is counted") {
+  const AllocationGuard guard;
+  auto line = std::make_unique<CacheLine>();
+  seen = line.get();
+  line.reset();
+  const auto calls = guard.calls();
+  CHECK(calls == 2);
+}
+
+TEST_CASE("malloc, calloc and free are counted and freeing nothing is not") {
+  const AllocationGuard guard;
+  void* const first = std::malloc(16);
+  seen = first;
+  void* const second = std::calloc(4, 4);
+  seen = second;
+  std::free(first);
+  std::free(second);
+  std::free(nullptr);
+  const auto calls = guard.calls();
+  CHECK(calls == 4);
+}
+
+TEST_CASE("a vector that grows is caught") {
+  std::vector<int> numbers;
+  numbers.reserve(4);
+  const AllocationGuard guard;
+  for (int k = 0; k < 4; ++k) numbers.push_back(k);
+  const auto within_capacity = guard.calls();
+  numbers.push_back(4);
+  seen = numbers.data();
+  const auto beyond_capacity = guard.calls();
+  CHECK(within_capacity == 0);
+  CHECK(beyond_capacity == 2);  // a new block taken, the old one given back
+}
+
+TEST_CASE("other threads do not count") {
+  seen = nullptr;
+  std::uint64_t there = 0;
+  std::thread other([&there] {
+    const AllocationGuard guard;
+    int* const number = new int(1);
+    seen = number;
+    delete number;
+    there = guard.calls();
+  });
+  const AllocationGuard guard;
+  while (seen == nullptr) std::this_thread::yield();
+  const auto here = guard.calls();
+  other.join();
+  CHECK(here == 0);
+  CHECK(there == 2);
+}
