@@ -1,0 +1,44 @@
+# shellcheck shell=bash
+# What the build needs from the system, and how it gets there; sourced by tools/demo and tools/test.
+
+# Names hold for Debian 12 and Ubuntu 22.04 and 24.04.
+readonly kLibraries=(catch2 libcli11-dev libpng-dev libtomlplusplus-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev)
+
+# missing_packages: the Debian packages that are not there, one a line. A program counts wherever it came from.
+missing_packages() {
+  command -v "${CXX:-c++}" >/dev/null || echo "${CXX:-g++}"
+  command -v cmake >/dev/null || echo cmake
+  command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
+  local library
+  for library in "${kLibraries[@]}"; do
+    [ "$(dpkg-query -W -f '${db:Status-Status}' "$library" 2>/dev/null)" = installed ] || echo "$library"
+  done
+}
+
+# install_missing: asks apt for what is not there, and for nothing when all is; says what.
+install_missing() {
+  local -a missing as_root=()
+  if ! command -v dpkg-query >/dev/null; then
+    echo "packages: this is not Debian or Ubuntu; it must have a C++20 compiler, cmake 3.22, ninja or make, and what Debian calls: ${kLibraries[*]}"
+    return
+  fi
+  mapfile -t missing < <(missing_packages)
+  [ ${#missing[@]} -gt 0 ] || return 0
+  echo "packages: installing what is missing: ${missing[*]}"
+  [ "$(id -u)" = 0 ] || as_root=(sudo)
+  export DEBIAN_FRONTEND=noninteractive
+  if ! { "${as_root[@]}" apt-get update -qq && "${as_root[@]}" apt-get install -y -qq --no-install-recommends "${missing[@]}" >/dev/null; }; then
+    echo "packages: could not install; with a network and root, this does it: apt-get install ${missing[*]}" >&2
+    return 1
+  fi
+}
+
+# Ninja and ccache where they are; CMake reads these when it makes a new build folder.
+! command -v ninja >/dev/null || export CMAKE_GENERATOR=Ninja
+! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+
+# build_release TARGET: the -O2 build in build/.
+build_release() {
+  cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
+  cmake --build build --parallel "$(nproc)" --target "$1"
+}
