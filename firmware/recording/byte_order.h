@@ -1,0 +1,74 @@
+#pragma once
+// Values as little-endian bytes, whatever the machine; floating point as its bits, NaN payloads and all.
+#include <bit>
+#include <concepts>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <type_traits>
+
+namespace jaywalk {
+
+template <std::size_t Size>
+using UnsignedOfSize = std::conditional_t<
+    Size == 1, std::uint8_t,
+    std::conditional_t<Size == 2, std::uint16_t, std::conditional_t<Size == 4, std::uint32_t, std::uint64_t>>>;
+
+template <class T>
+concept Number = std::integral<T> || std::floating_point<T>;
+
+/// Writes numbers one after the other into bytes that the caller owns. What does not fit is left
+/// out and `overflowed` tells.
+class ByteSink {
+ public:
+  explicit ByteSink(std::span<unsigned char> bytes) : bytes_(bytes) {}
+
+  template <Number T>
+  void number(T value) noexcept {
+    if (bytes_.size() - size_ < sizeof(T)) {
+      overflowed_ = true;
+      return;
+    }
+    auto bits = std::bit_cast<UnsignedOfSize<sizeof(T)>>(value);
+    for (std::size_t i = 0; i < sizeof(T); ++i) {
+      bytes_[size_++] = static_cast<unsigned char>(bits & 0xFFU);
+      if constexpr (sizeof(T) > 1) bits = static_cast<decltype(bits)>(bits >> 8U);
+    }
+  }
+  [[nodiscard]] std::size_t size() const noexcept { return size_; }
+  [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
+
+ private:
+  std::span<unsigned char> bytes_;
+  std::size_t size_ = 0;
+  bool overflowed_ = false;
+};
+
+/// Reads them back. Past the end it gives zeros and `ok` turns false for good.
+class ByteSource {
+ public:
+  explicit ByteSource(std::span<const unsigned char> bytes) : bytes_(bytes) {}
+
+  template <Number T>
+  void number(T& value) noexcept {
+    UnsignedOfSize<sizeof(T)> bits = 0;
+    if (bytes_.size() - used_ < sizeof(T)) {
+      ok_ = false;
+    } else {
+      for (std::size_t i = 0; i < sizeof(T); ++i) {
+        bits = static_cast<decltype(bits)>(bits | static_cast<decltype(bits)>(bytes_[used_++]) << (8U * i));
+      }
+    }
+    value = std::bit_cast<T>(bits);
+  }
+  void refuse() noexcept { ok_ = false; }
+  [[nodiscard]] bool ok() const noexcept { return ok_; }
+  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - used_; }
+
+ private:
+  std::span<const unsigned char> bytes_;
+  std::size_t used_ = 0;
+  bool ok_ = true;
+};
+
+}  // namespace jaywalk

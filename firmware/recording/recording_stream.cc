@@ -1,0 +1,175 @@
+#include "firmware/recording/recording_stream.h"
+
+#include <zlib.h>
+
+#include <array>
+#include <cstring>
+#include <span>
+
+#include "firmware/recording/byte_order.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr std::array<unsigned char, 8> kMagic{'J', 'A', 'Y', 'W', 'A', 'L', 'K', '\n'};
+constexpr std::size_t kEntryHeadBytes = 12;
+
+std::uint32_t crc_of(std::span<const unsigned char> bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(crc32(before, bytes.data(), static_cast<uInt>(bytes.size())));
+}
+
+std::span<const unsigned char> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+}
+
+void put(std::ofstream& stream, std::span<const unsigned char> bytes) {
+  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
+}
+
+/// What stands before an entry's bytes, or at the end (length 0, `check` the number of entries).
+struct EntryHead {
+  std::uint32_t length = 0;
+  std::uint32_t inverse = 0;
+  std::uint32_t check = 0;
+};
+
+std::array<unsigned char, kEntryHeadBytes> encode(std::uint32_t length, std::uint32_t check) {
+  std::array<unsigned char, kEntryHeadBytes> bytes{};
+  ByteSink sink(bytes);
+  sink.number(length);
+  sink.number(~length);
+  sink.number(check);
+  return bytes;
+}
+
+EntryHead decode(std::span<const unsigned char> bytes) {
+  ByteSource source(bytes);
+  EntryHead head;
+  source.number(head.length);
+  source.number(head.inverse);
+  source.number(head.check);
+  return head;
+}
+
+}  // namespace
+
+RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
+    : stream_(file, std::ios::binary | std::ios::trunc), entry_(kEntryHeadBytes + kMaxEntryBytes) {
+  if (!stream_) throw StartupError(file + ": cannot be written", "choose a folder that exists and may be written");
+  if (setup.size() > kMaxSetupBytes) {
+    throw StartupError(file + ": a setup of " + std::to_string(setup.size()) + " bytes", "keep it below 16 MiB");
+  }
+  std::array<unsigned char, kMagic.size() + 8> head{};
+  std::memcpy(head.data(), kMagic.data(), kMagic.size());
+  ByteSink numbers(std::span<unsigned char>(head).subspan(kMagic.size()));
+  numbers.number(kRecordingVersion);
+  numbers.number(static_cast<std::uint32_t>(setup.size()));
+  std::array<unsigned char, 4> check{};
+  ByteSink(check).number(crc_of(bytes_of(setup), crc_of(head)));
+  put(stream_, head);
+  put(stream_, bytes_of(setup));
+  put(stream_, check);
+}
+
+RecordingWriter::~RecordingWriter() { close(); }
+
+bool RecordingWriter::write(const TickRecord& record, std::uint64_t lost_before) noexcept {
+  if (!stream_) return false;
+  const std::span<unsigned char> all(entry_);
+  const std::size_t length = encoder_.encode(record, lost_before, all.subspan(kEntryHeadBytes));
+  const auto head = encode(static_cast<std::uint32_t>(length), crc_of(all.subspan(kEntryHeadBytes, length)));
+  std::memcpy(entry_.data(), head.data(), head.size());
+  put(stream_, all.first(kEntryHeadBytes + length));
+  ++entries_;
+  return static_cast<bool>(stream_);
+}
+
+bool RecordingWriter::close() noexcept {
+  if (!stream_.is_open()) return static_cast<bool>(stream_);
+  if (stream_) put(stream_, encode(0, entries_));
+  stream_.close();
+  return static_cast<bool>(stream_);
+}
+
+RecordingReader::RecordingReader(const std::string& file)
+    : file_(file), stream_(file, std::ios::binary), entry_(kMaxEntryBytes) {
+  if (!stream_) throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
+  read_header();
+}
+
+bool RecordingReader::read(unsigned char* to, std::size_t bytes) {
+  stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes));
+  return static_cast<std::size_t>(stream_.gcount()) == bytes;
+}
+
+void RecordingReader::damaged(const std::string& cause) const {
+  throw StartupError(file_ + ": byte " + std::to_string(position_) + ": " + cause,
+                     "take an undamaged copy of the recording");
+}
+
+void RecordingReader::read_header() {
+  std::array<unsigned char, kMagic.size() + 8> head{};
+  if (!read(head.data(), head.size())) damaged("too short for a recording");
+  if (std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) damaged("not a recording");
+  ByteSource numbers(std::span<const unsigned char>(head).subspan(kMagic.size()));
+  std::uint32_t version = 0;
+  std::uint32_t setup_bytes = 0;
+  numbers.number(version);
+  numbers.number(setup_bytes);
+  if (version != kRecordingVersion) {
+    damaged("format version " + std::to_string(version) + ", this program reads " + std::to_string(kRecordingVersion));
+  }
+  if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
+  setup_.resize(setup_bytes);
+  std::array<unsigned char, 4> check{};
+  if (!read(reinterpret_cast<unsigned char*>(setup_.data()), setup_bytes) || !read(check.data(), check.size())) {
+    damaged("the header is cut");
+  }
+  std::uint32_t crc = 0;
+  ByteSource(check).number(crc);
+  if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
+  position_ = head.size() + setup_bytes + check.size();
+}
+
+void RecordingReader::cut_short() {
+  ended_ = true;
+  warning_ = file_ + ": byte " + std::to_string(position_) + ": cut short after " + std::to_string(entries_) +
+             " ticks; what stands before is good";
+}
+
+void RecordingReader::check_end(std::uint32_t entries) {
+  if (entries != entries_) {
+    damaged("the end mark counts " + std::to_string(entries) + " ticks, there are " + std::to_string(entries_));
+  }
+  position_ += kEntryHeadBytes;
+  if (stream_.peek() != std::ifstream::traits_type::eof()) damaged("something follows the end mark");
+  ended_ = true;
+}
+
+bool RecordingReader::next(TickRecord& record) {
+  if (ended_) return false;
+  std::array<unsigned char, kEntryHeadBytes> bytes{};
+  if (!read(bytes.data(), bytes.size())) {
+    cut_short();
+    return false;
+  }
+  const EntryHead head = decode(bytes);
+  if (head.inverse != ~head.length || head.length > kMaxEntryBytes) damaged("an entry's length is damaged");
+  if (head.length == 0) {
+    check_end(head.check);
+    return false;
+  }
+  if (!read(entry_.data(), head.length)) {
+    cut_short();
+    return false;
+  }
+  const std::span<const unsigned char> entry = std::span<const unsigned char>(entry_).first(head.length);
+  if (crc_of(entry) != head.check) damaged("an entry's check sum is wrong");
+  if (!decoder_.decode(entry, record, lost_before_)) damaged("an entry holds values that no tick has");
+  position_ += kEntryHeadBytes + head.length;
+  ++entries_;
+  return true;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,38 @@
+#pragma once
+// One tick's record as bytes: the fields in the order of tick_entry.cc, little endian, without
+// padding. A scan and a fix are written only where their sequence is new; only beams in use count.
+#include <cstddef>
+#include <cstdint>
+#include <span>
+
+#include "firmware/recording/tick_record.h"
+
+namespace jaywalk {
+
+/// Most bytes that an encoded record takes: every beam and every mover in use, and room for the rest.
+inline constexpr std::size_t kMaxEntryBytes = 4 * kMaxBeams + 40 * kMaxObservedMovers + 1024;
+
+/// Turns records into bytes; remembers which scan and fix it wrote last. Never allocates or throws.
+class TickEncoder {
+ public:
+  /// Bytes written to the front of `out`, which holds kMaxEntryBytes. `lost_before`: records that
+  /// were dropped since the previous one.
+  std::size_t encode(const TickRecord& record, std::uint64_t lost_before, std::span<unsigned char> out) noexcept;
+
+ private:
+  bool first_ = true;
+  std::uint32_t scan_sequence_ = 0, fix_sequence_ = 0;
+};
+
+/// Turns bytes back into records; keeps the last scan and fix for those that bring none.
+class TickDecoder {
+ public:
+  /// False when the bytes are no record: too few, too many, or a value out of its range.
+  [[nodiscard]] bool decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept;
+
+ private:
+  LaserScan scan_;
+  OutsideFix fix_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,167 @@
+#include "firmware/recording/recorder.h"
+
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "firmware/recording/byte_order.h"
+#include "firmware/recording/tick_entry.h"
+#include "hal/types/errors.h"
+#include "tests/recording/made_ticks.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk {
+namespace {
+
+void tick(Recorder& recorder, std::uint32_t n) {
+  fill(recorder.begin(Time{Duration{20'000'000LL * n}}), n);
+  recorder.commit();
+}
+
+std::unique_ptr<TickRecord> made(std::uint32_t n) {
+  auto record = std::make_unique<TickRecord>();
+  record->now = Time{Duration{20'000'000LL * n}};
+  fill(*record, n);
+  return record;
+}
+
+TEST_CASE("every field of every tick comes back bit for bit, NaN payloads too") {
+  const Scratch scratch;
+  const std::string file = scratch.path("recording.jwr");
+  {
+    Recorder recorder({file, "setup\nof two lines", 8});
+    for (std::uint32_t n = 0; n < 100; ++n) {
+      tick(recorder, n);
+      REQUIRE(recorder.drain());
+    }
+    REQUIRE(recorder.close());
+  }
+  RecordingReader reader(file);
+  CHECK(reader.setup() == "setup\nof two lines");
+  const auto read = std::make_unique<TickRecord>();
+  for (std::uint32_t n = 0; n < 100; ++n) {
+    REQUIRE(reader.next(*read));
+    CHECK(same_bits(*read, *made(n)));
+    CHECK(reader.lost_before() == 0);
+  }
+  CHECK_FALSE(reader.next(*read));
+  CHECK(reader.warning().empty());
+}
+
+TEST_CASE("numbers lie little endian in the file") {
+  // 0x11223344 begins with its lowest byte; 1.0F is 0x3F800000.
+  std::vector<unsigned char> bytes(8);
+  ByteSink sink(bytes);
+  sink.number(std::uint32_t{0x11223344});
+  sink.number(1.0F);
+  CHECK(bytes == std::vector<unsigned char>{0x44, 0x33, 0x22, 0x11, 0x00, 0x00, 0x80, 0x3F});
+  sink.number(std::uint8_t{1});
+  CHECK(sink.overflowed());
+}
+
+TEST_CASE("a scan is written once, however many ticks see it") {
+  // Both ticks hold scan 1 of 5 beams and fix 1 without movers. The first entry has, beyond the
+  // second: the scan (stamp 8, sequence 4, four floats 16, two durations 16, count 4, 5 ranges 20:
+  // 68) and the fix (stamp 8, sequence 4, flag 1, pose 24, three deviations 24, count 4: 65).
+  TickEncoder encoder;
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  const std::size_t first = encoder.encode(*made(0), 0, bytes);
+  const std::size_t second = encoder.encode(*made(1), 0, bytes);
+  CHECK(first - second == 68 + 65);
+}
+
+TEST_CASE("the largest record that there can be fits an entry") {
+  const auto record = made(0);
+  record->scan.beam_count = kMaxBeams;
+  while (record->fix.movers.push_back({})) {
+  }
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  const std::size_t size = TickEncoder().encode(*record, 0, bytes);
+  CHECK(size < kMaxEntryBytes);
+  const auto read = std::make_unique<TickRecord>();
+  std::uint64_t lost = 0;
+  CHECK(TickDecoder().decode(std::span<const unsigned char>(bytes).first(size), *read, lost));
+  CHECK(same_bits(*read, *record));
+}
+
+TEST_CASE("a full ring drops the tick, counts it, and the next one kept tells") {
+  // Room for 4: ticks 0 to 3 are kept, 4 to 6 dropped, 7 is kept after a drain and says 3.
+  const Scratch scratch;
+  const std::string file = scratch.path("recording.jwr");
+  Recorder recorder({file, "", 4});
+  for (std::uint32_t n = 0; n < 7; ++n) tick(recorder, n);
+  CHECK(recorder.dropped() == 3);
+  REQUIRE(recorder.drain());
+  tick(recorder, 7);
+  REQUIRE(recorder.close());
+
+  RecordingReader reader(file);
+  const auto read = std::make_unique<TickRecord>();
+  for (const std::uint32_t n : {0U, 1U, 2U, 3U, 7U}) {
+    REQUIRE(reader.next(*read));
+    CHECK(same_bits(*read, *made(n)));
+    CHECK(reader.lost_before() == (n == 7 ? 3U : 0U));
+  }
+  CHECK_FALSE(reader.next(*read));
+}
+
+TEST_CASE("a record begins empty, whatever its slot held before") {
+  Recorder recorder({"", "", 1});
+  tick(recorder, 4);
+  CHECK(recorder.drain());
+  const TickRecord& fresh = recorder.begin(Time{Duration{9}});
+  auto expected = std::make_unique<TickRecord>();
+  expected->now = Time{Duration{9}};
+  CHECK(same_bits(fresh, *expected));
+}
+
+TEST_CASE("another thread drains while the loop records, and no tick is torn") {
+  const Scratch scratch;
+  const std::string file = scratch.path("recording.jwr");
+  constexpr std::uint32_t kTicks = 20'000;
+  Recorder recorder({file, "", 16});
+  std::atomic<bool> done{false};
+  std::thread drain([&] {
+    while (!done.load()) recorder.drain();
+  });
+  for (std::uint32_t n = 0; n < kTicks; ++n) tick(recorder, n);
+  done = true;
+  drain.join();
+  REQUIRE(recorder.close());
+
+  RecordingReader reader(file);
+  const auto read = std::make_unique<TickRecord>();
+  std::uint64_t n = 0;
+  std::uint64_t kept = 0;
+  bool all_whole = true;
+  while (reader.next(*read)) {
+    n += reader.lost_before();
+    all_whole = all_whole && same_bits(*read, *made(static_cast<std::uint32_t>(n)));
+    ++n;
+    ++kept;
+  }
+  CHECK(all_whole);
+  CHECK(kept + recorder.dropped() == kTicks);
+}
+
+TEST_CASE("a recording that cannot be written is refused at start") {
+  CHECK_THROWS_AS(Recorder({"/nowhere/at/all/recording.jwr", "", 4}), StartupError);
+}
+
+TEST_CASE("a full disk is told, and the ring empties all the same") {
+  // /dev/full takes nothing: every write fails with "no space left".
+  if (!std::filesystem::exists("/dev/full")) return;
+  Recorder recorder({"/dev/full", "", 4});
+  bool taken = true;
+  for (std::uint32_t n = 0; n < 200; ++n) {
+    tick(recorder, n);
+    taken = recorder.drain() && taken;
+  }
+  CHECK_FALSE(recorder.close());
+  CHECK_FALSE(taken);
+  CHECK(recorder.dropped() == 0);
+}
+
+}  // namespace
+}  // namespace jaywalk
