@@ -1,0 +1,37 @@
+#pragma once
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+struct StopZoneConfig {
+  Footprint footprint;
+  Pose2 robot_from_laser;
+  double margin_m = 0.08;     ///< kept free round the footprint
+  double brake_mps2 = 1.0;    ///< what the drive was proved to do
+  double reaction_s = 0.0;    ///< oldest scan accepted + control + drive
+  double look_ahead_m = 2.0;  ///< nothing further away can matter at the speeds allowed
+};
+
+/// How far the robot can go along a constant twist before its footprint, grown by the margin, meets a point of the raw
+/// scan. "Far" is measured along the fastest-moving part of the footprint (m), so that turning in place counts too.
+///
+/// Points that the motion takes the robot away from do not count, or it could never leave what it faces.
+class StopZone {
+ public:
+  explicit StopZone(const StopZoneConfig& config);
+
+  /// +infinity when nothing is met within the look-ahead. Cost: steps of 4 cm times beams within reach.
+  [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
+  /// Speed of the fastest-moving part of the footprint, m/s.
+  [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept;
+  /// The fastest rim speed from which the robot still stops within `gap_m`: v t + v^2 / (2 b) = gap.
+  [[nodiscard]] double speed_to_stop_within(double gap_m) const noexcept;
+
+ private:
+  StopZoneConfig config_;
+  double rim_radius_m_;
+};
+
+}  // namespace jaywalk

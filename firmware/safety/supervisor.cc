@@ -1,0 +1,113 @@
+#include "firmware/safety/supervisor.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+StopZoneConfig zone_config(const SupervisorConfig& config) {
+  // The oldest scan that is still accepted is 1.5 periods old.
+  const double scan_s = 1.5 / config.model.laser.rate_hz;
+  return {.footprint = config.model.footprint,
+          .robot_from_laser = config.model.laser.robot_from_laser,
+          .brake_mps2 = config.model.limits.brake_mps2,
+          .reaction_s = scan_s + config.control_and_drive_s};
+}
+
+/// Half of all beams or more without any number: a scanner that is covered, blinded or broken.
+bool trustworthy(const LaserScan& scan) {
+  if (scan.beam_count < 2 || scan.beam_count > kMaxBeams) return false;
+  std::size_t not_numbers = 0;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
+  return 2 * not_numbers < scan.beam_count;
+}
+
+Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
+
+}  // namespace
+
+Supervisor::Supervisor(const SupervisorConfig& config) : config_(config), stop_zone_(zone_config(config)) {}
+
+Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
+  Verdict verdict;
+  verdict.gap_m = std::numeric_limits<double>::infinity();
+  verdict.reasons = faults(wanted, input);
+  update_latch(wanted, input.input);
+  if (latched_) verdict.reasons |= Reason::kLatched;
+  const bool stop = verdict.reasons != Reason::kNone;
+  if (!input.input.has_goal) verdict.reasons |= Reason::kNoGoal;
+  const Twist2 target = stop ? Twist2{} : limited(wanted, input, verdict);
+  permitted_ = braked(target);
+  verdict.permitted = permitted_;
+  return verdict;
+}
+
+Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
+  Reason reasons = Reason::kNone;
+  const Duration max_scan_age = duration_from_seconds(1.5 / config_.model.laser.rate_hz);
+  stale_scans_ = age(input.scan.stamp, input.now) > max_scan_age ? stale_scans_ + 1 : 0;
+  if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
+  if (input.scan.sequence > 0 && !trustworthy(input.scan)) reasons |= Reason::kScanInvalid;
+  if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
+    reasons |= Reason::kWheelsStale;
+  if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
+  if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
+  return reasons;
+}
+
+void Supervisor::update_latch(const Twist2& wanted, const OperatorInput& input) noexcept {
+  const bool reset_edge = input.reset && !reset_before_;
+  reset_before_ = input.reset;
+  if (input.emergency_stop) latched_ = true;
+  if (latched_ && reset_edge && !input.emergency_stop && wanted == Twist2{}) latched_ = false;
+}
+
+Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept {
+  const MotionLimits& limits = config_.model.limits;
+  const auto at_most = [&](double share, Reason reason) {
+    if (share >= 1.0) return;
+    twist = scaled(twist, std::max(share, 0.0));
+    verdict.reasons |= reason;
+  };
+  if (std::fabs(twist.v_mps) > limits.max_speed_mps + 1e-9)
+    at_most(limits.max_speed_mps / std::fabs(twist.v_mps), Reason::kSpeedLimit);
+  if (std::fabs(twist.w_radps) > limits.max_turn_radps + 1e-9)
+    at_most(limits.max_turn_radps / std::fabs(twist.w_radps), Reason::kSpeedLimit);
+  if (!watched(input.scan, twist.v_mps) && std::fabs(twist.v_mps) > config_.unwatched_speed_mps)
+    at_most(config_.unwatched_speed_mps / std::fabs(twist.v_mps), Reason::kUnwatched);
+  at_most(plan_share(input.plan_stamp, input.now), Reason::kPlanStale);
+  verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
+  const double rim_speed = stop_zone_.rim_speed_mps(twist);
+  if (rim_speed > 0.0) at_most(stop_zone_.speed_to_stop_within(verdict.gap_m) / rim_speed, Reason::kStopZone);
+  return twist;
+}
+
+double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
+  const Duration old = age(plan_stamp, now);
+  if (old <= config_.slow_plan_age) return 1.0;
+  if (old >= config_.max_plan_age) return 0.0;
+  return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
+}
+
+bool Supervisor::watched(const LaserScan& scan, double v_mps) const noexcept {
+  // Watched when a beam looks that way: straight ahead (0) or straight back (pi), in the robot's frame.
+  const double way = v_mps >= 0.0 ? 0.0 : kPi;
+  const double from_first = wrap_angle(way - config_.model.laser.robot_from_laser.heading - scan.angle_rad(0)) *
+                            (scan.angle_step_rad < 0.0F ? -1.0 : 1.0);
+  const double past_first = from_first < -1e-6 ? from_first + 2 * kPi : from_first;
+  return past_first <= std::fabs(static_cast<double>(scan.angle_step_rad)) * scan.beam_count;
+}
+
+Twist2 Supervisor::braked(const Twist2& target) const noexcept {
+  // Never slower to slow down than the drive can follow; a target below keeps the curve while braking.
+  const double fastest_drop = config_.model.limits.brake_mps2 * to_seconds(config_.tick);
+  const double v_before = permitted_.v_mps;
+  const bool braking = std::fabs(target.v_mps) < std::fabs(v_before) - fastest_drop || target.v_mps * v_before < 0.0;
+  if (!braking) return target;
+  const double v = v_before > 0.0 ? std::max(v_before - fastest_drop, 0.0) : std::min(v_before + fastest_drop, 0.0);
+  const double curvature = permitted_.w_radps / v_before;
+  return {v, target == Twist2{} ? curvature * v : target.w_radps};
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,60 @@
+#pragma once
+#include "firmware/safety/stop_zone.h"
+#include "firmware/safety/verdict.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/operator_input.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk {
+
+struct SupervisorConfig {
+  RobotModel model;
+  Duration max_wheel_age = std::chrono::milliseconds(60);   ///< three ticks of 50 Hz
+  Duration max_plan_age = std::chrono::milliseconds(1000);  ///< older: standstill
+  Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
+  double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
+  double control_and_drive_s = 0.08;  ///< a tick, a frame, and the drive's lag (50 ms in the plant)
+  Duration tick = std::chrono::milliseconds(20);
+  bool needs_wheels = true;  ///< false only where a recording has none
+};
+
+/// What the supervisor looks at; nothing of it comes from the planner but a stamp.
+struct SafetyInput {
+  const LaserScan& scan;
+  const WheelState& wheels;
+  const OperatorInput& input;
+  Time plan_stamp = kNever;
+  Time now = kNever;
+};
+
+/// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
+/// twist and the ages of things, so that it does not depend on planner or tracker being right.
+///
+/// A limit holds while its cause does. A fault stops, and an emergency stop is latched as well: motion resumes only
+/// after a rising edge of reset, seen with the button released and a wanted twist of zero. Thread: the loop's; never
+/// allocates, never throws.
+class Supervisor {
+ public:
+  explicit Supervisor(const SupervisorConfig& config);
+  [[nodiscard]] Verdict judge(const Twist2& wanted, const SafetyInput& input) noexcept;
+  /// An earlier emergency stop still waits for its reset: ask for nothing until then.
+  [[nodiscard]] bool latched() const noexcept { return latched_; }
+
+ private:
+  [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
+  void update_latch(const Twist2& wanted, const OperatorInput& input) noexcept;
+  [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept;
+  [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
+  [[nodiscard]] bool watched(const LaserScan& scan, double v_mps) const noexcept;
+  [[nodiscard]] Twist2 braked(const Twist2& target) const noexcept;
+
+  SupervisorConfig config_;
+  StopZone stop_zone_;
+  Twist2 permitted_;     ///< last tick's
+  int stale_scans_ = 0;  ///< ticks in a row with a scan too old
+  bool latched_ = false;
+  bool reset_before_ = false;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,51 @@
+#pragma once
+#include <span>
+
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+#include "planner/motion/speed_choice.h"
+#include "planner/motion/twist_ramp.h"
+#include "planner/perception/track.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+struct FollowerConfig {
+  MotionLimits limits;
+  double robot_radius_m = 0.3;
+  bool constant_speed = false;  ///< the paper's constraint: one speed from start to goal, never stopping
+  double goal_tolerance_m = 0.3;
+  double tick_s = 0.02;
+};
+
+/// What the follower looks at this tick.
+struct FollowerInput {
+  const Path& path;  ///< may be empty: then it slows to a stop (or, at constant speed, keeps its course)
+  Pose2 map_from_robot;
+  Vec2 goal_in_map;
+  bool has_goal = false;
+  std::span<const Track> moving;
+  Twist2 permitted_before;  ///< what the supervisor made of the last wish
+};
+
+/// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and movers
+/// allow, ramped within the comfort limits. Thread: the loop's; never allocates.
+class Follower {
+ public:
+  explicit Follower(const FollowerConfig& config);
+  [[nodiscard]] Twist2 twist(const FollowerInput& input) noexcept;
+
+ private:
+  [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
+  [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
+
+  FollowerConfig config_;
+  SpeedChoiceConfig speed_choice_;
+  TwistRamp ramp_;
+};
+
+/// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`; the last one where the path ends
+/// before. The path is not empty.
+[[nodiscard]] Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept;
+
+}  // namespace jaywalk

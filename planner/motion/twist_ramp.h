@@ -1,0 +1,41 @@
+#pragma once
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+/// One velocity that follows a wish with bounded acceleration and jerk (SAFETY: comfort).
+class Ramp {
+ public:
+  /// Both limits > 0: units/s^2 and units/s^3.
+  Ramp(double max_accel, double max_jerk) : max_accel_(max_accel), max_jerk_(max_jerk) {}
+
+  /// The velocity `dt_s` later on the way to `wish`. It arrives without overshoot: the acceleration never exceeds what
+  /// can still be taken back to zero in the velocity left, sqrt(2 jerk |wish - v|).
+  double toward(double wish, double dt_s) noexcept;
+  /// Something else (the supervisor) set the velocity: go on from there.
+  void restart_at(double velocity) noexcept;
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }
+
+ private:
+  double max_accel_;
+  double max_jerk_;
+  double velocity_ = 0.0;
+  double accel_ = 0.0;
+};
+
+/// Forward speed with the comfort limits, turning with the turn acceleration limit.
+class TwistRamp {
+ public:
+  explicit TwistRamp(const MotionLimits& limits);
+  [[nodiscard]] Twist2 toward(const Twist2& wish, double dt_s) noexcept;
+  /// What was really permitted last tick; a no-op when it is what was asked for.
+  void follow(const Twist2& permitted) noexcept;
+
+ private:
+  Ramp forward_;
+  double max_turn_accel_radps2_;
+  double w_radps_ = 0.0;
+};
+
+}  // namespace jaywalk

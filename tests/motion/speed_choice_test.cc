@@ -1,0 +1,53 @@
+#include "planner/motion/speed_choice.h"
+
+#include <array>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// Straight ahead along +x from the origin, 10 m in steps of 0.1 m.
+Path straight_path() {
+  Path path;
+  for (int k = 0; k <= 100; ++k) REQUIRE(path.push_back({0.1 * k, 0.0}));
+  return path;
+}
+
+Track walker(Vec2 position, Vec2 velocity) {
+  Track track;
+  track.position_in_map = position;
+  track.velocity_in_map = velocity;
+  track.radius_m = 0.27;
+  track.moving = true;
+  return track;
+}
+
+const SpeedChoiceConfig kConfig{.robot_radius_m = 0.3, .max_speed_mps = 0.6, .max_accel_mps2 = 0.5};
+
+}  // namespace
+
+TEST_CASE("with nobody about the robot goes at full speed, with no path it stays") {
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.6, {}, kConfig) == 0.6);
+  CHECK(choose_speed(Path{}, {0, 0}, 0.6, {}, kConfig) == 0.0);
+}
+
+TEST_CASE("somebody who crosses ahead is let pass") {
+  // Robot at 0.6 m/s reaches x = 1.5 in 2.5 s; the walker crosses there from y = -1.2 at 0.4 m/s in 3 s.
+  const std::array crossing{walker({1.5, -1.2}, {0.0, 0.4})};
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.6, crossing, kConfig) < 0.6);
+}
+
+TEST_CASE("somebody who walks away behind does not slow the robot") {
+  const std::array leaving{walker({-1.2, 0.0}, {-0.4, 0.0})};
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.6, leaving, kConfig) == 0.6);
+}
+
+TEST_CASE("a walker minds what stands in the 45 degrees ahead and not what stands abeam") {
+  // Robot disc of 0.3 m, walker of 0.27 m, both counted from their edges: 1.0 m apart leaves 0.43 m.
+  CHECK(in_conflict({1.0, 0.0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
+  CHECK_FALSE(in_conflict({0.0, 1.0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
+  CHECK_FALSE(in_conflict({-1.0, 0.0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
+  CHECK(in_conflict({-0.7, 0.0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));  // 0.13 m: too near for any direction
+}

@@ -1,0 +1,80 @@
+#include "firmware/safety/stop_zone.h"
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// A scan of 1801 beams over 360 degrees that sees single points only.
+LaserScan scan_of(std::initializer_list<Vec2> points) {
+  LaserScan scan;
+  scan.sequence = 1;
+  scan.beam_count = 1801;
+  scan.first_angle_rad = static_cast<float>(-kPi);
+  scan.angle_step_rad = static_cast<float>(2 * kPi / 1800);
+  scan.range_min_m = 0.02F;
+  scan.range_max_m = 20.0F;
+  scan.range_m.fill(INFINITY);
+  for (const Vec2 p : points) {
+    const auto beam = static_cast<std::size_t>((jaywalk::atan2(p.y, p.x) + kPi) / (2 * kPi) * 1800.0 + 0.5);
+    scan.range_m[beam] = static_cast<float>(norm(p));
+  }
+  return scan;
+}
+
+// A box of 1 m x 0.6 m about its axle; margin 0.1 m.
+const StopZone kZone({.footprint = {.front_m = 0.5, .rear_m = 0.5, .half_width_m = 0.3},
+                      .robot_from_laser = {},
+                      .margin_m = 0.1,
+                      .brake_mps2 = 1.5,
+                      .reaction_s = 0.12,
+                      .look_ahead_m = 2.0});
+constexpr double kStep_m = 0.04;  // what the gap is rounded down by
+
+}  // namespace
+
+TEST_CASE("a point 2 m ahead leaves 1.4 m: its distance less half a length and the margin") {
+  const double gap = kZone.gap_m(scan_of({{2.0, 0.0}}), {0.5, 0.0});
+  CHECK(gap <= 1.4 + 1e-6);
+  CHECK(gap >= 1.4 - kStep_m - 1e-6);
+}
+
+TEST_CASE("a point beside the way does not count, nor one behind, nor one beyond reach") {
+  CHECK(std::isinf(kZone.gap_m(scan_of({{2.0, 0.45}}), {0.5, 0.0})));
+  CHECK(std::isinf(kZone.gap_m(scan_of({{-1.0, 0.0}}), {0.5, 0.0})));
+  CHECK(std::isinf(kZone.gap_m(scan_of({{5.0, 0.0}}), {0.5, 0.0})));
+}
+
+TEST_CASE("a curve meets what stands beside the straight way") {
+  // Circle of radius 1 m to the left about (0, 1): (0.8, 0.6) is 0.89 m from there, straight ahead 0.6 m aside.
+  CHECK(std::isinf(kZone.gap_m(scan_of({{0.8, 0.6}}), {0.5, 0.0})));
+  CHECK(std::isfinite(kZone.gap_m(scan_of({{0.8, 0.6}}), {0.5, 0.5})));
+}
+
+TEST_CASE("turning on the spot minds the corners") {
+  // The corner is 0.583 m from the axle: a point at 0.6 m abeam is swept, one at 0.75 m is not.
+  CHECK(std::isfinite(kZone.gap_m(scan_of({{0.0, 0.6}}), {0.0, 1.0})));
+  CHECK(std::isinf(kZone.gap_m(scan_of({{0.0, 0.75}}), {0.0, 1.0})));
+}
+
+TEST_CASE("it may leave what it faces but not press on") {
+  const LaserScan scan = scan_of({{0.55, 0.0}});  // 5 cm ahead: inside the margin
+  CHECK(kZone.gap_m(scan, {0.3, 0.0}) == 0.0);
+  CHECK(std::isinf(kZone.gap_m(scan, {-0.3, 0.0})));
+}
+
+TEST_CASE("stopping from 1.4 m/s with 1.5 m/s2 after 0.12 s takes 0.82 m, and back") {
+  // v t + v^2 / 2b = 0.168 + 0.6533 = 0.8213 m (the example of the makers' guide, less its 0.25 m of margin).
+  CHECK(kZone.speed_to_stop_within(0.82133) == Approx(1.4).epsilon(1e-4));
+  CHECK(kZone.speed_to_stop_within(0.0) == 0.0);
+  CHECK(kZone.speed_to_stop_within(-1.0) == 0.0);
+}
+
+TEST_CASE("a cylinder of 70 mm is seen wherever it stands in the way") {
+  for (double aside = -0.38; aside <= 0.381; aside += 0.02) {
+    REQUIRE(kZone.gap_m(scan_of({{1.5, aside}}), {0.5, 0.0}) < 1.0);
+  }
+}

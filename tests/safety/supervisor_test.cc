@@ -1,0 +1,147 @@
+#include "firmware/safety/supervisor.h"
+
+#include <cmath>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// A bench for the supervisor: everything fresh and free unless a test spoils it; time in ticks of 20 ms.
+struct Bench {
+  LaserScan scan;
+  WheelState wheels;
+  OperatorInput input;
+  Time now = time_from_seconds(1.0);
+  Time plan_stamp = now;
+  bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
+  Supervisor supervisor{SupervisorConfig{.model = p3dx()}};
+
+  Bench() {
+    scan.sequence = 1;
+    scan.beam_count = 811;
+    scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
+    scan.angle_step_rad = static_cast<float>(1.5 * kPi / 810);
+    scan.range_min_m = 0.05F;
+    scan.range_max_m = 25.0F;
+    scan.range_m.fill(10.0F);
+    scan.stamp = wheels.stamp = now;
+    input.has_goal = true;
+  }
+  Verdict tick(const Twist2& wanted) {
+    now += std::chrono::milliseconds(20);
+    if (scan_fresh) scan.stamp = now;
+    if (wheels_fresh) wheels.stamp = now;
+    if (plan_fresh) plan_stamp = now;
+    return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now});
+  }
+  Verdict ticks(int count, const Twist2& wanted) {
+    Verdict verdict;
+    for (int k = 0; k < count; ++k) verdict = tick(wanted);
+    return verdict;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("what is safe is permitted as it is, without a reason") {
+  Bench bench;
+  const Verdict verdict = bench.tick({0.5, 0.3});
+  CHECK(verdict.permitted == Twist2{0.5, 0.3});
+  CHECK(verdict.reasons == Reason::kNone);
+}
+
+TEST_CASE("a scan older than one and a half periods twice running stops the robot") {
+  Bench bench;
+  bench.tick({0.5, 0.0});
+  bench.scan_fresh = false;  // 15 Hz: 100 ms, that is five ticks
+  CHECK(bench.ticks(6, {0.5, 0.0}).reasons == Reason::kNone);
+  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanStale));
+  CHECK(bench.ticks(40, {0.5, 0.0}).permitted == Twist2{});
+  bench.scan_fresh = true;
+  CHECK(bench.tick({0.1, 0.0}).permitted.v_mps == 0.1);  // a limit of communication inside the machine: not latched
+}
+
+TEST_CASE("stopping never brakes harder than the drive: 1 m/s2 is 0.02 m/s a tick") {
+  Bench bench;
+  bench.tick({0.5, 0.0});
+  bench.input.emergency_stop = true;
+  CHECK(bench.tick({0.5, 0.0}).permitted.v_mps == Approx(0.48));
+  CHECK(bench.tick({0.5, 0.0}).permitted.v_mps == Approx(0.46));
+}
+
+TEST_CASE("an emergency stop is latched until a reset edge at zero setpoint with the button out") {
+  Bench bench;
+  bench.input.emergency_stop = true;
+  bench.ticks(3, {0.5, 0.0});
+  bench.input.reset = true;  // pressed while the button is in: no edge later counts from this
+  bench.tick({});
+  bench.input.emergency_stop = false;
+  CHECK(has(bench.ticks(3, {0.5, 0.0}).reasons, Reason::kLatched));
+  bench.input.reset = false;
+  bench.tick({});
+  bench.input.reset = true;
+  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kLatched));  // an edge, but not at zero
+  bench.input.reset = false;
+  bench.tick({});
+  bench.input.reset = true;
+  bench.tick({});
+  CHECK_FALSE(bench.supervisor.latched());
+  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+}
+
+TEST_CASE("old wheels, no wheels and a twist that is no number stop") {
+  Bench bench;
+  bench.wheels_fresh = false;
+  CHECK(has(bench.ticks(4, {0.5, 0.0}).reasons, Reason::kWheelsStale));
+  Bench other;
+  const Verdict verdict = other.tick({std::nan(""), 0.0});
+  CHECK(has(verdict.reasons, Reason::kNotFinite));
+  CHECK(verdict.permitted == Twist2{});
+}
+
+TEST_CASE("an ageing plan slows the robot to a stop: half speed at 0.65 s, none at 1 s") {
+  Bench bench;
+  bench.tick({0.6, 0.0});
+  bench.plan_fresh = false;
+  CHECK(bench.ticks(15, {0.6, 0.0}).permitted.v_mps == 0.6);  // 0.3 s
+  const Verdict halfway = bench.ticks(17, {0.6, 0.0});        // 0.64 s
+  CHECK(halfway.permitted.v_mps == Approx(0.6 * 0.36 / 0.7));
+  CHECK(has(halfway.reasons, Reason::kPlanStale));
+  CHECK(bench.ticks(20, {0.6, 0.0}).permitted.v_mps == 0.0);
+}
+
+TEST_CASE("a wall ahead lets the robot come near only as slowly as it can stop") {
+  Bench bench;
+  bench.scan.range_m.fill(INFINITY);
+  bench.scan.range_m[405] = 0.5F;  // dead ahead: 0.5 - 0.2275 - 0.08 = 0.19 m free
+  const Verdict verdict = bench.ticks(60, {0.6, 0.0});
+  CHECK(has(verdict.reasons, Reason::kStopZone));
+  CHECK(verdict.permitted.v_mps > 0.0);
+  // v t + v^2/2b <= 0.1925 with t = 0.1 + 0.08 s, b = 1: v <= 0.466.
+  CHECK(verdict.permitted.v_mps <= 0.466);
+  bench.scan.range_m[405] = 0.26F;
+  CHECK(bench.ticks(60, {0.6, 0.0}).permitted.v_mps == 0.0);
+}
+
+TEST_CASE("backwards with a scanner that looks ahead is at most 0.3 m/s") {
+  Bench bench;
+  const Verdict verdict = bench.ticks(2, {-0.5, 0.0});
+  CHECK(verdict.permitted.v_mps == Approx(-0.3));
+  CHECK(has(verdict.reasons, Reason::kUnwatched));
+}
+
+TEST_CASE("a blinded scanner is not trusted: half its beams no numbers") {
+  Bench bench;
+  for (std::size_t beam = 0; beam < 406; ++beam) bench.scan.range_m[beam] = NAN;
+  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+}
+
+TEST_CASE("too fast is slowed along the same curve") {
+  Bench bench;
+  const Verdict verdict = bench.tick({1.2, 0.5});
+  CHECK(verdict.permitted.v_mps == Approx(0.6));
+  CHECK(verdict.permitted.w_radps == Approx(0.25));
+  CHECK(to_string(verdict.reasons) == "speed_limit");
+}
