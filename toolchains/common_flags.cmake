@@ -5,10 +5,21 @@ target_compile_features(jaywalk_flags INTERFACE cxx_std_20)
 target_include_directories(jaywalk_flags INTERFACE ${PROJECT_SOURCE_DIR})
 
 set(JAYWALK_CXX_FLAGS
-    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast -Werror
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
     -ffp-contract=off # GCC fuses a*b+c by default on aarch64, which changes results
     -fno-math-errno # lets sqrt be one instruction; its value stays the IEEE one
-    -fno-trapping-math) # lets comparisons vectorise; values stay the IEEE ones
+    -fno-trapping-math) # lets comparisons vectorise; 
+# Warnings are errors with the compilers that the project is tried with. A newer one may know new
+# warnings, and those must not keep a newcomer from building.
+set(JAYWALK_TRIED_COMPILER OFF)
+if((CMAKE_CXX_COMPILER_ID STREQUAL "GNU" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 13)
+   OR (CMAKE_CXX_COMPILER_ID STREQUAL "Clang" AND CMAKE_CXX_COMPILER_VERSION VERSION_LESS 15))
+  set(JAYWALK_TRIED_COMPILER ON)
+endif()
+option(JAYWALK_WARNINGS_ARE_ERRORS "Stop at a warning" ${JAYWALK_TRIED_COMPILER})
+if(JAYWALK_WARNINGS_ARE_ERRORS)
+  list(APPEND JAYWALK_CXX_FLAGS -Werror)
+endif()
 foreach(flag IN LISTS JAYWALK_CXX_FLAGS)
   target_compile_options(jaywalk_flags INTERFACE $<$<COMPILE_LANGUAGE:CXX>:${flag}>)
 endforeach()
