@@ -8,7 +8,9 @@ set(JAYWALK_CXX_FLAGS
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wsign-conversion -Wold-style-cast
     -ffp-contract=off # GCC fuses a*b+c by default on aarch64, which changes results
     -fno-math-errno # lets sqrt be one instruction; its value stays the IEEE one
-    -fno-trapping-math) # lets comparisons vectorise; 
+    -fno-trapping-math # lets comparisons vectorise; values stay the IEEE ones
+    -fsigned-char) # plain char is unsigned on aarch64
+
 # Warnings are errors with the compilers that the project is tried with. A newer one may know new
 # warnings, and those must not keep a newcomer from building.
 set(JAYWALK_TRIED_COMPILER OFF)
