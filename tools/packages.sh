@@ -6,10 +6,10 @@ readonly kLibraries=(catch2 libcli11-dev libpng-dev libtomlplusplus-dev libyaml-
 
 # missing_packages: the Debian packages that are not there, one a line. A program counts wherever it came from.
 missing_packages() {
-  command -v "${CXX:-c++}" >/dev/null || echo "${CXX:-g++}"
+  local library compiler=${CXX:-g++}
+  command -v "${CXX:-c++}" >/dev/null || echo "${compiler/clang++/clang}"
   command -v cmake >/dev/null || echo cmake
   command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
-  local library
   for library in "${kLibraries[@]}"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$library" 2>/dev/null)" = installed ] || echo "$library"
   done
