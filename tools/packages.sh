@@ -22,7 +22,7 @@ install_missing() {
     echo "packages: this is not Debian or Ubuntu; it must have a C++20 compiler, cmake 3.22, ninja or make, and what Debian calls: ${kLibraries[*]}"
     return
   fi
-  mapfile -t missing < <(missing_packages)
+  read -r -a missing <<<"$(missing_packages | tr '\n' ' ')"
   [ ${#missing[@]} -gt 0 ] || return 0
   echo "packages: installing what is missing: ${missing[*]}"
   [ "$(id -u)" = 0 ] || as_root=(sudo)
