@@ -1,0 +1,67 @@
+#include "hal/sim/logs/recorded_log.h"
+#include "hal/sim/logs/scan_lines.h"
+
+namespace jaywalk::sim {
+namespace {
+
+constexpr double kApertureRad = kPi;
+constexpr double kNothingFromM = 50.0;  ///< SICK's codes are 81.83 and 81.91, others write 50
+constexpr float kRangeMinM = 0.02F;
+
+// FLASER n r1..rn x y theta odom_x odom_y odom_theta t host t
+constexpr std::size_t kLaserRanges = 2, kLaserTail = 9, kOdomPoseInTail = 3, kTimeInTail = 6;
+// ODOM x y theta tv rv accel t host t
+constexpr std::size_t kOdomWords = 10, kOdomTime = 7;
+
+void read_laser(RecordedLog& log, const LineFile& file) {
+  const std::size_t words = file.words().size();
+  const std::size_t beams = words > 1 ? file.count(1, 1'000'000) : 0;
+  if (words != kLaserRanges + beams + kLaserTail) {
+    log.refuse(file.name(), file.line(), kWrongLength);
+    return;
+  }
+  if (beams == 0 || beams > kMaxBeams) {
+    file.refuse(std::to_string(beams) + " beams", "give scans of 1 to " + std::to_string(kMaxBeams) + " beams");
+  }
+  const std::size_t tail = kLaserRanges + beams;
+  const BeamFan fan = carmen_fan(beams, kApertureRad);
+  RecordedScan scan;
+  scan.stamp = time_from_seconds(file.seconds(tail + kTimeInTail));
+  scan.beams = static_cast<std::uint32_t>(beams);
+  scan.first_angle_rad = fan.first_angle_rad;
+  scan.angle_step_rad = fan.angle_step_rad;
+  scan.range_min_m = kRangeMinM;
+  scan.range_max_m = static_cast<float>(kNothingFromM);
+  if (!add_scan(log, file, scan, kLaserRanges, kNothingFromM)) return;
+  while (!log.odometry.empty() && log.odometry.back().stamp >= scan.stamp) log.odometry.pop_back();
+  log.odometry.push_back({scan.stamp, pose_at(file, tail + kOdomPoseInTail), std::nullopt});
+}
+
+void read_odometry(RecordedLog& log, const LineFile& file) {
+  if (file.words().size() != kOdomWords) {
+    log.refuse(file.name(), file.line(), kWrongLength);
+    return;
+  }
+  const Time stamp = time_from_seconds(file.seconds(kOdomTime));
+  if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
+    log.refuse(file.name(), file.line(), kTimeStands);
+    return;
+  }
+  log.odometry.push_back({stamp, pose_at(file, 1), std::nullopt});
+}
+
+}  // namespace
+
+RecordedLog load_carmen(const std::filesystem::path& path, const Pose2& robot_from_laser) {
+  RecordedLog log;
+  log.robot_from_laser = robot_from_laser;
+  LineFile file(path);
+  while (file.next()) {
+    if (file.words().front() == "FLASER") read_laser(log, file);
+    if (file.words().front() == "ODOM") read_odometry(log, file);
+  }
+  require_scans(log, file, "CARMEN messages, FLASER among them");
+  return log;
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,59 @@
+#include "hal/sim/logs/recorded_log.h"
+
+#include <algorithm>
+
+namespace jaywalk::sim {
+namespace {
+
+Duration median_period(const std::vector<RecordedScan>& scans) {
+  std::vector<Duration> periods;
+  for (std::size_t i = 1; i < scans.size(); ++i) periods.push_back(scans[i].stamp - scans[i - 1].stamp);
+  if (periods.empty()) return Duration{0};
+  const auto middle = periods.begin() + static_cast<std::ptrdiff_t>(periods.size() / 2);
+  std::nth_element(periods.begin(), middle, periods.end());
+  return *middle;
+}
+
+}  // namespace
+
+void RecordedLog::refuse(const std::string& file, std::size_t line, std::string_view cause) {
+  const auto known = std::find_if(refused.begin(), refused.end(),
+                                  [&](const RefusedLines& r) { return r.file == file && r.cause == cause; });
+  if (known != refused.end()) {
+    ++known->count;
+  } else {
+    refused.push_back({file, std::string(cause), line, 1});
+  }
+}
+
+std::string RecordedLog::complaint() const {
+  std::string text;
+  for (const RefusedLines& r : refused) {
+    text += r.file + ": " + std::to_string(r.count) + (r.count == 1 ? " line" : " lines") +
+            " left out, the first is line " + std::to_string(r.first_line) + ": " + r.cause + "\n";
+  }
+  return text;
+}
+
+LaserModel RecordedLog::laser() const {
+  LaserModel laser;
+  laser.robot_from_laser = robot_from_laser;
+  if (scans.empty()) return laser;
+  const RecordedScan& first = scans.front();
+  const double step = static_cast<double>(first.angle_step_rad);
+  laser.beams = first.beams;
+  laser.fov_rad = (step < 0.0 ? -step : step) * static_cast<double>(first.beams - 1);
+  laser.range_min_m = static_cast<double>(first.range_min_m);
+  laser.range_max_m = static_cast<double>(first.range_max_m);
+  const Duration period = median_period(scans);
+  laser.rate_hz = period > Duration{0} ? 1.0 / to_seconds(period) : 0.0;
+  return laser;
+}
+
+BeamFan carmen_fan(std::size_t beams, double aperture_rad) {
+  const std::size_t steps = beams % 2 == 0 ? beams : beams - 1;
+  const double step = steps == 0 ? aperture_rad : aperture_rad / static_cast<double>(steps);
+  return {static_cast<float>(-aperture_rad / 2.0), static_cast<float>(step)};
+}
+
+}  // namespace jaywalk::sim

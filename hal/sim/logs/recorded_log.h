@@ -1,0 +1,86 @@
+#pragma once
+// A recording of laser and odometry in memory, and the text formats that it is read from.
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/sim/logs/wheel_trail.h"
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::sim {
+
+/// One sweep; its ranges are `RecordedLog::range_m[first_range]` and on.
+struct RecordedScan {
+  Time stamp = kNever;
+  std::size_t first_range = 0;
+  std::uint32_t beams = 0;
+  float first_angle_rad = 0.0F;
+  float angle_step_rad = 0.0F;
+  float range_min_m = 0.0F;
+  float range_max_m = 0.0F;
+};
+
+/// Lines of one file that were left out for one reason.
+struct RefusedLines {
+  std::string file;
+  std::string cause;
+  std::size_t first_line = 0;
+  std::size_t count = 0;
+};
+
+/// Stamps are seconds since the recording's own epoch; both lists rise strictly.
+struct RecordedLog {
+  Pose2 robot_from_laser;
+  std::vector<RecordedScan> scans;
+  std::vector<float> range_m;          ///< of all scans, one after the other
+  std::vector<OdometryPose> odometry;  ///< empty where the recording has none
+  std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
+
+  /// Counts a line that is left out; the first of its kind is remembered.
+  void refuse(const std::string& file, std::size_t line, std::string_view cause);
+  /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason.
+  [[nodiscard]] std::string complaint() const;
+  /// The laser as the first scan shows it, at the median rate. Noise and drop-out are unknown: zero.
+  [[nodiscard]] LaserModel laser() const;
+};
+
+/// Reads `scan_file`: a scan a line, told apart by the place of the number of beams n, which must
+/// agree with the length of the line:
+///   t angle_min angle_inc range_min range_max n r1..rn
+///   t dx dy dphi aperture max_range n r1..rn       carries its own odometry: the robot's motion
+///                                                  since the line before, in its frame then
+/// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the
+/// second form the beams spread over the aperture as CARMEN's do (load_carmen), and the motion of
+/// a line that is left out still counts.
+///
+/// Lines of a wrong length, and those whose time does not grow, are left out and counted. Throws
+/// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
+[[nodiscard]] RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
+                                         const std::optional<std::filesystem::path>& odom_file = std::nullopt,
+                                         const Pose2& robot_from_laser = {});
+
+/// Reads a CARMEN log: FLASER and ODOM lines; other messages are passed over. .gz as it is.
+///
+/// The scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams
+/// is 180/n degrees apart, an odd one 180/(n - 1): 180 and 181 beams both at one degree. Readings
+/// of 50 m and over are the scanners' codes for "nothing" and become infinite.
+/// Odometry is the robot's pose in the FLASER lines, and the ODOM lines between them. Where a log's
+/// poses were corrected afterwards its ODOM lines repeat, go back in time or jump; those that do not
+/// come after what is known are left out and counted, and a FLASER line overrules what it contradicts.
+/// Errors as load_scan_odom.
+[[nodiscard]] RecordedLog load_carmen(const std::filesystem::path& file, const Pose2& robot_from_laser = {});
+
+/// Angles of `beams` readings over an aperture centred ahead, as CARMEN counts them.
+struct BeamFan {
+  float first_angle_rad = 0.0F;
+  float angle_step_rad = 0.0F;
+};
+[[nodiscard]] BeamFan carmen_fan(std::size_t beams, double aperture_rad);
+
+}  // namespace jaywalk::sim

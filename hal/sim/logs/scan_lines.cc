@@ -1,0 +1,41 @@
+#include "hal/sim/logs/scan_lines.h"
+
+#include <cmath>
+#include <limits>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+
+bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::size_t first_word,
+              double nothing_from_m) {
+  if (!log.scans.empty() && scan.stamp <= log.scans.back().stamp) {
+    log.refuse(file.name(), file.line(), kTimeStands);
+    return false;
+  }
+  scan.first_range = log.range_m.size();
+  for (std::size_t i = 0; i < scan.beams; ++i) {
+    const double range = file.number(first_word + i);
+    log.range_m.push_back(
+        static_cast<float>(range >= nothing_from_m ? std::numeric_limits<double>::infinity() : range));
+  }
+  log.scans.push_back(scan);
+  return true;
+}
+
+void require_scans(const RecordedLog& log, const LineFile& file, const std::string& expected) {
+  if (!log.scans.empty()) return;
+  const std::string place =
+      log.refused.empty() ? file.name() : file.name() + ":" + std::to_string(log.refused.front().first_line);
+  throw StartupError(place + ": no scan in it", "give a file of " + expected);
+}
+
+Pose2 pose_at(const LineFile& file, std::size_t i) {
+  const Pose2 pose{file.number(i), file.number(i + 1), file.number(i + 2)};
+  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !(std::fabs(pose.heading) < 1e4)) {
+    file.refuse("a pose that is none", "give metres and radians");
+  }
+  return {pose.x, pose.y, wrap_angle(pose.heading)};
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,21 @@
+#pragma once
+// What the readers of the text formats share.
+#include "hal/sim/logs/line_file.h"
+#include "hal/sim/logs/recorded_log.h"
+
+namespace jaywalk::sim {
+
+inline constexpr const char* kTimeStands = "its time does not grow";
+inline constexpr const char* kWrongLength = "its number of words does not fit";
+
+/// Appends the ranges in words [first_word, first_word + scan.beams) and the scan itself, unless its
+/// time does not grow. Readings of `nothing_from_m` and over become infinite. False when refused.
+bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::size_t first_word, double nothing_from_m);
+
+/// Throws StartupError where no scan was read, naming the first line that was refused.
+void require_scans(const RecordedLog& log, const LineFile& file, const std::string& expected);
+
+/// Word i, i + 1, i + 2 as a pose. Throws StartupError unless all are finite.
+[[nodiscard]] Pose2 pose_at(const LineFile& file, std::size_t i);
+
+}  // namespace jaywalk::sim

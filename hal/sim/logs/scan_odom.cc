@@ -1,0 +1,126 @@
+#include <cmath>
+#include <limits>
+
+#include "hal/sim/logs/recorded_log.h"
+#include "hal/sim/logs/scan_lines.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+namespace {
+
+/// Words before the ranges in the two forms; the last of them is the number of beams.
+constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
+constexpr double kNoLimit = std::numeric_limits<double>::infinity();
+
+enum class Form { kUnknown, kPlain, kMotion };
+
+/// True when the line's length is what its number of beams, the last word of the head, says.
+bool fits(const LineFile& file, std::size_t head) {
+  if (file.words().size() < head) return false;
+  return file.count(head - 1, std::numeric_limits<std::uint32_t>::max()) + head == file.words().size();
+}
+
+/// The number of beams may stand in one place only, so a head of text or reals settles nothing.
+bool counts_beams(const LineFile& file, std::size_t head) {
+  if (file.words().size() <= head) return false;
+  return file.words()[head - 1] == std::to_string(file.words().size() - head);
+}
+
+Form form_of(const LineFile& file) {
+  if (counts_beams(file, kPlainHead)) return Form::kPlain;
+  return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kUnknown;
+}
+
+void check_scan(const LineFile& file, const RecordedScan& scan) {
+  if (scan.beams == 0 || scan.beams > kMaxBeams) {
+    file.refuse(std::to_string(scan.beams) + " beams",
+                "give scans of 1 to " + std::to_string(kMaxBeams) + " beams, or leave some out");
+  }
+  const bool finite = std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad);
+  if (!finite || scan.angle_step_rad == 0.0F) file.refuse("beam angles that make no fan", "give angles in radians");
+  if (!(scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F)) {
+    file.refuse("range limits that hold nothing", "give 0 <= range_min < range_max, in metres");
+  }
+}
+
+void read_plain(RecordedLog& log, const LineFile& file) {
+  RecordedScan scan;
+  scan.stamp = time_from_seconds(file.seconds(0));
+  scan.first_angle_rad = static_cast<float>(file.number(1));
+  scan.angle_step_rad = static_cast<float>(file.number(2));
+  scan.range_min_m = static_cast<float>(file.number(3));
+  scan.range_max_m = static_cast<float>(file.number(4));
+  scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
+  check_scan(file, scan);
+  add_scan(log, file, scan, kPlainHead, kNoLimit);
+}
+
+void read_motion(RecordedLog& log, const LineFile& file, Pose2& odometry) {
+  RecordedScan scan;
+  scan.stamp = time_from_seconds(file.seconds(0));
+  if (!log.scans.empty()) odometry = odometry * pose_at(file, 1);
+  scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
+  const BeamFan fan = carmen_fan(scan.beams, file.number(4));
+  scan.first_angle_rad = fan.first_angle_rad;
+  scan.angle_step_rad = fan.angle_step_rad;
+  const double max_range_m = file.number(5);
+  scan.range_max_m = static_cast<float>(max_range_m);
+  check_scan(file, scan);
+  if (add_scan(log, file, scan, kMotionHead, max_range_m)) log.odometry.push_back({scan.stamp, odometry, std::nullopt});
+}
+
+/// Reads the scans; true when they carried their own odometry.
+bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
+  LineFile file(path);
+  Form form = Form::kUnknown;
+  Pose2 odometry;
+  while (file.next()) {
+    if (form == Form::kUnknown) form = form_of(file);
+    if (form == Form::kUnknown || !fits(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
+      log.refuse(file.name(), file.line(), kWrongLength);
+    } else if (form == Form::kPlain) {
+      read_plain(log, file);
+    } else {
+      read_motion(log, file, odometry);
+    }
+  }
+  require_scans(log, file, "lines 't angle_min angle_inc range_min range_max n r1..rn'");
+  return form == Form::kMotion;
+}
+
+void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
+  LineFile file(path);
+  while (file.next()) {
+    if (file.words().size() != 6) {
+      log.refuse(file.name(), file.line(), kWrongLength);
+      continue;
+    }
+    const Time stamp = time_from_seconds(file.seconds(0));
+    const Twist2 twist{file.number(4), file.number(5)};
+    if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps))
+      file.refuse("a speed that is no number", "delete the line");
+    if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
+      log.refuse(file.name(), file.line(), kTimeStands);
+    } else {
+      log.odometry.push_back({stamp, pose_at(file, 1), twist});
+    }
+  }
+  if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");
+}
+
+}  // namespace
+
+RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
+                           const std::optional<std::filesystem::path>& odom_file, const Pose2& robot_from_laser) {
+  RecordedLog log;
+  log.robot_from_laser = robot_from_laser;
+  const bool own_odometry = read_scans(log, scan_file);
+  if (own_odometry && odom_file) {
+    throw StartupError(odom_file->string() + ": " + scan_file.string() + " carries its own odometry",
+                       "give the scans alone");
+  }
+  if (odom_file) read_odometry(log, *odom_file);
+  return log;
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,34 @@
+#pragma once
+// From recorded poses back to the wheel encoders that would have led there.
+#include <optional>
+#include <vector>
+
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/time.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk::sim {
+
+/// A pose as a recording gives it, in the recording's own frame.
+struct OdometryPose {
+  Time stamp = kNever;
+  Pose2 pose;
+  std::optional<Twist2> twist;  ///< where the recording says it
+};
+
+/// The drive that replayed wheel angles belong to. Recordings do not say what drove, and any
+/// differential drive would do: whoever integrates the angles uses the same numbers.
+[[nodiscard]] DriveModel nominal_drive();
+
+/// Wheel readings, one a pose, that a differential drive integrating exact arcs turns back into the
+/// poses. Angles begin at zero with the first pose.
+///
+/// Between two poses the drive runs along a circle's arc through the heading's change da: its
+/// length is s = c (da/2) / sin(da/2) with c the displacement along the mean heading. What lies
+/// across it (side slip, a SLAM correction) no such drive can do; it stays as an error of position
+/// and is made up for as soon as the robot has turned, while heading is exact in every reading.
+/// Speeds are the recording's where it has them, else differences. `poses` has rising stamps.
+[[nodiscard]] std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive);
+
+}  // namespace jaywalk::sim

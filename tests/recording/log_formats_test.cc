@@ -1,0 +1,201 @@
+#include <zlib.h>
+
+#include <chrono>
+#include <cmath>
+#include <string>
+
+#include "hal/sim/logs/recorded_log.h"
+#include "hal/types/errors.h"
+#include "tests/recording/recordings.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk::sim {
+namespace {
+
+std::string refusal(const std::string& scan_file) {
+  try {
+    static_cast<void>(load_scan_odom(scan_file));
+  } catch (const StartupError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+constexpr const char* kTwoScans =
+    "# t angle_min angle_inc range_min range_max n r\n"
+    "100.5 -0.1 0.1 0.03 11.0 3 1.0 nan 2.5\r\n"
+    "\n"
+    "100.75 -0.1 0.1 0.03 11.0 3 0.0 inf 12\n";
+
+TEST_CASE("scan-odom gives scans with their own angles and stamps") {
+  const Scratch scratch;
+  const RecordedLog log = load_scan_odom(scratch.write("scan.txt", kTwoScans));
+  REQUIRE(log.scans.size() == 2);
+  CHECK(log.scans[1].stamp == Time{Duration{100'750'000'000}});
+  CHECK(log.scans[0].first_angle_rad == -0.1F);
+  CHECK(log.scans[0].range_max_m == 11.0F);
+  CHECK(log.range_m[0] == 1.0F);
+  CHECK(std::isnan(log.range_m[1]));
+  CHECK(std::isinf(log.range_m[4]));
+  CHECK(log.odometry.empty());
+  CHECK(log.complaint().empty());
+  const LaserModel laser = log.laser();
+  CHECK(laser.fov_rad == Approx(0.2));
+  CHECK(laser.rate_hz == Approx(4.0));  // 0.25 s apart
+}
+
+TEST_CASE("odometry comes from its own file") {
+  const Scratch scratch;
+  const RecordedLog log =
+      load_scan_odom(scratch.write("scan.txt", kTwoScans),
+                     scratch.write("odom.txt", "100.4 1 2 0.5 0.25 0.125\n100.6 1.1 2 7.0 0.25 0\n"));
+  REQUIRE(log.odometry.size() == 2);
+  CHECK(log.odometry[0].pose == Pose2{1, 2, 0.5});
+  CHECK(log.odometry[0].twist == Twist2{0.25, 0.125});
+  CHECK(log.odometry[1].pose.heading == Approx(7.0 - 2 * kPi));
+}
+
+TEST_CASE("scans with motion increments carry their own odometry") {
+  // Turn left a quarter, then twice half a metre ahead: (0, 1). The third line's time stands still:
+  // its scan is left out, its half metre counts. Four beams over pi are 45 degrees apart from -90
+  // on; a reading of the maximum is no return.
+  const Scratch scratch;
+  const RecordedLog log = load_scan_odom(scratch.write("log.txt",
+                                                       "10.0 9 9 9 3.14159265 30.0 4 1 2 30.0 4\n"
+                                                       "10.1 0 0 1.57079633 3.14159265 30.0 4 1 2 3 4\n"
+                                                       "10.1 0.5 0 0 3.14159265 30.0 4 1 2 3 4\n"
+                                                       "10.2 0.5 0 0 3.14159265 30.0 4 1 2 3 4\n"));
+  REQUIRE(log.scans.size() == 3);
+  CHECK(log.scans[0].first_angle_rad == Approx(-kPi / 2));
+  CHECK(log.scans[0].angle_step_rad == Approx(kPi / 4));
+  CHECK(std::isinf(log.range_m[2]));
+  CHECK(log.odometry[0].pose == Pose2{});
+  CHECK(log.odometry[2].pose.x == Approx(0.0).margin(1e-6));
+  CHECK(log.odometry[2].pose.y == Approx(1.0));
+  REQUIRE(log.refused.size() == 1);
+  CHECK(log.refused[0].first_line == 3);
+  CHECK_THROWS_AS(load_scan_odom(scratch.path("log.txt"), scratch.write("odom.txt", "1 0 0 0 0 0\n")), StartupError);
+}
+
+TEST_CASE("lines of a wrong length and lines back in time are left out, counted and told") {
+  const Scratch scratch;
+  const RecordedLog log = load_scan_odom(scratch.write("scan.txt",
+                                                       "1.0 0 0.1 0.1 9 2 1 1\n"
+                                                       "1.1 0 0.1 0.1 9 2 1\n"
+                                                       "0.9 0 0.1 0.1 9 2 1 1\n"
+                                                       "1.2 0 0.1 0.1 9 2 1 1\n"
+                                                       "1.2 0 0.1 0.1 9 2 1 1\n"
+                                                       "1.3 0 0.1"));
+  CHECK(log.scans.size() == 2);
+  REQUIRE(log.refused.size() == 2);
+  CHECK(log.complaint().find("scan.txt: 2 lines left out, the first is line 2: its number of words") !=
+        std::string::npos);
+  CHECK(log.complaint().find("2 lines left out, the first is line 3: its time does not grow") != std::string::npos);
+}
+
+TEST_CASE("what is wrong in any other way is refused with file and line") {
+  const Scratch scratch;
+  const auto of = [&](const std::string& text) { return refusal(scratch.write("bad.txt", text)); };
+  CHECK(of("1.0 0 0.1 0.1 9 2 1 1\n1.1 0 0.1 0.1 9 2 1 1x\n").find("bad.txt:2: '1x' (word 8) is not a number") !=
+        std::string::npos);
+  CHECK(of("1.0 0 0 0.1 9 2 1 1\n").find("bad.txt:1: beam angles") != std::string::npos);
+  CHECK(of("1.0 0 0.1 9 9 2 1 1\n").find("bad.txt:1: range limits") != std::string::npos);
+  CHECK(of("nan 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of nan") != std::string::npos);
+  CHECK(of("1e300 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of") != std::string::npos);
+  CHECK(of("hello world\n").find("bad.txt:1: no scan in it") != std::string::npos);
+  CHECK(of("").find("bad.txt: no scan in it") != std::string::npos);
+  std::string wide = "1.0 0 0.1 0.1 9 3000";
+  for (int i = 0; i < 3000; ++i) wide += " 1";
+  CHECK(of(wide).find("bad.txt:1: 3000 beams") != std::string::npos);
+  CHECK(of(std::string(2'000'000, '1')).find("over 1 MiB") != std::string::npos);
+  CHECK(refusal(scratch.path("missing.txt")).find("no such file") != std::string::npos);
+  CHECK(refusal(scratch.folder().string()).find("no such file") != std::string::npos);
+  CHECK_THROWS_AS(load_scan_odom(scratch.write("scan.txt", kTwoScans), scratch.write("odom.txt", "1 2 3\n")),
+                  StartupError);
+}
+
+TEST_CASE("a compressed recording reads like a plain one, and a cut one is refused") {
+  const Scratch scratch;
+  const std::string gz = scratch.path("scan.txt.gz");
+  gzFile out = gzopen(gz.c_str(), "wb");
+  std::string many;
+  for (int i = 1; i < 200; ++i) many += std::to_string(i) + ".5 0 0.1 0.1 9 2 1 " + std::to_string(i % 7) + "\n";
+  gzwrite(out, many.data(), static_cast<unsigned>(many.size()));
+  gzclose(out);
+  CHECK(load_scan_odom(gz).scans.size() == 199);
+  const std::string bytes = scratch.read("scan.txt.gz");
+  CHECK(refusal(scratch.write("cut.gz", bytes.substr(0, bytes.size() / 2))).find("damaged or cut") !=
+        std::string::npos);
+}
+
+TEST_CASE("CARMEN beams of 180 and 181 are one degree apart and begin at the right") {
+  const double degree = kPi / 180;
+  CHECK(carmen_fan(180, kPi).first_angle_rad == Approx(-90 * degree));
+  CHECK(carmen_fan(180, kPi).angle_step_rad == Approx(degree));
+  CHECK(carmen_fan(181, kPi).angle_step_rad == Approx(degree));
+  CHECK(carmen_fan(360, kPi).angle_step_rad == Approx(degree / 2));
+}
+
+TEST_CASE("CARMEN lines become scans and odometry, the FLASER pose before ODOM") {
+  // The ODOM line of 2.0 is contradicted by the FLASER line of 2.0, the one of time 0 goes back.
+  const Scratch scratch;
+  const RecordedLog log = load_carmen(scratch.write("log.carmen",
+                                                    "# comment\n"
+                                                    "PARAM robot_length 0.47 1 merci 1\n"
+                                                    "ODOM 0 0 0 0 0 0 1.5 host 1.5\n"
+                                                    "ODOM 5 5 0 0 0 0 2.0 host 2.0\n"
+                                                    "FLASER 4 1.0 81.91 50 3 9 9 9 1 0.5 0.25 2.0 host 2.0\n"
+                                                    "ODOM 1 0.5 0.25 0 0 0 0 host 0\n"
+                                                    "ODOM 2 0.5 0.25 0 0 0 2.5 host 2.5\n"));
+  REQUIRE(log.scans.size() == 1);
+  CHECK(log.range_m[0] == 1.0F);
+  CHECK(std::isinf(log.range_m[1]));
+  CHECK(std::isinf(log.range_m[2]));
+  REQUIRE(log.odometry.size() == 3);
+  CHECK(log.odometry[1].pose == Pose2{1, 0.5, 0.25});
+  CHECK(log.odometry[1].stamp == time_from_seconds(2.0));
+  REQUIRE(log.refused.size() == 1);
+  CHECK(log.refused[0].first_line == 6);
+}
+
+TEST_CASE("a CARMEN log without scans, or with damaged ones, is refused") {
+  const Scratch scratch;
+  CHECK_THROWS_AS(load_carmen(scratch.write("a", "ODOM 0 0 0 0 0 0 1.5 host 1.5\n")), StartupError);
+  CHECK_THROWS_AS(load_carmen(scratch.write("b", "FLASER 2 1 1 0 0 0 0 x 0 2.0 host 2.0\n")), StartupError);
+  CHECK_THROWS_AS(load_carmen(scratch.write("c", "FLASER 0 0 0 0 0 0 0 2.0 host 2.0\n")), StartupError);
+  CHECK_THROWS_AS(load_carmen(scratch.write("d", "FLASER\n")), StartupError);
+}
+
+TEST_CASE("the Freiburg log has 4791 scans and loads within two seconds") {
+  const auto file = recording("carmen/freiburg-079-corrected.log.gz");
+  if (!file) return;
+  const auto before = std::chrono::steady_clock::now();
+  const RecordedLog log = load_carmen(*file);
+  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  CHECK(log.scans.size() == 4791);
+  CHECK(log.scans[0].beams == 360);
+  CHECK(log.laser().rate_hz == Approx(4.5).epsilon(0.1));
+#if !defined(__SANITIZE_ADDRESS__)
+  CHECK(took < 2.0);
+#endif
+}
+
+TEST_CASE("the Intel logs load in both formats") {
+  const auto carmen = recording("carmen/intel-corrected.log.gz");
+  if (!carmen) return;
+  CHECK(load_carmen(*carmen).scans.size() == 906);  // of 910, 4 of which go back in time
+  const auto motion = recording("intel/scans_odom.txt.gz");
+  if (!motion) return;
+  const RecordedLog log = load_scan_odom(*motion);
+  CHECK(log.scans.size() == 2726 - 241);  // 241 stamps stand still
+  CHECK(log.scans[0].beams == 180);
+  double way = 0.0;
+  for (std::size_t i = 1; i < log.odometry.size(); ++i) {
+    way += distance(log.odometry[i - 1].pose.position(), log.odometry[i].pose.position());
+  }
+  CHECK(way == Approx(506).epsilon(0.02));  // metres, as the recording's own notes say
+}
+
+}  // namespace
+}  // namespace jaywalk::sim
