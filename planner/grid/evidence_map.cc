@@ -4,11 +4,21 @@
 #include <cmath>
 
 namespace jaywalk {
+namespace {
+
+/// Moves an offset an eighth of the way to `target`, or all the way where there was none yet.
+std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
+  const double next = fresh ? target : old + (target - old) / 8.0;
+  return static_cast<std::int8_t>(std::clamp(std::floor(next + 0.5), -127.0, 127.0));
+}
+
+}  // namespace
 
 EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
     : side_(side_cells),
       cell_m_(cell_m),
-      evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0) {
+      evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
+      surface_(evidence_.size()) {
   const CellIndex centre = cell_at(centre_in_map);
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
@@ -39,6 +49,21 @@ void EvidenceMap::add(CellIndex cell, int change) noexcept {
   e = static_cast<std::int8_t>(std::clamp(e + change, kMin, kMax));
 }
 
+void EvidenceMap::add_hit(Vec2 p, int change) noexcept {
+  const CellIndex cell = cell_at(p);
+  if (!contains(cell)) return;
+  const std::size_t k = slot(cell);
+  const bool fresh = evidence_[k] <= 0;
+  const Vec2 offset = (p - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
+  surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
+  add(cell, change);
+}
+
+Vec2 EvidenceMap::surface(CellIndex cell) const {
+  const Offset& offset = surface_[slot(cell)];
+  return centre_of(cell) + Vec2{offset.x * 1.0, offset.y * 1.0} * (0.5 * cell_m_ / 128.0);
+}
+
 void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
   const CellIndex centre = cell_at(centre_in_map);
   const CellIndex off{centre.i - (low_.i + side_ / 2), centre.j - (low_.j + side_ / 2)};
@@ -48,7 +73,9 @@ void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
   for (std::int32_t j = low_.j; j < low_.j + side_; ++j) {
     const bool row_stays = j >= old.j && j < old.j + side_;
     for (std::int32_t i = low_.i; i < low_.i + side_; ++i) {
-      if (!(row_stays && i >= old.i && i < old.i + side_)) evidence_[slot({i, j})] = 0;
+      if (row_stays && i >= old.i && i < old.i + side_) continue;
+      evidence_[slot({i, j})] = 0;
+      surface_[slot({i, j})] = {};
     }
   }
 }

@@ -18,8 +18,10 @@ struct CellIndex {
 /// costs only the cells that enter it. It remembers everything inside; what leaves is forgotten.
 ///
 /// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and
-/// both ends saturate so that the map can change its mind within a few scans.
-/// Memory: side * side bytes, taken in the constructor. Not thread-safe.
+/// both ends saturate so that the map can change its mind within a few scans. A cell that holds a
+/// surface also remembers where in it the laser's points fall, to 1/128 of half a cell: matching a
+/// scan needs better than a cell.
+/// Memory: 3 * side * side bytes, taken in the constructor. Not thread-safe.
 class EvidenceMap {
  public:
   /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
@@ -38,6 +40,12 @@ class EvidenceMap {
 
   /// Adds to a cell's evidence, saturating in [kMin, kMax]; nothing happens outside the window.
   void add(CellIndex cell, int change) noexcept;
+  /// A laser's point: adds `change` to its cell's evidence, and the point to the cell's surface point, a running
+  /// mean of about eight points that starts anew where the cell was not held occupied.
+  void add_hit(Vec2 p_in_map, int change) noexcept;
+  /// Where the surface in an occupied cell lies (m, in the map): the mean of its recent points. The cell's centre
+  /// where nothing but add() was called. Meaningless for cells that are not occupied.
+  [[nodiscard]] Vec2 surface(CellIndex cell) const;
   /// Rolls the window so that it is centred within a quarter side of `centre_in_map`; a no-op while
   /// that holds already. Cells that enter are unknown.
   void roll_to(Vec2 centre_in_map) noexcept;
@@ -52,7 +60,12 @@ class EvidenceMap {
   std::int32_t side_;
   double cell_m_;
   CellIndex low_;  ///< lowest cell inside
+  struct Offset {
+    std::int8_t x = 0, y = 0;  ///< from the cell's centre, in 1/128 of half a cell
+  };
+
   std::vector<std::int8_t> evidence_;
+  std::vector<Offset> surface_;
 };
 
 }  // namespace jaywalk

@@ -25,8 +25,9 @@ class Tracker {
   ~Tracker();
 
   /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
-  /// pose at the scan's stamp. Ranges that are no returns change nothing.
-  void update(const LaserScan& scan, const Pose2& map_from_robot) noexcept;
+  /// pose at the scan's stamp. Ranges that are no returns change nothing; nor does a pose that is not
+  /// finite. `twist` puts right a sweep that takes time while the robot moves.
+  void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist = {}) noexcept;
 
   /// Mode paper: movers come from outside, named and noisy; a Kalman filter each. Beams that end
   /// within a mover's radius of its given position are kept out of the map by the next update().

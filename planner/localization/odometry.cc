@@ -1,0 +1,82 @@
+#include "planner/localization/odometry.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kLongestExtrapolationS = 0.1;
+constexpr double kUnbelievable = 2.0;  // times the fastest that the motors can do
+
+/// sin(x)/x; below 1e-3 its series is exact to 1e-14.
+double sinc(double x) { return std::fabs(x) < 1e-3 ? 1.0 - x * x / 6.0 : sin(x) / x; }
+
+Pose2 between(const Pose2& a, const Pose2& b, double share) {
+  return {a.x + share * (b.x - a.x), a.y + share * (b.y - a.y),
+          wrap_angle(a.heading + share * wrap_angle(b.heading - a.heading))};
+}
+
+Twist2 twist_of(const WheelState& wheels, const DriveModel& drive) {
+  const double left = wheels.left_radps * drive.wheel_radius_m, right = wheels.right_radps * drive.wheel_radius_m;
+  if (!std::isfinite(left) || !std::isfinite(right)) return {};
+  return {0.5 * (left + right), (right - left) / drive.track_width_m};
+}
+
+}  // namespace
+
+Pose2 after_arc(const Pose2& from, const ArcStep& step) noexcept {
+  const double chord = step.distance_m * sinc(0.5 * step.turn_rad);
+  const Vec2 travel = direction(from.heading + 0.5 * step.turn_rad) * chord;
+  return {from.x + travel.x, from.y + travel.y, wrap_angle(from.heading + step.turn_rad)};
+}
+
+bool Odometry::believable(const ArcStep& step, double seconds) const noexcept {
+  if (!std::isfinite(step.distance_m) || !std::isfinite(step.turn_rad)) return false;
+  if (drive_.max_wheel_speed_radps <= 0.0) return true;  // not known
+  const double wheel_m = std::fabs(step.distance_m) + 0.5 * std::fabs(step.turn_rad) * drive_.track_width_m;
+  const double fastest_mps = drive_.max_wheel_speed_radps * drive_.wheel_radius_m;
+  return wheel_m <= kUnbelievable * fastest_mps * std::max(seconds, 0.0) + drive_.wheel_radius_m;
+}
+
+ArcStep Odometry::take(const WheelState& wheels) noexcept {
+  ArcStep step;
+  if (has_wheels()) {
+    const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
+    const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
+    step = {0.5 * (left + right), (right - left) / drive_.track_width_m};
+    if (!believable(step, to_seconds(wheels.stamp - last_.stamp))) step = {};
+  }
+  last_ = wheels;
+  twist_ = twist_of(wheels, drive_);
+  remember({wheels.stamp, after_arc(odom_from_robot(), step)});
+  return step;
+}
+
+void Odometry::coast(const Pose2& before_from_after, Time stamp) noexcept {
+  remember({stamp, odom_from_robot() * before_from_after});
+}
+
+void Odometry::remember(const Entry& entry) noexcept {
+  entries_[count_ % kRemembered] = entry;
+  ++count_;
+}
+
+Pose2 Odometry::at(Time stamp) const noexcept {
+  if (count_ == 0) return {};
+  if (stamp >= newest().stamp) {
+    const double ahead = std::min(to_seconds(stamp - newest().stamp), kLongestExtrapolationS);
+    return after_arc(odom_from_robot(), {twist_.v_mps * ahead, twist_.w_radps * ahead});
+  }
+  const std::size_t oldest = count_ > kRemembered ? count_ - kRemembered : 0;
+  for (std::size_t k = count_ - 1; k > oldest; --k) {
+    const Entry &after = entries_[k % kRemembered], &before = entries_[(k - 1) % kRemembered];
+    if (before.stamp > stamp) continue;
+    const double span = to_seconds(after.stamp - before.stamp);
+    const double share = span > 0.0 ? to_seconds(stamp - before.stamp) / span : 0.0;
+    return between(before.odom_from_robot, after.odom_from_robot, share);
+  }
+  return entries_[oldest % kRemembered].odom_from_robot;
+}
+
+}  // namespace jaywalk

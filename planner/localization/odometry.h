@@ -1,0 +1,59 @@
+#pragma once
+// Dead reckoning: from wheel angles, or without wheels from how the robot last moved.
+#include <array>
+#include <cstddef>
+
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk {
+
+/// How far along its arc, and how far round, a differential drive went.
+struct ArcStep {
+  double distance_m = 0.0;
+  double turn_rad = 0.0;
+};
+
+/// The pose after driving an arc of constant curvature, exactly.
+[[nodiscard]] Pose2 after_arc(const Pose2& from, const ArcStep& step) noexcept;
+
+/// Poses in a frame of its own, `odom`, that drifts against the map; the recent ones are remembered, so that a scan
+/// can be placed at its own stamp. No allocation. Thread: the loop's.
+class Odometry {
+ public:
+  explicit Odometry(const DriveModel& drive) : drive_(drive) {}
+
+  /// Takes a reading with a new sequence number: what the wheels did since the last. A step that is not finite, or
+  /// faster than twice what the motors can do (encoders that restarted), counts as standing.
+  ArcStep take(const WheelState& wheels) noexcept;
+  /// Without wheels: moves by a pose in the robot's own frame.
+  void coast(const Pose2& before_from_after, Time stamp) noexcept;
+
+  [[nodiscard]] bool has_wheels() const { return last_.sequence != 0; }
+  [[nodiscard]] const Twist2& twist() const { return twist_; }
+  [[nodiscard]] Time stamp() const { return newest().stamp; }
+  [[nodiscard]] const Pose2& odom_from_robot() const { return newest().odom_from_robot; }
+  /// The pose at `stamp`: between remembered ones along a straight line, after the newest by its twist for up to
+  /// 0.1 s, before the oldest the oldest.
+  [[nodiscard]] Pose2 at(Time stamp) const noexcept;
+
+ private:
+  struct Entry {
+    Time stamp = kNever;
+    Pose2 odom_from_robot;
+  };
+  static constexpr std::size_t kRemembered = 128;  ///< 2.5 s at 50 Hz
+
+  [[nodiscard]] const Entry& newest() const { return entries_[count_ == 0 ? 0 : (count_ - 1) % kRemembered]; }
+  void remember(const Entry& entry) noexcept;
+  [[nodiscard]] bool believable(const ArcStep& step, double seconds) const noexcept;
+
+  DriveModel drive_;
+  WheelState last_;
+  Twist2 twist_;
+  std::array<Entry, kRemembered> entries_{};
+  std::size_t count_ = 0;  ///< ever remembered
+};
+
+}  // namespace jaywalk

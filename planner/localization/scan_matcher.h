@@ -1,0 +1,39 @@
+#pragma once
+// Where the robot must stand for its scan to lie on the walls that the map holds.
+//
+// Two steps. A search over a small window of poses counts how much of the scan falls on occupied cells: it finds the
+// right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of wall nearest to it,
+// across the wall only, together with the prediction by its own covariance. What the walls do not tell, as where along
+// a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw nothing.
+#include "planner/grid/evidence_map.h"
+#include "planner/localization/symmetric3.h"
+#include "planner/perception/scan_points.h"
+
+namespace jaywalk {
+
+struct PoseBelief {
+  Pose2 map_from_robot;
+  Symmetric3 covariance;  ///< of (x, y, heading), in the map
+};
+
+struct MatchResult {
+  bool matched = false;  ///< false: too little of the scan lies on known walls; the belief is the prediction
+  PoseBelief belief;
+  std::uint32_t points_used = 0;
+  std::uint32_t points_on_walls = 0;
+};
+
+/// Thread: the loop's. No allocation after construction.
+class ScanMatcher {
+ public:
+  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
+                                  const PoseBelief& predicted) noexcept;
+
+ private:
+  static constexpr std::size_t kMostPoints = 240;
+  using Sample = FixedVector<Vec2, kMostPoints>;
+  void sample(const ScanPoints& scan) noexcept;
+  Sample sample_;
+};
+
+}  // namespace jaywalk

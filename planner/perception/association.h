@@ -1,0 +1,28 @@
+#pragma once
+// Which cluster is which body's, and where that says the body is.
+#include "planner/perception/bodies.h"
+#include "planner/perception/segments.h"
+
+namespace jaywalk {
+
+/// What one scan says of a body: one cluster, or a person's two legs.
+struct Observation {
+  Vec2 position_in_map;
+  double std_m = 0.0;  ///< an axis
+  double radius_m = 0.0;
+};
+
+/// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of
+/// bodies and clusters does not matter except between exact equals.
+void associate(const Bodies& bodies, Clusters& clusters) noexcept;
+
+/// What the clusters given to `track` say together. Its nearest cluster leads; when it is a leg, the nearest
+/// other leg within a stride joins it. Clusters that are left over and too far to belong are set free again.
+/// False when it got none.
+bool observe(const Track& track, Clusters& clusters, Observation& out) noexcept;
+
+/// A new body's observation from free cluster `index` and, for a leg, its nearest free fellow; both are given to
+/// the track that it becomes.
+[[nodiscard]] Observation observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id) noexcept;
+
+}  // namespace jaywalk

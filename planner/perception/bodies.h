@@ -1,0 +1,34 @@
+#pragma once
+// Bodies: tracks with what the tracker alone needs to know of them.
+#include <cstdint>
+
+#include "hal/types/fixed_vector.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+struct Body {
+  Track track;
+  bool given = false;             ///< named by an outside system; the laser does not judge it
+  std::uint32_t given_id = 0;     ///< that system's own name for it
+  Time still_since = kNever;      ///< since when it has stood near `anchor`
+  Vec2 anchor_in_map;             ///< where it last stood, or was born
+  Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
+  double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
+  std::uint32_t misses = 0;       ///< scans in a row that did not see it
+  bool settled = false;           ///< stands for good: its points may become walls
+
+  /// Seen often enough to be believed; others are kept to themselves.
+  [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
+};
+
+using Bodies = FixedVector<Body, kMaxTracks>;
+
+/// A body seen for the first time at `position`: it may be walking already, 1 m/s an axis.
+[[nodiscard]] Body born_at(Vec2 position_in_map, double std_m, double radius_m, Time now, std::uint32_t id) noexcept;
+
+/// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, and that may be the
+/// newcomer.
+void admit(Bodies& bodies, const Body& newcomer, Vec2 robot_in_map) noexcept;
+
+}  // namespace jaywalk

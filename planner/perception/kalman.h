@@ -1,0 +1,20 @@
+#pragma once
+// The Kalman filter of the paper (its equations 12 to 16) for something that moves at constant velocity.
+//
+// State (position, velocity), A = [1 dt; 0 1], H = [1 0], no input. x and y are alike and independent, so one
+// covariance serves both axes. Process noise: white acceleration, constant over a step.
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+/// Eqs. 12 and 13: moves the track `dt_s` >= 0 seconds on. `accel_std_mps2`: what it may accelerate by, an axis.
+void predict(Track& track, double dt_s, double accel_std_mps2) noexcept;
+
+/// Eqs. 14 to 16: takes a measured position whose standard deviation an axis is `std_m` > 0.
+void correct(Track& track, Vec2 measured_in_map, double std_m) noexcept;
+
+/// Squared Mahalanobis distance of a measured position from the track's: chi-squared with two degrees of freedom when
+/// the measurement is the track's.
+[[nodiscard]] double gate_distance2(const Track& track, Vec2 measured_in_map, double std_m) noexcept;
+
+}  // namespace jaywalk

@@ -1,0 +1,54 @@
+#pragma once
+// A scan cut where it jumps, and those pieces of it that stand where nothing stood before.
+#include <array>
+#include <cstdint>
+
+#include "hal/types/fixed_vector.h"
+#include "planner/grid/evidence_map.h"
+#include "planner/perception/scan_points.h"
+
+namespace jaywalk {
+
+/// A run of neighbouring points that are one thing: points [first, last] of the scan.
+struct Segment {
+  std::uint32_t first = 0, last = 0;
+};
+
+/// Most segments kept of a scan; when full, the rest of the scan counts as wall.
+inline constexpr std::size_t kMaxSegments = 512;
+using Segments = FixedVector<Segment, kMaxSegments>;
+
+/// A segment in space that was seen free before: something came there.
+struct Cluster {
+  Segment segment;
+  Vec2 centre_in_map;          ///< of the body: behind the visible arc
+  double radius_m = 0.0;       ///< half of the visible width
+  double range_m = 0.0;        ///< from the laser
+  std::uint32_t track_id = 0;  ///< of the body that it was given to; 0: none
+
+  /// Leg-sized: two such may be one person.
+  [[nodiscard]] bool leg() const { return radius_m < 0.15; }
+};
+
+/// Most clusters followed in a scan; when full, later ones (in the order of the beams) are left for the next scans.
+inline constexpr std::size_t kMaxClusters = 128;
+using Clusters = FixedVector<Cluster, kMaxClusters>;
+
+/// The scan's points in the map, and whether each stands in free space.
+struct PointsInMap {
+  std::array<Vec2, kMaxBeams> position;
+  std::array<bool, kMaxBeams> in_free_space;
+};
+
+/// Cuts the scan where neighbouring points are farther apart than a surface explains (adaptive in range).
+void cut_at_jumps(const ScanPoints& points, double angle_step_rad, Segments& out) noexcept;
+
+/// A point stands in free space when its cell has been seen free and no cell about it is held occupied: a wall's point
+/// that falls short of its cell, by noise or by a pose a cell wrong, has the wall beside it.
+[[nodiscard]] bool in_free_space(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
+
+/// The segments that stand in free space and are small enough to be a body (at most 1.1 m across).
+void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser_in_map,
+                   Clusters& out) noexcept;
+
+}  // namespace jaywalk

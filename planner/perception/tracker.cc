@@ -1,0 +1,230 @@
+#include "planner/perception/tracker.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/perception/association.h"
+#include "planner/perception/bodies.h"
+#include "planner/perception/kalman.h"
+#include "planner/perception/map_entry.h"
+#include "planner/perception/motion_judgement.h"
+#include "planner/perception/segments.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kAccelStd = 1.0;              // m/s^2 an axis: people start and turn within half a second
+constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
+constexpr double kLookedThroughForS = 0.7;     // a body that beams pass through this long is gone
+constexpr double kUnseenForS = 2.5;            // a hidden one is believed in this long
+constexpr double kGivenUnseenForS = 1.0;       // one from outside, this long after its last report
+constexpr std::uint32_t kTentativeMisses = 2;  // one not believed yet may be missed this often
+constexpr double kSkinM = 0.15;                // points this near a mover's body are its own
+constexpr double kSeenThroughM = 0.4;          // a beam that ends this far behind a body's centre passed through it
+constexpr double kRadiusGain = 0.2;            // of the running mean of a body's radius
+
+bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading); }
+
+double step_seconds(Time from, Time to) {
+  if (from == kNever || to <= from) return 0.0;
+  return std::min(to_seconds(to - from), kLongestStepS);
+}
+
+}  // namespace
+
+struct Tracker::State {
+  explicit State(const PerceptionConfig& c)
+      : config(c), still(c.map_side_cells, c.cell_m, c.map_centre), entry(still) {}
+
+  void predict_to(Time now) noexcept;
+  void look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept;
+  void associate_and_correct() noexcept;
+  void take(Body& body, const Observation& seen) noexcept;
+  void judge() noexcept;
+  void drop_unseen(const LaserScan& scan) noexcept;
+  [[nodiscard]] bool gone(const Body& body) const noexcept;
+  [[nodiscard]] bool looked_through(const Body& body, const LaserScan& scan) const noexcept;
+  void birth() noexcept;
+  [[nodiscard]] bool undecided_or_moving(std::uint32_t track_id) const noexcept;
+  void enter_still() noexcept;
+  void publish() noexcept;
+
+  PerceptionConfig config;
+  EvidenceMap still;
+  MapEntry entry;
+
+  ScanPoints points;
+  PointsInMap in_map;
+  Segments segments;
+  Clusters clusters;
+  IsStill is_still{};
+  Pose2 map_from_laser;
+
+  Bodies bodies;
+  std::uint32_t last_id = 0;
+  bool movers_are_given = false;
+  Time now = kNever;
+  double step_s = 0.0;
+
+  FixedVector<Track, kMaxTracks> tracks, moving;
+};
+
+void Tracker::State::predict_to(Time stamp) noexcept {
+  step_s = step_seconds(now, stamp);
+  now = stamp;
+  for (Body& body : bodies) {
+    predict(body.track, step_seconds(body.track.stamp, stamp), kAccelStd);
+    body.track.stamp = std::max(body.track.stamp, stamp);
+  }
+}
+
+void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept {
+  project_scan(scan, config.robot_from_laser, twist, points);
+  map_from_laser = map_from_robot * config.robot_from_laser;
+  const Transform2 to_map(map_from_robot);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    in_map.position[k] = to_map * points[k].in_robot;
+    in_map.in_free_space[k] = in_free_space(still, in_map.position[k], points[k].range_m);
+  }
+  cut_at_jumps(points, static_cast<double>(scan.angle_step_rad), segments);
+  find_clusters(points, in_map, segments, map_from_laser.position(), clusters);
+}
+
+void Tracker::State::take(Body& body, const Observation& seen) noexcept {
+  Track& track = body.track;
+  correct(track, seen.position_in_map, seen.std_m);
+  track.radius_m += kRadiusGain * (seen.radius_m - track.radius_m);
+  track.hits += 1;
+  track.last_seen = now;
+  body.misses = 0;
+  body.looked_through_s = 0.0;
+}
+
+void Tracker::State::associate_and_correct() noexcept {
+  associate(bodies, clusters);
+  for (Body& body : bodies) {
+    Observation seen;
+    if (observe(body.track, clusters, seen)) {
+      take(body, seen);
+    } else {
+      body.misses += 1;
+    }
+  }
+}
+
+void Tracker::State::judge() noexcept {
+  for (Body& body : bodies) judge_motion(body, now);
+}
+
+bool Tracker::State::looked_through(const Body& body, const LaserScan& scan) const noexcept {
+  const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
+  const double angle = wrap_angle(atan2(in_laser.y, in_laser.x) - static_cast<double>(scan.first_angle_rad));
+  const double step = static_cast<double>(scan.angle_step_rad);
+  const double beam = std::floor((step > 0.0 && angle < 0.0 ? angle + 2 * kPi : angle) / step + 0.5);
+  if (!(beam >= 0.0 && beam < scan.beam_count)) return false;
+  const auto b = static_cast<std::size_t>(beam);
+  return scan.is_hit(b) && static_cast<double>(scan.range_m[b]) > norm(in_laser) + kSeenThroughM;
+}
+
+bool Tracker::State::gone(const Body& body) const noexcept {
+  const double unseen_s = to_seconds(now - body.track.last_seen);
+  if (body.given) return unseen_s > kGivenUnseenForS;
+  if (!body.confirmed()) return body.misses > kTentativeMisses;
+  return unseen_s > kUnseenForS || body.looked_through_s > kLookedThroughForS;
+}
+
+void Tracker::State::drop_unseen(const LaserScan& scan) noexcept {
+  for (std::size_t b = bodies.size(); b-- > 0;) {
+    Body& body = bodies[b];
+    if (body.misses > 0 && looked_through(body, scan)) body.looked_through_s += step_s;
+    if (gone(body)) bodies.swap_remove(b);
+  }
+}
+
+void Tracker::State::birth() noexcept {
+  if (movers_are_given) return;
+  for (std::size_t k = 0; k < clusters.size(); ++k) {
+    if (clusters[k].track_id != 0) continue;
+    const Observation seen = observe_new(clusters, k, ++last_id);
+    admit(bodies, born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id), map_from_laser.position());
+  }
+}
+
+bool Tracker::State::undecided_or_moving(std::uint32_t track_id) const noexcept {
+  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.track.id == track_id; });
+  return body != bodies.end() && !body->settled;
+}
+
+void Tracker::State::enter_still() noexcept {
+  std::fill(is_still.begin(), is_still.begin() + static_cast<std::ptrdiff_t>(points.size()), true);
+  for (const Cluster& c : clusters) {
+    if (!undecided_or_moving(c.track_id)) continue;
+    for (std::uint32_t k = c.segment.first; k <= c.segment.last; ++k) is_still[k] = false;
+  }
+  for (const Body& body : bodies) {
+    if (!body.track.moving) continue;
+    for (std::size_t k = 0; k < points.size(); ++k) {
+      const Vec2 p = in_map.position[k];
+      const bool near = distance(p, body.track.position_in_map) < body.track.radius_m + kSkinM;
+      if (near && !still.occupied(still.cell_at(p))) is_still[k] = false;
+    }
+  }
+  still.roll_to(map_from_laser.position());
+  entry.enter(still, map_from_laser.position(), in_map.position, is_still, points.size());
+}
+
+void Tracker::State::publish() noexcept {
+  tracks.clear();
+  moving.clear();
+  for (const Body& body : bodies) {
+    if (!body.confirmed()) continue;
+    (void)tracks.push_back(body.track);  // as many places as bodies
+    if (body.track.moving) (void)moving.push_back(body.track);
+  }
+}
+
+Tracker::Tracker(const PerceptionConfig& config) : state_(std::make_unique<State>(config)) {}
+Tracker::~Tracker() = default;
+
+void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept {
+  State& s = *state_;
+  if (scan.stamp == kNever || !finite(map_from_robot)) return;
+  s.predict_to(scan.stamp);
+  s.look(scan, map_from_robot, twist);
+  s.associate_and_correct();
+  s.judge();
+  s.drop_unseen(scan);
+  s.birth();
+  s.enter_still();
+  s.publish();
+}
+
+void Tracker::update_given(const OutsideFix& fix) noexcept {
+  State& s = *state_;
+  s.movers_are_given = true;
+  const double std_m = std::max(fix.mover_std_m, 1e-3);
+  for (const ObservedMover& mover : fix.movers) {
+    const auto known = std::find_if(s.bodies.begin(), s.bodies.end(),
+                                    [&](const Body& b) { return b.given && b.given_id == mover.id; });
+    if (known == s.bodies.end()) {
+      Body body = born_at(mover.position_in_map, std_m, mover.radius_m, fix.stamp, ++s.last_id);
+      body.given = true;
+      body.given_id = mover.id;
+      body.track.moving = true;
+      admit(s.bodies, body, s.map_from_laser.position());
+      continue;
+    }
+    predict(known->track, step_seconds(known->track.stamp, fix.stamp), kAccelStd);
+    known->track.stamp = std::max(known->track.stamp, fix.stamp);
+    correct(known->track, mover.position_in_map, std_m);
+    known->track.hits += 1;
+    known->track.last_seen = fix.stamp;
+  }
+  s.publish();
+}
+
+const EvidenceMap& Tracker::still() const { return state_->still; }
+std::span<const Track> Tracker::tracks() const { return {state_->tracks.data(), state_->tracks.size()}; }
+std::span<const Track> Tracker::moving() const { return {state_->moving.data(), state_->moving.size()}; }
+
+}  // namespace jaywalk
