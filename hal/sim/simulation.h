@@ -8,6 +8,7 @@
 
 #include "hal/hal.h"
 #include "hal/sim/scenario.h"
+#include "hal/sim/shapes.h"
 
 namespace jaywalk::sim {
 
@@ -32,11 +33,6 @@ struct Truth {
   std::uint32_t contacts = 0;         ///< episodes of touching so far
   std::uint32_t contacts_caused = 0;  ///< those begun at a robot speed over 0.05 m/s
   std::uint32_t forced_movers = 0;    ///< so far
-};
-
-/// One straight piece of wall for pictures, in the map.
-struct WallSegment {
-  Vec2 from, to;
 };
 
 class Simulation {

@@ -1,0 +1,21 @@
+#pragma once
+#include <filesystem>
+#include <string>
+
+#include "hal/toml_file.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+/// A robot's model from a TOML file with the tables footprint, drive, limits and laser; every key is documented in
+/// docs/scenarios.md. Throws StartupError "FILE:LINE: cause; remedy".
+[[nodiscard]] RobotModel load_robot_model(const std::filesystem::path& file);
+
+/// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
+[[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
+
+/// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount) over `laser`;
+/// keys that are absent leave it as it is.
+void read_laser(TomlTable& table, LaserModel& laser);
+
+}  // namespace jaywalk

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/sim/random.h"
+#include "hal/sim/walls.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk::sim {
+
+/// A planar laser: every beam at once, Gaussian range noise, beams that get lost. What lies outside its range limits
+/// gives infinity. Memory is taken at construction.
+class LaserSim {
+ public:
+  LaserSim(const LaserModel& model, std::uint64_t seed);
+
+  /// Writes the sweep from where the robot stands; `movers` are round. Keeps scan.sequence.
+  void sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,
+             LaserScan& scan) noexcept;
+
+ private:
+  void see_walls(const Walls& walls, const Pose2& map_from_laser) noexcept;
+  void see(const Disc& mover, Vec2 laser_in_map) noexcept;
+  [[nodiscard]] float measured(double range) noexcept;
+
+  LaserModel model_;
+  std::vector<Vec2> in_laser_;  ///< each beam's direction
+  std::vector<Vec2> in_map_;
+  std::vector<double> range_;  ///< true ranges of the sweep under way
+  Random noise_;
+  Random loss_;
+};
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,76 @@
+#include "hal/sim/plant.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::sim {
+
+Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed)
+    : radius_m_(model.drive.wheel_radius_m),
+      track_m_(model.drive.track_width_m),
+      max_speed_(model.drive.max_wheel_speed_radps),
+      max_accel_(kAccelOverBrake * model.limits.brake_mps2 / model.drive.wheel_radius_m),
+      map_from_robot_(start),
+      random_(seed, Purpose::kSlip) {}
+
+void Plant::command(const WheelCommand& command, Time now) noexcept {
+  if (!std::isfinite(command.left_radps) || !std::isfinite(command.right_radps)) return;
+  left_.wanted = std::clamp(command.left_radps, -max_speed_, max_speed_);
+  right_.wanted = std::clamp(command.right_radps, -max_speed_, max_speed_);
+  commanded_ = now;
+}
+
+/// Speed' = (wanted - speed) / lag, bounded; the wheel's mean speed over the step turns it.
+void Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
+  const double wanted = alive ? wheel.wanted : 0.0;
+  const double accel = std::clamp((wanted - wheel.speed) / kMotorLag, -max_accel_, max_accel_);
+  const double before = wheel.speed;
+  wheel.speed += accel * step_s;
+  wheel.angle += 0.5 * (before + wheel.speed) * step_s;
+}
+
+/// Ground speeds l and r of the two wheels: v = (l + r)/2, w = (r - l)/track; the step runs along the heading that
+/// the robot has half way through it.
+void Plant::step(double step_s, Time now) noexcept {
+  const bool alive = age(commanded_, now) <= kDriveWatchdog;
+  turn(left_, step_s, alive);
+  turn(right_, step_s, alive);
+  const double left = left_.speed * radius_m_ * (1.0 - left_.slip) * left_grip_;
+  const double right = right_.speed * radius_m_ * (1.0 - right_.slip);
+  twist_ = {0.5 * (left + right), (right - left) / track_m_};
+  const double turned = twist_.w_radps * step_s;
+  const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * (twist_.v_mps * step_s);
+  map_from_robot_ = {map_from_robot_.x + moved.x, map_from_robot_.y + moved.y,
+                     wrap_angle(map_from_robot_.heading + turned)};
+}
+
+/// An Ornstein-Uhlenbeck process, sampled exactly: it keeps its standard deviation whatever the step.
+void Plant::change_slip(double step_s) noexcept {
+  const double kept = exp(-step_s / kSlipTime);
+  const double fresh = kSlipStd * std::sqrt(1.0 - kept * kept);
+  left_.slip = kept * left_.slip + fresh * random_.normal();
+  right_.slip = kept * right_.slip + fresh * random_.normal();
+}
+
+void Plant::stop_at(const Pose2& pose) noexcept {
+  map_from_robot_ = pose;
+  twist_ = {};
+  left_.speed = right_.speed = 0.0;
+}
+
+WheelState Plant::read_encoders(Time now) noexcept {
+  constexpr double kRadPerTick = 2.0 * kPi / kTicksPerTurn;
+  const auto whole_ticks = [](double angle) { return std::floor(angle / kRadPerTick) * kRadPerTick; };
+  const double left = whole_ticks(left_.angle), right = whole_ticks(right_.angle);
+  const double since = reading_.sequence == 0 ? 0.0 : to_seconds(now - reading_.stamp);
+  const double per_second = since > 0.0 ? 1.0 / since : 0.0;
+  reading_ = {.stamp = now,
+              .sequence = reading_.sequence + 1,
+              .left_rad = left,
+              .right_rad = right,
+              .left_radps = (left - reading_.left_rad) * per_second,
+              .right_radps = (right - reading_.right_rad) * per_second};
+  return reading_;
+}
+
+}  // namespace jaywalk::sim

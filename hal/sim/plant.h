@@ -1,0 +1,67 @@
+#pragma once
+// The simulated robot's motors, wheels and body.
+#include <cstdint>
+
+#include "hal/sim/random.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk::sim {
+
+/// Motor speed follows the command with this time constant (s) ...
+inline constexpr double kMotorLag = 0.05;
+/// ... but gains or loses no more than this share of the drive's proved braking.
+inline constexpr double kAccelOverBrake = 1.5;
+/// Slip of each wheel: a share of its speed, Gaussian, correlated over a second.
+inline constexpr double kSlipStd = 0.005;
+inline constexpr double kSlipTime = 1.0;
+/// A wheel that has lost its grip (fault wheel_slip) moves the robot by this share of what it turns.
+inline constexpr double kLostGrip = 0.4;
+/// 500 lines, four edges a line, gear 38.3 to 1: the encoders of a P3-DX.
+inline constexpr double kTicksPerTurn = 76600.0;
+/// Without a command for this long the drive stops itself.
+inline constexpr Duration kDriveWatchdog{100'000'000};
+
+/// A differential drive: two motors with lag, saturation and bounded acceleration, wheels that slip a little, encoders
+/// that count whole ticks of the wheels' turning. Equations in plant.cc.
+class Plant {
+ public:
+  Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed);
+
+  /// A command that is not finite is no command.
+  void command(const WheelCommand& command, Time now) noexcept;
+  /// Moves on by `step_s` (s), at most about 5 ms; `now` is the step's end.
+  void step(double step_s, Time now) noexcept;
+  /// Draws new slip; `step_s` since the last time.
+  void change_slip(double step_s) noexcept;
+  void lose_left_grip(bool lost) noexcept { left_grip_ = lost ? kLostGrip : 1.0; }
+  /// Something solid is in the way: body and wheels stand, the body at `pose`.
+  void stop_at(const Pose2& pose) noexcept;
+  /// Reads the encoders: whole ticks as angles, and speeds from the ticks counted since the last reading.
+  [[nodiscard]] WheelState read_encoders(Time now) noexcept;
+
+  [[nodiscard]] const Pose2& map_from_robot() const noexcept { return map_from_robot_; }
+  [[nodiscard]] const Twist2& twist() const noexcept { return twist_; }
+  /// Mean speed (m/s) at the wheels' rims: forward speed without slip.
+  [[nodiscard]] double rim_speed() const noexcept { return 0.5 * radius_m_ * (left_.speed + right_.speed); }
+
+ private:
+  struct Wheel {
+    double wanted = 0.0;  ///< rad/s
+    double speed = 0.0;   ///< rad/s
+    double angle = 0.0;   ///< rad
+    double slip = 0.0;    ///< share of its speed that the ground does not see
+  };
+  void turn(Wheel& wheel, double step_s, bool alive) const noexcept;
+
+  double radius_m_, track_m_, max_speed_, max_accel_;
+  Pose2 map_from_robot_;
+  Twist2 twist_;
+  Wheel left_, right_;
+  double left_grip_ = 1.0;
+  Time commanded_ = kNever;
+  WheelState reading_;
+  Random random_;
+};
+
+}  // namespace jaywalk::sim

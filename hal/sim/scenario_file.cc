@@ -1,0 +1,136 @@
+#include <array>
+#include <utility>
+
+#include "hal/robot_model_file.h"
+#include "hal/sim/scenario.h"
+
+namespace jaywalk::sim {
+namespace {
+
+constexpr Range kSeconds{0.0, 86400.0};
+constexpr Range kRadius{0.01, 1.0};  // a mover wider than this could brush a wall that its zone does not see
+
+void read_map(TomlTable table, Scenario& scenario) {
+  constexpr std::array<std::pair<const char*, MapKind>, 3> kKinds{
+      {{"yaml", MapKind::kYaml}, {"aria", MapKind::kAria}, {"cylinders", MapKind::kCylinders}}};
+  int found = 0;
+  for (const auto& [key, kind] : kKinds) {
+    if (!table.has(key)) continue;
+    scenario.map_kind = kind;
+    scenario.map_file = table.existing_file(key);
+    ++found;
+  }
+  table.finish();
+  if (found != 1) table.refuse("yaml", "or aria or cylinders: one is needed", "name exactly one map");
+}
+
+PoseSourceSpec read_pose_source(TomlTable table) {
+  PoseSourceSpec spec;
+  spec.enabled = table.boolean("enabled", true);
+  spec.rate_hz = table.number("rate_hz", {0.1, 100.0}, spec.rate_hz);
+  spec.position_std_m = table.number("position_std_m", {0.0, 10.0}, spec.position_std_m);
+  spec.heading_std_rad = table.number("heading_std_rad", {0.0, 3.0}, spec.heading_std_rad);
+  spec.mover_std_m = table.number("mover_std_m", {0.0, 10.0}, spec.mover_std_m);
+  table.finish();
+  return spec;
+}
+
+RobotModel read_model(TomlTable& table) {
+  RobotModel model = table.has("model") ? read_model_choice(table, "model") : p3dx();
+  const double fastest = model.drive.max_wheel_speed_radps * model.drive.wheel_radius_m;
+  model.limits.max_speed_mps = table.number("max_speed_mps", {0.01, fastest}, model.limits.max_speed_mps);
+  if (table.has("laser")) {
+    TomlTable laser = table.table("laser");
+    read_laser(laser, model.laser);
+    laser.finish();
+  }
+  return model;
+}
+
+void read_robot(TomlTable table, Scenario& scenario) {
+  const auto start = table.numbers("start", 3);
+  scenario.start = {start[0], start[1], wrap_angle(start[2])};
+  const auto goal = table.numbers("goal", 2);
+  scenario.goal = {goal[0], goal[1]};
+  scenario.goal_tolerance_m = table.number("goal_tolerance_m", {0.01, 10.0}, scenario.goal_tolerance_m);
+  scenario.model = read_model(table);
+  if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
+  table.finish();
+}
+
+WanderSpec read_wanderers(TomlTable& table) {
+  WanderSpec spec;
+  spec.count = static_cast<int>(table.integer("count", {0.0, 500.0}));
+  spec.speed_mps = table.number("speed_mps", {0.0, 5.0}, spec.speed_mps);
+  spec.radius_m = table.number("radius_m", kRadius, spec.radius_m);
+  spec.turn_rate_radps = table.number("turn_rate_radps", {0.01, 50.0}, spec.turn_rate_radps);
+  spec.spontaneous_turns_hz = table.number("spontaneous_turns_hz", {0.0, 10.0}, spec.spontaneous_turns_hz);
+  return spec;
+}
+
+RecordedSpec read_recorded(TomlTable& table) {
+  RecordedSpec spec;
+  spec.file = table.existing_file("file");
+  spec.radius_m = table.number("radius_m", kRadius, spec.radius_m);
+  if (table.has("offset")) {
+    const auto offset = table.numbers("offset", 2);
+    spec.offset = {offset[0], offset[1]};
+  }
+  spec.start_at_s = table.number("start_at_s", {-86400.0, 86400.0}, spec.start_at_s);
+  spec.loop = table.boolean("loop", spec.loop);
+  return spec;
+}
+
+void read_movers(TomlTable& table, Scenario& scenario) {
+  const std::string kind = table.text("kind");
+  if (kind == "wander") {
+    scenario.wanderers.push_back(read_wanderers(table));
+  } else if (kind == "recorded") {
+    scenario.recorded.push_back(read_recorded(table));
+  } else {
+    table.refuse("kind", "is \"" + kind + "\"", "write \"wander\" or \"recorded\"");
+  }
+  table.finish();
+}
+
+FaultSpec read_fault(TomlTable& table) {
+  constexpr std::array<std::pair<const char*, FaultKind>, 6> kKinds{{{"scan_stale", FaultKind::kScanStale},
+                                                                     {"scan_nan", FaultKind::kScanNan},
+                                                                     {"scan_short", FaultKind::kScanShort},
+                                                                     {"wheels_stale", FaultKind::kWheelsStale},
+                                                                     {"wheel_slip", FaultKind::kWheelSlip},
+                                                                     {"emergency_stop", FaultKind::kEmergencyStop}}};
+  FaultSpec spec;
+  spec.at_s = table.number("at_s", kSeconds);
+  spec.for_s = table.number("for_s", kSeconds);
+  const std::string name = table.text("kind");
+  table.finish();
+  std::string known;
+  for (const auto& [text, kind] : kKinds) {
+    if (name == text) {
+      spec.kind = kind;
+      return spec;
+    }
+    known += std::string(known.empty() ? "" : ", ") + text;
+  }
+  table.refuse("kind", "is \"" + name + "\"", "write one of " + known);
+}
+
+}  // namespace
+
+Scenario load_scenario(const std::filesystem::path& path) {
+  const TomlFile file(path);
+  TomlTable root = file.root();
+  Scenario scenario;
+  scenario.name = root.text("name", path.stem().string());
+  scenario.seed = static_cast<std::uint64_t>(root.integer("seed", {0.0, 9e18}, 1));
+  scenario.timeout_s = root.number("timeout_s", {0.1, 86400.0}, scenario.timeout_s);
+  read_map(root.table("map"), scenario);
+  read_robot(root.table("robot"), scenario);
+  for (TomlTable& table : root.tables("movers")) read_movers(table, scenario);
+  for (TomlTable& table : root.tables("faults")) scenario.faults.push_back(read_fault(table));
+  root.finish();
+  return scenario;
+}
+
+}  // namespace jaywalk::sim

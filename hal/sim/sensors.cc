@@ -1,0 +1,58 @@
+#include "hal/sim/sensors.h"
+
+#include <limits>
+
+namespace jaywalk::sim {
+
+bool Metronome::due(Time now) noexcept {
+  const bool is_due = now >= time_from_seconds(beats_ / rate_hz_);
+  if (is_due) beats_ += 1.0;
+  return is_due;
+}
+
+Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
+    : pose_source_(scenario.pose_source),
+      laser_beat_(scenario.model.laser.rate_hz),
+      encoder_beat_(1.0 / to_seconds(kEncoderPeriod)),
+      fix_beat_(scenario.pose_source.rate_hz),
+      laser_(scenario.model.laser, seed),
+      fix_noise_(seed, Purpose::kFix) {}
+
+void Sensors::sense(World& world) noexcept {
+  const Time now = world.now();
+  if (laser_beat_.due(now) && !world.fault_active(FaultKind::kScanStale)) sweep(world);
+  if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) {
+    wheels_ = world.plant().read_encoders(now);
+  }
+  if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
+}
+
+void Sensors::sweep(const World& world) noexcept {
+  const Truth& truth = world.truth();
+  laser_.sweep(world.walls(), world.bodies(), truth.map_from_robot, truth.now, scan_);
+  ++scan_.sequence;
+  if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
+  if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
+}
+
+void Sensors::locate(const Truth& truth) noexcept {
+  const auto noisy = [&](Vec2 p, double std_m) {
+    const double x = fix_noise_.normal(), y = fix_noise_.normal();
+    return p + Vec2{x, y} * std_m;
+  };
+  const Vec2 position = noisy(truth.map_from_robot.position(), pose_source_.position_std_m);
+  const double turned = pose_source_.heading_std_rad * fix_noise_.normal();
+  fix_.stamp = truth.now;
+  ++fix_.sequence;
+  fix_.has_pose = true;
+  fix_.map_from_robot = {position.x, position.y, wrap_angle(truth.map_from_robot.heading + turned)};
+  fix_.position_std_m = pose_source_.position_std_m;
+  fix_.heading_std_rad = pose_source_.heading_std_rad;
+  fix_.mover_std_m = pose_source_.mover_std_m;
+  fix_.movers.clear();
+  for (const MoverTruth& mover : truth.movers) {  // those beyond kMaxObservedMovers have no tag to be seen by
+    if (!fix_.movers.push_back({mover.id, noisy(mover.position, pose_source_.mover_std_m), mover.radius_m})) break;
+  }
+}
+
+}  // namespace jaywalk::sim

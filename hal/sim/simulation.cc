@@ -1,0 +1,128 @@
+#include "hal/sim/simulation.h"
+
+#include "hal/sim/sensors.h"
+#include "hal/sim/world.h"
+
+namespace jaywalk::sim {
+namespace {
+
+class SimLaser final : public LaserScanner {
+ public:
+  explicit SimLaser(const Sensors& sensors) : sensors_(sensors) {}
+  const LaserScan& latest() noexcept override {
+    if (given_.sequence != sensors_.scan().sequence) given_ = sensors_.scan();
+    return given_;
+  }
+
+ private:
+  const Sensors& sensors_;
+  LaserScan given_;  ///< stays as it is while the world moves on
+};
+
+class SimDrive final : public DriveBase {
+ public:
+  SimDrive(World& world, const Sensors& sensors) : world_(world), sensors_(sensors) {}
+  WheelState latest() noexcept override { return sensors_.wheels(); }
+  void command(const WheelCommand& command) noexcept override { world_.plant().command(command, world_.now()); }
+
+ private:
+  World& world_;
+  const Sensors& sensors_;
+};
+
+class SimPanel final : public OperatorPanel {
+ public:
+  SimPanel(const World& world, const Scenario& scenario)
+      : world_(world), goal_(scenario.goal), goal_tolerance_m_(scenario.goal_tolerance_m) {}
+  OperatorInput latest() noexcept override {
+    return {.stamp = world_.now(),
+            .has_goal = true,
+            .goal_in_map = goal_,
+            .goal_tolerance_m = goal_tolerance_m_,
+            .emergency_stop = world_.fault_active(FaultKind::kEmergencyStop)};
+  }
+
+ private:
+  const World& world_;
+  Vec2 goal_;
+  double goal_tolerance_m_;
+};
+
+class SimPoseSource final : public PoseSource {
+ public:
+  explicit SimPoseSource(const Sensors& sensors) : sensors_(sensors) {}
+  const OutsideFix& latest() noexcept override {
+    if (given_.sequence != sensors_.fix().sequence) given_ = sensors_.fix();
+    return given_;
+  }
+
+ private:
+  const Sensors& sensors_;
+  OutsideFix given_;
+};
+
+class SimClock final : public Clock {
+ public:
+  SimClock(World& world, Sensors& sensors) : world_(world), sensors_(sensors) {}
+  Time now() noexcept override { return world_.now(); }
+  void sleep_until(Time wake) noexcept override {
+    while (world_.now() < wake) {
+      world_.step();
+      sensors_.sense(world_);
+    }
+  }
+
+ private:
+  World& world_;
+  Sensors& sensors_;
+};
+
+/// Segments as they are; discs as eight-sided outlines.
+std::vector<WallSegment> drawn(const Walls& walls) {
+  constexpr int kSides = 8;
+  std::vector<WallSegment> lines(walls.segments().begin(), walls.segments().end());
+  for (const Disc& disc : walls.discs()) {
+    const auto corner = [&](int k) { return disc.centre + direction(2.0 * kPi * k / kSides) * disc.radius_m; };
+    for (int k = 0; k < kSides; ++k) lines.push_back({corner(k), corner(k + 1)});
+  }
+  return lines;
+}
+
+}  // namespace
+
+struct Simulation::State {
+  World world;
+  Sensors sensors;
+  SimLaser laser{sensors};
+  SimDrive drive{world, sensors};
+  SimPanel panel;
+  SimPoseSource pose_source{sensors};
+  SimClock clock{world, sensors};
+  std::vector<WallSegment> drawn_walls;
+
+  State(const Scenario& scenario, std::uint64_t seed)
+      : world(scenario, seed), sensors(scenario, seed), panel(world, scenario), drawn_walls(drawn(world.walls())) {
+    sensors.sense(world);
+  }
+};
+
+Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
+    : state_(std::make_unique<State>(scenario, seed)) {}
+Simulation::~Simulation() = default;
+
+Hal Simulation::hal() noexcept {
+  return {state_->laser, state_->drive, state_->panel, state_->pose_source, state_->clock};
+}
+
+const Truth& Simulation::truth() const noexcept { return state_->world.truth(); }
+double Simulation::static_shortest_path_m() const { return state_->world.free_grid().shortest_path_m(); }
+std::span<const WallSegment> Simulation::walls() const noexcept { return state_->drawn_walls; }
+
+std::string Simulation::mover_rule() {
+  return "wandering: straight at constant speed; when a wall, another mover or the robot lies within 0.5 m ahead of "
+         "its edge and within 45 degrees of its heading it stops, turns in place (1 rad/s unless the scenario says "
+         "otherwise) to a random heading whose zone is free, and walks on; forced when the robot alone lies there. "
+         "recorded: never reacts; forced when the robot lies within 0.4 m ahead of its edge and within 45 degrees";
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,17 @@
+#include "hal/sim/wall_map.h"
+
+namespace jaywalk::sim {
+
+WallMap load_wall_map(MapKind kind, const std::filesystem::path& file) {
+  switch (kind) {
+    case MapKind::kAria:
+      return load_aria_map(file);
+    case MapKind::kCylinders:
+      return load_cylinder_map(file);
+    case MapKind::kYaml:
+      break;
+  }
+  return load_raster_map(file);
+}
+
+}  // namespace jaywalk::sim

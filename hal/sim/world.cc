@@ -1,0 +1,120 @@
+#include "hal/sim/world.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+namespace {
+
+constexpr double kCausedSpeed = 0.05;  // m/s: a contact at more is the robot's doing
+constexpr double kApartAgain = 0.01;   // m: an episode of touching ends at this gap
+
+}  // namespace
+
+World::World(const Scenario& scenario, std::uint64_t seed)
+    : faults_(scenario.faults),
+      footprint_(scenario.model.footprint),
+      walls_(load_wall_map(scenario.map_kind, scenario.map_file)),
+      grid_(walls_, footprint_.inscribed_radius_m(), scenario.start.position(), scenario.goal),
+      plant_(scenario.model, scenario.start, seed),
+      wanderers_(with_free_places(scenario), walls_, grid_, seed),
+      recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())) {
+  movers_.reserve(wanderers_.movers().size() + recorded_.capacity());
+  bodies_.reserve(movers_.capacity());
+  truth_.now = Time{};
+  move_movers();
+  truth_.contacts = truth_.contacts_caused = 0;  // whoever was recorded where the robot starts is no contact of its
+  truth_.map_from_robot = plant_.map_from_robot();
+}
+
+const Scenario& World::with_free_places(const Scenario& scenario) const {
+  const std::string place = scenario.map_file.string() + ":0: ";
+  if (walls_.clearance(footprint_, scenario.start) <= 0.0) {
+    throw StartupError(place + "the robot's start lies in a wall", "move robot.start");
+  }
+  const double radius = footprint_.inscribed_radius_m();
+  if (walls_.distance(scenario.goal, radius) < radius) {
+    throw StartupError(place + "the goal lies in a wall or too near one", "move robot.goal");
+  }
+  return scenario;
+}
+
+bool World::fault_active(FaultKind kind) const noexcept {
+  const double now_s = to_seconds(truth_.now);
+  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
+    return fault.kind == kind && now_s >= fault.at_s && now_s < fault.at_s + fault.for_s;
+  });
+}
+
+double World::gap_to(std::span<const MoverTruth> movers) const noexcept {
+  double nearest = std::numeric_limits<double>::infinity();
+  const RobotBody robot = body();
+  for (const MoverTruth& m : movers) nearest = std::min(nearest, robot.gap({m.position, m.radius_m}));
+  return nearest;
+}
+
+void World::touch(double robot_speed_mps) noexcept {
+  if (touching_) return;
+  touching_ = true;
+  ++truth_.contacts;
+  if (std::fabs(robot_speed_mps) > kCausedSpeed) ++truth_.contacts_caused;
+}
+
+/// Walls and wandering movers stop the robot. The outline moves at most as far as the middle plus the turn times the
+/// outermost point's radius; until that has used up the last exact gap there is nothing to check.
+void World::keep_out_of_solids(const Pose2& before) noexcept {
+  const Pose2& after = plant_.map_from_robot();
+  const double turned = std::fabs(wrap_angle(after.heading - before.heading));
+  slack_m_ -= distance(before.position(), after.position()) + turned * footprint_.circumscribed_radius_m();
+  if (slack_m_ > 0.0) return;
+  if (walls_.clearance(footprint_, after) > 0.0 && gap_to(wanderers_.movers()) > 0.0) return;
+  touch(plant_.twist().v_mps);
+  plant_.stop_at(before);
+}
+
+void World::move_movers() noexcept {
+  recorded_.place(to_seconds(truth_.now), body());
+  if (steps_ > 0) wanderers_.step(to_seconds(kMoverStep), body(), recorded_.movers());
+  movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
+  movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
+  bodies_.clear();
+  for (const MoverTruth& m : movers_) bodies_.push_back({m.position, m.radius_m});
+  if (wanderers_.bumped_robot()) touch(plant_.twist().v_mps);
+  judge_gaps();
+  truth_.movers = movers_;
+  truth_.forced_movers = wanderers_.forced() + recorded_.forced();
+  truth_.accel_mps2 = (plant_.rim_speed() - rim_speed_) / to_seconds(kMoverStep);
+  rim_speed_ = plant_.rim_speed();
+}
+
+void World::judge_gaps() noexcept {
+  const double to_wall = walls_.clearance(footprint_, plant_.map_from_robot());
+  const double to_wanderer = gap_to(wanderers_.movers());
+  const double to_mover = std::min(to_wanderer, gap_to(recorded_.movers()));
+  const double gap = std::min(to_wall, to_mover);
+  slack_m_ = std::min(to_wall, to_wanderer);
+  if (to_mover <= 0.0) touch(plant_.twist().v_mps);
+  if (gap > kApartAgain) touching_ = false;
+  truth_.clearance_m = touching_ ? 0.0 : gap;
+  truth_.mover_clearance_m = to_mover;
+}
+
+void World::step() noexcept {
+  truth_.now += kWorldStep;
+  const Pose2 before = plant_.map_from_robot();
+  plant_.lose_left_grip(fault_active(FaultKind::kWheelSlip));
+  plant_.step(to_seconds(kWorldStep), truth_.now);
+  keep_out_of_solids(before);
+  if (++steps_ % kStepsAMove == 0) {
+    plant_.change_slip(to_seconds(kMoverStep));
+    move_movers();
+  }
+  truth_.map_from_robot = plant_.map_from_robot();
+  truth_.twist = plant_.twist();
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,63 @@
+#pragma once
+// What happens: robot, movers and walls in small fixed steps, and the truth about them.
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "hal/sim/free_grid.h"
+#include "hal/sim/plant.h"
+#include "hal/sim/recorded_movers.h"
+#include "hal/sim/simulation.h"
+#include "hal/sim/wanderers.h"
+
+namespace jaywalk::sim {
+
+/// The plant moves every step, movers every tenth.
+inline constexpr Duration kWorldStep{2'000'000};
+inline constexpr int kStepsAMove = 10;
+inline constexpr Duration kMoverStep = kWorldStep * kStepsAMove;
+
+class World {
+ public:
+  /// Throws StartupError for an unreadable map or recording, a start or goal in a wall, no room for the movers.
+  World(const Scenario& scenario, std::uint64_t seed);
+
+  /// Moves on by kWorldStep.
+  void step() noexcept;
+
+  [[nodiscard]] Time now() const noexcept { return truth_.now; }
+  [[nodiscard]] Plant& plant() noexcept { return plant_; }
+  [[nodiscard]] const Walls& walls() const noexcept { return walls_; }
+  [[nodiscard]] const FreeGrid& free_grid() const noexcept { return grid_; }
+  /// Bodies of the movers that are there.
+  [[nodiscard]] std::span<const Disc> bodies() const noexcept { return bodies_; }
+  [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
+  [[nodiscard]] bool fault_active(FaultKind kind) const noexcept;
+
+ private:
+  [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }
+  [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept;
+  void keep_out_of_solids(const Pose2& before) noexcept;
+  void move_movers() noexcept;
+  void judge_gaps() noexcept;
+  void touch(double robot_speed_mps) noexcept;
+  /// The scenario itself, once its start and goal are known to be free.
+  [[nodiscard]] const Scenario& with_free_places(const Scenario& scenario) const;
+
+  std::vector<FaultSpec> faults_;
+  Footprint footprint_;
+  Walls walls_;
+  FreeGrid grid_;
+  Plant plant_;
+  Wanderers wanderers_;
+  RecordedMovers recorded_;
+  std::vector<MoverTruth> movers_;
+  std::vector<Disc> bodies_;
+  Truth truth_;
+  std::int64_t steps_ = 0;
+  double slack_m_ = 0.0;  ///< nothing can touch the robot before its outline has moved this far
+  bool touching_ = false;
+  double rim_speed_ = 0.0;  ///< at the last move of the movers
+};
+
+}  // namespace jaywalk::sim
