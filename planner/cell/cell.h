@@ -1,0 +1,24 @@
+#pragma once
+// Cell functions take values and return a value: no pointer, no index, no memory space. The same
+// source runs on the processor and on the graphics card, and must give the same bits on both, so
+// they use + - x / sqrt, comparisons, integers and the polynomials of exp_log.h, nothing else.
+#include <cstdint>
+#include <limits>
+
+#ifdef __CUDACC__
+#define JAYWALK_CELL __host__ __device__ inline
+#else
+#define JAYWALK_CELL inline
+#endif
+
+namespace jaywalk::cell {
+
+/// psi of a free cell from which the goal cannot be reached.
+inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
+/// psi of a cell that is not free.
+inline constexpr float kNotFree = std::numeric_limits<float>::quiet_NaN();
+
+/// Whether a cell with this psi is free and joined to the goal (false for NaN and infinity).
+JAYWALK_CELL bool is_joined(float psi) { return psi < std::numeric_limits<float>::max(); }
+
+}  // namespace jaywalk::cell

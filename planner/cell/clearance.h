@@ -1,0 +1,38 @@
+#pragma once
+#include <cmath>
+
+#include "planner/cell/cell.h"
+
+namespace jaywalk::cell {
+
+// Exact Euclidean distance transform in integers, separable as Meijster, Roerdink and Hesselink
+// (2000) have it: along a row, cell u sees the nearest obstacle of column i at squared distance
+// (u - i)^2 + g_i^2, where g_i is that column's distance to its own nearest obstacle.
+
+/// Squared distance from column `u` to the nearest obstacle of column `i`, `g` rows away.
+JAYWALK_CELL std::int32_t squared_distance(std::int32_t u, std::int32_t i, std::int32_t g) {
+  return (u - i) * (u - i) + g * g;
+}
+
+/// Last column at which column `i` is still no farther than column `u` > i.
+JAYWALK_CELL std::int32_t last_nearer(std::int32_t i, std::int32_t gi, std::int32_t u, std::int32_t gu) {
+  return (u * u - i * i + gu * gu - gi * gi) / (2 * (u - i));
+}
+
+/// Cells between a cell and the nearest one that is not free, at least 1; 0 when the cell itself is
+/// not free, that is within `inflation` cells of an obstacle. `to_border` counts cells to the
+/// first one outside the window, which is not free but does not inflate.
+JAYWALK_CELL float clearance(std::int32_t squared, float inflation, std::int32_t to_border) {
+  const auto d2 = static_cast<float>(squared);
+  if (d2 <= inflation * inflation) return 0.0F;
+  const float to_obstacle = std::sqrt(d2) - inflation;
+  const auto border = static_cast<float>(to_border);
+  const float nearest = to_obstacle < border ? to_obstacle : border;
+  return nearest > 1.0F ? nearest : 1.0F;
+}
+
+/// Width in cells of the passage that a cell lies in, as its own and its best neighbour's clearance
+/// tell: 2 D + 1 where the cell is on the ridge, less than the passage's width beside it.
+JAYWALK_CELL float passage_width(float own, float best_neighbour) { return own + best_neighbour + 1.0F; }
+
+}  // namespace jaywalk::cell

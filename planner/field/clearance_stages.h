@@ -1,0 +1,73 @@
+#pragma once
+// How far every cell is from what is not free: exact Euclidean distance, a column then a row at a time.
+#include "planner/cell/clearance.h"
+#include "planner/field/grid.h"
+
+namespace jaywalk::field {
+
+/// Rows from each cell of a column to the nearest occupied cell of that column.
+struct NearestInColumn {
+  Grid grid;
+  const std::uint8_t* occupants;
+  std::uint8_t wanted;  ///< the occupants that count
+  std::int32_t* rows_away;
+
+  JAYWALK_CELL void operator()(std::int32_t i) const {
+    const std::int32_t none = 2 * grid.side;
+    std::int32_t away = none;
+    for (std::int32_t j = 0; j < grid.side; ++j) {
+      away = (occupants[grid.at(i, j)] & wanted) != 0 ? 0 : (away < none ? away + 1 : none);
+      rows_away[grid.at(i, j)] = away;
+    }
+    away = none;
+    for (std::int32_t j = grid.side - 1; j >= 0; --j) {
+      std::int32_t& here = rows_away[grid.at(i, j)];
+      away = here == 0 ? 0 : (away < none ? away + 1 : none);
+      if (away < here) here = away;
+    }
+  }
+};
+
+/// The lower envelope of a row's columns, then each cell's clearance; 0 where it is not free.
+struct ClearanceOfRow {
+  Grid grid;
+  const std::int32_t* rows_away;
+  float inflation;         ///< cells
+  std::int32_t* envelope;  ///< room for a row: columns whose obstacle is the nearest of some stretch
+  std::int32_t* stretch;   ///< room for a row: where each of those stretches begins
+  float* clearance;
+
+  JAYWALK_CELL void operator()(std::int32_t j) const {
+    const std::int32_t row = grid.at(0, j);
+    const std::int32_t* g = rows_away + row;
+    std::int32_t* column = envelope + row;
+    std::int32_t* begin = stretch + row;
+    std::int32_t top = 0;
+    column[0] = begin[0] = 0;
+    for (std::int32_t u = 1; u < grid.side; ++u) {
+      while (top >= 0 && cell::squared_distance(begin[top], column[top], g[column[top]]) >
+                             cell::squared_distance(begin[top], u, g[u])) {
+        --top;
+      }
+      const std::int32_t from = top < 0 ? 0 : 1 + cell::last_nearer(column[top], g[column[top]], u, g[u]);
+      if (from >= grid.side) continue;
+      ++top;
+      column[top] = u;
+      begin[top] = from;
+    }
+    for (std::int32_t i = grid.side - 1; i >= 0; --i) {
+      const std::int32_t squared = cell::squared_distance(i, column[top], g[column[top]]);
+      clearance[row + i] = cell::clearance(squared, inflation, to_border(i, j));
+      if (i == begin[top]) --top;
+    }
+  }
+
+ private:
+  JAYWALK_CELL std::int32_t to_border(std::int32_t i, std::int32_t j) const {
+    const std::int32_t x = i < grid.side - 1 - i ? i : grid.side - 1 - i;
+    const std::int32_t y = j < grid.side - 1 - j ? j : grid.side - 1 - j;
+    return (x < y ? x : y) + 1;
+  }
+};
+
+}  // namespace jaywalk::field

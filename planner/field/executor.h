@@ -1,0 +1,49 @@
+#pragma once
+// An executor visits: it has memory and loops, and no mathematics. What it must offer:
+//   T* take<T>(n)                zeroed memory for n values, its own, readable by the host after wait()
+//   for_each(n, stage)           stage(k) for every k in [0, n), in any order
+//   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
+//   wait()                       returns when all that was asked for is done; false: it failed
+//   kQueue                       whether a serial queue beats sweeps here (start_field.h)
+//   name()                       for reports
+// Every stage gives the same bits in any visiting order, so all executors agree to the last bit.
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <vector>
+
+namespace jaywalk::field {
+
+/// Visits one after the other, on the caller's thread.
+class SerialExecutor {
+ public:
+  static constexpr bool kQueue = true;
+
+  template <class T>
+  T* take(std::size_t n) {
+    // new[] of bytes is aligned for any fundamental type, which is 16 on all our machines.
+    static_assert(alignof(T) <= 16);
+    blocks_.push_back(std::make_unique<std::byte[]>(n * sizeof(T)));
+    return reinterpret_cast<T*>(blocks_.back().get());
+  }
+
+  template <class Stage>
+  void for_each(std::int32_t n, const Stage& stage) noexcept {
+    for (std::int32_t k = 0; k < n; ++k) stage(k);
+  }
+
+  template <class Stage>
+  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
+    for (std::int32_t j = 0; j < h; ++j) {
+      for (std::int32_t i = 0; i < w; ++i) stage(i, j);
+    }
+  }
+
+  bool wait() noexcept { return true; }
+  [[nodiscard]] const char* name() const noexcept { return "cpu"; }
+
+ private:
+  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+};
+
+}  // namespace jaywalk::field

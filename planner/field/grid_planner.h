@@ -1,0 +1,216 @@
+#pragma once
+// The planner on any executor: chooses window, goal and start, runs the pass, and draws the path.
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <memory>
+#include <utility>
+
+#include "planner/field/nearest_cell.h"
+#include "planner/field/pass.h"
+#include "planner/field/path.h"
+#include "planner/field/planning_rules.h"
+
+namespace jaywalk::field {
+
+template <class Executor>
+class GridPlanner final : public Planner {
+ public:
+  GridPlanner(const PlannerConfig& config, std::unique_ptr<Executor> executor)
+      : config_(config),
+        executor_(std::move(executor)),
+        pass_(*executor_, config.max_side_cells),
+        flood_(Grid{config.max_side_cells}.cells()),
+        window_{{0, 0}, config.side_cells, config.cell_m} {
+    const auto cells = static_cast<std::size_t>(Grid{config.max_side_cells}.cells());
+    for (Answer& answer : answers_) {
+      answer = std::make_unique<Result>();
+      answer->psi = executor_->template take<float>(cells);
+    }
+  }
+
+  void submit(const PlanRequest& request) noexcept override {
+    const auto begin = std::chrono::steady_clock::now();
+    Result& result = *answers_[1];
+    Plan& plan = result.plan;
+    plan.stamp = request.stamp;
+    plan.sequence = ++submissions_;
+    plan.certified = false;
+    plan.reach = 0.0F;
+    plan.cycles = 0;
+    plan.path.clear();
+    plan.predictions.clear();
+    plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
+    if (plan.status != PlanStatus::kOk) plan.path.clear();
+    plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    is_new_ = true;
+  }
+
+  [[nodiscard]] const Plan& collect() noexcept override {
+    if (is_new_) std::swap(answers_[0], answers_[1]);
+    is_new_ = false;
+    return answers_[0]->plan;
+  }
+
+  [[nodiscard]] FieldView view_field() const override {
+    const Result& shown = *answers_[0];
+    const auto cells = static_cast<std::size_t>(shown.window.grid().cells());
+    return {shown.window.low, shown.window.side, shown.window.side, config_.cell_m, {shown.psi, cells}};
+  }
+
+  [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
+
+  /// What the stages of the last submission left behind. For tests.
+  [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }
+  [[nodiscard]] const Window& window() const noexcept { return window_; }
+
+ private:
+  struct Result {
+    Plan plan;
+    Window window;
+    float* psi = nullptr;
+  };
+  using Answer = std::unique_ptr<Result>;
+
+  [[nodiscard]] std::int32_t cells(double metres) const noexcept {
+    return static_cast<std::int32_t>(metres / config_.cell_m + 0.5);
+  }
+  [[nodiscard]] float inflation() const noexcept { return static_cast<float>(config_.inflation_m / config_.cell_m); }
+
+  [[nodiscard]] bool is_free(std::int32_t c) const noexcept { return pass_.arrays().clearance[c] > 0.0F; }
+
+  /// The free cell nearest the robot, within kStartRadius_m.
+  [[nodiscard]] std::int32_t nearest_free(CellIndex robot) const noexcept {
+    return nearest_cell(window_.grid(), robot.i, robot.j, cells(kStartRadius_m),
+                        [this](std::int32_t c) { return is_free(c); });
+  }
+
+  PlanStatus plan_path(const PlanRequest& request, Result& result) noexcept {
+    const FieldArrays& a = pass_.arrays();
+    window_ = placed(window_, request.map_from_robot.position(), request.goal_in_map);
+    result.window = window_;
+    const Grid grid = window_.grid();
+    std::fill_n(result.psi, grid.cells(), cell::kNotFree);
+    fetch_walls(window_, request.still, a.occupants);
+    const Warping warping = warping_for(config_, window_, request);
+    const std::int32_t movers = fetch_movers(window_, request.moving, a.movers, mover_ids_);
+    if (!pass_.mark(grid, warping, movers)) return PlanStatus::kBackendFailed;
+    report_predictions(movers, result.plan);
+    if (!pass_.clear(grid, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
+    const CellIndex robot = window_.cell_at(request.map_from_robot.position());
+    if (nearest_free(robot) == kNoCell) return PlanStatus::kRobotBlocked;
+    const std::int32_t goal = choose_goal(request, robot);
+    const PlanStatus status = goal == kNoCell ? PlanStatus::kNoPath : descend(request, robot, goal, result);
+    if (status == PlanStatus::kNoPath) {
+      consider_growing(request, robot);
+    } else {
+      walled_off_ = 0;
+    }
+    return status;
+  }
+
+  void report_predictions(std::int32_t movers, Plan& plan) const noexcept {
+    for (std::int32_t k = 0; k < movers; ++k) {
+      const Mark& mark = pass_.arrays().marks[k];
+      (void)plan.predictions.push_back(
+          {.track_id = mover_ids_[static_cast<std::size_t>(k)],
+           .position_in_map = window_.in_map({static_cast<double>(mark.x), static_cast<double>(mark.y)}),
+           .mark_radius_m = static_cast<double>(mark.radius) * config_.cell_m,
+           .horizon_s = static_cast<double>(mark.horizon_s)});
+    }
+  }
+
+  /// The goal's cell when it is free; else the nearest in the robot's reach: round a goal inside the
+  /// window, anywhere on the border for one outside it.
+  [[nodiscard]] std::int32_t choose_goal(const PlanRequest& request, CellIndex robot) noexcept {
+    const Grid grid = window_.grid();
+    const bool inside = window_.holds(request.goal_in_map, 0);
+    const CellIndex wanted = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
+    if (inside && is_free(grid.at(wanted.i, wanted.j))) return grid.at(wanted.i, wanted.j);
+    flood_.fill(grid, pass_.arrays().clearance, nearest_free(robot));
+    if (!inside) {
+      return nearest_cell(grid, wanted.i, wanted.j, 2 * grid.side, [&](std::int32_t c) {
+        const std::int32_t i = c % grid.side, j = c / grid.side;
+        return (i == 0 || j == 0 || i == grid.side - 1 || j == grid.side - 1) && flood_.holds(c);
+      });
+    }
+    const double radius = has_mover_near(wanted) ? kGoalRadiusBesideMover_m : kGoalRadius_m;
+    return nearest_cell(grid, wanted.i, wanted.j, cells(radius), [this](std::int32_t c) { return flood_.holds(c); });
+  }
+
+  /// Whether a mover's mark keeps this cell from being free.
+  [[nodiscard]] bool has_mover_near(CellIndex at) const noexcept {
+    return nearest_cell(window_.grid(), at.i, at.j, cells(config_.inflation_m),
+                        [this](std::int32_t c) { return (pass_.arrays().occupants[c] & kMover) != 0; }) != kNoCell;
+  }
+
+  /// Field, index matrix, band and path to a free goal cell.
+  PlanStatus descend(const PlanRequest& request, CellIndex robot, std::int32_t goal, Result& result) noexcept {
+    const FieldArrays& a = pass_.arrays();
+    const Grid grid = window_.grid();
+    if (!pass_.start(grid, goal, result.psi)) return PlanStatus::kBackendFailed;
+    const std::int32_t start = nearest_cell(grid, robot.i, robot.j, cells(kStartRadius_m),
+                                            [&](std::int32_t c) { return cell::is_joined(result.psi[c]); });
+    if (start == kNoCell) return PlanStatus::kNoPath;
+    const FieldQuality quality = pass_.solve(grid, goal, result.psi);
+    if (quality.joined == 0) return PlanStatus::kBackendFailed;
+    result.plan.certified = quality.certified;
+    result.plan.cycles = quality.cycles;
+    // Nothing reads the occupants any more: room for the count.
+    result.plan.reach = quality.certified ? 1.0F : share_arriving(grid, result.psi, a.index, goal, a.occupants);
+    return draw(request, grid.at(robot.i, robot.j) == start, start, goal, result.plan.path);
+  }
+
+  /// The raw path, pulled taut and resampled. A robot in its own cell stands for that cell; one that first has to
+  /// leave an obstacle's inflation goes straight to the start cell, and that leg is not pulled.
+  PlanStatus draw(const PlanRequest& request, bool starts_free, std::int32_t start, std::int32_t goal,
+                  Path& path) noexcept {
+    const FieldArrays& a = pass_.arrays();
+    const Vec2 from = request.map_from_robot.position();
+    const Vec2 robot = window_.in_cells(from);
+    const std::int32_t fixed = starts_free ? 0 : 1;  // points before the start cell's
+    const std::int32_t count = follow(window_.grid(), a.index, start, goal, a.points, fixed, kMaxBandPoints);
+    if (count == 0) return PlanStatus::kNoPath;
+    a.points[0] = {static_cast<float>(robot.x), static_cast<float>(robot.y)};
+    const bool at_true_goal =
+        window_.grid().at(window_.cell_at(request.goal_in_map).i, window_.cell_at(request.goal_in_map).j) == goal &&
+        window_.holds(request.goal_in_map, 0);
+    const cell::Point last = a.points[count - 1];
+    const Vec2 end =
+        at_true_goal ? request.goal_in_map : window_.in_map({static_cast<double>(last.x), static_cast<double>(last.y)});
+    if (!pass_.pull(window_.grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
+    resample(window_, a.points, count, from, end, path);
+    return PlanStatus::kOk;
+  }
+
+  /// Doubles the window for the next submission when walls alone have kept the goal out of reach for a while
+  /// and the robot's region leaves the window, so that a way round may lie outside.
+  void consider_growing(const PlanRequest& request, CellIndex robot) noexcept {
+    const Grid grid = window_.grid();
+    if (2 * grid.side > config_.max_side_cells || !pass_.clear(grid, inflation(), kWall)) return;
+    const std::int32_t start = nearest_free(robot);
+    if (start == kNoCell) return;
+    flood_.fill(grid, pass_.arrays().clearance, start);
+    const CellIndex goal = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
+    const bool walled_off = flood_.touches_border() && window_.holds(request.goal_in_map, 0) &&
+                            nearest_cell(grid, goal.i, goal.j, cells(kGoalRadius_m),
+                                         [this](std::int32_t c) { return flood_.holds(c); }) == kNoCell;
+    walled_off_ = walled_off ? walled_off_ + 1 : 0;
+    if (walled_off_ < kPatience) return;
+    window_ = doubled(window_);
+    walled_off_ = 0;
+  }
+
+  PlannerConfig config_;
+  std::unique_ptr<Executor> executor_;
+  Pass<Executor> pass_;
+  Flood flood_;
+  Window window_;
+  std::array<std::uint32_t, kMaxTracks> mover_ids_{};
+  std::array<Answer, 2> answers_;  ///< collected, and being made
+  bool is_new_ = false;
+  std::uint32_t submissions_ = 0;
+  int walled_off_ = 0;  ///< submissions in a row
+};
+
+}  // namespace jaywalk::field

@@ -1,0 +1,161 @@
+#pragma once
+// The order of stages, once for every executor. Between the calls the host chooses goal and start.
+#include <cstddef>
+
+#include "planner/field/clearance_stages.h"
+#include "planner/field/mark_stages.h"
+#include "planner/field/multigrid.h"
+#include "planner/field/path_stages.h"
+#include "planner/field/start_field.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk::field {
+
+/// Most cells that a raw path may have; a longer one is cut there, and leads towards the goal.
+inline constexpr std::int32_t kMaxBandPoints = 16384;
+/// Rounds of the band: enough for a corner to spread over its dozen neighbours.
+inline constexpr std::int32_t kBandRounds = 60;
+/// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
+inline constexpr float kBandReach = 5.0F;
+/// After four cycles from the start field 99.7 % of cells pick the exact field's best neighbour (docs/algorithm.md).
+inline constexpr std::int32_t kCycles = 4;
+/// Plain sweeps in place of cycles that broke the certificate.
+inline constexpr std::int32_t kRepairSweeps = 16;
+
+/// What the stages read and write; all of it the executor's memory.
+struct FieldArrays {
+  std::uint8_t* occupants;
+  float* warp;
+  Mover* movers;
+  Mark* marks;
+  std::int32_t *rows_away, *envelope, *stretch;
+  float* clearance;
+  std::uint16_t *table, *rate;
+  std::uint32_t *cost, *changed;
+  std::uint8_t* index;
+  std::int32_t *pits, *joined;
+  cell::Point* points;
+};
+
+/// How the potential came out.
+struct FieldQuality {
+  bool certified = false;
+  std::int32_t pits = 0;    ///< joined cells without a lower neighbour
+  std::int32_t joined = 0;  ///< cells that the goal can be reached from
+  std::int32_t cycles = 0;
+};
+
+template <class Executor>
+class Pass {
+ public:
+  Pass(Executor& executor, std::int32_t max_side)
+      : executor_(executor), solver_(executor, max_side), queue_(Executor::kQueue ? Grid{max_side}.cells() : 0) {
+    const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
+    const auto lines = static_cast<std::size_t>(max_side);
+    const std::vector<std::uint16_t> table = rate_table(max_side);
+    take(a_.occupants, cells), take(a_.warp, cells), take(a_.movers, kMaxTracks), take(a_.marks, kMaxTracks);
+    take(a_.rows_away, cells), take(a_.envelope, cells), take(a_.stretch, cells), take(a_.clearance, cells);
+    take(a_.table, table.size()), take(a_.rate, cells), take(a_.cost, cells), take(a_.changed, lines);
+    take(a_.index, cells), take(a_.pits, lines), take(a_.joined, lines);
+    take(a_.points, static_cast<std::size_t>(kMaxBandPoints));
+    for (std::size_t k = 0; k < table.size(); ++k) a_.table[k] = table[k];
+  }
+
+  [[nodiscard]] const FieldArrays& arrays() const noexcept { return a_; }
+
+  /// Warps, predicts, marks. The host has written walls into `occupants`, and `movers`.
+  bool mark(Grid grid, const Warping& warping, std::int32_t movers) noexcept {
+    executor_.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, a_.warp});
+    executor_.for_each(movers, PredictEachMover{grid, warping, a_.warp, a_.movers, a_.marks});
+    executor_.for_each(grid.side, MarkRow{grid, warping, a_.warp, a_.movers, a_.marks, movers, a_.occupants});
+    return executor_.wait();
+  }
+
+  /// Clearance from the occupants in `wanted`.
+  bool clear(Grid grid, float inflation, std::uint8_t wanted) noexcept {
+    executor_.for_each(grid.side, NearestInColumn{grid, a_.occupants, wanted, a_.rows_away});
+    executor_.for_each(grid.side, ClearanceOfRow{grid, a_.rows_away, inflation, a_.envelope, a_.stretch, a_.clearance});
+    return executor_.wait();
+  }
+
+  /// The start field, in `cost`, and as psi.
+  bool start(Grid grid, std::int32_t goal, float* psi) noexcept {
+    executor_.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a_.clearance, a_.table, a_.rate});
+    executor_.for_each(grid.cells(), FarFromGoal{goal, a_.cost});
+    if constexpr (Executor::kQueue) {
+      if (!executor_.wait()) return false;
+      queue_.settle(grid, goal, a_.rate, a_.cost);
+    } else if (!sweep_until_settled(grid)) {
+      return false;
+    }
+    executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
+    return executor_.wait();
+  }
+
+  /// From the start field to the potential and its index matrix. Whatever breaks the certificate is not used.
+  FieldQuality solve(Grid grid, std::int32_t goal, float* psi) noexcept {
+    solver_.improve(grid, goal, psi, kCycles);
+    FieldQuality quality = certificate(grid, goal, psi);
+    quality.cycles = kCycles;
+    if (!quality.certified) {
+      executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
+      solver_.smooth(grid, goal, psi, kRepairSweeps);
+      quality = certificate(grid, goal, psi);
+    }
+    if (!quality.certified) {
+      executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
+      quality = certificate(grid, goal, psi);
+    }
+    executor_.for_each_cell(grid.side, grid.side, IndexOfEachCell{grid, psi, a_.index});
+    executor_.wait();
+    return quality;
+  }
+
+  /// Pulls the band's `count` points taut; those before `first` and the last stay.
+  bool pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
+    for (std::int32_t half = 0; half < 2 * kBandRounds; ++half) {
+      const std::int32_t from = first + (half & 1);
+      executor_.for_each((count - from) / 2, PullBand{grid, from, a_.clearance, kBandReach, a_.points});
+    }
+    return executor_.wait();
+  }
+
+ private:
+  template <class T>
+  void take(T*& array, std::size_t n) {
+    array = executor_.template take<T>(n);
+  }
+
+  FieldQuality certificate(Grid grid, std::int32_t goal, const float* psi) noexcept {
+    executor_.for_each(grid.side, PitsOfRow{grid, goal, psi, a_.pits, a_.joined});
+    FieldQuality quality;
+    if (!executor_.wait()) return quality;
+    for (std::int32_t j = 0; j < grid.side; ++j) quality.pits += a_.pits[j], quality.joined += a_.joined[j];
+    quality.certified = quality.pits == 0;
+    return quality;
+  }
+
+  struct NothingChanged {
+    std::uint32_t* changed;
+    JAYWALK_CELL void operator()(std::int32_t line) const { changed[line] = 0; }
+  };
+
+  bool sweep_until_settled(Grid grid) noexcept {
+    for (bool settled = false; !settled;) {
+      executor_.for_each(grid.side, NothingChanged{a_.changed});
+      executor_.for_each(grid.side, SweepLine{grid.side, 1, grid.side, a_.rate, a_.cost, a_.changed});
+      executor_.for_each(grid.side, SweepLine{grid.side, grid.side, 1, a_.rate, a_.cost, a_.changed});
+      if (!executor_.wait()) return false;
+      settled = true;
+      for (std::int32_t line = 0; line < grid.side; ++line) settled = settled && a_.changed[line] == 0;
+    }
+    return true;
+  }
+
+  Executor& executor_;
+  FieldArrays a_{};
+  Multigrid<Executor> solver_;
+  BucketQueue queue_;
+};
+
+}  // namespace jaywalk::field

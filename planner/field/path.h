@@ -1,0 +1,23 @@
+#pragma once
+#include "planner/field/path_stages.h"
+#include "planner/field/window.h"
+#include "planner/planner.h"
+
+namespace jaywalk::field {
+
+/// Follows the index matrix from `start` to `goal` and appends the centres of the cells to `points`, from
+/// place `count` on and at most `capacity`. Returns how many there are then; 0 when the way does not arrive.
+[[nodiscard]] std::int32_t follow(Grid grid, const std::uint8_t* index, std::int32_t start, std::int32_t goal,
+                                  cell::Point* points, std::int32_t count, std::int32_t capacity) noexcept;
+
+/// Share of the joined cells (psi below infinity) from which following the index matrix arrives at `goal`.
+/// `seen` has room for a byte a cell.
+[[nodiscard]] float share_arriving(Grid grid, const float* psi, const std::uint8_t* index, std::int32_t goal,
+                                   std::uint8_t* seen) noexcept;
+
+/// The band as a path in the map: 0.1 m apart or a little less, wider (at most 0.2 m) where it would not fit,
+/// cut at kMaxPathPoints beyond that. First and last point exactly `from` and `to`.
+void resample(const Window& window, const cell::Point* points, std::int32_t count, Vec2 from, Vec2 to,
+              Path& path) noexcept;
+
+}  // namespace jaywalk::field

@@ -1,0 +1,98 @@
+#include "planner/field/planning_rules.h"
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::field {
+namespace {
+
+bool is_side(std::int32_t side) { return side >= 64 && side <= 4096 && (side & (side - 1)) == 0; }
+
+cell::AxisState axis(double position, double velocity, const AxisCovariance& p, double cell_m) {
+  const auto scaled = [&](double value, double unit) { return static_cast<float>(value / unit); };
+  const double square = cell_m * cell_m;
+  return {static_cast<float>(position), scaled(velocity, cell_m), scaled(p.pp, square), scaled(p.pv, square),
+          scaled(p.vv, square)};
+}
+
+bool is_finite(const Track& t) {
+  const double sum = t.position_in_map.x + t.position_in_map.y + t.velocity_in_map.x + t.velocity_in_map.y +
+                     t.covariance.pp + t.covariance.pv + t.covariance.vv + t.radius_m;
+  return std::isfinite(sum);
+}
+
+}  // namespace
+
+void check(const PlannerConfig& config) {
+  const auto refuse = [](const char* name, double value, const char* remedy) {
+    throw StartupError(std::string("planner: ") + name + " is " + std::to_string(value), remedy);
+  };
+  if (!(config.cell_m >= 0.01 && config.cell_m <= 1.0)) refuse("cell_m", config.cell_m, "choose 0.01 to 1 m");
+  if (!is_side(config.side_cells)) refuse("side_cells", config.side_cells, "choose 256, 512 or 1024");
+  if (!is_side(config.max_side_cells) || config.max_side_cells < config.side_cells) {
+    refuse("max_side_cells", config.max_side_cells, "choose 256, 512 or 1024, not below side_cells");
+  }
+  if (!(config.inflation_m >= 0.0 && config.inflation_m <= 5.0)) {
+    refuse("inflation_m", config.inflation_m, "choose 0 to 5 m");
+  }
+  if (!(config.mover_margin_m >= 0.0 && config.mover_margin_m <= 5.0)) {
+    refuse("mover_margin_m", config.mover_margin_m, "choose 0 to 5 m");
+  }
+  if (!(config.horizon_cap_s > 0.0 && config.horizon_cap_s <= 60.0)) {
+    refuse("horizon_cap_s", config.horizon_cap_s, "choose up to 60 s");
+  }
+}
+
+bool is_finite(const PlanRequest& request) noexcept {
+  return std::isfinite(request.map_from_robot.x) && std::isfinite(request.map_from_robot.y) &&
+         std::isfinite(request.map_from_robot.heading) && std::isfinite(request.goal_in_map.x) &&
+         std::isfinite(request.goal_in_map.y) && std::isfinite(request.speed_mps);
+}
+
+Warping warping_for(const PlannerConfig& config, const Window& window, const PlanRequest& request) noexcept {
+  const Vec2 robot = window.in_cells(request.map_from_robot.position());
+  const Vec2 ahead = direction(request.map_from_robot.heading);
+  const auto in_cells = [&](double metres) { return static_cast<float>(metres / window.cell_m); };
+  return {.ellipses = config.mode == PlanMode::kPaper,
+          .robot_x = static_cast<float>(robot.x),
+          .robot_y = static_cast<float>(robot.y),
+          .cos_heading = static_cast<float>(ahead.x),
+          .sin_heading = static_cast<float>(ahead.y),
+          .robot_speed = in_cells(std::max(request.speed_mps, kLeastSpeed_mps)),
+          .cap_s = static_cast<float>(config.horizon_cap_s),
+          .safety = in_cells(config.mover_margin_m),
+          .most_spread = in_cells(kMostSpread_m),
+          .process_noise = static_cast<float>(kProcessNoise_m2ps3 / (window.cell_m * window.cell_m))};
+}
+
+std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, Mover* movers,
+                          std::array<std::uint32_t, kMaxTracks>& ids) noexcept {
+  std::size_t count = 0;
+  for (const Track& track : tracks) {
+    if (!is_finite(track)) continue;
+    if (count == kMaxTracks) break;
+    const Vec2 p = window.in_cells(track.position_in_map);
+    const Vec2 v = track.velocity_in_map;
+    movers[count] = {.x = axis(p.x, v.x, track.covariance, window.cell_m),
+                     .y = axis(p.y, v.y, track.covariance, window.cell_m),
+                     .radius = static_cast<float>(track.radius_m / window.cell_m),
+                     .speed = static_cast<float>(norm(v) / window.cell_m)};
+    ids[count++] = track.id;
+  }
+  return static_cast<std::int32_t>(count);
+}
+
+void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept {
+  for (std::int32_t j = 0; j < window.side; ++j) {
+    std::uint8_t* row = occupants + window.grid().at(0, j);
+    for (std::int32_t i = 0; i < window.side; ++i) {
+      const bool wall = still != nullptr && still->occupied({window.low.i + i, window.low.j + j});
+      row[i] = wall ? std::uint8_t{kWall} : std::uint8_t{0};
+    }
+  }
+}
+
+}  // namespace jaywalk::field
