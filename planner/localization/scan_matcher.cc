@@ -22,6 +22,9 @@ constexpr double kPointStdM = 0.02;   // range noise and the map's own roughness
 constexpr double kDoubtM = 0.08;      // residuals beyond count less and less
 constexpr double kIndependent = 0.1;  // share of points whose errors are their own: neighbours share the map's
 
+/// One hit is enough to be matched against: at the start, and where walls come into view, there is no more.
+bool has_surface(const EvidenceMap& still, CellIndex cell) { return still.evidence(cell) > 0; }
+
 /// A straight piece of wall: a point on it and its unit normal.
 struct WallPiece {
   Vec2 point, normal;
@@ -37,7 +40,7 @@ bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
   for (std::int32_t j = -1; j <= 1; ++j) {
     for (std::int32_t i = -1; i <= 1; ++i) {
       const CellIndex c{cell.i + i, cell.j + j};
-      if (!still.occupied(c)) continue;
+      if (!has_surface(still, c)) continue;
       const Vec2 s = still.surface(c);
       const double d = distance(s, p);
       if (d < nearest) nearest = d, anchor = s, any = true;
@@ -49,7 +52,7 @@ bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
   for (std::int32_t j = -2; j <= 2; ++j) {
     for (std::int32_t i = -2; i <= 2; ++i) {
       const CellIndex c{middle.i + i, middle.j + j};
-      if (!still.occupied(c)) continue;
+      if (!has_surface(still, c)) continue;
       const Vec2 d = still.surface(c) - anchor;
       if (dot(d, d) > kNearM * kNearM) continue;
       n += 1.0, sx += d.x, sy += d.y, sxx += d.x * d.x, sxy += d.x * d.y, syy += d.y * d.y;
