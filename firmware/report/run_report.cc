@@ -1,0 +1,134 @@
+#include "firmware/report/run_report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder) {
+  if (folder.empty()) return nullptr;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
+  return std::make_unique<RunTables>(folder);
+}
+
+/// NaN and infinity, which JSON has no word for, become null.
+Json spread(const Distribution& of) {
+  return {{"p50", of.quantile(0.5)}, {"p99", of.quantile(0.99)}, {"max", of.max()}};
+}
+
+template <class T>
+Json known(bool is_known, const T& value) {
+  return is_known ? Json(value) : Json(nullptr);
+}
+
+template <class T>
+Json known(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+}  // namespace
+
+RunReport::RunReport(const std::filesystem::path& folder)
+    : folder_(folder),
+      tables_(open_tables(folder)),
+      min_clearance_m_(std::numeric_limits<double>::infinity()),
+      min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {}
+
+RunReport::~RunReport() = default;
+
+void RunReport::add(const RunSample& sample) {
+  if (tables_) tables_->add(sample);
+  const Time now = sample.record.now;
+  if (ticks_++ == 0) first_ = now;
+  last_ = now;
+  tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
+  if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
+  const Vec2 position = (sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot).position();
+  shape_.add(position);
+  robot_.add(0, now, position, 0.0, false);
+  if (sample.truth != nullptr) add_truth(*sample.truth, now);
+  add_tracks(sample);
+}
+
+void RunReport::add_truth(const TrueState& truth, Time now) {
+  has_truth_ = true;
+  smoothness_.add(now, truth.twist.v_mps);
+  min_clearance_m_ = std::min(min_clearance_m_, truth.clearance_m);
+  min_mover_clearance_m_ = std::min(min_mover_clearance_m_, truth.mover_clearance_m);
+  contacts_ = truth.contacts;
+  contacts_caused_ = truth.contacts_caused;
+  forced_movers_ = truth.forced_movers;
+  for (const TrueMover& mover : truth.movers) {
+    movers_.add(mover.id, now, mover.position_in_map, mover.radius_m, mover.forced);
+  }
+}
+
+void RunReport::add_tracks(const RunSample& sample) {
+  for (const Track& track : sample.tracks) {
+    if (track.last_seen == track.stamp) {  // where it was seen, not where it may have gone
+      tracks_.add(track.id, track.stamp, track.position_in_map, track.radius_m, track.moving);
+    }
+  }
+}
+
+std::string RunReport::finish(const RunEnd& end) {
+  tables_.reset();
+  const std::string text = summary(end);
+  if (!folder_.empty()) {
+    std::ofstream file(folder_ / "summary.json", std::ios::binary);
+    file << text;
+    if (!file.flush())
+      throw StartupError((folder_ / "summary.json").string() + ": cannot be written", "free some disk");
+  }
+  return text;
+}
+
+std::string RunReport::summary(const RunEnd& end) const {
+  Json j;
+  j["outcome"] = end.outcome;
+  j["success"] = known(has_truth_, end.success);
+  j["path_length_m"] = shape_.length_m();
+  j["static_shortest_path_m"] = known(end.static_shortest_path_m);
+  j["duration_s"] = ticks_ == 0 ? 0.0 : to_seconds(last_ - first_);
+  j["min_clearance_m"] = known(has_truth_, min_clearance_m_);
+  j["min_mover_clearance_m"] = known(has_truth_, min_mover_clearance_m_);
+  j["forced_movers"] = known(has_truth_, forced_movers_);
+  j["contacts"] = known(has_truth_, contacts_);
+  j["contacts_caused"] = known(has_truth_, contacts_caused_);
+  j["max_turn_deg"] = shape_.max_turn_deg();
+  j["turn_histogram"] = shape_.turn_histogram();
+  j["turn_bin_deg"] = kTurnBinDeg;
+  j["accel_max_mps2"] = smoothness_.accel_max_mps2();
+  j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
+  j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);
+  j["ticks"] = ticks_;
+  j["missed_ticks"] = end.missed_ticks;
+  j["dropped_records"] = end.dropped_records;
+  j["plan_ms"] = spread(plan_ms_);
+  j["tick_ms"] = spread(tick_ms_);
+  j["backend"] = end.backend;
+  j["mode"] = end.mode;
+  j["seed"] = known(end.seed);
+  j["scenario"] = end.scenario;
+  j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
+  j["measured_on"] = has_truth_ ? "truth" : "estimate";
+  j["version"] = end.version;
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+std::vector<TrailPoint> RunReport::driven() const {
+  const std::vector<Trail> robot = robot_.trails();
+  return robot.empty() ? std::vector<TrailPoint>{} : robot.front().points;
+}
+
+}  // namespace jaywalk

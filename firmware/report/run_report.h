@@ -1,0 +1,56 @@
+#pragma once
+// Gathers a run tick by tick and leaves its tables and figures behind.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "firmware/report/distribution.h"
+#include "firmware/report/drive_metrics.h"
+#include "firmware/report/run_sample.h"
+#include "firmware/report/run_tables.h"
+#include "firmware/report/trails.h"
+
+namespace jaywalk {
+
+/// Works outside the tick: it allocates and writes. Not thread-safe.
+///
+/// Lengths, turns and speeds are the world's where truth is given, else the controller's estimate
+/// (summary.json says which: "measured_on"); what only a world can know is null without it.
+class RunReport {
+ public:
+  /// `folder` is made when missing; an empty path keeps the figures and writes no files. Throws
+  /// StartupError when it cannot be written to.
+  explicit RunReport(const std::filesystem::path& folder);
+  ~RunReport();
+
+  void add(const RunSample& sample);
+  /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick.
+  std::string finish(const RunEnd& end);
+
+  /// For the picture: the robot's way (of truth where there is one, else estimated), the movers' and
+  /// the tracks'.
+  [[nodiscard]] std::vector<TrailPoint> driven() const;
+  [[nodiscard]] std::vector<Trail> mover_trails() const { return movers_.trails(); }
+  [[nodiscard]] std::vector<Trail> track_trails() const { return tracks_.trails(); }
+
+ private:
+  void add_truth(const TrueState& truth, Time now);
+  void add_tracks(const RunSample& sample);
+  [[nodiscard]] std::string summary(const RunEnd& end) const;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<RunTables> tables_;
+  PathShape shape_;
+  Smoothness smoothness_;
+  Distribution plan_ms_, tick_ms_;
+  TrailBook robot_, movers_, tracks_;
+  std::uint64_t ticks_ = 0;
+  Time first_ = kNever, last_ = kNever;
+  bool has_truth_ = false;
+  double min_clearance_m_, min_mover_clearance_m_;
+  std::uint32_t contacts_ = 0, contacts_caused_ = 0, forced_movers_ = 0;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,61 @@
+#pragma once
+// What a report is told after each tick, and at the end.
+#include <cstdint>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+
+#include "firmware/recording/tick_record.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+/// A mover as it really is.
+struct TrueMover {
+  std::uint32_t id = 0;
+  Vec2 position_in_map;
+  Vec2 velocity_in_map;
+  double radius_m = 0.0;
+  bool forced = false;
+};
+
+/// What is really so at the tick: a simulation knows, a robot does not. Counts are so far.
+struct TrueState {
+  Pose2 map_from_robot;
+  Twist2 twist;
+  std::span<const TrueMover> movers;
+  double clearance_m = std::numeric_limits<double>::infinity();        ///< footprint to anything; 0 in contact
+  double mover_clearance_m = std::numeric_limits<double>::infinity();  ///< footprint to the nearest mover
+  std::uint32_t contacts = 0;
+  std::uint32_t contacts_caused = 0;
+  std::uint32_t forced_movers = 0;
+};
+
+/// One tick, seen from outside the loop. Everything referred to outlives the call only.
+struct RunSample {
+  const TickRecord& record;
+  std::span<const Track> tracks;       ///< as the controller believes after this tick
+  const TrueState* truth = nullptr;    ///< null in a replay
+  Duration tick_took{0};               ///< measured
+  std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
+};
+
+/// How it ended and under which conditions.
+struct RunEnd {
+  std::string outcome;  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
+  bool success = false;
+  std::optional<double> static_shortest_path_m = {};
+  std::uint64_t missed_ticks = 0;
+  std::uint64_t dropped_records = 0;
+  std::string backend;
+  std::string mode;
+  std::optional<std::uint64_t> seed = {};
+  std::string scenario;
+  std::string version;
+  std::string mover_rule;  ///< empty where no wandering rule was in force
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,149 @@
+#include "firmware/report/run_report.h"
+
+#include <array>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk {
+namespace {
+
+using Json = nlohmann::json;
+
+/// Two seconds at 50 Hz: 1 m/s to the east past a mover, a scan every fifth tick, one track.
+std::string drive(const std::filesystem::path& folder, bool with_truth) {
+  RunReport report(folder);
+  const auto record = std::make_unique<TickRecord>();
+  std::array<Track, 1> tracks;
+  tracks[0].id = 9;
+  tracks[0].moving = true;
+  tracks[0].covariance.pp = 0.0625;
+  for (int i = 0; i <= 100; ++i) {
+    record->now = Time{Duration{20'000'000LL * i}};
+    record->scan.sequence = static_cast<std::uint32_t>(1 + i / 5);
+    record->scan.stamp = Time{Duration{100'000'000LL * (i / 5)}};
+    record->pose.map_from_robot = {0.02 * i, 0.5, 0};
+    record->verdict.reasons = i == 0 ? Reason::kStopZone | Reason::kNoGoal : Reason::kNone;
+    tracks[0].stamp = tracks[0].last_seen = record->scan.stamp;
+    tracks[0].position_in_map = {1, 0.1 * i};
+    const std::array<TrueMover, 1> movers{{{4, {1, 2}, {0, -0.4}, 0.25, i == 50}}};
+    TrueState truth{{0.02 * i, 0, 0}, {1, 0}, movers};
+    truth.clearance_m = 2.0 - 0.01 * i;
+    truth.mover_clearance_m = i == 30 ? 0.75 : 3.0;
+    truth.contacts = 2;
+    truth.contacts_caused = 1;
+    truth.forced_movers = i < 50 ? 0 : 1;
+    RunSample sample{*record, tracks};
+    if (with_truth) sample.truth = &truth;
+    sample.tick_took = Duration{i == 100 ? 3'000'000 : 1'000'000};
+    if (i % 5 == 0) sample.plan_ms = 0.5;
+    report.add(sample);
+  }
+  RunEnd end;
+  end.outcome = "reached";
+  end.success = true;
+  end.static_shortest_path_m = 1.9;
+  end.backend = "cpu";
+  end.mode = "full";
+  end.seed = 7;
+  end.version = "0.1.0";
+  CHECK(report.driven().size() == 11);
+  CHECK(report.mover_trails().size() == (with_truth ? 1 : 0));
+  return report.finish(end);
+}
+
+std::vector<std::string> lines_of(const std::string& text) {
+  std::vector<std::string> lines;
+  std::istringstream in(text);
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  return lines;
+}
+
+TEST_CASE("a run leaves its tables with the columns that others rely on") {
+  const Scratch scratch;
+  drive(scratch.folder() / "out", true);
+  const auto robot = lines_of(scratch.read("out/robot.csv"));
+  REQUIRE(robot.size() == 102);
+  CHECK(robot[0] ==
+        "t_s,x_m,y_m,heading_rad,v_mps,w_radps,est_x_m,est_y_m,est_heading_rad,wanted_v_mps,permitted_v_mps,"
+        "left_radps,right_radps,reasons");
+  CHECK(robot[1] ==
+        "0.000000,0.000000,0.000000,0.000000,1.000000,0.000000,0.000000,0.500000,0.000000,0.000000,0.000000,"
+        "0.000000,0.000000,stop_zone|no_goal");
+  const auto movers = lines_of(scratch.read("out/movers.csv"));
+  REQUIRE(movers.size() == 102);
+  CHECK(movers[0] == "t_s,id,x_m,y_m,vx_mps,vy_mps,forced");
+  CHECK(movers[51] == "1.000000,4,1.000000,2.000000,0.000000,-0.400000,1");
+  const auto tracks = lines_of(scratch.read("out/tracks.csv"));
+  REQUIRE(tracks.size() == 22);  // 21 scans, one row each
+  CHECK(tracks[0] == "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m");
+  CHECK(tracks[2] == "0.100000,9,1.000000,0.500000,0.000000,0.000000,1,0.250000");
+}
+
+TEST_CASE("the summary has every figure of the run") {
+  const Scratch scratch;
+  const Json j = Json::parse(drive(scratch.folder(), true));
+  CHECK(j == Json::parse(scratch.read("summary.json")));
+  CHECK(j["outcome"] == "reached");
+  CHECK(j["success"] == true);
+  CHECK(j["path_length_m"].get<double>() == Approx(2.0));
+  CHECK(j["static_shortest_path_m"] == 1.9);
+  CHECK(j["duration_s"].get<double>() == Approx(2.0));
+  CHECK(j["min_clearance_m"].get<double>() == Approx(1.0));
+  CHECK(j["min_mover_clearance_m"] == 0.75);
+  CHECK(j["forced_movers"] == 1);
+  CHECK(j["contacts"] == 2);
+  CHECK(j["contacts_caused"] == 1);
+  CHECK(j["max_turn_deg"].get<double>() == Approx(0.0).margin(1e-9));
+  CHECK(j["turn_histogram"].size() == 18);
+  CHECK(j["accel_max_mps2"] == 0.0);
+  CHECK(j["jerk_max_mps3"] == 0.0);
+  CHECK(j["ticks"] == 101);
+  CHECK(j["missed_ticks"] == 0);
+  CHECK(j["tick_ms"]["p50"] == 1.0);
+  CHECK(j["tick_ms"]["max"] == 3.0);
+  CHECK(j["plan_ms"]["p99"] == 0.5);
+  CHECK(j["seed"] == 7);
+  CHECK(j["mode"] == "full");
+  CHECK(j["backend"] == "cpu");
+  CHECK(j["version"] == "0.1.0");
+}
+
+TEST_CASE("what only a world can know is null in a replay") {
+  const Scratch scratch;
+  const Json j = Json::parse(drive(scratch.folder(), false));
+  for (const char* key : {"success", "min_clearance_m", "min_mover_clearance_m", "forced_movers", "contacts",
+                          "contacts_caused", "accel_max_mps2", "jerk_p99_mps3", "jerk_max_mps3", "mover_rule"}) {
+    INFO(key);
+    CHECK(j.at(key).is_null());
+  }
+  CHECK(j["measured_on"] == "estimate");
+  CHECK(lines_of(scratch.read("robot.csv"))[2].substr(0, 22) == "0.020000,,,,,,0.020000");
+  CHECK(lines_of(scratch.read("movers.csv")).size() == 1);
+}
+
+TEST_CASE("without a folder the figures are kept and nothing is written") {
+  CHECK(Json::parse(drive("", true))["ticks"] == 101);
+}
+
+TEST_CASE("the same run leaves the same bytes") {
+  const Scratch scratch;
+  drive(scratch.folder() / "a", true);
+  drive(scratch.folder() / "b", true);
+  for (const std::string name : {"robot.csv", "movers.csv", "tracks.csv", "summary.json"}) {
+    CHECK(scratch.read("a/" + name) == scratch.read("b/" + name));
+  }
+}
+
+TEST_CASE("a folder that cannot be made is refused") {
+  const Scratch scratch;
+  scratch.write("file", "");
+  CHECK_THROWS_AS(RunReport(scratch.folder() / "file" / "out"), StartupError);
+}
+
+}  // namespace
+}  // namespace jaywalk
