@@ -148,11 +148,14 @@ class GridPlanner final : public Planner {
   PlanStatus descend(const PlanRequest& request, CellIndex robot, std::int32_t goal, Result& result) noexcept {
     const FieldArrays& a = pass_.arrays();
     const Grid grid = window_.grid();
-    if (!pass_.start(grid, goal, result.psi)) return PlanStatus::kBackendFailed;
+    if (!pass_.start(grid, goal)) return PlanStatus::kBackendFailed;
     const std::int32_t start = nearest_cell(grid, robot.i, robot.j, cells(kStartRadius_m),
-                                            [&](std::int32_t c) { return cell::is_joined(result.psi[c]); });
+                                            [&](std::int32_t c) { return cell::is_joined(a.start_psi[c]); });
     if (start == kNoCell) return PlanStatus::kNoPath;
-    const FieldQuality quality = pass_.solve(grid, goal, result.psi);
+    const bool warm = solved_goal_ == goal && solved_window_.low == window_.low && solved_window_.side == window_.side;
+    const FieldQuality quality = pass_.solve(grid, goal, warm, result.psi);
+    solved_goal_ = goal;
+    solved_window_ = window_;
     if (quality.joined == 0) return PlanStatus::kBackendFailed;
     result.plan.certified = quality.certified;
     result.plan.cycles = quality.cycles;
@@ -206,6 +209,8 @@ class GridPlanner final : public Planner {
   Pass<Executor> pass_;
   Flood flood_;
   Window window_;
+  Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
+  std::int32_t solved_goal_ = kNoCell;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Answer, 2> answers_;  ///< collected, and being made
   bool is_new_ = false;

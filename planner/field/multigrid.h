@@ -19,39 +19,24 @@ class Multigrid {
     executor_.for_each(Grid{max_side}.cells(), Fill{ones_, 1.0F});
   }
 
-  /// Improves psi, an estimate with cell::kUnreachable and cell::kNotFree where that is so, by `cycles` cycles.
+  /// Improves psi, an estimate with cell::kUnreachable and cell::kNotFree where that is so, by `cycles` cycles. The
+  /// blocks are weighted afresh each time: with the weights of the cycle before the second makes things worse.
   void improve(Grid grid, std::int32_t goal, float* psi, std::int32_t cycles) noexcept {
     Arrays& finest = arrays_[0];
     executor_.for_each_cell(grid.side, grid.side,
                             CoupleCells{grid, goal, psi, finest.couplings, finest.source, finest.x});
     for (std::int32_t k = 0; k < cycles; ++k) {
-      if (k % kCyclesPerSetup == 0) coarsen(grid, psi);
+      coarsen(grid, psi);
       cycle(grid, 0);
       executor_.for_each(grid.cells(), RebaseCouplings{grid, goal, finest.x, finest.couplings, finest.source});
       executor_.for_each(grid.cells(), RebasePsi{finest.x, psi});
     }
   }
 
-  /// `sweeps` red-black sweeps from psi, without coarse levels.
-  void smooth(Grid grid, std::int32_t goal, float* psi, std::int32_t sweeps) noexcept {
-    Arrays& finest = arrays_[0];
-    executor_.for_each_cell(grid.side, grid.side,
-                            CoupleCells{grid, goal, psi, finest.couplings, finest.source, finest.x});
-    relax(grid, finest, sweeps);
-    executor_.for_each(grid.cells(), RebasePsi{finest.x, psi});
-  }
-
  private:
   static constexpr std::int32_t kCoarsestSide = 4;
   static constexpr std::int32_t kSweeps = 2;          ///< before and after each correction
   static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
-  static constexpr std::int32_t kCyclesPerSetup = 2;
-
-  struct Fill {
-    float* x;
-    float value;
-    JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
-  };
 
   struct Arrays {
     cell::Couplings* couplings;

@@ -17,10 +17,9 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 inline constexpr std::int32_t kBandRounds = 60;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// After four cycles from the start field 99.7 % of cells pick the exact field's best neighbour (docs/algorithm.md).
-inline constexpr std::int32_t kCycles = 4;
-/// Plain sweeps in place of cycles that broke the certificate.
-inline constexpr std::int32_t kRepairSweeps = 16;
+/// After four cycles from the start field 99.6 % of cells or more pick the exact field's best neighbour; from the
+/// last submission's field one does as well (docs/algorithm.md).
+inline constexpr std::int32_t kColdCycles = 4, kWarmCycles = 1;
 
 /// What the stages read and write; all of it the executor's memory.
 struct FieldArrays {
@@ -30,6 +29,7 @@ struct FieldArrays {
   Mark* marks;
   std::int32_t *rows_away, *envelope, *stretch;
   float* clearance;
+  float *start_psi, *correction;
   std::uint16_t *table, *rate;
   std::uint32_t *cost, *changed;
   std::uint8_t* index;
@@ -55,6 +55,7 @@ class Pass {
     const std::vector<std::uint16_t> table = rate_table(max_side);
     take(a_.occupants, cells), take(a_.warp, cells), take(a_.movers, kMaxTracks), take(a_.marks, kMaxTracks);
     take(a_.rows_away, cells), take(a_.envelope, cells), take(a_.stretch, cells), take(a_.clearance, cells);
+    take(a_.start_psi, cells), take(a_.correction, cells);
     take(a_.table, table.size()), take(a_.rate, cells), take(a_.cost, cells), take(a_.changed, lines);
     take(a_.index, cells), take(a_.pits, lines), take(a_.joined, lines);
     take(a_.points, static_cast<std::size_t>(kMaxBandPoints));
@@ -78,8 +79,8 @@ class Pass {
     return executor_.wait();
   }
 
-  /// The start field, in `cost`, and as psi.
-  bool start(Grid grid, std::int32_t goal, float* psi) noexcept {
+  /// The start field, in `cost` and `start_psi`.
+  bool start(Grid grid, std::int32_t goal) noexcept {
     executor_.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a_.clearance, a_.table, a_.rate});
     executor_.for_each(grid.cells(), FarFromGoal{goal, a_.cost});
     if constexpr (Executor::kQueue) {
@@ -88,23 +89,28 @@ class Pass {
     } else if (!sweep_until_settled(grid)) {
       return false;
     }
-    executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
+    executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, a_.start_psi});
     return executor_.wait();
   }
 
-  /// From the start field to the potential and its index matrix. Whatever breaks the certificate is not used.
-  FieldQuality solve(Grid grid, std::int32_t goal, float* psi) noexcept {
-    solver_.improve(grid, goal, psi, kCycles);
-    FieldQuality quality = certificate(grid, goal, psi);
-    quality.cycles = kCycles;
+  /// From the start field to the potential and its index matrix; begins from the last solution when `warm`, which
+  /// must then have been on the same cells with the same goal. Whatever breaks the certificate is not used.
+  FieldQuality solve(Grid grid, std::int32_t goal, bool warm, float* psi) noexcept {
+    FieldQuality quality;
+    if (warm) quality = attempt(grid, goal, kWarmCycles, psi);
     if (!quality.certified) {
-      executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
-      solver_.smooth(grid, goal, psi, kRepairSweeps);
-      quality = certificate(grid, goal, psi);
+      executor_.for_each(grid.cells(), Fill{a_.correction, 0.0F});
+      const std::int32_t before = quality.cycles;
+      quality = attempt(grid, goal, kColdCycles, psi);
+      quality.cycles += before;
     }
-    if (!quality.certified) {
-      executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, psi});
+    if (quality.certified) {
+      executor_.for_each(grid.cells(), KeepCorrection{a_.start_psi, psi, a_.correction});
+    } else {
+      const std::int32_t cycles = quality.cycles;
+      executor_.for_each(grid.cells(), AddCorrection{a_.start_psi, a_.correction, psi});  // the start field itself
       quality = certificate(grid, goal, psi);
+      quality.cycles = cycles;
     }
     executor_.for_each_cell(grid.side, grid.side, IndexOfEachCell{grid, psi, a_.index});
     executor_.wait();
@@ -124,6 +130,14 @@ class Pass {
   template <class T>
   void take(T*& array, std::size_t n) {
     array = executor_.template take<T>(n);
+  }
+
+  FieldQuality attempt(Grid grid, std::int32_t goal, std::int32_t cycles, float* psi) noexcept {
+    executor_.for_each(grid.cells(), AddCorrection{a_.start_psi, a_.correction, psi});
+    solver_.improve(grid, goal, psi, cycles);
+    FieldQuality quality = certificate(grid, goal, psi);
+    quality.cycles = cycles;
+    return quality;
   }
 
   FieldQuality certificate(Grid grid, std::int32_t goal, const float* psi) noexcept {

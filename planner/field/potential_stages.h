@@ -7,6 +7,12 @@
 
 namespace jaywalk::field {
 
+struct Fill {
+  float* x;
+  float value;
+  JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
+};
+
 /// psi of a cell, or "not free" outside the grid.
 JAYWALK_CELL float psi_at(const Grid& grid, const float* psi, std::int32_t i, std::int32_t j) {
   return grid.holds(i, j) ? psi[grid.at(i, j)] : cell::kNotFree;
@@ -96,6 +102,26 @@ struct RebasePsi {
     psi[c] = cell::rebased(psi[c], x[c]);
     x[c] = 1.0F;
   }
+};
+
+/// What the potential came to above the start field, by cell: where the next submission's solver begins. A
+/// cell that is covered for a while keeps what it had, so that a mover passing leaves no scar.
+struct KeepCorrection {
+  const float* start;
+  const float* psi;
+  float* correction;
+
+  JAYWALK_CELL void operator()(std::int32_t c) const {
+    if (cell::is_joined(psi[c])) correction[c] = psi[c] - start[c];
+  }
+};
+
+struct AddCorrection {
+  const float* start;
+  const float* correction;
+  float* psi;
+
+  JAYWALK_CELL void operator()(std::int32_t c) const { psi[c] = start[c] + correction[c]; }
 };
 
 /// The certificate, a row at a time: joined cells, the goal apart, that have no strictly lower one among
