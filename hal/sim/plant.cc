@@ -21,25 +21,25 @@ void Plant::command(const WheelCommand& command, Time now) noexcept {
 }
 
 /// Speed' = (wanted - speed) / lag, bounded; the wheel's mean speed over the step turns it.
-void Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
+double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
   const double wanted = alive ? wheel.wanted : 0.0;
   const double accel = std::clamp((wanted - wheel.speed) / kMotorLag, -max_accel_, max_accel_);
   const double before = wheel.speed;
   wheel.speed += accel * step_s;
-  wheel.angle += 0.5 * (before + wheel.speed) * step_s;
+  const double turned = 0.5 * (before + wheel.speed) * step_s;
+  wheel.angle += turned;
+  return turned;
 }
 
-/// Ground speeds l and r of the two wheels: v = (l + r)/2, w = (r - l)/track; the step runs along the heading that
-/// the robot has half way through it.
+/// The ground passes l and r under the two wheels: the middle moves (l + r)/2 and turns (r - l)/track; the step runs
+/// along the heading that the robot has half way through it.
 void Plant::step(double step_s, Time now) noexcept {
   const bool alive = age(commanded_, now) <= kDriveWatchdog;
-  turn(left_, step_s, alive);
-  turn(right_, step_s, alive);
-  const double left = left_.speed * radius_m_ * (1.0 - left_.slip) * left_grip_;
-  const double right = right_.speed * radius_m_ * (1.0 - right_.slip);
-  twist_ = {0.5 * (left + right), (right - left) / track_m_};
-  const double turned = twist_.w_radps * step_s;
-  const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * (twist_.v_mps * step_s);
+  const double left = turn(left_, step_s, alive) * radius_m_ * (1.0 - left_.slip) * left_grip_;
+  const double right = turn(right_, step_s, alive) * radius_m_ * (1.0 - right_.slip);
+  const double forward = 0.5 * (left + right), turned = (right - left) / track_m_;
+  twist_ = {forward / step_s, turned / step_s};
+  const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * forward;
   map_from_robot_ = {map_from_robot_.x + moved.x, map_from_robot_.y + moved.y,
                      wrap_angle(map_from_robot_.heading + turned)};
 }

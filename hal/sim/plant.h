@@ -52,7 +52,8 @@ class Plant {
     double angle = 0.0;   ///< rad
     double slip = 0.0;    ///< share of its speed that the ground does not see
   };
-  void turn(Wheel& wheel, double step_s, bool alive) const noexcept;
+  /// Turns the wheel for one step and returns the angle (rad).
+  double turn(Wheel& wheel, double step_s, bool alive) const noexcept;
 
   double radius_m_, track_m_, max_speed_, max_accel_;
   Pose2 map_from_robot_;

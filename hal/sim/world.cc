@@ -98,8 +98,8 @@ void World::judge_gaps() noexcept {
   const double gap = std::min(to_wall, to_mover);
   slack_m_ = std::min(to_wall, to_wanderer);
   if (to_mover <= 0.0) touch(plant_.twist().v_mps);
-  if (gap > kApartAgain) touching_ = false;
   truth_.clearance_m = touching_ ? 0.0 : gap;
+  if (gap > kApartAgain) touching_ = false;
   truth_.mover_clearance_m = to_mover;
 }
 

@@ -1,0 +1,111 @@
+#include <cmath>
+#include <limits>
+#include <memory>
+
+#include "hal/sim/laser_sim.h"
+#include "tests/sim/made_worlds.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::sim;
+
+namespace {
+
+Walls room() {
+  const Scratch scratch;
+  return Walls(load_aria_map(scratch.write("room.map", kRoom)));
+}
+
+/// A beam every degree from -90 to 90, nothing lost, no noise.
+LaserModel plain() {
+  return {.robot_from_laser = {},
+          .fov_rad = kPi,
+          .beams = 181,
+          .rate_hz = 10.0,
+          .range_min_m = 0.05,
+          .range_max_m = 25.0,
+          .noise_m = 0.0,
+          .drop_out = 0.0};
+}
+
+std::unique_ptr<LaserScan> sweep(LaserSim& laser, const Walls& walls, const Pose2& pose,
+                                 std::span<const Disc> movers = {}) {
+  auto scan = std::make_unique<LaserScan>();
+  laser.sweep(walls, movers, pose, time_from_seconds(2.0), *scan);
+  return scan;
+}
+
+}  // namespace
+
+TEST_CASE("beams run from right to left: 2 m to the right wall, 6 m ahead, 8 m to the left") {
+  LaserSim laser(plain(), 1);
+  const auto scan = sweep(laser, room(), {4.0, 2.0, 0.0});
+  CHECK(scan->beam_count == 181);
+  CHECK(scan->stamp == time_from_seconds(2.0));
+  CHECK(scan->range_m[0] == Approx(2.0));
+  CHECK(scan->range_m[90] == Approx(6.0));
+  CHECK(scan->range_m[180] == Approx(8.0));
+  CHECK(scan->angle_rad(0) == Approx(-kPi / 2));
+  CHECK(scan->angle_rad(180) == Approx(kPi / 2).margin(1e-5));
+}
+
+TEST_CASE("a robot that looks up sees the upper wall ahead") {
+  LaserSim laser(plain(), 1);
+  CHECK(sweep(laser, room(), {4.0, 2.0, kPi / 2})->range_m[90] == Approx(8.0));
+}
+
+TEST_CASE("a laser 0.7 m ahead of the axle and turned left measures from there") {
+  LaserModel model = plain();
+  model.robot_from_laser = {0.7, 0.0, kPi / 2};
+  LaserSim laser(model, 1);
+  const auto scan = sweep(laser, room(), {4.0, 2.0, 0.0});
+  CHECK(scan->range_m[90] == Approx(8.0));  // left of the robot
+  CHECK(scan->range_m[0] == Approx(5.3));   // its front: 10 - 4.7
+}
+
+TEST_CASE("a mover hides the wall behind it: 0.27 m radius, 3 m ahead, seen at 2.73 m") {
+  LaserSim laser(plain(), 1);
+  const Disc mover{{7.0, 2.0}, 0.27};
+  const auto scan = sweep(laser, room(), {4.0, 2.0, 0.0}, {&mover, 1});
+  CHECK(scan->range_m[90] == Approx(2.73));
+  CHECK(scan->range_m[84] == Approx(6.0 / std::cos(6.0 * kPi / 180)));  // asin(0.27 / 3) is 5.16 degrees
+  CHECK(scan->range_m[85] < 3.0);
+}
+
+TEST_CASE("walls beyond the range give infinity, and so do those nearer than the shortest") {
+  LaserModel model = plain();
+  model.range_max_m = 5.0;
+  model.range_min_m = 2.5;
+  LaserSim laser(model, 1);
+  const auto scan = sweep(laser, room(), {4.0, 2.0, 0.0});
+  CHECK(scan->range_m[90] == std::numeric_limits<float>::infinity());
+  CHECK(scan->range_m[0] == std::numeric_limits<float>::infinity());
+  CHECK_FALSE(scan->is_hit(90));
+  CHECK(scan->is_hit(45));  // 2 root 2 m
+}
+
+TEST_CASE("noise of 2 cm is 2 cm without bias, and 20 percent drop-out loses 20 percent") {
+  LaserModel noisy = plain();
+  noisy.noise_m = 0.02;
+  noisy.drop_out = 0.2;
+  LaserSim laser(noisy, 1), exact(plain(), 1);
+  const Walls walls = room();
+  const Pose2 pose{4.0, 2.0, 0.3};
+  const auto truth = sweep(exact, walls, pose);
+  double sum = 0.0, squares = 0.0;
+  int seen = 0;
+  constexpr int kSweeps = 200;
+  for (int k = 0; k < kSweeps; ++k) {
+    const auto scan = sweep(laser, walls, pose);
+    for (std::size_t b = 0; b < 181; ++b) {
+      if (!scan->is_hit(b)) continue;
+      const double error = static_cast<double>(scan->range_m[b]) - static_cast<double>(truth->range_m[b]);
+      sum += error;
+      squares += error * error;
+      ++seen;
+    }
+  }
+  CHECK(seen / (181.0 * kSweeps) == Approx(0.8).margin(0.0064));     // three times sqrt(0.16 / 36200) = 0.0021
+  CHECK(sum / seen == Approx(0.0).margin(0.0004));                   // three times 0.02 / sqrt(28960) = 0.00012
+  CHECK(std::sqrt(squares / seen) == Approx(0.02).epsilon(0.0125));  // three times 1 / sqrt(57920)
+}

@@ -1,0 +1,127 @@
+#include "hal/sim/image_file.h"
+#include "hal/sim/wall_map.h"
+#include "tests/sim/made_worlds.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::sim;
+
+namespace {
+
+const std::string kYaml = "image: two.pgm\nresolution: 0.1\norigin: [0, 0, 0]\nnegate: 0\n";
+
+struct BadMap {
+  const char* why;
+  MapKind kind;
+  std::string text;
+  const char* place;  ///< what the message must hold
+};
+
+}  // namespace
+
+TEST_CASE("bad maps are refused with file, line and cause") {
+  const Scratch scratch;
+  scratch.write("two.pgm", "P2 2 1 255 0 255");
+  scratch.write("cut.pgm", "P5 4 4 255 abc");
+  scratch.write("odd.pgm", "P2 2 1 255 0 256");
+  scratch.write("huge.pgm", "P2 100000 100000 255 0");
+  scratch.write("deep.pgm", "P2 1 1 70000 0");
+  scratch.write("text.png", "hello");
+  scratch.write("cut.png", "\x89PNG\r\n\x1a\n");
+  const auto with_image = [](const std::string& image) {
+    return "image: " + image + "\nresolution: 0.1\norigin: [0, 0, 0]\n";
+  };
+  const BadMap cases[] = {
+      {"no image", MapKind::kYaml, "resolution: 0.1\norigin: [0,0,0]\n", "bad:1: image is missing"},
+      {"image not there", MapKind::kYaml, with_image("none.pgm"), "bad:1: image names no file"},
+      {"no resolution", MapKind::kYaml, "image: two.pgm\norigin: [0,0,0]\n", "bad:1: resolution is missing"},
+      {"resolution zero", MapKind::kYaml, "image: two.pgm\nresolution: 0\norigin: [0,0,0]\n", "bad:2: resolution"},
+      {"resolution nan", MapKind::kYaml, "image: two.pgm\nresolution: .nan\norigin: [0,0,0]\n", "bad:2: resolution"},
+      {"resolution text", MapKind::kYaml, "image: two.pgm\nresolution: fine\n", "bad:2: resolution has the wrong type"},
+      {"short origin", MapKind::kYaml, "image: two.pgm\nresolution: 0.1\norigin: [0,0]\n", "bad:3: origin"},
+      {"infinite origin", MapKind::kYaml, "image: two.pgm\nresolution: 0.1\norigin: [.inf,0,0]\n", "bad:3: origin"},
+      {"threshold", MapKind::kYaml, kYaml + "occupied_thresh: 65\n", "bad:5: occupied_thresh is outside 0 to 1"},
+      {"thresholds", MapKind::kYaml, kYaml + "free_thresh: 0.9\n", "bad:5: free_thresh is over"},
+      {"mode", MapKind::kYaml, kYaml + "mode: raw\n", "bad:5: mode is not trinary"},
+      {"not yaml", MapKind::kYaml, "image: [two.pgm\n", "bad:"},
+      {"a list", MapKind::kYaml, "- 1\n- 2\n", "bad:1: holds no keys"},
+      {"cut pgm", MapKind::kYaml, with_image("cut.pgm"), "cut.pgm:0: damaged at pixel 3"},
+      {"odd pgm", MapKind::kYaml, with_image("odd.pgm"), "odd.pgm:0: damaged at pixel 1"},
+      {"huge pgm", MapKind::kYaml, with_image("huge.pgm"), "huge.pgm:0: a picture of 100000 x 100000"},
+      {"deep pgm", MapKind::kYaml, with_image("deep.pgm"), "deep.pgm:0: a greatest grey value"},
+      {"text as png", MapKind::kYaml, with_image("text.png"), "text.png:0: neither PNG nor PGM"},
+      {"cut png", MapKind::kYaml, with_image("cut.png"), "cut.png:0: "},
+      {"not aria", MapKind::kAria, "LINES\n0 0 1 1\n", "bad:1: does not begin with 2D-Map"},
+      {"empty", MapKind::kAria, "", "bad:0: does not begin with 2D-Map"},
+      {"three numbers", MapKind::kAria, "2D-Map\nLINES\n0 0 1\n", "bad:3: \"0 0 1\" is not 4 numbers"},
+      {"words", MapKind::kAria, "2D-Map\nLINES\n0 0 1 x\n", "bad:3: "},
+      {"no walls", MapKind::kAria, "2D-Map\nNumLines: 0\n", "bad:2: has neither LINES nor DATA"},
+      {"far point", MapKind::kAria, "2D-Map\nDATA\n1e30 0\n", "bad:3: "},
+      {"two numbers", MapKind::kCylinders, "# x y r\n1 2\n", "bad:2: \"1 2\" is not 3 numbers"},
+      {"negative radius", MapKind::kCylinders, "1 2 -0.1\n", "bad:1: a cylinder needs a radius above 0"},
+      {"no cylinder", MapKind::kCylinders, "# none\n", "bad:1: holds no cylinder"}};
+  for (const BadMap& bad : cases) {
+    const std::string file = scratch.write("bad", bad.text);
+    const std::string message = refusal([&] { static_cast<void>(load_wall_map(bad.kind, file)); });
+    INFO(bad.why << ": " << message);
+    CHECK(says(message, bad.place));
+    CHECK(says(message, "; "));  // a remedy
+  }
+}
+
+TEST_CASE("a map that is not there is refused, whatever its kind") {
+  for (const MapKind kind : {MapKind::kYaml, MapKind::kAria, MapKind::kCylinders}) {
+    CHECK(says(refusal([&] { static_cast<void>(load_wall_map(kind, "/nowhere/at.all")); }), "/nowhere/at.all:0: "));
+  }
+}
+
+TEST_CASE("grey between the thresholds is unknown and no wall, darker is wall, negate turns it round") {
+  const Scratch scratch;
+  scratch.write("grey.pgm", "P2 4 1 255  0 80 205 254");  // occupancies 1.0, 0.69, 0.2, 0.004
+  const auto solid = [&](const std::string& more) {
+    const auto file = scratch.write("grey.yaml", "image: grey.pgm\nresolution: 1\norigin: [0, 0, 0]\n" + more);
+    return load_raster_map(file).raster.solid;
+  };
+  using Cells = std::vector<std::uint8_t>;
+  CHECK(solid("") == Cells{1, 1, 0, 0});
+  CHECK(solid("occupied_thresh: 0.8\n") == Cells{1, 0, 0, 0});
+  CHECK(solid("negate: 1\n") == Cells{0, 0, 1, 1});
+}
+
+TEST_CASE("binary, 16 bit and commented PGM give the same picture as plain text") {
+  const Scratch scratch;
+  const std::vector<std::uint8_t> expected{0, 255, 128, 7};
+  const GreyImage plain =
+      load_image(scratch.write("a.pgm", "P2\n# made by hand\n2 2 # wide, high\n255\n0 255 128 7\n"));
+  CHECK(plain.width == 2);
+  CHECK(plain.height == 2);
+  CHECK(plain.grey == expected);
+  CHECK(load_image(scratch.write("b.pgm", std::string("P5 2 2 255\n\x00\xff\x80\x07", 15))).grey == expected);
+  // 128 of 255 is 32896 = 0x8080 of 65535, and 7 is 1799 = 0x0707.
+  CHECK(load_image(scratch.write("c.pgm", std::string("P5 2 2 65535\n\x00\x00\xff\xff\x80\x80\x07\x07", 21))).grey ==
+        expected);
+}
+
+TEST_CASE("a solid block of two by one cells has four edges, each in one piece") {
+  Raster raster{{}, 0.5, 4, 3, std::vector<std::uint8_t>(12, 0)};
+  raster.solid[1 * 4 + 1] = raster.solid[1 * 4 + 2] = 1;
+  const auto edges = edges_of(raster);
+  REQUIRE(edges.size() == 4);
+  double around = 0.0;
+  for (const WallSegment& e : edges) around += distance(e.from, e.to);
+  CHECK(around == Approx(3.0));  // 1.0 + 0.5 + 1.0 + 0.5
+}
+
+TEST_CASE("MobileSim maps: LINES are walls, DATA only where there are none, carriage returns are no matter") {
+  const Scratch scratch;
+  const WallMap lines = load_aria_map(scratch.write(
+      "a.map", "2D-Map\r\nCairn: Goal 1 2 0 \"\" ICON \"x\"\r\nLINES\r\n-500 0 1500 250\r\nDATA\r\n1 2\r\n"));
+  REQUIRE(lines.segments.size() == 1);
+  CHECK(lines.segments[0].from == Vec2{-0.5, 0.0});
+  CHECK(lines.segments[0].to == Vec2{1.5, 0.25});
+  CHECK(lines.discs.empty());
+  const WallMap points = load_aria_map(scratch.write("b.map", "2D-Map\nDATA\n1000 2000\n3000 4000\n"));
+  REQUIRE(points.discs.size() == 2);
+  CHECK(points.discs[1].centre == Vec2{3.0, 4.0});
+  CHECK(points.discs[1].radius_m == 0.02);
+}

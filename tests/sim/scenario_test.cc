@@ -1,0 +1,148 @@
+#include "hal/robot_model_file.h"
+#include "tests/sim/made_worlds.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::sim;
+
+namespace {
+
+const std::string kMap = "[map]\naria = \"room.map\"\n";                   // lines 1, 2
+const std::string kRobot = "[robot]\nstart = [5, 5, 0]\ngoal = [8, 8]\n";  // lines 3 to 5
+const std::string kBody =
+    "[footprint]\nfront_m = 0.3\nrear_m = 0.2\nhalf_width_m = 0.25\n"  // lines 1 to 4
+    "[drive]\nwheel_radius_m = 0.1\ntrack_width_m = 0.4\nmax_wheel_speed_radps = 10\n"
+    "[limits]\nmax_speed_mps = 0.8\nmax_turn_radps = 1.2\nmax_accel_mps2 = 0.4\nmax_turn_accel_radps2 = 2\n"
+    "max_jerk_mps3 = 1.5\nbrake_mps2 = 0.9\n"
+    "[laser]\nmount = [0.1, 0.0, 3.0]\nfov_deg = 180\nbeams = 181\nrate_hz = 10\nrange_min_m = 0.1\nrange_m = 8\n";
+
+Scratch& folder() {
+  static Scratch scratch;
+  scratch.write("room.map", kRoom);
+  scratch.write("walk.csv", "t_s,id,x_m,y_m\n0,1,1,1\n1,1,2,1\n");
+  return scratch;
+}
+
+Scenario parsed(const std::string& text) { return load_scenario(folder().write("s.toml", text)); }
+
+}  // namespace
+
+TEST_CASE("a scenario says everything that it says") {
+  folder().write("body.toml", kBody);
+  const Scenario s = parsed("name = \"all\"\nseed = 7\ntimeout_s = 60\n" + kMap + kRobot +
+                            "goal_tolerance_m = 0.5\nmodel = \"wheelchair\"\nmax_speed_mps = 1.1\n"
+                            "[robot.laser]\nfov_deg = 180\nbeams = 361\nrate_hz = 20\nrange_m = 8\nnoise_m = 0.02\n"
+                            "drop_out = 0.1\n[robot.pose_source]\nrate_hz = 4\nposition_std_m = 0.2\n"
+                            "[[movers]]\nkind = \"wander\"\ncount = 3\nspeed_mps = 0.7\nradius_m = 0.3\n"
+                            "turn_rate_radps = 2\nspontaneous_turns_hz = 0.1\n"
+                            "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\noffset = [1, 2]\nloop = true\n"
+                            "start_at_s = 3\n[[faults]]\nkind = \"scan_stale\"\nat_s = 1\nfor_s = 0.5\n");
+  CHECK(s.name == "all");
+  CHECK(s.seed == 7);
+  CHECK(s.timeout_s == 60.0);
+  CHECK(s.map_kind == MapKind::kAria);
+  CHECK(s.start == Pose2{5, 5, 0});
+  CHECK(s.goal == Vec2{8, 8});
+  CHECK(s.goal_tolerance_m == 0.5);
+  CHECK(s.model.name == "wheelchair");
+  CHECK(s.model.limits.max_speed_mps == 1.1);
+  CHECK(s.model.laser.fov_rad == Approx(kPi));
+  CHECK(s.model.laser.beams == 361);
+  CHECK(s.model.laser.drop_out == 0.1);
+  CHECK(s.model.laser.robot_from_laser.x == wheelchair().laser.robot_from_laser.x);
+  CHECK(s.pose_source.enabled);
+  CHECK(s.pose_source.rate_hz == 4.0);
+  REQUIRE(s.wanderers.size() == 1);
+  CHECK(s.wanderers[0].count == 3);
+  CHECK(s.wanderers[0].turn_rate_radps == 2.0);
+  REQUIRE(s.recorded.size() == 1);
+  CHECK(s.recorded[0].offset == Vec2{1, 2});
+  CHECK(s.recorded[0].loop);
+  REQUIRE(s.faults.size() == 1);
+  CHECK(s.faults[0].for_s == 0.5);
+}
+
+TEST_CASE("a short scenario gets a P3-DX, nobody moving and no outside fixes") {
+  const Scenario s = parsed(kMap + kRobot);
+  CHECK(s.name == "s");
+  CHECK(s.seed == 1);
+  CHECK(s.model.name == "p3dx");
+  CHECK(s.wanderers.empty());
+  CHECK_FALSE(s.pose_source.enabled);
+}
+
+TEST_CASE("bad scenarios are refused with file, line and cause") {
+  struct Bad {
+    std::string text, place;
+  };
+  const std::string good = kMap + kRobot;  // five lines
+  const Bad cases[] = {
+      {"", "s.toml:1: map is missing"},
+      {"[map\n", "s.toml:1: "},
+      {kMap, "s.toml:1: robot is missing"},
+      {"[map]\n" + kRobot, "s.toml:1: map.yaml or aria or cylinders: one is needed"},
+      {"[map]\naria = \"room.map\"\ncylinders = \"room.map\"\n" + kRobot, "one is needed"},
+      {"[map]\naria = \"none.map\"\n" + kRobot, "s.toml:2: map.aria names "},
+      {"[map]\naria = 3\n" + kRobot, "s.toml:2: map.aria is not a text"},
+      {"map = 3\n" + kRobot, "s.toml:1: map is not a table"},
+      {"[map]\naria = \"room.map\"\nscale = 2\n" + kRobot, "s.toml:3: map.scale is not a known key"},
+      {"speed = 3\n" + good, "s.toml:1: speed is not a known key"},
+      {"seed = -1\n" + good, "s.toml:1: seed is -1"},
+      {"seed = 1.5\n" + good, "s.toml:1: seed is not a whole number"},
+      {"timeout_s = \"long\"\n" + good, "s.toml:1: timeout_s is not a number"},
+      {"timeout_s = nan\n" + good, "s.toml:1: timeout_s is nan"},
+      {"timeout_s = inf\n" + good, "s.toml:1: timeout_s is inf"},
+      {kMap + "[robot]\ngoal = [8, 8]\n", "s.toml:3: robot.start is missing"},
+      {kMap + "[robot]\nstart = [5, 5]\ngoal = [8, 8]\n", "s.toml:4: robot.start has 2 elements"},
+      {kMap + "[robot]\nstart = [5, 5, nan]\ngoal = [8, 8]\n", "s.toml:4: robot.start holds what is no number"},
+      {kMap + "[robot]\nstart = [5, 5, 0]\ngoal = 8\n", "s.toml:5: robot.goal is not an array"},
+      {good + "model = \"tank\"\n", "s.toml:6: robot.model names "},
+      {good + "max_speed_mps = 9\n", "s.toml:6: robot.max_speed_mps is 9"},
+      {good + "goal_tolerance_m = 0\n", "s.toml:6: robot.goal_tolerance_m is 0"},
+      {good + "[robot.laser]\nbeams = 5000\n", "s.toml:7: robot.laser.beams is 5000"},
+      {good + "[robot.laser]\nfov_deg = 400\n", "s.toml:7: robot.laser.fov_deg is 400"},
+      {good + "[robot.laser]\ncolour = 1\n", "s.toml:7: robot.laser.colour is not a known key"},
+      {good + "[robot.laser]\nrange_min_m = 3\nrange_m = 2\n", "s.toml:7: robot.laser.range_min_m is not below"},
+      {good + "[robot.pose_source]\nenabled = 1\n", "s.toml:7: robot.pose_source.enabled is not true or false"},
+      {good + "[movers]\nkind = \"wander\"\n", "s.toml:6: movers is not a list of tables"},
+      {good + "[[movers]]\ncount = 3\n", "s.toml:6: movers.kind is missing"},
+      {good + "[[movers]]\nkind = \"fly\"\n", "s.toml:7: movers.kind is \"fly\""},
+      {good + "[[movers]]\nkind = \"wander\"\n", "s.toml:6: movers.count is missing"},
+      {good + "[[movers]]\nkind = \"wander\"\ncount = -1\n", "s.toml:8: movers.count is -1"},
+      {good + "[[movers]]\nkind = \"wander\"\ncount = 1\nfile = \"walk.csv\"\n",
+       "s.toml:9: movers.file is not a known"},
+      {good + "[[movers]]\nkind = \"recorded\"\n", "s.toml:6: movers.file is missing"},
+      {good + "[[movers]]\nkind = \"recorded\"\nfile = \"no.csv\"\n", "s.toml:8: movers.file names "},
+      {good + "[[faults]]\nkind = \"fire\"\nat_s = 1\nfor_s = 1\n", "s.toml:7: faults.kind is \"fire\""},
+      {good + "[[faults]]\nkind = \"scan_nan\"\nat_s = 1\n", "s.toml:6: faults.for_s is missing"}};
+  for (const Bad& bad : cases) {
+    const std::string message = refusal([&] { static_cast<void>(parsed(bad.text)); });
+    INFO(bad.text << "\n-> " << message);
+    CHECK(says(message, bad.place));
+    CHECK(says(message, "; "));
+  }
+  CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml:0: no such file"));
+}
+
+TEST_CASE("a robot's own file gives body, drive, limits and laser") {
+  folder().write("body.toml", kBody);
+  const RobotModel model = parsed(kMap + kRobot + "model = \"body.toml\"\n").model;
+  CHECK(model.name == "body");
+  CHECK(model.footprint.front_m == 0.3);
+  CHECK(model.drive.max_wheel_speed_radps == 10.0);
+  CHECK(model.limits.brake_mps2 == 0.9);
+  CHECK(model.laser.robot_from_laser == Pose2{0.1, 0.0, 3.0});
+  CHECK(model.laser.drop_out == 0.0);
+}
+
+TEST_CASE("a bad robot file is refused with its own name and line") {
+  const auto message = [](const std::string& text) {
+    const std::string file = folder().write("robot.toml", text);
+    return refusal([&] { static_cast<void>(load_robot_model(file)); });
+  };
+  CHECK(says(message("[footprint]\nfront_m = 0.3\n"), "robot.toml:1: footprint.rear_m is missing"));
+  CHECK(says(message("[footprint]\nfront_m = -1\n"), "robot.toml:2: footprint.front_m is -1"));
+  CHECK(says(message(kBody + "colour = 1\n"), "laser.colour is not a known key"));
+  CHECK(says(message("wheels = 4\n" + kBody), "robot.toml:1: wheels is not a known key"));
+  CHECK(says(message(kBody.substr(0, kBody.find("beams"))), "laser.beams is missing"));
+}
