@@ -18,7 +18,9 @@ inline constexpr float kUnreachable = std::numeric_limits<float>::infinity();
 /// psi of a cell that is not free.
 inline constexpr float kNotFree = std::numeric_limits<float>::quiet_NaN();
 
+inline constexpr float kLargest = std::numeric_limits<float>::max();
+
 /// Whether a cell with this psi is free and joined to the goal (false for NaN and infinity).
-JAYWALK_CELL bool is_joined(float psi) { return psi < std::numeric_limits<float>::max(); }
+JAYWALK_CELL bool is_joined(float psi) { return psi <= kLargest; }
 
 }  // namespace jaywalk::cell

@@ -16,7 +16,8 @@ class Multigrid {
     for (std::int32_t side = max_side; side >= kCoarsestSide; side /= 2) arrays_.push_back(take_level(side));
     const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
     ones_ = executor_.template take<float>(cells);
-    executor_.for_each(Grid{max_side}.cells(), Fill{ones_, 1.0F});
+    executor_.for_each(Grid{max_side}.cells(), Fill<float>{ones_, 1.0F});
+    executor_.wait();
   }
 
   /// Improves psi, an estimate with cell::kUnreachable and cell::kNotFree where that is so, by `cycles` cycles. The

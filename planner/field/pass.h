@@ -99,7 +99,7 @@ class Pass {
     FieldQuality quality;
     if (warm) quality = attempt(grid, goal, kWarmCycles, psi);
     if (!quality.certified) {
-      executor_.for_each(grid.cells(), Fill{a_.correction, 0.0F});
+      executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
       const std::int32_t before = quality.cycles;
       quality = attempt(grid, goal, kColdCycles, psi);
       quality.cycles += before;
@@ -149,14 +149,9 @@ class Pass {
     return quality;
   }
 
-  struct NothingChanged {
-    std::uint32_t* changed;
-    JAYWALK_CELL void operator()(std::int32_t line) const { changed[line] = 0; }
-  };
-
   bool sweep_until_settled(Grid grid) noexcept {
     for (bool settled = false; !settled;) {
-      executor_.for_each(grid.side, NothingChanged{a_.changed});
+      executor_.for_each(grid.side, Fill<std::uint32_t>{a_.changed, 0U});
       executor_.for_each(grid.side, SweepLine{grid.side, 1, grid.side, a_.rate, a_.cost, a_.changed});
       executor_.for_each(grid.side, SweepLine{grid.side, grid.side, 1, a_.rate, a_.cost, a_.changed});
       if (!executor_.wait()) return false;

@@ -7,9 +7,10 @@
 
 namespace jaywalk::field {
 
+template <class T>
 struct Fill {
-  float* x;
-  float value;
+  T* x;
+  T value;
   JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
 };
 
@@ -121,7 +122,9 @@ struct AddCorrection {
   const float* correction;
   float* psi;
 
-  JAYWALK_CELL void operator()(std::int32_t c) const { psi[c] = start[c] + correction[c]; }
+  JAYWALK_CELL void operator()(std::int32_t c) const {
+    psi[c] = cell::is_joined(start[c]) ? start[c] + correction[c] : start[c];
+  }
 };
 
 /// The certificate, a row at a time: joined cells, the goal apart, that have no strictly lower one among

@@ -1,0 +1,77 @@
+#pragma once
+// An executor on a CUDA device: one kernel that calls a stage, in one and two dimensions. Memory is
+// managed, so that the host reads results and writes requests without copies (after wait()).
+#include <cuda_runtime.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <stdexcept>
+#include <vector>
+
+namespace jaywalk {
+
+template <class Stage>
+__global__ void visit(std::int32_t n, Stage stage) {
+  const auto k = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
+  if (k < n) stage(k);
+}
+
+template <class Stage>
+__global__ void visit_cells(std::int32_t w, std::int32_t h, Stage stage) {
+  const auto i = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
+  const auto j = static_cast<std::int32_t>(blockIdx.y * blockDim.y + threadIdx.y);
+  if (i < w && j < h) stage(i, j);
+}
+
+class CudaExecutor {
+ public:
+  static constexpr bool kQueue = false;
+
+  /// Throws std::runtime_error with the driver's own words.
+  CudaExecutor() { must(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+  ~CudaExecutor() {
+    for (void* block : blocks_) cudaFree(block);
+    cudaStreamDestroy(stream_);
+  }
+  CudaExecutor(const CudaExecutor&) = delete;
+  CudaExecutor& operator=(const CudaExecutor&) = delete;
+
+  template <class T>
+  T* take(std::size_t n) {
+    void* block = nullptr;
+    must(cudaMallocManaged(&block, n * sizeof(T)));
+    blocks_.push_back(block);
+    must(cudaMemset(block, 0, n * sizeof(T)));
+    must(cudaDeviceSynchronize());
+    return static_cast<T*>(block);
+  }
+
+  template <class Stage>
+  void for_each(std::int32_t n, const Stage& stage) noexcept {
+    constexpr std::int32_t kThreads = 128;
+    if (n > 0) visit<<<blocks(n, kThreads), kThreads, 0, stream_>>>(n, stage);
+  }
+
+  template <class Stage>
+  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
+    const dim3 threads(32, 4);
+    const dim3 grid(blocks(w, 32), blocks(h, 4));
+    if (w > 0 && h > 0) visit_cells<<<grid, threads, 0, stream_>>>(w, h, stage);
+  }
+
+  bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
+  [[nodiscard]] const char* name() const noexcept { return "cuda"; }
+
+ private:
+  static unsigned blocks(std::int32_t n, std::int32_t threads) {
+    return static_cast<unsigned>((n + threads - 1) / threads);
+  }
+  static void must(cudaError_t error) {
+    if (error != cudaSuccess) throw std::runtime_error(cudaGetErrorString(error));
+  }
+
+  cudaStream_t stream_ = nullptr;
+  std::vector<void*> blocks_;
+};
+
+}  // namespace jaywalk
