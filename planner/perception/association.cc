@@ -37,10 +37,11 @@ std::int32_t fellow_leg(const Clusters& clusters, std::size_t lead, std::uint32_
 
 Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow) {
   const Cluster& c = clusters[lead];
-  if (!c.leg()) return {c.centre_in_map, kArcStdM, std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM)};
-  if (fellow < 0) return {c.centre_in_map, kOneLegStdM, kPersonRadiusM};
+  if (!c.leg())
+    return {c.centre_in_map, kArcStdM, std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM), c.in_free_space};
+  if (fellow < 0) return {c.centre_in_map, kOneLegStdM, kPersonRadiusM, c.in_free_space};
   const Vec2 other = clusters[static_cast<std::size_t>(fellow)].centre_in_map;
-  return {(c.centre_in_map + other) * 0.5, kTwoLegsStdM, kPersonRadiusM};
+  return {(c.centre_in_map + other) * 0.5, kTwoLegsStdM, kPersonRadiusM, c.in_free_space};
 }
 
 void free_strangers(const Track& track, std::size_t lead, std::int32_t fellow, Clusters& clusters) {

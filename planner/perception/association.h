@@ -10,6 +10,7 @@ struct Observation {
   Vec2 position_in_map;
   double std_m = 0.0;  ///< an axis
   double radius_m = 0.0;
+  bool in_free_space = false;
 };
 
 /// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of

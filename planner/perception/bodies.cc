@@ -26,6 +26,8 @@ Body born_at(Vec2 position, double std_m, double radius, Time now, std::uint32_t
   body.track.hits = 1;
   body.track.last_seen = now;
   body.anchor_in_map = position;
+  body.path.add(now, position);
+  body.born = now;
   body.still_since = now;
   return body;
 }

@@ -3,14 +3,19 @@
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
+#include "planner/perception/recent_path.h"
 #include "planner/perception/track.h"
 
 namespace jaywalk {
 
 struct Body {
   Track track;
-  bool given = false;             ///< named by an outside system; the laser does not judge it
-  std::uint32_t given_id = 0;     ///< that system's own name for it
+  RecentPath path;
+  bool given = false;          ///< named by an outside system; the laser does not judge it
+  std::uint32_t given_id = 0;  ///< that system's own name for it
+  Time born = kNever;
+  double seen_share = 1.0;        ///< running mean: how many of the scans saw it
+  double free_share = 0.0;        ///< running mean: how much of the time it was seen where nothing stood before
   Time still_since = kNever;      ///< since when it has stood near `anchor`
   Vec2 anchor_in_map;             ///< where it last stood, or was born
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
@@ -24,7 +29,7 @@ struct Body {
 
 using Bodies = FixedVector<Body, kMaxTracks>;
 
-/// A body seen for the first time at `position`: it may be walking already, 1 m/s an axis.
+/// A body seen for the first time at `position_in_map`: it may be walking already, 1 m/s an axis.
 [[nodiscard]] Body born_at(Vec2 position_in_map, double std_m, double radius_m, Time now, std::uint32_t id) noexcept;
 
 /// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, and that may be the

@@ -8,10 +8,13 @@ namespace {
 
 constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
 constexpr double kStoppedMps = 0.10;
+constexpr double kMostlySeen = 0.7;  // of the scans; what flickers is clutter
+constexpr double kMostlyFree = 0.7;  // of its places in free space
 constexpr double kSpeedSigmas = 3.0;
 constexpr double kGoneM = 0.25;  // from the anchor: half of a step, more than a person's swaying
 constexpr double kGoneSigmas = 3.0;
-constexpr std::uint32_t kFewestHits = 4;
+constexpr std::size_t kFewestPlaces = 5;
+constexpr double kExplained = 0.85;  // by a straight walk: one hop reaches 0.75
 constexpr Duration kSlowFor = duration_from_seconds(1.0);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
@@ -21,16 +24,32 @@ void anchor_here(Body& body, Time now) {
   body.still_since = now;
 }
 
-bool sets_out(const Body& body) {
+bool world_agrees(const Body& body, const EvidenceMap& still) {
+  return body.free_share > kMostlyFree || still.seen_free(still.cell_at(body.anchor_in_map));
+}
+
+/// Its places make a walk: long enough, straight enough, and fast against what the filter is unsure of.
+bool sets_out(const Body& body, const EvidenceMap& still) {
   const Track& t = body.track;
   const double speed = norm(t.velocity_in_map);
+  if (body.misses > 0 || body.seen_share < kMostlySeen) return false;
+  if (speed < std::max(kMovingMps, kSpeedSigmas * std::sqrt(t.covariance.vv))) return false;
   const double gone = distance(t.position_in_map, body.anchor_in_map);
-  return t.hits >= kFewestHits && speed > std::max(kMovingMps, kSpeedSigmas * std::sqrt(t.covariance.vv)) &&
-         gone > std::max(kGoneM, kGoneSigmas * std::sqrt(t.covariance.pp));
+  if (gone < std::max(kGoneM, kGoneSigmas * std::sqrt(t.covariance.pp))) return false;
+  const StraightWalk walk = body.path.fit();
+  return walk.places >= kFewestPlaces && walk.explained > kExplained && world_agrees(body, still);
+}
+
+/// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
+bool slow(const Body& body) {
+  const StraightWalk walk = body.path.fit();
+  const bool goes_nowhere =
+      body.misses == 0 && walk.places >= kFewestPlaces && walk.length_m < kStoppedMps * walk.duration_s;
+  return goes_nowhere || norm(body.track.velocity_in_map) < kStoppedMps;
 }
 
 void judge_mover(Body& body, Time now) {
-  if (norm(body.track.velocity_in_map) > kStoppedMps) {
+  if (!slow(body)) {
     body.slow_since = kNever;
     return;
   }
@@ -41,8 +60,8 @@ void judge_mover(Body& body, Time now) {
   anchor_here(body, now);
 }
 
-void judge_stander(Body& body, Time now) {
-  if (sets_out(body)) {
+void judge_stander(Body& body, const EvidenceMap& still, Time now) {
+  if (sets_out(body, still)) {
     body.track.moving = true;
     body.settled = false;
     return;
@@ -54,12 +73,12 @@ void judge_stander(Body& body, Time now) {
 
 }  // namespace
 
-void judge_motion(Body& body, Time now) noexcept {
+void judge_motion(Body& body, const EvidenceMap& still, Time now) noexcept {
   if (body.given) return;
   if (body.track.moving) {
     judge_mover(body, now);
   } else {
-    judge_stander(body, now);
+    judge_stander(body, still, now);
   }
 }
 

@@ -10,9 +10,11 @@ constexpr double kJumpM = 0.12;      // surfaces closer than this are one thing:
 constexpr double kJumpSteps = 3.0;   // or than this many beam spacings: a surface seen at 70 degrees
 constexpr double kWidestM = 1.1;     // wider things are walls
 constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
-constexpr double kShareFree = 0.6;   // of a segment's points
+constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
+constexpr double kMostFree = 0.6;    // of its points in free space: it came there
 constexpr std::uint32_t kFewestPoints = 3;
-constexpr double kWideSupportM = 6.0;  // beyond, one degree of heading is more than a cell: look two cells round
+constexpr double kWallNoiseM = 0.10;      // a wall's points scatter this far about where the map holds it
+constexpr double kWallNoisePerM = 0.012;  // and this much more a metre of range: 0.7 degrees of heading
 
 /// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
 constexpr double kArcMean = kPi / 4.0;
@@ -31,16 +33,40 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
   const double width = std::fabs(cross(along, in_map.position[segment.last] - in_map.position[segment.first]));
   const double spacing = width / std::max(1U, segment.last - segment.first);  // the arc's ends lie between beams
   const double radius = 0.5 * (width + spacing);
-  return {segment, mean + along * (kArcMean * radius), radius, points[segment.first].range_m, 0};
+  return {.segment = segment,
+          .centre_in_map = mean + along * (kArcMean * radius),
+          .radius_m = radius,
+          .range_m = points[segment.first].range_m};
 }
 
-bool could_be_body(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map) {
-  const std::uint32_t count = segment.last - segment.first + 1;
-  if (count < kFewestPoints || points[segment.first].range_m > kFarthestM) return false;
-  if (distance(in_map.position[segment.first], in_map.position[segment.last]) > kWidestM) return false;
-  std::uint32_t free = 0;
-  for (std::uint32_t k = segment.first; k <= segment.last; ++k) free += in_map.in_free_space[k] ? 1U : 0U;
-  return free >= kShareFree * count;
+struct GroundShares {
+  double wall = 0.0, free = 0.0;
+};
+
+GroundShares shares_of(const Segment& segment, const PointsInMap& in_map) {
+  double wall = 0.0, free = 0.0;
+  for (std::uint32_t k = segment.first; k <= segment.last; ++k) {
+    wall += in_map.ground[k] == Ground::kWall ? 1.0 : 0.0;
+    free += in_map.ground[k] == Ground::kFree ? 1.0 : 0.0;
+  }
+  const double count = segment.last - segment.first + 1;
+  return {wall / count, free / count};
+}
+
+/// Whether both neighbours in the sweep lie behind the segment, or nothing was returned beside it.
+bool stands_out(const Segment& segment, const ScanPoints& points) {
+  const auto behind = [&](std::uint32_t end, std::uint32_t neighbour) {
+    return points[neighbour].beam + 1 < points[end].beam || points[end].beam + 1 < points[neighbour].beam ||
+           points[neighbour].range_m > points[end].range_m;
+  };
+  const bool low = segment.first == 0 || behind(segment.first, segment.first - 1);
+  const bool high = segment.last + 1 >= points.size() || behind(segment.last, segment.last + 1);
+  return low && high;
+}
+
+bool body_sized(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map) {
+  return segment.last - segment.first + 1 >= kFewestPoints && points[segment.first].range_m < kFarthestM &&
+         distance(in_map.position[segment.first], in_map.position[segment.last]) < kWidestM;
 }
 
 }  // namespace
@@ -58,24 +84,30 @@ void cut_at_jumps(const ScanPoints& points, double angle_step, Segments& out) no
   }
 }
 
-bool in_free_space(const EvidenceMap& still, Vec2 p, double range) noexcept {
+Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
   const CellIndex cell = still.cell_at(p);
-  if (!still.seen_free(cell)) return false;
-  const std::int32_t reach = range > kWideSupportM ? 2 : 1;
+  const double near = kWallNoiseM + kWallNoisePerM * range;
+  const std::int32_t reach = near > still.cell_m() ? 2 : 1;
   for (std::int32_t j = -reach; j <= reach; ++j) {
     for (std::int32_t i = -reach; i <= reach; ++i) {
-      if (still.occupied({cell.i + i, cell.j + j})) return false;
+      const CellIndex c{cell.i + i, cell.j + j};
+      if (still.occupied(c) && distance(still.surface(c), p) < near) return Ground::kWall;
     }
   }
-  return true;
+  return still.evidence(cell) < 0 ? Ground::kFree : Ground::kUnknown;
 }
 
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser,
                    Clusters& out) noexcept {
   out.clear();
   for (const Segment& segment : segments) {
-    if (!could_be_body(segment, points, in_map)) continue;
-    if (!out.push_back(cluster_of(segment, points, in_map, laser))) return;
+    if (!body_sized(segment, points, in_map)) continue;
+    const GroundShares shares = shares_of(segment, in_map);
+    if (shares.wall > kMostWall) continue;
+    Cluster cluster = cluster_of(segment, points, in_map, laser);
+    cluster.in_free_space = shares.free > kMostFree;
+    if (!cluster.in_free_space && !stands_out(segment, points)) continue;
+    if (!out.push_back(cluster)) return;
   }
 }
 

@@ -18,12 +18,13 @@ struct Segment {
 inline constexpr std::size_t kMaxSegments = 512;
 using Segments = FixedVector<Segment, kMaxSegments>;
 
-/// A segment in space that was seen free before: something came there.
+/// A segment with no wall behind it that is small enough for a body: something may have come there.
 struct Cluster {
   Segment segment;
   Vec2 centre_in_map;          ///< of the body: behind the visible arc
   double radius_m = 0.0;       ///< half of the visible width
   double range_m = 0.0;        ///< from the laser
+  bool in_free_space = false;  ///< most of it stands where nothing stood before
   std::uint32_t track_id = 0;  ///< of the body that it was given to; 0: none
 
   /// Leg-sized: two such may be one person.
@@ -34,20 +35,26 @@ struct Cluster {
 inline constexpr std::size_t kMaxClusters = 128;
 using Clusters = FixedVector<Cluster, kMaxClusters>;
 
-/// The scan's points in the map, and whether each stands in free space.
+/// What the map says of the place where a point lies.
+enum class Ground : std::uint8_t {
+  kWall,     ///< a surface that it holds occupied is as near as noise and pose explain
+  kUnknown,  ///< nothing
+  kFree,     ///< beams passed there
+};
+
+/// The scan's points in the map, and the ground that each stands on.
 struct PointsInMap {
   std::array<Vec2, kMaxBeams> position;
-  std::array<bool, kMaxBeams> in_free_space;
+  std::array<Ground, kMaxBeams> ground;
 };
 
 /// Cuts the scan where neighbouring points are farther apart than a surface explains (adaptive in range).
 void cut_at_jumps(const ScanPoints& points, double angle_step_rad, Segments& out) noexcept;
 
-/// A point stands in free space when its cell has been seen free and no cell about it is held occupied: a wall's point
-/// that falls short of its cell, by noise or by a pose a cell wrong, has the wall beside it.
-[[nodiscard]] bool in_free_space(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
+[[nodiscard]] Ground ground_at(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
 
-/// The segments that stand in free space and are small enough to be a body (at most 1.1 m across).
+/// The segments that are no walls and small enough for a body (at most 1.1 m across). In unknown space only those that
+/// stand out before whatever is beside them count: what half hides behind something else is a wall coming into view.
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser_in_map,
                    Clusters& out) noexcept;
 

@@ -9,6 +9,7 @@
 #include "planner/perception/map_entry.h"
 #include "planner/perception/motion_judgement.h"
 #include "planner/perception/segments.h"
+#include "planner/perception/self_mask.h"
 
 namespace jaywalk {
 namespace {
@@ -16,11 +17,13 @@ namespace {
 constexpr double kAccelStd = 1.0;              // m/s^2 an axis: people start and turn within half a second
 constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
 constexpr double kLookedThroughForS = 0.7;     // a body that beams pass through this long is gone
-constexpr double kUnseenForS = 2.5;            // a hidden one is believed in this long
+constexpr double kUnseenForS = 2.0;            // a hidden one is believed in this long, and no longer than it was seen
 constexpr double kGivenUnseenForS = 1.0;       // one from outside, this long after its last report
 constexpr std::uint32_t kTentativeMisses = 2;  // one not believed yet may be missed this often
 constexpr double kSkinM = 0.15;                // points this near a mover's body are its own
 constexpr double kSeenThroughM = 0.4;          // a beam that ends this far behind a body's centre passed through it
+constexpr double kSeenGain = 0.15;             // of the running mean of how often a body was seen
+constexpr double kFreeGain = 0.3;              // of the running mean of how free the ground under a body was
 constexpr double kRadiusGain = 0.2;            // of the running mean of a body's radius
 
 bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading); }
@@ -38,6 +41,7 @@ struct Tracker::State {
 
   void predict_to(Time now) noexcept;
   void look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept;
+  void drop_own_points() noexcept;
   void associate_and_correct() noexcept;
   void take(Body& body, const Observation& seen) noexcept;
   void judge() noexcept;
@@ -45,7 +49,7 @@ struct Tracker::State {
   [[nodiscard]] bool gone(const Body& body) const noexcept;
   [[nodiscard]] bool looked_through(const Body& body, const LaserScan& scan) const noexcept;
   void birth() noexcept;
-  [[nodiscard]] bool undecided_or_moving(std::uint32_t track_id) const noexcept;
+  [[nodiscard]] bool kept_out_of_map(const Cluster& cluster) const noexcept;
   void enter_still() noexcept;
   void publish() noexcept;
 
@@ -53,6 +57,7 @@ struct Tracker::State {
   EvidenceMap still;
   MapEntry entry;
 
+  SelfMask self_mask;
   ScanPoints points;
   PointsInMap in_map;
   Segments segments;
@@ -79,15 +84,25 @@ void Tracker::State::predict_to(Time stamp) noexcept {
 }
 
 void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept {
+  self_mask.learn(scan, map_from_robot.heading);
   project_scan(scan, config.robot_from_laser, twist, points);
+  drop_own_points();
   map_from_laser = map_from_robot * config.robot_from_laser;
   const Transform2 to_map(map_from_robot);
   for (std::size_t k = 0; k < points.size(); ++k) {
     in_map.position[k] = to_map * points[k].in_robot;
-    in_map.in_free_space[k] = in_free_space(still, in_map.position[k], points[k].range_m);
+    in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
   cut_at_jumps(points, static_cast<double>(scan.angle_step_rad), segments);
   find_clusters(points, in_map, segments, map_from_laser.position(), clusters);
+}
+
+void Tracker::State::drop_own_points() noexcept {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    if (!self_mask.on_robot(points[k].beam)) points[kept++] = points[k];
+  }
+  points.truncate(kept);
 }
 
 void Tracker::State::take(Body& body, const Observation& seen) noexcept {
@@ -97,6 +112,8 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   track.hits += 1;
   track.last_seen = now;
   body.misses = 0;
+  body.path.add(now, seen.position_in_map);
+  body.free_share += kFreeGain * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
 }
 
@@ -104,7 +121,9 @@ void Tracker::State::associate_and_correct() noexcept {
   associate(bodies, clusters);
   for (Body& body : bodies) {
     Observation seen;
-    if (observe(body.track, clusters, seen)) {
+    const bool found = observe(body.track, clusters, seen);
+    body.seen_share += kSeenGain * ((found ? 1.0 : 0.0) - body.seen_share);
+    if (found) {
       take(body, seen);
     } else {
       body.misses += 1;
@@ -113,7 +132,7 @@ void Tracker::State::associate_and_correct() noexcept {
 }
 
 void Tracker::State::judge() noexcept {
-  for (Body& body : bodies) judge_motion(body, now);
+  for (Body& body : bodies) judge_motion(body, still, now);
 }
 
 bool Tracker::State::looked_through(const Body& body, const LaserScan& scan) const noexcept {
@@ -130,7 +149,8 @@ bool Tracker::State::gone(const Body& body) const noexcept {
   const double unseen_s = to_seconds(now - body.track.last_seen);
   if (body.given) return unseen_s > kGivenUnseenForS;
   if (!body.confirmed()) return body.misses > kTentativeMisses;
-  return unseen_s > kUnseenForS || body.looked_through_s > kLookedThroughForS;
+  const double known_s = to_seconds(body.track.last_seen - body.born);
+  return unseen_s > std::min(kUnseenForS, known_s) || body.looked_through_s > kLookedThroughForS;
 }
 
 void Tracker::State::drop_unseen(const LaserScan& scan) noexcept {
@@ -150,15 +170,17 @@ void Tracker::State::birth() noexcept {
   }
 }
 
-bool Tracker::State::undecided_or_moving(std::uint32_t track_id) const noexcept {
-  const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.track.id == track_id; });
-  return body != bodies.end() && !body->settled;
+bool Tracker::State::kept_out_of_map(const Cluster& cluster) const noexcept {
+  const auto body =
+      std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.track.id == cluster.track_id; });
+  if (body == bodies.end()) return false;
+  return body->track.moving || (cluster.in_free_space && body->confirmed() && !body->settled);
 }
 
 void Tracker::State::enter_still() noexcept {
   std::fill(is_still.begin(), is_still.begin() + static_cast<std::ptrdiff_t>(points.size()), true);
   for (const Cluster& c : clusters) {
-    if (!undecided_or_moving(c.track_id)) continue;
+    if (!kept_out_of_map(c)) continue;
     for (std::uint32_t k = c.segment.first; k <= c.segment.last; ++k) is_still[k] = false;
   }
   for (const Body& body : bodies) {
