@@ -53,9 +53,9 @@ void RunReport::add(const RunSample& sample) {
   last_ = now;
   tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
   if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
-  const Vec2 position = (sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot).position();
-  shape_.add(position);
-  robot_.add(0, now, position, 0.0, false);
+  const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
+  shape_.add(pose.position());
+  if (driven_.empty() || now - driven_.back().t >= TrailBook::kSpacing) driven_.push_back({now, pose});
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   add_tracks(sample);
 }
@@ -124,11 +124,6 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["measured_on"] = has_truth_ ? "truth" : "estimate";
   j["version"] = end.version;
   return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
-}
-
-std::vector<TrailPoint> RunReport::driven() const {
-  const std::vector<Trail> robot = robot_.trails();
-  return robot.empty() ? std::vector<TrailPoint>{} : robot.front().points;
 }
 
 }  // namespace jaywalk

@@ -29,9 +29,12 @@ class RunReport {
   /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick.
   std::string finish(const RunEnd& end);
 
-  /// For the picture: the robot's way (of truth where there is one, else estimated), the movers' and
-  /// the tracks'.
-  [[nodiscard]] std::vector<TrailPoint> driven() const;
+  [[nodiscard]] double path_length_m() const { return shape_.length_m(); }
+  [[nodiscard]] double duration_s() const { return ticks_ == 0 ? 0.0 : to_seconds(last_ - first_); }
+
+  /// For the picture: the robot's way (of truth where there is one, else estimated) at every
+  /// TrailBook::kSpacing, the movers' and the tracks'.
+  [[nodiscard]] const std::vector<DrivenPose>& driven() const { return driven_; }
   [[nodiscard]] std::vector<Trail> mover_trails() const { return movers_.trails(); }
   [[nodiscard]] std::vector<Trail> track_trails() const { return tracks_.trails(); }
 
@@ -45,7 +48,8 @@ class RunReport {
   PathShape shape_;
   Smoothness smoothness_;
   Distribution plan_ms_, tick_ms_;
-  TrailBook robot_, movers_, tracks_;
+  std::vector<DrivenPose> driven_;
+  TrailBook movers_, tracks_;
   std::uint64_t ticks_ = 0;
   Time first_ = kNever, last_ = kNever;
   bool has_truth_ = false;

@@ -50,11 +50,11 @@ struct RunEnd {
   std::optional<double> static_shortest_path_m = {};
   std::uint64_t missed_ticks = 0;
   std::uint64_t dropped_records = 0;
-  std::string backend;
-  std::string mode;
+  std::string backend = {};
+  std::string mode = {};
   std::optional<std::uint64_t> seed = {};
   std::string scenario;
-  std::string version;
+  std::string version = {};
   std::string mover_rule;  ///< empty where no wandering rule was in force
 };
 

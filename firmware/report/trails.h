@@ -14,6 +14,12 @@ struct TrailPoint {
   Vec2 position;
 };
 
+/// Where the robot stood.
+struct DrivenPose {
+  Time t = kNever;
+  Pose2 pose;
+};
+
 /// One thing's way through the run.
 struct Trail {
   std::uint32_t id = 0;

@@ -1,0 +1,54 @@
+#include "firmware/report/picture/picture.h"
+
+#include <algorithm>
+
+#include "firmware/report/picture/canvas.h"
+#include "firmware/report/picture/field_layer.h"
+#include "firmware/report/picture/map_frame.h"
+#include "firmware/report/picture/run_layers.h"
+#include "firmware/report/picture/sheet.h"
+
+namespace jaywalk {
+namespace {
+
+// The sheet: a margin for the axes on the left, the title above, the panel on the right.
+constexpr Vec2 kMapCorner{92.0, 104.0}, kMapMost{1400.0, 1300.0};
+constexpr double kPanelGap = 44.0, kPanelWidth = 330.0, kRightMargin = 36.0, kFoot = 76.0, kLeastHeight = 640.0;
+
+Time end_of(const PictureScene& scene) {
+  Time end = kNever;
+  for (const DrivenPose& d : scene.driven) end = std::max(end, d.t);
+  for (const Trail& trail : scene.movers) {
+    for (const TrailPoint& p : trail.points) end = std::max(end, p.t);
+  }
+  return end;
+}
+
+void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
+  canvas.clip(to_sheet.upper_left(), to_sheet.size());
+  if (scene.moment && !scene.moment->field.psi.empty()) draw_field(canvas, to_sheet, scene.moment->field);
+  draw_walls(canvas, to_sheet, scene);
+  draw_trails(canvas, to_sheet, scene.movers.empty() ? scene.tracks : scene.movers, end_of(scene));
+  draw_drive(canvas, to_sheet, scene);
+  draw_moment(canvas, to_sheet, scene);
+  draw_ends(canvas, to_sheet, scene);
+  canvas.unclip();
+}
+
+}  // namespace
+
+void draw_picture(const PictureScene& scene, const std::string& file) {
+  const MapFrame to_sheet(scene.extent, kMapCorner, kMapMost);
+  const Vec2 map = to_sheet.size();
+  const double panel = kMapCorner.x + map.x + kPanelGap;
+  const double height = std::max(kMapCorner.y + map.y + kFoot, kLeastHeight);
+  Canvas canvas(static_cast<int>(panel + kPanelWidth + kRightMargin), static_cast<int>(height));
+  canvas.write({kMapCorner.x, 56.0}, scene.title, {34.0, ink::kText, Align::kLeft, true});
+  draw_map(canvas, to_sheet, scene);
+  draw_axes(canvas, to_sheet);
+  draw_scale_bar(canvas, to_sheet);
+  draw_panel(canvas, scene, {panel, kMapCorner.y}, kPanelWidth);
+  canvas.save_png(file);
+}
+
+}  // namespace jaywalk

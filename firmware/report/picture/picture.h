@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "firmware/report/picture/scene.h"
+
+namespace jaywalk {
+
+/// Draws the scene and writes it as a PNG about 1,900 pixels wide: walls, field, movers, drive, plan;
+/// beside the map its facts and a legend. The same scene gives the same bytes on the same machine
+/// (letters come from the font "DejaVu Sans" by way of cairo). Throws StartupError when `file`
+/// cannot be written.
+void draw_picture(const PictureScene& scene, const std::string& file);
+
+}  // namespace jaywalk

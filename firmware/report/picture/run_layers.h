@@ -1,0 +1,37 @@
+#pragma once
+// What lies on the map, one function a layer, drawn from the bottom up.
+#include <string>
+#include <vector>
+
+#include "firmware/report/picture/canvas.h"
+#include "firmware/report/picture/map_frame.h"
+#include "firmware/report/picture/scene.h"
+
+namespace jaywalk {
+
+namespace ink {
+inline constexpr Colour kText = colour(0x2B2F36);
+inline constexpr Colour kFaint = colour(0x8A919C);
+inline constexpr Colour kWall = colour(0xB9BEC6);
+inline constexpr Colour kSeen = colour(0x3A3F47);
+inline constexpr Colour kRobot = colour(0x17406D);
+inline constexpr Colour kGoal = colour(0x1B8A4B);
+inline constexpr Colour kBand = colour(0xE0641E);
+inline constexpr Colour kForced = colour(0xC2182B);
+}  // namespace ink
+
+/// A mover's or a track's own colour.
+[[nodiscard]] Colour colour_of(std::uint32_t id);
+
+/// How thick lines are: 1 where the map is shown at 50 pixels a metre, more or less with its size.
+[[nodiscard]] double weight_of(const MapFrame& to_sheet);
+
+void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
+/// Older parts of a trail are fainter; a disc shows the body at the end.
+void draw_trails(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& trails, Time end);
+/// The robot's way with its outline now and then, and the time every ten seconds or so.
+void draw_drive(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
+void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
+void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
+
+}  // namespace jaywalk

@@ -1,0 +1,157 @@
+#include "firmware/report/picture/sheet.h"
+
+#include <cmath>
+#include <functional>
+#include <string>
+
+#include "firmware/report/picture/field_layer.h"
+#include "firmware/report/picture/run_layers.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kFactSize = 20.0, kFactLine = 30.0, kLegendLine = 36.0, kSwatch = 52.0;
+
+/// The round length (1, 2 or 5 times a power of ten) next above `at_least`.
+double round_length(double at_least) {
+  double decade = 0.001;
+  while (decade * 10.0 <= at_least) decade *= 10.0;
+  for (const double times : {1.0, 2.0, 5.0}) {
+    if (decade * times >= at_least) return decade * times;
+  }
+  return decade * 10.0;
+}
+
+std::string metres(double value) {
+  const double rounded = std::floor(value * 10.0 + 0.5) / 10.0;
+  const std::string text = std::to_string(rounded);
+  return std::floor(rounded) == rounded ? text.substr(0, text.find('.')) : text.substr(0, text.find('.') + 2);
+}
+
+/// A row of the legend: how its sample is drawn (about a middle point), and what it says.
+struct LegendRow {
+  std::function<void(Vec2)> sample;
+  std::string text;
+};
+
+void line_sample(Canvas& canvas, Vec2 at, const Pen& pen) {
+  canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
+}
+
+std::string moment_words(const PictureScene& scene) {
+  if (scene.driven.empty()) return "plan";
+  return "plan at " + metres(to_seconds(scene.moment->t - scene.driven.front().t)) + " s";
+}
+
+void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.occupied.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kSeen, 7.0}); }, "walls seen"});
+  }
+  if (!scene.walls.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kWall, 5.0}); }, "walls"});
+  }
+  if (!scene.driven.empty()) {
+    rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kRobot, 4.0}); }, "driven, with the time"});
+  }
+}
+
+void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  const bool movers = !scene.movers.empty();
+  if (!movers && scene.tracks.empty()) return;
+  rows.push_back({[&](Vec2 at) {
+                    line_sample(canvas, at, {colour_of(0).faded(0.6), 2.4});
+                    canvas.fill_disc(at + Vec2{kSwatch / 2.0, 0.0}, 10.0, colour_of(0));
+                  },
+                  movers ? "movers, fading with age" : "people tracked, fading"});
+  if (!movers) return;
+  rows.push_back({[&](Vec2 at) {
+                    canvas.fill_disc(at, 10.0, colour_of(0));
+                    canvas.stroke_circle(at, 10.0, {ink::kForced, 3.0});
+                  },
+                  "was forced to turn"});
+}
+
+void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.moment) return;
+  rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kBand, 3.2, 10.0}); }, moment_words(scene)});
+  if (!scene.moment->predictions.empty()) {
+    rows.push_back({[&](Vec2 at) {
+                      canvas.fill_disc(at, 13.0, ink::kBand.faded(0.12));
+                      canvas.stroke_circle(at, 13.0, {ink::kBand, 1.6, 6.0});
+                    },
+                    "expected there by then"});
+  }
+}
+
+double draw_facts(Canvas& canvas, const PictureScene& scene, Vec2 at, double width) {
+  for (const auto& [name, value] : scene.facts) {
+    canvas.write(at, name, {kFactSize, ink::kFaint});
+    canvas.write(at + Vec2{width, 0.0}, value, {kFactSize, ink::kText, Align::kRight, true});
+    at.y += kFactLine;
+  }
+  return at.y;
+}
+
+/// The field's colours from goal to far away.
+double draw_field_key(Canvas& canvas, Vec2 at, double width) {
+  constexpr std::int32_t kColumns = 64, kRows = 4;
+  FieldRaster key{{0.0, 0.0}, kColumns, kRows, 1.0, {}};
+  for (std::int32_t i = 0; i < kRows * kColumns; ++i) key.psi.push_back(static_cast<float>(i % kColumns));
+  draw_field(canvas, MapFrame({{0.0, 0.0}, {kColumns, kRows}}, at, {width, width}), key);
+  canvas.write(at + Vec2{0.0, 40.0}, "goal", {16.0, ink::kFaint});
+  canvas.write(at + Vec2{width / 2.0, 40.0}, "potential", {16.0, ink::kFaint, Align::kCentre});
+  canvas.write(at + Vec2{width, 40.0}, "far", {16.0, ink::kFaint, Align::kRight});
+  return at.y + 70.0;
+}
+
+}  // namespace
+
+void draw_axes(Canvas& canvas, const MapFrame& to_sheet) {
+  const Extent& e = to_sheet.extent();
+  const double step = round_length(std::max(to_sheet.width_m(), to_sheet.height_m()) / 14.0);
+  const Vec2 corner = to_sheet.upper_left();
+  const Vec2 size = to_sheet.size();
+  const Lettering numbers{18.0, ink::kFaint, Align::kCentre};
+  for (double x = std::ceil(e.low.x / step) * step; x <= e.high.x; x += step) {
+    const Vec2 at = to_sheet({x, e.low.y});
+    canvas.stroke({at, at + Vec2{0.0, 7.0}}, {ink::kFaint, 1.5});
+    canvas.write(at + Vec2{0.0, 27.0}, metres(x), numbers);
+  }
+  for (double y = std::ceil(e.low.y / step) * step; y <= e.high.y; y += step) {
+    const Vec2 at = to_sheet({e.low.x, y});
+    canvas.stroke({at, at - Vec2{7.0, 0.0}}, {ink::kFaint, 1.5});
+    canvas.write(at + Vec2{-12.0, 6.0}, metres(y), {18.0, ink::kFaint, Align::kRight});
+  }
+  canvas.stroke({corner, corner + Vec2{size.x, 0.0}, corner + size, corner + Vec2{0.0, size.y}}, {ink::kFaint, 1.5},
+                true);
+  canvas.write(corner + Vec2{size.x / 2.0, size.y + 54.0}, "x (m)", numbers);
+  canvas.write(corner + Vec2{-12.0, -12.0}, "y (m)", {18.0, ink::kFaint, Align::kRight});
+}
+
+void draw_scale_bar(Canvas& canvas, const MapFrame& to_sheet) {
+  const double length_m = round_length(to_sheet.width_m() / 14.0);
+  const Vec2 right = to_sheet.upper_left() + to_sheet.size() + Vec2{0.0, 44.0};
+  const Vec2 left = right - Vec2{to_sheet.pixels(length_m), 0.0};
+  canvas.stroke({left, right}, {ink::kText, 4.0});
+  canvas.stroke({left - Vec2{0.0, 6.0}, left + Vec2{0.0, 6.0}}, {ink::kText, 2.0});
+  canvas.stroke({right - Vec2{0.0, 6.0}, right + Vec2{0.0, 6.0}}, {ink::kText, 2.0});
+  canvas.write(left + Vec2{-12.0, 6.0}, metres(length_m) + " m", {18.0, ink::kText, Align::kRight});
+}
+
+void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, double width) {
+  Vec2 at = upper_left + Vec2{0.0, kFactSize};
+  at.y = draw_facts(canvas, scene, at, width);
+  at.y += 10.0;
+  if (scene.moment && !scene.moment->field.psi.empty()) at.y = draw_field_key(canvas, at, width);
+  std::vector<LegendRow> rows;
+  add_map_rows(rows, canvas, scene);
+  add_mover_rows(rows, canvas, scene);
+  add_moment_rows(rows, canvas, scene);
+  for (const LegendRow& row : rows) {
+    row.sample(at + Vec2{kSwatch / 2.0, -6.0});
+    canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, row.text, {19.0, ink::kText});
+    at.y += kLegendLine;
+  }
+}
+
+}  // namespace jaywalk
