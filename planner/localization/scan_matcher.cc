@@ -6,10 +6,11 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kSearchStepM = 0.05;      // half a cell
-constexpr double kSearchStepRad = 0.0175;  // one degree: half a cell at 3 m
-constexpr double kLeastWindowM = 0.05, kMostWindowM = 0.35;
-constexpr double kLeastWindowRad = 0.0175, kMostWindowRad = 0.21;
+using Sample = ScanMatcher::Sample;
+
+constexpr double kCoarseM = 0.1;      // a cell; then half of it
+constexpr double kCoarseRad = 0.035;  // two degrees: a cell at 3 m; then half of it
+constexpr double kMostWindowM = 0.4, kMostWindowRad = 0.42;
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
@@ -72,15 +73,14 @@ bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
   return true;
 }
 
-double score(const FixedVector<Vec2, 240>& sample, const EvidenceMap& still, const Pose2& pose) {
+/// Share of every `stride`-th point that lies on walls, each weighed by how sure the map is of the wall.
+double share_on_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose, std::size_t stride) {
   const Transform2 to_map(pose);
-  int sum = 0;
-  for (const Vec2& p : sample) sum += std::max<int>(0, still.evidence(still.cell_at(to_map * p)));
-  return static_cast<double>(sum) / (EvidenceMap::kMax * static_cast<double>(sample.size()));
-}
-
-int steps(double variance, double least, double most, double step) {
-  return static_cast<int>(std::floor(std::clamp(kWindowSigmas * std::sqrt(variance), least, most) / step + 0.5));
+  int sum = 0, count = 0;
+  for (std::size_t k = 0; k < sample.size(); k += stride, ++count) {
+    sum += std::max<int>(0, still.evidence(still.cell_at(to_map * sample[k])));
+  }
+  return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
 }
 
 Row3 offset(const Pose2& from, const Pose2& to) {
@@ -101,24 +101,54 @@ void ScanMatcher::sample(const ScanPoints& scan) noexcept {
 
 namespace {
 
-Pose2 search(const FixedVector<Vec2, 240>& sample, const EvidenceMap& still, const PoseBelief& predicted,
+/// Poses on a lattice about `centre`: `reach` steps to each side.
+struct Lattice {
+  Row3 centre;  ///< from the prediction
+  double step_m = 0.0, step_rad = 0.0;
+  int reach = 0, reach_heading = 0;
+  std::size_t stride = 1;  ///< of the points that are asked
+};
+
+/// The best offset from the prediction on the lattice.
+Row3 best_on(const Lattice& lattice, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
              const Symmetric3& information) {
-  const Symmetric3& p = predicted.covariance;
-  const int nx = steps(std::max(p.xx, p.yy), kLeastWindowM, kMostWindowM, kSearchStepM);
-  const int nh = steps(p.hh, kLeastWindowRad, kMostWindowRad, kSearchStepRad);
-  Row3 best;
-  double best_score = -1e9;
-  for (int h = -nh; h <= nh; ++h) {
-    for (int y = -nx; y <= nx; ++y) {
-      for (int x = -nx; x <= nx; ++x) {
-        const Row3 by{x * kSearchStepM, y * kSearchStepM, h * kSearchStepRad};
+  Row3 best = lattice.centre;
+  double best_worth = -1e9;
+  for (int h = -lattice.reach_heading; h <= lattice.reach_heading; ++h) {
+    for (int y = -lattice.reach; y <= lattice.reach; ++y) {
+      for (int x = -lattice.reach; x <= lattice.reach; ++x) {
+        const Row3 by{lattice.centre.x + x * lattice.step_m, lattice.centre.y + y * lattice.step_m,
+                      lattice.centre.heading + h * lattice.step_rad};
         const double price = kThreeSigmaPrice / 9.0 * information.quadratic(by);
-        const double worth = score(sample, still, moved(predicted.map_from_robot, by)) - price;
-        if (worth > best_score) best_score = worth, best = by;
+        const double worth = share_on_walls(sample, still, moved(predicted, by), lattice.stride) - price;
+        if (worth > best_worth) best_worth = worth, best = by;
       }
     }
   }
-  return moved(predicted.map_from_robot, best);
+  return best;
+}
+
+int steps(double variance, double most, double step) {
+  return static_cast<int>(std::ceil(std::min(kWindowSigmas * std::sqrt(variance), most) / step));
+}
+
+Pose2 search(const Sample& sample, const EvidenceMap& still, const PoseBelief& predicted,
+             const Symmetric3& information) {
+  const Symmetric3& p = predicted.covariance;
+  const Lattice coarse{.centre = {},
+                       .step_m = kCoarseM,
+                       .step_rad = kCoarseRad,
+                       .reach = steps(std::max(p.xx, p.yy), kMostWindowM, kCoarseM),
+                       .reach_heading = steps(p.hh, kMostWindowRad, kCoarseRad),
+                       .stride = 3};
+  const Row3 valley = best_on(coarse, sample, still, predicted.map_from_robot, information);
+  const Lattice fine{.centre = valley,
+                     .step_m = kCoarseM / 2,
+                     .step_rad = kCoarseRad / 2,
+                     .reach = 1,
+                     .reach_heading = 1,
+                     .stride = 1};
+  return moved(predicted.map_from_robot, best_on(fine, sample, still, predicted.map_from_robot, information));
 }
 
 struct Pull {
@@ -127,7 +157,7 @@ struct Pull {
   std::uint32_t on_walls = 0, in_the_open = 0;
 };
 
-Pull pull_of_walls(const FixedVector<Vec2, 240>& sample, const EvidenceMap& still, const Pose2& pose) {
+Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose) {
   Pull pull;
   const Transform2 to_map(pose);
   for (const Vec2& q : sample) {

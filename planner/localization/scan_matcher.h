@@ -29,9 +29,11 @@ class ScanMatcher {
   [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
                                   const PoseBelief& predicted) noexcept;
 
- private:
+  /// The points that are matched, in the robot's frame: every n-th of the scan's.
   static constexpr std::size_t kMostPoints = 240;
   using Sample = FixedVector<Vec2, kMostPoints>;
+
+ private:
   void sample(const ScanPoints& scan) noexcept;
   Sample sample_;
 };

@@ -8,6 +8,8 @@ namespace {
 
 constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
 constexpr double kStoppedMps = 0.10;
+constexpr double kExplainedSwaying = 0.6;
+constexpr double kStrideM = 0.5;
 constexpr double kMostlySeen = 0.7;  // of the scans; what flickers is clutter
 constexpr double kMostlyFree = 0.7;  // of its places in free space
 constexpr double kSpeedSigmas = 3.0;
@@ -24,20 +26,30 @@ void anchor_here(Body& body, Time now) {
   body.still_since = now;
 }
 
-bool world_agrees(const Body& body, const EvidenceMap& still) {
-  return body.free_share > kMostlyFree || still.seen_free(still.cell_at(body.anchor_in_map));
+bool came_to_free_space(const Body& body) { return body.free_share > kMostlyFree; }
+
+bool left_free_space_behind(const Body& body, const EvidenceMap& still) {
+  return still.seen_free(still.cell_at(body.anchor_in_map));
 }
 
-/// Its places make a walk: long enough, straight enough, and fast against what the filter is unsure of.
+/// A straight walk that the world agrees with; or a longer one that sways, as one leg or the other is seen, when the
+/// world agrees twice.
+bool walks(const Body& body, const EvidenceMap& still) {
+  const StraightWalk walk = body.path.fit();
+  if (walk.places < kFewestPlaces) return false;
+  const bool came = came_to_free_space(body), left = left_free_space_behind(body, still);
+  const bool sways = walk.explained > kExplainedSwaying && walk.length_m > kStrideM;
+  return walk.explained > kExplained ? came || left : sways && came && left;
+}
+
+/// Seen steadily, fast against what the filter is unsure of, gone from where it stood, and walking.
 bool sets_out(const Body& body, const EvidenceMap& still) {
+  if (body.misses > 0 || body.seen_share < kMostlySeen) return false;
   const Track& t = body.track;
   const double speed = norm(t.velocity_in_map);
-  if (body.misses > 0 || body.seen_share < kMostlySeen) return false;
-  if (speed < std::max(kMovingMps, kSpeedSigmas * std::sqrt(t.covariance.vv))) return false;
   const double gone = distance(t.position_in_map, body.anchor_in_map);
-  if (gone < std::max(kGoneM, kGoneSigmas * std::sqrt(t.covariance.pp))) return false;
-  const StraightWalk walk = body.path.fit();
-  return walk.places >= kFewestPlaces && walk.explained > kExplained && world_agrees(body, still);
+  return speed > std::max(kMovingMps, kSpeedSigmas * std::sqrt(t.covariance.vv)) &&
+         gone > std::max(kGoneM, kGoneSigmas * std::sqrt(t.covariance.pp)) && walks(body, still);
 }
 
 /// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
