@@ -1,0 +1,58 @@
+// After construction the planner takes no memory: every operator new of this program is counted.
+#include <cstdlib>
+#include <new>
+#include <vector>
+
+#include "planner/planner.h"
+#include "tests/planner/test_maps.h"
+#include "tests/support/catch.h"
+
+namespace {
+long allocations = 0;
+
+void* counted(std::size_t n) {
+  ++allocations;
+  if (void* block = std::malloc(n == 0 ? 1 : n)) return block;
+  throw std::bad_alloc();
+}
+}  // namespace
+
+void* operator new(std::size_t n) { return counted(n); }
+void* operator new[](std::size_t n) { return counted(n); }
+void operator delete(void* block) noexcept { std::free(block); }
+void operator delete[](void* block) noexcept { std::free(block); }
+void operator delete(void* block, std::size_t) noexcept { std::free(block); }
+void operator delete[](void* block, std::size_t) noexcept { std::free(block); }
+
+using namespace jaywalk;
+
+TEST_CASE("submit and collect allocate nothing, whatever comes of them") {
+  PlannerConfig config;
+  config.max_side_cells = 512;
+  const auto planner = make_cpu_planner(config);
+  const EvidenceMap office = test::evidence_of(test::office());
+  EvidenceMap wall(512, 0.1, {12.8, 12.8});
+  for (std::int32_t j = -40; j < 290; ++j) wall.add({128, j}, EvidenceMap::kMax);
+  std::vector<Track> tracks(kMaxTracks);
+  test::Random random(5);
+  for (Track& track : tracks) {
+    track.position_in_map = {25.6 * random.unit(), 25.6 * random.unit()};
+    track.velocity_in_map = {random.unit() - 0.5, random.unit() - 0.5};
+    track.radius_m = 0.1;
+  }
+  PlanRequest request;
+  request.speed_mps = 0.6;
+  request.moving = tracks;
+  const long before = allocations;
+  for (int tick = 0; tick < 40; ++tick) {
+    request.still = tick < 15 ? &office : &wall;  // the latter also makes the window double
+    request.moving = tick % 2 == 0 ? std::span<const Track>(tracks) : std::span<const Track>();
+    request.map_from_robot = {1.0 + 0.1 * tick, 1.0, 0.3};
+    request.goal_in_map = tick % 5 == 4 ? Vec2{90.0, 0.0} : Vec2{24.0, 24.0};
+    planner->submit(request);
+    (void)planner->collect();
+  }
+  CHECK(allocations == before);
+  std::vector<int> one(1);
+  CHECK(allocations > before);  // the counter counts
+}

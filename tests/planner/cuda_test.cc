@@ -1,0 +1,62 @@
+// The GPU gives the CPU's bytes. Runs where a device is.
+#include <cstdio>
+#include <cstring>
+
+#include "planner/planner.h"
+#include "tests/planner/test_maps.h"
+#include "tests/support/catch.h"
+
+#if JAYWALK_HAS_CUDA
+#include "cuda/cuda_planner.h"
+#endif
+
+using namespace jaywalk;
+
+namespace {
+
+std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
+#if JAYWALK_HAS_CUDA
+  std::string why_not;
+  auto planner = make_cuda_planner(config, why_not);
+  if (!planner) {
+    std::printf("skipped: no CUDA device (%s)\n", why_not.c_str());
+    CHECK(why_not.substr(0, 6) == "cuda: ");
+  }
+  return planner;
+#else
+  (void)config;
+  std::printf("skipped: no CUDA device (not in this build)\n");
+  return nullptr;
+#endif
+}
+
+}  // namespace
+
+TEST_CASE("the CUDA planner gives the bytes of the CPU planner, plan by plan") {
+  PlannerConfig config;
+  config.max_side_cells = 256;
+  const auto gpu = cuda_planner(config);
+  if (!gpu) return;
+  const auto cpu = make_cpu_planner(config);
+  for (const test::TestMap& map : {test::open_room(), test::office(), test::serpentine(10), test::clutter(31)}) {
+    const EvidenceMap evidence = test::evidence_of(map);
+    PlanRequest request;
+    request.map_from_robot = {1.07, 0.65, 0.4};
+    request.goal_in_map = {24.31, 24.28};
+    request.speed_mps = 0.6;
+    request.still = &evidence;
+    for (int tick = 0; tick < 3; ++tick) {
+      request.map_from_robot.x += 0.04;
+      gpu->submit(request);
+      cpu->submit(request);
+      const Plan& a = gpu->collect();
+      const Plan& b = cpu->collect();
+      REQUIRE(a.status == b.status);
+      REQUIRE(a.path.size() == b.path.size());
+      CHECK(a.cycles == b.cycles);
+      CHECK(std::memcmp(a.path.data(), b.path.data(), a.path.size() * sizeof(Vec2)) == 0);
+      const auto psi_a = gpu->view_field().psi, psi_b = cpu->view_field().psi;
+      CHECK(std::memcmp(psi_a.data(), psi_b.data(), psi_a.size_bytes()) == 0);
+    }
+  }
+}

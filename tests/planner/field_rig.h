@@ -1,0 +1,31 @@
+#pragma once
+// The pass on a test map, without window or planner.
+#include <memory>
+
+#include "planner/field/executor.h"
+#include "planner/field/pass.h"
+#include "tests/planner/test_maps.h"
+
+namespace jaywalk::test {
+
+template <class Executor = field::SerialExecutor>
+struct FieldRig {
+  Executor executor;
+  field::Pass<Executor> pass;
+  field::Grid grid;
+  float* psi;
+
+  explicit FieldRig(std::int32_t side)
+      : pass(executor, side), grid{side}, psi(executor.template take<float>(static_cast<std::size_t>(grid.cells()))) {}
+
+  [[nodiscard]] const field::FieldArrays& arrays() const { return pass.arrays(); }
+
+  /// Occupants, clearance with `inflation` cells, start field.
+  void load(const TestMap& map, float inflation, std::int32_t goal) {
+    for (std::size_t c = 0; c < map.wall.size(); ++c) arrays().occupants[c] = map.wall[c];
+    (void)pass.clear(grid, inflation, field::kWall);
+    (void)pass.start(grid, goal);
+  }
+};
+
+}  // namespace jaywalk::test

@@ -1,0 +1,152 @@
+#include "planner/field/path.h"
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "planner/field/nearest_cell.h"
+#include "tests/planner/field_rig.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+double length_of(const std::vector<cell::Point>& p) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < p.size(); ++k) {
+    sum += std::sqrt(static_cast<double>((p[k].x - p[k - 1].x) * (p[k].x - p[k - 1].x) +
+                                         (p[k].y - p[k - 1].y) * (p[k].y - p[k - 1].y)));
+  }
+  return sum;
+}
+
+const field::Window kWindow{{100, -50}, 64, 0.1};
+
+}  // namespace
+
+TEST_CASE("the index matrix cuts no corner: a step is diagonal only between two free cells") {
+  const field::Grid grid{4};
+  // The goal is (2, 2), one is at (1, 1); (2, 1) is a wall, so the diagonal is closed and the way is by (1, 2).
+  std::vector<float> psi(16, 9.0F);
+  psi[10] = 0.0F;
+  psi[9] = 1.0F;
+  psi[5] = 2.0F;
+  psi[6] = cell::kNotFree;
+  std::vector<std::uint8_t> index(16);
+  field::SerialExecutor executor;
+  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi.data(), index.data()});
+  const field::Step step = field::step_of(index[5]);
+  CHECK(step.di == 0);
+  CHECK(step.dj == 1);
+  psi[6] = 1.5F;
+  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi.data(), index.data()});
+  CHECK(field::step_of(index[5]).di == 1);
+  CHECK(index[10] == field::kHere);
+}
+
+TEST_CASE("the eight steps are the eight neighbours, each once") {
+  int seen[3][3] = {};
+  for (std::uint8_t k = 0; k < field::kHere; ++k) {
+    const field::Step s = field::step_of(k);
+    CHECK(((s.di == 0) != (s.dj == 0)) == (k < 4));
+    ++seen[s.di + 1][s.dj + 1];
+  }
+  CHECK(seen[1][1] == 0);
+  CHECK(seen[0][0] + seen[0][1] + seen[0][2] + seen[1][0] + seen[1][2] + seen[2][0] + seen[2][1] + seen[2][2] == 8);
+}
+
+TEST_CASE("the band shortens the raw path, turns less, and never leaves free cells") {
+  FieldRig<> rig(256);
+  const TestMap map = clutter(11);
+  const std::int32_t goal = rig.grid.at(240, 240), start = rig.grid.at(10, 12);
+  rig.load(map, 3.0F, goal);
+  REQUIRE(rig.pass.solve(rig.grid, goal, false, rig.psi).certified);
+  const field::FieldArrays& a = rig.arrays();
+  const std::int32_t count = field::follow(rig.grid, a.index, start, goal, a.points, 0, field::kMaxBandPoints);
+  REQUIRE(count > 200);
+  const std::vector<cell::Point> raw(a.points, a.points + count);
+  REQUIRE(rig.pass.pull(rig.grid, 1, count));
+  const std::vector<cell::Point> band(a.points, a.points + count);
+  CHECK(length_of(band) < 0.98 * length_of(raw));
+  CHECK(band.front().x == raw.front().x);
+  CHECK(band.back().y == raw.back().y);
+  int outside = 0;
+  double sharpest = 1.0;  // cosine of the sharpest turn
+  for (std::size_t k = 1; k + 1 < band.size(); ++k) {
+    const auto c = rig.grid.at(static_cast<std::int32_t>(band[k].x), static_cast<std::int32_t>(band[k].y));
+    if (a.clearance[c] <= 0.0F) ++outside;
+    const Vec2 in{static_cast<double>(band[k].x - band[k - 1].x), static_cast<double>(band[k].y - band[k - 1].y)};
+    const Vec2 out{static_cast<double>(band[k + 1].x - band[k].x), static_cast<double>(band[k + 1].y - band[k].y)};
+    sharpest = std::min(sharpest, dot(in, out) / (norm(in) * norm(out)));
+  }
+  CHECK(outside == 0);
+  CHECK(sharpest > 0.86);  // 30 degrees; the raw path turns by 45
+}
+
+TEST_CASE("a path cut at the capacity keeps its first part") {
+  const field::Grid grid{64};
+  std::vector<std::uint8_t> index(64 * 64, 0);  // 0: one cell to the right
+  std::vector<cell::Point> points(10);
+  CHECK(field::follow(grid, index.data(), 0, 63, points.data(), 0, 10) == 10);
+  CHECK(points[9].x == 9.5F);
+  index[5] = field::kHere;  // a pit on the way
+  CHECK(field::follow(grid, index.data(), 0, 63, points.data(), 0, 10) == 0);
+}
+
+TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between points") {
+  const auto path = std::make_unique<Path>();
+  std::vector<cell::Point> band;
+  for (int k = 0; k < 40; ++k)
+    band.push_back({static_cast<float>(k) + 0.5F, k < 20 ? 10.5F : 0.5F * static_cast<float>(k) + 0.5F});
+  const Vec2 from{10.07, -3.93}, to{13.96, -2.99};
+  field::resample(kWindow, band.data(), 40, from, to, *path);
+  REQUIRE(path->size() > 30);
+  CHECK((*path)[0] == from);
+  CHECK(path->back() == to);
+  for (std::size_t k = 1; k < path->size(); ++k) {
+    CHECK(distance((*path)[k - 1], (*path)[k]) < 0.1001);
+    CHECK(distance((*path)[k - 1], (*path)[k]) > 0.05);
+  }
+}
+
+TEST_CASE("a path of one point and one that goes nowhere are drawn") {
+  const auto path = std::make_unique<Path>();
+  const cell::Point here[2] = {{5.5F, 5.5F}, {5.5F, 5.5F}};
+  field::resample(kWindow, here, 2, {1.0, 2.0}, {1.0, 2.0}, *path);
+  CHECK(path->size() >= 1);
+  CHECK(path->back() == Vec2{1.0, 2.0});
+}
+
+TEST_CASE("a long path spreads its points to 0.2 m and beyond that is cut") {
+  const auto path = std::make_unique<Path>();
+  std::vector<cell::Point> band;
+  for (int k = 0; k < 6000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 600 m
+  field::resample(kWindow, band.data(), 6000, {10.0, -5.0}, {609.9, -5.0}, *path);
+  CHECK(path->back() == Vec2{609.9, -5.0});
+  CHECK(distance((*path)[0], (*path)[1]) == Approx(599.9 / 4095).epsilon(1e-3));
+  for (int k = 6000; k < 12000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 1.2 km
+  field::resample(kWindow, band.data(), 12000, {10.0, -5.0}, {1209.9, -5.0}, *path);
+  CHECK(path->full());
+  CHECK(distance((*path)[0], (*path)[1]) == Approx(0.2).epsilon(1e-3));
+  CHECK(path->back().x == Approx(10.0 + 4095 * 0.2).epsilon(1e-3));
+}
+
+TEST_CASE("the nearest cell is the nearest, and of equals the first by row") {
+  const field::Grid grid{64};
+  const auto find = [&](std::vector<std::int32_t> wanted, std::int32_t radius) {
+    return field::nearest_cell(grid, 10, 10, radius, [&](std::int32_t c) {
+      for (const std::int32_t w : wanted) {
+        if (c == w) return true;
+      }
+      return false;
+    });
+  };
+  // (13, 10) is 3 away, (12, 12) 2.83 and found on an inner ring; (10, 7) is 3 away and in an earlier row.
+  CHECK(find({grid.at(13, 10), grid.at(12, 12)}, 10) == grid.at(12, 12));
+  CHECK(find({grid.at(14, 10), grid.at(13, 13)}, 10) == grid.at(14, 10));
+  CHECK(find({grid.at(13, 10), grid.at(10, 7)}, 10) == grid.at(10, 7));
+  CHECK(find({grid.at(13, 13)}, 4) == field::kNoCell);  // 4.24 away
+  CHECK(find({grid.at(10, 10)}, 0) == grid.at(10, 10));
+}

@@ -1,0 +1,105 @@
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "planner/field/path.h"
+#include "tests/planner/field_rig.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+/// psi of the harmonic function in double precision: Gauss-Seidel on u = 1 - phi from 0 until nothing moves.
+std::vector<double> harmonic_reference(const field::Grid& grid, const float* clearance, std::int32_t goal) {
+  std::vector<double> u(static_cast<std::size_t>(grid.cells()), 0.0);
+  const auto at = [&](std::int32_t i, std::int32_t j) {
+    return grid.holds(i, j) ? u[static_cast<std::size_t>(grid.at(i, j))] : 0.0;
+  };
+  u[static_cast<std::size_t>(goal)] = 1.0;
+  for (double change = 1.0; change > 1e-13;) {
+    change = 0.0;
+    for (std::int32_t c = 0; c < grid.cells(); ++c) {
+      if (clearance[c] <= 0.0F || c == goal) continue;
+      const std::int32_t i = c % grid.side, j = c / grid.side;
+      const double mean = (at(i + 1, j) + at(i - 1, j) + at(i, j + 1) + at(i, j - 1)) / 4.0;
+      double& here = u[static_cast<std::size_t>(c)];
+      if (mean > 0.0) change = std::max(change, std::fabs(mean - here) / mean);
+      here = mean;
+    }
+  }
+  for (double& value : u) value = -std::log(value);
+  return u;
+}
+
+TestMap rooms() {
+  TestMap map("rooms", 64);
+  map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("the solved potential is the harmonic function to a thousandth, everywhere") {
+  FieldRig<> rig(64);
+  const std::int32_t goal = rig.grid.at(55, 50);
+  rig.load(rooms(), 1.0F, goal);
+  const auto reference = harmonic_reference(rig.grid, rig.arrays().clearance, goal);
+  for (int tick = 0; tick < 4; ++tick) (void)rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+  double worst = 0.0;
+  int joined = 0;
+  for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
+    if (!cell::is_joined(rig.psi[c])) continue;
+    ++joined;
+    worst = std::max(worst, std::fabs(static_cast<double>(rig.psi[c]) - reference[static_cast<std::size_t>(c)]));
+  }
+  CHECK(joined > 2000);
+  CHECK(worst < 1e-3);
+}
+
+TEST_CASE("certified means that descent arrives from every joined cell, on every map") {
+  FieldRig<> rig(256);
+  std::vector<std::uint8_t> seen(256 * 256);
+  for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(4), speckle(4)}) {
+    const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(12, 12);
+    rig.load(map, 3.0F, goal);
+    const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, false, rig.psi);
+    CHECK(cold.certified);
+    CHECK(cold.cycles == field::kColdCycles);
+    CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
+    const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, true, rig.psi);
+    CHECK(warm.certified);
+    CHECK(warm.cycles == field::kWarmCycles);
+  }
+}
+
+TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {
+  FieldRig<> rig(64);
+  const std::int32_t goal = rig.grid.at(55, 50);
+  rig.load(rooms(), 1.0F, goal);
+  (void)rig.pass.solve(rig.grid, goal, false, rig.psi);
+  rig.psi[rig.grid.at(10, 10)] -= 5.0F;
+  std::vector<std::int32_t> pits(64), joined(64);
+  rig.executor.for_each(64, field::PitsOfRow{rig.grid, goal, rig.psi, pits.data(), joined.data()});
+  CHECK(pits[10] == 1);
+  rig.executor.for_each_cell(64, 64, field::IndexOfEachCell{rig.grid, rig.psi, rig.arrays().index});
+  std::vector<std::uint8_t> seen(64 * 64);
+  const float reach = field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data());
+  CHECK(reach < 1.0F);
+  CHECK(reach > 0.0F);
+}
+
+TEST_CASE("a passage that closes under a warm start is noticed: still certified, by the other way") {
+  FieldRig<> rig(64);
+  TestMap map("two doors", 64);
+  map.box(30, 0, 32, 64), map.box(30, 8, 32, 18, 0), map.box(30, 46, 32, 56, 0);
+  const std::int32_t goal = rig.grid.at(50, 12), start = rig.grid.at(12, 12);
+  rig.load(map, 1.0F, goal);
+  for (int tick = 0; tick < 5; ++tick) (void)rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+  const float near_way = rig.psi[start];
+  map.box(30, 8, 32, 18);
+  rig.load(map, 1.0F, goal);
+  for (int tick = 0; tick < 5; ++tick) CHECK(rig.pass.solve(rig.grid, goal, true, rig.psi).certified);
+  CHECK(rig.psi[start] > near_way + 1.0F);
+}

@@ -1,0 +1,61 @@
+#include <vector>
+
+#include "planner/field/path.h"
+#include "tests/planner/field_rig.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+/// Joined cells without a lower 4-neighbour, the goal apart.
+int pits_of(const field::Grid& grid, const float* psi, std::int32_t goal) {
+  int pits = 0;
+  for (std::int32_t c = 0; c < grid.cells(); ++c) {
+    if (!cell::is_joined(psi[c]) || c == goal) continue;
+    const std::int32_t i = c % grid.side, j = c / grid.side;
+    const bool lower = field::psi_at(grid, psi, i + 1, j) < psi[c] || field::psi_at(grid, psi, i - 1, j) < psi[c] ||
+                       field::psi_at(grid, psi, i, j + 1) < psi[c] || field::psi_at(grid, psi, i, j - 1) < psi[c];
+    if (!lower) ++pits;
+  }
+  return pits;
+}
+
+}  // namespace
+
+TEST_CASE("the start field descends to the goal from every joined cell of every map") {
+  FieldRig<> rig(256);
+  for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(3), speckle(3)}) {
+    const std::int32_t goal = rig.grid.at(12, 12);  // free in all of them, less so in the serpentines
+    const std::int32_t at = map.name[1] == 'e' ? rig.grid.at(12, 6) : goal;
+    rig.load(map, 3.0F, at);
+    int joined = 0;
+    for (std::int32_t c = 0; c < rig.grid.cells(); ++c) joined += cell::is_joined(rig.arrays().start_psi[c]) ? 1 : 0;
+    CHECK(joined > 8000);
+    CHECK(pits_of(rig.grid, rig.arrays().start_psi, at) == 0);
+  }
+}
+
+TEST_CASE("a straight corridor costs its rate a cell") {
+  // Five free rows between walls; on the middle row D = 3, the best neighbour's 3 as well: width 7,
+  // rate acosh(2 - cos(pi/8)) = 0.38775, half of it 794 units. Ten steps cost 20 * 794.
+  TestMap map("corridor", 64);
+  map.box(0, 0, 64, 10), map.box(0, 15, 64, 64);
+  FieldRig<> rig(64);
+  rig.load(map, 0.0F, rig.grid.at(20, 12));
+  CHECK(rig.arrays().rate[rig.grid.at(30, 12)] == 794);
+  CHECK(rig.arrays().cost[rig.grid.at(30, 12)] == 20 * 794);
+  CHECK(rig.arrays().start_psi[rig.grid.at(30, 12)] == Approx(20.0 * 794.0 / 4096.0));
+}
+
+TEST_CASE("cells behind a closed wall are free and unreachable, walls are neither") {
+  TestMap map("closed", 64);
+  map.box(30, 0, 32, 64);
+  FieldRig<> rig(64);
+  rig.load(map, 1.0F, rig.grid.at(10, 10));
+  CHECK(rig.arrays().start_psi[rig.grid.at(10, 10)] == 0.0F);
+  CHECK(rig.arrays().start_psi[rig.grid.at(50, 10)] == cell::kUnreachable);
+  const float wall = rig.arrays().start_psi[rig.grid.at(31, 10)];
+  CHECK(wall != wall);  // NaN
+}
