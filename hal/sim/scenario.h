@@ -24,7 +24,7 @@ struct WanderSpec {
 struct RecordedSpec {
   std::filesystem::path file;
   double radius_m = 0.25;
-  Vec2 offset;
+  Vec2 offset{};
   double start_at_s = 0.0;
   bool loop = false;
 };

@@ -14,8 +14,8 @@ namespace jaywalk::sim {
 
 struct MoverTruth {
   std::uint32_t id = 0;
-  Vec2 position;
-  Vec2 velocity;
+  Vec2 position{};
+  Vec2 velocity{};
   double heading = 0.0;
   double radius_m = 0.0;
   bool forced = false;  ///< true from the moment the robot made it turn until it walks again

@@ -1,0 +1,76 @@
+#include <filesystem>
+#include <string>
+
+#include "hal/sim/simulation.h"
+#include "hal/sim/wall_map.h"
+#include "tests/recording/recordings.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::sim;
+
+namespace {
+
+Scenario own(const std::string& name) {
+  return load_scenario(std::filesystem::path(JAYWALK_OWN_SCENARIOS) / (name + ".toml"));
+}
+
+double shortest(const Scenario& scenario) { return Simulation(scenario, scenario.seed).static_shortest_path_m(); }
+
+}  // namespace
+
+TEST_CASE("the four maps' shortest paths are the paper's: 46, 67, 48 and 49 m within 3 percent") {
+  CHECK(shortest(own("map1_00")) == Approx(46.0).epsilon(0.03));
+  CHECK(shortest(own("map2_00")) == Approx(67.0).epsilon(0.03));
+  CHECK(shortest(own("map3_00")) == Approx(48.0).epsilon(0.03));
+  CHECK(shortest(own("map4_00")) == Approx(49.0).epsilon(0.03));
+}
+
+TEST_CASE("every map has scenarios with 0, 1, 4 and 16 movers, which 20 seeds can place") {
+  for (const char* map : {"map1", "map2", "map3", "map4"}) {
+    for (const int count : {0, 1, 4, 16}) {
+      const Scenario scenario = own(std::string(map) + (count < 10 ? "_0" : "_") + std::to_string(count));
+      CHECK(scenario.model.limits.max_speed_mps == 0.6);
+      CHECK(scenario.timeout_s == 300.0);
+      for (std::uint64_t seed = 1; seed <= (count == 16 ? 20U : 1U); ++seed) {
+        const Simulation sim(scenario, seed);
+        CHECK(sim.truth().movers.size() == static_cast<std::size_t>(count));
+        CHECK(sim.truth().clearance_m > 0.5);
+      }
+    }
+  }
+}
+
+TEST_CASE("start and goal lie in opposite corners: a window of 25.6 m between them holds the map") {
+  for (const char* name : {"map1_00", "map2_00", "map3_00", "map4_00"}) {
+    const Scenario scenario = own(name);
+    const Vec2 middle = (scenario.start.position() + scenario.goal) * 0.5;
+    CHECK(distance(middle, Vec2{12.8, 12.8}) < 0.1);
+  }
+}
+
+TEST_CASE("the demo has eight movers and a way from room to room") {
+  const Scenario scenario = own("crossing");
+  const Simulation sim(scenario, scenario.seed);
+  CHECK(sim.truth().movers.size() == 8);
+  CHECK(sim.static_shortest_path_m() < 22.0);
+}
+
+TEST_CASE("MobileSim's office and a barn of cylinders can be driven in") {
+  const auto office = recording("maps/AMROffice.map");
+  const auto barn = recording("barn/world_000.txt");
+  if (!office || !barn) return;
+  Scenario scenario = own("crossing");
+  scenario.map_kind = MapKind::kAria;
+  scenario.map_file = *office;
+  scenario.start = {-5.157, 8.727, 0.0};  // its goal "Outside"
+  scenario.goal = {-5.959, 24.231};       // its goal "Far Away"
+  Simulation sim(scenario, 1);
+  CHECK(sim.walls().size() == 243);
+  CHECK(sim.static_shortest_path_m() >= distance(scenario.start.position(), scenario.goal));
+  CHECK(sim.static_shortest_path_m() < 25.0);
+  CHECK(sim.truth().movers.size() == 8);
+  const WallMap cylinders = load_wall_map(MapKind::kCylinders, *barn);
+  CHECK(cylinders.discs.front().centre == Vec2{-0.075, 0.075});
+  CHECK(cylinders.discs.front().radius_m == 0.075);
+}
