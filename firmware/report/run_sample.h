@@ -37,7 +37,7 @@ struct TrueState {
 /// One tick, seen from outside the loop. Everything referred to outlives the call only.
 struct RunSample {
   const TickRecord& record;
-  std::span<const Track> tracks;       ///< as the controller believes after this tick
+  std::span<const Track> tracks = {};  ///< as the controller believes after this tick
   const TrueState* truth = nullptr;    ///< null in a replay
   Duration tick_took{0};               ///< measured
   std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
@@ -45,7 +45,7 @@ struct RunSample {
 
 /// How it ended and under which conditions.
 struct RunEnd {
-  std::string outcome;  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
+  std::string outcome = {};  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
   bool success = false;
   std::optional<double> static_shortest_path_m = {};
   std::uint64_t missed_ticks = 0;
@@ -53,9 +53,9 @@ struct RunEnd {
   std::string backend = {};
   std::string mode = {};
   std::optional<std::uint64_t> seed = {};
-  std::string scenario;
+  std::string scenario = {};
   std::string version = {};
-  std::string mover_rule;  ///< empty where no wandering rule was in force
+  std::string mover_rule = {};  ///< empty where no wandering rule was in force
 };
 
 }  // namespace jaywalk

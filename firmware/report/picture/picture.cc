@@ -15,6 +15,15 @@ namespace {
 constexpr Vec2 kMapCorner{92.0, 104.0}, kMapMost{1400.0, 1300.0};
 constexpr double kPanelGap = 44.0, kPanelWidth = 330.0, kRightMargin = 36.0, kFoot = 76.0, kLeastHeight = 640.0;
 
+/// The extent with as much added on two sides as it takes to be neither a tower nor a ribbon.
+Extent filled_out(const Extent& extent) {
+  constexpr double kLeastWide = 0.95, kLeastHigh = 0.4;
+  const Vec2 size = extent.high - extent.low;
+  const Vec2 more =
+      Vec2{std::max(kLeastWide * size.y - size.x, 0.0), std::max(kLeastHigh * size.x - size.y, 0.0)} * 0.5;
+  return {extent.low - more, extent.high + more};
+}
+
 Time end_of(const PictureScene& scene) {
   Time end = kNever;
   for (const DrivenPose& d : scene.driven) end = std::max(end, d.t);
@@ -38,7 +47,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
 }  // namespace
 
 void draw_picture(const PictureScene& scene, const std::string& file) {
-  const MapFrame to_sheet(scene.extent, kMapCorner, kMapMost);
+  const MapFrame to_sheet(filled_out(scene.extent), kMapCorner, kMapMost);
   const Vec2 map = to_sheet.size();
   const double panel = kMapCorner.x + map.x + kPanelGap;
   const double height = std::max(kMapCorner.y + map.y + kFoot, kLeastHeight);

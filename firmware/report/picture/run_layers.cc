@@ -107,12 +107,13 @@ double weight_of(const MapFrame& to_sheet) { return std::clamp(to_sheet.pixels(1
 
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
   const double seen = to_sheet.pixels(scene.cell_m);
+  const double drawn = seen + 0.6;  // neighbours overlap, else light shines through between them
   for (const WallLine& wall : scene.walls) {
     canvas.stroke({to_sheet(wall.from), to_sheet(wall.to)}, {ink::kWall, std::max(2.0, 0.8 * seen)});
   }
   for (const Vec2 cell : scene.occupied) {
     const Vec2 low = to_sheet(cell - Vec2{scene.cell_m / 2.0, scene.cell_m / 2.0});
-    canvas.fill({low, low + Vec2{seen, 0.0}, low + Vec2{seen, -seen}, low + Vec2{0.0, -seen}}, ink::kSeen);
+    canvas.fill({low, low + Vec2{drawn, 0.0}, low + Vec2{drawn, -drawn}, low + Vec2{0.0, -drawn}}, ink::kSeen);
   }
 }
 
