@@ -15,10 +15,12 @@ constexpr double kHeadingVarPerM = 0.035 * 0.035;
 constexpr double kHeadingVarPerRad = 0.07 * 0.07;
 
 // Without wheels the robot keeps its speed from scan to scan within what a wheelchair can accelerate by.
-constexpr double kAccelStd = 1.5;       // m/s^2
-constexpr double kTurnAccelStd = 3.0;   // rad/s^2
-constexpr double kLongestCoastS = 1.0;  // after a longer gap it is taken to have stood
-constexpr double kTwistGain = 0.7;      // of the running mean of speeds between matches
+constexpr double kAccelStd = 1.5;                         // m/s^2
+constexpr double kTurnAccelStd = 3.0;                     // rad/s^2
+constexpr double kLongestCoastS = 1.0;                    // after a longer gap it is taken to have stood
+constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match was wrong
+constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
+constexpr double kTwistGain = 0.7;                        // of the running mean of speeds between matches
 
 // No map of 10 cm cells places a robot better than this, however often it is asked.
 constexpr double kLeastPositionVar = 0.005 * 0.005;
@@ -41,6 +43,7 @@ struct Localizer::State {
   void coast_to(Time stamp) noexcept;
   void place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept;
   void learn_twist(const Pose2& placed, Time stamp) noexcept;
+  void forget_twist(Time stamp) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
   void correct_to(const Pose2& map_from_robot, const Pose2& odom_from_robot) noexcept {
@@ -99,8 +102,10 @@ void Localizer::State::coast_to(Time stamp) noexcept {
 
 void Localizer::State::learn_twist(const Pose2& placed, Time stamp) noexcept {
   const double dt = last_placed_stamp == kNever ? 0.0 : to_seconds(stamp - last_placed_stamp);
-  if (dt > 0.0 && dt < kLongestCoastS) {
-    const Pose2 step = inverse(last_placed) * placed;
+  const Pose2 step = inverse(last_placed) * placed;
+  const bool believable = dt > 0.0 && dt < kLongestCoastS && norm(step.position()) < kFastestMps * dt &&
+                          std::fabs(step.heading) < kFastestRadps * dt;
+  if (believable) {
     velocity_in_robot = velocity_in_robot + (step.position() * (1.0 / dt) - velocity_in_robot) * kTwistGain;
     turn_radps += (step.heading / dt - turn_radps) * kTwistGain;
   } else {
@@ -112,20 +117,35 @@ void Localizer::State::learn_twist(const Pose2& placed, Time stamp) noexcept {
   twist = {velocity_in_robot.x, turn_radps};
 }
 
+void Localizer::State::forget_twist(Time stamp) noexcept {
+  velocity_in_robot = velocity_in_robot * kForget;
+  turn_radps *= kForget;
+  last_placed = map_from_odom * odom_from_robot_at_scan;
+  last_placed_stamp = stamp;
+  twist = {velocity_in_robot.x, turn_radps};
+}
+
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept {
   const bool wheels = odometry.has_wheels();
   if (!wheels) coast_to(scan.stamp);
   scan_stamp = scan.stamp;
   odom_from_robot_at_scan = odometry.at(scan.stamp);
+  bool matched = false;
   if (config.match_scans) {
     project_scan(scan, config.robot_from_laser, twist, points);
     const MatchResult found = matcher.match(points, still, {map_from_odom * odom_from_robot_at_scan, covariance});
-    if (found.matched && finite(found.belief.map_from_robot)) {
+    matched = found.matched && finite(found.belief.map_from_robot);
+    if (matched) {
       correct_to(found.belief.map_from_robot, odom_from_robot_at_scan);
       covariance = found.belief.covariance + diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar);
     }
   }
-  if (!wheels) learn_twist(map_from_odom * odom_from_robot_at_scan, scan.stamp);
+  if (wheels) return;
+  if (matched) {
+    learn_twist(map_from_odom * odom_from_robot_at_scan, scan.stamp);
+  } else {
+    forget_twist(scan.stamp);
+  }
 }
 
 void Localizer::State::blend(const OutsideFix& fix) noexcept {

@@ -11,6 +11,8 @@ using Sample = ScanMatcher::Sample;
 constexpr double kCoarseM = 0.1;      // a cell; then half of it
 constexpr double kCoarseRad = 0.035;  // two degrees: a cell at 3 m; then half of it
 constexpr double kMostWindowM = 0.4, kMostWindowRad = 0.42;
+constexpr int kUnknownWorth = EvidenceMap::kMax / 2;  // of a point in unknown space: were it nothing, a robot that
+                                                      // drives on would seem to stay where its walls are known
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
@@ -78,7 +80,8 @@ double share_on_walls(const Sample& sample, const EvidenceMap& still, const Pose
   const Transform2 to_map(pose);
   int sum = 0, count = 0;
   for (std::size_t k = 0; k < sample.size(); k += stride, ++count) {
-    sum += std::max<int>(0, still.evidence(still.cell_at(to_map * sample[k])));
+    const int evidence = still.evidence(still.cell_at(to_map * sample[k]));
+    sum += evidence == 0 ? kUnknownWorth : std::max(0, evidence);
   }
   return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
 }
