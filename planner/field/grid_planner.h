@@ -175,9 +175,8 @@ class GridPlanner final : public Planner {
     const std::int32_t count = follow(window_.grid(), a.index, start, goal, a.points, fixed, kMaxBandPoints);
     if (count == 0) return PlanStatus::kNoPath;
     a.points[0] = {static_cast<float>(robot.x), static_cast<float>(robot.y)};
-    const bool at_true_goal =
-        window_.grid().at(window_.cell_at(request.goal_in_map).i, window_.cell_at(request.goal_in_map).j) == goal &&
-        window_.holds(request.goal_in_map, 0);
+    const CellIndex wanted = window_.cell_at(request.goal_in_map);
+    const bool at_true_goal = window_.holds(request.goal_in_map, 0) && window_.grid().at(wanted.i, wanted.j) == goal;
     const cell::Point last = a.points[count - 1];
     const Vec2 end =
         at_true_goal ? request.goal_in_map : window_.in_map({static_cast<double>(last.x), static_cast<double>(last.y)});

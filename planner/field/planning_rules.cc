@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <string>
 
 #include "hal/types/errors.h"
@@ -18,10 +19,12 @@ cell::AxisState axis(double position, double velocity, const AxisCovariance& p, 
           scaled(p.vv, square)};
 }
 
-bool is_finite(const Track& t) {
-  const double sum = t.position_in_map.x + t.position_in_map.y + t.velocity_in_map.x + t.velocity_in_map.y +
-                     t.covariance.pp + t.covariance.pv + t.covariance.vv + t.radius_m;
-  return std::isfinite(sum);
+/// Whether single precision can hold a track: no NaN, nothing beyond a million.
+bool is_plausible(const Track& t) {
+  constexpr double kLimit = 1e6;
+  const double values[] = {t.position_in_map.x, t.position_in_map.y, t.velocity_in_map.x, t.velocity_in_map.y,
+                           t.covariance.pp,     t.covariance.pv,     t.covariance.vv,     t.radius_m};
+  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kLimit; });
 }
 
 }  // namespace
@@ -72,7 +75,7 @@ std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, M
                           std::array<std::uint32_t, kMaxTracks>& ids) noexcept {
   std::size_t count = 0;
   for (const Track& track : tracks) {
-    if (!is_finite(track)) continue;
+    if (!is_plausible(track)) continue;
     if (count == kMaxTracks) break;
     const Vec2 p = window.in_cells(track.position_in_map);
     const Vec2 v = track.velocity_in_map;

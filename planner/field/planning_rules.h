@@ -31,8 +31,8 @@ void check(const PlannerConfig& config);
 [[nodiscard]] Warping warping_for(const PlannerConfig& config, const Window& window,
                                   const PlanRequest& request) noexcept;
 
-/// The tracks that are numbers, in the window's units; at most kMaxTracks, the rest is left out. Their ids in
-/// the same order. Returns how many.
+/// The tracks that are numbers within reason, in the window's units; at most kMaxTracks, the rest is left out. Their
+/// ids in the same order. Returns how many.
 [[nodiscard]] std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, Mover* movers,
                                         std::array<std::uint32_t, kMaxTracks>& ids) noexcept;
 
