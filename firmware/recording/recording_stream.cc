@@ -54,6 +54,13 @@ EntryHead decode(std::span<const unsigned char> bytes) {
 
 }  // namespace
 
+bool is_recording(const std::string& file) {
+  std::array<unsigned char, kMagic.size()> head{};
+  std::ifstream stream(file, std::ios::binary);
+  stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
+  return stream && head == kMagic;
+}
+
 RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
     : stream_(file, std::ios::binary | std::ios::trunc), entry_(kEntryHeadBytes + kMaxEntryBytes) {
   if (!stream_) throw StartupError(file + ": cannot be written", "choose a folder that exists and may be written");

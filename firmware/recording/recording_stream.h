@@ -21,6 +21,9 @@ namespace jaywalk {
 inline constexpr std::uint32_t kRecordingVersion = 1;
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
+/// Whether `file` begins as a recording of ours does; false where it cannot be read.
+[[nodiscard]] bool is_recording(const std::string& file);
+
 /// Writes a recording. Only the constructor allocates.
 class RecordingWriter {
  public:

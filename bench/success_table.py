@@ -1,0 +1,79 @@
+#!/usr/bin/env python3
+"""Success by the strict rule on the project's four maps: the table in README.md.
+
+A run succeeds when the goal is reached within the time limit, nothing was touched, and no mover turned because of the robot.
+
+    bench/success_table.py --seeds 101-120 --jobs 2 --out out/success
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import pathlib
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build/firmware/jaywalk"
+OUTCOMES = ("reached", "forced_mover", "collision", "timeout", "fault")
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", default="101-120", help="first-last")
+    parser.add_argument("--maps", type=int, nargs="+", default=[1, 2, 3, 4])
+    parser.add_argument("--movers", type=int, nargs="+", default=[0, 1, 4, 16])
+    parser.add_argument("--mode", default="full", choices=["full", "paper"])
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/success"))
+    return parser.parse_args()
+
+
+def run(job):
+    options, map_number, movers, seed = job
+    out = options.out / options.mode / f"map{map_number}_{movers:02d}" / str(seed)
+    summary = out / "summary.json"
+    if not summary.exists():
+        scenario = ROOT / f"hal/sim/scenarios/map{map_number}_{movers:02d}.toml"
+        command = [PROGRAM, "sim", scenario, "--seed", str(seed), "--mode", options.mode, "--out", out]
+        done = subprocess.run(command, capture_output=True, text=True)
+        if done.returncode not in (0, 1):
+            sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}: {done.stderr.strip()}")
+    return map_number, movers, json.loads(summary.read_text())
+
+
+def wilson(successes, runs, z=1.96):
+    """95 % interval of a share (Wilson 1927), in percent."""
+    centre = (successes + z * z / 2) / (runs + z * z)
+    half = z / (runs + z * z) * math.sqrt(successes * (runs - successes) / runs + z * z / 4)
+    return 100 * (centre - half), 100 * (centre + half)
+
+
+def row(movers, runs):
+    successes = sum(r["success"] for r in runs)
+    low, high = wilson(successes, len(runs))
+    counts = [sum(r["outcome"] == outcome for r in runs) for outcome in OUTCOMES[1:]]
+    reached = [r["path_length_m"] / r["static_shortest_path_m"] for r in runs if r["outcome"] == "reached"]
+    detour = sorted(reached)[len(reached) // 2] if reached else float("nan")
+    cells = [movers, f"{successes} of {len(runs)}", f"{100 * successes / len(runs):.1f} % ({low:.0f}-{high:.0f})", *counts, f"{detour:.2f}"]
+    print("| " + " | ".join(map(str, cells)) + " |")
+
+
+def main():
+    options = arguments()
+    first, _, last = options.seeds.partition("-")
+    jobs = [(options, m, n, s) for n in options.movers for m in options.maps for s in range(int(first), int(last or first) + 1)]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        results = list(pool.map(run, jobs))
+    print("| movers | success | share (95 %) | forced a mover | collision | timeout | fault | length over shortest, median |")
+    print("|---|---|---|---|---|---|---|---|")
+    for movers in options.movers:
+        row(movers, [summary for _, n, summary in results if n == movers])
+    print("\nBy map:\n\n| movers | " + " | ".join(f"map {m}" for m in options.maps) + " |\n|---|" + "---|" * len(options.maps))
+    for movers in options.movers:
+        cells = [[s["success"] for m, n, s in results if n == movers and m == map_number] for map_number in options.maps]
+        print(f"| {movers} | " + " | ".join(f"{sum(c)} of {len(c)}" for c in cells) + " |")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,62 @@
+#include "firmware/commands/loop_runner.h"
+
+#include <chrono>
+#include <cstdio>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// `out`, made when missing.
+const std::filesystem::path& made(const std::filesystem::path& out) {
+  std::error_code error;
+  std::filesystem::create_directories(out, error);
+  if (error) throw StartupError(out.string() + ": " + error.message(), "give --out a folder that can be written");
+  return out;
+}
+
+}  // namespace
+
+LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record)
+    : setup_(setup),
+      clock_(hal.clock),
+      out_(made(out)),
+      chosen_(make_planner(setup.planner(), setup.backend)),
+      recorder_({.file = record ? (out / "recording.jwr").string() : "", .setup = to_text(setup)}),
+      loop_(setup, hal, *chosen_.planner, recorder_),
+      report_(out),
+      due_(hal.clock.now()) {
+  if (!chosen_.remark.empty()) std::fprintf(stderr, "jaywalk: %s\n", chosen_.remark.c_str());
+}
+
+const TickRecord& LoopRunner::step_at(Time due) {
+  clock_.sleep_until(due);
+  const auto began = std::chrono::steady_clock::now();
+  record_ = &loop_.tick(due);
+  took_ = std::chrono::steady_clock::now() - began;
+  if (took_ > setup_.tick()) ++overruns_;
+  due_ = due + setup_.tick();
+  recorder_.drain();
+  return *record_;
+}
+
+void LoopRunner::report(const TrueState* truth) {
+  RunSample sample{.record = *record_, .tracks = loop_.tracker().tracks(), .truth = truth, .tick_took = took_};
+  if (loop_.plan().sequence != plan_reported_) sample.plan_ms = loop_.plan().duration_ms;
+  plan_reported_ = loop_.plan().sequence;
+  report_.add(sample);
+}
+
+void LoopRunner::finish(RunEnd end) {
+  if (!recorder_.close()) {
+    std::fprintf(stderr, "jaywalk: %s: the recording is incomplete; free some space on the disk\n", out_.c_str());
+  }
+  end.dropped_records = recorder_.dropped();
+  end.backend = chosen_.planner->backend();
+  end.mode = name_of(setup_.mode);
+  end.version = JAYWALK_VERSION;
+  report_.finish(end);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,53 @@
+#pragma once
+// A control loop under way, with everything that watches it: recorder, report, stopwatch.
+#include <filesystem>
+#include <string>
+
+#include "firmware/backends.h"
+#include "firmware/control_loop.h"
+#include "firmware/recording/recorder.h"
+#include "firmware/report/run_report.h"
+
+namespace jaywalk {
+
+/// Builds the controller for a setup on the given devices and runs it a tick at a time. What is slow (disk, tables)
+/// happens between ticks.
+class LoopRunner {
+ public:
+  /// Prints the planner's remark, if there is one. `record` says whether to leave recording.jwr in `out`.
+  /// Throws StartupError.
+  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record);
+
+  /// Sleeps until the next tick is due and lives through it.
+  const TickRecord& step() { return step_at(due_); }
+  /// The same for a tick at a time that the caller knows; the next is due a period later.
+  const TickRecord& step_at(Time due);
+  /// Tells the report of the last step. `truth` may be null.
+  void report(const TrueState* truth);
+  /// Closes recording, tables and summary; prints where they are. Call once.
+  void finish(RunEnd end);
+
+  [[nodiscard]] const ControlLoop& loop() const { return loop_; }
+  [[nodiscard]] const TickRecord& last() const { return *record_; }
+  [[nodiscard]] const ControlSetup& setup() const { return setup_; }
+  [[nodiscard]] const RunReport& figures() const { return report_; }
+  [[nodiscard]] const Planner& planner() const { return *chosen_.planner; }
+  /// Ticks that took longer than a period of the wall clock.
+  [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
+
+ private:
+  ControlSetup setup_;
+  Clock& clock_;
+  std::filesystem::path out_;
+  ChosenPlanner chosen_;
+  Recorder recorder_;
+  ControlLoop loop_;
+  RunReport report_;
+  Time due_;
+  const TickRecord* record_ = nullptr;
+  Duration took_{0};
+  std::uint32_t plan_reported_ = 0;
+  std::uint64_t overruns_ = 0;
+};
+
+}  // namespace jaywalk

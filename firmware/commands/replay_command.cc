@@ -1,0 +1,124 @@
+#include "firmware/commands/replay_command.h"
+
+#include <bit>
+#include <cctype>
+#include <cstdio>
+
+#include "firmware/commands/loop_runner.h"
+#include "firmware/commands/run_picture.h"
+#include "firmware/recording/recorded_hal.h"
+#include "firmware/recording/recording_stream.h"
+#include "hal/sim/logs/line_file.h"
+#include "hal/sim/logs/log_replay.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kGoalTolerance_m = 0.3;
+
+/// A line of numbers begins a scan-odom file; CARMEN's lines begin with a message's name.
+bool begins_with_a_name(const std::filesystem::path& file) {
+  sim::LineFile lines(file);
+  return lines.next() && (std::isalpha(static_cast<unsigned char>(lines.words()[0][0])) != 0);
+}
+
+std::string format_of(const ReplayOptions& options) {
+  if (!options.format.empty()) return options.format;
+  if (is_recording(options.logs.front().string())) return "jaywalk";
+  return begins_with_a_name(options.logs.front()) ? "carmen" : "scan-odom";
+}
+
+sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
+  const std::size_t most = format == "carmen" ? 1 : 2;
+  if (options.logs.size() > most) {
+    throw StartupError(options.logs[most].string() + ": one file too many for " + format,
+                       format == "carmen" ? "give one log" : "give SCAN.txt and, where there is one, ODOM.txt");
+  }
+  const Pose2 mount = options.laser_mount.value_or(Pose2{});
+  if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
+  return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt, mount);
+}
+
+/// A recording does not say what carried the laser: a P3-DX stands in, with the log's own laser and drive.
+ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goal) {
+  ControlSetup setup;
+  setup.model = p3dx();
+  setup.model.laser = log.log().laser();
+  setup.model.drive = log.drive();
+  setup.start = log.start_pose();
+  setup.goal = goal.value_or(log.last_pose().value_or(setup.start).position());
+  setup.goal_tolerance_m = kGoalTolerance_m;
+  setup.wheels = log.last_pose().has_value();
+  return setup;
+}
+
+int replay_log(const ReplayOptions& options, const std::string& format) {
+  sim::LogReplay log(load(options, format));
+  if (const std::string complaint = log.log().complaint(); !complaint.empty()) {
+    std::fprintf(stderr, "jaywalk: %s\n", complaint.c_str());
+  }
+  const ControlSetup setup = setup_for(log, options.goal);
+  log.set_goal(setup.goal, setup.goal_tolerance_m);
+  LoopRunner runner(setup, log.hal(), options.out, false);
+  RunPicture picture;
+  while (!log.ended()) {
+    runner.step();
+    runner.report(nullptr);
+    picture.consider(runner);
+  }
+  const std::string name = options.logs[0].filename().string();
+  runner.finish({.outcome = "replayed", .success = true, .scenario = name});
+  picture.save(options.out, name, runner, {});
+  std::printf("%s: %zu scans over %.1f s; see %s\n", name.c_str(), log.log().scans.size(),
+              to_seconds(log.end_time() - log.start_time()), (options.out / "run.png").c_str());
+  return 0;
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// Replays our own recording and compares every command.
+int replay_recording(const ReplayOptions& options) {
+  const std::string file = options.logs[0].string();
+  if (options.logs.size() > 1) {
+    throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
+  }
+  RecordingReader reader(file);
+  const ControlSetup setup = setup_from_text(reader.setup(), file);
+  TickRecord recorded;
+  RecordedHal devices(recorded);
+  LoopRunner runner(setup, devices.hal(), options.out, false);
+  RunPicture picture;
+  std::uint64_t ticks = 0, lost = 0, different = 0;
+  while (reader.next(recorded)) {
+    ++ticks;
+    lost += reader.lost_before();
+    runner.step_at(recorded.now);
+    runner.report(nullptr);
+    picture.consider(runner);
+    const WheelCommand& now = devices.commanded();
+    const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
+                      same_bits(now.right_radps, recorded.command.right_radps);
+    if (!same && different++ == 0) {
+      std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n", file.c_str(),
+                   to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps, now.left_radps,
+                   now.right_radps);
+    }
+  }
+  if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
+  runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
+  picture.save(options.out, "replay of " + file, runner, {});
+  std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
+              static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
+              static_cast<unsigned long long>(lost), (options.out / "run.png").c_str());
+  return different == 0 ? 0 : 1;
+}
+
+}  // namespace
+
+int run_replay(const ReplayOptions& options) {
+  const std::string format = format_of(options);
+  return format == "jaywalk" ? replay_recording(options) : replay_log(options, format);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,25 @@
+#pragma once
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "firmware/commands/loop_runner.h"
+#include "firmware/report/picture/scene.h"
+
+namespace jaywalk {
+
+/// Gathers what run.png shows while a run goes on. Works outside the tick.
+class RunPicture {
+ public:
+  /// Looks at the step just lived through; keeps the plan of the busiest moment.
+  void consider(const LoopRunner& runner);
+  /// Writes run.png into `folder`. `walls` are the real ones; without them the picture shows what the robot saw.
+  void save(const std::filesystem::path& folder, const std::string& title, const LoopRunner& runner,
+            std::span<const WallLine> walls) const;
+
+ private:
+  BusiestMoment busiest_;
+  std::uint32_t plan_seen_ = 0;
+};
+
+}  // namespace jaywalk

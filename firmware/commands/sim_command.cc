@@ -1,0 +1,106 @@
+#include "firmware/commands/sim_command.h"
+
+#include <chrono>
+#include <cstdio>
+#include <thread>
+
+#include "firmware/commands/loop_runner.h"
+#include "firmware/commands/run_picture.h"
+#include "hal/sim/simulation.h"
+
+namespace jaywalk {
+namespace {
+
+/// The simulator's truth in the report's words.
+class TruthForReport {
+ public:
+  const TrueState& of(const sim::Truth& truth) {
+    movers_.clear();
+    for (const sim::MoverTruth& m : truth.movers) {
+      movers_.push_back({.id = m.id,
+                         .position_in_map = m.position,
+                         .velocity_in_map = m.velocity,
+                         .radius_m = m.radius_m,
+                         .forced = m.forced});
+    }
+    state_ = {.map_from_robot = truth.map_from_robot,
+              .twist = truth.twist,
+              .movers = movers_,
+              .clearance_m = truth.clearance_m,
+              .mover_clearance_m = truth.mover_clearance_m,
+              .contacts = truth.contacts,
+              .contacts_caused = truth.contacts_caused,
+              .forced_movers = truth.forced_movers};
+    return state_;
+  }
+
+ private:
+  std::vector<TrueMover> movers_;
+  TrueState state_;
+};
+
+sim::Scenario scenario_for(const SimOptions& options) {
+  sim::Scenario scenario = sim::load_scenario(options.scenario);
+  if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
+  return scenario;
+}
+
+ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options) {
+  return {.model = scenario.model,
+          .mode = options.mode,
+          .constant_speed = options.constant_speed,
+          .backend = options.backend,
+          .start = scenario.start,
+          .goal = scenario.goal,
+          .goal_tolerance_m = scenario.goal_tolerance_m};
+}
+
+std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
+  std::vector<WallLine> walls;
+  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
+  return walls;
+}
+
+/// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth reaching.
+std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, Time now) {
+  if (truth.contacts > 0) return "collision";
+  if (distance(truth.map_from_robot.position(), scenario.goal) <= scenario.goal_tolerance_m) {
+    return truth.forced_movers > 0 ? "forced_mover" : "reached";
+  }
+  return to_seconds(now) >= scenario.timeout_s ? "timeout" : "";
+}
+
+}  // namespace
+
+int run_sim(const SimOptions& options) {
+  const sim::Scenario scenario = scenario_for(options);
+  const std::uint64_t seed = options.seed.value_or(scenario.seed);
+  sim::Simulation simulation(scenario, seed);
+  LoopRunner runner(setup_for(scenario, options), simulation.hal(), options.out, true);
+  RunPicture picture;
+  TruthForReport truth_for_report;
+  std::string ended;
+  const auto began = std::chrono::steady_clock::now();
+  while (ended.empty()) {
+    const TickRecord& t = runner.step();
+    runner.report(&truth_for_report.of(simulation.truth()));
+    picture.consider(runner);
+    ended = outcome(scenario, simulation.truth(), t.now);
+    if (options.realtime) std::this_thread::sleep_until(began + t.now.time_since_epoch());
+  }
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const double lasted_s = to_seconds(simulation.truth().now);
+  runner.finish({.outcome = ended,
+                 .success = ended == "reached",
+                 .static_shortest_path_m = simulation.static_shortest_path_m(),
+                 .missed_ticks = options.realtime ? runner.overruns() : 0,
+                 .seed = seed,
+                 .scenario = scenario.name,
+                 .mover_rule = sim::Simulation::mover_rule()});
+  picture.save(options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
+  std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
+              lasted_s, lasted_s / took_s, (options.out / "run.png").c_str());
+  return ended == "reached" ? 0 : 1;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,24 @@
+#pragma once
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+
+#include "firmware/control_setup.h"
+
+namespace jaywalk {
+
+struct SimOptions {
+  std::filesystem::path scenario;
+  std::optional<std::uint64_t> seed;  ///< default: the scenario's
+  PlanMode mode = PlanMode::kFull;
+  bool constant_speed = false;
+  Backend backend = Backend::kAuto;
+  std::filesystem::path out = "out/sim";
+  bool realtime = false;
+};
+
+/// The whole controller on the simulated robot. Returns the process's exit code: 0 when the run succeeded by the strict rule
+/// (goal reached, nobody touched, nobody made to turn), 1 when not. Throws StartupError for bad input.
+[[nodiscard]] int run_sim(const SimOptions& options);
+
+}  // namespace jaywalk

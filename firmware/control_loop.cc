@@ -1,0 +1,95 @@
+#include "firmware/control_loop.h"
+
+namespace jaywalk {
+namespace {
+
+LocalizationConfig localization_config(const ControlSetup& setup) {
+  return {.map_from_robot_at_start = setup.start,
+          .drive = setup.model.drive,
+          .robot_from_laser = setup.model.laser.robot_from_laser};
+}
+
+PerceptionConfig perception_config(const ControlSetup& setup) {
+  return {.robot_from_laser = setup.model.laser.robot_from_laser,
+          .cell_m = setup.planner().cell_m,
+          .map_centre = (setup.start.position() + setup.goal) * 0.5};
+}
+
+FollowerConfig follower_config(const ControlSetup& setup) {
+  return {.limits = setup.model.limits,
+          .robot_radius_m = setup.planner().inflation_m,
+          .constant_speed = setup.keeps_speed(),
+          .goal_tolerance_m = setup.goal_tolerance_m,
+          .tick_s = to_seconds(setup.tick())};
+}
+
+SupervisorConfig supervisor_config(const ControlSetup& setup) {
+  return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels};
+}
+
+}  // namespace
+
+ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, Recorder& recorder)
+    : setup_(setup),
+      hal_(hal),
+      planner_(planner),
+      recorder_(recorder),
+      localizer_(localization_config(setup)),
+      tracker_(perception_config(setup)),
+      follower_(follower_config(setup)),
+      supervisor_(supervisor_config(setup)),
+      diff_drive_(setup.model.drive),
+      plan_(&planner.collect()) {}
+
+const TickRecord& ControlLoop::tick(Time now) noexcept {
+  TickRecord& t = recorder_.begin(now);  // preallocated; all that crosses the HAL this tick
+
+  t.scan = hal_.laser.latest();  // Sense: the newest of each; nothing waits.
+  t.wheels = hal_.drive.latest();
+  t.input = hal_.panel.latest();
+  t.fix = hal_.pose_source.latest();
+  const bool new_scan = scans_.is_new(t.scan.sequence);
+
+  t.pose = localizer_.update(t.wheels, t.scan, t.fix, tracker_.still());  // Estimate
+  if (setup_.mode == PlanMode::kPaper && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
+  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan());
+
+  plan_ = &planner_.collect();  // Plan: take what was asked for in an earlier tick.
+  note_plan(t);
+
+  t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
+  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
+  driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
+  t.command = diff_drive_.wheel_speeds(driven_, now);
+  hal_.drive.command(t.command);
+
+  if (new_scan && t.input.has_goal) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
+  recorder_.commit();
+  return t;
+}
+
+void ControlLoop::note_plan(TickRecord& t) const noexcept {
+  t.plan_sequence = plan_->sequence;
+  t.plan_status = plan_->status;
+  t.plan_stamp = plan_->status == PlanStatus::kOk ? plan_->stamp : kNever;
+}
+
+FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
+  return {.path = plan_->path,
+          .map_from_robot = t.pose.map_from_robot,
+          .goal_in_map = t.input.goal_in_map,
+          .has_goal = t.input.has_goal && !supervisor_.latched(),
+          .moving = tracker_.moving(),
+          .permitted_before = driven_};
+}
+
+PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
+  return {.stamp = t.scan.stamp,
+          .map_from_robot = t.pose.map_from_robot,
+          .goal_in_map = t.input.goal_in_map,
+          .speed_mps = setup_.model.limits.max_speed_mps,
+          .still = &tracker_.still(),
+          .moving = tracker_.moving()};
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,58 @@
+#pragma once
+// The fixed-rate loop. One tick: sense, estimate, plan, act, record.
+#include <cstdint>
+#include <utility>
+
+#include "firmware/control_setup.h"
+#include "firmware/recording/recorder.h"
+#include "firmware/safety/supervisor.h"
+#include "hal/hal.h"
+#include "planner/localization/localizer.h"
+#include "planner/motion/diff_drive.h"
+#include "planner/motion/follower.h"
+#include "planner/perception/tracker.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// Owns the controller's parts; the devices, the planner and the recorder are lent and outlive it.
+/// The constructor allocates; tick() never does, never throws and never waits. Thread: the loop's.
+class ControlLoop {
+ public:
+  ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, Recorder& recorder);
+
+  /// Lives through one tick; call once a period with the clock's time. Returns the tick's record, valid until the next.
+  const TickRecord& tick(Time now) noexcept;
+
+  [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
+  [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
+
+ private:
+  void note_plan(TickRecord& t) const noexcept;
+  [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
+  [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
+
+  /// Tells a device's new reading from one seen before.
+  class Fresh {
+   public:
+    [[nodiscard]] bool is_new(std::uint32_t sequence) noexcept { return std::exchange(last_, sequence) != sequence; }
+
+   private:
+    std::uint32_t last_ = 0;
+  };
+
+  ControlSetup setup_;
+  Hal hal_;
+  Planner& planner_;
+  Recorder& recorder_;
+  Localizer localizer_;
+  Tracker tracker_;
+  Follower follower_;
+  Supervisor supervisor_;
+  DiffDrive diff_drive_;
+  const Plan* plan_;  ///< what collect() last answered, never null
+  Twist2 driven_;     ///< what the wheels were last asked for
+  Fresh scans_, fixes_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,57 @@
+#include "firmware/control_setup.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+
+// One macro a struct, both ways; field names are the file format's.
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Vec2, x, y)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Pose2, x, y, heading)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(Footprint, front_m, rear_m, half_width_m)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(DriveModel, wheel_radius_m, track_width_m, max_wheel_speed_radps)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MotionLimits, max_speed_mps, max_turn_radps, max_accel_mps2, max_turn_accel_radps2,
+                                   max_jerk_mps3, brake_mps2)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LaserModel, robot_from_laser, fov_rad, beams, rate_hz, range_min_m, range_max_m,
+                                   noise_m, drop_out)
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotModel, name, footprint, drive, limits, laser)
+NLOHMANN_JSON_SERIALIZE_ENUM(PlanMode, {{PlanMode::kFull, "full"}, {PlanMode::kPaper, "paper"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(Backend, {{Backend::kAuto, "auto"}, {Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlSetup, model, mode, constant_speed, backend, start, goal, goal_tolerance_m,
+                                   wheels, rate_hz)
+
+namespace {
+
+constexpr double kCell_m = 0.1;  // the paper's
+/// A robot that is nearly round plans with the circle that holds it and may turn anywhere; a long one with the circle
+/// inside it and a margin.
+constexpr double kMarginOverInscribed_m = 0.15;
+
+}  // namespace
+
+PlannerConfig ControlSetup::planner() const {
+  PlannerConfig config;
+  config.mode = mode;
+  config.cell_m = kCell_m;
+  config.side_cells = grid_side_for(start.position(), goal, kCell_m);
+  config.inflation_m =
+      std::min(model.footprint.circumscribed_radius_m(), model.footprint.inscribed_radius_m() + kMarginOverInscribed_m);
+  return config;
+}
+
+const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" : "full"; }
+
+std::string to_text(const ControlSetup& setup) { return nlohmann::json(setup).dump(); }
+
+ControlSetup setup_from_text(const std::string& text, const std::string& place) {
+  try {
+    return nlohmann::json::parse(text).get<ControlSetup>();
+  } catch (const nlohmann::json::exception& error) {
+    throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
+                       "give a recording that this program wrote");
+  }
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,39 @@
+#pragma once
+// Everything that decides how the controller behaves: with the same setup and the same readings it gives the same
+// commands. A recording carries it as text.
+#include <string>
+
+#include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+enum class Backend { kAuto, kCpu, kCuda };
+
+struct ControlSetup {
+  RobotModel model;
+  PlanMode mode = PlanMode::kFull;
+  bool constant_speed = false;  ///< the paper's constraint; mode paper implies it
+  Backend backend = Backend::kAuto;
+  Pose2 start;  ///< where the robot believes to be when the loop starts
+  Vec2 goal;    ///< for sizing the grid; the goal itself comes from the operator panel
+  double goal_tolerance_m = 0.3;
+  bool wheels = true;  ///< false: a recording without odometry
+  double rate_hz = 50.0;
+
+  [[nodiscard]] PlannerConfig planner() const;
+  [[nodiscard]] bool keeps_speed() const { return constant_speed || mode == PlanMode::kPaper; }
+  /// In mode paper verdicts are recorded and not applied: the paper never stops.
+  [[nodiscard]] bool applies_verdict() const { return mode != PlanMode::kPaper; }
+  [[nodiscard]] Duration tick() const { return duration_from_seconds(1.0 / rate_hz); }
+};
+
+/// JSON; numbers round-trip exactly.
+[[nodiscard]] std::string to_text(const ControlSetup& setup);
+/// Throws StartupError, naming `place`, for text that is not a setup.
+[[nodiscard]] ControlSetup setup_from_text(const std::string& text, const std::string& place);
+
+[[nodiscard]] const char* name_of(PlanMode mode);
+
+}  // namespace jaywalk

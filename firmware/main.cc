@@ -1,0 +1,79 @@
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <map>
+
+#include "firmware/backends.h"
+#include "firmware/commands/replay_command.h"
+#include "firmware/commands/sim_command.h"
+#include "hal/types/errors.h"
+
+namespace {
+
+using namespace jaywalk;
+
+constexpr int kBadInput = 2;
+
+SimOptions sim_options;
+ReplayOptions replay_options;
+
+void add_sim(CLI::App& app) {
+  CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
+  sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/scenarios.md)")->required();
+  sim->add_option("--seed", sim_options.seed, "Seed of everything random (default: the scenario's)");
+  sim->add_option("--mode", sim_options.mode, "full: laser only, stops for people; paper: movers given, never stops")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, PlanMode>{{"paper", PlanMode::kPaper}, {"full", PlanMode::kFull}}));
+  sim->add_flag("--constant-speed", sim_options.constant_speed, "One speed from start to goal, never stopping for a plan");
+  sim->add_option("--backend", sim_options.backend, "Who plans: auto, cpu or cuda")
+      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
+          {"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
+  sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
+}
+
+void add_replay(CLI::App& app) {
+  CLI::App* replay = app.add_subcommand("replay", "Run recorded laser and odometry through the pipeline");
+  replay->add_option("log", replay_options.logs, "SCAN.txt [ODOM.txt], a CARMEN log, or recording.jwr; .gz is read as it is")
+      ->required();
+  replay->add_option("--format", replay_options.format, "scan-odom, carmen or jaywalk (default: told from the file)")
+      ->check(CLI::IsMember({"scan-odom", "carmen", "jaywalk"}));
+  replay->add_option_function<std::vector<double>>(
+            "--goal", [](const std::vector<double>& v) { replay_options.goal = Vec2{v[0], v[1]}; },
+            "Goal X,Y in the recording's frame (default: its last pose)")
+      ->delimiter(',')
+      ->expected(2);
+  replay->add_option_function<std::vector<double>>(
+            "--laser-mount", [](const std::vector<double>& v) { replay_options.laser_mount = Pose2{v[0], v[1], v[2]}; },
+            "X,Y,YAW of the laser on the robot (m, m, rad)")
+      ->delimiter(',')
+      ->expected(3);
+  replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
+}
+
+int run(int argc, char** argv) {
+  CLI::App app{"jaywalk: plans for where things will be. Not certified; a navigation laser is not a safety scanner."};
+  app.set_version_flag("--version", std::string("jaywalk ") + JAYWALK_VERSION + ", backends: " + built_backends());
+  app.require_subcommand(1);
+  add_sim(app);
+  add_replay(app);
+  try {
+    app.parse(argc, argv);
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : kBadInput;
+  }
+  return app.got_subcommand("sim") ? run_sim(sim_options) : run_replay(replay_options);
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  try {
+    return run(argc, argv);
+  } catch (const jaywalk::StartupError& error) {
+    std::fprintf(stderr, "jaywalk: %s\n", error.what());
+    return kBadInput;
+  } catch (const std::exception& error) {
+    std::fprintf(stderr, "jaywalk: %s; please report this with the command that led to it\n", error.what());
+    return kBadInput;
+  }
+}

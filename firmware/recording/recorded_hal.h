@@ -1,0 +1,56 @@
+#pragma once
+// Our own recording behind the HAL: each tick the devices say what they said then.
+#include "firmware/recording/tick_record.h"
+#include "hal/hal.h"
+
+namespace jaywalk {
+
+/// Shows one TickRecord at a time; whoever owns it moves the recording on by writing to it. The command that the
+/// controller gives is kept for comparison. Thread: the loop's.
+class RecordedHal {
+ public:
+  explicit RecordedHal(const TickRecord& record)
+      : scanner_(record), wheels_(record), panel_(record), fixes_(record), clock_(record) {}
+
+  [[nodiscard]] Hal hal() noexcept { return {scanner_, wheels_, panel_, fixes_, clock_}; }
+  [[nodiscard]] const WheelCommand& commanded() const noexcept { return wheels_.commanded; }
+
+ private:
+  /// A device that looks at the record.
+  template <class Device>
+  struct Recorded : Device {
+    explicit Recorded(const TickRecord& r) : record(r) {}
+    const TickRecord& record;
+  };
+  struct Scanner : Recorded<LaserScanner> {
+    using Recorded::Recorded;
+    [[nodiscard]] const LaserScan& latest() noexcept override { return record.scan; }
+  };
+  struct Wheels : Recorded<DriveBase> {
+    using Recorded::Recorded;
+    [[nodiscard]] WheelState latest() noexcept override { return record.wheels; }
+    void command(const WheelCommand& command) noexcept override { commanded = command; }
+    WheelCommand commanded;
+  };
+  struct Panel : Recorded<OperatorPanel> {
+    using Recorded::Recorded;
+    [[nodiscard]] OperatorInput latest() noexcept override { return record.input; }
+  };
+  struct Fixes : Recorded<PoseSource> {
+    using Recorded::Recorded;
+    [[nodiscard]] const OutsideFix& latest() noexcept override { return record.fix; }
+  };
+  struct StoppedClock : Recorded<Clock> {
+    using Recorded::Recorded;
+    [[nodiscard]] Time now() noexcept override { return record.now; }
+    void sleep_until(Time) noexcept override {}
+  };
+
+  Scanner scanner_;
+  Wheels wheels_;
+  Panel panel_;
+  Fixes fixes_;
+  StoppedClock clock_;
+};
+
+}  // namespace jaywalk
