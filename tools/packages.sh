@@ -2,7 +2,8 @@
 # What the build needs from the system, and how it gets there; sourced by tools/demo and tools/test.
 
 # Names hold for Debian 12 and Ubuntu 22.04 and 24.04.
-readonly kLibraries=(catch2 libcli11-dev libpng-dev libtomlplusplus-dev libyaml-cpp-dev nlohmann-json3-dev zlib1g-dev)
+readonly kLibraries=(catch2 fonts-dejavu-core libcairo2-dev libcli11-dev libpng-dev libtomlplusplus-dev libyaml-cpp-dev
+  nlohmann-json3-dev zlib1g-dev)
 
 # missing_packages: the Debian packages that are not there, one a line. A program counts wherever it came from.
 missing_packages() {
@@ -10,6 +11,7 @@ missing_packages() {
   command -v "${CXX:-c++}" >/dev/null || echo "${compiler/clang++/clang}"
   command -v cmake >/dev/null || echo cmake
   command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
+  command -v pkg-config >/dev/null || echo pkg-config
   for library in "${kLibraries[@]}"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$library" 2>/dev/null)" = installed ] || echo "$library"
   done
