@@ -29,20 +29,33 @@ struct IndexOfEachCell {
   std::uint8_t* index;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    float lowest = psi[grid.at(i, j)];
-    std::uint8_t best = kHere;
-    for (std::uint8_t k = 0; k < kHere; ++k) {
-      const Step s = step_of(k);
-      const float there = psi_at(grid, psi, i + s.di, j + s.dj);
-      const bool open =
-          k < 4 || (cell::is_joined(psi_at(grid, psi, i + s.di, j)) && cell::is_joined(psi_at(grid, psi, i, j + s.dj)));
-      if (there < lowest && open) {
-        lowest = there;
-        best = k;
+    const std::int32_t c = grid.at(i, j);
+    Lowest lowest{psi[c], kHere};
+    if (cell::is_joined(psi[c])) {
+      const float east = psi_at(grid, psi, i + 1, j), west = psi_at(grid, psi, i - 1, j);
+      const float north = psi_at(grid, psi, i, j + 1), south = psi_at(grid, psi, i, j - 1);
+      lowest.look(east, 0), lowest.look(west, 1), lowest.look(north, 2), lowest.look(south, 3);
+      const bool open_east = cell::is_joined(east), open_west = cell::is_joined(west);
+      if (cell::is_joined(north)) {
+        if (open_east) lowest.look(psi[c + grid.side + 1], 4);
+        if (open_west) lowest.look(psi[c + grid.side - 1], 5);
+      }
+      if (cell::is_joined(south)) {
+        if (open_east) lowest.look(psi[c - grid.side + 1], 6);
+        if (open_west) lowest.look(psi[c - grid.side - 1], 7);
       }
     }
-    index[grid.at(i, j)] = best;
+    index[c] = lowest.step;
   }
+
+ private:
+  struct Lowest {
+    float psi;
+    std::uint8_t step;
+    JAYWALK_CELL void look(float there, std::uint8_t k) {
+      if (there < psi) psi = there, step = k;  // false for what is not free
+    }
+  };
 };
 
 /// One half of the band's points, every other one, moved by its neighbours' tension and by what is near. A
