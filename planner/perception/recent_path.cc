@@ -3,6 +3,11 @@
 #include <algorithm>
 
 namespace jaywalk {
+namespace {
+
+constexpr double kRoundOffM2 = 1e-12;  // scatter of places that are all the same, a micrometre's square
+
+}  // namespace
 
 void RecentPath::add(Time when, Vec2 where) noexcept {
   places_[count_ % kRemembered] = {when, where};
@@ -29,7 +34,7 @@ StraightWalk RecentPath::fit() const noexcept {
     tp = tp + p * t;
     scatter += dot(p, p);
   }
-  if (!(tt > 0.0) || !(scatter > 0.0)) return {.places = n};
+  if (!(tt > 0.0) || scatter < kRoundOffM2) return {.places = n};
   const Vec2 velocity = tp * (1.0 / tt);
   const double duration = to_seconds(newest.when - oldest.when);
   return {.places = n,

@@ -1,0 +1,42 @@
+#include "planner/perception/kalman.h"
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+TEST_CASE("prediction moves by velocity times time and the covariance grows as A P AT plus Q") {
+  Track track;
+  track.position_in_map = {1.0, 2.0};
+  track.velocity_in_map = {0.5, -1.0};
+  track.covariance = {.pp = 0.04, .pv = 0.01, .vv = 0.09};
+  predict(track, 2.0, 0.5);
+  CHECK(track.position_in_map.x == Approx(2.0));
+  CHECK(track.position_in_map.y == Approx(0.0));
+  // pp = 0.04 + 2 (2 x 0.01 + 2 x 0.09) + 0.25 x 16 / 4 = 0.04 + 0.40 + 1.0; pv = 0.01 + 0.18 + 0.25 x 8 / 2;
+  // vv = 0.09 + 0.25 x 4.
+  CHECK(track.covariance.pp == Approx(1.44));
+  CHECK(track.covariance.pv == Approx(1.19));
+  CHECK(track.covariance.vv == Approx(1.09));
+}
+
+TEST_CASE("correction weighs prediction and measurement by their variances") {
+  Track track;
+  track.position_in_map = {1.0, 0.0};
+  track.velocity_in_map = {0.0, 0.0};
+  track.covariance = {.pp = 0.03, .pv = 0.02, .vv = 0.5};
+  correct(track, {1.4, 0.0}, 0.1);
+  // S = 0.03 + 0.01 = 0.04; gains 0.75 and 0.5; innovation 0.4: position 1.3, velocity 0.2;
+  // pp = 0.25 x 0.03, pv = 0.25 x 0.02, vv = 0.5 - 0.5 x 0.02.
+  CHECK(track.position_in_map.x == Approx(1.3));
+  CHECK(track.velocity_in_map.x == Approx(0.2));
+  CHECK(track.covariance.pp == Approx(0.0075));
+  CHECK(track.covariance.pv == Approx(0.005));
+  CHECK(track.covariance.vv == Approx(0.49));
+}
+
+TEST_CASE("the gate counts squared standard deviations of the innovation") {
+  Track track;
+  track.covariance.pp = 0.03;
+  // (0.3^2 + 0.4^2) / (0.03 + 0.1^2) = 0.25 / 0.04.
+  CHECK(gate_distance2(track, {0.3, 0.4}, 0.1) == Approx(6.25));
+}

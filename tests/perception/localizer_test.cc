@@ -1,0 +1,189 @@
+#include "planner/localization/localizer.h"
+
+#include <cmath>
+#include <limits>
+
+#include "planner/perception/tracker.h"
+#include "tests/perception/recordings.h"
+#include "tests/perception/room.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+constexpr DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.33, .max_wheel_speed_radps = 14.0};
+
+/// A robot in a room, its tracker and localizer, once a scan.
+struct Drive {
+  explicit Drive(const Pose2& start, bool match_scans = true)
+      : localizer(
+            {.map_from_robot_at_start = start, .drive = kDrive, .robot_from_laser = {}, .match_scans = match_scans}),
+        tracker({.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}),
+        wheels_of(kDrive) {}
+
+  /// The truth, and what the wheels believe it to be.
+  void step(const Room& room, const Pose2& truth, const Pose2& by_wheels) {
+    const LaserScan seen = scan_of(room, truth, ++scan, 0.01);
+    wheels = wheels_of.reading({to_seconds(seen.stamp), by_wheels});
+    look(seen);
+  }
+  void step_without_wheels(const Room& room, const Pose2& truth) { look(scan_of(room, truth, ++scan, 0.01)); }
+
+  void look(const LaserScan& seen) {
+    estimate = localizer.update(wheels, seen, fix, tracker.still());
+    tracker.update(seen, localizer.map_from_robot_at_scan(), localizer.twist());
+  }
+
+  Localizer localizer;
+  Tracker tracker;
+  recordings::WheelsFromPoses wheels_of;
+  WheelState wheels;
+  OutsideFix fix;
+  PoseEstimate estimate;
+  std::uint32_t scan = 0;
+};
+
+Room furnished() {
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{2.0, 5.0}, {2.0, 3.0}});
+  room.walls.push_back({{-3.0, -5.0}, {-3.0, -3.5}});
+  room.discs = {{{3.5, -2.5}, 0.3}};
+  return room;
+}
+
+double heading_error(const Pose2& a, const Pose2& b) { return std::fabs(wrap_angle(a.heading - b.heading)); }
+
+}  // namespace
+
+TEST_CASE("without scans to match the pose is the wheels' and its doubt grows with the way") {
+  Localizer localizer({.map_from_robot_at_start = {1.0, 2.0, kPi / 2}, .drive = kDrive, .robot_from_laser = {}});
+  const EvidenceMap still(64, 0.1, {});
+  const LaserScan none;
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  (void)localizer.update(wheels, none, {}, still);
+  const double std_at_start = localizer.update(wheels, none, {}, still).position_std_m;
+  wheels = {.stamp = time_from_seconds(4.0), .sequence = 2, .left_rad = 20.0, .right_rad = 20.0};
+  const PoseEstimate& there = localizer.update(wheels, none, {}, still);
+  CHECK(there.stamp == time_from_seconds(4.0));
+  CHECK(there.map_from_robot.x == Approx(1.0));
+  CHECK(there.map_from_robot.y == Approx(4.0));  // 2 m on, facing +y
+  CHECK(there.position_std_m > std_at_start + 0.03);
+  CHECK(there.heading_std_rad > 0.03);
+}
+
+TEST_CASE("wheels that slip are put right by the walls") {
+  Drive drive({-2.0, 0.0, 0.0});
+  const Room room = furnished();
+  // 3 m straight on; the wheels turn a fifth more than the robot drives and claim a slow turn of 0.2 rad.
+  for (int k = 0; k <= 150; ++k) {
+    drive.step(room, {-2.0 + 0.02 * k, 0.0, 0.0}, {0.024 * k, 0.0, 0.2 * k / 150.0});
+  }
+  CHECK(distance(drive.estimate.map_from_robot.position(), {1.0, 0.0}) < 0.1);  // the wheels alone: 0.65 m off
+  CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);
+}
+
+TEST_CASE("scans alone carry the pose round a curve") {
+  Drive drive({-2.0, -1.0, 0.0});
+  const Room room = furnished();
+  Pose2 truth{-2.0, -1.0, 0.0};
+  for (int k = 0; k < 120; ++k) {
+    drive.step_without_wheels(room, truth);
+    if (k >= 10) truth = truth * Pose2{0.03, 0.0, 0.015};  // 0.45 m/s and 0.225 rad/s
+  }
+  const Pose2 seen_from = truth * inverse(Pose2{0.03, 0.0, 0.015});
+  CHECK(distance(drive.estimate.map_from_robot.position(), seen_from.position()) < 0.05);
+  CHECK(heading_error(drive.estimate.map_from_robot, seen_from) < 0.01);
+  CHECK(drive.localizer.twist().v_mps == Approx(0.45).margin(0.1));
+  CHECK(drive.localizer.twist().w_radps == Approx(0.225).margin(0.1));
+}
+
+TEST_CASE("along a bare corridor the wheels are believed and across it the walls") {
+  Drive drive({0.0, 0.0, 0.0});
+  Room corridor;
+  corridor.walls = {{{-100.0, -1.0}, {100.0, -1.0}}, {{-100.0, 1.0}, {100.0, 1.0}}};
+  // The robot drives 3 m straight on; the wheels agree on that and drift 0.3 rad to the left.
+  Pose2 by_wheels;
+  for (int k = 0; k <= 150; ++k) {
+    drive.step(corridor, {0.02 * k, 0.0, 0.0}, by_wheels);
+    by_wheels = by_wheels * Pose2{0.02, 0.0, 0.002};
+  }
+  CHECK(drive.estimate.map_from_robot.x == Approx(3.0).margin(0.1));
+  CHECK(std::fabs(drive.estimate.map_from_robot.y) < 0.03);
+  CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);
+}
+
+TEST_CASE("people who walk by do not pull the pose along") {
+  Drive drive({0.0, 0.0, 0.0});
+  for (int k = 0; k < 150; ++k) {
+    Room room = furnished();
+    if (k > 30) {
+      room.discs.push_back({{1.5, -2.0 + 0.05 * (k - 30)}, 0.3});
+      room.discs.push_back({{2.5, -2.5 + 0.05 * (k - 30)}, 0.3});
+    }
+    drive.step_without_wheels(room, {});
+  }
+  CHECK(norm(drive.estimate.map_from_robot.position()) < 0.05);
+  CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);
+}
+
+TEST_CASE("an outside fix is blended by variance") {
+  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
+  const EvidenceMap still(64, 0.1, {});
+  const LaserScan none;
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  const double std_before = localizer.update(wheels, none, {}, still).position_std_m;  // 0.005
+  OutsideFix fix;
+  fix.stamp = time_from_seconds(0.0);
+  fix.sequence = 1;
+  fix.has_pose = true;
+  fix.map_from_robot = {0.1, -0.2, 0.0};
+  fix.position_std_m = 2.0 * std_before;  // a quarter of the weight: a fifth of the way
+  fix.heading_std_rad = 1.0;
+  const PoseEstimate& blended = localizer.update(wheels, none, fix, still);
+  CHECK(blended.map_from_robot.x == Approx(0.02));
+  CHECK(blended.map_from_robot.y == Approx(-0.04));
+  CHECK(blended.position_std_m == Approx(std_before * std::sqrt(0.8)));
+}
+
+TEST_CASE("a fix is taken once and a fix without a finite pose not at all") {
+  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
+  const EvidenceMap still(64, 0.1, {});
+  const LaserScan none;
+  OutsideFix fix;
+  fix.stamp = time_from_seconds(0.0);
+  fix.sequence = 1;
+  fix.has_pose = true;
+  fix.map_from_robot = {1.0, 0.0, 0.0};
+  fix.position_std_m = 0.005;
+  const double once = localizer.update({}, none, fix, still).map_from_robot.x;
+  CHECK(once > 0.0);
+  CHECK(localizer.update({}, none, fix, still).map_from_robot.x == once);
+  fix.sequence = 2;
+  fix.map_from_robot.x = std::numeric_limits<double>::quiet_NaN();
+  CHECK(localizer.update({}, none, fix, still).map_from_robot.x == once);
+}
+
+TEST_CASE("a robot among walkers allocates nothing") {
+  Drive drive({0.0, 0.0, 0.0});
+  Room room = furnished();
+  std::uint64_t calls = 0;
+  for (int k = 0; k < 60; ++k) {
+    room.discs = {{{1.5, -2.0 + 0.05 * k}, 0.3}, {{3.0, 2.5 - 0.05 * k}, 0.3}};
+    const LaserScan seen = scan_of(room, {}, ++drive.scan, 0.01);
+    const AllocationGuard guard;
+    drive.look(seen);
+    calls += guard.calls();
+  }
+  CHECK(calls == 0);
+  CHECK(drive.tracker.moving().size() == 2);
+}
+
+TEST_CASE("a scan without returns leaves the pose to the wheels") {
+  Drive drive({0.0, 0.0, 0.0});
+  const Room nothing;
+  for (int k = 0; k <= 15; ++k) drive.step(nothing, {}, {0.02 * k, 0.0, 0.0});
+  CHECK(drive.estimate.map_from_robot.x == Approx(0.3));
+}

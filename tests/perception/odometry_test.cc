@@ -1,0 +1,59 @@
+#include "planner/localization/odometry.h"
+
+#include <limits>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+constexpr DriveModel kDrive{.wheel_radius_m = 0.1, .track_width_m = 0.5, .max_wheel_speed_radps = 14.0};
+
+WheelState reading(std::uint32_t k, double t_s, double left, double right) {
+  return {.stamp = time_from_seconds(t_s), .sequence = k, .left_rad = left, .right_rad = right};
+}
+
+}  // namespace
+
+TEST_CASE("a quarter circle of radius 1 m ends at (1, 1) facing left") {
+  // The left wheel rolls 0.75 pi/2 m, the right 1.25 pi/2 m; on wheels of 0.1 m ten times as many radians.
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  const ArcStep step = odometry.take(reading(2, 2.0, 7.5 * kPi / 2, 12.5 * kPi / 2));
+  CHECK(step.distance_m == Approx(kPi / 2));
+  CHECK(step.turn_rad == Approx(kPi / 2));
+  CHECK(odometry.odom_from_robot().x == Approx(1.0));
+  CHECK(odometry.odom_from_robot().y == Approx(1.0));
+  CHECK(odometry.odom_from_robot().heading == Approx(kPi / 2));
+}
+
+TEST_CASE("a scan between two readings is placed between them") {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  (void)odometry.take(reading(2, 1.0, 10.0, 10.0));  // 1 m straight on
+  CHECK(odometry.at(time_from_seconds(0.25)).x == Approx(0.25));
+  CHECK(odometry.at(time_from_seconds(-5.0)).x == Approx(0.0));
+}
+
+TEST_CASE("a scan after the last reading is placed by its speed, for a tenth of a second at most") {
+  Odometry odometry(kDrive);
+  WheelState wheels = reading(1, 0.0, 0.0, 0.0);
+  wheels.left_radps = wheels.right_radps = 5.0;  // 0.5 m/s
+  (void)odometry.take(wheels);
+  CHECK(odometry.at(time_from_seconds(0.05)).x == Approx(0.025));
+  CHECK(odometry.at(time_from_seconds(10.0)).x == Approx(0.05));
+}
+
+TEST_CASE("encoders that restart or report nonsense do not move the robot") {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.00, 5000.0, 5000.0));
+  (void)odometry.take(reading(2, 0.02, 0.0, 0.0));  // 500 m back in 20 ms
+  CHECK(odometry.odom_from_robot() == Pose2{});
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  (void)odometry.take(reading(3, 0.04, nan, nan));
+  (void)odometry.take(reading(4, 0.06, 1.0, 1.0));
+  CHECK(odometry.odom_from_robot() == Pose2{});
+  (void)odometry.take(reading(5, 0.08, 1.2, 1.2));
+  CHECK(odometry.odom_from_robot().x == Approx(0.02));
+}

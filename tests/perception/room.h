@@ -1,0 +1,31 @@
+#pragma once
+// A room to look round in: straight walls and discs, and the scan that an exact laser would take of them.
+#include <vector>
+
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk::test {
+
+struct Wall {
+  Vec2 from, to;
+};
+
+struct Disc {
+  Vec2 centre;
+  double radius_m = 0.0;
+};
+
+struct Room {
+  std::vector<Wall> walls;
+  std::vector<Disc> discs;
+};
+
+/// Four walls, `width` by `depth`, centred on the origin.
+[[nodiscard]] Room rectangle(double width, double depth);
+
+/// 811 beams over 270 degrees, 20 m, scan number `k` of a 15 Hz laser: stamped (k - 1)/15 s, sequence k. A beam that
+/// meets nothing returns nothing. `noise_m` is the half width of a deterministic ripple over the ranges.
+[[nodiscard]] LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m = 0.0);
+
+}  // namespace jaywalk::test

@@ -1,0 +1,208 @@
+#include "planner/perception/tracker.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/perception/room.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+constexpr double kNoiseM = 0.01;
+
+struct Watch {
+  Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
+  std::uint32_t scan = 0;
+  std::size_t most_moving = 0;
+
+  void see(const Room& room, const Pose2& robot = {}) {
+    tracker.update(scan_of(room, robot, ++scan, kNoiseM), robot);
+    most_moving = std::max(most_moving, tracker.moving().size());
+  }
+  /// Looks at an empty 12 m x 10 m room for two seconds.
+  void look_round() {
+    for (int k = 0; k < 30; ++k) see(rectangle(12.0, 10.0));
+  }
+};
+
+Room with(std::initializer_list<Disc> discs) {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = discs;
+  return room;
+}
+
+}  // namespace
+
+TEST_CASE("an empty room is walls and free space and nothing moves") {
+  Watch watch;
+  watch.look_round();
+  const EvidenceMap& still = watch.tracker.still();
+  CHECK(still.occupied(still.cell_at({5.99, 1.0})));
+  CHECK(still.seen_free(still.cell_at({3.0, 1.0})));
+  CHECK(still.evidence(still.cell_at({7.0, 1.0})) == 0);
+  CHECK(watch.most_moving == 0);
+  CHECK(watch.tracker.tracks().empty());
+}
+
+TEST_CASE("a walking disc is tracked with its place, velocity and size and leaves no trail") {
+  Watch watch;
+  watch.look_round();
+  for (int k = 0; k < 60; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}}));  // 0.9 m/s to the left
+  REQUIRE(watch.tracker.moving().size() == 1);
+  const Track& track = watch.tracker.moving()[0];
+  CHECK(distance(track.position_in_map, {2.0, 1.54}) < 0.12);
+  CHECK(distance(track.velocity_in_map, {0.0, 0.9}) < 0.15);
+  CHECK(track.radius_m == Approx(0.27).margin(0.06));
+  CHECK(track.stamp == time_from_seconds(89 / 15.0));
+  const EvidenceMap& still = watch.tracker.still();
+  int marked = 0;
+  for (int j = -35; j < 30; ++j) {
+    for (int i = 15; i < 25; ++i) marked += still.occupied({i, j}) ? 1 : 0;
+  }
+  CHECK(marked == 0);
+}
+
+TEST_CASE("a walker is called moving within a second of setting out") {
+  Watch watch;
+  watch.look_round();
+  int scans = 0;
+  while (watch.tracker.moving().empty() && scans < 60) {
+    watch.see(with({{{3.0 - 0.05 * scans, -1.0}, 0.25}}));  // 0.75 m/s towards the robot
+    ++scans;
+  }
+  CHECK(scans <= 15);
+}
+
+TEST_CASE("a robot that turns in a room sees nothing move") {
+  Watch watch;
+  Room room = with({{{2.0, 1.0}, 0.1}, {{-1.5, 2.0}, 0.25}, {{1.0, -2.0}, 0.05}});
+  for (int k = 0; k < 200; ++k) watch.see(room, {0.0, 0.0, wrap_angle(0.07 * k)});  // 1 rad/s
+  CHECK(watch.most_moving == 0);
+}
+
+TEST_CASE("walls that come into view behind a corner do not move") {
+  Watch watch;
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{1.0, -5.0}, {1.0, 0.5}});
+  room.discs = {{{3.0, -2.0}, 0.3}, {{4.0, -1.0}, 0.15}, {{2.0, -0.5}, 0.1}};
+  for (int k = 0; k < 150; ++k) watch.see(room, {-3.0 + 0.03 * k, 1.5, 0.0});  // 0.45 m/s past the corner
+  CHECK(watch.most_moving == 0);
+}
+
+TEST_CASE("whoever stops becomes still and enters the map, and moves again when setting out") {
+  Watch watch;
+  watch.look_round();
+  for (int k = 0; k < 45; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}}));
+  REQUIRE(watch.tracker.moving().size() == 1);
+  const Disc standing{{2.0, 0.64}, 0.27};
+  for (int k = 0; k < 75; ++k) watch.see(with({standing}));  // 5 s
+  CHECK(watch.tracker.moving().empty());
+  const EvidenceMap& still = watch.tracker.still();
+  CHECK(still.occupied(still.cell_at({1.75, 0.57})));  // the side that the robot sees
+  for (int k = 0; k < 45; ++k) watch.see(with({{{2.0, 0.64 - 0.06 * k}, 0.27}}));
+  CHECK(watch.tracker.moving().size() == 1);
+}
+
+TEST_CASE("two that cross keep their names") {
+  Watch watch;
+  watch.look_round();
+  const auto near_at = [](int k) { return Vec2{2.0, -2.0 + 0.05 * k}; };
+  const auto far_at = [](int k) { return Vec2{3.2, 2.0 - 0.05 * k}; };
+  std::uint32_t near_id = 0, far_id = 0;
+  const auto id_at = [&](Vec2 p) {
+    for (const Track& t : watch.tracker.moving()) {
+      if (distance(t.position_in_map, p) < 0.3) return t.id;
+    }
+    return 0U;
+  };
+  for (int k = 0; k < 80; ++k) {
+    watch.see(with({{near_at(k), 0.25}, {far_at(k), 0.25}}));
+    if (k == 25) near_id = id_at(near_at(k)), far_id = id_at(far_at(k));
+  }
+  CHECK(near_id != 0);
+  CHECK(far_id != 0);
+  CHECK(id_at(near_at(79)) == near_id);  // the far one was hidden for a while in between
+  CHECK(id_at(far_at(79)) == far_id);
+}
+
+TEST_CASE("two legs are one walker") {
+  Watch watch;
+  watch.look_round();
+  for (int k = 0; k < 60; ++k) {
+    const double y = -2.0 + 0.06 * k, swing = 0.15 * jaywalk::sin(0.6 * k);
+    watch.see(with({{{1.9, y + swing}, 0.06}, {{2.1, y - swing}, 0.06}}));
+  }
+  REQUIRE(watch.tracker.moving().size() == 1);
+  CHECK(distance(watch.tracker.moving()[0].position_in_map, {2.0, 1.54}) < 0.25);
+  CHECK(watch.tracker.tracks().size() == 1);
+}
+
+TEST_CASE("a track whose place is looked through dies within a second") {
+  Watch watch;
+  watch.look_round();
+  for (int k = 0; k < 45; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}}));
+  REQUIRE(watch.tracker.moving().size() == 1);
+  for (int k = 0; k < 16; ++k) watch.see(with({}));
+  CHECK(watch.tracker.tracks().empty());
+}
+
+TEST_CASE("scans without a single return change nothing") {
+  Watch watch;
+  watch.look_round();
+  const EvidenceMap before = watch.tracker.still();
+  LaserScan blind = scan_of(rectangle(12.0, 10.0), {}, ++watch.scan);
+  for (float& r : blind.range_m) r = std::numeric_limits<float>::quiet_NaN();
+  watch.tracker.update(blind, {});
+  blind.beam_count = 0;
+  watch.tracker.update(blind, {});
+  blind.angle_step_rad = 0.0F;
+  watch.tracker.update(blind, {});
+  int changed = 0;
+  for (int j = -128; j < 128; ++j) {
+    for (int i = -128; i < 128; ++i)
+      changed += watch.tracker.still().evidence({i, j}) != before.evidence({i, j}) ? 1 : 0;
+  }
+  CHECK(changed == 0);
+  CHECK(watch.tracker.tracks().empty());
+}
+
+TEST_CASE("a pose that is not finite is refused") {
+  Watch watch;
+  watch.look_round();
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  watch.tracker.update(scan_of(rectangle(12.0, 10.0), {}, ++watch.scan), {nan, 0.0, 0.0});
+  CHECK(watch.tracker.tracks().empty());
+}
+
+TEST_CASE("more than fits is tracked to the last place and no farther") {
+  Watch watch;
+  watch.look_round();
+  Room crowd = rectangle(12.0, 10.0);
+  for (int ring = 0; ring < 3; ++ring) {
+    for (int k = 0; k < 30; ++k) crowd.discs.push_back({direction(0.15 * k - 2.2) * (1.5 + 1.2 * ring), 0.05});
+  }
+  for (int k = 0; k < 12; ++k) {
+    for (Disc& d : crowd.discs) d.centre = d.centre * 1.01;
+    watch.see(crowd);
+  }
+  CHECK(watch.tracker.tracks().size() <= kMaxTracks);
+  CHECK(watch.tracker.tracks().size() > 10);
+}
+
+TEST_CASE("the same scans give the same tracks bit for bit") {
+  const auto run = [] {
+    Watch watch;
+    watch.look_round();
+    for (int k = 0; k < 40; ++k) watch.see(with({{{2.0, -2.0 + 0.06 * k}, 0.27}, {{3.0 - 0.03 * k, 1.0}, 0.2}}));
+    return std::vector<Track>(watch.tracker.tracks().begin(), watch.tracker.tracks().end());
+  };
+  const std::vector<Track> a = run(), b = run();
+  REQUIRE(a.size() == b.size());
+  for (std::size_t k = 0; k < a.size(); ++k) {
+    CHECK(a[k].position_in_map == b[k].position_in_map);
+    CHECK(a[k].velocity_in_map == b[k].velocity_in_map);
+  }
+}
