@@ -6,6 +6,7 @@
 #include "firmware/report/picture/canvas.h"
 #include "firmware/report/picture/field_layer.h"
 #include "firmware/report/picture/map_frame.h"
+#include "firmware/report/picture/run_layers.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_scene.h"
 #include "tests/recording/scratch.h"
@@ -91,6 +92,26 @@ TEST_CASE("a contour runs where the level lies between cells") {
   CHECK(contour({0, 1, 0, kNan}, 2, 2, 0.5F).empty());
   CHECK(contour({0, 0, 0, 0}, 2, 2, 0.5F).empty());
   CHECK(contour({0, 1, 1, 0}, 2, 2, 0.5F).size() == 4);  // a saddle: two pieces
+}
+
+TEST_CASE("a crop keeps the cells whose centres lie inside") {
+  // Cells of 1 m from (10, 20): numbered 0 to 5, row by row. x of 10.6 to 12.4 holds the centre 11.5
+  // only, y of 19 to 30 both rows.
+  const FieldRaster field{{10, 20}, 3, 2, 1.0, {0, 1, 2, 3, 4, 5}};
+  const FieldRaster part = cropped(field, {{10.6, 19}, {12.4, 30}});
+  CHECK(part.low == Vec2{11, 20});
+  CHECK(part.width == 1);
+  CHECK(part.psi == std::vector<float>{1, 4});
+  CHECK(cropped(field, {{50, 50}, {60, 60}}).psi.empty());
+}
+
+TEST_CASE("only tracks that were moving and left their place are shown") {
+  Trail track{
+      1, 0.2, true, {{time_from_seconds(0), {0, 0}}, {time_from_seconds(9), {1, 0}}, {time_from_seconds(10), {0, 0}}}};
+  CHECK(went_somewhere(track));
+  track.flagged = false;
+  CHECK_FALSE(went_somewhere(track));
+  CHECK_FALSE(went_somewhere({2, 0.2, true, {{time_from_seconds(0), {0, 0}}, {time_from_seconds(9), {0.5, 0}}}}));
 }
 
 TEST_CASE("stray hits do not shrink the picture, walls are shown whole") {

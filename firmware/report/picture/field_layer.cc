@@ -68,6 +68,23 @@ void draw_wash(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& fiel
 
 }  // namespace
 
+FieldRaster cropped(const FieldRaster& field, const Extent& extent) {
+  const Vec2 low = (extent.low - field.low) * (1.0 / field.cell_m);
+  const Vec2 high = (extent.high - field.low) * (1.0 / field.cell_m);
+  const auto cell = [](double edge, std::int32_t most) {
+    return static_cast<std::int32_t>(std::clamp(std::floor(edge + 0.5), 0.0, static_cast<double>(most)));
+  };
+  const std::int32_t left = cell(low.x, field.width), right = std::max(left, cell(high.x, field.width));
+  const std::int32_t bottom = cell(low.y, field.height), top = std::max(bottom, cell(high.y, field.height));
+  FieldRaster part{
+      field.low + Vec2{left * field.cell_m, bottom * field.cell_m}, right - left, top - bottom, field.cell_m, {}};
+  for (std::int32_t j = bottom; j < top; ++j) {
+    const auto row = field.psi.begin() + static_cast<std::ptrdiff_t>(j) * field.width;
+    part.psi.insert(part.psi.end(), row + left, row + right);
+  }
+  return part;
+}
+
 std::vector<float> ranks(const std::vector<float>& psi) {
   std::vector<float> sorted;
   std::copy_if(psi.begin(), psi.end(), std::back_inserter(sorted), [](float v) { return std::isfinite(v); });
@@ -97,6 +114,7 @@ Polyline contour(const std::vector<float>& values, std::int32_t width, std::int3
 }
 
 void draw_field(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& field) {
+  if (field.psi.empty()) return;
   const std::vector<float> rank = ranks(field.psi);
   draw_wash(canvas, to_sheet, field, rank);
   const Vec2 first_centre = field.low + Vec2{field.cell_m / 2.0, field.cell_m / 2.0};

@@ -17,6 +17,9 @@ inline constexpr int kContours = 24;
 /// is NaN.
 [[nodiscard]] Polyline contour(const std::vector<float>& values, std::int32_t width, std::int32_t height, float level);
 
+/// The part of the field whose cells' centres lie within `extent`; no cells where none do.
+[[nodiscard]] FieldRaster cropped(const FieldRaster& field, const Extent& extent);
+
 /// A colour wash from the goal outwards, with contour lines.
 void draw_field(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& field);
 

@@ -33,11 +33,27 @@ Time end_of(const PictureScene& scene) {
   return end;
 }
 
+/// Where the field is of interest: inside the walls where these are known, else all that is shown.
+Extent field_extent(const PictureScene& scene, const Extent& shown) {
+  if (scene.walls.empty()) return shown;
+  Extent inside{scene.walls.front().from, scene.walls.front().from};
+  for (const WallLine& wall : scene.walls) {
+    for (const Vec2 p : {wall.from, wall.to}) {
+      inside.low = {std::min(inside.low.x, p.x), std::min(inside.low.y, p.y)};
+      inside.high = {std::max(inside.high.x, p.x), std::max(inside.high.y, p.y)};
+    }
+  }
+  return inside;
+}
+
 void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
   canvas.clip(to_sheet.upper_left(), to_sheet.size());
-  if (scene.moment && !scene.moment->field.psi.empty()) draw_field(canvas, to_sheet, scene.moment->field);
+  if (scene.moment) {
+    draw_field(canvas, to_sheet, cropped(scene.moment->field, field_extent(scene, to_sheet.extent())));
+  }
   draw_walls(canvas, to_sheet, scene);
-  draw_trails(canvas, to_sheet, scene.movers.empty() ? scene.tracks : scene.movers, end_of(scene));
+  draw_movers(canvas, to_sheet, scene.movers, end_of(scene));
+  if (scene.movers.empty()) draw_tracks(canvas, to_sheet, scene.tracks);
   draw_drive(canvas, to_sheet, scene);
   draw_moment(canvas, to_sheet, scene);
   draw_ends(canvas, to_sheet, scene);

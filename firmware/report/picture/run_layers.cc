@@ -8,6 +8,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kTrailFadeS = 12.0;        ///< a trail is e times fainter after this
+constexpr double kStepM = 0.7;              ///< a track that stays within this went nowhere
 constexpr double kOutlineEveryM = 1.5;      ///< travel between two outlines of the robot
 constexpr double kLabelApartPixels = 46.0;  ///< between two times written along the drive
 
@@ -117,9 +118,28 @@ void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sc
   }
 }
 
-void draw_trails(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& trails, Time end) {
-  for (const Trail& trail : trails) draw_trail(canvas, to_sheet, trail, end);
-  for (const Trail& trail : trails) {
+bool went_somewhere(const Trail& track) {
+  return track.flagged && std::any_of(track.points.begin(), track.points.end(), [&](const TrailPoint& p) {
+           return distance(p.position, track.points.front().position) > kStepM;
+         });
+}
+
+void draw_tracks(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& tracks) {
+  const double weight = weight_of(to_sheet);
+  for (const Trail& track : tracks) {
+    if (!went_somewhere(track)) continue;
+    Polyline line;
+    for (const TrailPoint& p : track.points) line.push_back(to_sheet(p.position));
+    canvas.stroke(line, {colour_of(track.id).faded(0.85), 2.6 * weight});
+    canvas.fill_disc(line.back(), 5.0 * weight, colour_of(track.id));
+    write_on_map(canvas, line.back() + Vec2{7.0, 5.0}, std::to_string(track.id),
+                 {14.0, colour_of(track.id), Align::kLeft, true});
+  }
+}
+
+void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time end) {
+  for (const Trail& trail : movers) draw_trail(canvas, to_sheet, trail, end);
+  for (const Trail& trail : movers) {
     if (!trail.points.empty()) draw_body(canvas, to_sheet, trail);
   }
 }

@@ -27,8 +27,12 @@ inline constexpr Colour kForced = colour(0xC2182B);
 [[nodiscard]] double weight_of(const MapFrame& to_sheet);
 
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
-/// Older parts of a trail are fainter; a disc shows the body at the end.
-void draw_trails(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& trails, Time end);
+/// Older parts of a trail are fainter; a disc shows the body at the end, ringed where it was forced.
+void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time end);
+/// What the controller took for moving and saw go further than a step.
+void draw_tracks(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& tracks);
+/// Whether draw_tracks shows it.
+[[nodiscard]] bool went_somewhere(const Trail& track);
 /// The robot's way with its outline now and then, and the time every ten seconds or so.
 void draw_drive(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);

@@ -1,5 +1,6 @@
 #include "firmware/report/picture/sheet.h"
 
+#include <algorithm>
 #include <cmath>
 #include <functional>
 #include <string>
@@ -56,23 +57,36 @@ void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureSce
 }
 
 void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
-  const bool movers = !scene.movers.empty();
-  if (!movers && scene.tracks.empty()) return;
-  rows.push_back({[&](Vec2 at) {
-                    line_sample(canvas, at, {colour_of(0).faded(0.6), 2.4});
-                    canvas.fill_disc(at + Vec2{kSwatch / 2.0, 0.0}, 10.0, colour_of(0));
-                  },
-                  movers ? "movers, fading with age" : "people tracked, fading"});
-  if (!movers) return;
-  rows.push_back({[&](Vec2 at) {
-                    canvas.fill_disc(at, 10.0, colour_of(0));
-                    canvas.stroke_circle(at, 10.0, {ink::kForced, 3.0});
-                  },
-                  "was forced to turn"});
+  const auto line_with_disc = [&canvas](double radius) {
+    return [&canvas, radius](Vec2 at) {
+      line_sample(canvas, at, {colour_of(0).faded(0.7), 2.6});
+      canvas.fill_disc(at + Vec2{kSwatch / 2.0 - radius, 0.0}, radius, colour_of(0));
+    };
+  };
+  if (!scene.movers.empty()) {
+    rows.push_back({line_with_disc(10.0), "movers, fading with age"});
+  } else if (std::any_of(scene.tracks.begin(), scene.tracks.end(), went_somewhere)) {
+    rows.push_back({line_with_disc(5.0), "tracked as moving"});
+  }
+  if (std::any_of(scene.movers.begin(), scene.movers.end(), [](const Trail& t) { return t.flagged; })) {
+    rows.push_back({[&](Vec2 at) {
+                      canvas.fill_disc(at, 10.0, colour_of(0));
+                      canvas.stroke_circle(at, 10.0, {ink::kForced, 3.0});
+                    },
+                    "was forced to turn"});
+  }
 }
 
 void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
   if (!scene.moment) return;
+  if (!scene.moment->field.psi.empty()) {
+    const Vec2 half{kSwatch / 2.0, 9.0};
+    const auto white = [&canvas, half](Vec2 at) {
+      canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
+                    true);
+    };
+    rows.push_back({white, "no room for the robot then"});
+  }
   rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kBand, 3.2, 10.0}); }, moment_words(scene)});
   if (!scene.moment->predictions.empty()) {
     rows.push_back({[&](Vec2 at) {
