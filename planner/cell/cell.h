@@ -8,7 +8,7 @@
 #ifdef __CUDACC__
 #define JAYWALK_CELL __host__ __device__ inline
 #else
-#define JAYWALK_CELL inline
+#define JAYWALK_CELL [[gnu::always_inline]] inline  // a stage that is called cannot go four cells at a time
 #endif
 
 namespace jaywalk::cell {

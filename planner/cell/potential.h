@@ -9,16 +9,34 @@
 namespace jaywalk::cell {
 
 /// What a cell takes of each neighbour.
-struct alignas(16) Couplings {
+struct Couplings {
   float east, west, north, south;
 };
 
 JAYWALK_CELL float sum(const Couplings& a) { return (a.east + a.west) + (a.north + a.south); }
 
 /// Equation discrete-laplace, rebased: u_c = (sum of u_n)/4 with u = exp(-psi) v gives v_c = sum of
-/// a_n v_n with a_n = exp(psi_c - psi_n)/4. A neighbour that is not free has u = 0 and a_n = 0.
-JAYWALK_CELL float coupling(float psi_here, float psi_neighbour) {
-  return is_joined(psi_neighbour) ? 0.25F * exp(psi_here - psi_neighbour) : 0.0F;
+/// a_n v_n with a_n = exp(psi_c - psi_n)/4. What is not free has u = 0, takes nothing and gives nothing.
+/// (Selects instead of branches here and below: they let four cells go at once.)
+JAYWALK_CELL float coupling(float psi_here, float psi_neighbour, bool neighbour_exists) {
+  const bool joined = is_joined(psi_here) & is_joined(psi_neighbour) & neighbour_exists;
+  const float fall = joined ? psi_here - psi_neighbour : 0.0F;
+  const float a = 0.25F * exp(fall);
+  return joined ? a : 0.0F;
+}
+
+/// What the neighbour takes of this cell, given what this cell takes of it: exp(d)/4 one way is exp(-d)/4 the other.
+JAYWALK_CELL float coupling_back(float coupling_there) {
+  const float a = 0.0625F / (coupling_there > 0.0F ? coupling_there : 1.0F);
+  return coupling_there > 0.0F ? a : 0.0F;
+}
+
+/// Weight of a cell's equation in its block's, exp(-2 (psi - base)) times what it was divided by; 0 where it
+/// has no equation.
+JAYWALK_CELL float block_weight(bool has_equation, float diagonal, float psi, float base) {
+  const float rise = has_equation ? psi - base : 0.0F;
+  const float weight = diagonal * exp(-2.0F * rise);
+  return has_equation ? weight : 0.0F;
 }
 
 /// The weighted mean that every level of the solver relaxes to: x_c = sum of a_n x_n + source.
@@ -27,14 +45,17 @@ JAYWALK_CELL float relaxed(const Couplings& a, float east, float west, float nor
 }
 
 /// v after a coarse correction: never below half of what it was, since u stays positive (with a
-/// floor of 0.1 descent is lost at 512 cells a side).
+/// floor of 0.1 descent is lost at 512 cells a side). v = 0 is where there is no equation, and stays.
 JAYWALK_CELL float corrected(float v, float correction) {
   const float floor = 0.5F * v;
-  const float moved = v + correction;
+  const float moved = v + (v > 0.0F ? correction : 0.0F);
   return moved > floor ? moved : floor;
 }
 
-/// psi with v absorbed: -ln(exp(-psi) v).
-JAYWALK_CELL float rebased(float psi, float v) { return psi - log(v); }
+/// psi with v absorbed: -ln(exp(-psi) v); v = 0 is where there is no equation.
+JAYWALK_CELL float rebased(float psi, float v) {
+  const float factor = v > 0.0F ? v : 1.0F;
+  return psi - log(factor);
+}
 
 }  // namespace jaywalk::cell

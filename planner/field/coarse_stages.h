@@ -1,124 +1,138 @@
 #pragma once
 // Coarse levels of the potential's solver: blocks of 2 x 2 cells, weighted by exp(-2 psi), the weights
 // that make the rebased equations symmetric (docs/algorithm.md).
-#include "planner/cell/potential.h"
-#include "planner/field/grid.h"
+#include "planner/field/board.h"
 
 namespace jaywalk::field {
 
-/// One level; `grid` is its own. `diagonal` is what a cell's equation was divided by, `weight` its
-/// share of its block's equation on the next level.
+/// One level. `diagonal` is what a cell's equation was divided by.
 struct Level {
-  Grid grid;
+  Board board;
+  CouplingArrays couplings;
   const float* psi;
   const float* diagonal;
-  const cell::Couplings* couplings;
-  float* weight;
 };
 
-/// Builds a block's equation from its four cells.
+/// Builds the equations of one colour of blocks from their four cells each.
 struct CoarsenBlock {
   Level fine;
-  Grid grid;
-  float* psi;
-  float* diagonal;
-  cell::Couplings* couplings;
+  Board board;
+  std::int32_t colour;
+  CouplingArrays couplings;
+  float *psi, *diagonal;
+  float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
 
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const std::int32_t block = grid.at(i, j);
-    const float base = lowest_psi(i, j);
-    cell::Couplings faces{0.0F, 0.0F, 0.0F, 0.0F};
-    float killing = 0.0F;
-    for (std::int32_t k = 0; k < 4; ++k) {
-      const std::int32_t c = child(i, j, k);
-      const cell::Couplings& a = fine.couplings[c];
-      const float w = cell::sum(a) > 0.0F ? fine.diagonal[c] * cell::exp(-2.0F * (fine.psi[c] - base)) : 0.0F;
-      fine.weight[c] = w;
-      killing += w * (1.0F - cell::sum(a));
-      // Twice the cells' distance lies between blocks: half the conductance.
-      if ((k & 1) != 0)
-        faces.east += 0.5F * w * a.east;
-      else
-        faces.west += 0.5F * w * a.west;
-      if ((k & 2) != 0)
-        faces.north += 0.5F * w * a.north;
-      else
-        faces.south += 0.5F * w * a.south;
-    }
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t block = board.row(colour, j) + h;
+    const std::int32_t i = 2 * h + Board::first_column(colour, j);
+    // Cells (2i, 2j), (2i+1, 2j), (2i, 2j+1), (2i+1, 2j+1): even, odd, odd, even.
+    const std::int32_t c00 = fine.board.row(0, 2 * j) + i, c10 = fine.board.row(1, 2 * j) + i;
+    const std::int32_t c01 = fine.board.row(1, 2 * j + 1) + i, c11 = fine.board.row(0, 2 * j + 1) + i;
+    const cell::Couplings a00 = fine.couplings.at(c00), a10 = fine.couplings.at(c10);
+    const cell::Couplings a01 = fine.couplings.at(c01), a11 = fine.couplings.at(c11);
+    const float base = lower(lower(psi_of(c00, a00), psi_of(c10, a10)), lower(psi_of(c01, a01), psi_of(c11, a11)));
+    const float w00 = weight(c00, a00, base), w10 = weight(c10, a10, base);
+    const float w01 = weight(c01, a01, base), w11 = weight(c11, a11, base);
+    // Blocks lie twice as far apart as cells: half the conductance.
+    const cell::Couplings faces{0.5F * (w10 * a10.east + w11 * a11.east), 0.5F * (w00 * a00.west + w01 * a01.west),
+                                0.5F * (w01 * a01.north + w11 * a11.north), 0.5F * (w00 * a00.south + w10 * a10.south)};
+    const float killing = (w00 * (1.0F - cell::sum(a00)) + w10 * (1.0F - cell::sum(a10))) +
+                          (w01 * (1.0F - cell::sum(a01)) + w11 * (1.0F - cell::sum(a11)));
     const float conductance = cell::sum(faces);
-    const float least = -0.2F * conductance;  // psi not yet harmonic: keeps the equation positive
+    const float least = -0.2F * conductance;  // while psi is not yet harmonic: keeps the equation positive
     const float total = conductance + (killing > least ? killing : least);
     const float scale = conductance > 0.0F ? 1.0F / total : 0.0F;
-    for (std::int32_t k = 0; k < 4; ++k) fine.weight[child(i, j, k)] *= scale;
-    couplings[block] = {faces.east * scale, faces.west * scale, faces.north * scale, faces.south * scale};
+    couplings.set(block, {faces.east * scale, faces.west * scale, faces.north * scale, faces.south * scale});
     diagonal[block] = total;
     psi[block] = base;
+    low_weight[block] = w00 * scale;
+    high_weight[block] = w11 * scale;
   }
 
  private:
-  JAYWALK_CELL std::int32_t child(std::int32_t i, std::int32_t j, std::int32_t k) const {
-    return fine.grid.at(2 * i + (k & 1), 2 * j + (k >> 1));
+  JAYWALK_CELL static float lower(float a, float b) { return a < b ? a : b; }
+  /// psi of a cell that has an equation; above all others where it has none.
+  JAYWALK_CELL float psi_of(std::int32_t c, const cell::Couplings& a) const {
+    return cell::sum(a) > 0.0F ? fine.psi[c] : cell::kLargest;
   }
-
-  /// Of the cells that have an equation; any other value where none has.
-  JAYWALK_CELL float lowest_psi(std::int32_t i, std::int32_t j) const {
-    float lowest = cell::kUnreachable;
-    for (std::int32_t k = 0; k < 4; ++k) {
-      const std::int32_t c = child(i, j, k);
-      if (cell::sum(fine.couplings[c]) > 0.0F && fine.psi[c] < lowest) lowest = fine.psi[c];
-    }
-    return lowest;
+  JAYWALK_CELL float weight(std::int32_t c, const cell::Couplings& a, float base) const {
+    return cell::block_weight(cell::sum(a) > 0.0F, fine.diagonal[c], fine.psi[c], base);
   }
 };
 
-/// A block's right-hand side, the weighted sum of what its cells lack; its correction starts from 0.
-/// `fine_x` is ringed.
+/// Which blocks are coupled to the next one east and north, 1 or 0, by rows.
+struct OpenFaces {
+  Board board;
+  CouplingArrays couplings;
+  float *east, *north;
+
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
+    const std::int32_t block = board.at(i, j);
+    east[j * board.side + i] = couplings.east[block] > 0.0F ? 1.0F : 0.0F;
+    north[j * board.side + i] = couplings.north[block] > 0.0F ? 1.0F : 0.0F;
+  }
+};
+
+/// The right-hand sides of one colour of blocks: the weighted sum of what their cells lack. Odd cells lack
+/// nothing, they were relaxed last. The blocks' corrections start from 0.
 struct RestrictToBlock {
   Level fine;
-  const float* fine_source;
-  const float* fine_x;
-  Grid grid;
-  float* source;
-  float* x;
+  const float *fine_source, *fine_x;
+  Board board;
+  std::int32_t colour;
+  const float *low_weight, *high_weight;
+  float *source, *x;
 
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    float lacking = 0.0F;
-    for (std::int32_t k = 0; k < 4; ++k) {
-      const std::int32_t c = fine.grid.at(2 * i + (k & 1), 2 * j + (k >> 1));
-      const cell::Couplings& a = fine.couplings[c];
-      const float to = cell::relaxed(a, fine_x[c + 1], fine_x[c - 1], fine_x[c + fine.grid.side],
-                                     fine_x[c - fine.grid.side], fine_source[c]);
-      lacking += fine.weight[c] * (to - fine_x[c]);
-    }
-    source[grid.at(i, j)] = lacking;
-    x[grid.at(i, j)] = 0.0F;
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t block = board.row(colour, j) + h;
+    const std::int32_t i = 2 * h + Board::first_column(colour, j);
+    source[block] = low_weight[block] * lacking(i, 2 * j) + high_weight[block] * lacking(i, 2 * j + 1);
+    x[block] = 0.0F;
+  }
+
+ private:
+  JAYWALK_CELL float lacking(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = fine.board.row(0, j) + h;
+    return relaxed_at(fine.couplings, fine_source, fine_x, c, fine.board.neighbours(0, h, j)) - fine_x[c];
   }
 };
 
-/// Adds the blocks' correction to a cell, bilinear (9, 3, 3, 1)/16 among the blocks that are coupled to its own.
-struct ProlongToCell {
-  Grid grid;  ///< the blocks'
-  const cell::Couplings* couplings;
-  const float* x;  ///< the blocks' corrections, ringed
-  Grid fine_grid;
-  bool finest;
-  float* fine_x;
+/// The blocks' corrections from the board to rows.
+struct CorrectionByRows {
+  Board board;
+  const float* x;
+  float* by_rows;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const std::int32_t c = fine_grid.at(i, j);
-    const std::int32_t block = grid.at(i / 2, j / 2);
-    const cell::Couplings& a = couplings[block];
-    const std::int32_t di = (i & 1) != 0 ? 1 : -1, dj = (j & 1) != 0 ? grid.side : -grid.side;
-    const bool beside = (di > 0 ? a.east : a.west) > 0.0F;
-    const bool above = (dj > 0 ? a.north : a.south) > 0.0F;
-    float value = 9.0F * x[block], weight = 9.0F;
-    if (beside) value += 3.0F * x[block + di], weight += 3.0F;
-    if (above) value += 3.0F * x[block + dj], weight += 3.0F;
-    if (beside && above && cell::sum(couplings[block + di + dj]) > 0.0F) {
-      value += x[block + di + dj], weight += 1.0F;
-    }
-    const float correction = value / weight;
-    fine_x[c] = finest ? (fine_x[c] > 0.0F ? cell::corrected(fine_x[c], correction) : 0.0F) : fine_x[c] + correction;
+    by_rows[j * board.side + i] = x[board.at(i, j)];
+  }
+};
+
+/// Adds the blocks' corrections to one colour of cells, bilinear (9, 3, 3, 1)/16 among the blocks that are
+/// coupled to the cell's own. The blocks' arrays are by rows and may be read a row beyond either end.
+struct ProlongToCell {
+  std::int32_t block_side;
+  const float *open_east, *open_north;
+  const float* correction;
+  Board board;  ///< the cells'
+  std::int32_t colour;
+  bool finest;
+  float* x;
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    const std::int32_t block = (j / 2) * block_side + h;
+    const bool is_east = Board::first_column(colour, j) != 0, is_north = (j & 1) != 0;
+    const std::int32_t beside = block + (is_east ? 1 : -1);
+    const std::int32_t step = is_north ? block_side : -block_side;
+    const float to_beside = open_east[is_east ? block : beside];
+    const float to_above = open_north[is_north ? block : block + step];
+    const float to_corner = to_beside * to_above * open_north[is_north ? beside : beside + step];
+    const float value = 9.0F * correction[block] + 3.0F * (to_beside * correction[beside]) +
+                        (3.0F * (to_above * correction[block + step]) + to_corner * correction[beside + step]);
+    const float mean = value / (9.0F + 3.0F * (to_beside + to_above) + to_corner);
+    const float moved = finest ? cell::corrected(x[c], mean) : x[c] + mean;
+    x[c] = moved;
   }
 };
 

@@ -12,6 +12,13 @@
 #include <memory>
 #include <vector>
 
+// Tells the compiler what holds for every stage: visits do not depend on one another, so they may go side by side.
+#if defined(__GNUC__) && !defined(__clang__)
+#define JAYWALK_INDEPENDENT_VISITS _Pragma("GCC ivdep")
+#else
+#define JAYWALK_INDEPENDENT_VISITS
+#endif
+
 namespace jaywalk::field {
 
 /// Visits one after the other, on the caller's thread.
@@ -28,13 +35,15 @@ class SerialExecutor {
   }
 
   template <class Stage>
-  void for_each(std::int32_t n, const Stage& stage) noexcept {
+  void for_each(std::int32_t n, Stage stage) noexcept {
+    JAYWALK_INDEPENDENT_VISITS
     for (std::int32_t k = 0; k < n; ++k) stage(k);
   }
 
   template <class Stage>
-  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
+  void for_each_cell(std::int32_t w, std::int32_t h, Stage stage) noexcept {
     for (std::int32_t j = 0; j < h; ++j) {
+      JAYWALK_INDEPENDENT_VISITS
       for (std::int32_t i = 0; i < w; ++i) stage(i, j);
     }
   }

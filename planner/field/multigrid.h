@@ -14,24 +14,25 @@ class Multigrid {
   /// Takes memory for grids up to `max_side` cells, a power of two times kCoarsestSide or more.
   Multigrid(Executor& executor, std::int32_t max_side) : executor_(executor) {
     for (std::int32_t side = max_side; side >= kCoarsestSide; side /= 2) arrays_.push_back(take_level(side));
-    const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
-    ones_ = executor_.template take<float>(cells);
-    executor_.for_each(Grid{max_side}.cells(), Fill<float>{ones_, 1.0F});
+    executor_.for_each(Board{max_side}.size(), Fill<float>{arrays_[0].diagonal, 1.0F});
     executor_.wait();
   }
 
-  /// Improves psi, an estimate with cell::kUnreachable and cell::kNotFree where that is so, by `cycles` cycles. The
-  /// blocks are weighted afresh each time: with the weights of the cycle before the second makes things worse.
+  /// Improves psi (by rows), an estimate with cell::kUnreachable and cell::kNotFree where that is so, by `cycles`
+  /// cycles. Blocks are weighted afresh each time: with the weights of the cycle before, the second makes things worse.
   void improve(Grid grid, std::int32_t goal, float* psi, std::int32_t cycles) noexcept {
-    Arrays& finest = arrays_[0];
-    executor_.for_each_cell(grid.side, grid.side,
-                            CoupleCells{grid, goal, psi, finest.couplings, finest.source, finest.x});
+    const Board board{grid.side};
+    set_up(board, goal, psi);
+    Arrays& a = arrays_[0];
     for (std::int32_t k = 0; k < cycles; ++k) {
-      coarsen(grid, psi);
-      cycle(grid, 0);
-      executor_.for_each(grid.cells(), RebaseCouplings{grid, goal, finest.x, finest.couplings, finest.source});
-      executor_.for_each(grid.cells(), RebasePsi{finest.x, psi});
+      coarsen(board);
+      cycle(board, 0);
+      if (k + 1 < cycles) {
+        both(board, [&](std::int32_t colour) { return RebaseCouplings{board, colour, a.x, a.couplings, a.source}; });
+      }
+      executor_.for_each(board.size(), RebasePsi{a.x, a.psi});
     }
+    executor_.for_each_cell(grid.side, grid.side, PsiFromBoard{board, a.psi, psi});
   }
 
  private:
@@ -39,63 +40,100 @@ class Multigrid {
   static constexpr std::int32_t kSweeps = 2;          ///< before and after each correction
   static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
 
+  /// A level's memory; the second and third line only blocks have a use for, on their way to finer cells.
   struct Arrays {
-    cell::Couplings* couplings;
-    float *psi, *diagonal, *weight, *source, *x;
+    CouplingArrays couplings;
+    float *psi, *diagonal, *source, *x;
+    float *low_weight, *high_weight;
+    float *open_east, *open_north, *correction;
   };
 
+  float* take_board(std::int32_t side) {
+    return executor_.template take<float>(static_cast<std::size_t>(Board{side}.size()));
+  }
+  /// By rows, with a spare row at either end.
+  float* take_rows(std::int32_t side) { return take_board(side) + side; }
+
   Arrays take_level(std::int32_t side) {
-    const auto cells = static_cast<std::size_t>(Grid{side}.cells());
-    const auto row = static_cast<std::size_t>(side);
-    const auto take = [&] { return executor_.template take<float>(cells); };
-    return {executor_.template take<cell::Couplings>(cells),      take(), take(), take(), take(),
-            executor_.template take<float>(cells + 2 * row) + row};
+    const auto board = [&] { return take_board(side); };
+    const auto rows = [&] { return take_rows(side); };
+    return {{board(), board(), board(), board()},
+            board(),
+            board(),
+            board(),
+            board(),
+            board(),
+            board(),
+            rows(),
+            rows(),
+            rows()};
   }
 
-  [[nodiscard]] Level level(Grid grid, std::size_t depth, const float* psi) const noexcept {
+  /// Visits all cells of a board, even ones first, with the stage that `stage_for` makes for a colour.
+  template <class StageFor>
+  void both(Board board, const StageFor& stage_for) noexcept {
+    for (std::int32_t colour = 0; colour < 2; ++colour) {
+      executor_.for_each_cell(board.half(), board.side, stage_for(colour));
+    }
+  }
+
+  [[nodiscard]] Level level(Board board, std::size_t depth) const noexcept {
     const Arrays& a = arrays_[depth];
-    return {grid, depth == 0 ? psi : a.psi, depth == 0 ? ones_ : a.diagonal, a.couplings, a.weight};
+    return {board, a.couplings, a.psi, a.diagonal};
   }
 
-  [[nodiscard]] static bool is_coarsest(Grid grid) noexcept { return grid.side <= kCoarsestSide || grid.side % 4 != 0; }
+  [[nodiscard]] static bool is_coarsest(Board board) noexcept { return board.side <= kCoarsestSide; }
 
-  void coarsen(Grid grid, const float* psi) noexcept {
-    for (std::size_t depth = 0; !is_coarsest(grid); ++depth) {
-      const Grid blocks{grid.side / 2};
-      Arrays& next = arrays_[depth + 1];
-      executor_.for_each_cell(blocks.side, blocks.side,
-                              CoarsenBlock{level(grid, depth, psi), blocks, next.psi, next.diagonal, next.couplings});
-      grid = blocks;
+  void set_up(Board board, std::int32_t goal, const float* psi) noexcept {
+    Arrays& a = arrays_[0];
+    both(board, [&](std::int32_t colour) { return PsiToBoard{board, colour, psi, a.psi}; });
+    both(board, [&](std::int32_t colour) { return CoupleAhead{board, colour, a.psi, a.couplings, a.source, a.x}; });
+    both(board, [&](std::int32_t colour) { return CoupleBack{board, colour, a.couplings}; });
+    executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
+  }
+
+  void coarsen(Board board) noexcept {
+    for (std::size_t depth = 0; !is_coarsest(board); ++depth) {
+      const Board blocks{board.side / 2};
+      Arrays& b = arrays_[depth + 1];
+      both(blocks, [&](std::int32_t colour) {
+        return CoarsenBlock{level(board, depth), blocks,       colour,       b.couplings, b.psi,
+                            b.diagonal,          b.low_weight, b.high_weight};
+      });
+      executor_.for_each_cell(blocks.side, blocks.side, OpenFaces{blocks, b.couplings, b.open_east, b.open_north});
+      board = blocks;
     }
   }
 
-  void relax(Grid grid, Arrays& a, std::int32_t sweeps) noexcept {
-    for (std::int32_t k = 0; k < 2 * sweeps; ++k) {
-      executor_.for_each_cell(grid.side / 2, grid.side, RelaxColour{grid, k & 1, a.couplings, a.source, a.x});
+  void relax(Board board, Arrays& a, std::int32_t sweeps) noexcept {
+    for (std::int32_t k = 0; k < sweeps; ++k) {
+      both(board, [&](std::int32_t colour) { return RelaxColour{board, colour, a.couplings, a.source, a.x}; });
     }
   }
 
-  void cycle(Grid grid, std::size_t depth) noexcept {
-    Arrays& fine = arrays_[depth];
-    if (is_coarsest(grid)) {
-      relax(grid, fine, kCoarsestSweeps);
+  void cycle(Board board, std::size_t depth) noexcept {
+    Arrays& a = arrays_[depth];
+    if (is_coarsest(board)) {
+      relax(board, a, kCoarsestSweeps);
       return;
     }
-    const Grid blocks{grid.side / 2};
-    Arrays& coarse = arrays_[depth + 1];
-    relax(grid, fine, kSweeps);
-    executor_.for_each_cell(
-        blocks.side, blocks.side,
-        RestrictToBlock{level(grid, depth, nullptr), fine.source, fine.x, blocks, coarse.source, coarse.x});
+    const Board blocks{board.side / 2};
+    Arrays& b = arrays_[depth + 1];
+    relax(board, a, kSweeps);
+    both(blocks, [&](std::int32_t colour) {
+      return RestrictToBlock{level(board, depth), a.source,      a.x,      blocks, colour,
+                             b.low_weight,        b.high_weight, b.source, b.x};
+    });
     cycle(blocks, depth + 1);
-    executor_.for_each_cell(grid.side, grid.side,
-                            ProlongToCell{blocks, coarse.couplings, coarse.x, grid, depth == 0, fine.x});
-    relax(grid, fine, kSweeps);
+    executor_.for_each_cell(blocks.side, blocks.side, CorrectionByRows{blocks, b.x, b.correction});
+    both(board, [&](std::int32_t colour) {
+      return ProlongToCell{blocks.side, b.open_east, b.open_north, b.correction, board, colour, depth == 0, a.x};
+    });
+    relax(board, a, kSweeps);
   }
 
   Executor& executor_;
-  std::vector<Arrays> arrays_;
-  float* ones_ = nullptr;  ///< the finest level's diagonal
+  std::vector<Arrays> arrays_;  ///< finest first
 };
 
 }  // namespace jaywalk::field

@@ -1,9 +1,8 @@
 #pragma once
 // The paper's third kernel: the harmonic potential, solved for v in u = exp(-psi) v. Every level of the
 // solver has the same form, x_c = sum of a_n x_n + source_c, so one relaxation serves them all.
-// Arrays marked "ringed" may be read one row before the first and after the last.
 #include "planner/cell/potential.h"
-#include "planner/field/grid.h"
+#include "planner/field/board.h"
 
 namespace jaywalk::field {
 
@@ -19,89 +18,131 @@ JAYWALK_CELL float psi_at(const Grid& grid, const float* psi, std::int32_t i, st
   return grid.holds(i, j) ? psi[grid.at(i, j)] : cell::kNotFree;
 }
 
-/// Sets up the finest level from psi: couplings among unknowns, the goal's (v = 1) as source. The goal
-/// itself is uncoupled with source 1; what is not free or not joined to the goal is uncoupled with 0.
-struct CoupleCells {
-  Grid grid;
-  std::int32_t goal;
+/// psi from rows to a board, one colour.
+struct PsiToBoard {
+  Board board;
+  std::int32_t colour;
   const float* psi;
-  cell::Couplings* couplings;
-  float* source;
-  float* x;
+  float* psi_on_board;
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    psi_on_board[board.row(colour, j) + h] = psi[j * board.side + 2 * h + Board::first_column(colour, j)];
+  }
+};
+
+/// And back.
+struct PsiFromBoard {
+  Board board;
+  const float* psi_on_board;
+  float* psi;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const std::int32_t c = grid.at(i, j);
-    const bool joined = cell::is_joined(psi[c]);
-    cell::Couplings a{0.0F, 0.0F, 0.0F, 0.0F};
-    float from_goal = c == goal ? 1.0F : 0.0F;
-    if (joined && c != goal) {
-      a = {take(c, i + 1, j, from_goal), take(c, i - 1, j, from_goal), take(c, i, j + 1, from_goal),
-           take(c, i, j - 1, from_goal)};
-    }
-    couplings[c] = a;
-    source[c] = from_goal;
-    x[c] = joined ? 1.0F : 0.0F;
+    psi[j * board.side + i] = psi_on_board[board.at(i, j)];
+  }
+};
+
+/// Sets up the finest level from psi, one colour: couplings to the next cell east and north. What is not
+/// free or not joined to the goal is uncoupled and 0.
+struct CoupleAhead {
+  Board board;
+  std::int32_t colour;
+  const float* psi;
+  CouplingArrays couplings;
+  float *source, *x;
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    const Neighbours n = board.neighbours(colour, h, j);
+    const std::int32_t i = 2 * h + Board::first_column(colour, j);
+    couplings.east[c] = cell::coupling(psi[c], psi[n.east], i < board.side - 1);
+    couplings.north[c] = cell::coupling(psi[c], psi[n.north], j < board.side - 1);
+    source[c] = 0.0F;
+    x[c] = cell::is_joined(psi[c]) ? 1.0F : 0.0F;
+  }
+};
+
+/// The couplings west and south, from what those neighbours have east and north.
+struct CoupleBack {
+  Board board;
+  std::int32_t colour;
+  CouplingArrays couplings;
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    const Neighbours n = board.neighbours(colour, h, j);
+    couplings.west[c] = cell::coupling_back(couplings.east[n.west]);  // beyond the border: 0, as that one has no east
+    couplings.south[c] = j > 0 ? cell::coupling_back(couplings.north[n.south]) : 0.0F;
+  }
+};
+
+/// Takes the goal out of the unknowns: what its neighbours take of it (v = 1) becomes their source, and it
+/// is uncoupled with source 1. One visit.
+struct SettleGoal {
+  Board board;
+  std::int32_t goal;  ///< numbered by rows
+  CouplingArrays couplings;
+  float* source;
+
+  JAYWALK_CELL void operator()(std::int32_t) const {
+    const std::int32_t i = goal % board.side, j = goal / board.side;
+    if (i > 0) move(couplings.east, board.at(i - 1, j));
+    if (i < board.side - 1) move(couplings.west, board.at(i + 1, j));
+    if (j > 0) move(couplings.north, board.at(i, j - 1));
+    if (j < board.side - 1) move(couplings.south, board.at(i, j + 1));
+    couplings.set(board.at(i, j), {0.0F, 0.0F, 0.0F, 0.0F});
+    source[board.at(i, j)] = 1.0F;
   }
 
  private:
-  JAYWALK_CELL float take(std::int32_t c, std::int32_t i, std::int32_t j, float& from_goal) const {
-    const float a = cell::coupling(psi[c], psi_at(grid, psi, i, j));
-    if (i != goal % grid.side || j != goal / grid.side) return a;
-    from_goal += a;
-    return 0.0F;
+  JAYWALK_CELL void move(float* towards_goal, std::int32_t c) const {
+    source[c] = towards_goal[c];
+    towards_goal[c] = 0.0F;
   }
 };
 
-/// What a cell would relax to; `x` is ringed.
-JAYWALK_CELL float relaxed_at(const Grid& grid, std::int32_t c, const cell::Couplings* couplings, const float* source,
-                              const float* x) {
-  return cell::relaxed(couplings[c], x[c + 1], x[c - 1], x[c + grid.side], x[c - grid.side], source[c]);
-}
-
 /// One colour of a red-black Gauss-Seidel sweep (equation harmonic-potential without its order: the
-/// paper's in-place sweep gives other values in every other order). Visits side/2 x side cells.
+/// paper's in-place sweep gives other values in every other order).
 struct RelaxColour {
-  Grid grid;
-  std::int32_t colour;  ///< 0 or 1
-  const cell::Couplings* couplings;
+  Board board;
+  std::int32_t colour;
+  CouplingArrays couplings;
   const float* source;
   float* x;
 
-  JAYWALK_CELL void operator()(std::int32_t half_i, std::int32_t j) const {
-    const std::int32_t c = grid.at(2 * half_i + ((j + colour) & 1), j);
-    x[c] = relaxed_at(grid, c, couplings, source, x);
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    x[c] = relaxed_at(couplings, source, x, c, board.neighbours(colour, h, j));
   }
 };
 
-/// Carries v over into the equations: a_n v_n / v_c, so that v = 1 is where the next cycle starts. `x` is ringed.
+/// Carries v over into the equations: a_n v_n / v_c, so that v = 1 is where the next cycle starts. One colour.
 struct RebaseCouplings {
-  Grid grid;
-  std::int32_t goal;
+  Board board;
+  std::int32_t colour;
   const float* x;
-  cell::Couplings* couplings;
+  CouplingArrays couplings;
   float* source;
 
-  JAYWALK_CELL void operator()(std::int32_t c) const {
-    if (c == goal || x[c] <= 0.0F) return;
-    const float scale = 1.0F / x[c];
-    cell::Couplings& a = couplings[c];
-    a.east *= x[c + 1] * scale;
-    a.west *= x[c - 1] * scale;
-    a.north *= x[c + grid.side] * scale;
-    a.south *= x[c - grid.side] * scale;
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    const Neighbours n = board.neighbours(colour, h, j);
+    const float scale = x[c] > 0.0F ? 1.0F / x[c] : 0.0F;
+    const cell::Couplings a = couplings.at(c);
+    couplings.set(c, {a.east * (x[n.east] * scale), a.west * (x[n.west] * scale), a.north * (x[n.north] * scale),
+                      a.south * (x[n.south] * scale)});
     source[c] *= scale;
   }
 };
 
-/// Carries v over into psi and starts again from v = 1.
+/// Carries v over into psi and starts again from v = 1. Visits every place of the board.
 struct RebasePsi {
   float* x;
   float* psi;
 
   JAYWALK_CELL void operator()(std::int32_t c) const {
-    if (x[c] <= 0.0F) return;
-    psi[c] = cell::rebased(psi[c], x[c]);
-    x[c] = 1.0F;
+    const float v = x[c];
+    psi[c] = cell::rebased(psi[c], v);
+    x[c] = v > 0.0F ? 1.0F : v;
   }
 };
 

@@ -98,11 +98,27 @@ TEST_CASE("a mark is body, safety distance and one standard deviation, no more t
 }
 
 TEST_CASE("coupling is a quarter between equals, nothing from what is not free") {
-  CHECK(cell::coupling(3.0F, 3.0F) == 0.25F);
-  CHECK(cell::coupling(3.0F, 3.0F + 0.69314718F) == Approx(0.125F));  // u halves
-  CHECK(cell::coupling(3.0F, cell::kNotFree) == 0.0F);
-  CHECK(cell::coupling(3.0F, cell::kUnreachable) == 0.0F);
+  CHECK(cell::coupling(3.0F, 3.0F, true) == 0.25F);
+  CHECK(cell::coupling(3.0F, 3.0F + 0.69314718F, true) == Approx(0.125F));  // u halves
+  CHECK(cell::coupling(3.0F, 3.0F, false) == 0.0F);
+  CHECK(cell::coupling(3.0F, cell::kNotFree, true) == 0.0F);
+  CHECK(cell::coupling(cell::kNotFree, 3.0F, true) == 0.0F);
+  CHECK(cell::coupling(3.0F, cell::kUnreachable, true) == 0.0F);
+  CHECK(cell::coupling_back(0.125F) == 0.5F);  // u doubles
+  CHECK(cell::coupling_back(0.0F) == 0.0F);
   CHECK(cell::rebased(2.0F, 0.5F) == Approx(2.693147F));
+}
+
+TEST_CASE("a block weighs its cells by u squared, and not those without an equation") {
+  // exp(-2 ln 2) = 1/4.
+  CHECK(cell::block_weight(true, 1.5F, 3.0F + 0.69314718F, 3.0F) == Approx(0.375F));
+  CHECK(cell::block_weight(false, 1.5F, cell::kNotFree, 3.0F) == 0.0F);
+}
+
+TEST_CASE("a correction never takes v below half of what it was, and leaves cells without an equation at 0") {
+  CHECK(cell::corrected(1.0F, 0.5F) == 1.5F);
+  CHECK(cell::corrected(1.0F, -0.9F) == 0.5F);
+  CHECK(cell::corrected(0.0F, 0.5F) == 0.0F);
 }
 
 TEST_CASE("a passage one, two and four cells wide decays by acosh of 2, 1.5 and 1.19 a cell") {
