@@ -8,6 +8,9 @@ namespace {
 
 constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
 constexpr double kStoppedMps = 0.10;
+constexpr std::size_t kSteadyPlaces = 8;
+constexpr double kSteady = 0.96;  // explained
+constexpr double kSteadyM = 0.15;
 constexpr double kExplainedSwaying = 0.6;
 constexpr double kStrideM = 0.5;
 constexpr double kMostlySeen = 0.7;  // of the scans; what flickers is clutter
@@ -42,14 +45,23 @@ bool walks(const Body& body, const EvidenceMap& still) {
   return walk.explained > kExplained ? came || left : sways && came && left;
 }
 
-/// Seen steadily, fast against what the filter is unsure of, gone from where it stood, and walking.
+/// Fast against what the filter is unsure of, or so straight that there is no doubt left: a slow robot is both slow and
+/// straight, a person fast and swaying.
+bool beyond_doubt(const Body& body) {
+  const double speed = norm(body.track.velocity_in_map);
+  if (speed < kMovingMps) return false;
+  const StraightWalk walk = body.path.fit();
+  const bool steady = walk.places >= kSteadyPlaces && walk.explained > kSteady && walk.length_m > kSteadyM;
+  return steady || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
+}
+
+double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
+
+/// Seen steadily, gone from where it stood, and walking.
 bool sets_out(const Body& body, const EvidenceMap& still) {
-  if (body.misses > 0 || body.seen_share < kMostlySeen) return false;
-  const Track& t = body.track;
-  const double speed = norm(t.velocity_in_map);
-  const double gone = distance(t.position_in_map, body.anchor_in_map);
-  return speed > std::max(kMovingMps, kSpeedSigmas * std::sqrt(t.covariance.vv)) &&
-         gone > std::max(kGoneM, kGoneSigmas * std::sqrt(t.covariance.pp)) && walks(body, still);
+  return body.misses == 0 && body.seen_share > kMostlySeen &&
+         gone(body) > std::max(kGoneM, kGoneSigmas * std::sqrt(body.track.covariance.pp)) && beyond_doubt(body) &&
+         walks(body, still);
 }
 
 /// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
@@ -79,7 +91,7 @@ void judge_stander(Body& body, const EvidenceMap& still, Time now) {
     return;
   }
   const Duration stood = now - body.still_since;
-  if (stood > kSettleAfter) body.settled = true;
+  if (stood > kSettleAfter && gone(body) < kGoneM) body.settled = true;
   if (stood > kAnchorHolds) anchor_here(body, now);  // creeping is not walking
 }
 
