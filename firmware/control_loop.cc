@@ -78,7 +78,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
   return {.path = plan_->path,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
-          .has_goal = t.input.has_goal && !supervisor_.latched(),
+          .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
           .moving = tracker_.moving(),
           .permitted_before = driven_};
 }

@@ -23,28 +23,39 @@ void add_sim(CLI::App& app) {
   sim->add_option("--mode", sim_options.mode, "full: laser only, stops for people; paper: movers given, never stops")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, PlanMode>{{"paper", PlanMode::kPaper}, {"full", PlanMode::kFull}}));
-  sim->add_flag("--constant-speed", sim_options.constant_speed, "One speed from start to goal, never stopping for a plan");
+  sim->add_flag("--constant-speed", sim_options.constant_speed,
+                "One speed from start to goal, never stopping for a plan");
   sim->add_option("--backend", sim_options.backend, "Who plans: auto, cpu or cuda")
-      ->transform(CLI::CheckedTransformer(std::map<std::string, Backend>{
-          {"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
 }
 
 void add_replay(CLI::App& app) {
   CLI::App* replay = app.add_subcommand("replay", "Run recorded laser and odometry through the pipeline");
-  replay->add_option("log", replay_options.logs, "SCAN.txt [ODOM.txt], a CARMEN log, or recording.jwr; .gz is read as it is")
+  replay
+      ->add_option("log", replay_options.logs,
+                   "SCAN.txt [ODOM.txt], a CARMEN log, or recording.jwr; .gz is read as it is")
       ->required();
   replay->add_option("--format", replay_options.format, "scan-odom, carmen or jaywalk (default: told from the file)")
       ->check(CLI::IsMember({"scan-odom", "carmen", "jaywalk"}));
-  replay->add_option_function<std::vector<double>>(
-            "--goal", [](const std::vector<double>& v) { replay_options.goal = Vec2{v[0], v[1]}; },
-            "Goal X,Y in the recording's frame (default: its last pose)")
+  replay
+      ->add_option_function<std::vector<double>>(
+          "--goal",
+          [](const std::vector<double>& v) {
+            replay_options.goal = Vec2{v[0], v[1]};
+          },
+          "Goal X,Y in the recording's frame (default: its last pose)")
       ->delimiter(',')
       ->expected(2);
-  replay->add_option_function<std::vector<double>>(
-            "--laser-mount", [](const std::vector<double>& v) { replay_options.laser_mount = Pose2{v[0], v[1], v[2]}; },
-            "X,Y,YAW of the laser on the robot (m, m, rad)")
+  replay
+      ->add_option_function<std::vector<double>>(
+          "--laser-mount",
+          [](const std::vector<double>& v) {
+            replay_options.laser_mount = Pose2{v[0], v[1], v[2]};
+          },
+          "X,Y,YAW of the laser on the robot (m, m, rad)")
       ->delimiter(',')
       ->expected(3);
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();

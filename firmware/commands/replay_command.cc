@@ -37,7 +37,8 @@ sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
   }
   const Pose2 mount = options.laser_mount.value_or(Pose2{});
   if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
-  return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt, mount);
+  return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
+                             mount);
 }
 
 /// A recording does not say what carried the laser: a P3-DX stands in, with the log's own laser and drive.
@@ -100,9 +101,9 @@ int replay_recording(const ReplayOptions& options) {
     const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
                       same_bits(now.right_radps, recorded.command.right_radps);
     if (!same && different++ == 0) {
-      std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n", file.c_str(),
-                   to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps, now.left_radps,
-                   now.right_radps);
+      std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n",
+                   file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
+                   now.left_radps, now.right_radps);
     }
   }
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());

@@ -10,14 +10,14 @@ namespace jaywalk {
 
 struct ReplayOptions {
   std::vector<std::filesystem::path> logs;
-  std::string format;                 ///< scan-odom, carmen or jaywalk; empty: by what the file begins with
-  std::optional<Vec2> goal;           ///< default: the recording's last pose
-  std::optional<Pose2> laser_mount;   ///< robot_from_laser; default: the log's own word, else the robot's origin
+  std::string format;                ///< scan-odom, carmen or jaywalk; empty: by what the file begins with
+  std::optional<Vec2> goal;          ///< default: the recording's last pose
+  std::optional<Pose2> laser_mount;  ///< robot_from_laser; default: the log's own word, else the robot's origin
   std::filesystem::path out = "out/replay";
 };
 
-/// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command is
-/// compared, bit for bit. Returns 0, or 1 when such a command differs. Throws StartupError for bad input.
+/// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command
+/// is compared, bit for bit. Returns 0, or 1 when such a command differs. Throws StartupError for bad input.
 [[nodiscard]] int run_replay(const ReplayOptions& options);
 
 }  // namespace jaywalk

@@ -61,13 +61,17 @@ std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
   return walls;
 }
 
-/// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth reaching.
-std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, Time now) {
+/// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth
+/// reaching.
+/// A stop that waits for a reset does: nobody is there to press it.
+std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied) {
   if (truth.contacts > 0) return "collision";
+  const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
+  if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
   if (distance(truth.map_from_robot.position(), scenario.goal) <= scenario.goal_tolerance_m) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
-  return to_seconds(now) >= scenario.timeout_s ? "timeout" : "";
+  return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
 }
 
 }  // namespace
@@ -85,7 +89,7 @@ int run_sim(const SimOptions& options) {
     const TickRecord& t = runner.step();
     runner.report(&truth_for_report.of(simulation.truth()));
     picture.consider(runner);
-    ended = outcome(scenario, simulation.truth(), t.now);
+    ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
     if (options.realtime) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
@@ -97,7 +101,8 @@ int run_sim(const SimOptions& options) {
                  .seed = seed,
                  .scenario = scenario.name,
                  .mover_rule = sim::Simulation::mover_rule()});
-  picture.save(options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
+  picture.save(options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner,
+               walls_of(simulation));
   std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
               lasted_s, lasted_s / took_s, (options.out / "run.png").c_str());
   return ended == "reached" ? 0 : 1;

@@ -17,8 +17,8 @@ struct SimOptions {
   bool realtime = false;
 };
 
-/// The whole controller on the simulated robot. Returns the process's exit code: 0 when the run succeeded by the strict rule
-/// (goal reached, nobody touched, nobody made to turn), 1 when not. Throws StartupError for bad input.
+/// The whole controller on the simulated robot. Returns the process's exit code: 0 when the run succeeded by the strict
+/// rule (goal reached, nobody touched, nobody made to turn), 1 when not. Throws StartupError for bad input.
 [[nodiscard]] int run_sim(const SimOptions& options);
 
 }  // namespace jaywalk

@@ -15,9 +15,10 @@ StopZoneConfig zone_config(const SupervisorConfig& config) {
           .reaction_s = scan_s + config.control_and_drive_s};
 }
 
-/// Half of all beams or more without any number: a scanner that is covered, blinded or broken.
-bool trustworthy(const LaserScan& scan) {
-  if (scan.beam_count < 2 || scan.beam_count > kMaxBeams) return false;
+/// Not the number of beams that this scanner has, or half of them or more without any number: one that is broken,
+/// covered or blinded.
+bool trustworthy(const LaserScan& scan, std::uint32_t beams) {
+  if (scan.beam_count != beams || beams > kMaxBeams) return false;
   std::size_t not_numbers = 0;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
   return 2 * not_numbers < scan.beam_count;
@@ -48,7 +49,7 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
   const Duration max_scan_age = duration_from_seconds(1.5 / config_.model.laser.rate_hz);
   stale_scans_ = age(input.scan.stamp, input.now) > max_scan_age ? stale_scans_ + 1 : 0;
   if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
-  if (input.scan.sequence > 0 && !trustworthy(input.scan)) reasons |= Reason::kScanInvalid;
+  if (input.scan.sequence > 0 && !trustworthy(input.scan, config_.model.laser.beams)) reasons |= Reason::kScanInvalid;
   if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
     reasons |= Reason::kWheelsStale;
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;

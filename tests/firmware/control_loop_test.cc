@@ -1,0 +1,111 @@
+#include "firmware/control_loop.h"
+
+#include <bit>
+#include <cstdio>
+#include <filesystem>
+#include <vector>
+
+#include "firmware/recording/recorded_hal.h"
+#include "firmware/recording/recording_stream.h"
+#include "tests/firmware/simulated_drive.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+std::vector<std::uint64_t> command_bits(SimulatedDrive drive, int ticks) {
+  std::vector<std::uint64_t> bits;
+  for (int k = 0; k < ticks; ++k) {
+    const TickRecord& t = drive.tick();
+    bits.push_back(std::bit_cast<std::uint64_t>(t.command.left_radps));
+    bits.push_back(std::bit_cast<std::uint64_t>(t.command.right_radps));
+  }
+  return bits;
+}
+
+/// Records `seconds` of a drive, lives through the recording again and counts commands that differ in any bit.
+int different_commands(PlanMode mode, double seconds) {
+  const std::string file =
+      (std::filesystem::temp_directory_path() / ("jaywalk_" + std::to_string(int(mode)) + ".jwr")).string();
+  {
+    SimulatedDrive drive("map1_16", 7, {}, mode, file);
+    drive.drive(seconds);
+    REQUIRE(drive.recorder().close());
+  }
+  RecordingReader reader(file);
+  const ControlSetup setup = setup_from_text(reader.setup(), file);
+  TickRecord recorded;
+  RecordedHal devices(recorded);
+  const ChosenPlanner planner = make_planner(setup.planner(), setup.backend);
+  Recorder nowhere({});
+  ControlLoop loop(setup, devices.hal(), *planner.planner, nowhere);
+  int different = 0, ticks = 0;
+  for (; reader.next(recorded); ++ticks) {
+    loop.tick(recorded.now);
+    nowhere.drain();
+    const WheelCommand& again = devices.commanded();
+    different +=
+        std::bit_cast<std::uint64_t>(again.left_radps) != std::bit_cast<std::uint64_t>(recorded.command.left_radps) ||
+        std::bit_cast<std::uint64_t>(again.right_radps) != std::bit_cast<std::uint64_t>(recorded.command.right_radps);
+  }
+  std::remove(file.c_str());
+  REQUIRE(ticks == static_cast<int>(seconds * 50.0));
+  return different;
+}
+
+}  // namespace
+
+TEST_CASE("a busy thousand ticks ask nothing of the heap") {
+  SimulatedDrive drive("map1_16", 3);
+  drive.drive(2.0);
+  std::uint64_t calls = 0, plans = 0, tracks = 0;
+  for (int k = 0; k < 1000; ++k) {
+    drive.sleep();
+    const AllocationGuard guard;
+    const TickRecord& t = drive.tick_now();
+    calls += guard.calls();
+    plans = t.plan_sequence;
+    tracks = std::max<std::uint64_t>(tracks, drive.loop().tracker().moving().size());
+  }
+  CHECK(calls == 0);
+  CHECK(plans > 250);  // 20 s at 15 scans a second: it was busy
+  CHECK(tracks >= 2);
+}
+
+TEST_CASE("a recorded drive replays to the same commands, bit for bit") {
+  CHECK(different_commands(PlanMode::kFull, 20.0) == 0);
+  CHECK(different_commands(PlanMode::kPaper, 20.0) == 0);
+}
+
+TEST_CASE("the same seed gives the same commands, another seed others") {
+  const auto once = command_bits({"map1_04", 5}, 300);
+  CHECK(once == command_bits({"map1_04", 5}, 300));
+  CHECK(once != command_bits({"map1_04", 6}, 300));
+}
+
+TEST_CASE("without movers the goal is reached and nothing touched") {
+  SimulatedDrive drive("crossing", 1, [](sim::Scenario& scenario) { scenario.wanderers.clear(); });
+  CHECK(drive.drive(90.0, [&](const TickRecord&) { return drive.to_goal_m() < 0.3; }));
+  CHECK(drive.truth().contacts == 0);
+}
+
+TEST_CASE("mode paper keeps one speed from start to goal; its verdicts are recorded and not applied") {
+  const auto press_the_button = [](sim::Scenario& scenario) {
+    scenario.wanderers.clear();
+    scenario.pose_source.enabled = true;
+    scenario.faults = {{.at_s = 5.0, .for_s = 2.0, .kind = sim::FaultKind::kEmergencyStop}};
+  };
+  SimulatedDrive drive("crossing", 2, press_the_button, PlanMode::kPaper);
+  drive.drive(3.0);  // speeding up
+  double least_permitted = 1.0;
+  for (int k = 0; k < 200; ++k) {
+    const TickRecord& t = drive.tick();
+    REQUIRE(t.wanted.v_mps == Approx(0.6));
+    const double rim_mps = (t.command.left_radps + t.command.right_radps) / 2.0 * p3dx().drive.wheel_radius_m;
+    REQUIRE(rim_mps == Approx(0.6));
+    least_permitted = std::min(least_permitted, t.verdict.permitted.v_mps);
+  }
+  CHECK(least_permitted == 0.0);
+}

@@ -1,0 +1,35 @@
+#include "firmware/control_setup.h"
+
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+TEST_CASE("a setup comes back from its text bit for bit") {
+  ControlSetup setup;
+  setup.model = wheelchair();
+  setup.mode = PlanMode::kPaper;
+  setup.backend = Backend::kCpu;
+  setup.start = {1.0 / 3.0, -2.0 / 7.0, 0.1};
+  setup.goal = {1e-17, 12345.678901234567};
+  setup.wheels = false;
+  const ControlSetup back = setup_from_text(to_text(setup), "here");
+  CHECK(to_text(back) == to_text(setup));
+  CHECK(back.start == setup.start);
+  CHECK(back.goal == setup.goal);
+  CHECK(back.mode == PlanMode::kPaper);
+  CHECK_FALSE(back.wheels);
+}
+
+TEST_CASE("text that is no setup is refused with its place") {
+  CHECK_THROWS_AS(setup_from_text("{}", "a.jwr"), StartupError);
+  CHECK_THROWS_WITH(setup_from_text("nonsense", "a.jwr"), Catch::Contains("a.jwr: "));
+}
+
+TEST_CASE("a nearly round robot plans with the circle that holds it, a long one with the one inside and a margin") {
+  ControlSetup setup;
+  setup.model = p3dx();
+  CHECK(setup.planner().inflation_m == Approx(0.2967).epsilon(1e-3));  // hypot(0.2275, 0.1905)
+  setup.model = wheelchair();
+  CHECK(setup.planner().inflation_m == Approx(0.325 + 0.15));
+}

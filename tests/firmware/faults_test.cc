@@ -1,0 +1,57 @@
+// What a fault does to the whole drive: it stops, says why, and goes on only when it may.
+#include <cmath>
+
+#include "tests/firmware/simulated_drive.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// A drive without movers whose fault begins after 5 s, when the robot is under way, and lasts 3 s.
+SimulatedDrive drive_with(sim::FaultKind kind) {
+  return {"crossing", 1, [kind](sim::Scenario& scenario) {
+            scenario.wanderers.clear();
+            scenario.faults = {{.at_s = 5.0, .for_s = 3.0, .kind = kind}};
+          }};
+}
+
+double speed(const SimulatedDrive& drive) { return std::fabs(drive.truth().twist.v_mps); }
+
+void check_stops_for(sim::FaultKind kind, Reason reason) {
+  SimulatedDrive drive = drive_with(kind);
+  drive.drive(5.0);
+  REQUIRE(speed(drive) > 0.3);
+  const bool named = drive.drive(0.3, [&](const TickRecord& t) { return has(t.verdict.reasons, reason); });
+  CHECK(named);
+  drive.drive(1.5);  // 0.6 m/s at 1 m/s2, and the motors' lag
+  CHECK(speed(drive) < 0.01);
+}
+
+}  // namespace
+
+TEST_CASE("scans that stop coming, come as no numbers or come cut short stop the robot") {
+  check_stops_for(sim::FaultKind::kScanStale, Reason::kScanStale);
+  check_stops_for(sim::FaultKind::kScanNan, Reason::kScanInvalid);
+  check_stops_for(sim::FaultKind::kScanShort, Reason::kScanInvalid);
+}
+
+TEST_CASE("wheels that fall silent stop the robot") {
+  check_stops_for(sim::FaultKind::kWheelsStale, Reason::kWheelsStale);
+}
+
+TEST_CASE("when scans come again the robot goes on by itself") {
+  SimulatedDrive drive = drive_with(sim::FaultKind::kScanStale);
+  drive.drive(11.0);
+  CHECK(speed(drive) > 0.1);
+}
+
+TEST_CASE("after an emergency stop the robot stays where it is, button out or not") {
+  check_stops_for(sim::FaultKind::kEmergencyStop, Reason::kEmergencyStop);
+  SimulatedDrive drive = drive_with(sim::FaultKind::kEmergencyStop);
+  drive.drive(7.0);
+  const Vec2 stopped_at = drive.truth().map_from_robot.position();
+  drive.drive(8.0);
+  CHECK(distance(drive.truth().map_from_robot.position(), stopped_at) < 0.01);
+  CHECK(has(drive.tick().verdict.reasons, Reason::kLatched));
+}

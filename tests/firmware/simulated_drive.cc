@@ -1,0 +1,42 @@
+#include "tests/firmware/simulated_drive.h"
+
+namespace jaywalk {
+
+SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, const Edit& edit, PlanMode mode,
+                               const std::string& recording) {
+  sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_SCENARIOS) + "/" + name + ".toml");
+  scenario.pose_source.enabled = mode == PlanMode::kPaper;
+  if (edit) edit(scenario);
+  setup_.model = scenario.model;
+  setup_.mode = mode;
+  setup_.backend = Backend::kCpu;
+  setup_.start = scenario.start;
+  setup_.goal = scenario.goal;
+  simulation_ = std::make_unique<sim::Simulation>(scenario, seed);
+  planner_ = make_planner(setup_.planner(), setup_.backend);
+  recorder_ = std::make_unique<Recorder>(RecorderConfig{.file = recording, .setup = to_text(setup_)});
+  loop_ = std::make_unique<ControlLoop>(setup_, simulation_->hal(), *planner_.planner, *recorder_);
+}
+
+void SimulatedDrive::sleep() {
+  recorder_->drain();
+  due_ += setup_.tick();
+  simulation_->hal().clock.sleep_until(due_);
+}
+
+const TickRecord& SimulatedDrive::tick() {
+  sleep();
+  return tick_now();
+}
+
+bool SimulatedDrive::drive(double seconds, const std::function<bool(const TickRecord&)>& until) {
+  for (const Time end = due_ + duration_from_seconds(seconds); due_ < end;) {
+    const TickRecord& t = tick();
+    if (until && until(t)) return true;
+  }
+  return false;
+}
+
+double SimulatedDrive::to_goal_m() const { return distance(truth().map_from_robot.position(), setup_.goal); }
+
+}  // namespace jaywalk
