@@ -19,10 +19,11 @@ JAYWALK_CELL float sum(const Couplings& a) { return (a.east + a.west) + (a.north
 /// a_n v_n with a_n = exp(psi_c - psi_n)/4. What is not free has u = 0, takes nothing and gives nothing.
 /// (Selects instead of branches here and below: they let four cells go at once.)
 JAYWALK_CELL float coupling(float psi_here, float psi_neighbour, bool neighbour_exists) {
-  const bool joined = is_joined(psi_here) & is_joined(psi_neighbour) & neighbour_exists;
-  const float fall = joined ? psi_here - psi_neighbour : 0.0F;
-  const float a = 0.25F * exp(fall);
-  return joined ? a : 0.0F;
+  float fall = is_joined(psi_here) ? psi_here - psi_neighbour : 0.0F;
+  fall = is_joined(psi_neighbour) ? fall : 0.0F;
+  float a = is_joined(psi_here) ? 0.25F * exp(fall) : 0.0F;
+  a = is_joined(psi_neighbour) ? a : 0.0F;
+  return neighbour_exists ? a : 0.0F;
 }
 
 /// What the neighbour takes of this cell, given what this cell takes of it: exp(d)/4 one way is exp(-d)/4 the other.

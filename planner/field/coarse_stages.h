@@ -109,7 +109,7 @@ struct CorrectionByRows {
 };
 
 /// Adds the blocks' corrections to one colour of cells, bilinear (9, 3, 3, 1)/16 among the blocks that are
-/// coupled to the cell's own. The blocks' arrays are by rows and may be read a row beyond either end.
+/// coupled to the cell's own. The blocks' arrays are by rows and may be read a row and a cell beyond either end.
 struct ProlongToCell {
   std::int32_t block_side;
   const float *open_east, *open_north;

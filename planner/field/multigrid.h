@@ -51,8 +51,11 @@ class Multigrid {
   float* take_board(std::int32_t side) {
     return executor_.template take<float>(static_cast<std::size_t>(Board{side}.size()));
   }
-  /// By rows, with a spare row at either end.
-  float* take_rows(std::int32_t side) { return take_board(side) + side; }
+  /// By rows, with a spare row and a cell at either end.
+  float* take_rows(std::int32_t side) {
+    const std::int32_t spare = side + 1;
+    return executor_.template take<float>(static_cast<std::size_t>(Grid{side}.cells() + 2 * spare)) + spare;
+  }
 
   Arrays take_level(std::int32_t side) {
     const auto board = [&] { return take_board(side); };
