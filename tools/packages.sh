@@ -35,15 +35,16 @@ install_missing() {
   fi
 }
 
-# prefer_fast_tools: Ninja and ccache where they are; CMake reads these when it makes a new build folder.
-prefer_fast_tools() {
+# choose_tools: Ninja and ccache where they are, one compiler for C++ and nvcc; CMake reads these when it makes a new build folder.
+choose_tools() {
   ! command -v ninja >/dev/null || export CMAKE_GENERATOR=Ninja
   ! command -v ccache >/dev/null || export CMAKE_CXX_COMPILER_LAUNCHER=ccache
+  [ -z "${CXX:-}" ] || export CUDAHOSTCXX=${CUDAHOSTCXX:-$CXX}
 }
 
 # build_release TARGET: the -O2 build in build/.
 build_release() {
-  prefer_fast_tools
+  choose_tools
   cmake -S . -B build -DCMAKE_BUILD_TYPE=Release -DCMAKE_EXPORT_COMPILE_COMMANDS=ON
   cmake --build build --parallel "$(nproc)" --target "$1"
 }
