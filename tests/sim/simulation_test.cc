@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "hal/sim/walls.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -154,6 +155,22 @@ TEST_CASE("a wall stops the robot; pushing on is one contact, coming back anothe
   CHECK(truth.clearance_m > 0.15);
   drive(sim, 6.0, 6.0, 3.0);
   CHECK(truth.contacts == 2);
+}
+
+TEST_CASE("a wheelchair that turns beside a wall is stopped before its nose goes through") {
+  const Scratch scratch;
+  Scenario scenario = in_room(scratch);
+  scenario.model = wheelchair();
+  scenario.start = {5.0, 0.5, 0.0};  // 0.175 m beside the lower wall
+  Simulation sim(scenario, 1);
+  const Walls walls(load_aria_map(scenario.map_file));
+  double least = 1.0;
+  drive(sim, 2.0, -2.0, 3.0,
+        [&] { least = std::min(least, walls.clearance(scenario.model.footprint, sim.truth().map_from_robot)); });
+  CHECK(sim.truth().contacts == 1);
+  CHECK(sim.truth().contacts_caused == 0);  // it does not drive, it turns
+  CHECK(least > 0.0);
+  CHECK(least < 0.01);
 }
 
 TEST_CASE("clearance is from footprint to wall, and without movers theirs is infinite") {

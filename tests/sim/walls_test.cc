@@ -118,6 +118,20 @@ TEST_CASE("clearance finds what is far away, and nothing where there is nothing"
   CHECK(Walls(WallMap{}).clearance({1.0, 1.0, 1.0}, {0, 0, 0}) == kInfinity);
 }
 
+TEST_CASE("clearance of a long robot agrees with trying every wall by itself") {
+  const Walls walls(load_raster_map(JAYWALK_OWN_MAPS "/map1.yaml"));
+  const Footprint longish{.front_m = 2.0, .rear_m = 1.0, .half_width_m = 0.2};
+  std::vector<Walls> each;
+  for (const WallSegment& s : walls.segments()) each.emplace_back(WallMap{{s}, {}, {}});
+  Random random(2, Purpose::kPlacement);
+  for (int k = 0; k < 300; ++k) {
+    const Pose2 pose{random.uniform(0.5, 25.0), random.uniform(0.5, 25.0), random.uniform(-kPi, kPi)};
+    double nearest = kInfinity;
+    for (const Walls& wall : each) nearest = std::min(nearest, wall.clearance(longish, pose));
+    if (walls.distance(pose.position(), 1.0) > 0.0) REQUIRE(walls.clearance(longish, pose) == Approx(nearest));
+  }
+}
+
 TEST_CASE("a wall's end between two corners of the robot is near its side") {
   WallMap map;
   map.segments.push_back({{0.0, 1.0}, {0.0, 5.0}});

@@ -1,3 +1,5 @@
+#include "hal/sim/wanderers.h"
+
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -134,6 +136,43 @@ TEST_CASE("a mover stops only when something is ahead, and is forced only by the
   CHECK(stops > 100);
   CHECK(forced > 5);
   CHECK(sim.truth().forced_movers >= static_cast<std::uint32_t>(forced));
+}
+
+TEST_CASE("a mover turns to a heading that is free: after the turn it walks") {
+  const Scratch scratch;
+  Simulation sim(crowded_room(scratch, 1), 4);
+  bool turned = false;
+  int turns = 0;
+  watch(sim, 300.0, [&](const Movers& before, const Movers& after) {
+    const bool turns_now = after[0].heading != before[0].heading;
+    if (turned && !turns_now) {
+      REQUIRE(walks(after[0]));
+      ++turns;
+    }
+    turned = turns_now;
+  });
+  CHECK(turns > 10);
+}
+
+TEST_CASE("a mover that would run into the robot beside it stays where it is, and that is a bump") {
+  // The robot's narrow nose stands 1 mm from the mover's edge at 60 degrees to its heading, outside the zone; a step of
+  // 8 mm would close the gap by 4 mm.
+  const Scratch scratch;
+  const Scenario scenario = crowded_room(scratch, 1);
+  const Walls walls(load_aria_map(scenario.map_file));
+  const FreeGrid grid(walls, 0.19, scenario.start.position(), scenario.goal);
+  Wanderers wanderers(scenario, walls, grid, 2);
+  const MoverTruth mover = wanderers.movers()[0];
+  const double bearing = mover.heading + kPi / 3;
+  const Footprint narrow{.front_m = 0.2, .rear_m = 0.2, .half_width_m = 0.05};
+  const Vec2 place = mover.position + direction(bearing) * (mover.radius_m + 0.001 + 0.2);
+  const RobotBody robot{narrow, {place.x, place.y, wrap_angle(bearing + kPi)}};
+  wanderers.step(kTick, robot, {});
+  CHECK(wanderers.bumped_robot());
+  CHECK(wanderers.forced() == 1);
+  CHECK(wanderers.movers()[0].position == mover.position);
+  wanderers.step(kTick, {narrow, {-50.0, -50.0, 0.0}}, {});
+  CHECK_FALSE(wanderers.bumped_robot());
 }
 
 TEST_CASE("movers go through neither walls nor each other nor the robot in ten minutes") {
