@@ -118,6 +118,14 @@ double draw_field_key(Canvas& canvas, Vec2 at, double width) {
   return at.y + 70.0;
 }
 
+/// Why a plan may cross walls that the picture shows.
+void draw_note(Canvas& canvas, Vec2 at) {
+  const Lettering small{16.0, ink::kFaint};
+  canvas.write(at, "Plan and field rest on what had been", small);
+  canvas.write(at + Vec2{0.0, 22.0}, "seen by then; the walls came to be", small);
+  canvas.write(at + Vec2{0.0, 44.0}, "known in the whole run.", small);
+}
+
 }  // namespace
 
 void draw_axes(Canvas& canvas, const MapFrame& to_sheet) {
@@ -166,6 +174,7 @@ void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, doub
     canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, row.text, {19.0, ink::kText});
     at.y += kLegendLine;
   }
+  if (scene.moment) draw_note(canvas, at + Vec2{0.0, 4.0});
 }
 
 }  // namespace jaywalk
