@@ -86,21 +86,18 @@ class GridPlanner final : public Planner {
   }
 
   PlanStatus plan_path(const PlanRequest& request, Result& result) noexcept {
-    const FieldArrays& a = pass_.arrays();
     window_ = placed(window_, request.map_from_robot.position(), request.goal_in_map);
     result.window = window_;
-    const Grid grid = window_.grid();
-    std::fill_n(result.psi, grid.cells(), cell::kNotFree);
-    fetch_walls(window_, request.still, a.occupants);
-    const Warping warping = warping_for(config_, window_, request);
-    const std::int32_t movers = fetch_movers(window_, request.moving, a.movers, mover_ids_);
-    if (!pass_.mark(grid, warping, movers)) return PlanStatus::kBackendFailed;
-    report_predictions(movers, result.plan);
-    if (!pass_.clear(grid, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
+    std::fill_n(result.psi, window_.grid().cells(), cell::kNotFree);
+    const std::int32_t movers = fetch_movers(window_, request.moving, pass_.arrays().movers, mover_ids_);
+    Warping warping = warping_for(config_, window_, request);
+    PlanStatus status = plan_among(request, warping, movers, result);
+    if (status == PlanStatus::kNoPath && movers > 0 && config_.mode == PlanMode::kFull) {
+      // Movers may have left what they block by the time the robot comes there: beyond the horizon they do not count.
+      warping.reach = warping.robot_speed * warping.cap_s;
+      status = plan_among(request, warping, movers, result);
+    }
     const CellIndex robot = window_.cell_at(request.map_from_robot.position());
-    if (nearest_free(robot) == kNoCell) return PlanStatus::kRobotBlocked;
-    const std::int32_t goal = choose_goal(request, robot);
-    const PlanStatus status = goal == kNoCell ? PlanStatus::kNoPath : descend(request, robot, goal, result);
     if (status == PlanStatus::kNoPath) {
       consider_growing(request, robot);
     } else {
@@ -109,7 +106,21 @@ class GridPlanner final : public Planner {
     return status;
   }
 
+  PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers,
+                        Result& result) noexcept {
+    const Grid grid = window_.grid();
+    fetch_walls(window_, request.still, pass_.arrays().occupants);
+    if (!pass_.mark(grid, warping, movers)) return PlanStatus::kBackendFailed;
+    report_predictions(movers, result.plan);
+    if (!pass_.clear(grid, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
+    const CellIndex robot = window_.cell_at(request.map_from_robot.position());
+    if (nearest_free(robot) == kNoCell) return PlanStatus::kRobotBlocked;
+    const std::int32_t goal = choose_goal(request, robot);
+    return goal == kNoCell ? PlanStatus::kNoPath : descend(request, robot, goal, result);
+  }
+
   void report_predictions(std::int32_t movers, Plan& plan) const noexcept {
+    plan.predictions.clear();
     for (std::int32_t k = 0; k < movers; ++k) {
       const Mark& mark = pass_.arrays().marks[k];
       (void)plan.predictions.push_back(

@@ -26,6 +26,7 @@ struct Warping {
   float safety;
   float most_spread;
   float process_noise;  ///< cells^2/s^3
+  float reach;          ///< mode full: movers occupy no cell farther than this from the robot
 };
 
 /// Where a mover is expected at its horizon.
@@ -112,8 +113,13 @@ struct MarkRow {
     const float dy = static_cast<float>(j) + 0.5F - y;
     if (dy > radius || dy < -radius) return;
     for (std::int32_t i = column(x - radius); i <= column(x + radius); ++i) {
-      if (cell::within(static_cast<float>(i) + 0.5F - x, dy, radius)) occupants[grid.at(i, j)] |= kMover;
+      if (cell::within(static_cast<float>(i) + 0.5F - x, dy, radius)) occupy(i, j);
     }
+  }
+
+  JAYWALK_CELL void occupy(std::int32_t i, std::int32_t j) const {
+    const std::int32_t c = grid.at(i, j);
+    if (warping.ellipses || warp[c] <= warping.reach) occupants[c] |= kMover;
   }
 
   JAYWALK_CELL void swept(const Mover& mover, std::int32_t j) const {
@@ -127,7 +133,7 @@ struct MarkRow {
     for (std::int32_t i = column(low_x - last.radius); i <= column(high_x + last.radius); ++i) {
       const Mark then = mark_at(mover, warping, cell::horizon(warp[grid.at(i, j)], warping.robot_speed, warping.cap_s));
       const float dx = static_cast<float>(i) + 0.5F - then.x;
-      if (cell::within(dx, centre_y - then.y, then.radius)) occupants[grid.at(i, j)] |= kMover;
+      if (cell::within(dx, centre_y - then.y, then.radius)) occupy(i, j);
     }
   }
 };

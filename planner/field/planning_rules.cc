@@ -68,7 +68,8 @@ Warping warping_for(const PlannerConfig& config, const Window& window, const Pla
           .cap_s = static_cast<float>(config.horizon_cap_s),
           .safety = in_cells(config.mover_margin_m),
           .most_spread = in_cells(kMostSpread_m),
-          .process_noise = static_cast<float>(kProcessNoise_m2ps3 / (window.cell_m * window.cell_m))};
+          .process_noise = static_cast<float>(kProcessNoise_m2ps3 / (window.cell_m * window.cell_m)),
+          .reach = cell::kLargest};
 }
 
 std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, Mover* movers,

@@ -15,10 +15,11 @@ struct MarkRig {
   std::vector<float> warp = std::vector<float>(64 * 64);
   std::vector<std::uint8_t> occupants = std::vector<std::uint8_t>(64 * 64);
   Mark mark{};
+  float reach = 1e9F;
 
   /// The robot stands in cell (10, 32) and looks along x at 6 cells a second.
   void run(bool ellipses, const Mover& mover) {
-    const Warping warping{ellipses, 10.5F, 32.5F, 1.0F, 0.0F, 6.0F, 5.0F, 2.0F, 4.0F, 0.0F};
+    const Warping warping{ellipses, 10.5F, 32.5F, 1.0F, 0.0F, 6.0F, 5.0F, 2.0F, 4.0F, 0.0F, reach};
     executor.for_each_cell(64, 64, WarpOfEachCell{grid, warping, warp.data()});
     executor.for_each(1, PredictEachMover{grid, warping, warp.data(), &mover, &mark});
     executor.for_each(64, MarkRow{grid, warping, warp.data(), &mover, &mark, 1, occupants.data()});
@@ -68,6 +69,15 @@ TEST_CASE("mode full leaves free the way behind one that crosses") {
   CHECK(rig.marked(22, 20));        // now
   CHECK_FALSE(rig.marked(22, 26));  // there after 1 s, the robot after 2.2 s
   CHECK_FALSE(rig.marked(22, 12));
+}
+
+TEST_CASE("beyond the reach movers occupy nothing") {
+  MarkRig rig;
+  rig.reach = 20.0F;
+  rig.run(false, mover_at(30.5F, 32.5F, 0.0F, 0.0F, 0.0F));  // 20 cells away
+  CHECK(rig.marked(29, 32));
+  CHECK(rig.marked(30, 32));
+  CHECK_FALSE(rig.marked(31, 32));
 }
 
 TEST_CASE("movers outside the grid mark what reaches in and nothing else") {

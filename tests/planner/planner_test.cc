@@ -276,6 +276,21 @@ TEST_CASE("the path keeps clear of where a head-on walker will be, and reports i
   }
 }
 
+TEST_CASE("a far door that a walker blocks does not stop the robot, a near one does") {
+  // One door, 1.2 m wide at x = 12.8, in a wall across the room; somebody stands in it. At 0.6 m/s the horizon is 3 m.
+  TestMap map = open_room();
+  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
+  const EvidenceMap evidence = evidence_of(map);
+  const std::vector<Track> tracks{walker({12.8, 12.8}, {0.0, 0.0})};
+  const auto planner = make_cpu_planner(small_memory());
+  PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
+  request.moving = tracks;
+  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
+  CHECK(planner->collect().predictions.size() == 1);
+  request.map_from_robot.x = 11.0;
+  CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
+}
+
 TEST_CASE("a goal that a mover stands on is approached") {
   const auto planner = make_cpu_planner(small_memory());
   const EvidenceMap map(512, 0.1, {0.0, 0.0});
