@@ -15,6 +15,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kAccelStd = 1.0;              // m/s^2 an axis: people start and turn within half a second
+constexpr double kGivenAccelStd = 0.5;         // the paper's movers keep their speed and seldom turn
 constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
 constexpr double kLookedThroughForS = 0.7;     // a body that beams pass through this long is gone
 constexpr double kUnseenForS = 2.0;            // a hidden one is believed in this long, and no longer than it was seen
@@ -78,7 +79,7 @@ void Tracker::State::predict_to(Time stamp) noexcept {
   step_s = step_seconds(now, stamp);
   now = stamp;
   for (Body& body : bodies) {
-    predict(body.track, step_seconds(body.track.stamp, stamp), kAccelStd);
+    predict(body.track, step_seconds(body.track.stamp, stamp), body.given ? kGivenAccelStd : kAccelStd);
     body.track.stamp = std::max(body.track.stamp, stamp);
   }
 }
@@ -236,7 +237,7 @@ void Tracker::update_given(const OutsideFix& fix) noexcept {
       admit(s.bodies, body, s.map_from_laser.position());
       continue;
     }
-    predict(known->track, step_seconds(known->track.stamp, fix.stamp), kAccelStd);
+    predict(known->track, step_seconds(known->track.stamp, fix.stamp), kGivenAccelStd);
     known->track.stamp = std::max(known->track.stamp, fix.stamp);
     correct(known->track, mover.position_in_map, std_m);
     known->track.hits += 1;

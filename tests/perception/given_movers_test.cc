@@ -38,10 +38,10 @@ TEST_CASE("the second report of a given mover is blended by hand") {
   Tracker tracker(small());
   tracker.update_given(fix_with(1, 0.0, {{.id = 7, .position_in_map = {0.0, 0.0}, .radius_m = 0.3}}));
   tracker.update_given(fix_with(2, 1.0, {{.id = 7, .position_in_map = {0.5, 0.0}, .radius_m = 0.3}}));
-  // Born with pp = 0.0025, vv = 1; a second on, with q = 1: pp = 0.0025 + 1 + 0.25 = 1.2525, pv = 1 + 0.5 = 1.5;
-  // S = 1.2525 + 0.0025 = 1.255: position 0.5 x 1.2525 / 1.255, velocity 0.5 x 1.5 / 1.255.
-  CHECK(tracker.moving()[0].position_in_map.x == Approx(0.5 * 1.2525 / 1.255));
-  CHECK(tracker.moving()[0].velocity_in_map.x == Approx(0.5 * 1.5 / 1.255));
+  // Born with pp = 0.0025, vv = 1; a second on, with q = 0.5^2: pp = 0.0025 + 1 + 0.0625 = 1.065,
+  // pv = 1 + 0.125 = 1.125; S = 1.065 + 0.0025 = 1.0675: position 0.5 x 1.065 / 1.0675, velocity 0.5 x 1.125 / 1.0675.
+  CHECK(tracker.moving()[0].position_in_map.x == Approx(0.5 * 1.065 / 1.0675));
+  CHECK(tracker.moving()[0].velocity_in_map.x == Approx(0.5 * 1.125 / 1.0675));
 }
 
 TEST_CASE("a given mover that is no longer reported dies after a second") {
