@@ -59,7 +59,7 @@ TEST_CASE("people who walk round a standing robot are seen for long") {
   std::cout << "walkers a scan " << static_cast<double>(moving) / static_cast<double>(seen.tracks.size()) << ", names "
             << seen.moving_ids.size() << "\n";
   CHECK(moving > 2 * seen.tracks.size());  // 2.9 a scan when this was written
-  CHECK(seen.moving_ids.size() < 30);      // 18
+  CHECK(seen.moving_ids.size() < 30);      // 21
 }
 
 TEST_CASE("few things move where nobody is") {
@@ -69,12 +69,13 @@ TEST_CASE("few things move where nobody is") {
   const Seen seen = run(recording, {}, {});
   const double minutes = to_seconds(recording.scans.back().stamp - recording.scans.front().stamp) / 60.0;
   std::cout << "false movers a minute " << static_cast<double>(seen.moving_ids.size()) / minutes << "\n";
-  CHECK(static_cast<double>(seen.moving_ids.size()) / minutes < 10.0);  // 5.2; scans alone carry the pose here
+  CHECK(static_cast<double>(seen.moving_ids.size()) / minutes <
+        10.0);  // 8.3 when this was written; scans alone carry the pose here
   // The robot turns and drives round the hall and comes back to where it set out, to the eye.
   CHECK(norm(seen.poses.back().position()) < 0.6);
 }
 
-TEST_CASE("scan matching halves the wheels' drift in Freiburg and nothing moves there") {
+TEST_CASE("after five minutes in Freiburg the pose is a quarter metre right and hardly anything moves") {
   const auto file = find("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;
   Recording recording = read_carmen(*file);
