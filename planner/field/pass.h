@@ -17,7 +17,7 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 inline constexpr std::int32_t kBandRounds = 60;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// After four cycles from the start field 99.6 % of cells or more pick the exact field's best neighbour; from the
+/// After four cycles from the start field 99.5 % of cells or more pick the exact field's best neighbour; from the
 /// last submission's field one does as well (docs/algorithm.md).
 inline constexpr std::int32_t kColdCycles = 4, kWarmCycles = 1;
 
