@@ -76,7 +76,8 @@ inline TestMap clutter(std::uint64_t seed, std::int32_t pieces = 110) {
   Random random(seed);
   for (std::int32_t k = 0; k < pieces; ++k) {
     const std::int32_t i = 1 + random.below(250), j = 1 + random.below(250);
-    map.box(i, j, i + 2 + random.below(9), j + 2 + random.below(9));
+    const std::int32_t w = 2 + random.below(9), h = 2 + random.below(9);
+    map.box(i, j, i + w, j + h);
   }
   map.box(4, 4, 24, 24, 0), map.box(232, 232, 252, 252, 0);
   return map;

@@ -22,7 +22,8 @@ TestMap small_map(std::uint64_t seed) {
   Random random(seed);
   for (int k = 0; k < 12; ++k) {
     const std::int32_t i = random.below(60), j = random.below(60);
-    map.box(i, j, i + 2 + random.below(8), j + 2 + random.below(8));
+    const std::int32_t w = 2 + random.below(8), h = 2 + random.below(8);
+    map.box(i, j, i + w, j + h);
   }
   map.box(4, 4, 12, 12, 0), map.box(50, 50, 60, 60, 0);
   return map;
