@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <memory>
 #include <utility>
 
@@ -73,7 +74,7 @@ class GridPlanner final : public Planner {
   using Answer = std::unique_ptr<Result>;
 
   [[nodiscard]] std::int32_t cells(double metres) const noexcept {
-    return static_cast<std::int32_t>(metres / config_.cell_m + 0.5);
+    return static_cast<std::int32_t>(std::floor(metres / config_.cell_m + 0.5));
   }
   [[nodiscard]] float inflation() const noexcept { return static_cast<float>(config_.inflation_m / config_.cell_m); }
 

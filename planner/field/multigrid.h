@@ -54,7 +54,8 @@ class Multigrid {
   /// By rows, with a spare row and a cell at either end.
   float* take_rows(std::int32_t side) {
     const std::int32_t spare = side + 1;
-    return executor_.template take<float>(static_cast<std::size_t>(Grid{side}.cells() + 2 * spare)) + spare;
+    const std::int32_t values = Grid{side}.cells() + 2 * spare;
+    return executor_.template take<float>(static_cast<std::size_t>(values)) + spare;
   }
 
   Arrays take_level(std::int32_t side) {

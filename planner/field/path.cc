@@ -25,7 +25,8 @@ std::int32_t follow(Grid grid, const std::uint8_t* index, std::int32_t start, st
                     std::int32_t count, std::int32_t capacity) noexcept {
   std::int32_t c = start;
   for (std::int32_t steps = 0; steps <= grid.cells() && count < capacity; ++steps) {
-    points[count++] = {static_cast<float>(c % grid.side) + 0.5F, static_cast<float>(c / grid.side) + 0.5F};
+    const std::int32_t i = c % grid.side, j = c / grid.side;
+    points[count++] = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
     if (c == goal || count == capacity) return count;
     const std::int32_t next = next_of(grid, index, c);
     if (next == c) return 0;
@@ -74,10 +75,8 @@ void resample(const Window& window, const cell::Point* points, std::int32_t coun
   const bool whole = length <= most * kMaxSpacing;
   if (!whole) return;
   // The last sample may have fallen just short of the end: it becomes the end.
-  if (path.size() > 1 && distance(path.back(), to) < 0.5 * spacing)
-    path.back() = to;
-  else if (!path.push_back(to))
-    path.back() = to;
+  const bool is_close = path.size() > 1 && distance(path.back(), to) < 0.5 * spacing;
+  if (is_close || !path.push_back(to)) path.back() = to;
 }
 
 }  // namespace jaywalk::field

@@ -16,7 +16,7 @@ std::vector<std::uint16_t> rate_table(std::int32_t max_side) {
     const double width = static_cast<double>(quarter) / 4.0;
     const double cosh_rate = 2.0 - cos(kPi / (width + 1.0));
     const double rate = log(cosh_rate + std::sqrt(cosh_rate * cosh_rate - 1.0));
-    table[quarter] = static_cast<std::uint16_t>(rate / 2.0 * static_cast<double>(kCostsPerPsi) + 0.5);
+    table[quarter] = static_cast<std::uint16_t>(std::floor(rate / 2.0 * static_cast<double>(kCostsPerPsi) + 0.5));
   }
   return table;
 }
