@@ -52,7 +52,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   t.pose = localizer_.update(t.wheels, t.scan, t.fix, tracker_.still());  // Estimate
   if (setup_.mode == PlanMode::kPaper && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
-  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan());
+  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
 
   plan_ = &planner_.collect();  // Plan: take what was asked for in an earlier tick.
   note_plan(t);

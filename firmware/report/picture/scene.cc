@@ -89,7 +89,9 @@ void BusiestMoment::consider(const Plan& plan, const Planner& planner, std::span
                              const Pose2& map_from_robot) {
   if (plan.status != PlanStatus::kOk) return;
   const double busy = busyness(plan, map_from_robot.position());
-  if (busy <= busiest_) return;
+  longest_path_ = std::max(longest_path_, plan.path.size());
+  const bool half_way = busy == busiest_ && 2 * plan.path.size() >= longest_path_;
+  if (busy <= busiest_ && !half_way) return;
   busiest_ = busy;
   moment_ = PlanMoment{plan.stamp,
                        map_from_robot,

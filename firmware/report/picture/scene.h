@@ -71,8 +71,8 @@ struct PictureScene {
 /// A copy of `view`.
 [[nodiscard]] FieldRaster raster_of(const FieldView& view);
 
-/// Keeps the plan at the run's busiest moment: the one with most expected near the robot. Works
-/// outside the tick: it allocates.
+/// Keeps the plan at the run's busiest moment: the one with most expected near the robot; of equals the last whose path
+/// is still half as long as the longest. Works outside the tick: it allocates.
 class BusiestMoment {
  public:
   /// Offers a new plan; `planner` is asked for its field only when the moment is the busiest so far.
@@ -82,6 +82,7 @@ class BusiestMoment {
 
  private:
   double busiest_ = -1.0;
+  std::size_t longest_path_ = 0;  ///< points
   std::optional<PlanMoment> moment_;
 };
 
