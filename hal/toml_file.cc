@@ -1,6 +1,8 @@
 #include "hal/toml_file.h"
 
+#include <algorithm>
 #include <cmath>
+#include <exception>
 #include <sstream>
 
 #include "hal/types/errors.h"
@@ -8,8 +10,28 @@
 namespace jaywalk {
 namespace {
 
-std::string place(const std::filesystem::path& file, const toml::source_region& where) {
-  return file.string() + ":" + std::to_string(where.begin.line) + ": ";
+// toml11 3 and 4 say differently where something stands.
+template <class Location>
+std::size_t line_of(const Location& where) {
+  if constexpr (requires { where.first_line_number(); }) {
+    return where.first_line_number();
+  } else {
+    return where.line();
+  }
+}
+
+template <class SyntaxError>
+std::size_t line_of_mistake(const SyntaxError& e) {
+  if constexpr (requires { e.location(); }) {
+    return line_of(e.location());
+  } else {
+    return line_of(e.errors().front().locations().front().first);
+  }
+}
+
+// The whole of a file has no line in toml11 4; a mistake in it is shown at the first.
+std::string place(const std::filesystem::path& file, std::size_t line) {
+  return file.string() + ":" + std::to_string(std::max<std::size_t>(line, 1)) + ": ";
 }
 
 std::string written(double value) {
@@ -18,48 +40,68 @@ std::string written(double value) {
   return out.str();
 }
 
-toml::table parse(const std::filesystem::path& file) {
+// The library draws a picture of several lines; what is wrong stands at the end of the first, behind a function's name.
+std::string cause_in(const std::string& text) {
+  const std::string line = text.substr(0, text.find('\n'));
+  const std::size_t name = line.find("toml::");
+  const std::size_t colon = name == std::string::npos ? name : line.find(": ", name);
+  return colon == std::string::npos ? line : line.substr(colon + 2);
+}
+
+toml::value parse(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw StartupError(file.string() + ":0: no such file", "give the path of a TOML file");
   }
   try {
-    return toml::parse_file(file.string());
-  } catch (const toml::parse_error& e) {
-    throw StartupError(place(file, e.source()) + std::string(e.description()), "write valid TOML");
+    return toml::parse(file.string());
+  } catch (const toml::syntax_error& e) {
+    throw StartupError(place(file, line_of_mistake(e)) + cause_in(e.what()), "write valid TOML");
+  } catch (const std::exception& e) {  // a date or number that does not exist
+    throw StartupError(place(file, 0) + cause_in(e.what()), "write valid TOML");
   }
+}
+
+double as_number(const toml::value& value) {
+  return value.is_integer() ? static_cast<double>(value.as_integer()) : value.as_floating();
+}
+
+bool is_number(const toml::value& value) { return value.is_integer() || value.is_floating(); }
+
+const toml::value* look_up(const toml::value& table, const std::string& key) {
+  return table.contains(key) ? &table.at(key) : nullptr;
 }
 
 }  // namespace
 
 TomlFile::TomlFile(const std::filesystem::path& file) : file_(file), table_(parse(file)) {}
 
-TomlTable::TomlTable(const std::filesystem::path& file, const toml::table& table, std::string name)
+TomlTable::TomlTable(const std::filesystem::path& file, const toml::value& table, std::string name)
     : file_(&file), table_(&table), name_(std::move(name)) {}
 
 std::string TomlTable::title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
 
 void TomlTable::refuse(const std::string& key, const std::string& cause, const std::string& remedy) const {
-  const toml::node* node = table_->get(key);
-  const toml::source_region& where = node != nullptr ? node->source() : table_->source();
-  throw StartupError(place(*file_, where) + title(key) + " " + cause, remedy);
+  const toml::value* node = look_up(*table_, key);
+  const auto where = node != nullptr ? node->location() : table_->location();
+  throw StartupError(place(*file_, line_of(where)) + title(key) + " " + cause, remedy);
 }
 
-const toml::node* TomlTable::find(const std::string& key) {
+const toml::value* TomlTable::find(const std::string& key) {
   asked_.insert(key);
-  return table_->get(key);
+  return look_up(*table_, key);
 }
 
-const toml::node& TomlTable::need(const std::string& key) {
-  const toml::node* node = find(key);
+const toml::value& TomlTable::need(const std::string& key) {
+  const toml::value* node = find(key);
   if (node == nullptr) refuse(key, "is missing", "add it");
   return *node;
 }
 
-bool TomlTable::has(const std::string& key) const { return table_->get(key) != nullptr; }
+bool TomlTable::has(const std::string& key) const { return table_->contains(key); }
 
-double TomlTable::number_from(const std::string& key, const toml::node& node, Range range) const {
-  if (!node.is_number()) refuse(key, "is not a number", "write a number");
-  const double value = *node.value<double>();
+double TomlTable::number_from(const std::string& key, const toml::value& node, Range range) const {
+  if (!is_number(node)) refuse(key, "is not a number", "write a number");
+  const double value = as_number(node);
   if (!(value >= range.low && value <= range.high)) {
     refuse(key, "is " + written(value), "choose a value from " + written(range.low) + " to " + written(range.high));
   }
@@ -69,34 +111,34 @@ double TomlTable::number_from(const std::string& key, const toml::node& node, Ra
 double TomlTable::number(const std::string& key, Range range) { return number_from(key, need(key), range); }
 
 double TomlTable::number(const std::string& key, Range range, double otherwise) {
-  const toml::node* node = find(key);
+  const toml::value* node = find(key);
   return node == nullptr ? otherwise : number_from(key, *node, range);
 }
 
-std::int64_t TomlTable::integer_from(const std::string& key, const toml::node& node, Range range) const {
+std::int64_t TomlTable::integer_from(const std::string& key, const toml::value& node, Range range) const {
   if (!node.is_integer()) refuse(key, "is not a whole number", "write a whole number");
   static_cast<void>(number_from(key, node, range));  // refuses what is outside
-  return *node.value<std::int64_t>();
+  return node.as_integer();
 }
 
 std::int64_t TomlTable::integer(const std::string& key, Range range) { return integer_from(key, need(key), range); }
 
 std::int64_t TomlTable::integer(const std::string& key, Range range, std::int64_t otherwise) {
-  const toml::node* node = find(key);
+  const toml::value* node = find(key);
   return node == nullptr ? otherwise : integer_from(key, *node, range);
 }
 
 bool TomlTable::boolean(const std::string& key, bool otherwise) {
-  const toml::node* node = find(key);
+  const toml::value* node = find(key);
   if (node == nullptr) return otherwise;
   if (!node->is_boolean()) refuse(key, "is not true or false", "write true or false");
-  return *node->value<bool>();
+  return node->as_boolean();
 }
 
 std::string TomlTable::text(const std::string& key) {
-  const toml::node& node = need(key);
+  const toml::value& node = need(key);
   if (!node.is_string()) refuse(key, "is not a text", "write it in quotes");
-  return *node.value<std::string>();
+  return toml::get<std::string>(node);
 }
 
 std::string TomlTable::text(const std::string& key, const std::string& otherwise) {
@@ -104,33 +146,34 @@ std::string TomlTable::text(const std::string& key, const std::string& otherwise
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count) {
-  const toml::array* array = need(key).as_array();
+  const toml::value& node = need(key);
   const std::string remedy = "write [ ] with " + std::to_string(count) + " numbers";
-  if (array == nullptr) refuse(key, "is not an array", remedy);
-  if (array->size() != count) refuse(key, "has " + std::to_string(array->size()) + " elements", remedy);
+  if (!node.is_array()) refuse(key, "is not an array", remedy);
+  const toml::array& array = node.as_array();
+  if (array.size() != count) refuse(key, "has " + std::to_string(array.size()) + " elements", remedy);
   std::vector<double> values;
-  for (const toml::node& node : *array) {
-    if (!node.is_number() || !std::isfinite(*node.value<double>())) refuse(key, "holds what is no number", remedy);
-    values.push_back(*node.value<double>());
+  for (const toml::value& item : array) {
+    if (!is_number(item) || !std::isfinite(as_number(item))) refuse(key, "holds what is no number", remedy);
+    values.push_back(as_number(item));
   }
   return values;
 }
 
 TomlTable TomlTable::table(const std::string& key) {
-  const toml::table* found = need(key).as_table();
-  if (found == nullptr) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
-  return {*file_, *found, title(key)};
+  const toml::value& found = need(key);
+  if (!found.is_table()) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
+  return {*file_, found, title(key)};
 }
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) {
   std::vector<TomlTable> found;
-  const toml::node* node = find(key);
+  const toml::value* node = find(key);
   if (node == nullptr) return found;
   const std::string remedy = "write [[" + title(key) + "]] and its keys below";
   if (!node->is_array()) refuse(key, "is not a list of tables", remedy);
-  for (const toml::node& item : *node->as_array()) {
+  for (const toml::value& item : node->as_array()) {
     if (!item.is_table()) refuse(key, "is not a list of tables", remedy);
-    found.emplace_back(*file_, *item.as_table(), title(key));
+    found.emplace_back(*file_, item, title(key));
   }
   return found;
 }
@@ -145,14 +188,14 @@ std::filesystem::path TomlTable::existing_file(const std::string& key) {
 }
 
 void TomlTable::finish() const {
-  const toml::node* first = nullptr;
+  std::size_t line = 0;
   std::string unknown;
-  for (auto&& [key, node] : *table_) {
-    const std::string name{std::string_view{key}};
-    const bool earlier = first == nullptr || node.source().begin.line < first->source().begin.line;
-    if (asked_.count(name) == 0 && earlier) first = &node, unknown = name;
+  for (const auto& [key, value] : table_->as_table()) {  // in no order
+    const std::size_t here = line_of(value.location());
+    const bool earlier = unknown.empty() || here < line || (here == line && key < unknown);
+    if (asked_.count(key) == 0 && earlier) line = here, unknown = key;
   }
-  if (first != nullptr) refuse(unknown, "is not a known key", "remove it or correct its spelling");
+  if (!unknown.empty()) refuse(unknown, "is not a known key", "remove it or correct its spelling");
 }
 
 }  // namespace jaywalk

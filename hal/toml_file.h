@@ -1,12 +1,11 @@
 #pragma once
 // Reading settings from TOML files in such a way that every mistake is refused with its place:
 // "FILE:LINE: cause; remedy". Start-up only.
-#include <toml++/toml.h>
-
 #include <cstdint>
 #include <filesystem>
 #include <set>
 #include <string>
+#include <toml.hpp>
 #include <vector>
 
 namespace jaywalk {
@@ -21,7 +20,7 @@ struct Range {
 /// The table belongs to a TomlFile that outlives it.
 class TomlTable {
  public:
-  TomlTable(const std::filesystem::path& file, const toml::table& table, std::string name);
+  TomlTable(const std::filesystem::path& file, const toml::value& table, std::string name);
 
   [[nodiscard]] bool has(const std::string& key) const;
   /// The number under `key`; without a default the key must be there. Throws for a wrong type, NaN, or outside `range`.
@@ -47,14 +46,14 @@ class TomlTable {
   [[noreturn]] void refuse(const std::string& key, const std::string& cause, const std::string& remedy) const;
 
  private:
-  const toml::node* find(const std::string& key);
-  const toml::node& need(const std::string& key);
+  const toml::value* find(const std::string& key);
+  const toml::value& need(const std::string& key);
   [[nodiscard]] std::string title(const std::string& key) const;
-  [[nodiscard]] double number_from(const std::string& key, const toml::node& node, Range range) const;
-  [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::node& node, Range range) const;
+  [[nodiscard]] double number_from(const std::string& key, const toml::value& node, Range range) const;
+  [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node, Range range) const;
 
   const std::filesystem::path* file_;
-  const toml::table* table_;
+  const toml::value* table_;
   std::string name_;
   std::set<std::string> asked_;
 };
@@ -67,7 +66,7 @@ class TomlFile {
 
  private:
   std::filesystem::path file_;
-  toml::table table_;
+  toml::value table_;
 };
 
 }  // namespace jaywalk
