@@ -30,6 +30,14 @@ class StopZone {
   [[nodiscard]] double speed_to_stop_within(double gap_m) const noexcept;
 
  private:
+  /// What the robot does while its rim goes one step.
+  struct Step {
+    double ahead_m = 0.0;
+    Vec2 turn_back;  ///< unit vector at minus the turned angle
+  };
+  /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.
+  [[nodiscard]] double way_to(Vec2 point, const Step& step, double most_m) const noexcept;
+
   StopZoneConfig config_;
   double rim_radius_m_;
 };

@@ -47,7 +47,7 @@ double atan_unit(double z) {
                                  {0.5, 0.46364760900080612},
                                  {0.75, 0.64350110879328439},
                                  {1.0, 0.78539816339744831}};
-  const Anchor& a = kAnchors[static_cast<int>(z * 4.0 + 0.5)];
+  const Anchor& a = kAnchors[static_cast<int>(std::floor(z * 4.0 + 0.5))];
   const double t = (z - a.tangent) / (1.0 + z * a.tangent);
   const double t2 = t * t;
   double sum = 0.0;

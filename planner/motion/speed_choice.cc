@@ -52,7 +52,9 @@ double free_time(const Path& path, Vec2 robot, double speed_now, double speed, s
                  const SpeedChoiceConfig& config) {
   PathWalker walker(path, robot);
   double v = speed_now;
-  for (double t = kStep_s; t <= config.horizon_s; t += kStep_s) {
+  const int steps = static_cast<int>(config.horizon_s / kStep_s);
+  for (int k = 1; k <= steps; ++k) {
+    const double t = k * kStep_s;
     v += std::clamp(speed - v, -config.max_accel_mps2 * kStep_s, config.max_accel_mps2 * kStep_s);
     if (meets_anyone(walker.advance(v * kStep_s), t, moving, config)) return t;
   }
