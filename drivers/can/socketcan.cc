@@ -1,0 +1,165 @@
+#include "drivers/can/socketcan.h"
+
+#include <linux/can/error.h>
+#include <linux/can/raw.h>
+#include <net/if.h>
+#include <sys/socket.h>
+#include <sys/uio.h>
+#include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <vector>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+
+namespace {
+
+/// Error frames that one call of receive passes over: a storm of them must not hold up a tick.
+constexpr int kMostAtOnce = 64;
+
+[[noreturn]] void refuse(const std::string& interface, const std::string& doing, int error) {
+  throw StartupError(interface + ": " + doing + ": " + std::strerror(error),
+                     "see that it is a CAN interface: ip -details link show " + interface);
+}
+
+template <class T>
+void set_option(int socket, int level, int option, const T& value, const std::string& interface, const char* doing) {
+  if (::setsockopt(socket, level, option, &value, sizeof value) != 0) refuse(interface, doing, errno);
+}
+
+void set_filters(int socket, std::span<const CanFilter> filters, const std::string& interface) {
+  std::vector<can_filter> raw;
+  for (const CanFilter& filter : filters) raw.push_back(to_kernel(filter));
+  const auto bytes = static_cast<socklen_t>(raw.size() * sizeof(can_filter));
+  if (::setsockopt(socket, SOL_CAN_RAW, CAN_RAW_FILTER, raw.data(), bytes) != 0) refuse(interface, "filters", errno);
+}
+
+void bind_to(int socket, int index, const std::string& interface) {
+  sockaddr_can address{};
+  address.can_family = AF_CAN;
+  address.can_ifindex = index;
+  if (::bind(socket, reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0)
+    refuse(interface, "bind", errno);
+}
+
+/// What the kernel sends along with a frame.
+struct Ancillary {
+  bool has_stamp = false;
+  timespec stamp{};  ///< CLOCK_REALTIME
+  bool has_lost = false;
+  std::uint32_t lost = 0;  ///< frames dropped by this socket since it was opened
+};
+
+Ancillary read_ancillary(msghdr& message) noexcept {
+  Ancillary found;
+  for (cmsghdr* item = CMSG_FIRSTHDR(&message); item != nullptr; item = CMSG_NXTHDR(&message, item)) {
+    if (item->cmsg_level != SOL_SOCKET) continue;
+    if (item->cmsg_type == SCM_TIMESTAMPNS) {
+      std::memcpy(&found.stamp, CMSG_DATA(item), sizeof found.stamp);
+      found.has_stamp = true;
+    } else if (item->cmsg_type == SO_RXQ_OVFL) {
+      std::memcpy(&found.lost, CMSG_DATA(item), sizeof found.lost);
+      found.has_lost = true;
+    }
+  }
+  return found;
+}
+
+// The kernel stamps with the wall clock, which may be set at any moment: only the frame's age is taken from it, and
+// only as far as an age can be believed.
+Time on_control_timeline(const Ancillary& ancillary, Time now) noexcept {
+  timespec wall{};
+  if (!ancillary.has_stamp || ::clock_gettime(CLOCK_REALTIME, &wall) != 0) return now;
+  const Duration waited = std::chrono::seconds(wall.tv_sec - ancillary.stamp.tv_sec) +
+                          std::chrono::nanoseconds(wall.tv_nsec - ancillary.stamp.tv_nsec);
+  return now - std::clamp<Duration>(waited, Duration{0}, std::chrono::seconds(1));
+}
+
+}  // namespace
+
+wire::FileDescriptor open_can(const std::string& interface, std::span<const CanFilter> filters) {
+  const unsigned index = ::if_nametoindex(interface.c_str());
+  if (index == 0) {
+    throw StartupError(interface + ": no such interface",
+                       "bring it up: ip link set " + interface + " up type can bitrate 500000");
+  }
+  wire::FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
+  if (socket.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)) {
+    throw StartupError(interface + ": this kernel has no raw CAN sockets", "load them: modprobe can_raw");
+  }
+  if (socket.get() < 0) refuse(interface, "socket", errno);
+  set_filters(socket.get(), filters, interface);
+  set_option(socket.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK}, interface, "error frames");
+  set_option(socket.get(), SOL_SOCKET, SO_TIMESTAMPNS, int{1}, interface, "time stamps");
+  set_option(socket.get(), SOL_SOCKET, SO_RXQ_OVFL, int{1}, interface, "count of lost frames");
+  bind_to(socket.get(), static_cast<int>(index), interface);
+  return socket;
+}
+
+SocketCan::SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept : socket_(std::move(socket)), clock_(clock) {}
+
+SendResult SocketCan::send(const CanFrame& frame) noexcept {
+  if (!is_valid(frame)) return SendResult::kNotAFrame;
+  const can_frame raw = to_kernel(frame);
+  if (::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == sizeof raw) return SendResult::kQueued;
+  switch (errno) {
+    case ENOBUFS:
+    case EAGAIN:
+      return SendResult::kQueueFull;
+    case ENETDOWN:
+    case ENXIO:
+    case ENODEV:
+      health_.state = CanState::kDown;
+      return SendResult::kOffBus;
+    default:
+      return SendResult::kSystemError;
+  }
+}
+
+bool SocketCan::receive(ReceivedFrame& received) noexcept {
+  for (int attempt = 0; attempt < kMostAtOnce; ++attempt) {
+    can_frame raw{};
+    alignas(cmsghdr) std::array<char, 256> control{};
+    iovec part{.iov_base = &raw, .iov_len = sizeof raw};
+    msghdr message{};
+    message.msg_iov = &part;
+    message.msg_iovlen = 1;
+    message.msg_control = control.data();
+    message.msg_controllen = control.size();
+    const ssize_t got = ::recvmsg(socket_.get(), &message, MSG_DONTWAIT);
+    if (got < 0) {
+      if (errno == EINTR) continue;
+      if (errno == ENETDOWN || errno == ENODEV) health_.state = CanState::kDown;
+      return false;
+    }
+    const Ancillary ancillary = read_ancillary(message);
+    if (ancillary.has_lost) health_.frames_lost = ancillary.lost;
+    if (got == sizeof raw && is_error(raw)) {
+      note_error(raw);
+      continue;
+    }
+    const auto frame = got == sizeof raw ? from_kernel(raw) : std::nullopt;
+    if (!frame) {
+      ++health_.malformed;
+      continue;
+    }
+    if (health_.state == CanState::kDown) health_.state = CanState::kActive;  // frames come only from a link that is up
+    received = {*frame, on_control_timeline(ancillary, clock_.now())};
+    return true;
+  }
+  return false;
+}
+
+void SocketCan::note_error(const can_frame& error) noexcept {
+  ++health_.error_frames;
+  const CanState after = state_after(error, health_.state);
+  if (after == CanState::kBusOff && health_.state != CanState::kBusOff) ++health_.bus_off_count;
+  health_.state = after;
+}
+
+}  // namespace jaywalk
