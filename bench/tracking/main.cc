@@ -1,0 +1,102 @@
+// Scores what a run believed against what was there. docs/tracking.md has the commands behind its figures.
+#include <CLI/CLI.hpp>
+#include <cmath>
+#include <cstdio>
+
+#include "bench/tracking/reference_poses.h"
+#include "bench/tracking/run_folder.h"
+#include "bench/tracking/track_score.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::bench {
+namespace {
+
+struct Options {
+  std::string folder, labels, reference;
+  std::vector<double> laser_mount{0.0, 0.0, 0.0};
+  bool nobody = false;
+  ScoreRules rules;
+  ViewRule view;
+};
+
+void row(const char* what, double value, const char* unit) {
+  if (!std::isnan(value)) std::printf("| %-44s | %10.3f | %-5s |\n", what, value, unit);
+}
+void row(const char* what, std::size_t value) { std::printf("| %-44s | %10zu |       |\n", what, value); }
+
+void print(const char* who, const TrackScore& score, double minutes) {
+  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", who, "", "");
+  row("targets in view, all frames", score.targets());
+  row("found", score.matches());
+  row("missed", score.misses());
+  row("false positives", score.false_positives());
+  row("identity switches", score.switches());
+  row("MOTA", 100.0 * score.mota(), "%");
+  row("MOTP, mean distance", score.motp_m(), "m");
+  row("velocity RMSE of tracks older than 1 s", score.velocity_rmse_mps(), "m/s");
+  row("found within 0.6 s of coming into view", 100.0 * score.found_soon(), "%");
+  row("false moving tracks a minute", static_cast<double>(score.false_movers()) / minutes, "");
+  std::printf("\n");
+}
+
+void print(const char* what, const std::vector<PosePair>& poses) {
+  const RelativeError error = relative_error(poses, 10.0, 1.0);
+  if (error.stretches == 0) return;
+  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", what, "", "");
+  row("stretches of 10 m", error.stretches);
+  row("translation, median", error.translation_percent, "%");
+  row("heading, median", error.heading_deg, "deg");
+  std::printf("\n");
+}
+
+void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
+  if (o.nobody) {
+    for (const double t_s : run.track_times()) frame(t_s, {});
+  } else if (!o.labels.empty()) {
+    labelled_frames(o.labels, run, {o.laser_mount[0], o.laser_mount[1], o.laser_mount[2]}, frame);
+  } else if (o.reference.empty()) {
+    simulated_frames(o.folder, run, o.view, frame);
+  }
+}
+
+void score(const Options& o) {
+  const RunFolder run(o.folder);
+  TrackScore moving(o.rules), any(o.rules);
+  frames(o, run, [&](double t_s, const std::vector<Target>& targets) {
+    moving.add(t_s, targets, run.tracks_at(t_s, true));
+    any.add(t_s, targets, run.tracks_at(t_s, false));
+  });
+  if (o.reference.empty() || o.nobody) print("tracks that move", moving, run.minutes());
+  if (any.targets() > 0) print("all tracks; standing ones are no error", any, run.minutes());
+  print("poses against the truth", run.poses());
+  if (o.reference.empty()) return;
+  const ReferencePoses reference = reference_poses(o.reference, run);
+  print("poses against the reference", reference.of_run);
+  print("wheels alone against the reference", reference.of_wheels);
+}
+
+}  // namespace
+}  // namespace jaywalk::bench
+
+int main(int argc, char** argv) {
+  jaywalk::bench::Options o;
+  CLI::App app("Scores the tracks and poses in a folder of jaywalk sim or jaywalk replay", "jaywalk_track_bench");
+  app.add_option("DIR", o.folder, "the run's folder; a simulation's own movers are the truth")->required();
+  app.add_flag("--nobody", o.nobody, "nobody was there: every moving track is false");
+  app.add_option("--labels", o.labels, "t_s,id,x_m,y_m in the map, or t_bag,id,x,y,z in the laser's frame");
+  app.add_option("--laser-mount", o.laser_mount, "X,Y,YAW as given to the replay, for labels in the laser's frame")
+      ->delimiter(',')
+      ->expected(3);
+  app.add_option("--reference", o.reference, "the CARMEN log that was replayed, its poses corrected by others");
+  app.add_option("--match", o.rules.match_m, "m: a track this near is the target's")->capture_default_str();
+  app.add_option("--range", o.view.range_m, "m: simulated movers farther off are not in view")->capture_default_str();
+  app.add_option("--radius", o.view.radius_m, "m: of simulated movers")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    jaywalk::bench::score(o);
+  } catch (const jaywalk::StartupError& error) {
+    std::fprintf(stderr, "jaywalk_track_bench: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

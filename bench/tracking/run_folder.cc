@@ -1,0 +1,90 @@
+#include "bench/tracking/run_folder.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "bench/tracking/number_table.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::bench {
+namespace {
+
+constexpr double kSameScanS = 0.03;  // stamps were rounded when they were written; scans are 25 ms apart or more
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+}  // namespace
+
+RunFolder::RunFolder(const std::filesystem::path& folder) {
+  const NumberTable tracks(folder / "tracks.csv");
+  const auto &t = tracks.column("t_s"), &id = tracks.column("id"), &x = tracks.column("x_m"), &y = tracks.column("y_m"),
+             &vx = tracks.column("vx_mps"), &vy = tracks.column("vy_mps"), &moving = tracks.column("moving");
+  for (std::size_t k = 0; k < tracks.rows(); ++k) {
+    tracks_[t[k]].push_back({static_cast<std::uint32_t>(id[k]), {x[k], y[k]}, {vx[k], vy[k]}, moving[k] != 0.0});
+  }
+  const NumberTable robot(folder / "robot.csv");
+  const auto &rt = robot.column("t_s"), &tx = robot.column("x_m"), &ty = robot.column("y_m"),
+             &th = robot.column("heading_rad"), &ex = robot.column("est_x_m"), &ey = robot.column("est_y_m"),
+             &eh = robot.column("est_heading_rad");
+  for (std::size_t k = 0; k < robot.rows(); ++k) {
+    ticks_.push_back({rt[k], {ex[k], ey[k], eh[k]}, {tx[k], ty[k], th[k]}});
+  }
+  if (ticks_.empty()) throw StartupError((folder / "robot.csv").string() + ": no rows", "give the folder of a run");
+  has_truth_ = !std::isnan(ticks_.front().truth.x);
+}
+
+std::vector<Hypothesis> RunFolder::tracks_at(double t_s, bool moving_only) const {
+  auto at = tracks_.lower_bound(t_s - kSameScanS);
+  if (at == tracks_.end() || at->first > t_s + kSameScanS) return {};
+  const auto next = std::next(at);
+  if (next != tracks_.end() && std::fabs(next->first - t_s) < std::fabs(at->first - t_s)) at = next;
+  std::vector<Hypothesis> out;
+  std::copy_if(at->second.begin(), at->second.end(), std::back_inserter(out),
+               [&](const Hypothesis& h) { return h.moving || !moving_only; });
+  return out;
+}
+
+const RunFolder::Tick& RunFolder::tick_at(double t_s) const {
+  const auto at = std::lower_bound(ticks_.begin(), ticks_.end(), t_s - 1e-6,
+                                   [](const Tick& tick, double t) { return tick.t_s < t; });
+  return at == ticks_.end() ? ticks_.back() : *at;
+}
+
+Pose2 RunFolder::estimate_at(double t_s) const { return tick_at(t_s).estimate; }
+
+std::optional<Pose2> RunFolder::truth_at(double t_s) const {
+  return has_truth_ ? std::optional(tick_at(t_s).truth) : std::nullopt;
+}
+
+double RunFolder::minutes() const { return (ticks_.back().t_s - ticks_.front().t_s) / 60.0; }
+
+std::vector<double> RunFolder::track_times() const {
+  std::vector<double> out;
+  for (const auto& [t, tracks] : tracks_) out.push_back(t);
+  return out;
+}
+
+std::vector<PosePair> RunFolder::poses() const {
+  std::vector<PosePair> out;
+  for (const Tick& tick : ticks_) {
+    if (has_truth_) out.push_back({tick.estimate, tick.truth});
+  }
+  return out;
+}
+
+void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const Pose2& robot_from_laser,
+                     const FrameSink& frame) {
+  const NumberTable labels(file);
+  const bool in_laser = labels.has("t_bag");
+  const auto &t = labels.column(in_laser ? "t_bag" : "t_s"), &id = labels.column("id"),
+             &x = labels.column(in_laser ? "x" : "x_m"), &y = labels.column(in_laser ? "y" : "y_m");
+  std::map<double, std::vector<Target>> frames;
+  for (std::size_t k = 0; k < labels.rows(); ++k) {
+    const Pose2 map_from_labels = in_laser ? run.estimate_at(t[k]) * robot_from_laser : Pose2{};
+    frames[t[k]].push_back(
+        {static_cast<std::uint32_t>(id[k]), map_from_labels * Vec2{x[k], y[k]}, {kUnknown, kUnknown}});
+  }
+  for (const auto& [when, targets] : frames) frame(when, targets);
+}
+
+}  // namespace jaywalk::bench

@@ -1,0 +1,61 @@
+#pragma once
+// What a run left in its folder (docs/outputs.md), as frames to score.
+#include <filesystem>
+#include <functional>
+#include <map>
+#include <optional>
+#include <vector>
+
+#include "bench/tracking/relative_pose.h"
+#include "bench/tracking/track_score.h"
+
+namespace jaywalk::bench {
+
+/// The tracks and poses of `jaywalk sim` or `jaywalk replay`. Errors: StartupError.
+class RunFolder {
+ public:
+  explicit RunFolder(const std::filesystem::path& folder);
+
+  /// The tracks of the scan nearest to `t_s`; none where no scan within 30 ms left any.
+  [[nodiscard]] std::vector<Hypothesis> tracks_at(double t_s, bool moving_only) const;
+  /// Where the controller thought it was in the first tick at or after `t_s`; the last pose after the end.
+  [[nodiscard]] Pose2 estimate_at(double t_s) const;
+  /// Where it really was at the end of that tick; nothing for a replay.
+  [[nodiscard]] std::optional<Pose2> truth_at(double t_s) const;
+  [[nodiscard]] double minutes() const;
+  /// Every time at which there are tracks, rising.
+  [[nodiscard]] std::vector<double> track_times() const;
+  [[nodiscard]] std::vector<PosePair> poses() const;  ///< estimate and truth, a tick each; empty for a replay
+
+ private:
+  struct Tick {
+    double t_s = 0.0;
+    Pose2 estimate, truth;
+  };
+  [[nodiscard]] const Tick& tick_at(double t_s) const;
+
+  std::map<double, std::vector<Hypothesis>> tracks_;
+  std::vector<Tick> ticks_;
+  bool has_truth_ = false;
+};
+
+/// Called with each frame.
+using FrameSink = std::function<void(double t_s, const std::vector<Target>&)>;
+
+/// What counts as in view in a simulation: nearer than `range_m`, and hit by at least `beams` beams of the scan.
+struct ViewRule {
+  double range_m = 10.0;
+  double radius_m = 0.27;
+  int beams = 3;
+};
+
+/// The movers of a simulation at every scan of its recording, by movers.csv.
+void simulated_frames(const std::filesystem::path& folder, const RunFolder& run, const ViewRule& rule,
+                      const FrameSink& frame);
+
+/// Labels: t_s,id,x_m,y_m in the map, or t_bag,id,x,y,z in the frame of the laser that stands at `robot_from_laser`;
+/// a frame for every time that stands in it. Velocities are not known.
+void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const Pose2& robot_from_laser,
+                     const FrameSink& frame);
+
+}  // namespace jaywalk::bench

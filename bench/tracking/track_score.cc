@@ -1,0 +1,99 @@
+#include "bench/tracking/track_score.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jaywalk::bench {
+namespace {
+
+constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+constexpr double kAwayS = 1.0;  // whoever is out of view this long comes into view again
+
+double share(std::size_t part, std::size_t whole) {
+  return whole == 0 ? kNone : static_cast<double>(part) / static_cast<double>(whole);
+}
+
+}  // namespace
+
+void TrackScore::pair_up(std::span<const Target> targets, std::span<const Hypothesis> tracks) {
+  std::vector<Pair> near;
+  for (std::size_t a = 0; a < targets.size(); ++a) {
+    for (std::size_t b = 0; b < tracks.size(); ++b) {
+      const double d = distance(targets[a].position_in_map, tracks[b].position_in_map);
+      if (d <= rules_.match_m) near.push_back({a, b, d});
+    }
+  }
+  const auto before = [&](const Pair& p) {
+    const auto last = track_of_.find(targets[p.target].id);
+    return last != track_of_.end() && last->second == tracks[p.track].id;
+  };
+  std::stable_sort(near.begin(), near.end(), [&](const Pair& p, const Pair& q) {
+    return before(p) != before(q) ? before(p) : p.distance_m < q.distance_m;
+  });
+  std::vector<bool> target_taken(targets.size()), track_taken(tracks.size());
+  pairs_.clear();
+  for (const Pair& p : near) {
+    if (target_taken[p.target] || track_taken[p.track]) continue;
+    target_taken[p.target] = track_taken[p.track] = true;
+    pairs_.push_back(p);
+  }
+}
+
+void TrackScore::count(double t_s, const Target& target, const Hypothesis& track, double distance_m) {
+  matches_ += 1;
+  distance_sum_m_ += distance_m;
+  const auto last = track_of_.find(target.id);
+  if (last != track_of_.end() && last->second != track.id) switches_ += 1;
+  track_of_[target.id] = track.id;
+  const double off = distance(track.velocity_in_map, target.velocity_in_map);
+  if (std::isnan(off) || t_s - born_s_[track.id] < rules_.settled_after_s) return;
+  compared_ += 1;
+  velocity_error2_sum_ += off * off;
+}
+
+void TrackScore::note_stay(double t_s, const Target& target, bool found) {
+  const auto [at, fresh] = stays_.try_emplace(target.id, Stay{.since_s = t_s, .last_s = t_s});
+  Stay& stay = at->second;
+  if (!fresh && t_s - stay.last_s > kAwayS) stay = {.since_s = t_s, .last_s = t_s};
+  stay.last_s = t_s;
+  if (stay.found || stay.late) return;
+  stay.found = found;
+  stay.late = !found && t_s - stay.since_s > rules_.soon_s;
+  came_ += stay.found || stay.late ? 1U : 0U;  // who leaves before either happens tells nothing
+  soon_ += stay.found ? 1U : 0U;
+}
+
+void TrackScore::add(double t_s, std::span<const Target> targets, std::span<const Hypothesis> tracks) {
+  for (const Hypothesis& track : tracks) {
+    born_s_.try_emplace(track.id, t_s);
+    if (track.moving) moved_.insert(track.id);
+  }
+  pair_up(targets, tracks);
+  std::vector<bool> found(targets.size()), used(tracks.size());
+  for (const Pair& p : pairs_) {
+    found[p.target] = used[p.track] = true;
+    right_.insert(tracks[p.track].id);
+    if (targets[p.target].in_view) count(t_s, targets[p.target], tracks[p.track], p.distance_m);
+  }
+  for (std::size_t k = 0; k < tracks.size(); ++k) false_positives_ += !used[k] && tracks[k].moving ? 1U : 0U;
+  for (std::size_t k = 0; k < targets.size(); ++k) {
+    if (!targets[k].in_view) continue;
+    targets_ += 1;
+    note_stay(t_s, targets[k], found[k]);
+  }
+}
+
+double TrackScore::mota() const { return 1.0 - share(misses() + false_positives_ + switches_, targets_); }
+double TrackScore::motp_m() const { return matches_ == 0 ? kNone : distance_sum_m_ / static_cast<double>(matches_); }
+double TrackScore::velocity_rmse_mps() const {
+  return compared_ == 0 ? kNone : std::sqrt(velocity_error2_sum_ / static_cast<double>(compared_));
+}
+double TrackScore::found_soon() const { return share(soon_, came_); }
+
+std::size_t TrackScore::false_movers() const {
+  return static_cast<std::size_t>(
+      std::count_if(moved_.begin(), moved_.end(), [&](std::uint32_t id) { return right_.count(id) == 0; }));
+}
+
+}  // namespace jaywalk::bench

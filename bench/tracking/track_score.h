@@ -1,0 +1,87 @@
+#pragma once
+// How well tracks follow what is really there: the CLEAR MOT figures (Bernardin and Stiefelhagen 2008) and, beside
+// them, what matters for driving: velocities, false movers, how soon a mover is known for one.
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <set>
+#include <span>
+#include <vector>
+
+#include "hal/types/geometry.h"
+
+namespace jaywalk::bench {
+
+/// Somebody who is really there.
+struct Target {
+  std::uint32_t id = 0;
+  Vec2 position_in_map;  ///< m
+  Vec2 velocity_in_map;  ///< m/s; NaN: not known
+  bool in_view = true;   ///< false: finding it is neither right nor wrong
+};
+
+/// A track of the controller's.
+struct Hypothesis {
+  std::uint32_t id = 0;
+  Vec2 position_in_map;
+  Vec2 velocity_in_map;
+  bool moving = true;  ///< false: it may find a target, and is no error where it finds none
+};
+
+struct ScoreRules {
+  double match_m = 0.5;          ///< a hypothesis this near a target may be its
+  double settled_after_s = 1.0;  ///< velocities are compared once a track is this old
+  double soon_s = 0.6;           ///< a target that moves is found soon when found within this after it came into view
+};
+
+/// Adds up frame by frame. Pairs of the frame before stay pairs while they are near enough; the rest pair up nearest
+/// first.
+class TrackScore {
+ public:
+  explicit TrackScore(const ScoreRules& rules) : rules_(rules) {}
+
+  /// Frames come in the order of time. Every id stands once in a frame.
+  void add(double t_s, std::span<const Target> targets, std::span<const Hypothesis> tracks);
+
+  [[nodiscard]] std::size_t targets() const { return targets_; }
+  [[nodiscard]] std::size_t matches() const { return matches_; }
+  [[nodiscard]] std::size_t misses() const { return targets_ - matches_; }
+  [[nodiscard]] std::size_t false_positives() const { return false_positives_; }
+  [[nodiscard]] std::size_t switches() const { return switches_; }
+  /// 1 - (misses + false positives + switches) / targets; NaN without targets.
+  [[nodiscard]] double mota() const;
+  /// Mean distance of matched pairs, m; NaN without any.
+  [[nodiscard]] double motp_m() const;
+  /// Root of the mean squared length of the velocity's error, m/s; NaN where nothing could be compared.
+  [[nodiscard]] double velocity_rmse_mps() const;
+  /// Tracks that moved and never were anybody's.
+  [[nodiscard]] std::size_t false_movers() const;
+  /// Share of the times a target came into view that it was found soon; NaN where none came.
+  [[nodiscard]] double found_soon() const;
+
+ private:
+  struct Pair {
+    std::size_t target = 0, track = 0;
+    double distance_m = 0.0;
+  };
+  /// A stay in view.
+  struct Stay {
+    double since_s = 0.0, last_s = 0.0;
+    bool found = false, late = false;
+  };
+  void pair_up(std::span<const Target> targets, std::span<const Hypothesis> tracks);
+  void count(double t_s, const Target& target, const Hypothesis& track, double distance_m);
+  void note_stay(double t_s, const Target& target, bool found);
+
+  ScoreRules rules_;
+  std::vector<Pair> pairs_;
+  std::map<std::uint32_t, std::uint32_t> track_of_;  ///< of each target, the track it was last found by
+  std::map<std::uint32_t, double> born_s_;           ///< of each track
+  std::map<std::uint32_t, Stay> stays_;
+  std::set<std::uint32_t> moved_, right_;  ///< tracks that moved; that were somebody's
+  std::size_t targets_ = 0, matches_ = 0, false_positives_ = 0, switches_ = 0;
+  std::size_t compared_ = 0, came_ = 0, soon_ = 0;
+  double distance_sum_m_ = 0.0, velocity_error2_sum_ = 0.0;
+};
+
+}  // namespace jaywalk::bench

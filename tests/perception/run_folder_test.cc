@@ -1,0 +1,89 @@
+#include "bench/tracking/run_folder.h"
+
+#include <unistd.h>
+
+#include <fstream>
+
+#include "bench/tracking/number_table.h"
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::bench;
+
+namespace {
+
+/// A folder that is gone with the test.
+class MadeRun {
+ public:
+  MadeRun() {
+    std::filesystem::create_directories(folder_);
+    write("tracks.csv",
+          "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m\n"
+          "1.000000,4,2.0,0.0,0.5,0.0,1,0.1\n1.000000,5,7.0,0.0,0.0,0.0,0,0.1\n1.066667,4,2.1,0.0,0.5,0.0,1,0.1\n");
+    write("robot.csv",
+          "t_s,x_m,y_m,heading_rad,est_x_m,est_y_m,est_heading_rad,reasons\n"
+          "0.980000,,,,1.0,0.0,0.0,\n1.000000,,,,1.0,1.0,1.5707963267948966,none\n");
+  }
+  ~MadeRun() { std::filesystem::remove_all(folder_); }
+  MadeRun(const MadeRun&) = delete;
+  MadeRun& operator=(const MadeRun&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& text) const {
+    std::ofstream(folder_ / name) << text;
+    return folder_ / name;
+  }
+  [[nodiscard]] const std::filesystem::path& folder() const { return folder_; }
+
+ private:
+  std::filesystem::path folder_ =
+      std::filesystem::temp_directory_path() / ("jaywalk-made-run-" + std::to_string(::getpid()));
+};
+
+}  // namespace
+
+TEST_CASE("tracks are those of the nearest scan and standing ones can be left out") {
+  const MadeRun made;
+  const RunFolder run(made.folder());
+  CHECK(run.tracks_at(1.001, false).size() == 2);
+  REQUIRE(run.tracks_at(1.001, true).size() == 1);
+  CHECK(run.tracks_at(1.06, true)[0].position_in_map.x == 2.1);
+  CHECK(run.tracks_at(1.2, false).empty());
+  CHECK(run.poses().empty());  // nobody knows the truth here
+}
+
+TEST_CASE("labels in the laser's frame are placed by pose and mount") {
+  const MadeRun made;
+  const RunFolder run(made.folder());
+  const auto file = made.write("people.csv", "t_bag,id,x,y,z\n1.0,3,2.0,0.5,0.0\n");
+  std::vector<Target> seen;
+  // Robot at (1, 1) facing +y, laser 0.5 m before it: (2, 0.5) in the laser is (2.5, 0.5) in the robot,
+  // and (1 - 0.5, 1 + 2.5) in the map.
+  labelled_frames(file, run, {0.5, 0.0, 0.0}, [&](double, const std::vector<Target>& targets) { seen = targets; });
+  REQUIRE(seen.size() == 1);
+  CHECK(seen[0].id == 3);
+  CHECK(seen[0].position_in_map.x == Approx(0.5));
+  CHECK(seen[0].position_in_map.y == Approx(3.5));
+}
+
+TEST_CASE("labels in the map stay where they are") {
+  const MadeRun made;
+  const RunFolder run(made.folder());
+  const auto file = made.write("people.csv", "t_s,id,x_m,y_m\n1.0,3,2.0,0.5\n1.0,4,3.0,0.5\n1.1,3,2.0,0.6\n");
+  std::size_t frames = 0, targets = 0;
+  labelled_frames(file, run, {9.0, 9.0, 9.0}, [&](double, const std::vector<Target>& t) {
+    frames += 1;
+    targets += t.size();
+  });
+  CHECK(frames == 2);
+  CHECK(targets == 3);
+}
+
+TEST_CASE("tables without the column or with a short row are refused") {
+  const MadeRun made;
+  CHECK_THROWS_AS(NumberTable(made.folder() / "none.csv"), StartupError);
+  CHECK_THROWS_AS(NumberTable(made.write("short.csv", "a,b,c\n1\n")), StartupError);
+  const NumberTable table(made.write("good.csv", "a,b\n1,word\n"));
+  CHECK(table.column("a")[0] == 1.0);
+  CHECK_THROWS_AS(table.column("c"), StartupError);
+}

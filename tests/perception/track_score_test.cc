@@ -1,0 +1,86 @@
+#include "bench/tracking/track_score.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::bench;
+
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+
+Target target(std::uint32_t id, double x, bool in_view = true) { return {id, {x, 0.0}, {kUnknown, kUnknown}, in_view}; }
+Hypothesis track(std::uint32_t id, double x, bool moving = true) { return {id, {x, 0.0}, {}, moving}; }
+
+struct Scored {
+  TrackScore score{ScoreRules{}};
+  void frame(double t_s, std::vector<Target> targets, std::vector<Hypothesis> tracks) {
+    score.add(t_s, targets, tracks);
+  }
+};
+
+}  // namespace
+
+TEST_CASE("of four targets one missed and one false positive leave half") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0), target(2, 5.0)}, {track(7, 0.1), track(8, 5.3)});
+  s.frame(0.1, {target(1, 0.0), target(2, 5.0)}, {track(7, 0.2), track(9, 8.0)});
+  CHECK(s.score.targets() == 4);
+  CHECK(s.score.misses() == 1);
+  CHECK(s.score.false_positives() == 1);
+  CHECK(s.score.switches() == 0);
+  CHECK(s.score.mota() == Approx(0.5));                      // 1 - (1 + 1 + 0) / 4
+  CHECK(s.score.motp_m() == Approx((0.1 + 0.3 + 0.2) / 3));  // matches only
+  CHECK(s.score.false_movers() == 1);                        // 9; 8 was somebody's once
+}
+
+TEST_CASE("a pair stays a pair though another track comes nearer and a new name is one switch") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0)}, {track(7, 0.1)});
+  s.frame(0.1, {target(1, 0.0)}, {track(7, 0.4), track(8, 0.0)});
+  CHECK(s.score.switches() == 0);
+  CHECK(s.score.false_positives() == 1);
+  s.frame(0.2, {target(1, 0.0)}, {track(8, 0.0)});
+  s.frame(0.3, {target(1, 0.0)}, {track(8, 0.0)});
+  CHECK(s.score.switches() == 1);
+}
+
+TEST_CASE("who is out of view is neither missed nor a false positive when found") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0, false)}, {track(7, 0.1)});
+  s.frame(0.1, {target(1, 0.0, false)}, {});
+  CHECK(s.score.targets() == 0);
+  CHECK(s.score.false_positives() == 0);
+  CHECK(s.score.false_movers() == 0);
+  CHECK(std::isnan(s.score.mota()));
+}
+
+TEST_CASE("a standing track may find a target and is no error elsewhere") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0)}, {track(7, 0.1, false), track(8, 9.0, false)});
+  CHECK(s.score.matches() == 1);
+  CHECK(s.score.false_positives() == 0);
+}
+
+TEST_CASE("velocities are compared from a second after a track's first frame") {
+  Scored s;
+  const Target walker{1, {0.0, 0.0}, {0.4, 0.0}, true};
+  const auto with = [](double vx, double vy) { return Hypothesis{7, {0.0, 0.0}, {vx, vy}, true}; };
+  s.frame(0.0, {walker}, {with(9.0, 9.0)});  // too young to count
+  s.frame(1.0, {walker}, {with(0.7, 0.4)});  // off by (0.3, 0.4): 0.5
+  s.frame(1.1, {walker}, {with(0.4, 0.1)});  // 0.1
+  CHECK(s.score.velocity_rmse_mps() == Approx(std::sqrt((0.25 + 0.01) / 2)));
+}
+
+TEST_CASE("coming into view is told soon once a stay and again after a second away") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0)}, {});
+  s.frame(0.5, {target(1, 0.0)}, {track(7, 0.0)});  // found after 0.5 s
+  s.frame(2.0, {target(1, 0.0)}, {});               // 1.5 s away: a new stay
+  s.frame(2.7, {target(1, 0.0)}, {});               // not found for 0.7 s: late
+  s.frame(2.8, {target(1, 0.0)}, {track(7, 0.0)});
+  CHECK(s.score.found_soon() == Approx(0.5));
+}
