@@ -1,0 +1,76 @@
+#include "drivers/canopen/cia402.h"
+
+#include <array>
+
+namespace jaywalk::canopen {
+
+namespace {
+
+constexpr std::uint16_t kDisableVoltage = 0x0000, kQuickStop = 0x0002, kShutdown = 0x0006, kSwitchOn = 0x0007,
+                        kEnableOperation = 0x000F, kFaultReset = 0x0080;
+
+struct Pattern {
+  std::uint16_t mask;
+  std::uint16_t value;
+  DriveState state;
+};
+
+// Bits 0 to 3 and 6 always count; bit 5 (0: quick stop) only where the standard's table gives it.
+constexpr std::array kPatterns{
+    Pattern{0x4F, 0x00, DriveState::kNotReady},
+    Pattern{0x4F, 0x40, DriveState::kSwitchOnDisabled},
+    Pattern{0x6F, 0x21, DriveState::kReadyToSwitchOn},
+    Pattern{0x6F, 0x23, DriveState::kSwitchedOn},
+    Pattern{0x6F, 0x27, DriveState::kOperationEnabled},
+    Pattern{0x6F, 0x07, DriveState::kQuickStopActive},
+    Pattern{0x4F, 0x0F, DriveState::kFaultReactionActive},
+    Pattern{0x4F, 0x08, DriveState::kFault},
+};
+
+std::uint16_t step_to_enabled(DriveState state) noexcept {
+  switch (state) {
+    case DriveState::kSwitchOnDisabled:
+      return kShutdown;
+    case DriveState::kReadyToSwitchOn:
+      return kSwitchOn;
+    case DriveState::kSwitchedOn:
+    case DriveState::kOperationEnabled:
+      return kEnableOperation;
+    default:
+      return kDisableVoltage;
+  }
+}
+
+}  // namespace
+
+DriveState state_of(std::uint16_t statusword) noexcept {
+  for (const Pattern& pattern : kPatterns) {
+    if ((statusword & pattern.mask) == pattern.value) return pattern.state;
+  }
+  return DriveState::kUnknown;
+}
+
+std::string_view name(DriveState state) noexcept {
+  constexpr std::array<std::string_view, 9> kNames{
+      "not ready to switch on", "switch on disabled", "ready to switch on",    "switched on",
+      "operation enabled",      "quick stop active",  "fault reaction active", "fault",
+      "unknown state"};
+  const auto index = static_cast<std::size_t>(state);
+  return index < kNames.size() ? kNames[index] : kNames.back();
+}
+
+std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_fault) noexcept {
+  if (state == DriveState::kFault) return reset_fault ? kFaultReset : kDisableVoltage;
+  switch (goal) {
+    case DriveGoal::kEnabled:
+      return step_to_enabled(state);
+    case DriveGoal::kQuickStop:
+      return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive ? kQuickStop
+                                                                                             : kDisableVoltage;
+    case DriveGoal::kOff:
+      break;
+  }
+  return kDisableVoltage;
+}
+
+}  // namespace jaywalk::canopen

@@ -1,0 +1,185 @@
+#include "drivers/canopen/sdo_client.h"
+
+#include <algorithm>
+
+#include "drivers/canopen/sdo_abort.h"
+
+namespace jaywalk::canopen {
+
+namespace {
+
+constexpr std::uint32_t kRequestBase = 0x600, kAnswerBase = 0x580;
+constexpr std::size_t kExpedited = 4, kSegment = 7;
+
+// The command byte: a specifier in bits 7 to 5, and beside it what the transfer's step needs (CiA 301).
+constexpr std::uint8_t kAbort = 0x80, kReadRequest = 0x40, kReadSegmentRequest = 0x60, kWriteRequest = 0x20;
+constexpr std::uint8_t kExpeditedBit = 0x02, kSizeBit = 0x01, kToggleBit = 0x10, kLastBit = 0x01;
+constexpr std::uint8_t kReadAnswer = 2, kWriteAnswer = 3, kReadSegmentAnswer = 0, kWriteSegmentAnswer = 1;
+
+constexpr std::uint8_t specifier(const CanFrame& frame) { return static_cast<std::uint8_t>(frame.bytes[0] >> 5U); }
+constexpr bool has(const CanFrame& frame, std::uint8_t bit) { return (frame.bytes[0] & bit) != 0; }
+
+}  // namespace
+
+bool SdoClient::read(ObjectAddress address, Time now) noexcept {
+  if (status_ == SdoStatus::kBusy) return false;
+  size_ = 0;
+  start(Phase::kReadStart, address, now);
+  send_addressed(kReadRequest, 0);
+  return true;
+}
+
+bool SdoClient::write(ObjectAddress address, wire::Bytes value, Time now) noexcept {
+  if (status_ == SdoStatus::kBusy || value.empty() || value.size() > kMaxBytes) return false;
+  std::copy(value.begin(), value.end(), buffer_.begin());
+  size_ = value.size();
+  start(Phase::kWriteStart, address, now);
+  if (size_ > kExpedited) {
+    send_addressed(kWriteRequest | kSizeBit, static_cast<std::uint32_t>(size_));
+    return true;
+  }
+  std::array<std::uint8_t, kExpedited> padded{};
+  std::copy(value.begin(), value.end(), padded.begin());
+  const auto unused = static_cast<std::uint8_t>((kExpedited - size_) << 2U);
+  send_addressed(kWriteRequest | kExpeditedBit | kSizeBit | unused, wire::little_endian<std::uint32_t>(padded));
+  return true;
+}
+
+void SdoClient::start(Phase phase, ObjectAddress address, Time now) noexcept {
+  phase_ = phase;
+  status_ = SdoStatus::kBusy;
+  address_ = address;
+  heard_ = now;
+  abort_code_ = 0;
+  toggle_ = false;
+  has_announced_size_ = false;
+  sent_ = 0;
+}
+
+void SdoClient::poll(Time now) noexcept {
+  if (status_ == SdoStatus::kBusy && now - heard_ >= timeout_) abort_here(kAbortTimeout);
+}
+
+void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
+  if (status_ != SdoStatus::kBusy || frame.extended || frame.remote || frame.id != kAnswerBase + node_) return;
+  if (frame.size != 8) return abort_here(kAbortLength);
+  // What names another object belongs to a transfer that was given up before this one began.
+  const bool is_abort = frame.bytes[0] == kAbort;
+  const bool names_object = is_abort || phase_ == Phase::kReadStart || phase_ == Phase::kWriteStart;
+  if (names_object && !answers_address(frame)) return;
+  heard_ = now;
+  if (is_abort) {
+    return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(frame.payload().subspan(4)));
+  }
+  switch (phase_) {
+    case Phase::kReadStart:
+      return on_read_start(frame);
+    case Phase::kReadSegments:
+      return on_read_segment(frame);
+    case Phase::kWriteStart:
+      return on_write_start(frame);
+    case Phase::kWriteSegments:
+      return on_write_segment(frame);
+    case Phase::kNone:
+      return;
+  }
+}
+
+void SdoClient::on_read_start(const CanFrame& frame) noexcept {
+  if (specifier(frame) != kReadAnswer) return abort_here(kAbortUnknownCommand);
+  const wire::Bytes body = frame.payload().subspan(4);
+  if (has(frame, kExpeditedBit)) {
+    const std::size_t unused = has(frame, kSizeBit) ? (frame.bytes[0] >> 2U) & 3U : 0U;
+    if (append(body.first(kExpedited - unused))) finish(SdoStatus::kDone);
+    return;
+  }
+  has_announced_size_ = has(frame, kSizeBit);
+  announced_size_ = wire::little_endian<std::uint32_t>(body);
+  if (has_announced_size_ && announced_size_ > kMaxBytes) return abort_here(kAbortNoMemory);
+  phase_ = Phase::kReadSegments;
+  ask_segment();
+}
+
+void SdoClient::ask_segment() noexcept {
+  send({static_cast<std::uint8_t>(kReadSegmentRequest | (toggle_ ? kToggleBit : 0))});
+}
+
+void SdoClient::on_read_segment(const CanFrame& frame) noexcept {
+  if (specifier(frame) != kReadSegmentAnswer) return abort_here(kAbortUnknownCommand);
+  if (has(frame, kToggleBit) != toggle_) return abort_here(kAbortToggle);
+  const std::size_t unused = (frame.bytes[0] >> 1U) & 7U;
+  if (!append(frame.payload().subspan(1, kSegment - unused))) return;
+  toggle_ = !toggle_;
+  if (!has(frame, kLastBit)) return ask_segment();
+  if (has_announced_size_ && size_ != announced_size_) return abort_here(kAbortLength);
+  finish(SdoStatus::kDone);
+}
+
+void SdoClient::on_write_start(const CanFrame& frame) noexcept {
+  if (specifier(frame) != kWriteAnswer) return abort_here(kAbortUnknownCommand);
+  if (size_ <= kExpedited) return finish(SdoStatus::kDone);
+  phase_ = Phase::kWriteSegments;
+  send_segment();
+}
+
+void SdoClient::send_segment() noexcept {
+  const std::size_t count = std::min(kSegment, size_ - sent_);
+  std::array<std::uint8_t, 8> bytes{};
+  std::copy_n(buffer_.begin() + static_cast<std::ptrdiff_t>(sent_), count, bytes.begin() + 1);
+  sent_ += count;
+  bytes[0] = static_cast<std::uint8_t>((toggle_ ? kToggleBit : 0U) | ((kSegment - count) << 1U) |
+                                       (sent_ == size_ ? kLastBit : 0U));
+  send(bytes);
+}
+
+void SdoClient::on_write_segment(const CanFrame& frame) noexcept {
+  if (specifier(frame) != kWriteSegmentAnswer) return abort_here(kAbortUnknownCommand);
+  if (has(frame, kToggleBit) != toggle_) return abort_here(kAbortToggle);
+  toggle_ = !toggle_;
+  if (sent_ == size_) return finish(SdoStatus::kDone);
+  send_segment();
+}
+
+bool SdoClient::answers_address(const CanFrame& frame) const noexcept {
+  return wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == address_.index &&
+         frame.bytes[3] == address_.sub;
+}
+
+bool SdoClient::append(wire::Bytes bytes) noexcept {
+  if (bytes.size() > kMaxBytes - size_) {
+    abort_here(kAbortNoMemory);
+    return false;
+  }
+  std::copy(bytes.begin(), bytes.end(), buffer_.begin() + static_cast<std::ptrdiff_t>(size_));
+  size_ += bytes.size();
+  return true;
+}
+
+void SdoClient::send_addressed(std::uint8_t command, std::uint32_t word) noexcept {
+  std::array<std::uint8_t, 8> bytes{command};
+  wire::put_little_endian(address_.index, std::span(bytes).subspan(1));
+  bytes[3] = address_.sub;
+  wire::put_little_endian(word, std::span(bytes).subspan(4));
+  send(bytes);
+}
+
+void SdoClient::send(const std::array<std::uint8_t, 8>& bytes) noexcept {
+  CanFrame frame;
+  frame.id = kRequestBase + node_;
+  frame.size = 8;
+  frame.bytes = bytes;
+  if (bus_.send(frame) != SendResult::kQueued) finish(SdoStatus::kNotSent);
+}
+
+void SdoClient::abort_here(std::uint32_t code) noexcept {
+  send_addressed(kAbort, code);
+  finish(SdoStatus::kAbortedHere, code);
+}
+
+void SdoClient::finish(SdoStatus status, std::uint32_t code) noexcept {
+  status_ = status;
+  phase_ = Phase::kNone;
+  abort_code_ = code;
+}
+
+}  // namespace jaywalk::canopen
