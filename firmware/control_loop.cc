@@ -79,7 +79,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
           .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
-          .moving = tracker_.moving(),
+          .tracks = tracker_.tracks(),
           .permitted_before = driven_};
 }
 

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "firmware/commands/loop_runner.h"
+#include "firmware/commands/mount_check.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
@@ -63,10 +64,19 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
   RunPicture picture;
+  MountCheck mount;
   while (!log.ended()) {
-    runner.step();
+    mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr);
     picture.consider(runner);
+  }
+  if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
+    const Pose2 given = setup.model.laser.robot_from_laser;
+    std::fprintf(
+        stderr,
+        "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
+        "%.2f,%.2f,%.2f, and on until this line is gone\n",
+        given.x, given.y, wrap_angle(given.heading + *yaw));
   }
   const std::string name = options.logs[0].filename().string();
   runner.finish({.outcome = "replayed", .success = true, .scenario = name});

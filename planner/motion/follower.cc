@@ -68,7 +68,7 @@ double Follower::speed_for(const FollowerInput& input, double curvature_per_m) c
   // v^2 = 2 a d with half the comfortable braking: the other half is the jerk's share.
   const double arrival_speed = std::sqrt(config_.limits.max_accel_mps2 * distance(robot, input.goal_in_map));
   const double among_movers =
-      choose_speed(input.path, robot, input.permitted_before.v_mps, input.moving, speed_choice_);
+      choose_speed(input.path, robot, input.permitted_before.v_mps, input.tracks, speed_choice_);
   return std::min({config_.limits.max_speed_mps, curve_speed, arrival_speed, among_movers});
 }
 

@@ -24,7 +24,7 @@ struct FollowerInput {
   Pose2 map_from_robot;
   Vec2 goal_in_map;
   bool has_goal = false;
-  std::span<const Track> moving;
+  std::span<const Track> tracks;       ///< all of them: see choose_speed
   Twist2 permitted_before;  ///< what the supervisor made of the last wish
 };
 

@@ -37,8 +37,16 @@ class PathWalker {
   Vec2 position_;
 };
 
-bool meets_anyone(Vec2 robot, double after_s, std::span<const Track> moving, const SpeedChoiceConfig& config) {
-  for (const Track& track : moving) {
+/// Whether it walks, or may well: faster than walking pace's tenth and than twice what its speed is uncertain by. The
+/// tracker is slow to call a thing moving, since what it calls so changes the plan; here a false alarm costs a little speed.
+bool may_walk(const Track& track) {
+  const double speed = norm(track.velocity_in_map);
+  return track.moving || (speed > 0.15 && speed > 2.0 * std::sqrt(track.covariance.vv));
+}
+
+bool meets_anyone(Vec2 robot, double after_s, std::span<const Track> tracks, const SpeedChoiceConfig& config) {
+  for (const Track& track : tracks) {
+    if (!may_walk(track)) continue;
     const Vec2 there = track.position_in_map + track.velocity_in_map * after_s;
     if (in_conflict(robot, there, track.velocity_in_map, track.radius_m, config.spread_mps * after_s, config)) {
       return true;
@@ -48,7 +56,7 @@ bool meets_anyone(Vec2 robot, double after_s, std::span<const Track> moving, con
 }
 
 /// Seconds until the first conflict when speeding up or slowing down to `speed`; the horizon when there is none.
-double free_time(const Path& path, Vec2 robot, double speed_now, double speed, std::span<const Track> moving,
+double free_time(const Path& path, Vec2 robot, double speed_now, double speed, std::span<const Track> tracks,
                  const SpeedChoiceConfig& config) {
   PathWalker walker(path, robot);
   double v = speed_now;
@@ -56,7 +64,7 @@ double free_time(const Path& path, Vec2 robot, double speed_now, double speed, s
   for (int k = 1; k <= steps; ++k) {
     const double t = k * kStep_s;
     v += std::clamp(speed - v, -config.max_accel_mps2 * kStep_s, config.max_accel_mps2 * kStep_s);
-    if (meets_anyone(walker.advance(v * kStep_s), t, moving, config)) return t;
+    if (meets_anyone(walker.advance(v * kStep_s), t, tracks, config)) return t;
   }
   return config.horizon_s;
 }
@@ -78,14 +86,14 @@ bool in_conflict(Vec2 robot, Vec2 mover, Vec2 mover_velocity, double mover_radiu
   return (aside - ahead) * 0.70710678118654752 < config.robot_radius_m + spread_m;
 }
 
-double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps, std::span<const Track> moving,
+double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps, std::span<const Track> tracks,
                     const SpeedChoiceConfig& config) noexcept {
   if (path.empty()) return 0.0;
   constexpr std::array<double, 5> kShares{1.0, 0.75, 0.5, 0.25, 0.0};
   double best_speed = config.max_speed_mps, best_time = -1.0;
   for (const double share : kShares) {
     const double speed = share * config.max_speed_mps;
-    const double time = free_time(path, robot_in_map, speed_now_mps, speed, moving, config);
+    const double time = free_time(path, robot_in_map, speed_now_mps, speed, tracks, config);
     if (time > best_time) best_time = time, best_speed = speed;
   }
   return best_speed;

@@ -13,7 +13,7 @@ struct SpeedChoiceConfig {
   double max_speed_mps = 0.6;
   double max_accel_mps2 = 0.5;
   double body_margin_m = 0.15;  ///< between the bodies
-  double zone_ahead_m = 0.6;    ///< a walker wants this much free ahead of its edge, within +-45 degrees
+  double zone_ahead_m = 0.8;    ///< a walker wants this much free ahead of its edge, within +-45 degrees
   double spread_mps = 0.05;     ///< what a prediction may be off, growing with time
   double horizon_s = 4.0;       ///< how far ahead conflicts count
 };
@@ -22,7 +22,7 @@ struct SpeedChoiceConfig {
 /// for longest; the faster of equals. Tries 0, 1/4, 1/2, 3/4 and all of the maximum against constant-velocity
 /// predictions. An empty path gives 0. Source: our own rule; docs/algorithm.md section "speed".
 [[nodiscard]] double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps,
-                                  std::span<const Track> moving, const SpeedChoiceConfig& config) noexcept;
+                                  std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;
 
 /// Whether a robot there would touch the mover or stand in the way that it is about to go.
 [[nodiscard]] bool in_conflict(Vec2 robot, Vec2 mover, Vec2 mover_velocity, double mover_radius_m, double spread_m,

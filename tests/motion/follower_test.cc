@@ -28,7 +28,7 @@ Twist2 settled(FollowerConfig config, const Path& path, const Pose2& pose, Vec2 
                             .map_from_robot = pose,
                             .goal_in_map = goal,
                             .has_goal = true,
-                            .moving = {},
+                            .tracks = {},
                             .permitted_before = twist});
   }
   return twist;
