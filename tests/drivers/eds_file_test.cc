@@ -2,15 +2,14 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <optional>
 #include <string>
 
 #include "drivers/canopen/cia402.h"
 #include "hal/types/errors.h"
+#include "tests/drivers/data_files.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/catch.h"
 
@@ -45,11 +44,9 @@ std::string refusal_of(const std::filesystem::path& path) {
 }
 
 std::optional<EdsFile> makers(const char* name) {
-  const char* const from_user = std::getenv("JAYWALK_DATA");
-  const auto path = std::filesystem::path(from_user != nullptr ? from_user : JAYWALK_DATA_DEFAULT) / "canopen" / name;
-  if (std::filesystem::exists(path)) return EdsFile(path);
-  std::cout << "skipped: no data (" << path.string() << ")\n";
-  return std::nullopt;
+  const auto path = tests::data_file(std::filesystem::path("canopen") / name);
+  if (path.empty()) return std::nullopt;
+  return EdsFile(path);
 }
 
 std::string indices(const std::vector<NeededObject>& objects) {

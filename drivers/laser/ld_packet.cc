@@ -1,0 +1,50 @@
+#include "drivers/laser/ld_packet.h"
+
+namespace jaywalk::ldrobot {
+
+namespace {
+
+constexpr std::uint8_t kHeader = 0x54, kTwelvePoints = 0x2C, kPolynomial = 0x4D;
+constexpr std::uint16_t kTurnCdeg = 36000;
+
+}  // namespace
+
+std::uint8_t crc8(wire::Bytes bytes) noexcept {
+  unsigned crc = 0;
+  for (const std::uint8_t byte : bytes) {
+    crc ^= byte;
+    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1U) ^ ((crc & 0x80U) != 0 ? kPolynomial : 0U)) & 0xFFU;
+  }
+  return static_cast<std::uint8_t>(crc);
+}
+
+Decoding decode_packet(wire::Bytes bytes, Packet& packet) noexcept {
+  if (bytes.size() != kPacketBytes) return Decoding::kTruncated;
+  if (bytes[0] != kHeader || bytes[1] != kTwelvePoints) return Decoding::kOtherMessage;
+  if (crc8(bytes.first(kPacketBytes - 1)) != bytes.back()) return Decoding::kChecksum;
+  wire::ByteReader reader(bytes.subspan(2));
+  packet.speed_degps = reader.little<std::uint16_t>();
+  packet.first_angle_cdeg = reader.little<std::uint16_t>();
+  for (Point& point : packet.points) {
+    point.range_mm = reader.little<std::uint16_t>();
+    point.intensity = reader.little<std::uint8_t>();
+  }
+  packet.last_angle_cdeg = reader.little<std::uint16_t>();
+  packet.time_ms = reader.little<std::uint16_t>();
+  const bool in_turn = packet.first_angle_cdeg < kTurnCdeg && packet.last_angle_cdeg < kTurnCdeg;
+  return in_turn ? Decoding::kScan : Decoding::kBadField;
+}
+
+std::optional<Packet> PacketStream::next() noexcept {
+  for (;;) {
+    const wire::Bytes waiting = queue_.waiting();
+    if (waiting.size() < kPacketBytes) return std::nullopt;
+    Packet packet;
+    const bool found = decode_packet(waiting.first(kPacketBytes), packet) == Decoding::kScan;
+    queue_.drop(found ? kPacketBytes : 1);
+    if (found) return packet;
+    ++skipped_;
+  }
+}
+
+}  // namespace jaywalk::ldrobot

@@ -1,0 +1,162 @@
+#include "drivers/laser/scip.h"
+
+#include <algorithm>
+#include <charconv>
+
+#include "hal/types/trig.h"
+
+namespace jaywalk::scip {
+
+namespace {
+
+constexpr std::size_t kLongestData = 64;
+
+/// What was asked, as the answer's first line repeats it: "MD" first step, last step, steps to a beam.
+struct Question {
+  std::uint32_t first_step = 0;
+  std::uint32_t last_step = 0;
+  std::uint32_t cluster = 1;
+  std::size_t characters = 3;  ///< to a distance
+};
+
+/// Takes the next line off `rest`.
+std::string_view take_line(std::string_view& rest) noexcept {
+  const std::string_view line = rest.substr(0, rest.find('\n'));
+  rest.remove_prefix(std::min(line.size() + 1, rest.size()));
+  return line;
+}
+
+std::optional<std::uint32_t> decimal(std::string_view digits) noexcept {
+  std::uint32_t value = 0;
+  const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value);
+  if (digits.empty() || parsed.ec != std::errc{} || parsed.ptr != digits.data() + digits.size()) return std::nullopt;
+  return value;
+}
+
+bool is_scan_command(std::string_view echo) noexcept {
+  const std::string_view command = echo.substr(0, 2);
+  return command == "MD" || command == "MS" || command == "GD" || command == "GS";
+}
+
+std::optional<Question> parse_question(std::string_view echo, const ScannerModel& model) noexcept {
+  if (echo.size() < 12) return std::nullopt;
+  const auto first = decimal(echo.substr(2, 4));
+  const auto last = decimal(echo.substr(6, 4));
+  const auto cluster = decimal(echo.substr(10, 2));
+  if (!first || !last || !cluster || *last < *first || *last > model.last_step) return std::nullopt;
+  return Question{*first, *last, std::max(*cluster, 1U), echo[1] == 'D' ? std::size_t{3} : std::size_t{2}};
+}
+
+/// The line without its checksum; nothing where that is wrong.
+std::optional<std::string_view> checked(std::string_view line) noexcept {
+  if (line.size() < 2 || checksum(line.substr(0, line.size() - 1)) != line.back()) return std::nullopt;
+  return line.substr(0, line.size() - 1);
+}
+
+/// Gathers the characters of numbers that may begin on one line and end on the next.
+class DistanceReader {
+ public:
+  DistanceReader(std::size_t characters, LaserScan& scan) noexcept : characters_(characters), scan_(scan) {}
+
+  Decoding read(std::string_view characters) noexcept {
+    for (const char c : characters) {
+      const auto bits = decode_number({&c, 1});
+      if (!bits) return Decoding::kBadField;
+      value_ = value_ << 6U | *bits;
+      if (++gathered_ < characters_) continue;
+      if (scan_.beam_count == kMaxBeams) return Decoding::kTooManyBeams;
+      scan_.range_m[scan_.beam_count++] = static_cast<float>(value_) * 0.001F;
+      value_ = 0;
+      gathered_ = 0;
+    }
+    return Decoding::kScan;
+  }
+  [[nodiscard]] bool is_between_numbers() const noexcept { return gathered_ == 0; }
+
+ private:
+  std::size_t characters_;
+  LaserScan& scan_;
+  std::uint32_t value_ = 0;
+  std::size_t gathered_ = 0;
+};
+
+Decoding read_distances(std::string_view rest, const Question& question, LaserScan& scan) noexcept {
+  scan.beam_count = 0;
+  DistanceReader reader(question.characters, scan);
+  while (!rest.empty()) {
+    const auto line = checked(take_line(rest));
+    if (!line) return Decoding::kChecksum;
+    if (line->size() > kLongestData) return Decoding::kBadField;
+    const Decoding decoding = reader.read(*line);
+    if (decoding != Decoding::kScan) return decoding;
+  }
+  const std::uint32_t expected = (question.last_step - question.first_step) / question.cluster + 1;
+  return reader.is_between_numbers() && scan.beam_count == expected ? Decoding::kScan : Decoding::kTruncated;
+}
+
+void place(const Question& question, const ScannerModel& model, Time arrival, LaserScan& scan) noexcept {
+  const double step_rad = 2.0 * kPi / static_cast<double>(model.steps_per_turn);
+  const double ahead = static_cast<double>(question.first_step) - static_cast<double>(model.front_step);
+  const double swept = static_cast<double>(question.last_step - question.first_step);
+  scan.first_angle_rad = static_cast<float>(ahead * step_rad);
+  scan.angle_step_rad = static_cast<float>(step_rad * static_cast<double>(question.cluster));
+  scan.period = model.period;
+  scan.sweep = duration_from_seconds(to_seconds(model.period) * swept / static_cast<double>(model.steps_per_turn));
+  scan.stamp = arrival - scan.sweep;
+  scan.range_min_m = model.range_min_m;
+  scan.range_max_m = model.range_max_m;
+}
+
+}  // namespace
+
+char checksum(std::string_view line) noexcept {
+  unsigned sum = 0;
+  for (const char c : line) sum += static_cast<unsigned char>(c);
+  return static_cast<char>((sum & 0x3FU) + 0x30U);
+}
+
+std::optional<std::uint32_t> decode_number(std::string_view characters) noexcept {
+  if (characters.empty() || characters.size() > 5) return std::nullopt;
+  std::uint32_t value = 0;
+  for (const char c : characters) {
+    const auto code = static_cast<unsigned char>(c);
+    if (code < 0x30 || code > 0x6F) return std::nullopt;
+    value = value << 6U | (code - 0x30U);
+  }
+  return value;
+}
+
+std::optional<std::string_view> AnswerStream::next() noexcept {
+  queue_.drop(handed_out_);
+  handed_out_ = 0;
+  const wire::Bytes waiting = queue_.waiting();
+  const std::string_view text(reinterpret_cast<const char*>(waiting.data()), waiting.size());
+  const std::size_t end = text.find("\n\n");
+  if (end == std::string_view::npos) return std::nullopt;
+  handed_out_ = end + 2;
+  return text.substr(0, end);
+}
+
+Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
+                     std::uint32_t& device_time_ms) noexcept {
+  const std::string_view echo = take_line(answer);
+  if (!is_scan_command(echo)) return Decoding::kOtherMessage;
+  const auto question = parse_question(echo, model);
+  if (!question) return Decoding::kBadField;
+  const auto status = checked(take_line(answer));
+  if (!status) return Decoding::kChecksum;
+  // "00" to M commands announces that scans will come; they, with status "99", and answers to G, "00", have more lines.
+  if (*status != "00" && *status != "99") return Decoding::kDeviceError;
+  if (answer.empty()) return *status == "00" ? Decoding::kOtherMessage : Decoding::kTruncated;
+  const auto stamp = checked(take_line(answer));
+  if (!stamp) return Decoding::kChecksum;
+  const auto device_time = decode_number(*stamp);
+  if (stamp->size() != 4 || !device_time) return Decoding::kBadField;
+  const Decoding decoding = read_distances(answer, *question, scan);
+  if (decoding != Decoding::kScan) return decoding;
+  device_time_ms = *device_time;
+  place(*question, model, arrival, scan);
+  return Decoding::kScan;
+}
+
+}  // namespace jaywalk::scip

@@ -1,0 +1,50 @@
+#pragma once
+// Hokuyo's SCIP 2.0: lines of text, six bits a character, a checksum a line.
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+
+#include "drivers/laser/decoding.h"
+#include "drivers/wire/byte_queue.h"
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk::scip {
+
+/// The character that ends a line: the sum's low six bits, moved up by 30h.
+[[nodiscard]] char checksum(std::string_view line) noexcept;
+/// The number that 1 to 5 characters hold, six bits each, highest first; nothing where one is outside 30h to 6Fh.
+[[nodiscard]] std::optional<std::uint32_t> decode_number(std::string_view characters) noexcept;
+
+/// Cuts a stream into answers: lines that end at an empty one.
+class AnswerStream {
+ public:
+  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  /// The next whole answer without its empty line; valid until the next call.
+  [[nodiscard]] std::optional<std::string_view> next() noexcept;
+  [[nodiscard]] std::uint64_t lost() const noexcept { return queue_.lost(); }
+
+ private:
+  wire::ByteQueue<16 * 1024> queue_;  // 2048 beams of three characters, and their lines, are 6.4 kB
+  std::size_t handed_out_ = 0;
+};
+
+/// What a scanner tells about itself in its answer to PP.
+struct ScannerModel {
+  std::uint32_t steps_per_turn = 1440;
+  std::uint32_t front_step = 540;  ///< the step that looks straight ahead
+  std::uint32_t last_step = 1080;
+  float range_min_m = 0.1F;
+  float range_max_m = 30.0F;
+  Duration period = std::chrono::milliseconds(25);
+};
+
+/// Decodes an answer to MD, MS, GD or GS (distances of the first echo) into `scan`, all but its sequence.
+///
+/// `arrival` is when its last byte came in; the scan's stamp is that less the sweep: how long the scanner and the
+/// line held it is not known here. Distances below range_min_m are the scanner's error codes: "no return".
+/// `device_time_ms` is the scanner's own clock, 24 bits.
+[[nodiscard]] Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
+                                   std::uint32_t& device_time_ms) noexcept;
+
+}  // namespace jaywalk::scip

@@ -1,0 +1,144 @@
+#include "drivers/laser/scip.h"
+
+#include <memory>
+#include <string>
+
+#include "tests/drivers/random_bytes.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::scip;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::string checked_line(const std::string& line) { return line + checksum(line) + "\n"; }
+
+wire::Bytes bytes_of(const std::string& text) {
+  return {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()};
+}
+
+/// Three beams, steps 0539 to 0541: 5432, 1 (an error code) and 4095 mm, in 3 characters each. An answer's last line
+/// end belongs to the empty line that ends it.
+std::string three_beams() {
+  std::string answer = "MD0539054101001\n" + checked_line("99") + checked_line("0001") + checked_line("1Dh0010oo");
+  answer.pop_back();
+  return answer;
+}
+
+}  // namespace
+
+TEST_CASE("numbers and checksums are those of Hokuyo's specification") {
+  CHECK(checksum("Hokuyo") == 'o');
+  CHECK(checksum("00") == 'P');
+  CHECK(checksum("99") == 'b');
+  CHECK(decode_number("CB") == 1234U);
+  CHECK(decode_number("1Dh") == 5432U);
+  CHECK(decode_number("m2@0") == 16000000U);
+  CHECK_FALSE(decode_number("1/h"));  // 2Fh is one below the first
+  CHECK_FALSE(decode_number("1ph"));  // 70h is one above the last
+  CHECK_FALSE(decode_number(""));
+}
+
+TEST_CASE("three distances of three characters decode") {
+  auto scan = std::make_unique<LaserScan>();
+  std::uint32_t device_time_ms = 0;
+  REQUIRE(decode_scan(three_beams(), {}, Time{1s}, *scan, device_time_ms) == Decoding::kScan);
+  CHECK(device_time_ms == 1);
+  REQUIRE(scan->beam_count == 3);
+  CHECK(scan->range_m[0] == Approx(5.432F));
+  CHECK_FALSE(scan->is_hit(1));
+  CHECK(scan->range_m[2] == Approx(4.095F));            // "0oo": 0, 63 * 64 + 63
+  CHECK(scan->first_angle_rad == Approx(-0.00436332));  // one step of 360/1440 degrees right of ahead
+  CHECK(scan->angle_step_rad == Approx(0.00436332));    // 0.25 degrees
+  CHECK(to_seconds(scan->sweep) == Approx(25e-3 * 2 / 1440));
+  CHECK(to_seconds(scan->stamp) == Approx(1.0 - 25e-3 * 2 / 1440));
+}
+
+TEST_CASE("two-character distances and clusters decode") {
+  auto scan = std::make_unique<LaserScan>();
+  std::uint32_t device_time_ms = 0;
+  // Steps 540 to 545 by 3: two beams.
+  const std::string answer = "GS0540054503\n" + checked_line("00") + checked_line("m2@0") + checked_line("CBCB");
+  REQUIRE(decode_scan(answer, {}, Time{1s}, *scan, device_time_ms) == Decoding::kScan);
+  CHECK(device_time_ms == 16000000);
+  REQUIRE(scan->beam_count == 2);
+  CHECK(scan->range_m[1] == Approx(1.234F));
+  CHECK(scan->angle_step_rad == Approx(3 * 0.00436332));
+}
+
+TEST_CASE("a number may begin on one line and end on the next") {
+  // 22 beams of three characters: 64 characters, and 2 more.
+  std::string characters;
+  for (int k = 0; k < 22; ++k) characters += "1Dh";
+  const std::string answer = "MD0000002101000\n" + checked_line("99") + checked_line("0000") +
+                             checked_line(characters.substr(0, 64)) + checked_line(characters.substr(64));
+  auto scan = std::make_unique<LaserScan>();
+  std::uint32_t device_time_ms = 0;
+  REQUIRE(decode_scan(answer, {}, Time{1s}, *scan, device_time_ms) == Decoding::kScan);
+  REQUIRE(scan->beam_count == 22);
+  CHECK(scan->range_m[21] == Approx(5.432F));
+}
+
+TEST_CASE("what is no scan is named") {
+  auto scan = std::make_unique<LaserScan>();
+  std::uint32_t t = 0;
+  const auto of = [&](const std::string& answer) { return decode_scan(answer, {}, Time{1s}, *scan, t); };
+  CHECK(of("BM\n" + checked_line("00")) == Decoding::kOtherMessage);
+  CHECK(of("MD0539054101001\n" + checked_line("00")) == Decoding::kOtherMessage);  // scans will follow
+  CHECK(of("MD0539054101001\n" + checked_line("0L")) == Decoding::kDeviceError);   // laser failure
+  CHECK(of("MD0541053901001\n" + checked_line("99")) == Decoding::kBadField);
+  CHECK(of("MD0539054101001\n99c\n") == Decoding::kChecksum);
+  std::string flipped = three_beams();
+  flipped[flipped.find("1Dh") + 1] = 'E';
+  CHECK(of(flipped) == Decoding::kChecksum);
+  CHECK(of("MD0539054201001\n" + three_beams().substr(16)) == Decoding::kTruncated);  // four beams were asked for
+  CHECK(of("") == Decoding::kOtherMessage);
+}
+
+TEST_CASE("answers are cut out of a stream in pieces of any size without the heap") {
+  const std::string stream = three_beams() + "\n\nBM\n" + checked_line("00") + "\n" + three_beams() + "\n\n";
+  for (std::size_t piece = 1; piece <= stream.size(); ++piece) {
+    AnswerStream answers;
+    auto scan = std::make_unique<LaserScan>();
+    int scans = 0;
+    int others = 0;
+    const AllocationGuard guard;
+    for (std::size_t at = 0; at < stream.size(); at += piece) {
+      answers.append(bytes_of(stream).subspan(at, std::min(piece, stream.size() - at)));
+      std::uint32_t device_time_ms = 0;
+      while (const auto answer = answers.next()) {
+        const Decoding decoding = decode_scan(*answer, {}, Time{1s}, *scan, device_time_ms);
+        scans += decoding == Decoding::kScan ? 1 : 0;
+        others += decoding == Decoding::kOtherMessage ? 1 : 0;
+      }
+    }
+    const auto calls = guard.calls();
+    REQUIRE(scans == 2);
+    REQUIRE(others == 1);
+    REQUIRE(calls == 0);
+  }
+}
+
+TEST_CASE("any text makes a SCIP scan within its limits or a named refusal") {
+  const std::string good = three_beams();
+  tests::RandomBytes random(41);
+  auto scan = std::make_unique<LaserScan>();
+  auto answers = std::make_unique<AnswerStream>();
+  int scans = 0;
+  int refused = 0;
+  for (int k = 0; k < 40000; ++k) {
+    const auto bytes = random.damaged(bytes_of(good));
+    std::uint32_t device_time_ms = 0;
+    const std::string text(bytes.begin(), bytes.end());
+    const Decoding decoding = decode_scan(text, {}, Time{1s}, *scan, device_time_ms);
+    REQUIRE(name(decoding) != "unknown");
+    (decoding == Decoding::kScan ? scans : refused)++;
+    REQUIRE(scan->beam_count <= kMaxBeams);
+    answers->append(bytes);
+    while (answers->next()) ++refused;
+  }
+  CHECK(scans > 0);
+  CHECK(refused > 0);
+}
