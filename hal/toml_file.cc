@@ -80,10 +80,13 @@ TomlTable::TomlTable(const std::filesystem::path& file, const toml::value& table
 
 std::string TomlTable::title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
 
-void TomlTable::refuse(const std::string& key, const std::string& cause, const std::string& remedy) const {
+std::string TomlTable::place_of(const std::string& key) const {
   const toml::value* node = look_up(*table_, key);
-  const auto where = node != nullptr ? node->location() : table_->location();
-  throw StartupError(place(*file_, line_of(where)) + title(key) + " " + cause, remedy);
+  return place(*file_, line_of(node != nullptr ? node->location() : table_->location()));
+}
+
+void TomlTable::refuse(const std::string& key, const std::string& cause, const std::string& remedy) const {
+  throw StartupError(place_of(key) + title(key) + " " + cause, remedy);
 }
 
 const toml::value* TomlTable::find(const std::string& key) {

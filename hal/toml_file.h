@@ -42,7 +42,9 @@ class TomlTable {
   [[nodiscard]] std::filesystem::path existing_file(const std::string& key);
   /// Throws for the first key, in the file's order, that was not asked for.
   void finish() const;
-  /// Throws StartupError at the line of `key`, or of the table where the key is absent.
+  /// "FILE:LINE: " of `key`, or of the table where the key is absent: how a complaint about it begins.
+  [[nodiscard]] std::string place_of(const std::string& key) const;
+  /// Throws StartupError at that place.
   [[noreturn]] void refuse(const std::string& key, const std::string& cause, const std::string& remedy) const;
 
  private:

@@ -53,6 +53,7 @@ struct Scenario {
   std::filesystem::path map_file;
   Pose2 start;
   Vec2 goal;
+  std::string start_place, goal_place;  ///< "office.toml:12: ", for complaints; empty for a scenario from no file
   double goal_tolerance_m = 0.3;
   RobotModel model;  ///< with the scenario's own speed and laser already in it
   PoseSourceSpec pose_source;

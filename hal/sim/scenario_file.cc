@@ -52,6 +52,8 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.start = {start[0], start[1], wrap_angle(start[2])};
   const auto goal = table.numbers("goal", 2);
   scenario.goal = {goal[0], goal[1]};
+  scenario.start_place = table.place_of("start");
+  scenario.goal_place = table.place_of("goal");
   scenario.goal_tolerance_m = table.number("goal_tolerance_m", {0.01, 10.0}, scenario.goal_tolerance_m);
   scenario.model = read_model(table);
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));

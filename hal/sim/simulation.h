@@ -38,7 +38,7 @@ struct Truth {
 class Simulation {
  public:
   /// Builds the world and places the movers. Throws StartupError for a world that cannot be: an unreadable map,
-  /// a start or goal in a wall, no room for the movers.
+  /// a start or goal in a wall or far off the map, no room for the movers.
   Simulation(const Scenario& scenario, std::uint64_t seed);
   ~Simulation();
 

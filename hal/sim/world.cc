@@ -12,6 +12,12 @@ namespace {
 
 constexpr double kCausedSpeed = 0.05;  // m/s: a contact at more is the robot's doing
 constexpr double kApartAgain = 0.01;   // m: an episode of touching ends at this gap
+constexpr double kOpenGround = 50.0;   // m round the walls; what lies farther out is a slip of unit or origin
+
+bool off_the_map(const Box& walls, Vec2 p) {
+  const Vec2 past{std::max(walls.low.x - p.x, p.x - walls.high.x), std::max(walls.low.y - p.y, p.y - walls.high.y)};
+  return !(past.x <= kOpenGround && past.y <= kOpenGround);
+}
 
 }  // namespace
 
@@ -19,9 +25,9 @@ World::World(const Scenario& scenario, std::uint64_t seed)
     : faults_(scenario.faults),
       footprint_(scenario.model.footprint),
       walls_(load_wall_map(scenario.map_kind, scenario.map_file)),
-      grid_(walls_, footprint_.inscribed_radius_m(), scenario.start.position(), scenario.goal),
+      grid_(walls_, footprint_.inscribed_radius_m(), with_free_places(scenario).start.position(), scenario.goal),
       plant_(scenario.model, scenario.start, seed),
-      wanderers_(with_free_places(scenario), walls_, grid_, seed),
+      wanderers_(scenario, walls_, grid_, seed),
       recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())) {
   movers_.reserve(wanderers_.movers().size() + recorded_.capacity());
   bodies_.reserve(movers_.capacity());
@@ -32,13 +38,21 @@ World::World(const Scenario& scenario, std::uint64_t seed)
 }
 
 const Scenario& World::with_free_places(const Scenario& scenario) const {
-  const std::string place = scenario.map_file.string() + ":0: ";
+  const std::string of_map = " of " + scenario.map_file.string();
+  if (off_the_map(walls_.bounds(), scenario.start.position())) {
+    throw StartupError(scenario.start_place + "the robot's start lies more than 50 m outside the walls" + of_map,
+                       "move robot.start, in metres in the map's frame");
+  }
+  if (off_the_map(walls_.bounds(), scenario.goal)) {
+    throw StartupError(scenario.goal_place + "the goal lies more than 50 m outside the walls" + of_map,
+                       "move robot.goal, in metres in the map's frame");
+  }
   if (walls_.clearance(footprint_, scenario.start) <= 0.0) {
-    throw StartupError(place + "the robot's start lies in a wall", "move robot.start");
+    throw StartupError(scenario.start_place + "the robot's start lies in a wall" + of_map, "move robot.start");
   }
   const double radius = footprint_.inscribed_radius_m();
   if (walls_.distance(scenario.goal, radius) < radius) {
-    throw StartupError(place + "the goal lies in a wall or too near one", "move robot.goal");
+    throw StartupError(scenario.goal_place + "the goal lies in a wall or too near one" + of_map, "move robot.goal");
   }
   return scenario;
 }

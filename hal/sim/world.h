@@ -19,7 +19,8 @@ inline constexpr Duration kMoverStep = kWorldStep * kStepsAMove;
 
 class World {
  public:
-  /// Throws StartupError for an unreadable map or recording, a start or goal in a wall, no room for the movers.
+  /// Throws StartupError for an unreadable map or recording, a start or goal in a wall or far off the map, no room for
+  /// the movers.
   World(const Scenario& scenario, std::uint64_t seed);
 
   /// Moves on by kWorldStep.
@@ -41,7 +42,7 @@ class World {
   void move_movers() noexcept;
   void judge_gaps() noexcept;
   void touch(double robot_speed_mps) noexcept;
-  /// The scenario itself, once its start and goal are known to be free.
+  /// The scenario itself, once its start and goal are known to be free and on the map.
   [[nodiscard]] const Scenario& with_free_places(const Scenario& scenario) const;
 
   std::vector<FaultSpec> faults_;

@@ -43,6 +43,8 @@ TEST_CASE("a scenario says everything that it says") {
   CHECK(s.map_kind == MapKind::kAria);
   CHECK(s.start == Pose2{5, 5, 0});
   CHECK(s.goal == Vec2{8, 8});
+  CHECK(says(s.start_place, "s.toml:7: "));  // three lines, two of [map], [robot], start
+  CHECK(says(s.goal_place, "s.toml:8: "));
   CHECK(s.goal_tolerance_m == 0.5);
   CHECK(s.model.name == "wheelchair");
   CHECK(s.model.limits.max_speed_mps == 1.1);

@@ -268,12 +268,19 @@ TEST_CASE("faults last as long as they are told") {
 
 TEST_CASE("worlds that cannot be are refused") {
   const Scratch scratch;
-  Scenario in_wall = in_room(scratch);
-  in_wall.start.x = 9.9;
-  CHECK(says(refusal([&] { const Simulation sim(in_wall, 1); }), "room.map:0: the robot's start lies in a wall"));
-  Scenario bad_goal = in_room(scratch);
-  bad_goal.goal = {10.0, 5.0};
-  CHECK(says(refusal([&] { const Simulation sim(bad_goal, 1); }), "room.map:0: the goal lies in a wall"));
+  const auto complaint = [&](Pose2 start, Vec2 goal) {  // the room is 10 m x 10 m
+    Scenario scenario = in_room(scratch);
+    scenario.start = start;
+    scenario.start_place = "s.toml:4: ";
+    scenario.goal = goal;
+    scenario.goal_place = "s.toml:5: ";
+    return refusal([&] { const Simulation sim(scenario, 1); });
+  };
+  CHECK(says(complaint({9.9, 5.0, 0.0}, {8.0, 8.0}), "s.toml:4: the robot's start lies in a wall of "));
+  CHECK(says(complaint({5.0, 5.0, 0.0}, {10.0, 5.0}), "s.toml:5: the goal lies in a wall"));
+  CHECK(says(complaint({60.1, 5.0, 0.0}, {8.0, 8.0}), "s.toml:4: the robot's start lies more than 50 m outside"));
+  CHECK(says(complaint({5.0, 5.0, 0.0}, {8.0, -1e300}), "s.toml:5: the goal lies more than 50 m outside"));
+  CHECK(complaint({5.0, 5.0, 0.0}, {8.0, -49.9}).empty());
 }
 
 TEST_CASE("a thousand busy ticks ask nothing of the heap") {
