@@ -26,6 +26,7 @@ __global__ void visit_cells(std::int32_t w, std::int32_t h, Stage stage) {
 class CudaExecutor {
  public:
   static constexpr bool kQueue = false;
+  static constexpr std::int32_t kColumns = 1;
 
   /// Throws std::runtime_error with the driver's own words.
   CudaExecutor() { must(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }

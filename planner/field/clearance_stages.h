@@ -5,25 +5,29 @@
 
 namespace jaywalk::field {
 
-/// Rows from each cell of a column to the nearest occupied cell of that column.
-struct NearestInColumn {
+/// Rows from each cell of a strip of columns to the nearest occupied cell of its column. How many columns a visit
+/// takes is the executor's choice: one for a thread of many, enough to fill the vectors and lines of a processor.
+struct NearestInColumns {
   Grid grid;
+  std::int32_t columns;  ///< of a strip; divides the grid's side
   const std::uint8_t* occupants;
   std::uint8_t wanted;  ///< the occupants that count
   std::int32_t* rows_away;
 
-  JAYWALK_CELL void operator()(std::int32_t i) const {
-    const std::int32_t none = 2 * grid.side;
-    std::int32_t away = none;
-    for (std::int32_t j = 0; j < grid.side; ++j) {
-      away = (occupants[grid.at(i, j)] & wanted) != 0 ? 0 : (away < none ? away + 1 : none);
-      rows_away[grid.at(i, j)] = away;
+  JAYWALK_CELL void operator()(std::int32_t strip) const {
+    const std::int32_t none = 2 * grid.side, last = grid.side - 1;
+    for (std::int32_t j = 0; j <= last; ++j) {
+      for (std::int32_t c = grid.at(strip * columns, j), end = c + columns; c < end; ++c) {
+        const std::int32_t below = j > 0 ? rows_away[c - grid.side] : none;
+        const std::int32_t away = below < none ? below + 1 : none;
+        rows_away[c] = (occupants[c] & wanted) != 0 ? 0 : away;
+      }
     }
-    away = none;
-    for (std::int32_t j = grid.side - 1; j >= 0; --j) {
-      std::int32_t& here = rows_away[grid.at(i, j)];
-      away = here == 0 ? 0 : (away < none ? away + 1 : none);
-      if (away < here) here = away;
+    for (std::int32_t j = last - 1; j >= 0; --j) {
+      for (std::int32_t c = grid.at(strip * columns, j), end = c + columns; c < end; ++c) {
+        const std::int32_t here = rows_away[c], away = rows_away[c + grid.side] + 1;
+        rows_away[c] = away < here ? away : here;
+      }
     }
   }
 };

@@ -110,29 +110,32 @@ struct CorrectionByRows {
 
 /// Adds the blocks' corrections to one colour of cells, bilinear (9, 3, 3, 1)/16 among the blocks that are
 /// coupled to the cell's own. The blocks' arrays are by rows and may be read a row and a cell beyond either end.
+template <bool kFinest>
 struct ProlongToCell {
   std::int32_t block_side;
   const float *open_east, *open_north;
   const float* correction;
   Board board;  ///< the cells'
   std::int32_t colour;
-  bool finest;
   float* x;
 
   JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = board.row(colour, j) + h;
     const std::int32_t block = (j / 2) * block_side + h;
-    const bool is_east = Board::first_column(colour, j) != 0, is_north = (j & 1) != 0;
-    const std::int32_t beside = block + (is_east ? 1 : -1);
-    const std::int32_t step = is_north ? block_side : -block_side;
-    const float to_beside = open_east[is_east ? block : beside];
-    const float to_above = open_north[is_north ? block : block + step];
-    const float to_corner = to_beside * to_above * open_north[is_north ? beside : beside + step];
+    const std::int32_t east = Board::first_column(colour, j), north = j & 1;  // 1: the block's eastern, northern half
+    const std::int32_t beside = block + 2 * east - 1, step = (2 * north - 1) * block_side;
+    const std::int32_t face = (north - 1) * block_side;  // of a block, to its own northern face or the one below
+    const float to_beside = open_east[block + east - 1];
+    const float to_above = open_north[block + face];
+    const float to_corner = to_beside * to_above * open_north[beside + face];
     const float value = 9.0F * correction[block] + 3.0F * (to_beside * correction[beside]) +
                         (3.0F * (to_above * correction[block + step]) + to_corner * correction[beside + step]);
     const float mean = value / (9.0F + 3.0F * (to_beside + to_above) + to_corner);
-    const float moved = finest ? cell::corrected(x[c], mean) : x[c] + mean;
-    x[c] = moved;
+    if constexpr (kFinest) {
+      x[c] = cell::corrected(x[c], mean);
+    } else {
+      x[c] += mean;
+    }
   }
 };
 

@@ -4,7 +4,9 @@
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
 //   wait()                       returns when all that was asked for is done; false: it failed
-//   kQueue                       whether a serial queue beats sweeps here (start_field.h)
+//   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
+//                                (start_field.h), looking whether anything has changed (pass.h)
+//   kColumns                     columns that one visit should take where a stage goes down columns; divides 64
 //   name()                       for reports
 // Every stage gives the same bits in any visiting order, so all executors agree to the last bit.
 #include <cstddef>
@@ -19,12 +21,28 @@
 #define JAYWALK_INDEPENDENT_VISITS
 #endif
 
+#if defined(__x86_64__) && !defined(__CUDACC__)
+#define JAYWALK_EIGHT_WIDE [[gnu::target("avx2")]]
+#else
+#define JAYWALK_EIGHT_WIDE
+#endif
+
 namespace jaywalk::field {
+
+/// Whether this processor has the instructions of JAYWALK_EIGHT_WIDE.
+inline bool goes_eight_wide() {
+#if defined(__x86_64__) && !defined(__CUDACC__)
+  return __builtin_cpu_supports("avx2") != 0;
+#else
+  return false;
+#endif
+}
 
 /// Visits one after the other, on the caller's thread.
 class SerialExecutor {
  public:
   static constexpr bool kQueue = true;
+  static constexpr std::int32_t kColumns = 64;
 
   template <class T>
   T* take(std::size_t n) {
@@ -36,15 +54,13 @@ class SerialExecutor {
 
   template <class Stage>
   void for_each(std::int32_t n, Stage stage) noexcept {
-    JAYWALK_INDEPENDENT_VISITS
-    for (std::int32_t k = 0; k < n; ++k) stage(k);
+    wide_ ? visit_wide(n, stage) : visit(n, stage);
   }
 
   template <class Stage>
   void for_each_cell(std::int32_t w, std::int32_t h, Stage stage) noexcept {
     for (std::int32_t j = 0; j < h; ++j) {
-      JAYWALK_INDEPENDENT_VISITS
-      for (std::int32_t i = 0; i < w; ++i) stage(i, j);
+      wide_ ? visit_wide(w, stage, j) : visit(w, stage, j);
     }
   }
 
@@ -52,7 +68,22 @@ class SerialExecutor {
   [[nodiscard]] const char* name() const noexcept { return "cpu"; }
 
  private:
+  template <class Stage, class... Row>
+  static void visit(std::int32_t n, Stage stage, Row... row) noexcept {
+    JAYWALK_INDEPENDENT_VISITS
+    for (std::int32_t k = 0; k < n; ++k) stage(k, row...);
+  }
+
+  /// The same loop in instructions for eight cells at a time, which not every processor has. No fused ones
+  /// among them: the bits are the same.
+  template <class Stage, class... Row>
+  JAYWALK_EIGHT_WIDE static void visit_wide(std::int32_t n, Stage stage, Row... row) noexcept {
+    JAYWALK_INDEPENDENT_VISITS
+    for (std::int32_t k = 0; k < n; ++k) stage(k, row...);
+  }
+
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  bool wide_ = goes_eight_wide();
 };
 
 }  // namespace jaywalk::field

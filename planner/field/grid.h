@@ -17,4 +17,12 @@ struct Grid {
   }
 };
 
+/// An executor's memory for a grid's values by rows, with a spare row and a cell at either end: a stage may fetch
+/// what lies beyond the border before it decides not to use it.
+template <class T, class Executor>
+[[nodiscard]] T* take_rows(Executor& executor, std::int32_t side) {
+  const std::int32_t spare = side + 1;
+  return executor.template take<T>(static_cast<std::size_t>(Grid{side}.cells() + 2 * spare)) + spare;
+}
+
 }  // namespace jaywalk::field

@@ -23,10 +23,9 @@ class GridPlanner final : public Planner {
         pass_(*executor_, config.max_side_cells),
         flood_(Grid{config.max_side_cells}.cells()),
         window_{{0, 0}, config.side_cells, config.cell_m} {
-    const auto cells = static_cast<std::size_t>(Grid{config.max_side_cells}.cells());
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>();
-      answer->psi = executor_->template take<float>(cells);
+      answer->psi = take_rows<float>(*executor_, config.max_side_cells);
     }
   }
 

@@ -51,16 +51,9 @@ class Multigrid {
   float* take_board(std::int32_t side) {
     return executor_.template take<float>(static_cast<std::size_t>(Board{side}.size()));
   }
-  /// By rows, with a spare row and a cell at either end.
-  float* take_rows(std::int32_t side) {
-    const std::int32_t spare = side + 1;
-    const std::int32_t values = Grid{side}.cells() + 2 * spare;
-    return executor_.template take<float>(static_cast<std::size_t>(values)) + spare;
-  }
-
   Arrays take_level(std::int32_t side) {
     const auto board = [&] { return take_board(side); };
-    const auto rows = [&] { return take_rows(side); };
+    const auto rows = [&] { return take_rows<float>(executor_, side); };
     return {{board(), board(), board(), board()},
             board(),
             board(),
@@ -115,6 +108,13 @@ class Multigrid {
     }
   }
 
+  template <bool kFinest>
+  void prolong(Board board, Arrays& a, const Arrays& b) noexcept {
+    both(board, [&](std::int32_t colour) {
+      return ProlongToCell<kFinest>{board.side / 2, b.open_east, b.open_north, b.correction, board, colour, a.x};
+    });
+  }
+
   void cycle(Board board, std::size_t depth) noexcept {
     Arrays& a = arrays_[depth];
     if (is_coarsest(board)) {
@@ -130,9 +130,7 @@ class Multigrid {
     });
     cycle(blocks, depth + 1);
     executor_.for_each_cell(blocks.side, blocks.side, CorrectionByRows{blocks, b.x, b.correction});
-    both(board, [&](std::int32_t colour) {
-      return ProlongToCell{blocks.side, b.open_east, b.open_north, b.correction, board, colour, depth == 0, a.x};
-    });
+    depth == 0 ? prolong<true>(board, a, b) : prolong<false>(board, a, b);
     relax(board, a, kSweeps);
   }
 

@@ -1,6 +1,7 @@
 #pragma once
 // The order of stages, once for every executor. Between the calls the host chooses goal and start.
 #include <cstddef>
+#include <cstring>
 
 #include "planner/field/clearance_stages.h"
 #include "planner/field/mark_stages.h"
@@ -23,7 +24,7 @@ inline constexpr std::int32_t kColdCycles = 4, kWarmCycles = 1;
 
 /// What the stages read and write; all of it the executor's memory.
 struct FieldArrays {
-  std::uint8_t* occupants;
+  std::uint8_t *occupants, *cleared_occupants;
   float* warp;
   Mover* movers;
   Mark* marks;
@@ -49,11 +50,12 @@ template <class Executor>
 class Pass {
  public:
   Pass(Executor& executor, std::int32_t max_side)
-      : executor_(executor), solver_(executor, max_side), queue_(Executor::kQueue ? Grid{max_side}.cells() : 0) {
+      : executor_(executor), solver_(executor, max_side), queue_(Executor::kQueue ? max_side : 0) {
     const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
     const auto lines = static_cast<std::size_t>(max_side);
     const std::vector<std::uint16_t> table = rate_table(max_side);
-    take(a_.occupants, cells), take(a_.warp, cells), take(a_.movers, kMaxTracks), take(a_.marks, kMaxTracks);
+    take(a_.occupants, cells), take(a_.cleared_occupants, cells), take(a_.warp, cells), take(a_.movers, kMaxTracks),
+        take(a_.marks, kMaxTracks);
     take(a_.rows_away, cells), take(a_.envelope, cells), take(a_.stretch, cells), take(a_.clearance, cells);
     take(a_.start_psi, cells), take(a_.correction, cells);
     take(a_.table, table.size()), take(a_.rate, cells), take(a_.cost, cells), take(a_.changed, lines);
@@ -72,21 +74,26 @@ class Pass {
     return executor_.wait();
   }
 
-  /// Clearance from the occupants in `wanted`.
+  /// Clearance from the occupants in `wanted`. Where the host looks through memory quickly, the same occupants as the
+  /// last time keep their clearance, and the start field with it.
   bool clear(Grid grid, float inflation, std::uint8_t wanted) noexcept {
-    executor_.for_each(grid.side, NearestInColumn{grid, a_.occupants, wanted, a_.rows_away});
+    if (Executor::kQueue && is_cleared(grid, {grid.side, inflation, wanted})) return true;
+    started_ = kNowhere;
+    constexpr std::int32_t kColumns = Executor::kColumns;
+    executor_.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a_.occupants, wanted, a_.rows_away});
     executor_.for_each(grid.side, ClearanceOfRow{grid, a_.rows_away, inflation, a_.envelope, a_.stretch, a_.clearance});
     return executor_.wait();
   }
 
   /// The start field, in `cost` and `start_psi`.
   bool start(Grid grid, std::int32_t goal) noexcept {
+    if (Executor::kQueue && started_ == goal) return true;
+    started_ = goal;
     executor_.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a_.clearance, a_.table, a_.rate});
-    executor_.for_each(grid.cells(), FarFromGoal{goal, a_.cost});
     if constexpr (Executor::kQueue) {
       if (!executor_.wait()) return false;
       queue_.settle(grid, goal, a_.rate, a_.cost);
-    } else if (!sweep_until_settled(grid)) {
+    } else if (!sweep_until_settled(grid, goal)) {
       return false;
     }
     executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, a_.start_psi});
@@ -127,6 +134,25 @@ class Pass {
   }
 
  private:
+  static constexpr std::int32_t kNowhere = -1;
+
+  /// What `clearance` was computed for, beside the occupants.
+  struct Cleared {
+    std::int32_t side = 0;
+    float inflation = 0.0F;
+    std::uint8_t wanted = 0;
+    bool operator==(const Cleared&) const = default;
+  };
+
+  /// Whether clearance is that of these occupants already; from now on it is taken to be.
+  bool is_cleared(Grid grid, const Cleared& wanted) noexcept {
+    const auto bytes = static_cast<std::size_t>(grid.cells());
+    if (wanted == cleared_ && std::memcmp(a_.occupants, a_.cleared_occupants, bytes) == 0) return true;
+    std::memcpy(a_.cleared_occupants, a_.occupants, bytes);
+    cleared_ = wanted;
+    return false;
+  }
+
   template <class T>
   void take(T*& array, std::size_t n) {
     array = executor_.template take<T>(n);
@@ -149,7 +175,8 @@ class Pass {
     return quality;
   }
 
-  bool sweep_until_settled(Grid grid) noexcept {
+  bool sweep_until_settled(Grid grid, std::int32_t goal) noexcept {
+    executor_.for_each(grid.cells(), FarFromGoal{goal, a_.cost});
     for (bool settled = false; !settled;) {
       executor_.for_each(grid.side, Fill<std::uint32_t>{a_.changed, 0U});
       executor_.for_each(grid.side, SweepLine{grid.side, 1, grid.side, a_.rate, a_.cost, a_.changed});
@@ -165,6 +192,8 @@ class Pass {
   FieldArrays a_{};
   Multigrid<Executor> solver_;
   BucketQueue queue_;
+  Cleared cleared_;
+  std::int32_t started_ = kNowhere;  ///< goal of the start field that belongs to the clearance
 };
 
 }  // namespace jaywalk::field

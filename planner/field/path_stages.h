@@ -25,35 +25,31 @@ JAYWALK_CELL Step step_of(std::uint8_t index) {
 /// eight the raw path has half the stairs, and less is left to the band.
 struct IndexOfEachCell {
   Grid grid;
-  const float* psi;
+  const float* psi;  ///< may be read beyond the border (take_rows)
   std::uint8_t* index;
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const std::int32_t c = grid.at(i, j);
+    const std::int32_t c = grid.at(i, j), up = c + grid.side, down = c - grid.side;
+    const BesideCell beside = beside_cell(grid, psi, i, j);
+    const bool east = cell::is_joined(beside.east), west = cell::is_joined(beside.west);
+    const bool north = cell::is_joined(beside.north), south = cell::is_joined(beside.south);
     Lowest lowest{psi[c], kHere};
-    if (cell::is_joined(psi[c])) {
-      const float east = psi_at(grid, psi, i + 1, j), west = psi_at(grid, psi, i - 1, j);
-      const float north = psi_at(grid, psi, i, j + 1), south = psi_at(grid, psi, i, j - 1);
-      lowest.look(east, 0), lowest.look(west, 1), lowest.look(north, 2), lowest.look(south, 3);
-      const bool open_east = cell::is_joined(east), open_west = cell::is_joined(west);
-      if (cell::is_joined(north)) {
-        if (open_east) lowest.look(psi[c + grid.side + 1], 4);
-        if (open_west) lowest.look(psi[c + grid.side - 1], 5);
-      }
-      if (cell::is_joined(south)) {
-        if (open_east) lowest.look(psi[c - grid.side + 1], 6);
-        if (open_west) lowest.look(psi[c - grid.side - 1], 7);
-      }
-    }
-    index[c] = lowest.step;
+    lowest.look(beside.east, east, 0), lowest.look(beside.west, west, 1);
+    lowest.look(beside.north, north, 2), lowest.look(beside.south, south, 3);
+    lowest.look(psi[up + 1], north & east, 4), lowest.look(psi[up - 1], north & west, 5);
+    lowest.look(psi[down + 1], south & east, 6), lowest.look(psi[down - 1], south & west, 7);
+    index[c] = static_cast<std::uint8_t>(lowest.step);
   }
 
  private:
   struct Lowest {
     float psi;
-    std::uint8_t step;
-    JAYWALK_CELL void look(float there, std::uint8_t k) {
-      if (there < psi) psi = there, step = k;  // false for what is not free
+    std::int32_t step;
+    /// Nothing is lower than what is not free: NaN compares false.
+    JAYWALK_CELL void look(float there, bool open, std::int32_t k) {
+      const bool lower = open & (there < psi);
+      psi = lower ? there : psi;
+      step = lower ? k : step;
     }
   };
 };

@@ -13,9 +13,19 @@ struct Fill {
   JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
 };
 
-/// psi of a cell, or "not free" outside the grid.
-JAYWALK_CELL float psi_at(const Grid& grid, const float* psi, std::int32_t i, std::int32_t j) {
-  return grid.holds(i, j) ? psi[grid.at(i, j)] : cell::kNotFree;
+/// psi of a cell's four neighbours, infinity or NaN outside the grid.
+struct BesideCell {
+  float east, west, north, south;
+};
+
+JAYWALK_CELL float barred_if(bool outside) { return outside ? cell::kUnreachable : 0.0F; }
+
+/// Adds infinity where there is no neighbour instead of asking first, so that many cells go at once: psi may be read a
+/// row and a cell beyond either end.
+JAYWALK_CELL BesideCell beside_cell(const Grid& grid, const float* psi, std::int32_t i, std::int32_t j) {
+  const std::int32_t c = grid.at(i, j), last = grid.side - 1;
+  return {psi[c + 1] + barred_if(i == last), psi[c - 1] + barred_if(i == 0), psi[c + grid.side] + barred_if(j == last),
+          psi[c - grid.side] + barred_if(j == 0)};
 }
 
 /// psi from rows to a board, one colour.
@@ -173,19 +183,21 @@ struct AddCorrection {
 struct PitsOfRow {
   Grid grid;
   std::int32_t goal;
-  const float* psi;
+  const float* psi;  ///< may be read beyond the border (take_rows)
   std::int32_t* pits;
   std::int32_t* joined;  ///< joined cells of the row, the goal included
 
   JAYWALK_CELL void operator()(std::int32_t j) const {
     std::int32_t pit_count = 0, joined_count = 0;
     for (std::int32_t i = 0; i < grid.side; ++i) {
-      const float here = psi[grid.at(i, j)];
-      if (!cell::is_joined(here)) continue;
-      ++joined_count;
-      const bool has_lower = psi_at(grid, psi, i + 1, j) < here || psi_at(grid, psi, i - 1, j) < here ||
-                             psi_at(grid, psi, i, j + 1) < here || psi_at(grid, psi, i, j - 1) < here;
-      if (!has_lower && grid.at(i, j) != goal) ++pit_count;
+      const std::int32_t c = grid.at(i, j);
+      const float here = psi[c];
+      const BesideCell beside = beside_cell(grid, psi, i, j);
+      const bool has_lower =
+          (beside.east < here) | (beside.west < here) | (beside.north < here) | (beside.south < here);
+      const bool joins = cell::is_joined(here);
+      joined_count += joins ? 1 : 0;
+      pit_count += joins & !has_lower & (c != goal) ? 1 : 0;
     }
     pits[j] = pit_count;
     joined[j] = joined_count;

@@ -21,53 +21,64 @@ std::vector<std::uint16_t> rate_table(std::int32_t max_side) {
   return table;
 }
 
-BucketQueue::BucketQueue(std::int32_t max_cells)
-    : next_(static_cast<std::size_t>(max_cells)), previous_(static_cast<std::size_t>(max_cells), kNotQueued) {
+BucketQueue::BucketQueue(std::int32_t max_side) : nodes_(static_cast<std::size_t>((max_side + 2) * (max_side + 2))) {
   for (std::int32_t& head : heads_) head = kNobody;
 }
 
-void BucketQueue::insert(std::int32_t cell, std::uint32_t cost) noexcept {
-  std::int32_t& head = heads_[(cost >> kBucketShift) % kBuckets];
-  const auto c = static_cast<std::size_t>(cell);
-  next_[c] = head;
-  previous_[c] = kNobody;
-  if (head != kNobody) previous_[static_cast<std::size_t>(head)] = cell;
-  head = cell;
+void BucketQueue::load(Grid grid, const std::uint16_t* rate) noexcept {
+  const std::int32_t width = grid.side + 2;
+  for (std::int32_t n = 0; n < width * width; ++n) node(n) = {kNoWay, 0, kNobody, kNotQueued};
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    for (std::int32_t i = 0; i < grid.side; ++i) node((j + 1) * width + i + 1).rate = rate[grid.at(i, j)];
+  }
+}
+
+void BucketQueue::insert(std::int32_t n) noexcept {
+  std::int32_t& head = heads_[(node(n).cost >> kBucketShift) % kBuckets];
+  node(n).next = head;
+  node(n).previous = kNobody;
+  if (head != kNobody) node(head).previous = n;
+  head = n;
   ++queued_;
 }
 
-void BucketQueue::remove(std::int32_t cell, std::uint32_t cost) noexcept {
-  const auto c = static_cast<std::size_t>(cell);
-  if (previous_[c] == kNobody) {
-    heads_[(cost >> kBucketShift) % kBuckets] = next_[c];
+void BucketQueue::remove(std::int32_t n) noexcept {
+  Node& here = node(n);
+  if (here.previous == kNobody) {
+    heads_[(here.cost >> kBucketShift) % kBuckets] = here.next;
   } else {
-    next_[static_cast<std::size_t>(previous_[c])] = next_[c];
+    node(here.previous).next = here.next;
   }
-  if (next_[c] != kNobody) previous_[static_cast<std::size_t>(next_[c])] = previous_[c];
-  previous_[c] = kNotQueued;
+  if (here.next != kNobody) node(here.next).previous = here.previous;
+  here.previous = kNotQueued;
   --queued_;
 }
 
+void BucketQueue::relax(const Node& from, std::int32_t to) noexcept {
+  Node& there = node(to);
+  const std::uint32_t through = from.cost + from.rate + there.rate;
+  if (there.rate == 0 || through >= there.cost) return;
+  if (there.previous != kNotQueued) remove(to);
+  there.cost = through;
+  insert(to);
+}
+
 void BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept {
-  insert(goal, 0);
-  const auto relax = [&](std::int32_t from, std::int32_t to) {
-    if (rate[to] == 0) return;
-    const std::uint32_t through = cost[from] + rate[from] + rate[to];
-    if (through >= cost[to]) return;
-    if (previous_[static_cast<std::size_t>(to)] != kNotQueued) remove(to, cost[to]);
-    cost[to] = through;
-    insert(to, through);
-  };
+  const std::int32_t width = grid.side + 2;
+  load(grid, rate);
+  const std::int32_t first = (goal / grid.side + 1) * width + goal % grid.side + 1;
+  node(first).cost = 0;
+  insert(first);
   for (std::uint32_t bucket = 0; queued_ > 0; ++bucket) {
     while (heads_[bucket % kBuckets] != kNobody) {
-      const std::int32_t c = heads_[bucket % kBuckets];
-      remove(c, cost[c]);
-      const std::int32_t i = c % grid.side;
-      if (i > 0) relax(c, c - 1);
-      if (i < grid.side - 1) relax(c, c + 1);
-      if (c >= grid.side) relax(c, c - grid.side);
-      if (c < grid.cells() - grid.side) relax(c, c + grid.side);
+      const std::int32_t n = heads_[bucket % kBuckets];
+      remove(n);
+      const Node here = node(n);
+      for (const std::int32_t to : {n - 1, n + 1, n - width, n + width}) relax(here, to);
     }
+  }
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    for (std::int32_t i = 0; i < grid.side; ++i) cost[grid.at(i, j)] = node((j + 1) * width + i + 1).cost;
   }
 }
 

@@ -92,21 +92,30 @@ struct PsiOfCost {
 
 /// The same fixed point by a queue of buckets: what one thread does best. A cell is in one bucket at a
 /// time, so memory is two links a cell; costs within a bucket may be taken in any order, since a cell
-/// that improves is queued again.
+/// that improves is queued again. All that is known of a cell lies together, with a ring of cells
+/// round the grid that are not free, so that a step is one fetch and no question.
 class BucketQueue {
  public:
-  explicit BucketQueue(std::int32_t max_cells);
-  /// `cost` must be kNoWay everywhere but 0 at the goal.
+  explicit BucketQueue(std::int32_t max_side);
+  /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0.
   void settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;
 
  private:
   static constexpr std::uint32_t kBucketShift = 7;  ///< 128 costs a bucket
   static constexpr std::uint32_t kBuckets = 64;     ///< in a ring: more than the dearest step covers
 
-  void insert(std::int32_t cell, std::uint32_t cost) noexcept;
-  void remove(std::int32_t cell, std::uint32_t cost) noexcept;
+  struct Node {
+    std::uint32_t cost, rate;
+    std::int32_t next, previous;
+  };
 
-  std::vector<std::int32_t> next_, previous_;
+  [[nodiscard]] Node& node(std::int32_t n) noexcept { return nodes_[static_cast<std::size_t>(n)]; }
+  void load(Grid grid, const std::uint16_t* rate) noexcept;
+  void insert(std::int32_t n) noexcept;
+  void remove(std::int32_t n) noexcept;
+  void relax(const Node& from, std::int32_t to) noexcept;
+
+  std::vector<Node> nodes_;
   std::int32_t heads_[kBuckets];
   std::int32_t queued_ = 0;
 };

@@ -16,7 +16,7 @@ struct FieldRig {
   float* psi;
 
   explicit FieldRig(std::int32_t side)
-      : pass(executor, side), grid{side}, psi(executor.template take<float>(static_cast<std::size_t>(grid.cells()))) {}
+      : pass(executor, side), grid{side}, psi(field::take_rows<float>(executor, side)) {}
 
   [[nodiscard]] const field::FieldArrays& arrays() const { return pass.arrays(); }
 

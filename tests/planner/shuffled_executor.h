@@ -11,6 +11,7 @@ namespace jaywalk::test {
 class ShuffledExecutor {
  public:
   static constexpr bool kQueue = false;
+  static constexpr std::int32_t kColumns = 1;
 
   template <class T>
   T* take(std::size_t n) {

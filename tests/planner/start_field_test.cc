@@ -15,8 +15,10 @@ int pits_of(const field::Grid& grid, const float* psi, std::int32_t goal) {
   for (std::int32_t c = 0; c < grid.cells(); ++c) {
     if (!cell::is_joined(psi[c]) || c == goal) continue;
     const std::int32_t i = c % grid.side, j = c / grid.side;
-    const bool lower = field::psi_at(grid, psi, i + 1, j) < psi[c] || field::psi_at(grid, psi, i - 1, j) < psi[c] ||
-                       field::psi_at(grid, psi, i, j + 1) < psi[c] || field::psi_at(grid, psi, i, j - 1) < psi[c];
+    const auto is_lower = [&](std::int32_t x, std::int32_t y) {
+      return grid.holds(x, y) && psi[grid.at(x, y)] < psi[c];
+    };
+    const bool lower = is_lower(i + 1, j) || is_lower(i - 1, j) || is_lower(i, j + 1) || is_lower(i, j - 1);
     if (!lower) ++pits;
   }
   return pits;
