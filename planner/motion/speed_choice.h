@@ -13,7 +13,7 @@ struct SpeedChoiceConfig {
   double max_speed_mps = 0.6;
   double max_accel_mps2 = 0.5;
   double body_margin_m = 0.15;  ///< between the bodies
-  double zone_ahead_m = 0.8;    ///< a walker wants this much free ahead of its edge, within +-45 degrees
+  double zone_ahead_m = 0.6;    ///< a walker wants this much free ahead of its edge, within +-45 degrees
   double spread_mps = 0.05;     ///< what a prediction may be off, growing with time
   double horizon_s = 4.0;       ///< how far ahead conflicts count
 };
