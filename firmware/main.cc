@@ -19,7 +19,8 @@ ReplayOptions replay_options;
 void add_sim(CLI::App& app) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
   sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/scenarios.md)")->required();
-  sim->add_option("--seed", sim_options.seed, "Seed of everything random (default: the scenario's)");
+  sim->add_option("--seed", sim_options.seed, "Seed of everything random, 0 or more (default: the scenario's)")
+      ->check(CLI::NonNegativeNumber);
   sim->add_option("--mode", sim_options.mode, "full: laser only, stops for people; paper: movers given, never stops")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, PlanMode>{{"paper", PlanMode::kPaper}, {"full", PlanMode::kFull}}));
@@ -30,6 +31,13 @@ void add_sim(CLI::App& app) {
           std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
+}
+
+/// `value` when it can be a place in a recording (m) or an angle; NaN cannot.
+double sound(const char* option, double value) {
+  constexpr double kFarthest = 1e6;
+  if (value >= -kFarthest && value <= kFarthest) return value;
+  throw StartupError(std::string(option) + ": " + std::to_string(value) + " is no place", "give metres and radians");
 }
 
 void add_replay(CLI::App& app) {
@@ -44,7 +52,7 @@ void add_replay(CLI::App& app) {
       ->add_option_function<std::vector<double>>(
           "--goal",
           [](const std::vector<double>& v) {
-            replay_options.goal = Vec2{v[0], v[1]};
+            replay_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
           },
           "Goal X,Y in the recording's frame (default: its last pose)")
       ->delimiter(',')
@@ -53,7 +61,8 @@ void add_replay(CLI::App& app) {
       ->add_option_function<std::vector<double>>(
           "--laser-mount",
           [](const std::vector<double>& v) {
-            replay_options.laser_mount = Pose2{v[0], v[1], v[2]};
+            const auto part = [&](std::size_t k) { return sound("--laser-mount", v[k]); };
+            replay_options.laser_mount = Pose2{part(0), part(1), wrap_angle(part(2))};
           },
           "X,Y,YAW of the laser on the robot (m, m, rad)")
       ->delimiter(',')

@@ -1,7 +1,7 @@
 #include <zlib.h>
 
-#include <chrono>
 #include <cmath>
+#include <ctime>
 #include <string>
 
 #include "hal/sim/logs/recorded_log.h"
@@ -100,6 +100,11 @@ TEST_CASE("what is wrong in any other way is refused with file and line") {
   CHECK(of("1.0 0 0.1 0.1 9 2 1 1\n1.1 0 0.1 0.1 9 2 1 1x\n").find("bad.txt:2: '1x' (word 8) is not a number") !=
         std::string::npos);
   CHECK(of("1.0 0 0 0.1 9 2 1 1\n").find("bad.txt:1: beam angles") != std::string::npos);
+  CHECK(of("1.0 1e30 0.1 0.1 9 2 1 1\n").find("bad.txt:1: beam angles") != std::string::npos);
+  CHECK(of("0 0 0.1 0.1 9 2 1 1\n3600.1 0 0.1 0.1 9 2 1 1\n").find("bad.txt:2: a scan more than an hour") !=
+        std::string::npos);
+  CHECK(of("1.0 1e7 0 0 3.1 9 2 1 1\n1.1 1e7 0 0 3.1 9 2 1 1\n").find("bad.txt:2: a pose that is none") !=
+        std::string::npos);
   CHECK(of("1.0 0 0.1 9 9 2 1 1\n").find("bad.txt:1: range limits") != std::string::npos);
   CHECK(of("nan 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of nan") != std::string::npos);
   CHECK(of("1e300 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of") != std::string::npos);
@@ -111,8 +116,18 @@ TEST_CASE("what is wrong in any other way is refused with file and line") {
   CHECK(of(std::string(2'000'000, '1')).find("over 1 MiB") != std::string::npos);
   CHECK(refusal(scratch.path("missing.txt")).find("no such file") != std::string::npos);
   CHECK(refusal(scratch.folder().string()).find("no such file") != std::string::npos);
-  CHECK_THROWS_AS(load_scan_odom(scratch.write("scan.txt", kTwoScans), scratch.write("odom.txt", "1 2 3\n")),
-                  StartupError);
+  for (const char* odometry : {"1 2 3\n", "1 1e7 0 0 0 0\n", "1 0 0 0 nan 0\n", "1 0 0 0 0 1e4\n"}) {
+    CHECK_THROWS_AS(load_scan_odom(scratch.write("scan.txt", kTwoScans), scratch.write("odom.txt", odometry)),
+                    StartupError);
+  }
+}
+
+TEST_CASE("a range of a kilometre is nothing, whatever the limits say") {
+  const Scratch scratch;
+  const RecordedLog log = load_scan_odom(scratch.write("far.txt", "1.0 0 0.1 0 inf 2 999 1e30\n"));
+  CHECK(log.scans[0].range_max_m == 1000.0F);
+  CHECK(log.range_m[0] == 999.0F);
+  CHECK(std::isinf(log.range_m[1]));
 }
 
 TEST_CASE("a compressed recording reads like a plain one, and a cut one is refused") {
@@ -167,7 +182,7 @@ TEST_CASE("a CARMEN log without scans, or with damaged ones, is refused") {
   CHECK_THROWS_AS(load_carmen(scratch.write("d", "FLASER\n")), StartupError);
 }
 
-#if defined(__SANITIZE_ADDRESS__)
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 constexpr double kLoadLimitS = 30.0;  // what is measured then is the sanitizer
 #else
 constexpr double kLoadLimitS = 2.0;
@@ -176,9 +191,9 @@ constexpr double kLoadLimitS = 2.0;
 TEST_CASE("the Freiburg log has 4791 scans and loads within two seconds") {
   const auto file = recording("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;
-  const auto before = std::chrono::steady_clock::now();
+  const std::clock_t before = std::clock();  // processor time: the machine may have other work
   const RecordedLog log = load_carmen(*file);
-  const double took = std::chrono::duration<double>(std::chrono::steady_clock::now() - before).count();
+  const double took = static_cast<double>(std::clock() - before) / CLOCKS_PER_SEC;
   CHECK(log.scans.size() == 4791);
   CHECK(log.scans[0].beams == 360);
   CHECK(log.laser().rate_hz == Approx(4.5).epsilon(0.1));

@@ -1,11 +1,21 @@
 #include "hal/sim/logs/scan_lines.h"
 
+#include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <limits>
 
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
+namespace {
+
+constexpr Duration kLongestGap =
+    std::chrono::hours(1);                 // a tick lasts 20 ms: a clock set right would be replayed for ever
+constexpr double kFarthestRange = 1000.0;  // m
+constexpr double kFarthestPlace = 1e6;     // m
+
+}  // namespace
 
 bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::size_t first_word,
               double nothing_from_m) {
@@ -13,6 +23,11 @@ bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::si
     log.refuse(file.name(), file.line(), kTimeStands);
     return false;
   }
+  if (!log.scans.empty() && scan.stamp - log.scans.back().stamp > kLongestGap) {
+    file.refuse("a scan more than an hour after the one before", "cut the recording here");
+  }
+  nothing_from_m = std::min(nothing_from_m, kFarthestRange);
+  scan.range_max_m = std::min(scan.range_max_m, static_cast<float>(kFarthestRange));
   scan.first_range = log.range_m.size();
   for (std::size_t i = 0; i < scan.beams; ++i) {
     const double range = file.number(first_word + i);
@@ -30,12 +45,14 @@ void require_scans(const RecordedLog& log, const LineFile& file, const std::stri
   throw StartupError(place + ": no scan in it", "give a file of " + expected);
 }
 
-Pose2 pose_at(const LineFile& file, std::size_t i) {
-  const Pose2 pose{file.number(i), file.number(i + 1), file.number(i + 2)};
-  if (!std::isfinite(pose.x) || !std::isfinite(pose.y) || !(std::fabs(pose.heading) < 1e4)) {
-    file.refuse("a pose that is none", "give metres and radians");
-  }
+Pose2 sound_pose(const LineFile& file, const Pose2& pose) {
+  const bool near = std::fabs(pose.x) <= kFarthestPlace && std::fabs(pose.y) <= kFarthestPlace;
+  if (!near || !(std::fabs(pose.heading) < 1e4)) file.refuse("a pose that is none", "give metres and radians");
   return {pose.x, pose.y, wrap_angle(pose.heading)};
+}
+
+Pose2 pose_at(const LineFile& file, std::size_t i) {
+  return sound_pose(file, {file.number(i), file.number(i + 1), file.number(i + 2)});
 }
 
 }  // namespace jaywalk::sim

@@ -10,6 +10,8 @@ namespace {
 
 /// Words before the ranges in the two forms; the last of them is the number of beams.
 constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
+constexpr float kTurn = static_cast<float>(2.0 * kPi);
+constexpr double kFastest = 1000.0;  // m/s, rad/s
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 enum class Form { kUnknown, kPlain, kMotion };
@@ -36,8 +38,8 @@ void check_scan(const LineFile& file, const RecordedScan& scan) {
     file.refuse(std::to_string(scan.beams) + " beams",
                 "give scans of 1 to " + std::to_string(kMaxBeams) + " beams, or leave some out");
   }
-  const bool finite = std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad);
-  if (!finite || scan.angle_step_rad == 0.0F) file.refuse("beam angles that make no fan", "give angles in radians");
+  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
+  if (!fan || scan.angle_step_rad == 0.0F) file.refuse("beam angles that make no fan", "give angles in radians");
   if (!(scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F)) {
     file.refuse("range limits that hold nothing", "give 0 <= range_min < range_max, in metres");
   }
@@ -58,7 +60,7 @@ void read_plain(RecordedLog& log, const LineFile& file) {
 void read_motion(RecordedLog& log, const LineFile& file, Pose2& odometry) {
   RecordedScan scan;
   scan.stamp = time_from_seconds(file.seconds(0));
-  if (!log.scans.empty()) odometry = odometry * pose_at(file, 1);
+  if (!log.scans.empty()) odometry = sound_pose(file, odometry * pose_at(file, 1));
   scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
   const BeamFan fan = carmen_fan(scan.beams, file.number(4));
   scan.first_angle_rad = fan.first_angle_rad;
@@ -97,8 +99,9 @@ void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
     }
     const Time stamp = time_from_seconds(file.seconds(0));
     const Twist2 twist{file.number(4), file.number(5)};
-    if (!std::isfinite(twist.v_mps) || !std::isfinite(twist.w_radps))
-      file.refuse("a speed that is no number", "delete the line");
+    if (!(std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)) {
+      file.refuse("a speed that is none", "give m/s and rad/s, or delete the line");
+    }
     if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
       log.refuse(file.name(), file.line(), kTimeStands);
     } else {
