@@ -12,12 +12,16 @@ std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
   return static_cast<std::int8_t>(std::clamp(std::floor(next + 0.5), -127.0, 127.0));
 }
 
+constexpr double kSeenUnitsPerS = 64.0;
+constexpr double kLongestStepS = 0.25;  // one hit after a gap is one hit
+
 }  // namespace
 
 EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
     : side_(side_cells),
       cell_m_(cell_m),
       evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
+      seen_for_(evidence_.size(), 0),
       surface_(evidence_.size()) {
   const CellIndex centre = cell_at(centre_in_map);
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
@@ -45,11 +49,17 @@ std::int8_t EvidenceMap::evidence(CellIndex cell) const {
 
 void EvidenceMap::add(CellIndex cell, int change) noexcept {
   if (!contains(cell)) return;
-  std::int8_t& e = evidence_[slot(cell)];
+  const std::size_t k = slot(cell);
+  std::int8_t& e = evidence_[k];
   e = static_cast<std::int8_t>(std::clamp(e + change, kMin, kMax));
+  if (e <= 0) seen_for_[k] = 0;
 }
 
-void EvidenceMap::add_hit(Vec2 p, int change) noexcept {
+bool EvidenceMap::stands(CellIndex cell) const {
+  return occupied(cell) && seen_for_[slot(cell)] >= kSeenUnitsPerS * kStandsAfterS;
+}
+
+void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
   const CellIndex cell = cell_at(p);
   if (!contains(cell)) return;
   const std::size_t k = slot(cell);
@@ -57,6 +67,8 @@ void EvidenceMap::add_hit(Vec2 p, int change) noexcept {
   const Vec2 offset = (p - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
   surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
   add(cell, change);
+  const int units = seen_for_[k] + static_cast<int>(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5);
+  seen_for_[k] = static_cast<std::uint8_t>(std::min(units, 255));
 }
 
 Vec2 EvidenceMap::surface(CellIndex cell) const {
@@ -75,6 +87,7 @@ void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
     for (std::int32_t i = low_.i; i < low_.i + side_; ++i) {
       if (row_stays && i >= old.i && i < old.i + side_) continue;
       evidence_[slot({i, j})] = 0;
+      seen_for_[slot({i, j})] = 0;
       surface_[slot({i, j})] = {};
     }
   }

@@ -20,8 +20,9 @@ struct CellIndex {
 /// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and
 /// both ends saturate so that the map can change its mind within a few scans. A cell that holds a
 /// surface also remembers where in it the laser's points fall, to 1/128 of half a cell: matching a
-/// scan needs better than a cell.
-/// Memory: 3 * side * side bytes, taken in the constructor. Not thread-safe.
+/// scan needs better than a cell. And it remembers for how long the surface has been seen: something that walks
+/// slowly leaves a new surface in every cell, a wall an old one.
+/// Memory: 4 * side * side bytes, taken in the constructor. Not thread-safe.
 class EvidenceMap {
  public:
   /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
@@ -37,12 +38,15 @@ class EvidenceMap {
   [[nodiscard]] std::int8_t evidence(CellIndex cell) const;
   [[nodiscard]] bool occupied(CellIndex cell) const { return evidence(cell) > kOccupied; }
   [[nodiscard]] bool seen_free(CellIndex cell) const { return evidence(cell) < kFree; }
+  /// Occupied, and hits were seen for kStandsAfterS of scans: longer than a walker stays in a cell.
+  [[nodiscard]] bool stands(CellIndex cell) const;
 
   /// Adds to a cell's evidence, saturating in [kMin, kMax]; nothing happens outside the window.
   void add(CellIndex cell, int change) noexcept;
   /// A laser's point: adds `change` to its cell's evidence, and the point to the cell's surface point, a running
-  /// mean of about eight points that starts anew where the cell was not held occupied.
-  void add_hit(Vec2 p_in_map, int change) noexcept;
+  /// mean of about eight points that starts anew where the cell was not held occupied. `seen_for_s` >= 0, of which at
+  /// most 0.25 s count: since the scan before.
+  void add_hit(Vec2 p_in_map, int change, double seen_for_s = 0.0) noexcept;
   /// Where the surface in an occupied cell lies (m, in the map): the mean of its recent points. The cell's centre
   /// where nothing but add() was called. Meaningless for cells that are not occupied.
   [[nodiscard]] Vec2 surface(CellIndex cell) const;
@@ -53,6 +57,7 @@ class EvidenceMap {
   static constexpr int kMin = -64, kMax = 64;
   static constexpr int kOccupied = 16;  ///< above: treated as an obstacle
   static constexpr int kFree = -16;     ///< below: has been seen free
+  static constexpr double kStandsAfterS = 1.0;
 
  private:
   [[nodiscard]] std::size_t slot(CellIndex cell) const;
@@ -65,6 +70,7 @@ class EvidenceMap {
   };
 
   std::vector<std::int8_t> evidence_;
+  std::vector<std::uint8_t> seen_for_;  ///< in 1/64 s, saturating; 0 where it is not held occupied
   std::vector<Offset> surface_;
 };
 

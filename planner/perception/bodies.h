@@ -18,6 +18,7 @@ struct Body {
   double free_share = 0.0;        ///< running mean: how much of the time it was seen where nothing stood before
   Time still_since = kNever;      ///< since when it has stood near `anchor`
   Vec2 anchor_in_map;             ///< where it last stood, or was born
+  Vec2 anchor_in_laser;           ///< the same, seen from where the laser was then
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
   std::uint32_t misses = 0;       ///< scans in a row that did not see it

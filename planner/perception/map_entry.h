@@ -19,9 +19,9 @@ class MapEntry {
   explicit MapEntry(const EvidenceMap& map);
 
   /// `points_in_map[k]` and `still[k]` belong to point k of `count`; points that are not still free the cells
-  /// before them and add nothing where they end.
+  /// before them and add nothing where they end. `step_s`: since the scan before.
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
-             const IsStill& still, std::size_t count) noexcept;
+             const IsStill& still, std::size_t count, double step_s = 0.0) noexcept;
 
  private:
   [[nodiscard]] bool first_visit(CellIndex cell) noexcept;

@@ -91,7 +91,7 @@ Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
   for (std::int32_t j = -reach; j <= reach; ++j) {
     for (std::int32_t i = -reach; i <= reach; ++i) {
       const CellIndex c{cell.i + i, cell.j + j};
-      if (still.occupied(c) && distance(still.surface(c), p) < near) return Ground::kWall;
+      if (still.stands(c) && distance(still.surface(c), p) < near) return Ground::kWall;
     }
   }
   return still.evidence(cell) < 0 ? Ground::kFree : Ground::kUnknown;

@@ -37,8 +37,8 @@ using Clusters = FixedVector<Cluster, kMaxClusters>;
 
 /// What the map says of the place where a point lies.
 enum class Ground : std::uint8_t {
-  kWall,     ///< a surface that it holds occupied is as near as noise and pose explain
-  kUnknown,  ///< nothing
+  kWall,     ///< a surface that has stood there is as near as noise and pose explain
+  kUnknown,  ///< nothing, or a surface that came only now: a wall in view for the first time, or somebody
   kFree,     ///< beams passed there
 };
 

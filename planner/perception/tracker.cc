@@ -133,7 +133,7 @@ void Tracker::State::associate_and_correct() noexcept {
 }
 
 void Tracker::State::judge() noexcept {
-  for (Body& body : bodies) judge_motion(body, still, now);
+  for (Body& body : bodies) judge_motion(body, still, map_from_laser, now);
 }
 
 bool Tracker::State::looked_through(const Body& body, const LaserScan& scan) const noexcept {
@@ -167,7 +167,9 @@ void Tracker::State::birth() noexcept {
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     if (clusters[k].track_id != 0) continue;
     const Observation seen = observe_new(clusters, k, ++last_id);
-    admit(bodies, born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id), map_from_laser.position());
+    Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
+    body.anchor_in_laser = inverse(map_from_laser) * seen.position_in_map;
+    admit(bodies, body, map_from_laser.position());
   }
 }
 
@@ -193,7 +195,7 @@ void Tracker::State::enter_still() noexcept {
     }
   }
   still.roll_to(map_from_laser.position());
-  entry.enter(still, map_from_laser.position(), in_map.position, is_still, points.size());
+  entry.enter(still, map_from_laser.position(), in_map.position, is_still, points.size(), step_s);
 }
 
 void Tracker::State::publish() noexcept {

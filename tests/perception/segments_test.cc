@@ -70,13 +70,26 @@ TEST_CASE("what is wider than a body is a wall wherever it stands") {
 
 TEST_CASE("points within a wall's noise are the wall's") {
   EvidenceMap map(64, 0.1, {});
-  for (int k = 0; k < 5; ++k) map.add_hit({2.05, 0.05}, 10);
+  for (int k = 0; k < 5; ++k) map.add_hit({2.05, 0.05}, 10, 0.25);
   // 1 m away a wall's points scatter by 0.112 m, 5 m away by 0.16 m.
   CHECK(ground_at(map, {1.95, 0.05}, 1.0) == Ground::kWall);
   CHECK(ground_at(map, {1.92, 0.05}, 1.0) == Ground::kUnknown);
   CHECK(ground_at(map, {1.92, 0.05}, 5.0) == Ground::kWall);
   map.add({18, 0}, -6);
   CHECK(ground_at(map, {1.85, 0.05}, 1.0) == Ground::kFree);
+}
+
+TEST_CASE("a surface is no wall before it has stood for a second") {
+  EvidenceMap map(64, 0.1, {});
+  for (int k = 0; k < 14; ++k) map.add_hit({2.05, 0.05}, 10, 1.0 / 15);  // 0.93 s: in units of 1/64 s, 4 a scan, 56
+  CHECK(map.occupied({20, 0}));
+  CHECK(ground_at(map, {2.05, 0.05}, 1.0) == Ground::kUnknown);
+  for (int k = 0; k < 2; ++k) map.add_hit({2.05, 0.05}, 10, 1.0 / 15);  // 64 of 64
+  CHECK(ground_at(map, {2.05, 0.05}, 1.0) == Ground::kWall);
+  map.add({20, 0}, -64);  // looked through: whatever comes next is new
+  map.add_hit({2.05, 0.05}, 40, 9.0);
+  CHECK(map.occupied({20, 0}));
+  CHECK_FALSE(map.stands({20, 0}));  // one hit after a gap is one hit
 }
 
 TEST_CASE("in unknown space only what stands out before its surroundings may be a body") {

@@ -76,6 +76,16 @@ TEST_CASE("a walker is called moving within a second of setting out") {
   CHECK(scans <= 15);
 }
 
+TEST_CASE("a slow walker who was there from the first scan on is no wall that walks along") {
+  Watch watch;
+  int scans = 0;
+  while (watch.tracker.moving().empty() && scans < 60) {
+    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s across
+    ++scans;
+  }
+  CHECK(scans <= 25);  // 15 cm takes 0.4 s, cells behind must be seen free
+}
+
 TEST_CASE("a robot that turns in a room sees nothing move") {
   Watch watch;
   Room room = with({{{2.0, 1.0}, 0.1}, {{-1.5, 2.0}, 0.25}, {{1.0, -2.0}, 0.05}});
