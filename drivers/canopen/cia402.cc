@@ -65,8 +65,7 @@ std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_f
     case DriveGoal::kEnabled:
       return step_to_enabled(state);
     case DriveGoal::kQuickStop:
-      return state == DriveState::kOperationEnabled || state == DriveState::kQuickStopActive ? kQuickStop
-                                                                                             : kDisableVoltage;
+      return kQuickStop;  // in every state: what is known of the drive may be old, and it must brake, not roll
     case DriveGoal::kOff:
       break;
   }

@@ -120,10 +120,12 @@ TEST_CASE("a drive is enabled in three steps and never out of a fault or a quick
   CHECK(controlword_towards(DriveGoal::kEnabled, DriveState::kFault, true) == 0x80);
 }
 
-TEST_CASE("a quick stop is asked of a moving drive and held") {
+TEST_CASE("a quick stop is asked for in every state but a fault, known or not") {
   CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false) == 0x02);
   CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kQuickStopActive, false) == 0x02);
-  CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kSwitchedOn, false) == 0x00);
+  CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kSwitchedOn, false) == 0x02);
+  CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kUnknown, false) == 0x02);
+  CHECK(controlword_towards(DriveGoal::kQuickStop, DriveState::kFault, false) == 0x00);
   CHECK(controlword_towards(DriveGoal::kOff, DriveState::kOperationEnabled, false) == 0x00);
 }
 

@@ -1,0 +1,72 @@
+#include "drivers/canopen/drive_settings.h"
+
+#include <cassert>
+#include <initializer_list>
+
+#include "drivers/canopen/cia402.h"
+#include "drivers/canopen/services.h"
+
+namespace jaywalk::canopen {
+
+namespace {
+
+constexpr std::uint8_t kAtEverySync = 1;
+
+// Option codes of CiA 402: 6007h 3 is quick stop; 605Ah 2 brakes by 6085h, then switches off; 605Bh, 605Ch and 605Dh 1
+// brake by 6084h; 605Eh 2 brakes by 6085h.
+constexpr std::uint32_t kLostControllerQuickStops = 3, kQuickStopThenOff = 2, kBrakeThenOff = 1, kBrake = 1,
+                        kFaultQuickStops = 2;
+
+PdoSetup setup(std::uint16_t communication, std::uint16_t mapping, std::uint32_t id,
+               std::initializer_list<MappedObject> objects) noexcept {
+  PdoSetup made{communication, mapping, id, kAtEverySync, {}};
+  for (const MappedObject& object : objects) {
+    const bool fits = made.mapping.push_back(object);
+    assert(fits);
+    static_cast<void>(fits);
+  }
+  return made;
+}
+
+}  // namespace
+
+PdoSetup command_pdo(std::uint8_t node) noexcept {
+  return setup(0x1400, 0x1600, 0x200U + node, {{kControlword, 2}, {kTargetVelocity, 4}});
+}
+
+PdoSetup status_pdo(std::uint8_t node) noexcept {
+  return setup(0x1800, 0x1A00, 0x180U + node, {{kStatusword, 2}, {kVelocity, 4}});
+}
+
+PdoSetup position_pdo(std::uint8_t node) noexcept { return setup(0x1801, 0x1A01, 0x280U + node, {{kPosition, 4}}); }
+
+ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept {
+  const std::uint32_t watch = heartbeat_consumer_entry(settings.controller_node, settings.controller_timeout_ms);
+  ArmingProof::Items items;
+  bool fits = true;
+  const auto need = [&](ObjectWrite wanted, const char* what_for) {
+    fits = fits && items.push_back({wanted, true, what_for});
+  };
+  need({{0x1016, 1}, watch, 4}, "watches the controller's heartbeat");
+  need({{0x1017, 0}, settings.heartbeat_ms, 2}, "says its own heartbeat");
+  need({kAbortConnection, kLostControllerQuickStops, 2}, "stops when the controller is lost");
+  need({kQuickStopOption, kQuickStopThenOff, 2}, "quick stop");
+  need({kShutdownOption, kBrakeThenOff, 2}, "brakes at shutdown");
+  need({kDisableOption, kBrakeThenOff, 2}, "brakes when disabled");
+  need({kHaltOption, kBrake, 2}, "brakes at halt");
+  need({kFaultOption, kFaultQuickStops, 2}, "brakes at a fault");
+  need({kProfileAcceleration, settings.acceleration, 4}, "acceleration");
+  need({kProfileDeceleration, settings.deceleration, 4}, "deceleration");
+  need({kQuickStopDeceleration, settings.quick_stop, 4}, "quick stop deceleration");
+  need({kModeWanted, kProfileVelocityMode, 1}, "profile velocity wanted");
+  fits = fits && items.push_back({{kModeShown, kProfileVelocityMode, 1}, false, "profile velocity shown"});
+  ObjectWrites pdos;
+  fits = fits && append_setup(command_pdo(node), pdos) && append_setup(status_pdo(node), pdos) &&
+         append_setup(position_pdo(node), pdos);
+  for (const ObjectWrite& write : pdos) need(write, "process data");
+  assert(fits);
+  static_cast<void>(fits);
+  return items;
+}
+
+}  // namespace jaywalk::canopen

@@ -1,0 +1,26 @@
+#pragma once
+#include "drivers/canopen/arming_proof.h"
+
+namespace jaywalk::canopen {
+
+/// What one drive is to be told before it may move.
+struct DriveSettings {
+  std::uint8_t controller_node = 1;           ///< whose heartbeat it watches
+  std::uint16_t controller_timeout_ms = 100;  ///< then it stops by itself
+  std::uint16_t heartbeat_ms = 50;            ///< its own
+  std::uint32_t acceleration = 0;             ///< 6083h, counts/s2
+  std::uint32_t deceleration = 0;             ///< 6084h, counts/s2
+  std::uint32_t quick_stop = 0;               ///< 6085h, counts/s2
+};
+
+/// Receive PDO 1 of `node`: controlword and target velocity.
+[[nodiscard]] PdoSetup command_pdo(std::uint8_t node) noexcept;
+/// Transmit PDO 1: statusword and velocity. Both PDOs go at every SYNC.
+[[nodiscard]] PdoSetup status_pdo(std::uint8_t node) noexcept;
+/// Transmit PDO 2: position.
+[[nodiscard]] PdoSetup position_pdo(std::uint8_t node) noexcept;
+
+/// The items of the arming proof: heartbeats, what happens when they fail, ramps, mode, PDOs.
+[[nodiscard]] ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept;
+
+}  // namespace jaywalk::canopen

@@ -1,0 +1,63 @@
+#pragma once
+#include <cstdint>
+
+#include "drivers/can/can_bus.h"
+#include "drivers/emulators/drive_objects.h"
+
+namespace jaywalk::emulators {
+
+/// A CANopen drive with a motor that follows its ramps exactly: SDO server, two PDOs each way at SYNC, heartbeat both
+/// ways, the CiA 402 state machine as a drive sees it. For tests and the bench; it shares no code with the master
+/// that it talks to, except how numbers stand in bytes.
+///
+/// PDO 1 in: controlword and target velocity. PDO 1 out: statusword and velocity; PDO 2 out: position.
+class Cia402Node {
+ public:
+  /// `bus` outlives it; `node` is 1 to 127.
+  Cia402Node(CanBus& bus, std::uint8_t node) noexcept : bus_(bus), node_(node) {}
+
+  /// Takes what came in and moves the motor on to `now`.
+  void step(Time now) noexcept;
+
+  [[nodiscard]] DriveObjects& objects() noexcept { return objects_; }
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< counts/s
+  [[nodiscard]] double position() const noexcept { return position_; }  ///< counts
+  [[nodiscard]] bool is_enabled() const noexcept { return state_ == State::kOperationEnabled; }
+
+  /// Something broke: it brakes, says so in an emergency message and waits in "fault".
+  void raise_fault(std::uint16_t error_code) noexcept;
+  /// No more frames out, as when its cable is pulled; frames in are lost too.
+  void pull_cable() noexcept { connected_ = false; }
+  void plug_cable() noexcept { connected_ = true; }
+
+ private:
+  enum class State { kSwitchOnDisabled, kReady, kSwitchedOn, kOperationEnabled, kQuickStop, kFaultReaction, kFault };
+
+  void take(const CanFrame& frame, Time now) noexcept;
+  void on_sync() noexcept;
+  void obey(std::uint16_t controlword) noexcept;
+  void watch_controller(Time now) noexcept;
+  void lose_controller() noexcept;
+  void move(double seconds) noexcept;
+  void say_heartbeat(Time now) noexcept;
+  void send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept;
+  void send_emergency(std::uint16_t error_code) noexcept;
+  [[nodiscard]] std::uint16_t statusword() const noexcept;
+
+  CanBus& bus_;
+  std::uint8_t node_;
+  DriveObjects objects_;
+  State state_ = State::kSwitchOnDisabled;
+  bool operational_ = false;  ///< NMT: PDOs are on
+  bool connected_ = true;
+  std::uint16_t pending_controlword_ = 0;  ///< of the last PDO, until SYNC
+  std::int32_t pending_target_ = 0;
+  std::uint16_t last_controlword_ = 0;
+  double velocity_ = 0.0;
+  double position_ = 0.0;
+  Time stepped_ = kNever;
+  Time said_heartbeat_ = kNever;
+  Time heard_controller_ = kNever;
+};
+
+}  // namespace jaywalk::emulators

@@ -1,0 +1,45 @@
+#pragma once
+#include <cstdint>
+#include <optional>
+
+#include "drivers/can/can_frame.h"
+#include "drivers/canopen/object_address.h"
+#include "hal/types/fixed_vector.h"
+
+namespace jaywalk::emulators {
+
+/// The object dictionary of an emulated drive, and the SDO server before it (expedited transfers only).
+class DriveObjects {
+ public:
+  /// Those of a CiA 402 drive with two PDOs each way, switched off, watching nobody.
+  DriveObjects() noexcept;
+
+  /// 0 for what is not there.
+  [[nodiscard]] std::uint32_t value(canopen::ObjectAddress address) const noexcept;
+  /// What the drive itself does; nothing happens for what is not there.
+  void set(canopen::ObjectAddress address, std::uint32_t value) noexcept;
+  /// The answer to an SDO request addressed to `node`; nothing where `frame` is none.
+  [[nodiscard]] std::optional<CanFrame> answer(std::uint8_t node, const CanFrame& frame) noexcept;
+
+  /// From now on the object does not exist.
+  void lack(canopen::ObjectAddress address) noexcept;
+  /// From now on writes are acknowledged and change nothing.
+  void lie_about(canopen::ObjectAddress address) noexcept;
+
+ private:
+  struct Object {
+    canopen::ObjectAddress address;
+    std::uint8_t bytes = 0;
+    std::uint32_t value = 0;
+    bool writable = true;
+    bool lies = false;
+  };
+
+  void add(canopen::ObjectAddress address, std::uint8_t bytes, std::uint32_t value, bool writable) noexcept;
+  [[nodiscard]] Object* find(canopen::ObjectAddress address) noexcept;
+  [[nodiscard]] std::uint32_t write(canopen::ObjectAddress address, std::uint32_t value, std::size_t bytes) noexcept;
+
+  FixedVector<Object, 64> objects_;
+};
+
+}  // namespace jaywalk::emulators

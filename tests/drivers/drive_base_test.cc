@@ -1,0 +1,318 @@
+#include "drivers/canopen/drive_base.h"
+
+#include <chrono>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "drivers/can/in_process_bus.h"
+#include "drivers/emulators/cia402_node.h"
+#include "hal/types/errors.h"
+#include "tests/drivers/frames.h"
+#include "tests/drivers/hand_clock.h"
+#include "tests/drivers/random_bytes.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::canopen;
+using namespace std::chrono_literals;
+
+namespace {
+
+/// Time that moves two emulated drives on, a millisecond at a time, while the controller sleeps.
+class PlantClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return now_; }
+  void sleep_until(Time wake) noexcept override {
+    while (now_ < wake) {
+      now_ += 1ms;
+      for (auto* node : nodes) {
+        if (node != nullptr) node->step(now_);
+      }
+    }
+  }
+  std::array<emulators::Cia402Node*, 2> nodes{};
+
+ private:
+  Time now_{};
+};
+
+DriveBaseSetup two_axes() {
+  DriveBaseSetup setup;
+  setup.axes = {AxisSetup{5, 1000.0}, AxisSetup{6, -1000.0}};  // the right motor looks the other way
+  setup.settings = {.controller_node = 1,
+                    .controller_timeout_ms = 100,
+                    .heartbeat_ms = 50,
+                    .acceleration = 5000,
+                    .deceleration = 5000,
+                    .quick_stop = 20000};
+  return setup;
+}
+
+struct Bench {
+  explicit Bench(const DriveBaseSetup& setup = two_axes()) : base(bus.port(0), clock, setup) {
+    clock.nodes = {&left, &right};
+  }
+  /// Ticks of 20 ms.
+  void drive(double left_radps, double right_radps, int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      wheels = base.latest();
+      base.command({clock.now(), left_radps, right_radps});
+      clock.sleep_until(clock.now() + 20ms);
+    }
+  }
+  void bring_to_two_radps() {
+    report = base.arm();
+    drive(0.0, 0.0, 10);
+    drive(2.0, 2.0, 50);
+    REQUIRE(left.velocity() == Approx(2000.0));
+    REQUIRE(right.velocity() == Approx(-2000.0));
+  }
+  std::string refusal() {
+    try {
+      report = base.arm();
+    } catch (const StartupError& error) {
+      return error.what();
+    }
+    return "armed";
+  }
+  [[nodiscard]] bool is_at_rest() const { return left.velocity() == 0.0 && right.velocity() == 0.0; }
+
+  PlantClock clock;
+  InProcessBus bus{clock, 1};
+  emulators::Cia402Node left{bus.port(1), 5};
+  emulators::Cia402Node right{bus.port(2), 6};
+  CanopenDriveBase base;
+  WheelState wheels;
+  std::vector<std::string> report;
+};
+
+}  // namespace
+
+TEST_CASE("arming writes and reads back every setting of both drives") {
+  Bench bench;
+  CHECK(bench.refusal() == "armed");
+  // 13 settings, and 7 + 7 + 6 writes for the three PDOs, of two drives.
+  REQUIRE(bench.report.size() == 66);
+  CHECK(bench.report[0] == "node 5: 1016h:1 watches the controller's heartbeat: wanted 00010064h, reads the same");
+  for (const std::string& line : bench.report) CHECK(line.ends_with(", reads the same"));
+  CHECK(bench.right.objects().value({0x6007, 0}) == 3);
+  CHECK(bench.right.objects().value({0x1800, 1}) == 0x186);
+}
+
+TEST_CASE("wheels turn as commanded and are felt in the same direction") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  CHECK(bench.wheels.left_radps == Approx(2.0));
+  CHECK(bench.wheels.right_radps == Approx(2.0));
+  CHECK(bench.wheels.left_rad > 1.0);
+  // 0.4 s of ramp are 0.4 rad, 0.6 s at 2 rad/s 1.2 more; a few milliseconds go between command and drive.
+  CHECK(bench.left.position() / 1000.0 == Approx(1.6).margin(0.01));
+  // What was felt was measured at the SYNC before the last: two ticks, 0.08 rad, and a count of rounding.
+  CHECK(bench.wheels.left_rad == Approx(bench.left.position() / 1000.0).margin(0.09));
+  CHECK(bench.wheels.right_rad == Approx(bench.right.position() / -1000.0).margin(0.09));
+  CHECK(bench.wheels.sequence > 50);
+  CHECK(bench.clock.now() - bench.wheels.stamp <= 40ms);
+}
+
+TEST_CASE("nothing moves before a command of zero") {
+  Bench bench;
+  bench.report = bench.base.arm();
+  bench.drive(2.0, 2.0, 50);
+  CHECK(bench.is_at_rest());
+  CHECK_FALSE(bench.base.is_enabled());
+  bench.drive(0.0, 0.0, 10);
+  CHECK(bench.base.is_enabled());
+  bench.drive(2.0, 2.0, 50);
+  CHECK(bench.left.velocity() == Approx(2000.0));
+}
+
+TEST_CASE("drives stop by themselves when the controller dies") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  // Its last heartbeat was 20 ms ago. The drives miss it 100 ms after it was sent; 2000 counts/s at 20000 counts/s2
+  // take 100 ms more; two steps of 1 ms for what falls between them.
+  bench.clock.sleep_until(bench.clock.now() + 182ms);
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a drive that nobody told to watch drives on when the controller dies") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.left.objects().set({0x1016, 1}, 0);
+  bench.clock.sleep_until(bench.clock.now() + 1s);
+  CHECK(bench.left.velocity() == Approx(2000.0));
+  CHECK(bench.right.velocity() == 0.0);
+}
+
+TEST_CASE("a drive that lies about its watchdog is not armed") {
+  Bench bench;
+  bench.right.objects().lie_about({0x1016, 1});
+  CHECK(bench.refusal() ==
+        "node 6: 1016h:1 watches the controller's heartbeat: wanted 00010064h, reads 00000000h: NOT PROVED; "
+        "use a drive that can prove it, or allow_unproved at your own risk");
+  bench.drive(0.0, 0.0, 10);
+  CHECK_FALSE(bench.base.is_enabled());
+}
+
+TEST_CASE("a drive without the abort connection option arms only when that is allowed and it is on record") {
+  Bench strict;
+  strict.left.objects().lack({0x6007, 0});
+  CHECK(strict.refusal().starts_with(
+      "node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (no such object): NOT PROVED; "));
+  DriveBaseSetup setup = two_axes();
+  setup.allow_unproved = true;
+  Bench lax(setup);
+  lax.left.objects().lack({0x6007, 0});
+  CHECK(lax.refusal() == "armed");
+  REQUIRE(lax.report.size() == 66);
+  CHECK(lax.report[2].ends_with("refused (no such object): NOT PROVED"));
+}
+
+TEST_CASE("a drive that does not answer is not armed") {
+  Bench bench;
+  bench.left.pull_cable();
+  CHECK(bench.refusal().starts_with(
+      "node 5: 1016h:1 watches the controller's heartbeat: wanted 00010064h, no answer: NOT PROVED; "));
+}
+
+TEST_CASE("a fault of one drive stops both until a reset and a command of zero") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.left.raise_fault(0x2310);
+  bench.drive(2.0, 2.0, 8);  // 100 ms of ramp, a tick to hear it and one to say it
+  CHECK(bench.base.trouble() == DriveTrouble::kEmergency);
+  CHECK(bench.is_at_rest());
+  bench.drive(0.0, 0.0, 20);  // zero alone does not do
+  bench.drive(2.0, 2.0, 20);
+  CHECK(bench.is_at_rest());
+  bench.base.reset();
+  bench.drive(2.0, 2.0, 20);  // nor does a reset alone
+  CHECK(bench.is_at_rest());
+  bench.drive(0.0, 0.0, 20);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  bench.drive(2.0, 2.0, 50);
+  CHECK(bench.left.velocity() == Approx(2000.0));
+  CHECK(bench.right.velocity() == Approx(-2000.0));
+}
+
+TEST_CASE("a drive whose cable is pulled is missed and the other stopped") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.left.pull_cable();
+  bench.drive(2.0, 2.0, 16);  // 150 ms until it is missed, 100 ms of ramp, and ticks
+  CHECK(bench.base.trouble() == DriveTrouble::kDriveSilent);
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a controller that is bus-off says so and the drives stop by themselves") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.bus.port(0).set_state(CanState::kBusOff);
+  bench.drive(2.0, 2.0, 12);
+  CHECK(bench.base.trouble() == DriveTrouble::kBusUnwell);
+  CHECK(name(bench.base.trouble()) == "bus unwell");
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a bus that takes no frames stops the drives") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.bus.port(0).refuse_sends(4);
+  bench.drive(2.0, 2.0, 12);
+  CHECK(bench.base.trouble() == DriveTrouble::kBusRefused);
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a drive that restarts under way is noticed") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  CHECK(bench.bus.port(3).send(tests::frame(0x000, {0x80, 0x05})) == SendResult::kQueued);  // somebody else's command
+  bench.drive(2.0, 2.0, 20);
+  CHECK(bench.base.trouble() == DriveTrouble::kDriveRestarted);
+  CHECK(bench.right.velocity() == 0.0);
+}
+
+TEST_CASE("a command that is no number turns no wheel") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(std::numeric_limits<double>::quiet_NaN(), 2.0, 50);
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a thousand ticks ask nothing of the heap and lose no frame") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  const AllocationGuard guard;
+  bench.drive(1.0, 1.5, 1000);
+  const auto calls = guard.calls();
+  CHECK(calls == 0);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  CHECK(bench.bus.port(0).health().frames_lost == 0);
+  CHECK(bench.right.velocity() == Approx(-1500.0));
+}
+
+TEST_CASE("one frame in fifty lost does not stop the drives") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.bus.set_faults({.loss = 0.02, .delay = 1ms});
+  bench.drive(2.0, 2.0, 500);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  CHECK(bench.wheels.left_rad == Approx(bench.left.position() / 1000.0).margin(0.15));
+}
+
+TEST_CASE("wheel angles go on where a drive's position wraps") {
+  tests::HandClock clock;
+  InProcessBus bus(clock, 1);
+  CanopenDriveBase base(bus.port(0), clock, two_axes());
+  const auto say = [&](std::uint8_t low, std::uint8_t high) {
+    const std::uint8_t mid = high == 0x7F ? 0xFF : 0x00;
+    for (const std::uint32_t node : {5U, 6U}) {
+      CHECK(bus.port(1).send(tests::frame(0x180 + node, {0x50, 0x02, 0, 0, 0, 0})) == SendResult::kQueued);
+      CHECK(bus.port(1).send(tests::frame(0x280 + node, {low, mid, mid, high})) == SendResult::kQueued);
+    }
+    return base.latest();
+  };
+  CHECK(say(0xF0, 0x7F).left_rad == 0.0);     // 7FFFFFF0h: where it happens to stand
+  const WheelState wheels = say(0x10, 0x80);  // 80000010h: 32 counts further
+  CHECK(wheels.left_rad == Approx(0.032));
+  CHECK(wheels.right_rad == Approx(-0.032));
+  CHECK(wheels.sequence == 2);
+}
+
+TEST_CASE("axes that cannot be are refused") {
+  tests::HandClock clock;
+  InProcessBus bus(clock, 1);
+  DriveBaseSetup setup = two_axes();
+  setup.axes[1].node = 5;
+  CHECK_THROWS_AS(CanopenDriveBase(bus.port(0), clock, setup), StartupError);
+  setup.axes[1].node = 1;  // the controller's own
+  CHECK_THROWS_AS(CanopenDriveBase(bus.port(0), clock, setup), StartupError);
+  setup = two_axes();
+  setup.axes[0].counts_per_rad = 0.0;
+  CHECK_THROWS_AS(CanopenDriveBase(bus.port(0), clock, setup), StartupError);
+}
+
+TEST_CASE("whatever stands on the bus the wheels' state stays finite and a stop stays a stop") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  tests::RandomBytes random(71);
+  constexpr std::array<std::uint32_t, 8> kIds{0x000, 0x085, 0x185, 0x285, 0x585, 0x605, 0x705, 0x706};
+  bool stopped = false;
+  for (int k = 0; k < 3000; ++k) {
+    for (int burst = 0; burst < 4; ++burst) {
+      CanFrame any;
+      any.id = random.below(4) == 0 ? static_cast<std::uint32_t>(random.below(0x800)) : kIds[random.below(kIds.size())];
+      any.size = static_cast<std::uint8_t>(random.below(9));
+      for (std::uint8_t at = 0; at < any.size; ++at) any.bytes[at] = random.byte();
+      CHECK(bench.bus.port(3).send(any) == SendResult::kQueued);
+    }
+    bench.drive(2.0, 2.0, 1);
+    REQUIRE(std::isfinite(bench.wheels.left_rad + bench.wheels.right_rad));
+    REQUIRE(std::isfinite(bench.wheels.left_radps + bench.wheels.right_radps));
+    REQUIRE((!stopped || bench.base.trouble() != DriveTrouble::kNone));
+    stopped = bench.base.trouble() != DriveTrouble::kNone;
+  }
+  CHECK(stopped);
+}
