@@ -3,6 +3,8 @@
 #include <map>
 
 #include "firmware/backends.h"
+#include "firmware/commands/bench_command.h"
+#include "firmware/commands/field_command.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/sim_command.h"
 #include "hal/types/errors.h"
@@ -15,6 +17,8 @@ constexpr int kBadInput = 2;
 
 SimOptions sim_options;
 ReplayOptions replay_options;
+FieldOptions field_options;
+BenchOptions bench_options;
 
 void add_sim(CLI::App& app) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
@@ -70,17 +74,49 @@ void add_replay(CLI::App& app) {
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
 }
 
+void add_field(CLI::App& app) {
+  CLI::App* field = app.add_subcommand("field", "The potential field of a map alone");
+  field->add_option("map", field_options.map, "map_server YAML, ARIA .map, cylinders .txt, or a picture")->required();
+  field
+      ->add_option_function<std::vector<double>>(
+          "--goal",
+          [](const std::vector<double>& v) {
+            field_options.goal = Vec2{v[0], v[1]};
+          },
+          "Goal X,Y in the map (default: the free cell nearest its middle)")
+      ->delimiter(',')
+      ->expected(2);
+  field->add_option("--inflation_m", field_options.inflation_m, "Walls grow by this")->capture_default_str();
+  field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
+  field->add_option("--backend", field_options.backend, "Who solves: auto or cpu; cuda gives way to the CPU")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
+}
+
+void add_bench(CLI::App& app) {
+  CLI::App* bench = app.add_subcommand("bench", "Measure solver and planner against what a user would pick instead");
+  bench->add_option("--json", bench_options.json, "File for the rows");
+  bench->add_option("--largest", bench_options.largest, "Largest map, cells a side")
+      ->check(CLI::IsMember({256, 512, 1024, 2048}))
+      ->capture_default_str();
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"jaywalk: plans for where things will be. Not certified; a navigation laser is not a safety scanner."};
   app.set_version_flag("--version", std::string("jaywalk ") + JAYWALK_VERSION + ", backends: " + built_backends());
   app.require_subcommand(1);
   add_sim(app);
   add_replay(app);
+  add_field(app);
+  add_bench(app);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
+  if (app.got_subcommand("bench")) return run_bench(bench_options);
+  if (app.got_subcommand("field")) return run_field(field_options);
   return app.got_subcommand("sim") ? run_sim(sim_options) : run_replay(replay_options);
 }
 

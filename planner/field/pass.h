@@ -85,6 +85,13 @@ class Pass {
     return executor_.wait();
   }
 
+  /// The next clear and start are done anew though nothing has changed: for measuring, and when the host has changed
+  /// the clearance.
+  void forget() noexcept {
+    cleared_ = {};
+    started_ = kNowhere;
+  }
+
   /// The start field, in `cost` and `start_psi`.
   bool start(Grid grid, std::int32_t goal) noexcept {
     if (Executor::kQueue && started_ == goal) return true;

@@ -197,7 +197,7 @@ struct PitsOfRow {
           (beside.east < here) | (beside.west < here) | (beside.north < here) | (beside.south < here);
       const bool joins = cell::is_joined(here);
       joined_count += joins ? 1 : 0;
-      pit_count += joins & !has_lower & (c != goal) ? 1 : 0;
+      pit_count += (joins & !has_lower & (c != goal)) ? 1 : 0;
     }
     pits[j] = pit_count;
     joined[j] = joined_count;
