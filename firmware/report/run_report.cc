@@ -83,7 +83,7 @@ void RunReport::add_tracks(const RunSample& sample) {
 
 std::string RunReport::finish(const RunEnd& end) {
   tables_.reset();
-  const std::string text = summary(end);
+  std::string text = summary(end);
   if (!folder_.empty()) {
     std::ofstream file(folder_ / "summary.json", std::ios::binary);
     file << text;
