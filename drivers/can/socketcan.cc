@@ -148,7 +148,9 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
       ++health_.malformed;
       continue;
     }
-    if (health_.state == CanState::kDown) health_.state = CanState::kActive;  // frames come only from a link that is up
+    // Frames come only from a link that is up and a controller that takes part.
+    const bool was_off = health_.state == CanState::kDown || health_.state == CanState::kBusOff;
+    if (was_off) health_.state = CanState::kActive;
     received = {*frame, on_control_timeline(ancillary, clock_.now())};
     return true;
   }

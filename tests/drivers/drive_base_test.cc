@@ -6,8 +6,8 @@
 #include <string>
 
 #include "drivers/can/in_process_bus.h"
-#include "drivers/emulators/cia402_node.h"
 #include "hal/types/errors.h"
+#include "tests/drivers/drive_plant.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
@@ -16,39 +16,10 @@
 
 using namespace jaywalk;
 using namespace jaywalk::canopen;
+using tests::two_axes;
 using namespace std::chrono_literals;
 
 namespace {
-
-/// Time that moves two emulated drives on, a millisecond at a time, while the controller sleeps.
-class PlantClock final : public Clock {
- public:
-  [[nodiscard]] Time now() noexcept override { return now_; }
-  void sleep_until(Time wake) noexcept override {
-    while (now_ < wake) {
-      now_ += 1ms;
-      for (auto* node : nodes) {
-        if (node != nullptr) node->step(now_);
-      }
-    }
-  }
-  std::array<emulators::Cia402Node*, 2> nodes{};
-
- private:
-  Time now_{};
-};
-
-DriveBaseSetup two_axes() {
-  DriveBaseSetup setup;
-  setup.axes = {AxisSetup{5, 1000.0}, AxisSetup{6, -1000.0}};  // the right motor looks the other way
-  setup.settings = {.controller_node = 1,
-                    .controller_timeout_ms = 100,
-                    .heartbeat_ms = 50,
-                    .acceleration = 5000,
-                    .deceleration = 5000,
-                    .quick_stop = 20000};
-  return setup;
-}
 
 struct Bench {
   explicit Bench(const DriveBaseSetup& setup = two_axes()) : base(bus.port(0), clock, setup) {
@@ -79,7 +50,7 @@ struct Bench {
   }
   [[nodiscard]] bool is_at_rest() const { return left.velocity() == 0.0 && right.velocity() == 0.0; }
 
-  PlantClock clock;
+  tests::PlantClock clock;
   InProcessBus bus{clock, 1};
   emulators::Cia402Node left{bus.port(1), 5};
   emulators::Cia402Node right{bus.port(2), 6};

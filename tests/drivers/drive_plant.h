@@ -1,0 +1,41 @@
+#pragma once
+#include <array>
+#include <chrono>
+
+#include "drivers/canopen/drive_base.h"
+#include "drivers/emulators/cia402_node.h"
+#include "hal/hal.h"
+
+namespace jaywalk::tests {
+
+/// Time that moves two emulated drives on, a millisecond at a time, while the controller sleeps.
+class PlantClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return now_; }
+  void sleep_until(Time wake) noexcept override {
+    while (now_ < wake) {
+      now_ += std::chrono::milliseconds(1);
+      for (auto* node : nodes) {
+        if (node != nullptr) node->step(now_);
+      }
+    }
+  }
+  std::array<emulators::Cia402Node*, 2> nodes{};
+
+ private:
+  Time now_{};
+};
+
+inline canopen::DriveBaseSetup two_axes() {
+  canopen::DriveBaseSetup setup;
+  setup.axes = {canopen::AxisSetup{5, 1000.0}, canopen::AxisSetup{6, -1000.0}};  // the right motor looks the other way
+  setup.settings = {.controller_node = 1,
+                    .controller_timeout_ms = 100,
+                    .heartbeat_ms = 50,
+                    .acceleration = 5000,
+                    .deceleration = 5000,
+                    .quick_stop = 20000};
+  return setup;
+}
+
+}  // namespace jaywalk::tests

@@ -1,0 +1,152 @@
+// SocketCAN against a kernel's virtual bus; where there is none these tests say "skipped". tools/rig/run brings one
+// along, or: modprobe vcan; ip link add vcan0 type vcan; ip link set vcan0 up
+#include <linux/can/error.h>
+#include <net/if.h>
+#include <sys/socket.h>
+
+#include <array>
+#include <cstdlib>
+#include <iostream>
+
+#include "drivers/can/socketcan.h"
+#include "drivers/wire/byte_reader.h"
+#include "tests/drivers/drive_plant.h"
+#include "tests/drivers/hand_clock.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::canopen;
+
+namespace {
+
+bool is_missing() {
+  if (::if_nametoindex("vcan0") != 0) return false;
+  std::cout << "skipped: no interface vcan0\n";
+  return true;
+}
+
+SocketCan place_on_bus(Clock& clock) {
+  const std::array all{CanFilter{.id = 0, .mask = 0, .extended = false}};
+  return {open_can("vcan0", all), clock};
+}
+
+/// What the bench of the in-process bus is, on the kernel's: controller and drives each have a socket of their own.
+struct KernelBench {
+  KernelBench() { clock.nodes = {&left, &right}; }
+  static DriveBaseSetup patient() {
+    DriveBaseSetup setup = tests::two_axes();
+    setup.silence_limit = std::chrono::seconds(2);  // frames have real ages here, and this machine may be busy
+    return setup;
+  }
+  void drive(double speed_radps, int ticks) {
+    for (int k = 0; k < ticks; ++k) {
+      wheels = base.latest();
+      base.command({clock.now(), speed_radps, speed_radps});
+      clock.sleep_until(clock.now() + std::chrono::milliseconds(20));
+    }
+  }
+  void bring_to_two_radps() {
+    CHECK(base.arm().size() == 66);
+    drive(0.0, 10);
+    drive(2.0, 50);
+    REQUIRE(left.velocity() == Approx(2000.0));
+    REQUIRE(right.velocity() == Approx(-2000.0));
+  }
+  void check_stopped_until_reset() {
+    CHECK(left.velocity() == 0.0);
+    CHECK(right.velocity() == 0.0);
+    drive(0.0, 20);
+    drive(2.0, 20);
+    CHECK(left.velocity() == 0.0);
+    base.reset();
+    drive(0.0, 20);
+    drive(2.0, 50);
+    CHECK(base.trouble() == DriveTrouble::kNone);
+    CHECK(left.velocity() == Approx(2000.0));
+  }
+
+  tests::PlantClock clock;
+  SocketCan controller = place_on_bus(clock), left_socket = place_on_bus(clock), right_socket = place_on_bus(clock);
+  emulators::Cia402Node left{left_socket, 5}, right{right_socket, 6};
+  CanopenDriveBase base{controller, clock, patient()};
+  WheelState wheels;
+};
+
+}  // namespace
+
+TEST_CASE("a thousand frames cross the kernel's virtual bus in order, filtered and stamped") {
+  if (is_missing()) return;
+  tests::HandClock clock;
+  clock.sleep_until(Time{std::chrono::seconds(9)});
+  const std::array passes{CanFilter{.id = 0x181, .mask = 0x7FF, .extended = false}};
+  SocketCan sender(open_can("vcan0", {}), clock);
+  SocketCan receiver(open_can("vcan0", passes), clock);
+  CanFrame frame;
+  frame.size = 4;
+  std::uint32_t arrived = 0;
+  for (std::uint32_t k = 0; k < 2000; ++k) {
+    frame.id = k % 2 == 0 ? 0x181 : 0x182;  // every other one is filtered out
+    wire::put_little_endian(k, frame.bytes);
+    REQUIRE(sender.send(frame) == SendResult::kQueued);
+    ReceivedFrame received;
+    if (!receiver.receive(received)) continue;
+    REQUIRE(received.frame == frame);
+    REQUIRE(received.stamp <= clock.now());
+    REQUIRE(received.stamp > clock.now() - std::chrono::seconds(1));
+    ++arrived;
+  }
+  CHECK(arrived == 1000);
+  CHECK(receiver.health().frames_lost == 0);
+  CHECK(receiver.health().malformed == 0);
+}
+
+TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lost frame or the heap") {
+  if (is_missing()) return;
+  KernelBench bench;
+  bench.bring_to_two_radps();
+  const AllocationGuard guard;
+  bench.drive(1.0, 500);
+  const auto calls = guard.calls();
+  CHECK(calls == 0);
+  CHECK(bench.wheels.left_radps == Approx(1.0));
+  bench.drive(0.0, 50);
+  CHECK(bench.left.velocity() == 0.0);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  for (const SocketCan* socket : {&bench.controller, &bench.left_socket, &bench.right_socket}) {
+    CHECK(socket->health().frames_lost == 0);
+    CHECK(socket->health().malformed == 0);
+    CHECK(socket->health().error_frames == 0);
+  }
+}
+
+TEST_CASE("bus-off as the kernel tells it stops the drives until a reset") {
+  if (is_missing()) return;
+  KernelBench bench;
+  bench.bring_to_two_radps();
+  const auto injector = open_can("vcan0", {});
+  can_frame error{};
+  error.can_id = CAN_ERR_FLAG | CAN_ERR_BUSOFF;
+  error.can_dlc = CAN_ERR_DLC;
+  REQUIRE(::send(injector.get(), &error, sizeof error, 0) == sizeof error);
+  bench.drive(2.0, 12);
+  CHECK(bench.controller.health().bus_off_count == 1);
+  CHECK(bench.base.trouble() == DriveTrouble::kBusUnwell);
+  bench.check_stopped_until_reset();
+}
+
+TEST_CASE("a link that goes down stops the drives until it is up and somebody resets") {
+  if (is_missing()) return;
+  KernelBench bench;
+  bench.bring_to_two_radps();
+  if (std::system("ip link set vcan0 down") != 0) {
+    std::cout << "skipped: may not set vcan0 down\n";
+    return;
+  }
+  bench.drive(2.0, 12);
+  CHECK(bench.base.trouble() == DriveTrouble::kBusUnwell);  // the kernel tells it to who reads, before who sends
+  CHECK(bench.left.velocity() == 0.0);                      // its own doing: it missed the controller's heartbeat
+  REQUIRE(std::system("ip link set vcan0 up") == 0);
+  bench.drive(2.0, 12);
+  bench.check_stopped_until_reset();
+}
