@@ -116,6 +116,7 @@ int replay_recording(const ReplayOptions& options) {
                    now.left_radps, now.right_radps);
     }
   }
+  if (ticks == 0) throw StartupError(file + ": no whole tick in it", "take an undamaged copy of the recording");
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
   picture.save(options.out, "replay of " + file, runner, {});

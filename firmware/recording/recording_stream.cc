@@ -125,7 +125,9 @@ void RecordingReader::read_header() {
   numbers.number(version);
   numbers.number(setup_bytes);
   if (version != kRecordingVersion) {
-    damaged("format version " + std::to_string(version) + ", this program reads " + std::to_string(kRecordingVersion));
+    throw StartupError(file_ + ": byte 8: format version " + std::to_string(version) + ", this program reads " +
+                           std::to_string(kRecordingVersion),
+                       "replay it with the jaywalk that recorded it");
   }
   if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
   setup_.resize(setup_bytes);
