@@ -37,7 +37,7 @@ void add_sim(CLI::App& app) {
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
 }
 
-/// `value` when it can be a place in a recording (m) or an angle; NaN cannot.
+/// `value` when it can be a place (m) or an angle; NaN cannot.
 double sound(const char* option, double value) {
   constexpr double kFarthest = 1e6;
   if (value >= -kFarthest && value <= kFarthest) return value;
@@ -81,7 +81,7 @@ void add_field(CLI::App& app) {
       ->add_option_function<std::vector<double>>(
           "--goal",
           [](const std::vector<double>& v) {
-            field_options.goal = Vec2{v[0], v[1]};
+            field_options.goal = Vec2{sound("--goal", v[0]), sound("--goal", v[1])};
           },
           "Goal X,Y in the map (default: the free cell nearest its middle)")
       ->delimiter(',')
