@@ -11,6 +11,7 @@ namespace {
 
 // Wheel odometry drifts as a random walk: 5 cm after a metre, 2 degrees a metre and 4 degrees a turn of one radian.
 constexpr double kPositionVarPerM = 0.05 * 0.05;
+constexpr double kPositionVarPerRad = 0.15 * 0.15;  // a laser that is not where it is said to be, slip in turns
 constexpr double kHeadingVarPerM = 0.035 * 0.035;
 constexpr double kHeadingVarPerRad = 0.07 * 0.07;
 
@@ -87,8 +88,8 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   p.xh -= dy * p.hh;
   p.yh += dx * p.hh;
   const double metres = std::fabs(step.distance_m), radians = std::fabs(step.turn_rad);
-  p = p + diagonal(kPositionVarPerM * metres, kPositionVarPerM * metres,
-                   kHeadingVarPerM * metres + kHeadingVarPerRad * radians);
+  const double position_var = kPositionVarPerM * metres + kPositionVarPerRad * radians;
+  p = p + diagonal(position_var, position_var, kHeadingVarPerM * metres + kHeadingVarPerRad * radians);
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {

@@ -1,13 +1,16 @@
 #include "planner/perception/kalman.h"
 
+#include "planner/cell/kalman.h"
+
 namespace jaywalk {
 
 void predict(Track& track, double dt, double accel_std) noexcept {
   const double q = accel_std * accel_std;
   AxisCovariance& p = track.covariance;
   track.position_in_map = track.position_in_map + track.velocity_in_map * dt;
-  p.pp += dt * (2.0 * p.pv + dt * p.vv) + q * dt * dt * dt * dt / 4.0;
-  p.pv += dt * p.vv + q * dt * dt * dt / 2.0;
+  const cell::CovarianceGrowth<double> growth = cell::covariance_growth(p.pv, p.vv, dt);
+  p.pp += growth.pp + q * dt * dt * dt * dt / 4.0;
+  p.pv += growth.pv + q * dt * dt * dt / 2.0;
   p.vv += q * dt * dt;
 }
 

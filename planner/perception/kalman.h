@@ -2,7 +2,8 @@
 // The Kalman filter of the paper (its equations 12 to 16) for something that moves at constant velocity.
 //
 // State (position, velocity), A = [1 dt; 0 1], H = [1 0], no input. x and y are alike and independent, so one
-// covariance serves both axes. Process noise: white acceleration, constant over a step.
+// covariance serves both axes. Process noise: white acceleration, constant over a step (the planner's
+// predictions, planner/cell/kalman.h, take it as white throughout: over seconds nobody holds an acceleration).
 #include "planner/perception/track.h"
 
 namespace jaywalk {

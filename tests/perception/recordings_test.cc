@@ -70,7 +70,7 @@ TEST_CASE("few things move where nobody is") {
   const double minutes = to_seconds(recording.scans.back().stamp - recording.scans.front().stamp) / 60.0;
   std::cout << "false movers a minute " << static_cast<double>(seen.moving_ids.size()) / minutes << "\n";
   CHECK(static_cast<double>(seen.moving_ids.size()) / minutes <
-        10.0);  // 8.3 when this was written; scans alone carry the pose here
+        6.0);  // 4.2 when this was written; scans alone carry the pose here
   // The robot turns and drives round the hall and comes back to where it set out, to the eye.
   CHECK(norm(seen.poses.back().position()) < 0.6);
 }
@@ -110,5 +110,5 @@ TEST_CASE("people before a wheelchair are tracked where they were labelled") {
   }
   std::cout << "labels tracked " << found << " of " << labels << "\n";
   CHECK(labels > 50);
-  CHECK(2 * found > labels);
+  CHECK(3 * found > 2 * labels);  // 43 of 57
 }
