@@ -19,6 +19,8 @@ struct Board {
   [[nodiscard]] JAYWALK_CELL std::int32_t half() const { return side / 2; }
   /// Values that an array needs, the spare rows included.
   [[nodiscard]] JAYWALK_CELL std::int32_t size() const { return side * (side + 2); }
+  /// Rows of both colours, the spare ones included, half() values each.
+  [[nodiscard]] JAYWALK_CELL std::int32_t rows() const { return 2 * (side + 2); }
   /// Place of a row's first cell of that colour; j from -1 to side.
   [[nodiscard]] JAYWALK_CELL std::int32_t row(std::int32_t colour, std::int32_t j) const {
     return (colour * (side + 2) + j + 1) * half();

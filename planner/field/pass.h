@@ -18,9 +18,9 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 inline constexpr std::int32_t kBandRounds = 60;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// After four cycles from the start field 99.5 % of cells or more pick the exact field's best neighbour; from the
-/// last submission's field one does as well (docs/algorithm.md).
-inline constexpr std::int32_t kColdCycles = 4, kWarmCycles = 1;
+/// Cycles from the start field: four, a fifth where the fourth has still moved something; then 99.9 % of cells or
+/// more pick the exact field's best neighbour. From the last submission's field one does (docs/algorithm.md).
+inline constexpr std::int32_t kColdCycles = 4, kMostColdCycles = 5, kWarmCycles = 1;
 
 /// What the stages read and write; all of it the executor's memory.
 struct FieldArrays {
@@ -111,11 +111,11 @@ class Pass {
   /// must then have been on the same cells with the same goal. Whatever breaks the certificate is not used.
   FieldQuality solve(Grid grid, std::int32_t goal, bool warm, float* psi) noexcept {
     FieldQuality quality;
-    if (warm) quality = attempt(grid, goal, kWarmCycles, psi);
+    if (warm) quality = attempt(grid, goal, kWarmCycles, kWarmCycles, psi);
     if (!quality.certified) {
       executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
       const std::int32_t before = quality.cycles;
-      quality = attempt(grid, goal, kColdCycles, psi);
+      quality = attempt(grid, goal, kColdCycles, kMostColdCycles, psi);
       quality.cycles += before;
     }
     if (quality.certified) {
@@ -165,9 +165,9 @@ class Pass {
     array = executor_.template take<T>(n);
   }
 
-  FieldQuality attempt(Grid grid, std::int32_t goal, std::int32_t cycles, float* psi) noexcept {
+  FieldQuality attempt(Grid grid, std::int32_t goal, std::int32_t least, std::int32_t most, float* psi) noexcept {
     executor_.for_each(grid.cells(), AddCorrection{a_.start_psi, a_.correction, psi});
-    solver_.improve(grid, goal, psi, cycles);
+    const std::int32_t cycles = solver_.improve(grid, goal, psi, least, most);
     FieldQuality quality = certificate(grid, goal, psi);
     quality.cycles = cycles;
     return quality;

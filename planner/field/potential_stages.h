@@ -144,6 +144,23 @@ struct RebaseCouplings {
   }
 };
 
+/// How far from 1 the farthest v of a board's row is, where there are equations.
+struct FarthestOfRow {
+  Board board;
+  const float* x;
+  float* farthest;
+
+  JAYWALK_CELL void operator()(std::int32_t row) const {
+    float most = 0.0F;
+    for (std::int32_t c = row * board.half(), end = c + board.half(); c < end; ++c) {
+      const float away = x[c] > 1.0F ? x[c] - 1.0F : 1.0F - x[c];
+      const float counted = x[c] > 0.0F ? away : 0.0F;
+      most = counted > most ? counted : most;
+    }
+    farthest[row] = most;
+  }
+};
+
 /// Carries v over into psi and starts again from v = 1. Visits every place of the board.
 struct RebasePsi {
   float* x;

@@ -1,9 +1,11 @@
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <vector>
 
 #include "planner/field/path.h"
 #include "tests/planner/field_rig.h"
+#include "tests/planner/reference_field.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -31,15 +33,6 @@ std::vector<double> harmonic_reference(const field::Grid& grid, const float* cle
   }
   for (double& value : u) value = -std::log(value);
   return u;
-}
-
-/// The lowest of the four neighbours of a cell that is not on the border.
-std::int32_t best_neighbour(const field::Grid& grid, const float* psi, std::int32_t c) {
-  std::int32_t best = c;
-  for (const std::int32_t n : {c + 1, c - 1, c + grid.side, c - grid.side}) {
-    if (psi[n] < psi[best]) best = n;
-  }
-  return best;
 }
 
 TestMap rooms() {
@@ -75,7 +68,8 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
     rig.load(map, 3.0F, goal);
     const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, false, rig.psi);
     CHECK(cold.certified);
-    CHECK(cold.cycles == field::kColdCycles);
+    CHECK(cold.cycles >= field::kColdCycles);
+    CHECK(cold.cycles <= field::kMostColdCycles);
     CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
     const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, true, rig.psi);
     CHECK(warm.certified);
@@ -83,24 +77,26 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
   }
 }
 
-TEST_CASE("after four cold cycles 99.5 percent of cells pick the converged field's best neighbour") {
+TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's best neighbour") {
   FieldRig<> rig(256);
-  field::Multigrid<field::SerialExecutor> solver(rig.executor, 256);
   for (const TestMap& map : {open_room(), office(), clutter(1), speckle(1)}) {
     const std::int32_t goal = rig.grid.at(243, 243);
     rig.load(map, 3.0F, goal);
-    const auto cells = static_cast<std::size_t>(rig.grid.cells());
-    std::vector<float> converged(rig.arrays().start_psi, rig.arrays().start_psi + cells);
-    solver.improve(rig.grid, goal, converged.data(), 30);
     REQUIRE(rig.pass.solve(rig.grid, goal, false, rig.psi).certified);
-    int joined = 0, same = 0;
-    for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
-      if (!cell::is_joined(rig.psi[c]) || c == goal) continue;
-      ++joined;
-      if (best_neighbour(rig.grid, rig.psi, c) == best_neighbour(rig.grid, converged.data(), c)) ++same;
-    }
-    CHECK(same > 0.995 * joined);
+    const std::vector<double> exact = reference_psi(rig.grid, rig.psi, goal, 300, 1.94);
+    const double best = share_of_best(rig.grid, rig.psi, exact, goal);
+    std::printf("%s: %.3f %% pick the best neighbour\n", map.name.c_str(), 100.0 * best);
+    CHECK(best >= 0.999);
   }
+}
+
+TEST_CASE("the start field alone picks the best neighbour far less often: the comparison can fail") {
+  FieldRig<> rig(256);
+  const std::int32_t goal = rig.grid.at(243, 243);
+  rig.load(office(), 3.0F, goal);
+  (void)rig.pass.solve(rig.grid, goal, false, rig.psi);
+  const std::vector<double> exact = reference_psi(rig.grid, rig.psi, goal, 300, 1.94);
+  CHECK(share_of_best(rig.grid, rig.arrays().start_psi, exact, goal) < 0.9);
 }
 
 TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {

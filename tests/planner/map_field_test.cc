@@ -1,0 +1,136 @@
+// Reach and certificate on maps of every kind: random ones, cylinders of BARN worlds, passages that open and close.
+#include "planner/field/map_field.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+
+#include "tests/planner/field_rig.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+/// Between 1 and `most` cells a side, boxes and single cells thrown in.
+field::CellMap random_map(Random& random, std::int32_t most) {
+  field::CellMap map{1 + random.below(most), 1 + random.below(most), {}};
+  map.wall.assign(static_cast<std::size_t>(map.width * map.height), 0);
+  const std::int32_t pieces = random.below(1 + map.width * map.height / 100), longest = 1 + random.below(20);
+  for (std::int32_t k = 0; k < pieces; ++k) {
+    const std::int32_t i0 = random.below(map.width), j0 = random.below(map.height);
+    const std::int32_t w = 1 + random.below(longest), h = 1 + random.below(longest);
+    for (std::int32_t j = j0; j < std::min(j0 + h, map.height); ++j) {
+      for (std::int32_t i = i0; i < std::min(i0 + w, map.width); ++i) {
+        map.wall[static_cast<std::size_t>(j * map.width + i)] = 1;
+      }
+    }
+  }
+  return map;
+}
+
+std::filesystem::path data_folder() {
+  const char* told = std::getenv("JAYWALK_DATA");
+  return told != nullptr ? std::filesystem::path(told) : std::filesystem::path(JAYWALK_DATA_DEFAULT);
+}
+
+/// Cells of 5 cm that a cylinder (x y radius a line) covers with their middle.
+field::CellMap barn_map(const std::filesystem::path& file) {
+  constexpr double kCell = 0.05;
+  field::CellMap map{110, 220, std::vector<std::uint8_t>(110 * 220, 0)};
+  std::ifstream in(file);
+  for (std::string line; std::getline(in, line);) {
+    std::istringstream words(line);
+    double x = 0.0, y = 0.0, r = 0.0;
+    if (!(words >> x >> y >> r)) continue;
+    for (std::int32_t c = 0; c < 110 * 220; ++c) {
+      const double dx = (c % 110 - 105) * kCell - x, dy = (c / 110 - 5) * kCell - y;
+      if (dx * dx + dy * dy <= r * r) map.wall[static_cast<std::size_t>(c)] = 1;
+    }
+  }
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("on random maps of random size descent arrives from every joined cell, cold and warm") {
+  Random random(2026);
+  int solved = 0;
+  for (int k = 0; k < 120; ++k) {
+    field::MapField field(random_map(random, k % 10 == 0 ? 300 : 90));
+    field.inflate(static_cast<float>(random.below(3)));
+    CellIndex goal{random.below(60), random.below(60)};
+    if (!field.nearest_free(goal, 100)) continue;
+    const field::MapQuality cold = field.solve_cold(goal);
+    CHECK(cold.certified);
+    CHECK(field.reach(goal) == 1.0F);
+    CHECK(field.solve_warm(goal).certified);
+    CHECK(field.reach(goal) == 1.0F);
+    ++solved;
+  }
+  CHECK(solved > 100);
+}
+
+TEST_CASE("a single cell, a row and a column of cells are solved, and a map of walls has no goal") {
+  for (const CellIndex size : {CellIndex{1, 1}, CellIndex{1, 65}, CellIndex{130, 1}}) {
+    field::MapField field({size.i, size.j, std::vector<std::uint8_t>(static_cast<std::size_t>(size.i * size.j), 0)});
+    const field::MapQuality quality = field.solve_cold({0, 0});
+    CHECK(quality.certified);
+    CHECK(quality.joined == size.i * size.j);
+    CHECK(field.psi(0, 0) == 0.0F);
+  }
+  const field::MapField walls({3, 2, std::vector<std::uint8_t>(6, 1)});
+  CellIndex goal{1, 1};
+  CHECK_FALSE(walls.nearest_free(goal, 10));
+}
+
+TEST_CASE("on the BARN worlds descent arrives from every joined cell") {
+  if (!std::filesystem::is_directory(data_folder() / "barn")) {
+    std::printf("skipped: no data\n");
+    return;
+  }
+  int worlds = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "barn")) {
+    if (entry.path().extension() != ".txt") continue;
+    field::MapField field(barn_map(entry.path()));
+    field.inflate(4.0F);
+    CellIndex goal{55, 215};
+    if (!field.nearest_free(goal, 60)) continue;
+    CHECK(field.solve_cold(goal).certified);
+    CHECK(field.reach(goal) == 1.0F);
+    ++worlds;
+  }
+  std::printf("%d BARN worlds\n", worlds);
+  CHECK(worlds > 0);
+}
+
+TEST_CASE("in 120 ticks with eight discs that open and close passages every field is certified") {
+  FieldRig<> rig(256);
+  TestMap map("doors", 256);
+  for (const std::int32_t i : {60, 120, 180}) {
+    map.box(i, 0, i + 2, 256);
+    for (const std::int32_t j : {40, 120, 200}) map.box(i, j, i + 2, j + 16, 0);
+  }
+  const std::int32_t goal = rig.grid.at(230, 128);
+  for (int tick = 0; tick < 120; ++tick) {
+    TestMap now = map;
+    for (std::int32_t k = 0; k < 8; ++k) {  // up and down along the walls, past their doors
+      const std::int32_t phase = (tick * (2 + k % 3) + 37 * k) % 400;
+      const std::int32_t i = 61 + 60 * (k % 3), j = 28 + (phase < 200 ? phase : 400 - phase);
+      for (std::int32_t dj = -6; dj <= 6; ++dj) {
+        for (std::int32_t di = -6; di <= 6; ++di) {
+          if (di * di + dj * dj <= 36) now.at(i + di, j + dj) = field::kWall;
+        }
+      }
+    }
+    rig.load(now, 3.0F, goal);
+    const field::FieldQuality quality = rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+    CHECK(quality.certified);
+    CHECK(quality.joined > 8000);
+  }
+}
