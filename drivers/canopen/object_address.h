@@ -1,5 +1,4 @@
 #pragma once
-#include <compare>
 #include <cstdint>
 
 namespace jaywalk::canopen {
@@ -8,7 +7,10 @@ namespace jaywalk::canopen {
 struct ObjectAddress {
   std::uint16_t index = 0;
   std::uint8_t sub = 0;
-  auto operator<=>(const ObjectAddress&) const = default;
+  bool operator==(const ObjectAddress&) const = default;
+  constexpr bool operator<(const ObjectAddress& other) const {
+    return index != other.index ? index < other.index : sub < other.sub;
+  }
 };
 
 }  // namespace jaywalk::canopen

@@ -16,7 +16,7 @@ enum class Cola : std::uint8_t { kA, kB };
 class ColaStream {
  public:
   /// Longest body that is believed: two channels of 2048 beams are 8.3 kB in CoLa B, some 12 to 20 kB in CoLa A.
-  static constexpr std::size_t kMaxBody = 24 * 1024;
+  static constexpr std::size_t kMaxBody = 24576;
 
   explicit ColaStream(Cola dialect) noexcept : dialect_(dialect) {}
 

@@ -25,7 +25,7 @@ class AnswerStream {
   [[nodiscard]] std::uint64_t lost() const noexcept { return queue_.lost(); }
 
  private:
-  wire::ByteQueue<16 * 1024> queue_;  // 2048 beams of three characters, and their lines, are 6.4 kB
+  wire::ByteQueue<16384> queue_;  // 2048 beams of three characters, and their lines, are 6.4 kB
   std::size_t handed_out_ = 0;
 };
 

@@ -20,6 +20,12 @@ CanFrame command(std::uint8_t controller, std::uint32_t number, std::int32_t val
 std::int32_t word(wire::ByteReader& reader) noexcept { return static_cast<std::int32_t>(reader.big<std::uint32_t>()); }
 double half_word(wire::ByteReader& reader) noexcept { return static_cast<std::int16_t>(reader.big<std::uint16_t>()); }
 
+template <class Content>
+std::optional<Message> message_of(std::uint8_t controller, const Content& content,
+                                  const wire::ByteReader& reader) noexcept {
+  return reader.ok() ? std::optional(Message{controller, content}) : std::nullopt;
+}
+
 }  // namespace
 
 CanFrame set_erpm(std::uint8_t controller, std::int32_t erpm) noexcept { return command(controller, kSetErpm, erpm); }
@@ -34,23 +40,21 @@ CanFrame set_brake_current(std::uint8_t controller, std::int32_t milliampere) no
 
 std::optional<Message> decode(const CanFrame& frame) noexcept {
   if (!frame.extended || frame.remote) return std::nullopt;
-  Message message{static_cast<std::uint8_t>(frame.id & 0xFFU), {}};
+  const auto controller = static_cast<std::uint8_t>(frame.id & 0xFFU);
   wire::ByteReader reader(frame.payload());
   // Braced lists are evaluated in the order written.
   switch (frame.id >> 8U) {
     case kStatus:
-      message.content = Status{word(reader), half_word(reader) / 10.0, half_word(reader) / 1000.0};
-      break;
+      return message_of(controller, Status{word(reader), half_word(reader) / 10.0, half_word(reader) / 1000.0}, reader);
     case kStatus4:
-      message.content = Temperatures{half_word(reader) / 10.0, half_word(reader) / 10.0, half_word(reader) / 10.0};
-      break;
+      return message_of(controller,
+                        Temperatures{half_word(reader) / 10.0, half_word(reader) / 10.0, half_word(reader) / 10.0},
+                        reader);
     case kStatus5:
-      message.content = Travel{word(reader), half_word(reader) / 10.0};
-      break;
+      return message_of(controller, Travel{word(reader), half_word(reader) / 10.0}, reader);
     default:
       return std::nullopt;
   }
-  return reader.ok() ? std::optional(message) : std::nullopt;
 }
 
 }  // namespace jaywalk::vesc
