@@ -58,7 +58,7 @@ void check_scan(Decoding decoding, const LaserScan& scan) {
 
 void fuzz_kernel_frame(wire::Bytes bytes) {
   can_frame raw{};
-  std::memcpy(&raw, bytes.data(), std::min(bytes.size(), sizeof raw));
+  if (!bytes.empty()) std::memcpy(&raw, bytes.data(), std::min(bytes.size(), sizeof raw));
   const auto frame = from_kernel(raw);
   if (frame) require(is_valid(*frame) && from_kernel(to_kernel(*frame)) == *frame);
   require(name(state_after(raw, CanState::kActive)) != "unknown state");
