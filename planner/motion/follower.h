@@ -24,8 +24,8 @@ struct FollowerInput {
   Pose2 map_from_robot;
   Vec2 goal_in_map;
   bool has_goal = false;
-  std::span<const Track> tracks;       ///< all of them: see choose_speed
-  Twist2 permitted_before;  ///< what the supervisor made of the last wish
+  std::span<const Track> tracks;  ///< all of them: see choose_speed
+  Twist2 permitted_before;        ///< what the supervisor made of the last wish
 };
 
 /// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and movers
