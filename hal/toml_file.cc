@@ -183,7 +183,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
 
 std::filesystem::path TomlTable::existing_file(const std::string& key) {
   const std::filesystem::path named = text(key);
-  const std::filesystem::path file = named.is_absolute() ? named : file_->parent_path() / named;
+  std::filesystem::path file = named.is_absolute() ? named : file_->parent_path() / named;
   if (!std::filesystem::is_regular_file(file)) {
     refuse(key, "names " + file.string() + ", which is no file", "give a path relative to this file's folder");
   }

@@ -67,7 +67,8 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
   const Vec2 offset = (p - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
   surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
   add(cell, change);
-  const int units = seen_for_[k] + static_cast<int>(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5);
+  const int units =
+      seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5));
   seen_for_[k] = static_cast<std::uint8_t>(std::min(units, 255));
 }
 
