@@ -2,7 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <exception>
+#include <fstream>
 #include <sstream>
 
 #include "hal/types/errors.h"
@@ -48,10 +50,27 @@ std::string cause_in(const std::string& text) {
   return colon == std::string::npos ? line : line.substr(colon + 2);
 }
 
+/// The parser calls itself for each bracket within another, and 20,000 break the stack. Far more than any file of ours
+/// has, those in texts and comments included.
+constexpr int kDeepestNesting = 500;
+
+void refuse_deep_nesting(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::uint32_t line = 1;
+  int depth = 0;
+  for (char c = 0; stream.get(c);) {
+    if (c == '\n') ++line;
+    if (c == '[' || c == '{') ++depth;
+    if ((c == ']' || c == '}') && depth > 0) --depth;
+    if (depth > kDeepestNesting) throw StartupError(place(file, line) + "brackets within brackets", "write valid TOML");
+  }
+}
+
 toml::value parse(const std::filesystem::path& file) {
   if (!std::filesystem::is_regular_file(file)) {
     throw StartupError(file.string() + ":0: no such file", "give the path of a TOML file");
   }
+  refuse_deep_nesting(file);
   try {
     return toml::parse(file.string());
   } catch (const toml::syntax_error& e) {

@@ -21,8 +21,8 @@ struct Grid {
 /// what lies beyond the border before it decides not to use it.
 template <class T, class Executor>
 [[nodiscard]] T* take_rows(Executor& executor, std::int32_t side) {
-  const std::int32_t spare = side + 1;
-  return executor.template take<T>(static_cast<std::size_t>(Grid{side}.cells() + 2 * spare)) + spare;
+  const auto spare = static_cast<std::size_t>(side) + 1;
+  return executor.template take<T>(static_cast<std::size_t>(Grid{side}.cells()) + 2 * spare) + spare;
 }
 
 }  // namespace jaywalk::field

@@ -65,7 +65,9 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
   const std::size_t k = slot(cell);
   const bool fresh = evidence_[k] <= 0;
   const Vec2 offset = (p - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
-  surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
+  // What is certain stays where it was first seen: a wall that followed every scan would drift along with the pose.
+  if (evidence_[k] < kMax)
+    surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
   add(cell, change);
   const int units =
       seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5));

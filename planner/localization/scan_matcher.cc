@@ -19,8 +19,9 @@ constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put th
 constexpr std::uint32_t kFewestOnWalls = 25;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
-constexpr double kNearM = 0.2;        // a wall's points about a scan's point
-constexpr double kThinWallM = 0.03;   // standard deviation across: thicker things have no direction
+constexpr double kNearM = 0.3;  // a wall's points about a scan's point
+constexpr double kThinWallM =
+    0.06;  // standard deviation across: a wall seen with 5 cm of noise; thicker things have no direction
 constexpr double kPointStdM = 0.02;   // range noise and the map's own roughness
 constexpr double kDoubtM = 0.08;      // residuals beyond count less and less
 constexpr double kIndependent = 0.1;  // share of points whose errors are their own: neighbours share the map's
@@ -52,8 +53,8 @@ bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
   if (!any) return false;
   const CellIndex middle = still.cell_at(anchor);
   double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
-  for (std::int32_t j = -2; j <= 2; ++j) {
-    for (std::int32_t i = -2; i <= 2; ++i) {
+  for (std::int32_t j = -3; j <= 3; ++j) {
+    for (std::int32_t i = -3; i <= 3; ++i) {
       const CellIndex c{middle.i + i, middle.j + j};
       if (!has_surface(still, c)) continue;
       const Vec2 d = still.surface(c) - anchor;

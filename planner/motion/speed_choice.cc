@@ -38,7 +38,8 @@ class PathWalker {
 };
 
 /// Whether it walks, or may well: faster than walking pace's tenth and than twice what its speed is uncertain by. The
-/// tracker is slow to call a thing moving, since what it calls so changes the plan; here a false alarm costs a little speed.
+/// tracker is slow to call a thing moving, since what it calls so changes the plan; here a false alarm costs a little
+/// speed.
 bool may_walk(const Track& track) {
   const double speed = norm(track.velocity_in_map);
   return track.moving || (speed > 0.15 && speed > 2.0 * std::sqrt(track.covariance.vv));

@@ -12,6 +12,11 @@ namespace {
 constexpr int kHit = 10;
 constexpr int kPass = -6;
 
+/// So near before its end a beam frees no cell that was hit: ranges scatter, and were the near half of a wall's hits
+/// wiped out by the beams of the far half, the map would hold walls farther off than they are and the robot run ahead
+/// of itself.
+constexpr std::int32_t kNoiseCells = 2;
+
 /// One axis of a walk through the cells that a line crosses (Amanatides and Woo 1987).
 struct AxisWalk {
   std::int32_t step = 0;
@@ -47,7 +52,8 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
   AxisWalk x(from.x, to.x - from.x, cell.i, map.cell_m()), y(from.y, to.y - from.y, cell.j, map.cell_m());
   const std::int32_t cells = std::abs(end.i - cell.i) + std::abs(end.j - cell.j);
   for (std::int32_t k = 0; k < cells; ++k) {  // the last cell is left out: the beam ends just behind it
-    if (first_visit(cell)) map.add(cell, kPass);
+    const bool at_the_end = k + kNoiseCells >= cells;
+    if (!(at_the_end && map.evidence(cell) > 0) && first_visit(cell)) map.add(cell, kPass);
     if (x.next < y.next) {
       cell.i += x.step;
       x.next += x.each;

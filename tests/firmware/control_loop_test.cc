@@ -91,6 +91,15 @@ TEST_CASE("without movers the goal is reached and nothing touched") {
   CHECK(drive.truth().contacts == 0);
 }
 
+TEST_CASE("with ranges that scatter by 5 cm the goal is reached as well") {
+  SimulatedDrive drive("crossing", 1, [](sim::Scenario& scenario) {
+    scenario.wanderers.clear();
+    scenario.model.laser.noise_m = 0.05;
+  });
+  CHECK(drive.drive(90.0, [&](const TickRecord&) { return drive.to_goal_m() < 0.3; }));
+  CHECK(drive.truth().contacts == 0);
+}
+
 TEST_CASE("mode paper keeps one speed from start to goal; its verdicts are recorded and not applied") {
   const auto press_the_button = [](sim::Scenario& scenario) {
     scenario.wanderers.clear();

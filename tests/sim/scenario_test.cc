@@ -81,6 +81,7 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
   const Bad cases[] = {
       {"", "s.toml:1: map is missing"},
       {"[map\n", "s.toml:1: "},
+      {"\nname = " + std::string(20000, '['), "s.toml:2: brackets within brackets"},
       {kMap, "s.toml:1: robot is missing"},
       {"[map]\n" + kRobot, "s.toml:1: map.yaml or aria or cylinders: one is needed"},
       {"[map]\naria = \"room.map\"\ncylinders = \"room.map\"\n" + kRobot, "one is needed"},
