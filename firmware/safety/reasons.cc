@@ -6,14 +6,13 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 12> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 11> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kWheelsStale, "wheels_stale"},
                                                                    {Reason::kPlanStale, "plan_stale"},
                                                                    {Reason::kEmergencyStop, "emergency_stop"},
                                                                    {Reason::kSpeedLimit, "speed_limit"},
-                                                                   {Reason::kAccelLimit, "accel_limit"},
                                                                    {Reason::kNotFinite, "not_finite"},
                                                                    {Reason::kLatched, "latched"},
                                                                    {Reason::kUnwatched, "unwatched"},

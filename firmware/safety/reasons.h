@@ -14,7 +14,6 @@ enum class Reason : std::uint32_t {
   kPlanStale = 1U << 4,      ///< limit: plan too old or none
   kEmergencyStop = 1U << 5,  ///< fault, latched
   kSpeedLimit = 1U << 6,     ///< limit: faster than allowed
-  kAccelLimit = 1U << 7,     ///< limit: changing faster than allowed
   kNotFinite = 1U << 8,      ///< fault: a wanted twist that is no number
   kLatched = 1U << 9,        ///< an earlier fault waits for a reset edge
   kUnwatched = 1U << 10,     ///< limit: nothing watches the direction of travel

@@ -37,7 +37,7 @@ class PathWalker {
   Vec2 position_;
 };
 
-/// Whether it walks, or may well: faster than walking pace's tenth and than twice what its speed is uncertain by. The
+/// Whether it walks, or may well: faster than 0.15 m/s and than twice what its speed is uncertain by. The
 /// tracker is slow to call a thing moving, since what it calls so changes the plan; here a false alarm costs a little
 /// speed.
 bool may_walk(const Track& track) {

@@ -39,6 +39,15 @@ TEST_CASE("somebody who crosses ahead is let pass") {
   CHECK(choose_speed(straight_path(), {0, 0}, 0.6, crossing, kConfig) < 0.6);
 }
 
+TEST_CASE("somebody not yet called moving counts when clearly under way, and not when the speed may be noise") {
+  Track crossing = walker({1.5, -1.2}, {0.0, 0.4});
+  crossing.moving = false;
+  crossing.covariance.vv = 0.1 * 0.1;  // 0.4 m/s is four standard deviations
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.6, std::array{crossing}, kConfig) < 0.6);
+  crossing.covariance.vv = 0.3 * 0.3;  // and here one and a third
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.6, std::array{crossing}, kConfig) == 0.6);
+}
+
 TEST_CASE("somebody who walks away behind does not slow the robot") {
   const std::array leaving{walker({-1.2, 0.0}, {-0.4, 0.0})};
   CHECK(choose_speed(straight_path(), {0, 0}, 0.6, leaving, kConfig) == 0.6);
