@@ -14,6 +14,7 @@ namespace {
 struct Options {
   std::string folder, labels, reference;
   std::vector<double> laser_mount{0.0, 0.0, 0.0};
+  double between_s = 0.0;
   bool nobody = false;
   ScoreRules rules;
   ViewRule view;
@@ -28,6 +29,8 @@ void print(const char* who, const TrackScore& score, double minutes) {
   std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", who, "", "");
   row("targets in view, all frames", score.targets());
   row("found", score.matches());
+  if (score.targets() > 0)
+    row("recall", 100.0 * static_cast<double>(score.matches()) / static_cast<double>(score.targets()), "%");
   row("missed", score.misses());
   row("false positives", score.false_positives());
   row("identity switches", score.switches());
@@ -53,7 +56,8 @@ void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
   if (o.nobody) {
     for (const double t_s : run.track_times()) frame(t_s, {});
   } else if (!o.labels.empty()) {
-    labelled_frames(o.labels, run, {o.laser_mount[0], o.laser_mount[1], o.laser_mount[2]}, frame);
+    const Pose2 robot_from_laser{o.laser_mount[0], o.laser_mount[1], o.laser_mount[2]};
+    labelled_frames(o.labels, run, {robot_from_laser, o.between_s}, frame);
   } else if (o.reference.empty()) {
     simulated_frames(o.folder, run, o.view, frame);
   }
@@ -83,7 +87,10 @@ int main(int argc, char** argv) {
   CLI::App app("Scores the tracks and poses in a folder of jaywalk sim or jaywalk replay", "jaywalk_track_bench");
   app.add_option("DIR", o.folder, "the run's folder; a simulation's own movers are the truth")->required();
   app.add_flag("--nobody", o.nobody, "nobody was there: every moving track is false");
-  app.add_option("--labels", o.labels, "t_s,id,x_m,y_m in the map, or t_bag,id,x,y,z in the laser's frame");
+  app.add_option("--labels", o.labels,
+                 "t_s,id,x_m,y_m in the map, or t_bag,id,x,y in the laser's frame; walks = 0: no matter");
+  app.add_option("--between", o.between_s,
+                 "s: whoever has labels before and after, so far apart, may be found as well");
   app.add_option("--laser-mount", o.laser_mount, "X,Y,YAW as given to the replay, for labels in the laser's frame")
       ->delimiter(',')
       ->expected(3);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include "bench/tracking/number_table.h"
 #include "hal/types/errors.h"
@@ -11,7 +10,6 @@ namespace jaywalk::bench {
 namespace {
 
 constexpr double kSameScanS = 0.03;  // stamps were rounded when they were written; scans are 25 ms apart or more
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 }  // namespace
 
@@ -70,21 +68,6 @@ std::vector<PosePair> RunFolder::poses() const {
     if (has_truth_) out.push_back({tick.estimate, tick.truth});
   }
   return out;
-}
-
-void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const Pose2& robot_from_laser,
-                     const FrameSink& frame) {
-  const NumberTable labels(file);
-  const bool in_laser = labels.has("t_bag");
-  const auto &t = labels.column(in_laser ? "t_bag" : "t_s"), &id = labels.column("id"),
-             &x = labels.column(in_laser ? "x" : "x_m"), &y = labels.column(in_laser ? "y" : "y_m");
-  std::map<double, std::vector<Target>> frames;
-  for (std::size_t k = 0; k < labels.rows(); ++k) {
-    const Pose2 map_from_labels = in_laser ? run.estimate_at(t[k]) * robot_from_laser : Pose2{};
-    frames[t[k]].push_back(
-        {static_cast<std::uint32_t>(id[k]), map_from_labels * Vec2{x[k], y[k]}, {kUnknown, kUnknown}});
-  }
-  for (const auto& [when, targets] : frames) frame(when, targets);
 }
 
 }  // namespace jaywalk::bench

@@ -53,9 +53,16 @@ struct ViewRule {
 void simulated_frames(const std::filesystem::path& folder, const RunFolder& run, const ViewRule& rule,
                       const FrameSink& frame);
 
-/// Labels: t_s,id,x_m,y_m in the map, or t_bag,id,x,y,z in the frame of the laser that stands at `robot_from_laser`;
-/// a frame for every time that stands in it. Velocities are not known.
-void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const Pose2& robot_from_laser,
+/// How labels are read.
+struct LabelRule {
+  Pose2 robot_from_laser{};  ///< for labels in the laser's frame
+  double between_s = 0.0;  ///< whoever has labels before and after a frame, at most so far apart, is taken to be there
+};
+
+/// Labels: t_s,id,x_m,y_m in the map, or t_bag,id,x,y in the laser's frame; a frame for every time that stands in it.
+/// Where a column `walks` is 0, and for those who are there between their labels, finding somebody is neither right nor
+/// wrong (Target::in_view). Velocities are not known.
+void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const LabelRule& rule,
                      const FrameSink& frame);
 
 }  // namespace jaywalk::bench

@@ -59,7 +59,8 @@ TEST_CASE("labels in the laser's frame are placed by pose and mount") {
   std::vector<Target> seen;
   // Robot at (1, 1) facing +y, laser 0.5 m before it: (2, 0.5) in the laser is (2.5, 0.5) in the robot,
   // and (1 - 0.5, 1 + 2.5) in the map.
-  labelled_frames(file, run, {0.5, 0.0, 0.0}, [&](double, const std::vector<Target>& targets) { seen = targets; });
+  labelled_frames(file, run, {.robot_from_laser = {0.5, 0.0, 0.0}},
+                  [&](double, const std::vector<Target>& targets) { seen = targets; });
   REQUIRE(seen.size() == 1);
   CHECK(seen[0].id == 3);
   CHECK(seen[0].position_in_map.x == Approx(0.5));
@@ -71,12 +72,34 @@ TEST_CASE("labels in the map stay where they are") {
   const RunFolder run(made.folder());
   const auto file = made.write("people.csv", "t_s,id,x_m,y_m\n1.0,3,2.0,0.5\n1.0,4,3.0,0.5\n1.1,3,2.0,0.6\n");
   std::size_t frames = 0, targets = 0;
-  labelled_frames(file, run, {9.0, 9.0, 9.0}, [&](double, const std::vector<Target>& t) {
+  labelled_frames(file, run, {.robot_from_laser = {9.0, 9.0, 9.0}}, [&](double, const std::vector<Target>& t) {
     frames += 1;
     targets += t.size();
   });
   CHECK(frames == 2);
   CHECK(targets == 3);
+}
+
+TEST_CASE("finding those who do not walk or have labels only before and after is neither right nor wrong") {
+  const MadeRun made;
+  const RunFolder run(made.folder());
+  const auto file = made.write("people.csv",
+                               "t_s,id,x_m,y_m,walks\n1.0,3,2.0,0.5,1\n1.0,4,3.0,0.5,0\n"
+                               "1.1,4,3.0,0.5,1\n1.4,3,2.8,0.5,1\n");
+  std::vector<std::vector<Target>> frames;
+  const FrameSink keep = [&](double, const std::vector<Target>& t) { frames.push_back(t); };
+  labelled_frames(file, run, {.between_s = 0.39}, keep);
+  REQUIRE(frames.size() == 3);
+  CHECK(frames[0][0].in_view);
+  CHECK_FALSE(frames[0][1].in_view);
+  CHECK(frames[1].size() == 1);  // 3 is 0.4 s between its labels
+  frames.clear();
+  labelled_frames(file, run, {.between_s = 0.41}, keep);
+  REQUIRE(frames[1].size() == 2);
+  CHECK(frames[1][1].id == 3);
+  CHECK(frames[1][1].position_in_map.x == Approx(2.2));  // a quarter of the way from 2.0 to 2.8
+  CHECK_FALSE(frames[1][1].in_view);
+  CHECK(frames[2].size() == 1);  // nobody knows of 4 after 1.1
 }
 
 TEST_CASE("tables without the column or with a short row are refused") {

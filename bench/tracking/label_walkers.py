@@ -1,0 +1,126 @@
+#!/usr/bin/env python3
+"""Labels people in a recording of a laser that stands still, by background subtraction over the whole recording.
+
+The rule, blind to any tracker:
+1. Background: a beam's nearest range (in steps of 0.1 m) to which a sixth of its scans return. Whoever stands still
+   for less than that is no background.
+2. Foreground: a hit more than 0.25 m before its beam's background, nearer than 5 m, in a piece of at least 3 beams.
+3. A person: pieces whose centres lie within 0.55 m of one another (legs in stride). The label is the mean of the
+   pieces' centres, each moved 5 cm back along its beams: a leg's axis lies behind the arc that is seen.
+4. A name holds from scan to scan while exactly one person continues exactly one (within 0.35 m of where its last six
+   places lead, after at most 3 scans unseen); where two come together names end.
+5. Walking: at least 0.35 m between 0.5 s before and 0.5 s after, under one name, alone.
+Every fifth scan is written with all its people; those who stand, whose name has just begun or is about to end, or who
+are wider than one person (0.85 m) are written with walks = 0: to find them is neither right nor wrong.
+
+label_walkers.py SCAN.txt.gz > LABELS.csv
+"""
+import gzip
+import math
+import sys
+
+STEP_M, SHARE, BEFORE_M, FARTHEST_M, FEWEST = 0.1, 1 / 6, 0.25, 5.0, 3
+LEG_JUMP_M, STRIDE_M, LEG_RADIUS_M, WIDEST_M = 0.12, 0.55, 0.05, 0.85
+FOLLOW_M, UNSEEN_SCANS, HALF_S_SCANS, WALKED_M, EVERY = 0.35, 3, 5, 0.35, 5
+
+
+def read_scans(path):
+    with (gzip.open if path.endswith(".gz") else open)(path, "rt") as lines:
+        for line in lines:
+            if line[0] != "#":
+                t, first, step, low, high, _, *ranges = map(float, line.split())
+                yield t, first, step, [r if low <= r <= high else math.inf for r in ranges]
+
+
+def background(scans):
+    beams = len(scans[0][3])
+    counts = [{} for _ in range(beams)]
+    for _, _, _, ranges in scans:
+        for count, r in zip(counts, ranges):
+            if r < math.inf:
+                count[int(r / STEP_M)] = count.get(int(r / STEP_M), 0) + 1
+    need = SHARE * len(scans)
+    return [min((k * STEP_M for k in c if c[k] + c.get(k + 1, 0) >= need), default=math.inf) for c in counts]
+
+
+def pieces(scan, behind):
+    """Runs of neighbouring foreground beams: (x, y) of each."""
+    _, first, step, ranges = scan
+    runs, last = [], None
+    for b, r in enumerate(ranges):
+        if not r < min(behind[b] - BEFORE_M, FARTHEST_M):
+            continue
+        p = (r * math.cos(first + b * step), r * math.sin(first + b * step))
+        if last is None or b - last[0] > 2 or math.dist(p, last[1]) > LEG_JUMP_M:
+            runs.append([])
+        runs[-1].append(p)
+        last = (b, p)
+    return [run for run in runs if len(run) >= FEWEST]
+
+
+def centre(run):
+    x, y = sum(p[0] for p in run) / len(run), sum(p[1] for p in run) / len(run)
+    back = 1 + LEG_RADIUS_M / math.hypot(x, y)
+    return x * back, y * back
+
+
+def people(scan, behind):
+    """Places and widths of those in one scan."""
+    groups = []
+    for run in pieces(scan, behind):
+        near = [g for g in groups if any(math.dist(centre(run), centre(r)) < STRIDE_M for r in g)]
+        groups = [g for g in groups if g not in near] + [[run] + [r for g in near for r in g]]
+    found = []
+    for g in groups:
+        c = [centre(run) for run in g]
+        ends = [p for run in g for p in (run[0], run[-1])]
+        width = max(math.dist(p, q) for p in ends for q in ends)
+        found.append(((sum(p[0] for p in c) / len(c), sum(p[1] for p in c) / len(c)), width))
+    return found
+
+
+def name_them(frames):
+    """A list a scan of (name, place, width): rule 4."""
+    open_names, named, newest = {}, [], 0
+    for k, found in enumerate(frames):
+        places = {}
+        for name, trail in open_names.items():
+            (k1, p1), (k0, p0) = trail[-1], trail[0]
+            share = (k - k1) / (k1 - k0) if k1 > k0 else 0.0
+            places[name] = (p1[0] + share * (p1[0] - p0[0]), p1[1] + share * (p1[1] - p0[1]))
+        claims = [[n for n in places if math.dist(places[n], p) < FOLLOW_M] for p, _ in found]
+        row = []
+        for claim, (p, width) in zip(claims, found):
+            alone = len(claim) == 1 and sum(claim[0] in c for c in claims) == 1 and width < WIDEST_M
+            if alone:
+                name = claim[0]
+            else:
+                newest += 1
+                name = newest
+                for n in claim:
+                    open_names.pop(n, None)
+            open_names.setdefault(name, []).append((k, p))
+            row.append((name, p, width))
+        open_names = {n: t[-6:] for n, t in open_names.items() if k - t[-1][0] <= UNSEEN_SCANS}
+        named.append(row)
+    return named
+
+
+def walks(named, k, name, width):
+    ago, ahead = max(0, k - HALF_S_SCANS), min(len(named) - 1, k + HALF_S_SCANS)
+    ends = [[p for n, p, w in named[j] if n == name and w < WIDEST_M] for j in (ago, ahead)]
+    return width < WIDEST_M and all(ends) and math.dist(ends[0][0], ends[1][0]) > WALKED_M
+
+
+def main(path):
+    scans = list(read_scans(path))
+    behind = background(scans)
+    named = name_them([people(scan, behind) for scan in scans])
+    print("t_bag,id,x,y,walks")
+    for k in range(0, len(scans), EVERY):
+        for name, (x, y), width in named[k]:
+            print(f"{scans[k][0]:.6f},{name},{x:.3f},{y:.3f},{int(walks(named, k, name, width))}")
+
+
+if __name__ == "__main__":
+    main(sys.argv[1])
