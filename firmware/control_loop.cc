@@ -24,7 +24,7 @@ FollowerConfig follower_config(const ControlSetup& setup) {
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels};
+  return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
 }
 
 }  // namespace

@@ -20,7 +20,7 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotModel, name, footprint, drive, limits, l
 NLOHMANN_JSON_SERIALIZE_ENUM(PlanMode, {{PlanMode::kFull, "full"}, {PlanMode::kPaper, "paper"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(Backend, {{Backend::kAuto, "auto"}, {Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlSetup, model, mode, constant_speed, backend, start, goal, goal_tolerance_m,
-                                   wheels, rate_hz)
+                                   wheels, wired, rate_hz)
 
 namespace {
 

@@ -20,6 +20,7 @@ struct ControlSetup {
   Vec2 goal;    ///< for sizing the grid; the goal itself comes from the operator panel
   double goal_tolerance_m = 0.3;
   bool wheels = true;  ///< false: a recording without odometry
+  bool wired = false;  ///< devices on wires: every fault waits for a reset
   double rate_hz = 50.0;
 
   [[nodiscard]] PlannerConfig planner() const;

@@ -22,14 +22,6 @@ std::int32_t to_counts(double speed_radps, double counts_per_rad) noexcept {
 
 }  // namespace
 
-std::string_view name(DriveTrouble trouble) noexcept {
-  constexpr std::array<std::string_view, 8> kNames{
-      "none",           "bus takes no frames", "bus unwell",      "drive's emergency message",
-      "drive in fault", "drive silent",        "drive restarted", "drive left operation"};
-  const auto index = static_cast<std::size_t>(trouble);
-  return index < kNames.size() ? kNames[index] : "unknown trouble";
-}
-
 CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup)
     : bus_(bus), clock_(clock), setup_(setup) {
   for (std::size_t k = 0; k < axes_.size(); ++k) {
@@ -87,6 +79,7 @@ WheelState CanopenDriveBase::latest() noexcept {
   ReceivedFrame received;
   for (int taken = 0; taken < kMostAtOnce && bus_.receive(received); ++taken) take(received);
   watch();
+  wheels_.trouble = trouble_;
   return wheels_;
 }
 
@@ -130,8 +123,12 @@ void CanopenDriveBase::publish(Time stamp) noexcept {
   const auto complete = [](const Axis& axis) { return axis.fresh_status && axis.fresh_position; };
   if (!std::all_of(axes_.begin(), axes_.end(), complete)) return;
   const auto turned = [](const Axis& axis) { return static_cast<double>(axis.counts) / axis.setup.counts_per_rad; };
-  wheels_ = {
-      stamp, wheels_.sequence + 1, turned(axes_[0]), turned(axes_[1]), axes_[0].speed_radps, axes_[1].speed_radps};
+  wheels_ = {.stamp = stamp,
+             .sequence = wheels_.sequence + 1,
+             .left_rad = turned(axes_[0]),
+             .right_rad = turned(axes_[1]),
+             .left_radps = axes_[0].speed_radps,
+             .right_radps = axes_[1].speed_radps};
   for (Axis& axis : axes_) axis.fresh_status = axis.fresh_position = false;
 }
 
@@ -179,9 +176,19 @@ void CanopenDriveBase::command(const WheelCommand& command) noexcept {
   DriveGoal goal = awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled;
   if (trouble_ != DriveTrouble::kNone) goal = DriveGoal::kQuickStop;
   const bool moves = goal == DriveGoal::kEnabled && is_enabled() && finite;  // both wheels or none
+  send_cycle(goal, moves ? command.left_radps : 0.0, moves ? command.right_radps : 0.0);
+}
+
+void CanopenDriveBase::disarm() noexcept {
+  awaits_zero_ = true;
+  for (Axis& axis : axes_) axis.was_enabled = false;  // it leaves operation because it was asked to
+  send_cycle(DriveGoal::kOff, 0.0, 0.0);
+}
+
+void CanopenDriveBase::send_cycle(DriveGoal goal, double left_radps, double right_radps) noexcept {
   send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
-  send_target(axes_[0], goal, moves ? command.left_radps : 0.0);
-  send_target(axes_[1], goal, moves ? command.right_radps : 0.0);
+  send_target(axes_[0], goal, left_radps);
+  send_target(axes_[1], goal, right_radps);
   send(sync_frame());
   reset_pulse_ = false;
 }

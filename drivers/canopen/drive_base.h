@@ -7,7 +7,7 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_settings.h"
-#include "hal/hal.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk::canopen {
 
@@ -26,27 +26,13 @@ struct DriveBaseSetup {
   bool allow_unproved = false;  ///< arms although a drive did not prove that it stops by itself
 };
 
-/// Why the drives were stopped; latched until reset().
-enum class DriveTrouble : std::uint8_t {
-  kNone,
-  kBusRefused,      ///< a frame was not taken
-  kBusUnwell,       ///< error passive, bus-off, interface down
-  kEmergency,       ///< a drive sent an emergency message
-  kDriveFault,      ///< a drive's statusword says fault
-  kDriveSilent,     ///< no heartbeat
-  kDriveRestarted,  ///< a heartbeat that is not "operational"
-  kLeftOperation    ///< a drive that was enabled is so no more, unasked
-};
-
-[[nodiscard]] std::string_view name(DriveTrouble trouble) noexcept;
-
 /// Two CiA 402 axes as one drive base in profile velocity.
 ///
 /// `latest` takes in what came, `command` sends the controller's heartbeat, both targets and SYNC: so the heartbeat is
 /// the tick's, and a dead loop is a silent one, for which the drives were proved to stop by themselves. At any trouble
 /// both drives are quick-stopped; they move again only after reset() and a command of zero. That holds at start too.
 /// Thread: one.
-class CanopenDriveBase final : public DriveBase {
+class CanopenDriveBase final : public WiredDrive {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup);
@@ -54,16 +40,17 @@ class CanopenDriveBase final : public DriveBase {
   /// Start-up only, waits up to some seconds: sets up and proves both drives, then starts their process data.
   /// Throws StartupError that names the first thing not proved, unless allow_unproved.
   /// Returns what each drive said, one line a setting, for the record.
-  std::vector<std::string> arm();
+  std::vector<std::string> arm() override;
 
   [[nodiscard]] WheelState latest() noexcept override;
   /// A speed that is not finite counts as trouble on the controller's side: zero is sent instead.
   void command(const WheelCommand& command) noexcept override;
 
-  [[nodiscard]] DriveTrouble trouble() const noexcept { return trouble_; }
+  [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   /// A person's reset edge: forgets the trouble; the drives are enabled again at the next command of zero.
-  void reset() noexcept;
-  [[nodiscard]] bool is_enabled() const noexcept;
+  void reset() noexcept override;
+  [[nodiscard]] bool is_enabled() const noexcept override;
+  void disarm() noexcept override;
 
  private:
   struct Axis {
@@ -87,6 +74,7 @@ class CanopenDriveBase final : public DriveBase {
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
   void send(const CanFrame& frame) noexcept;
+  void send_cycle(DriveGoal goal, double left_radps, double right_radps) noexcept;
   void send_target(Axis& axis, DriveGoal goal, double wanted_radps) noexcept;
 
   CanBus& bus_;

@@ -18,7 +18,7 @@
 
 namespace jaywalk {
 
-inline constexpr std::uint32_t kRecordingVersion = 1;
+inline constexpr std::uint32_t kRecordingVersion = 2;
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
 /// Whether `file` begins as a recording of ours does; false where it cannot be read.

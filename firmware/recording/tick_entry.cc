@@ -21,6 +21,7 @@ struct Put {
   void operator()(const Duration& value) { sink.number(static_cast<std::int64_t>(value.count())); }
   void operator()(const Time& value) { sink.number(static_cast<std::int64_t>(value.time_since_epoch().count())); }
   void operator()(const PlanStatus& value) { sink.number(static_cast<std::uint8_t>(value)); }
+  void operator()(const DriveTrouble& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const Reason& value) { sink.number(static_cast<std::uint32_t>(value)); }
   std::uint32_t count(std::size_t size) {
     sink.number(static_cast<std::uint32_t>(size));
@@ -39,6 +40,9 @@ struct Get {
   void operator()(Time& value) { value = Time{Duration{ticks()}}; }
   void operator()(PlanStatus& value) {
     value = static_cast<PlanStatus>(up_to(static_cast<std::uint8_t>(PlanStatus::kBackendFailed)));
+  }
+  void operator()(DriveTrouble& value) {
+    value = static_cast<DriveTrouble>(up_to(static_cast<std::uint8_t>(DriveTrouble::kLeftOperation)));
   }
   void operator()(Reason& value) {
     std::uint32_t bits = 0;
@@ -112,7 +116,7 @@ template <class Archive, class Record>
 void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
-  ar(r.wheels.left_radps), ar(r.wheels.right_radps);
+  ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
   ar(r.input.goal_tolerance_m), ar(r.input.emergency_stop), ar(r.input.reset);

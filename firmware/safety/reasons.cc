@@ -6,17 +6,20 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 11> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 14> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kWheelsStale, "wheels_stale"},
                                                                    {Reason::kPlanStale, "plan_stale"},
                                                                    {Reason::kEmergencyStop, "emergency_stop"},
+                                                                   {Reason::kMissedTicks, "missed_ticks"},
                                                                    {Reason::kSpeedLimit, "speed_limit"},
                                                                    {Reason::kNotFinite, "not_finite"},
                                                                    {Reason::kLatched, "latched"},
                                                                    {Reason::kUnwatched, "unwatched"},
-                                                                   {Reason::kNoGoal, "no_goal"}}};
+                                                                   {Reason::kNoGoal, "no_goal"},
+                                                                   {Reason::kBus, "bus"},
+                                                                   {Reason::kDrive, "drive"}}};
   std::string words;
   for (const auto& [bit, name] : kNames) {
     if (!has(reasons, bit)) continue;

@@ -14,10 +14,13 @@ enum class Reason : std::uint32_t {
   kPlanStale = 1U << 4,      ///< limit: plan too old or none
   kEmergencyStop = 1U << 5,  ///< fault, latched
   kSpeedLimit = 1U << 6,     ///< limit: faster than allowed
+  kMissedTicks = 1U << 7,    ///< fault, latched: two ticks or more in a row did not happen
   kNotFinite = 1U << 8,      ///< fault: a wanted twist that is no number
   kLatched = 1U << 9,        ///< an earlier fault waits for a reset edge
   kUnwatched = 1U << 10,     ///< limit: nothing watches the direction of travel
   kNoGoal = 1U << 11,        ///< nowhere to go
+  kBus = 1U << 12,           ///< fault, latched: the drives' bus refuses frames or is unwell
+  kDrive = 1U << 13,         ///< fault, latched: a drive is in trouble
 };
 
 constexpr Reason operator|(Reason a, Reason b) {

@@ -24,6 +24,12 @@ bool trustworthy(const LaserScan& scan, std::uint32_t beams) {
   return 2 * not_numbers < scan.beam_count;
 }
 
+Reason reason_for(DriveTrouble trouble) {
+  if (trouble == DriveTrouble::kNone) return Reason::kNone;
+  const bool is_bus = trouble == DriveTrouble::kBusRefused || trouble == DriveTrouble::kBusUnwell;
+  return is_bus ? Reason::kBus : Reason::kDrive;
+}
+
 Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
 
 }  // namespace
@@ -34,7 +40,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
   Verdict verdict;
   verdict.gap_m = std::numeric_limits<double>::infinity();
   verdict.reasons = faults(wanted, input);
-  update_latch(wanted, input.input);
+  update_latch(verdict.reasons, wanted, input);
   if (latched_) verdict.reasons |= Reason::kLatched;
   const bool stop = verdict.reasons != Reason::kNone;
   if (!input.input.has_goal) verdict.reasons |= Reason::kNoGoal;
@@ -53,15 +59,28 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
   if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
     reasons |= Reason::kWheelsStale;
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
+  reasons |= reason_for(input.wheels.trouble);
+  if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
   return reasons;
 }
 
-void Supervisor::update_latch(const Twist2& wanted, const OperatorInput& input) noexcept {
-  const bool reset_edge = input.reset && !reset_before_;
-  reset_before_ = input.reset;
-  if (input.emergency_stop) latched_ = true;
-  if (latched_ && reset_edge && !input.emergency_stop && wanted == Twist2{}) latched_ = false;
+int Supervisor::missed_in_a_row(Time now) noexcept {
+  const Duration late = judged_ == kNever ? Duration{0} : now - judged_ - config_.tick / 2;
+  judged_ = now;
+  const auto skipped = static_cast<int>(std::clamp<std::int64_t>(late / config_.tick, 0, 1000));
+  missed_ = skipped == 0 ? 0 : std::min(missed_ + skipped, 1000);
+  return missed_;
+}
+
+void Supervisor::update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
+  constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks;
+  const bool reset_edge = input.input.reset && !reset_before_;
+  reset_before_ = input.input.reset;
+  const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;
+  if (has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone)) latched_ = true;
+  // A fault that is still there latches again in the next tick.
+  if (latched_ && reset_edge && !input.input.emergency_stop && wanted == Twist2{}) latched_ = false;
 }
 
 Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept {

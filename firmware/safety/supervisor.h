@@ -17,6 +17,7 @@ struct SupervisorConfig {
   double control_and_drive_s = 0.08;  ///< a tick, a frame, and the drive's lag (50 ms in the plant)
   Duration tick = std::chrono::milliseconds(20);
   bool needs_wheels = true;  ///< false only where a recording has none
+  bool latches_all = false;  ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
 };
 
 /// What the supervisor looks at; nothing of it comes from the planner but a stamp.
@@ -31,19 +32,21 @@ struct SafetyInput {
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
 /// twist and the ages of things, so that it does not depend on planner or tracker being right.
 ///
-/// A limit holds while its cause does. A fault stops, and an emergency stop is latched as well: motion resumes only
-/// after a rising edge of reset, seen with the button released and a wanted twist of zero. Thread: the loop's; never
-/// allocates, never throws.
+/// A limit holds while its cause does. A fault stops; those of emergency stop, bus, drive and missed ticks, and on
+/// wires all, are latched as well: motion resumes only after a rising edge of reset, seen with the button released and
+/// a wanted twist of zero. Thread: the loop's; never allocates, never throws.
 class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config);
   [[nodiscard]] Verdict judge(const Twist2& wanted, const SafetyInput& input) noexcept;
-  /// An earlier emergency stop still waits for its reset: ask for nothing until then.
+  /// An earlier fault still waits for its reset: ask for nothing until then.
   [[nodiscard]] bool latched() const noexcept { return latched_; }
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
-  void update_latch(const Twist2& wanted, const OperatorInput& input) noexcept;
+  /// Ticks that did not happen, in a row with those that were skipped just before.
+  [[nodiscard]] int missed_in_a_row(Time now) noexcept;
+  void update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept;
   [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
   [[nodiscard]] bool watched(const LaserScan& scan, double v_mps) const noexcept;
@@ -53,6 +56,8 @@ class Supervisor {
   StopZone stop_zone_;
   Twist2 permitted_;     ///< last tick's
   int stale_scans_ = 0;  ///< ticks in a row with a scan too old
+  int missed_ = 0;
+  Time judged_ = kNever;
   bool latched_ = false;
   bool reset_before_ = false;
 };

@@ -1,9 +1,25 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 
 #include "hal/types/time.h"
 
 namespace jaywalk {
+
+/// Why a drive base on wires stopped its wheels by itself; it stays so until a person's reset.
+enum class DriveTrouble : std::uint8_t {
+  kNone,
+  kBusRefused,      ///< a frame was not taken
+  kBusUnwell,       ///< error passive, bus-off, interface down
+  kEmergency,       ///< a drive sent an emergency message
+  kDriveFault,      ///< a drive says that it is in fault
+  kDriveSilent,     ///< a drive says nothing
+  kDriveRestarted,  ///< a drive that was set up is so no more
+  kLeftOperation    ///< a drive that was enabled is so no more, unasked
+};
+
+/// "drive silent".
+[[nodiscard]] std::string_view name(DriveTrouble trouble) noexcept;
 
 /// What the wheel encoders say; the two wheels of a differential drive.
 struct WheelState {
@@ -13,6 +29,7 @@ struct WheelState {
   double right_rad = 0.0;
   double left_radps = 0.0;
   double right_radps = 0.0;
+  DriveTrouble trouble = DriveTrouble::kNone;
 };
 
 /// What the wheels are asked to do.

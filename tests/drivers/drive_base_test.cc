@@ -99,6 +99,22 @@ TEST_CASE("nothing moves before a command of zero") {
   CHECK(bench.left.velocity() == Approx(2000.0));
 }
 
+TEST_CASE("disarming takes the torque away, and only a command of zero brings it back") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  for (int k = 0; k < 5; ++k) {
+    bench.wheels = bench.base.latest();
+    bench.base.disarm();
+    bench.clock.sleep_until(bench.clock.now() + 20ms);
+  }
+  CHECK_FALSE(bench.base.is_enabled());
+  CHECK_FALSE(bench.left.is_enabled());
+  CHECK(bench.wheels.trouble == DriveTrouble::kNone);
+  bench.drive(2.0, 2.0, 20);
+  CHECK(bench.is_at_rest());
+}
+
 TEST_CASE("drives stop by themselves when the controller dies") {
   Bench bench;
   bench.bring_to_two_radps();
@@ -154,6 +170,7 @@ TEST_CASE("a fault of one drive stops both until a reset and a command of zero")
   bench.left.raise_fault(0x2310);
   bench.drive(2.0, 2.0, 8);  // 100 ms of ramp, a tick to hear it and one to say it
   CHECK(bench.base.trouble() == DriveTrouble::kEmergency);
+  CHECK(bench.wheels.trouble == DriveTrouble::kEmergency);  // the loop reads it there
   CHECK(bench.is_at_rest());
   bench.drive(0.0, 0.0, 20);  // zero alone does not do
   bench.drive(2.0, 2.0, 20);

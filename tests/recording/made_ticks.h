@@ -29,7 +29,7 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.scan.range_m[2] = std::numeric_limits<float>::infinity();
   r.scan.range_m[3] = -0.0F;
   r.scan.range_m[4] = std::numeric_limits<float>::denorm_min();
-  r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4};
+  r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent};
   r.input = {Time{Duration{12}}, true, {x * 5, x * 6}, x * 7, n % 2 == 1, n % 2 == 0};
   r.fix.stamp = Time{Duration{13}};
   r.fix.sequence = 1 + n / 5;
@@ -77,10 +77,10 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   return a.now == b.now && same_scan(a.scan, b.scan) && same_fix(a.fix, b.fix) && a.wheels.stamp == b.wheels.stamp &&
          a.wheels.sequence == b.wheels.sequence && a.wheels.left_rad == b.wheels.left_rad &&
          a.wheels.right_rad == b.wheels.right_rad && a.wheels.left_radps == b.wheels.left_radps &&
-         a.wheels.right_radps == b.wheels.right_radps && a.input.stamp == b.input.stamp &&
-         a.input.has_goal == b.input.has_goal && a.input.goal_in_map == b.input.goal_in_map &&
-         a.input.goal_tolerance_m == b.input.goal_tolerance_m && a.input.emergency_stop == b.input.emergency_stop &&
-         a.input.reset == b.input.reset;
+         a.wheels.right_radps == b.wheels.right_radps && a.wheels.trouble == b.wheels.trouble &&
+         a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
+         a.input.goal_in_map == b.input.goal_in_map && a.input.goal_tolerance_m == b.input.goal_tolerance_m &&
+         a.input.emergency_stop == b.input.emergency_stop && a.input.reset == b.input.reset;
 }
 
 [[nodiscard]] inline bool same_bits(const TickRecord& a, const TickRecord& b) {

@@ -16,10 +16,10 @@ struct Bench {
   Time now = time_from_seconds(1.0);
   Time plan_stamp = now;
   bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
-  Supervisor supervisor{SupervisorConfig{.model = p3dx()}};
+  Supervisor supervisor;
 
-  Bench() {
-    scan.sequence = 1;
+  explicit Bench(bool latches_all = false) : supervisor({.model = p3dx(), .latches_all = latches_all}) {
+    scan.sequence = wheels.sequence = 1;
     scan.beam_count = 811;
     scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
     scan.angle_step_rad = static_cast<float>(1.5 * kPi / 810);
@@ -35,6 +35,12 @@ struct Bench {
     if (wheels_fresh) wheels.stamp = now;
     if (plan_fresh) plan_stamp = now;
     return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now});
+  }
+  /// A press of the reset button at rest.
+  void reset() {
+    input.reset = true;
+    tick({});
+    input.reset = false;
   }
   Verdict ticks(int count, const Twist2& wanted) {
     Verdict verdict;
@@ -144,4 +150,64 @@ TEST_CASE("too fast is slowed along the same curve") {
   CHECK(verdict.permitted.v_mps == Approx(0.6));
   CHECK(verdict.permitted.w_radps == Approx(0.25));
   CHECK(to_string(verdict.reasons) == "speed_limit");
+}
+
+TEST_CASE("trouble of bus or drive stops, says which, and is latched until a reset") {
+  for (const auto& [trouble, reason] :
+       {std::pair{DriveTrouble::kBusUnwell, Reason::kBus}, std::pair{DriveTrouble::kBusRefused, Reason::kBus},
+        std::pair{DriveTrouble::kDriveSilent, Reason::kDrive}}) {
+    Bench bench;
+    bench.tick({0.3, 0.0});
+    bench.wheels.trouble = trouble;
+    CHECK(bench.tick({0.3, 0.0}).reasons == (reason | Reason::kLatched));
+    CHECK(bench.ticks(30, {0.3, 0.0}).permitted == Twist2{});
+    bench.reset();  // the trouble is still there
+    CHECK(bench.tick({0.3, 0.0}).permitted == Twist2{});
+    bench.wheels.trouble = DriveTrouble::kNone;
+    CHECK(bench.ticks(30, {0.3, 0.0}).reasons == Reason::kLatched);
+    bench.reset();
+    CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+  }
+}
+
+TEST_CASE("one missed tick is nothing, two in a row stop the robot until a reset") {
+  Bench bench;
+  bench.tick({0.3, 0.0});
+  bench.now += std::chrono::milliseconds(20);  // with tick's own 20 ms: one of 50 Hz did not happen
+  CHECK(bench.tick({0.3, 0.0}).reasons == Reason::kNone);
+  CHECK(bench.ticks(5, {0.3, 0.0}).reasons == Reason::kNone);
+  bench.now += std::chrono::milliseconds(40);
+  CHECK(bench.tick({0.3, 0.0}).reasons == (Reason::kMissedTicks | Reason::kLatched));
+  CHECK(bench.ticks(30, {0.3, 0.0}).reasons == Reason::kLatched);
+  bench.reset();
+  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+}
+
+TEST_CASE("every other tick missed counts as missed in a row") {
+  Bench bench;
+  bench.tick({0.3, 0.0});
+  bench.now += std::chrono::milliseconds(20);
+  bench.tick({0.3, 0.0});
+  bench.now += std::chrono::milliseconds(20);
+  CHECK(has(bench.tick({0.3, 0.0}).reasons, Reason::kMissedTicks));
+}
+
+TEST_CASE("on wires scans that were lost and come again wait for a reset") {
+  Bench bench(true);
+  bench.tick({0.3, 0.0});
+  bench.scan_fresh = false;
+  bench.ticks(8, {0.3, 0.0});
+  bench.scan_fresh = true;
+  CHECK(bench.ticks(30, {0.3, 0.0}).reasons == Reason::kLatched);
+  bench.reset();
+  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
+}
+
+TEST_CASE("on wires what has not been there yet stops and does not latch") {
+  Bench bench(true);
+  bench.scan.sequence = 0;
+  bench.scan.stamp = kNever;
+  bench.scan_fresh = false;
+  CHECK(has(bench.ticks(5, {}).reasons, Reason::kScanStale));
+  CHECK_FALSE(bench.supervisor.latched());
 }

@@ -1,0 +1,28 @@
+#pragma once
+#include <string>
+#include <vector>
+
+#include "hal/hal.h"
+
+namespace jaywalk {
+
+/// A drive base at the end of a wire: what the loop sees of it is a DriveBase; what surrounds the loop sees this.
+///
+/// At any trouble the wheels are stopped; they move again only after reset() and a command of zero. That holds at
+/// start too. Thread: the loop's, or the one that arms and disarms while no loop runs.
+class WiredDrive : public DriveBase {
+ public:
+  /// Start-up only, may wait up to some seconds: sets the drives up and has each prove that it stops by itself.
+  /// Returns what each said, a line a setting, for the record. Throws StartupError that names what was not proved.
+  virtual std::vector<std::string> arm() = 0;
+  /// Also in latest().trouble.
+  [[nodiscard]] virtual DriveTrouble trouble() const noexcept = 0;
+  /// A person's reset edge: forgets the trouble.
+  virtual void reset() noexcept = 0;
+  /// Both wheels follow commands.
+  [[nodiscard]] virtual bool is_enabled() const noexcept = 0;
+  /// Takes the torque away, at rest: after the last command. To be called again and again until !is_enabled().
+  virtual void disarm() noexcept = 0;
+};
+
+}  // namespace jaywalk
