@@ -21,6 +21,11 @@ class ColaStream {
   explicit ColaStream(Cola dialect) noexcept : dialect_(dialect) {}
 
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  /// Drops what waits, uncounted: another connection begins.
+  void forget() noexcept {
+    queue_.drop(queue_.waiting().size());
+    handed_out_ = 0;
+  }
   /// The next whole telegram's body, without framing; nothing until more bytes came. Valid until the next call.
   [[nodiscard]] std::optional<wire::Bytes> next() noexcept;
 

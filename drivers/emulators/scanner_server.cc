@@ -1,0 +1,106 @@
+#include "drivers/emulators/scanner_server.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace jaywalk::emulators {
+
+ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, World world)
+    : wire_(std::move(wire)), shape_(shape), world_(std::move(world)), range_m_(shape.beams) {}
+
+void ScannerServer::order(ScannerFault fault, Duration duration) {
+  if (fault_ == ScannerFault::kGone) wire_->set_present(true);
+  fault_ = fault;
+  fault_lasts_ = duration;
+  fault_ends_ = kNever;
+}
+
+void ScannerServer::step(Time now) {
+  end_fault(now);
+  if (fault_ == ScannerFault::kReset) {
+    wire_->drop_peer();
+    fault_ = ScannerFault::kNone;
+  }
+  wire_->set_present(fault_ != ScannerFault::kGone);
+  serve_peer();
+  send_held(now);
+  measure(now);
+}
+
+// What lasts begins at the first step after it was ordered.
+void ScannerServer::end_fault(Time now) {
+  const bool lasts =
+      fault_ != ScannerFault::kNone && fault_ != ScannerFault::kReset && fault_ != ScannerFault::kHalfTelegram;
+  if (!lasts) return;
+  if (fault_ends_ == kNever) fault_ends_ = now + fault_lasts_;
+  if (now >= fault_ends_) fault_ = ScannerFault::kNone;
+}
+
+void ScannerServer::serve_peer() {
+  if (!wire_->has_peer()) {
+    streaming_ = false;
+    return;
+  }
+  if (wire_->peers() != peers_seen_) {
+    peers_seen_ = wire_->peers();
+    streaming_ = false;
+    on_new_peer();
+  }
+  const wire::Bytes bytes = wire_->read();
+  if (!bytes.empty() && fault_ != ScannerFault::kSilence) on_bytes(bytes);
+}
+
+void ScannerServer::answer(wire::Bytes bytes) { wire_->write(bytes); }
+
+void ScannerServer::measure(Time now) {
+  const Duration period = duration_from_seconds(1.0 / shape_.rate_hz);
+  if (began_ == kNever || now - began_ >= period) {
+    began_ = began_ != kNever && now - began_ < 2 * period ? began_ + period : now;  // after a pause it begins anew
+    measured_ = 0;
+  }
+  const double share = shape_.sweep > Duration{0} ? to_seconds(now - began_) / to_seconds(shape_.sweep) : 1.0;
+  const double past = share * static_cast<double>(shape_.beams - 1);
+  const std::size_t until = share >= 1.0 ? shape_.beams : static_cast<std::size_t>(past) + 1;
+  if (until <= measured_) return;
+  world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
+  measured_ = until;
+  if (until == shape_.beams && streaming_) send_scan(message_of(range_m_, began_, now), now);
+}
+
+void ScannerServer::send_scan(std::vector<std::uint8_t> message, Time now) {
+  switch (fault_) {
+    case ScannerFault::kSilence:
+    case ScannerFault::kGone:
+      return;
+    case ScannerFault::kHalfTelegram:
+      message.resize(message.size() / 2);
+      fault_ = ScannerFault::kNone;
+      break;
+    case ScannerFault::kDamage:
+      message[message.size() / 2] ^= 0x5AU;
+      break;
+    case ScannerFault::kGarbage:
+      for (auto& byte : message) byte = static_cast<std::uint8_t>((noise_ = noise_ * 1664525U + 1013904223U) >> 24U);
+      break;
+    case ScannerFault::kHeldBack:
+      held_.push_back({fault_ends_, std::move(message)});
+      return;
+    case ScannerFault::kDelayed:
+      held_.push_back({now + std::chrono::milliseconds(700), std::move(message)});
+      return;
+    default:
+      break;
+  }
+  wire_->write(message);
+  ++scans_sent_;
+}
+
+void ScannerServer::send_held(Time now) {
+  for (; !held_.empty() && held_.front().due <= now; held_.pop_front()) {
+    if (!streaming_) continue;  // whom it was meant for is gone
+    wire_->write(held_.front().message);
+    ++scans_sent_;
+  }
+}
+
+}  // namespace jaywalk::emulators

@@ -1,0 +1,100 @@
+#pragma once
+#include <deque>
+#include <functional>
+#include <memory>
+#include <span>
+#include <vector>
+
+#include "drivers/emulators/byte_server.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::emulators {
+
+/// What a scanner does wrong, to order.
+enum class ScannerFault : std::uint8_t {
+  kNone,
+  kReset,         ///< tears the connection, once
+  kHalfTelegram,  ///< sends the first half of the next scan, once
+  kDamage,        ///< changes a byte in the middle of every scan
+  kGarbage,       ///< sends noise instead of scans
+  kSilence,       ///< neither scans nor answers
+  kHeldBack,      ///< scans are taken in time and sent all at once when this ends
+  kDelayed,       ///< every scan is sent 0.7 s after it was taken
+  kGone           ///< nothing is there to connect to
+};
+
+/// Where the beams look and when; the same words as in hal's LaserScan.
+struct SweepShape {
+  std::size_t beams = 271;
+  double first_angle_rad = 0.0;
+  double angle_step_rad = 0.0;
+  double rate_hz = 15.0;
+  Duration sweep{0};  ///< from the first beam to the last
+
+  [[nodiscard]] double angle_rad(std::size_t beam) const {
+    return first_angle_rad + angle_step_rad * static_cast<double>(beam);
+  }
+};
+
+/// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells whoever
+/// asked for scans. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
+/// code with the driver that it talks to, except how numbers stand in bytes.
+class ScannerServer {
+ public:
+  /// Fills in the ranges (m) that beams `first_beam` onwards see at this moment; 0 where they see nothing.
+  using World = std::function<void(std::size_t first_beam, std::span<float> range_m)>;
+
+  ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, World world);
+  virtual ~ScannerServer() = default;
+
+  /// Takes what came in, measures the beams whose time has come, and sends a scan when its last beam is measured.
+  /// Called about once a millisecond; an irregular caller makes irregular scans, as a busy scanner does.
+  void step(Time now);
+  /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
+  void order(ScannerFault fault, Duration duration = Duration{0});
+
+  [[nodiscard]] const SweepShape& shape() const noexcept { return shape_; }
+  [[nodiscard]] std::uint64_t scans_sent() const noexcept { return scans_sent_; }
+  /// How often somebody connected.
+  [[nodiscard]] std::uint64_t peers() const noexcept { return wire_->peers(); }
+  [[nodiscard]] bool is_streaming() const noexcept { return streaming_; }
+
+ protected:
+  /// A peer connected: what the one before had set for its connection is forgotten.
+  virtual void on_new_peer() = 0;
+  virtual void on_bytes(wire::Bytes bytes) = 0;
+  /// The finished sweep as one message. `began` is when its first beam was measured.
+  [[nodiscard]] virtual std::vector<std::uint8_t> message_of(std::span<const float> range_m, Time began, Time now) = 0;
+
+  void set_streaming(bool on) noexcept { streaming_ = on; }
+  void answer(wire::Bytes bytes);
+
+ private:
+  void end_fault(Time now);
+  void serve_peer();
+  void measure(Time now);
+  void send_scan(std::vector<std::uint8_t> message, Time now);
+  void send_held(Time now);
+
+  struct Held {
+    Time due = kNever;
+    std::vector<std::uint8_t> message;
+  };
+
+  std::unique_ptr<ByteServer> wire_;
+  SweepShape shape_;
+  World world_;
+  std::vector<float> range_m_;
+  std::deque<Held> held_;
+  std::size_t measured_ = 0;
+  Time began_ = kNever;
+  bool streaming_ = false;
+  std::uint64_t peers_seen_ = 0;
+  std::uint64_t scans_sent_ = 0;
+  ScannerFault fault_ = ScannerFault::kNone;
+  Duration fault_lasts_{0};
+  Time fault_ends_ = kNever;
+  std::uint32_t noise_ = 1;
+};
+
+}  // namespace jaywalk::emulators

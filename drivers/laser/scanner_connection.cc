@@ -1,0 +1,164 @@
+#include "drivers/laser/scanner_connection.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <algorithm>
+
+namespace jaywalk {
+
+namespace {
+
+/// So long at most until limits are looked at again, and until the thread sees that it is to end.
+constexpr Duration kLongestWait = std::chrono::milliseconds(20);
+/// 64 kB a step: a scanner sends less than that in 20 ms, and a flood does not keep the limits from being looked at.
+constexpr int kMostReads = 16;
+
+}  // namespace
+
+std::string_view name(ScannerTrouble trouble) noexcept {
+  constexpr std::array<std::string_view, 8> kNames{
+      "none",           "scanner unreachable", "scanner closed the connection", "no answer", "scanner refuses to send",
+      "scanner silent", "scans are late",      "scanner reports an error"};
+  const auto index = static_cast<std::size_t>(trouble);
+  return index < kNames.size() ? kNames[index] : "unknown trouble";
+}
+
+ScannerConnection::ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint,
+                                     std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
+                                     const ConnectionTiming& timing)
+    : link_(std::move(endpoint)),
+      protocol_(std::move(protocol)),
+      clock_(clock),
+      timing_(timing),
+      rest_(timing.first_rest) {}
+
+ScannerConnection::~ScannerConnection() {
+  stopping_ = true;
+  if (thread_.joinable()) thread_.join();
+}
+
+// Signals are for the threads that know what to do with them.
+void ScannerConnection::start() {
+  sigset_t all, before;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  ::pthread_setname_np(thread_.native_handle(), "laser");
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+void ScannerConnection::run() noexcept {
+  while (!stopping_) {
+    step();
+    link_.wait(kLongestWait);
+  }
+}
+
+void ScannerConnection::step() noexcept {
+  const Time now = clock_.now();
+  if (phase_ == Phase::kResting && now >= rest_until_) {
+    link_.open();
+    opened_ = now;
+    phase_ = Phase::kOpening;
+  }
+  if (phase_ == Phase::kOpening) await_opening(now);
+  if (phase_ == Phase::kTalking) talk(now);
+  tell_health();
+}
+
+void ScannerConnection::await_opening(Time now) noexcept {
+  switch (link_.state()) {
+    case wire::ByteLink::State::kClosed:
+      return give_up(ScannerTrouble::kUnreachable, now);
+    case wire::ByteLink::State::kOpening:
+      if (age(opened_, now) > timing_.connect_limit) give_up(ScannerTrouble::kUnreachable, now);
+      return;
+    case wire::ByteLink::State::kOpen:
+      protocol_->begin();
+      progress_ = now;
+      scan_late_ = false;
+      ++health_.connections;
+      phase_ = Phase::kTalking;
+      return;
+  }
+}
+
+void ScannerConnection::talk(Time now) noexcept {
+  for (int k = 0; k < kMostReads && phase_ == Phase::kTalking; ++k) {
+    const wire::Bytes bytes = link_.read(room_);
+    if (bytes.empty()) break;
+    protocol_->hear(bytes);
+    take_messages(clock_.now());
+  }
+  if (phase_ != Phase::kTalking) return;
+  link_.write(protocol_->to_say());
+  if (link_.state() == wire::ByteLink::State::kClosed) return give_up(ScannerTrouble::kClosed, now);
+  watch(now);
+}
+
+void ScannerConnection::take_messages(Time arrival) noexcept {
+  for (;;) {
+    const bool asked = protocol_->awaits_answer();
+    switch (protocol_->next(arrival, scans_.draft())) {
+      case Heard::kNothing:
+        return;
+      case Heard::kScan:
+        take_scan(arrival);
+        break;
+      case Heard::kAnswer:
+        if (asked && !protocol_->awaits_answer()) progress_ = arrival;
+        break;
+      case Heard::kMalformed:
+        ++health_.malformed;
+        break;
+      case Heard::kDeviceError:
+        suffer(ScannerTrouble::kDeviceError);
+        break;
+      case Heard::kRefused:
+        return give_up(ScannerTrouble::kRefused, arrival);
+    }
+  }
+}
+
+void ScannerConnection::take_scan(Time arrival) noexcept {
+  LaserScan& scan = scans_.draft();
+  scan_late_ = age(scan.stamp, arrival) > scan.sweep + timing_.late_limit;
+  const bool newer = scan.stamp > last_stamp_;  // two that came at once on a new connection may look simultaneous
+  if (scan_late_ || !newer) ++health_.late;
+  if (newer) {
+    last_stamp_ = scan.stamp;
+    scan.sequence = ++sequence_;
+    ++health_.scans;
+    scans_.publish();
+  }
+  if (scan_late_) return;
+  progress_ = arrival;
+  rest_ = timing_.first_rest;
+  health_.trouble = ScannerTrouble::kNone;
+}
+
+void ScannerConnection::watch(Time now) noexcept {
+  const Duration without = age(progress_, now);
+  if (protocol_->awaits_answer() && without > timing_.answer_limit) return give_up(ScannerTrouble::kNoAnswer, now);
+  if (without <= timing_.silence_limit) return;
+  const bool unwell = health_.trouble == ScannerTrouble::kDeviceError;
+  give_up(unwell ? ScannerTrouble::kDeviceError : scan_late_ ? ScannerTrouble::kLate : ScannerTrouble::kSilent, now);
+}
+
+void ScannerConnection::give_up(ScannerTrouble why, Time now) noexcept {
+  link_.close();
+  suffer(why);
+  phase_ = Phase::kResting;
+  rest_until_ = now + rest_;
+  rest_ = std::min(2 * rest_, timing_.longest_rest);
+}
+
+void ScannerConnection::tell_health() noexcept {
+  health_.protocol = protocol_->counts();
+  if (health_ == told_) return;
+  told_ = health_;
+  healths_.publish(health_);
+}
+
+}  // namespace jaywalk

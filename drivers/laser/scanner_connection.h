@@ -1,0 +1,112 @@
+#pragma once
+#include <array>
+#include <atomic>
+#include <memory>
+#include <string_view>
+#include <thread>
+
+#include "drivers/laser/scanner_protocol.h"
+#include "drivers/wire/byte_link.h"
+#include "hal/hal.h"
+#include "hal/mailbox.h"
+
+namespace jaywalk {
+
+/// Why no scans come.
+enum class ScannerTrouble : std::uint8_t {
+  kNone,
+  kUnreachable,  ///< it could not be opened
+  kClosed,       ///< it closed the connection, or the wire is gone
+  kNoAnswer,     ///< to a command
+  kRefused,      ///< it will not send scans
+  kSilent,       ///< connected, and nothing comes that is a scan
+  kLate,         ///< scans come, but too long after they were taken
+  kDeviceError   ///< it says itself that it is not well
+};
+
+[[nodiscard]] std::string_view name(ScannerTrouble trouble) noexcept;
+
+/// How it goes. Counts are since start.
+struct ScannerHealth {
+  ScannerTrouble trouble = ScannerTrouble::kUnreachable;  ///< none while scans come; unreachable before the first try
+  ScannerTrouble last_trouble = ScannerTrouble::kNone;    ///< the latest there was
+  std::uint64_t scans = 0;
+  std::uint64_t malformed = 0;  ///< messages that did not hold what they should
+  std::uint64_t late = 0;       ///< scans that came too late to be of use, or no later than the one before
+  std::uint64_t connections = 0;
+  ProtocolCounts protocol;
+  bool operator==(const ScannerHealth&) const = default;
+};
+
+struct ConnectionTiming {
+  Duration connect_limit = std::chrono::seconds(2);
+  Duration answer_limit = std::chrono::seconds(1);
+  /// Without a scan for so long, the connection is given up.
+  Duration silence_limit = std::chrono::seconds(1);
+  /// A scan is late when its stamp is this much older than its sweep.
+  Duration late_limit = std::chrono::milliseconds(500);
+  /// From one try to the next; doubles with each that brought no scan.
+  Duration first_rest = std::chrono::milliseconds(100);
+  Duration longest_rest = std::chrono::milliseconds(1600);
+};
+
+/// A scanner on a wire as the HAL's laser. It connects, says what makes the scanner send, decodes, and begins anew
+/// where anything goes wrong. While no scans come, `latest` stays at the last one, whose stamp grows old.
+///
+/// Threads: `start` makes one that owns the wire; the loop's thread calls `latest` and `health`. Without `start`,
+/// `step` is called by hand. The clock is read in the wire's thread too: it must not mind that. No memory is taken
+/// after construction.
+class ScannerConnection final : public LaserScanner {
+ public:
+  /// `clock` outlives it.
+  ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
+                    const ConnectionTiming& timing = {});
+  ~ScannerConnection() override;
+  ScannerConnection(const ScannerConnection&) = delete;
+  ScannerConnection& operator=(const ScannerConnection&) = delete;
+
+  void start();
+  /// Does what can be done at once.
+  void step() noexcept;
+
+  [[nodiscard]] const LaserScan& latest() noexcept override { return scans_.latest(); }
+  [[nodiscard]] ScannerHealth health() noexcept { return healths_.latest(); }
+  /// As a person would name the scanner's place.
+  [[nodiscard]] const std::string& name() const noexcept { return link_.endpoint().name(); }
+
+ private:
+  enum class Phase : std::uint8_t { kResting, kOpening, kTalking };
+
+  void run() noexcept;
+  void await_opening(Time now) noexcept;
+  void talk(Time now) noexcept;
+  void take_messages(Time arrival) noexcept;
+  void take_scan(Time arrival) noexcept;
+  void watch(Time now) noexcept;
+  void give_up(ScannerTrouble why, Time now) noexcept;
+  void suffer(ScannerTrouble why) noexcept { health_.trouble = health_.last_trouble = why; }
+  void tell_health() noexcept;
+
+  wire::ByteLink link_;
+  std::unique_ptr<ScannerProtocol> protocol_;
+  Clock& clock_;
+  ConnectionTiming timing_;
+
+  Phase phase_ = Phase::kResting;
+  Time rest_until_ = kNever;
+  Duration rest_;
+  Time opened_ = kNever;    ///< when opening began
+  Time progress_ = kNever;  ///< of the last scan that was not late, or of the last command that was answered
+  Time last_stamp_ = kNever;
+  bool scan_late_ = false;  ///< the last one was
+  std::array<std::uint8_t, 4096> room_{};
+  std::uint32_t sequence_ = 0;
+  ScannerHealth health_, told_;
+
+  Mailbox<LaserScan> scans_;
+  Mailbox<ScannerHealth> healths_;
+  std::atomic<bool> stopping_{false};
+  std::thread thread_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,85 @@
+#include "drivers/wire/endpoint.h"
+
+#include <fcntl.h>
+#include <netdb.h>
+#include <netinet/in.h>
+#include <netinet/tcp.h>
+#include <termios.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::wire {
+
+namespace {
+
+struct Rate {
+  std::uint32_t baud;
+  speed_t code;
+};
+
+constexpr std::array<Rate, 9> kRates{{{9600, B9600},
+                                      {19200, B19200},
+                                      {38400, B38400},
+                                      {57600, B57600},
+                                      {115200, B115200},
+                                      {230400, B230400},
+                                      {460800, B460800},
+                                      {500000, B500000},
+                                      {921600, B921600}}};
+
+}  // namespace
+
+TcpEndpoint::TcpEndpoint(const std::string& host, std::uint16_t port) : name_(host + ":" + std::to_string(port)) {
+  addrinfo wanted{};
+  wanted.ai_family = AF_UNSPEC;
+  wanted.ai_socktype = SOCK_STREAM;
+  addrinfo* found = nullptr;
+  const int failure = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+  if (failure != 0) {
+    throw StartupError(name_ + ": no such host (" + ::gai_strerror(failure) + ")",
+                       "give the device's address, and see that the network is up");
+  }
+  const std::unique_ptr<addrinfo, decltype(&::freeaddrinfo)> owner(found, &::freeaddrinfo);
+  std::memcpy(&address_, found->ai_addr, std::min<std::size_t>(found->ai_addrlen, sizeof address_));
+  address_size_ = found->ai_addrlen;
+}
+
+FileDescriptor TcpEndpoint::open() const noexcept {
+  FileDescriptor made(::socket(address_.ss_family, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  if (made.get() < 0) return made;
+  const int on = 1;
+  static_cast<void>(::setsockopt(made.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
+  const auto* const address = reinterpret_cast<const sockaddr*>(&address_);
+  if (::connect(made.get(), address, address_size_) == 0 || errno == EINPROGRESS) return made;
+  return FileDescriptor();
+}
+
+SerialEndpoint::SerialEndpoint(std::string path, std::uint32_t baud) : path_(std::move(path)) {
+  const auto* const rate = std::find_if(kRates.begin(), kRates.end(), [&](const Rate& r) { return r.baud == baud; });
+  if (rate == kRates.end()) {
+    throw StartupError(path_ + ": no serial line runs at " + std::to_string(baud) + " baud",
+                       "give the rate in the device's manual, for example 115200");
+  }
+  speed_code_ = rate->code;
+}
+
+FileDescriptor SerialEndpoint::open() const noexcept {
+  FileDescriptor line(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
+  termios settings{};
+  if (line.get() < 0 || ::tcgetattr(line.get(), &settings) != 0) return FileDescriptor();
+  ::cfmakeraw(&settings);
+  settings.c_cflag |= CLOCAL | CREAD;
+  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
+  const bool rate_taken = ::cfsetispeed(&settings, speed_code_) == 0 && ::cfsetospeed(&settings, speed_code_) == 0;
+  if (!rate_taken || ::tcsetattr(line.get(), TCSANOW, &settings) != 0) return FileDescriptor();
+  static_cast<void>(::tcflush(line.get(), TCIFLUSH));
+  return line;
+}
+
+}  // namespace jaywalk::wire
