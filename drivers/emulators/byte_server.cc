@@ -45,6 +45,7 @@ void ByteServer::flush() noexcept {
   ssize_t sent = ::send(peer_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL);
   if (sent < 0 && errno == ENOTSOCK) sent = ::write(peer_.get(), unsent_.data(), unsent_.size());
   if (sent > 0) unsent_.erase(unsent_.begin(), unsent_.begin() + sent);
+  if (!waits_for_peer()) unsent_.clear();
 }
 
 void ByteServer::drop_peer() noexcept {

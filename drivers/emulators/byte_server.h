@@ -18,7 +18,7 @@ class ByteServer {
   [[nodiscard]] std::uint64_t peers() const noexcept { return peers_; }
   /// What the peer sent since the last call.
   [[nodiscard]] wire::Bytes read() noexcept;
-  /// Queues and sends what can be sent; what a peer does not read in time is not sent at all.
+  /// Sends what can be sent at once. The rest waits where the wire lets it wait, and is lost where it does not.
   void write(wire::Bytes bytes);
   /// The wire is torn: the peer's connection is gone without a farewell.
   void drop_peer() noexcept;
@@ -30,6 +30,8 @@ class ByteServer {
   [[nodiscard]] virtual wire::FileDescriptor accept() noexcept = 0;
   /// Makes closing abrupt where the wire knows of a difference.
   virtual void before_drop(int peer) noexcept = 0;
+  /// True where a sender waits for its peer to take what it sent.
+  [[nodiscard]] virtual bool waits_for_peer() const noexcept = 0;
 
  private:
   void flush() noexcept;
@@ -51,10 +53,32 @@ class TcpServer final : public ByteServer {
  private:
   wire::FileDescriptor accept() noexcept override;
   void before_drop(int peer) noexcept override;
+  [[nodiscard]] bool waits_for_peer() const noexcept override { return true; }
   void listen();
 
   std::uint16_t port_;
   wire::FileDescriptor listener_;
+};
+
+/// A serial line: a pseudo terminal whose other end is found under `path`. Who listens there is not known; what nobody
+/// reads is lost.
+class PtyServer final : public ByteServer {
+ public:
+  /// Replaces the link `path`. Throws StartupError where this machine has no pseudo terminals.
+  explicit PtyServer(std::string path);
+  ~PtyServer() override;
+  [[nodiscard]] const std::string& path() const noexcept { return path_; }
+  void set_present(bool present) override;
+
+ private:
+  wire::FileDescriptor accept() noexcept override;
+  void before_drop(int) noexcept override {}
+  [[nodiscard]] bool waits_for_peer() const noexcept override { return false; }
+  void plug_in();
+
+  std::string path_;
+  wire::FileDescriptor fresh_;  ///< this end, until it is accepted
+  wire::FileDescriptor other_;  ///< the other end, held open so that this one can be read while nobody listens
 };
 
 }  // namespace jaywalk::emulators

@@ -5,8 +5,13 @@
 
 namespace jaywalk::emulators {
 
-ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, World world)
-    : wire_(std::move(wire)), shape_(shape), world_(std::move(world)), range_m_(shape.beams) {}
+ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, std::size_t beams_per_message,
+                             World world)
+    : wire_(std::move(wire)),
+      shape_(shape),
+      beams_per_message_(beams_per_message),
+      world_(std::move(world)),
+      range_m_(shape.beams) {}
 
 void ScannerServer::order(ScannerFault fault, Duration duration) {
   if (fault_ == ScannerFault::kGone) wire_->set_present(true);
@@ -54,20 +59,32 @@ void ScannerServer::answer(wire::Bytes bytes) { wire_->write(bytes); }
 
 void ScannerServer::measure(Time now) {
   const Duration period = duration_from_seconds(1.0 / shape_.rate_hz);
-  if (began_ == kNever || now - began_ >= period) {
-    began_ = began_ != kNever && now - began_ < 2 * period ? began_ + period : now;  // after a pause it begins anew
-    measured_ = 0;
-  }
+  const bool paused = began_ == kNever || now - began_ >= 2 * period;
+  if (!paused) measure_until_now(now);
+  if (!paused && now - began_ < period) return;
+  began_ = paused ? now : began_ + period;
+  measured_ = told_ = 0;
+  measure_until_now(now);
+}
+
+void ScannerServer::measure_until_now(Time now) {
   const double share = shape_.sweep > Duration{0} ? to_seconds(now - began_) / to_seconds(shape_.sweep) : 1.0;
   const double past = share * static_cast<double>(shape_.beams - 1);
   const std::size_t until = share >= 1.0 ? shape_.beams : static_cast<std::size_t>(past) + 1;
   if (until <= measured_) return;
   world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
   measured_ = until;
-  if (until == shape_.beams && streaming_) send_scan(message_of(range_m_, began_, now), now);
+  tell_measured(now);
 }
 
-void ScannerServer::send_scan(std::vector<std::uint8_t> message, Time now) {
+void ScannerServer::tell_measured(Time now) {
+  for (; told_ + beams_per_message_ <= measured_; told_ += beams_per_message_) {
+    const std::span<const float> part = std::span<const float>(range_m_).subspan(told_, beams_per_message_);
+    if (streaming_) send(message_of(told_, part, began_, now), now);
+  }
+}
+
+void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
   switch (fault_) {
     case ScannerFault::kSilence:
     case ScannerFault::kGone:
@@ -92,14 +109,14 @@ void ScannerServer::send_scan(std::vector<std::uint8_t> message, Time now) {
       break;
   }
   wire_->write(message);
-  ++scans_sent_;
+  ++messages_sent_;
 }
 
 void ScannerServer::send_held(Time now) {
   for (; !held_.empty() && held_.front().due <= now; held_.pop_front()) {
     if (!streaming_) continue;  // whom it was meant for is gone
     wire_->write(held_.front().message);
-    ++scans_sent_;
+    ++messages_sent_;
   }
 }
 

@@ -14,12 +14,12 @@ namespace jaywalk::emulators {
 enum class ScannerFault : std::uint8_t {
   kNone,
   kReset,         ///< tears the connection, once
-  kHalfTelegram,  ///< sends the first half of the next scan, once
-  kDamage,        ///< changes a byte in the middle of every scan
-  kGarbage,       ///< sends noise instead of scans
+  kHalfTelegram,  ///< sends the first half of the next message, once
+  kDamage,        ///< changes a byte in the middle of every message
+  kGarbage,       ///< sends noise instead of messages
   kSilence,       ///< neither scans nor answers
-  kHeldBack,      ///< scans are taken in time and sent all at once when this ends
-  kDelayed,       ///< every scan is sent 0.7 s after it was taken
+  kHeldBack,      ///< messages are sent all at once when this ends
+  kDelayed,       ///< every message is sent 0.7 s late
   kGone           ///< nothing is there to connect to
 };
 
@@ -37,24 +37,27 @@ struct SweepShape {
 };
 
 /// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells whoever
-/// asked for scans. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
+/// wants to know. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
 /// code with the driver that it talks to, except how numbers stand in bytes.
 class ScannerServer {
  public:
   /// Fills in the ranges (m) that beams `first_beam` onwards see at this moment; 0 where they see nothing.
   using World = std::function<void(std::size_t first_beam, std::span<float> range_m)>;
 
-  ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, World world);
+  /// Messages of `beams_per_message` beams; a sweep holds a whole number of them.
+  ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, std::size_t beams_per_message, World world);
   virtual ~ScannerServer() = default;
 
-  /// Takes what came in, measures the beams whose time has come, and sends a scan when its last beam is measured.
+  /// Takes what came in, measures the beams whose time has come, and sends each message when its last beam is
+  /// measured.
   /// Called about once a millisecond; an irregular caller makes irregular scans, as a busy scanner does.
   void step(Time now);
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
 
   [[nodiscard]] const SweepShape& shape() const noexcept { return shape_; }
-  [[nodiscard]] std::uint64_t scans_sent() const noexcept { return scans_sent_; }
+  /// Messages with ranges, a sweep each for most scanners.
+  [[nodiscard]] std::uint64_t messages_sent() const noexcept { return messages_sent_; }
   /// How often somebody connected.
   [[nodiscard]] std::uint64_t peers() const noexcept { return wire_->peers(); }
   [[nodiscard]] bool is_streaming() const noexcept { return streaming_; }
@@ -63,8 +66,9 @@ class ScannerServer {
   /// A peer connected: what the one before had set for its connection is forgotten.
   virtual void on_new_peer() = 0;
   virtual void on_bytes(wire::Bytes bytes) = 0;
-  /// The finished sweep as one message. `began` is when its first beam was measured.
-  [[nodiscard]] virtual std::vector<std::uint8_t> message_of(std::span<const float> range_m, Time began, Time now) = 0;
+  /// The beams from `first_beam` on, just measured, as a message. `began` is when the sweep's first was.
+  [[nodiscard]] virtual std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m,
+                                                             Time began, Time now) = 0;
 
   void set_streaming(bool on) noexcept { streaming_ = on; }
   void answer(wire::Bytes bytes);
@@ -73,7 +77,9 @@ class ScannerServer {
   void end_fault(Time now);
   void serve_peer();
   void measure(Time now);
-  void send_scan(std::vector<std::uint8_t> message, Time now);
+  void measure_until_now(Time now);
+  void tell_measured(Time now);
+  void send(std::vector<std::uint8_t> message, Time now);
   void send_held(Time now);
 
   struct Held {
@@ -83,14 +89,15 @@ class ScannerServer {
 
   std::unique_ptr<ByteServer> wire_;
   SweepShape shape_;
+  std::size_t beams_per_message_;
   World world_;
   std::vector<float> range_m_;
   std::deque<Held> held_;
-  std::size_t measured_ = 0;
+  std::size_t measured_ = 0, told_ = 0;  ///< beams of this sweep
   Time began_ = kNever;
   bool streaming_ = false;
   std::uint64_t peers_seen_ = 0;
-  std::uint64_t scans_sent_ = 0;
+  std::uint64_t messages_sent_ = 0;
   ScannerFault fault_ = ScannerFault::kNone;
   Duration fault_lasts_{0};
   Time fault_ends_ = kNever;

@@ -47,7 +47,7 @@ class Fields {
 }  // namespace
 
 SickServer::SickServer(std::unique_ptr<ByteServer> wire, const SickModel& model, World world)
-    : ScannerServer(std::move(wire), shape_of(model), std::move(world)), model_(model) {}
+    : ScannerServer(std::move(wire), shape_of(model), model.beams, std::move(world)), model_(model) {}
 
 void SickServer::on_new_peer() {
   came_in_.clear();
@@ -116,7 +116,7 @@ std::string SickServer::framed(std::string_view body) const {
   return telegram + std::string(body) + sum;
 }
 
-std::vector<std::uint8_t> SickServer::message_of(std::span<const float> range_m, Time began, Time now) {
+std::vector<std::uint8_t> SickServer::message_of(std::size_t, std::span<const float> range_m, Time began, Time now) {
   const auto on_device = [](Time t) {
     const auto us = std::chrono::duration_cast<std::chrono::microseconds>(t.time_since_epoch()).count();
     return kClockAtStart_us + static_cast<std::uint32_t>(us);

@@ -20,7 +20,7 @@ struct SickModel {
 };
 
 /// A SICK scanner that speaks CoLa A or B: takes its login, settings and "scans on", refuses what it does not know.
-/// Its clock starts ten seconds before it wraps.
+/// Its clock wraps ten seconds after ours began.
 class SickServer final : public ScannerServer {
  public:
   SickServer(std::unique_ptr<ByteServer> wire, const SickModel& model, World world);
@@ -33,7 +33,8 @@ class SickServer final : public ScannerServer {
  private:
   void on_new_peer() override;
   void on_bytes(wire::Bytes bytes) override;
-  std::vector<std::uint8_t> message_of(std::span<const float> range_m, Time began, Time now) override;
+  std::vector<std::uint8_t> message_of(std::size_t first_beam, std::span<const float> range_m, Time began,
+                                       Time now) override;
 
   [[nodiscard]] bool take_command(std::string& command);
   void obey(std::string_view command);

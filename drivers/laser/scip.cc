@@ -1,7 +1,9 @@
 #include "drivers/laser/scip.h"
 
 #include <algorithm>
+#include <array>
 #include <charconv>
+#include <span>
 
 #include "hal/types/trig.h"
 
@@ -94,6 +96,28 @@ Decoding read_distances(std::string_view rest, const Question& question, LaserSc
   return reader.is_between_numbers() && scan.beam_count == expected ? Decoding::kScan : Decoding::kTruncated;
 }
 
+/// What PP tells, in its own names and units.
+struct Told {
+  std::string_view name;
+  std::uint32_t least, most;
+  std::optional<std::uint32_t> value;
+};
+
+/// "DMIN:20;4" into the one of `wanted` that has this name.
+Decoding take_value(std::string_view line, std::span<Told> wanted) noexcept {
+  const std::size_t semicolon = line.rfind(';');
+  if (semicolon == std::string_view::npos || semicolon + 2 != line.size()) return Decoding::kBadField;
+  const std::string_view text = line.substr(0, semicolon);
+  if (checksum(text) != line.back()) return Decoding::kChecksum;
+  const std::size_t colon = text.find(':');
+  for (Told& told : wanted) {
+    if (text.substr(0, colon) != told.name) continue;
+    told.value = decimal(text.substr(colon + 1));
+    if (!told.value || *told.value < told.least || *told.value > told.most) return Decoding::kBadField;
+  }
+  return Decoding::kScan;
+}
+
 void place(const Question& question, const ScannerModel& model, Time arrival, LaserScan& scan) noexcept {
   const double step_rad = 2.0 * kPi / static_cast<double>(model.steps_per_turn);
   const double ahead = static_cast<double>(question.first_step) - static_cast<double>(model.front_step);
@@ -135,6 +159,38 @@ std::optional<std::string_view> AnswerStream::next() noexcept {
   if (end == std::string_view::npos) return std::nullopt;
   handed_out_ = end + 2;
   return text.substr(0, end);
+}
+
+Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
+  if (take_line(answer) != "PP") return Decoding::kOtherMessage;
+  const auto status = checked(take_line(answer));
+  if (!status) return Decoding::kChecksum;
+  if (*status != "00") return Decoding::kDeviceError;
+  // Millimetres, steps, turns a minute.
+  std::array<Told, 7> told{{{"DMIN", 0, 10000, {}},
+                            {"DMAX", 100, 262143, {}},
+                            {"ARES", 16, 16384, {}},
+                            {"AMIN", 0, 9999, {}},
+                            {"AMAX", 0, 9999, {}},
+                            {"AFRT", 0, 9999, {}},
+                            {"SCAN", 60, 60000, {}}}};
+  while (!answer.empty()) {
+    const Decoding decoding = take_value(take_line(answer), told);
+    if (decoding != Decoding::kScan) return decoding;
+  }
+  for (const Told& one : told) {
+    if (!one.value) return Decoding::kTruncated;
+  }
+  const auto value = [&told](std::size_t index) { return *told[index].value; };
+  if (value(3) >= value(4) || value(4) - value(3) >= value(2)) return Decoding::kBadField;  // more than a turn
+  model.range_min_m = static_cast<float>(value(0)) * 0.001F;
+  model.range_max_m = static_cast<float>(value(1)) * 0.001F;
+  model.steps_per_turn = value(2);
+  model.first_step = value(3);
+  model.last_step = value(4);
+  model.front_step = value(5);
+  model.period = duration_from_seconds(60.0 / static_cast<double>(value(6)));
+  return Decoding::kScan;
 }
 
 Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,

@@ -20,6 +20,11 @@ namespace jaywalk::scip {
 class AnswerStream {
  public:
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  /// Drops what waits, uncounted: another connection begins.
+  void forget() noexcept {
+    queue_.drop(queue_.waiting().size());
+    handed_out_ = 0;
+  }
   /// The next whole answer without its empty line; valid until the next call.
   [[nodiscard]] std::optional<std::string_view> next() noexcept;
   [[nodiscard]] std::uint64_t lost() const noexcept { return queue_.lost(); }
@@ -33,11 +38,16 @@ class AnswerStream {
 struct ScannerModel {
   std::uint32_t steps_per_turn = 1440;
   std::uint32_t front_step = 540;  ///< the step that looks straight ahead
+  std::uint32_t first_step = 0;
   std::uint32_t last_step = 1080;
   float range_min_m = 0.1F;
   float range_max_m = 30.0F;
   Duration period = std::chrono::milliseconds(25);
 };
+
+/// Reads the answer to PP: lines "DMIN:20;4", the last character the checksum of what stands before the semicolon.
+/// kScan where `model` is filled; a value that no scanner has is a bad field, one that is not told is cut off.
+[[nodiscard]] Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept;
 
 /// Decodes an answer to MD, MS, GD or GS (distances of the first echo) into `scan`, all but its sequence.
 ///

@@ -142,3 +142,23 @@ TEST_CASE("any text makes a SCIP scan within its limits or a named refusal") {
   CHECK(scans > 0);
   CHECK(refused > 0);
 }
+
+TEST_CASE("what a URG-04LX says of itself is read") {
+  // Checksums: D+M+I+N+:+2+0 = 452, 452 mod 64 = 4, '0' + 4 = '4'; A+M+I+N+:+4+4 = 455, 7, '7'.
+  const std::string head = "PP\n00P\nMODL:URG-04LX(Hokuyo Automatic Co.,Ltd.);N\nDMIN:20;4\n";
+  const std::string tail = "ARES:1024;\\\nAMIN:44;7\nAMAX:725;o\nAFRT:384;6\nSCAN:600;e";
+  scip::ScannerModel model;
+  REQUIRE(scip::decode_model(head + "DMAX:5600;_\n" + tail, model) == Decoding::kScan);
+  CHECK(model.range_min_m == Approx(0.02));
+  CHECK(model.range_max_m == Approx(5.6));
+  CHECK(model.steps_per_turn == 1024);
+  CHECK(model.first_step == 44);
+  CHECK(model.last_step == 725);
+  CHECK(model.front_step == 384);
+  CHECK(model.period == std::chrono::milliseconds(100));
+  CHECK(scip::decode_model(head + tail, model) == Decoding::kTruncated);  // no DMAX
+  CHECK(scip::decode_model(head + "DMAX:5601;_\n" + tail, model) == Decoding::kChecksum);
+  CHECK(scip::decode_model(head + "DMAX:0;D\n" + tail, model) == Decoding::kBadField);  // D+M+A+X+:+0 = 404, 20, 'D'
+  CHECK(scip::decode_model("PP\n0Ee\n", model) == Decoding::kDeviceError);
+  CHECK(scip::decode_model("VV\n00P\n", model) == Decoding::kOtherMessage);
+}

@@ -79,7 +79,7 @@ TEST_CASE("a SICK scanner is logged in to and set up and its scans come whole in
     const ScannerHealth health = bench.at.health();
     CHECK(health.trouble == ScannerTrouble::kNone);
     CHECK(health.scans >= 28);  // 30 in two seconds, less what the conversation took
-    CHECK(health.scans == bench.at.server->scans_sent());
+    CHECK(health.scans == bench.at.server->messages_sent());
     CHECK(scan.sequence == health.scans);
     CHECK(health.connections == 1);
     CHECK(health.malformed + health.late + health.protocol.lost + health.protocol.skipped_bytes == 0);
@@ -172,11 +172,11 @@ TEST_CASE("half a telegram costs one scan in either dialect") {
   for (const ColaDialect dialect : {ColaDialect::kText, ColaDialect::kBinary}) {
     Bench bench(dialect);
     bench.come_to_life();
-    const std::uint64_t sent = bench.at.server->scans_sent();
+    const std::uint64_t sent = bench.at.server->messages_sent();
     const std::uint64_t heard = bench.at.health().scans;
     bench.at.server->order(ScannerFault::kHalfTelegram);
     bench.at.run(1s);
-    CHECK(bench.at.server->scans_sent() - sent == bench.at.health().scans - heard + 1);
+    CHECK(bench.at.server->messages_sent() - sent == bench.at.health().scans - heard + 1);
     CHECK(bench.at.health().protocol.lost == 1);
     CHECK(bench.at.health().protocol.skipped_bytes > 800);
     CHECK(bench.at.is_well());
