@@ -25,4 +25,12 @@ class WiredDrive : public DriveBase {
   virtual void disarm() noexcept = 0;
 };
 
+/// A second way to the same wheels, for a thread that has nothing to do with the loop's.
+class EmergencyBrake {
+ public:
+  virtual ~EmergencyBrake() = default;
+  /// Tells the drives to stop as fast as they were set to; does not wait.
+  virtual void brake() noexcept = 0;
+};
+
 }  // namespace jaywalk

@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+
+#include "drivers/can/can_bus.h"
+
+namespace jaywalk::emulators {
+
+/// An ODrive axis of firmware 0.6 with a motor that follows its ramp: CANSimple, watchdog, heartbeat and estimates. For
+/// tests and the bench; it shares no code with the driver, except how numbers stand in bytes.
+class OdriveNode {
+ public:
+  /// `bus` outlives it; `node` is 0 to 62.
+  OdriveNode(CanBus& bus, std::uint8_t node) noexcept : bus_(bus), node_(node) {}
+
+  /// Takes what came in and moves the motor on to `now`.
+  void step(Time now) noexcept;
+
+  /// Zero: the watchdog is off, as it comes from the factory.
+  void set_watchdog(Duration timeout) noexcept { watchdog_ = timeout; }
+  void set_heartbeat(Duration period) noexcept { heartbeat_period_ = period; }
+  /// It says that its watchdog expired, and drives on.
+  void lie_about_watchdog() noexcept { lies_ = true; }
+  /// An error that clearing does not cure while it lasts; 0: it is mended.
+  void set_lasting_error(std::uint32_t error) noexcept;
+  /// No more frames out, as when its cable is pulled; frames in are lost too.
+  void pull_cable() noexcept { connected_ = false; }
+  void plug_cable() noexcept { connected_ = true; }
+  /// It forgets everything but its settings, as after a loss of power.
+  void restart() noexcept;
+  /// It has no encoder messages, as it comes from the factory.
+  void withhold_estimates() noexcept { estimates_ = false; }
+
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< turns a second
+  [[nodiscard]] double position() const noexcept { return position_; }  ///< turns
+  [[nodiscard]] bool is_enabled() const noexcept { return state_ == 8; }
+
+ private:
+  void take(const CanFrame& frame, Time now) noexcept;
+  void watch(Time now) noexcept;
+  void disarm(std::uint32_t error) noexcept;
+  void move(double seconds) noexcept;
+  void say(Time now) noexcept;
+  void send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept;
+
+  CanBus& bus_;
+  std::uint8_t node_;
+  Duration watchdog_{std::chrono::milliseconds(60)};
+  Duration heartbeat_period_{std::chrono::milliseconds(10)};
+  bool lies_ = false, connected_ = true, estimates_ = true;
+  std::uint32_t lasting_error_ = 0;
+  std::uint32_t errors_ = 0;
+  std::uint8_t state_ = 1;
+  std::uint32_t control_mode_ = 3;  ///< position, as it comes from the factory
+  double target_ = 0.0;
+  double velocity_ = 0.0;
+  double position_ = 0.0;
+  Time stepped_ = kNever, fed_ = kNever, said_heartbeat_ = kNever, said_estimates_ = kNever;
+};
+
+}  // namespace jaywalk::emulators

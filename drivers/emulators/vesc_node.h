@@ -1,0 +1,60 @@
+#pragma once
+#include <cstdint>
+#include <vector>
+
+#include "drivers/can/can_bus.h"
+
+namespace jaywalk::emulators {
+
+/// A VESC with a motor that follows its ramp: speeds and currents in, status messages 1 and 5 out, settings and fault
+/// code when asked, and a timeout. For tests and the bench; it shares no code with the driver, except how numbers stand
+/// in bytes.
+class VescNode {
+ public:
+  /// `bus` outlives it.
+  VescNode(CanBus& bus, std::uint8_t controller) noexcept : bus_(bus), controller_(controller) {}
+
+  /// Takes what came in and moves the motor on to `now`.
+  void step(Time now);
+
+  /// As it comes from the factory: 1000 ms and no current.
+  void set_timeout(std::uint32_t timeout_ms, float brake_current_a) noexcept;
+  /// It tells these settings and keeps to its own.
+  void lie_about_timeout(std::uint32_t told_ms) noexcept { told_ms_ = told_ms; }
+  /// Its answers have a wrong bit.
+  void damage_answers() noexcept { damaged_ = true; }
+  void withhold_answers() noexcept { answers_ = false; }
+  void withhold_travel() noexcept { tells_travel_ = false; }
+  /// 0: mended.
+  void set_fault(std::uint8_t code) noexcept { fault_ = code; }
+  void set_travel(std::int32_t sixths) noexcept { position_ = sixths / 6.0; }
+  /// No more frames out, as when its cable is pulled; frames in are lost too.
+  void pull_cable() noexcept { connected_ = false; }
+
+  [[nodiscard]] double erpm() const noexcept { return erpm_; }
+  [[nodiscard]] double electrical_turns() const noexcept { return position_; }
+
+ private:
+  enum class Mode { kSpeed, kCurrent, kBrake };
+
+  void take(const CanFrame& frame, Time now);
+  void answer(std::span<const std::uint8_t> question);
+  void send_settings(std::uint8_t to);
+  void move(double seconds) noexcept;
+  void say(Time now) noexcept;
+  void send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept;
+
+  CanBus& bus_;
+  std::uint8_t controller_;
+  std::uint32_t timeout_ms_ = 100, told_ms_ = 100;
+  float brake_current_a_ = 10.0F;
+  bool damaged_ = false, answers_ = true, tells_travel_ = true, connected_ = true;
+  std::uint8_t fault_ = 0;
+  Mode mode_ = Mode::kCurrent;
+  double target_erpm_ = 0.0;
+  double erpm_ = 0.0;
+  double position_ = 0.0;  ///< electrical turns
+  Time stepped_ = kNever, fed_ = kNever, said_ = kNever;
+};
+
+}  // namespace jaywalk::emulators

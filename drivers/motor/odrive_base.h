@@ -1,0 +1,72 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+#include "drivers/motor/motor_pair.h"
+#include "drivers/motor/odrive.h"
+
+namespace jaywalk::odrive {
+
+struct AxisSetup {
+  std::uint8_t node = 0;       ///< 0 to 62
+  double turns_per_rad = 0.0;  ///< of the motor to the wheel's; negative where it is mounted the other way round
+};
+
+struct BaseSetup {
+  std::array<AxisSetup, 2> axes;  ///< left, right
+  /// A watchdog that did not show itself so long after the last command is not proved. The heartbeat that shows it adds
+  /// to what the watchdog takes: heartbeat_msg_rate_ms of 10 and watchdog_timeout of 0.06 fit.
+  Duration watchdog_limit = std::chrono::milliseconds(100);
+  Duration silence_limit = std::chrono::milliseconds(150);  ///< without a heartbeat
+  Duration settling = std::chrono::milliseconds(300);
+  bool allow_unproved = false;  ///< arms although an axis did not show that it stops by itself
+};
+
+/// Two axes of ODrives of firmware 0.6 in velocity control, ramped by their own vel_ramp_rate.
+///
+/// Arming proof: each axis holds speed zero under torque, is left without commands, and must say by itself that its
+/// watchdog expired and let go within the limit. An ODrive whose watchdog expires brakes nothing: its wheels roll out.
+class OdriveBase final : public MotorPair {
+ public:
+  /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
+  OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
+  std::vector<std::string> arm() override;
+
+ private:
+  struct Seen {
+    std::uint32_t errors = 0;
+    std::uint8_t state = 0;  ///< AxisState where it is one of those
+    bool has_position = false;
+    float position_turns = 0.0F;
+  };
+
+  void take(const ReceivedFrame& received) noexcept override;
+  void take_estimates(std::size_t index, const EncoderEstimates& estimates) noexcept;
+  void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
+  void send_reset(std::size_t index) noexcept override;
+
+  void await_messages(std::size_t index);
+  /// The proof's line, and whether it was one.
+  [[nodiscard]] bool prove_watchdog(std::size_t index, std::string& line);
+  [[nodiscard]] bool hold_until(std::size_t index, std::uint8_t state);
+  [[nodiscard]] std::string who(std::size_t index) const;
+
+  BaseSetup setup_;
+  std::array<Seen, 2> seen_;
+};
+
+/// Tells two axes to stand still, over a place of its own on their bus.
+class Stopper final : public EmergencyBrake {
+ public:
+  /// `bus` outlives it and belongs to the thread that brakes.
+  Stopper(CanBus& bus, std::array<std::uint8_t, 2> nodes) noexcept : bus_(bus), nodes_(nodes) {}
+  void brake() noexcept override;
+
+ private:
+  CanBus& bus_;
+  std::array<std::uint8_t, 2> nodes_;
+};
+
+}  // namespace jaywalk::odrive
