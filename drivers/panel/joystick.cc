@@ -1,0 +1,109 @@
+#include "drivers/panel/joystick.h"
+
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/ioctl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <utility>
+
+namespace jaywalk::panel {
+
+namespace {
+
+constexpr Duration kBetweenTries = std::chrono::milliseconds(500);
+constexpr double kDeadZone = 0.1;  ///< worn sticks come to rest up to here
+constexpr int kMostReads = 8;
+
+}  // namespace
+
+double Joystick::Axis::share() const noexcept {
+  const double middle = 0.5 * (static_cast<double>(least) + most);
+  const double half = 0.5 * (static_cast<double>(most) - least);
+  const double raw = half > 0.0 ? std::clamp((value - middle) / half, -1.0, 1.0) : 0.0;
+  const double beyond = (std::fabs(raw) - kDeadZone) / (1.0 - kDeadZone);
+  return beyond > 0.0 ? std::copysign(beyond, raw) : 0.0;
+}
+
+Joystick::Joystick(JoystickSetup setup) : setup_(std::move(setup)) {}
+
+void Joystick::poll(Time now) noexcept {
+  if (device_.get() < 0 && (tried_ == kNever || now - tried_ >= kBetweenTries)) {
+    tried_ = now;
+    open();
+  }
+  read();
+}
+
+JoystickState Joystick::state() const noexcept {
+  if (device_.get() < 0) return {};
+  const bool held = dead_man_ == Button::kPressed && seen_released_;
+  const bool stop = setup_.stop_opens ? stop_ != Button::kPressed : stop_ == Button::kPressed;
+  return {.connected = true,
+          .dead_man = held,
+          .stop = stop,
+          .reset = reset_ == Button::kPressed,
+          .forward = held ? -forward_.share() : 0.0,
+          .left = held ? -left_.share() : 0.0};
+}
+
+void Joystick::open() noexcept {
+  device_ = wire::FileDescriptor(::open(setup_.path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  events_.forget();
+  dead_man_ = stop_ = reset_ = Button::kUnknown;
+  seen_released_ = false;
+  forward_ = left_ = Axis();
+  if (device_.get() >= 0) ask_present_state();
+}
+
+void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
+
+/// Events tell changes; how things stand must be asked for. What is no device does not answer.
+void Joystick::ask_present_state() noexcept {
+  std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
+  if (::ioctl(device_.get(), EVIOCGKEY(keys.size()), keys.data()) >= 0) {
+    for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset}) {
+      if (code <= KEY_MAX) take_button(code, (keys[code / 8U] >> (code % 8U) & 1U) != 0);
+    }
+  }
+  const auto ask_axis = [this](std::uint16_t code, Axis& axis) {
+    input_absinfo told{};
+    if (code > ABS_MAX || ::ioctl(device_.get(), EVIOCGABS(code), &told) < 0) return;
+    axis = {told.minimum, told.maximum, told.value};
+  };
+  ask_axis(setup_.forward, forward_);
+  ask_axis(setup_.left, left_);
+}
+
+void Joystick::read() noexcept {
+  for (int k = 0; k < kMostReads && device_.get() >= 0; ++k) {
+    const ssize_t count = ::read(device_.get(), room_.data(), room_.size());
+    if (count <= 0) {
+      if (count == 0 || (errno != EAGAIN && errno != EINTR)) close();
+      return;
+    }
+    events_.append(wire::Bytes(room_).first(static_cast<std::size_t>(count)));
+    while (const auto event = events_.next()) take(*event);
+  }
+}
+
+void Joystick::take(const InputEvent& event) noexcept {
+  if (event.type == EV_SYN && event.code == SYN_DROPPED) return close();  // events are lost: ask again how things stand
+  if (event.type == EV_KEY) take_button(event.code, event.value != 0);
+  if (event.type == EV_ABS && event.code == setup_.forward) forward_.value = event.value;
+  if (event.type == EV_ABS && event.code == setup_.left) left_.value = event.value;
+}
+
+void Joystick::take_button(std::uint16_t code, bool pressed) noexcept {
+  const Button now = pressed ? Button::kPressed : Button::kReleased;
+  if (code == setup_.dead_man) {
+    dead_man_ = now;
+    seen_released_ = seen_released_ || !pressed;
+  }
+  if (code == setup_.stop) stop_ = now;
+  if (code == setup_.reset) reset_ = now;
+}
+
+}  // namespace jaywalk::panel

@@ -1,0 +1,67 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <string>
+
+#include "drivers/panel/input_event.h"
+#include "drivers/wire/file_descriptor.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::panel {
+
+/// Which of a device's buttons and axes mean what, by the numbers of <linux/input-event-codes.h>.
+struct JoystickSetup {
+  std::string path;                ///< "/dev/input/by-id/...-event-joystick"; it may be plugged in later
+  std::uint16_t dead_man = 0x136;  ///< BTN_TL, the left shoulder
+  std::uint16_t stop = 0x131;      ///< BTN_EAST
+  /// The stop is a contact that opens: released, and not known, mean stop. So a wire that breaks stops.
+  bool stop_opens = false;
+  std::uint16_t reset = 0x13B;   ///< BTN_START
+  std::uint16_t forward = 0x01;  ///< ABS_Y: pushed away counts down
+  std::uint16_t left = 0x00;     ///< ABS_X: to the left counts down
+};
+
+struct JoystickState {
+  bool connected = false;  ///< all else is false or 0 where it is not, but stop is true
+  bool dead_man = false;   ///< held, and seen released since it was connected: one that is tied down does not count
+  bool stop = true;
+  bool reset = false;
+  double forward = 0.0;  ///< -1 to 1; 0 near the middle and without the dead man
+  double left = 0.0;     ///< the same
+};
+
+/// A joystick or a box of buttons behind evdev. It never waits; a device that goes is looked for twice a second. The
+/// kernel tells changes only: a device that is dead without the kernel's knowing looks as it last was.
+/// Thread: one; no memory is taken after construction.
+class Joystick {
+ public:
+  explicit Joystick(JoystickSetup setup);
+  /// Takes in what happened since.
+  void poll(Time now) noexcept;
+  [[nodiscard]] JoystickState state() const noexcept;
+
+ private:
+  struct Axis {
+    std::int32_t least = -32767, most = 32767, value = 0;
+    [[nodiscard]] double share() const noexcept;
+  };
+  enum class Button : std::uint8_t { kUnknown, kReleased, kPressed };
+
+  void open() noexcept;
+  void close() noexcept;
+  void ask_present_state() noexcept;
+  void read() noexcept;
+  void take(const InputEvent& event) noexcept;
+  void take_button(std::uint16_t code, bool pressed) noexcept;
+
+  JoystickSetup setup_;
+  wire::FileDescriptor device_;
+  Time tried_ = kNever;
+  EventStream events_;
+  std::array<std::uint8_t, 1536> room_{};  // 64 events
+  Button dead_man_ = Button::kUnknown, stop_ = Button::kUnknown, reset_ = Button::kUnknown;
+  bool seen_released_ = false;
+  Axis forward_, left_;
+};
+
+}  // namespace jaywalk::panel

@@ -1,0 +1,247 @@
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <array>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "drivers/panel/joystick_panel.h"
+#include "tests/drivers/hand_clock.h"
+#include "tests/drivers/random_bytes.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::panel;
+using namespace std::chrono_literals;
+using Octets = std::vector<std::uint8_t>;
+
+namespace {
+
+constexpr std::uint16_t kDeadMan = 0x136, kStop = 0x131, kReset = 0x13B, kX = 0, kY = 1;
+
+/// An event as the kernel lays it out where time takes two longs: both of them, type, code, value.
+Octets event(std::uint8_t type, std::uint16_t code, std::int32_t value) {
+  Octets made(2 * sizeof(long), 0xA5);
+  made.push_back(type);
+  made.push_back(0);
+  made.push_back(static_cast<std::uint8_t>(code));
+  made.push_back(static_cast<std::uint8_t>(code >> 8U));
+  for (int shift = 0; shift < 32; shift += 8) {
+    made.push_back(static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> shift));
+  }
+  return made;
+}
+
+struct GoalAtOne final : OperatorPanel {
+  [[nodiscard]] OperatorInput latest() noexcept override {
+    OperatorInput input;
+    input.has_goal = true;
+    input.goal_in_map = {1.0, 0.0};
+    return input;
+  }
+};
+
+/// A named pipe in the place of a device: it says what a test writes, and nothing when asked how things stand.
+class Bench {
+ public:
+  explicit Bench(bool stop_opens = false)
+      : path_((std::filesystem::temp_directory_path() / ("jaywalk_panel_" + std::to_string(::getpid()))).string()),
+        panel(goals_, clock, {.path = path_, .stop_opens = stop_opens}, true) {
+    std::filesystem::remove(path_);
+  }
+  ~Bench() { std::filesystem::remove(path_); }
+
+  void plug_in() {
+    REQUIRE(::mkfifo(path_.c_str(), 0600) == 0);
+    writer_ = wire::FileDescriptor(::open(path_.c_str(), O_RDWR | O_NONBLOCK));
+  }
+  void pull() {
+    std::filesystem::remove(path_);
+    writer_ = wire::FileDescriptor();
+  }
+  void write(const Octets& bytes) {
+    REQUIRE(::write(writer_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
+  }
+  void press(std::uint16_t code, bool pressed = true) { write(event(EV_KEY, code, pressed ? 1 : 0)); }
+  OperatorInput after(Duration time) {
+    clock.sleep_until(clock.now() + time);
+    const AllocationGuard guard;
+    const OperatorInput input = panel.latest();
+    heap_calls += guard.calls();
+    return input;
+  }
+
+ private:
+  std::string path_;
+  GoalAtOne goals_;
+  wire::FileDescriptor writer_;
+
+ public:
+  tests::HandClock clock;
+  JoystickPanel panel;
+  std::uint64_t heap_calls = 0;
+};
+
+}  // namespace
+
+TEST_CASE("input events are cut out of what was read in pieces of any size") {
+  // BTN_TL pressed: type 1, code 0136h, value 1. ABS_Y at -300: type 3, code 1, FFFFFED4h.
+  Octets both = event(1, 0x136, 1);
+  const Octets second = event(3, 1, -300);
+  both.insert(both.end(), second.begin(), second.end());
+  CHECK(second.back() == 0xFF);
+  CHECK(second[second.size() - 4] == 0xD4);
+  for (std::size_t piece = 1; piece <= both.size(); ++piece) {
+    EventStream events;
+    std::vector<InputEvent> found;
+    for (std::size_t at = 0; at < both.size(); at += piece) {
+      events.append(wire::Bytes(both).subspan(at, std::min(piece, both.size() - at)));
+      while (const auto one = events.next()) found.push_back(*one);
+    }
+    REQUIRE(found.size() == 2);
+    REQUIRE((found[0] == InputEvent{1, 0x136, 1}));
+    REQUIRE((found[1] == InputEvent{3, 1, -300}));
+  }
+}
+
+TEST_CASE("a joystick that is not there is an emergency stop") {
+  Bench bench;
+  CHECK(bench.after(0ms).emergency_stop);
+  CHECK_FALSE(bench.after(1s).has_goal);
+  CHECK_FALSE(bench.panel.joystick().connected);
+}
+
+TEST_CASE("a goal passes while the dead man's button is held") {
+  Bench bench;
+  bench.plug_in();
+  OperatorInput input = bench.after(0ms);
+  CHECK_FALSE(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  input = bench.after(20ms);
+  CHECK(input.has_goal);
+  CHECK(input.goal_in_map.x == 1.0);
+  CHECK(bench.after(10s).has_goal);
+  bench.press(kDeadMan, false);
+  CHECK_FALSE(bench.after(20ms).has_goal);
+  CHECK(bench.heap_calls == 0);
+}
+
+TEST_CASE("a dead man's button that was never seen released does not count") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.press(kDeadMan);
+  CHECK_FALSE(bench.after(20ms).has_goal);
+  bench.write(event(EV_KEY, kDeadMan, 2));  // the kernel repeats what is held
+  CHECK_FALSE(bench.after(20ms).has_goal);
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(20ms).has_goal);
+}
+
+TEST_CASE("stop and reset are what their buttons say") {
+  Bench bench;
+  bench.plug_in();
+  CHECK_FALSE(bench.after(0ms).emergency_stop);
+  bench.press(kStop);
+  CHECK(bench.after(20ms).emergency_stop);
+  CHECK(bench.after(1s).emergency_stop);
+  bench.press(kStop, false);
+  bench.press(kReset);
+  const OperatorInput input = bench.after(20ms);
+  CHECK_FALSE(input.emergency_stop);
+  CHECK(input.reset);
+  bench.press(kReset, false);
+  CHECK_FALSE(bench.after(20ms).reset);
+}
+
+TEST_CASE("an emergency stop that opens a contact stops until it is known to be closed") {
+  Bench bench(true);
+  bench.plug_in();
+  CHECK(bench.after(0ms).emergency_stop);
+  bench.press(kStop);  // closed
+  CHECK_FALSE(bench.after(20ms).emergency_stop);
+  bench.press(kStop, false);
+  CHECK(bench.after(20ms).emergency_stop);
+}
+
+TEST_CASE("a joystick that is pulled is an emergency stop and is found again with its dead man forgotten") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(20ms).has_goal);
+  bench.pull();
+  OperatorInput input = bench.after(20ms);
+  CHECK(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+  bench.plug_in();
+  input = bench.after(500ms);
+  CHECK_FALSE(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+  CHECK(bench.heap_calls == 0);
+}
+
+TEST_CASE("a joystick whose events were lost is asked again how it stands") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(20ms).has_goal);
+  bench.write(event(EV_SYN, SYN_DROPPED, 0));
+  OperatorInput input = bench.after(20ms);
+  CHECK(input.emergency_stop);
+  input = bench.after(500ms);  // opened anew: a pipe does not say that the button is still held
+  CHECK_FALSE(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+}
+
+TEST_CASE("sticks count from a dead zone to the end while the dead man's button is held") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.write(event(EV_ABS, kY, -32767));
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.panel.joystick().forward == 0.0);
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  bench.write(event(EV_ABS, kX, 3276));  // a tenth to the right: at rest
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.panel.joystick().forward == Approx(1.0));
+  CHECK(bench.panel.joystick().left == 0.0);
+  bench.write(event(EV_ABS, kX, -18022));  // 0.55 to the left: (0.55 - 0.1) / 0.9
+  static_cast<void>(bench.after(20ms));
+  CHECK(bench.panel.joystick().left == Approx(0.5).margin(1e-4));
+}
+
+TEST_CASE("whatever a device says its state stays within its limits") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  tests::RandomBytes random(91);
+  for (int k = 0; k < 3000; ++k) {
+    constexpr std::array<std::uint16_t, 5> kCodes{kDeadMan, kStop, kReset, kX, kY};
+    const std::uint8_t type = static_cast<std::uint8_t>(random.below(5));
+    const std::uint16_t code =
+        random.below(3) == 0 ? static_cast<std::uint16_t>(random.below(0x10000)) : kCodes[random.below(kCodes.size())];
+    Octets made = event(type, code, 0);
+    for (std::size_t at = made.size() - 4; at < made.size(); ++at) made[at] = random.byte();
+    if (random.below(50) == 0) made = random.bytes(random.below(100));
+    bench.write(made);
+    static_cast<void>(bench.after(20ms));
+    const JoystickState state = bench.panel.joystick();
+    REQUIRE(std::fabs(state.forward) <= 1.0);
+    REQUIRE(std::fabs(state.left) <= 1.0);
+    REQUIRE((state.connected || state.stop));
+  }
+  CHECK(bench.heap_calls == 0);
+}
