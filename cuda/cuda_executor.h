@@ -60,6 +60,16 @@ class CudaExecutor {
     if (w > 0 && h > 0) visit_cells<<<grid, threads, 0, stream_>>>(w, h, stage);
   }
 
+  template <class... Steps>
+  void for_each_row(std::int32_t h, const Steps&... steps) noexcept {
+    (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
+  }
+
+  template <class... Steps>
+  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
+    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+  }
+
   bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
   [[nodiscard]] const char* name() const noexcept { return "cuda"; }
 

@@ -31,8 +31,14 @@ JAYWALK_CELL float clearance(std::int32_t squared, float inflation, std::int32_t
   return nearest > 1.0F ? nearest : 1.0F;
 }
 
-/// Width in cells of the passage that a cell lies in, as its own and its best neighbour's clearance
-/// tell: 2 D + 1 where the cell is on the ridge, less than the passage's width beside it.
-JAYWALK_CELL float passage_width(float own, float best_neighbour) { return own + best_neighbour + 1.0F; }
+/// Width in cells of the passage that a cell lies in, from its own clearance and, for either axis, that of the better
+/// of its two neighbours there. Beside the middle line some neighbour is farther from walls: own + that one's counts
+/// both sides, 2 + 3 = 5 in a passage of 1 2 3 2 1. On it the neighbours across tell 1 2 3 2 1 (3 + 2 = 5) from 1 2 2 1
+/// (2 + 2 = 4); those along the passage are as far from walls as the cell itself.
+JAYWALK_CELL float passage_width(float own, float best_along_x, float best_along_y) {
+  const float better = best_along_x > best_along_y ? best_along_x : best_along_y;
+  const float worse = best_along_x > best_along_y ? best_along_y : best_along_x;
+  return own + (better > own ? better : worse);
+}
 
 }  // namespace jaywalk::cell

@@ -19,6 +19,9 @@ JAYWALK_CELL std::int32_t bits_of_float(float value) {
   return bits;
 }
 
+/// The next number above x >= 0 that single precision has.
+JAYWALK_CELL float next_above(float x) { return float_of_bits(bits_of_float(x) + 1); }
+
 /// e^x, relative error below 3e-7 for x in [-80, 80]; clamped to that range outside it. x is not NaN.
 JAYWALK_CELL float exp(float x) {
   const float in_range = x < -80.0F ? -80.0F : (x > 80.0F ? 80.0F : x);

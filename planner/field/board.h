@@ -32,6 +32,17 @@ struct Board {
   [[nodiscard]] JAYWALK_CELL static std::int32_t first_column(std::int32_t colour, std::int32_t j) {
     return (j + colour) & 1;
   }
+  /// Cells 2 h and 2 h + 1 of row j from an array by rows to one of this board, and back.
+  template <class T>
+  JAYWALK_CELL void place(std::int32_t h, std::int32_t j, const T* by_rows, T* on_board) const {
+    on_board[row(j & 1, j) + h] = by_rows[j * side + 2 * h];
+    on_board[row(1 - (j & 1), j) + h] = by_rows[j * side + 2 * h + 1];
+  }
+  template <class T>
+  JAYWALK_CELL void take_back(std::int32_t h, std::int32_t j, const T* on_board, T* by_rows) const {
+    by_rows[j * side + 2 * h] = on_board[row(j & 1, j) + h];
+    by_rows[j * side + 2 * h + 1] = on_board[row(1 - (j & 1), j) + h];
+  }
   /// All of the other colour. Beyond the border they are some other cell's place, never outside the array.
   [[nodiscard]] JAYWALK_CELL Neighbours neighbours(std::int32_t colour, std::int32_t h, std::int32_t j) const {
     const std::int32_t other = 1 - colour;

@@ -13,18 +13,23 @@ struct Level {
   const float* diagonal;
 };
 
-/// Builds the equations of one colour of blocks from their four cells each.
-struct CoarsenBlock {
-  Level fine;
-  Board board;
-  std::int32_t colour;
+/// What blocks hold by rows: their equations on the way to the board, and what only finer cells ask for.
+struct BlockRows {
   CouplingArrays couplings;
   float *psi, *diagonal;
   float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
+  float *open_east, *open_north;    ///< whether it is coupled to the next one there, 1 or 0
+  float* lacking;                   ///< its right-hand side
+};
 
-  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
-    const std::int32_t block = board.row(colour, j) + h;
-    const std::int32_t i = 2 * h + Board::first_column(colour, j);
+/// Builds the equations of blocks from their four cells each.
+struct CoarsenBlock {
+  Level fine;
+  std::int32_t side;  ///< blocks a row
+  BlockRows blocks;
+
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
+    const std::int32_t block = j * side + i;
     // Cells (2i, 2j), (2i+1, 2j), (2i, 2j+1), (2i+1, 2j+1): even, odd, odd, even.
     const std::int32_t c00 = fine.board.row(0, 2 * j) + i, c10 = fine.board.row(1, 2 * j) + i;
     const std::int32_t c01 = fine.board.row(1, 2 * j + 1) + i, c11 = fine.board.row(0, 2 * j + 1) + i;
@@ -42,11 +47,14 @@ struct CoarsenBlock {
     const float least = -0.2F * conductance;  // while psi is not yet harmonic: keeps the equation positive
     const float total = conductance + (killing > least ? killing : least);
     const float scale = conductance > 0.0F ? 1.0F / total : 0.0F;
-    couplings.set(block, {faces.east * scale, faces.west * scale, faces.north * scale, faces.south * scale});
-    diagonal[block] = total;
-    psi[block] = base;
-    low_weight[block] = w00 * scale;
-    high_weight[block] = w11 * scale;
+    const cell::Couplings a{faces.east * scale, faces.west * scale, faces.north * scale, faces.south * scale};
+    blocks.couplings.set(block, a);
+    blocks.psi[block] = base;
+    blocks.diagonal[block] = total;
+    blocks.low_weight[block] = w00 * scale;
+    blocks.high_weight[block] = w11 * scale;
+    blocks.open_east[block] = a.east > 0.0F ? 1.0F : 0.0F;
+    blocks.open_north[block] = a.north > 0.0F ? 1.0F : 0.0F;
   }
 
  private:
@@ -60,34 +68,32 @@ struct CoarsenBlock {
   }
 };
 
-/// Which blocks are coupled to the next one east and north, 1 or 0, by rows.
-struct OpenFaces {
+/// The blocks' equations from rows to the board.
+struct BlocksToBoard {
   Board board;
+  BlockRows rows;
   CouplingArrays couplings;
-  float *east, *north;
+  float *psi, *diagonal;
 
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    const std::int32_t block = board.at(i, j);
-    east[j * board.side + i] = couplings.east[block] > 0.0F ? 1.0F : 0.0F;
-    north[j * board.side + i] = couplings.north[block] > 0.0F ? 1.0F : 0.0F;
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    board.place(h, j, rows.couplings.east, couplings.east), board.place(h, j, rows.couplings.west, couplings.west);
+    board.place(h, j, rows.couplings.north, couplings.north), board.place(h, j, rows.couplings.south, couplings.south);
+    board.place(h, j, rows.psi, psi), board.place(h, j, rows.diagonal, diagonal);
   }
 };
 
-/// The right-hand sides of one colour of blocks: the weighted sum of what their cells lack. Odd cells lack
-/// nothing, they were relaxed last. The blocks' corrections start from 0.
+/// The right-hand sides of blocks: the weighted sum of what their cells lack. Odd cells lack nothing, they were relaxed
+/// last.
 struct RestrictToBlock {
   Level fine;
   const float *fine_source, *fine_x;
-  Board board;
-  std::int32_t colour;
-  const float *low_weight, *high_weight;
-  float *source, *x;
+  std::int32_t side;  ///< blocks a row
+  BlockRows blocks;
 
-  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
-    const std::int32_t block = board.row(colour, j) + h;
-    const std::int32_t i = 2 * h + Board::first_column(colour, j);
-    source[block] = low_weight[block] * lacking(i, 2 * j) + high_weight[block] * lacking(i, 2 * j + 1);
-    x[block] = 0.0F;
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
+    const std::int32_t block = j * side + i;
+    blocks.lacking[block] =
+        blocks.low_weight[block] * lacking(i, 2 * j) + blocks.high_weight[block] * lacking(i, 2 * j + 1);
   }
 
  private:
@@ -97,14 +103,16 @@ struct RestrictToBlock {
   }
 };
 
-/// The blocks' corrections from the board to rows.
-struct CorrectionByRows {
+/// The blocks' right-hand sides from rows to the board; their corrections start from 0.
+struct LackingToBoard {
   Board board;
-  const float* x;
-  float* by_rows;
+  const float* lacking;
+  float *source, *x;
 
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    by_rows[j * board.side + i] = x[board.at(i, j)];
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    board.place(h, j, lacking, source);
+    x[board.row(0, j) + h] = 0.0F;
+    x[board.row(1, j) + h] = 0.0F;
   }
 };
 

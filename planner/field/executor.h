@@ -3,6 +3,10 @@
 //   T* take<T>(n)                zeroed memory for n values, its own, readable by the host after wait()
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
+//   for_each_row(h, steps...)    the steps one after the other, each as for_each_cell does; or, to the same bits, all
+//   of
+//                                them row by row, each a row behind the one before (RowStep says what that asks)
+//   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
 //   wait()                       returns when all that was asked for is done; false: it failed
 //   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
 //                                (start_field.h), looking whether anything has changed (pass.h)
@@ -38,6 +42,20 @@ inline bool goes_eight_wide() {
 #endif
 }
 
+/// A stage of a chain: `width` visits a row (0: none), on every row or, with `every` = 2, on rows of blocks, two cells
+/// high. It may read what the steps before it have left in its own rows and in one row on either side, and must not
+/// touch what they still read: its own rows, or arrays that they leave alone.
+template <class Stage>
+struct RowStep {
+  std::int32_t width;
+  Stage stage;
+  std::int32_t every = 1;
+};
+template <class Stage>
+RowStep(std::int32_t, Stage) -> RowStep<Stage>;
+template <class Stage>
+RowStep(std::int32_t, Stage, std::int32_t) -> RowStep<Stage>;
+
 /// Visits one after the other, on the caller's thread.
 class SerialExecutor {
  public:
@@ -64,10 +82,32 @@ class SerialExecutor {
     }
   }
 
+  /// Row by row, so that what one step has fetched is still at hand for the next.
+  template <class... Steps>
+  void for_each_row(std::int32_t h, const Steps&... steps) noexcept {
+    const std::int32_t end = h + static_cast<std::int32_t>(sizeof...(Steps)) - 1;
+    for (std::int32_t front = 0; front < end; ++front) {
+      std::int32_t row = front;
+      (visit_row(h, row--, steps), ...);
+    }
+  }
+
+  template <class... Steps>
+  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
+    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+  }
+
   bool wait() noexcept { return true; }
   [[nodiscard]] const char* name() const noexcept { return "cpu"; }
 
  private:
+  template <class Step>
+  void visit_row(std::int32_t h, std::int32_t row, const Step& step) noexcept {
+    if (row < 0 || row >= h || (row + 1) % step.every != 0) return;
+    const std::int32_t j = row / step.every;
+    wide_ ? visit_wide(step.width, step.stage, j) : visit(step.width, step.stage, j);
+  }
+
   template <class Stage, class... Row>
   static void visit(std::int32_t n, Stage stage, Row... row) noexcept {
     JAYWALK_INDEPENDENT_VISITS

@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <cstring>
 
+#include "planner/field/bucket_queue.h"
 #include "planner/field/clearance_stages.h"
 #include "planner/field/mark_stages.h"
 #include "planner/field/multigrid.h"
@@ -18,9 +19,13 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 inline constexpr std::int32_t kBandRounds = 60;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// Cycles from the start field: four, a fifth where the fourth has still moved something; then 99.9 % of cells or
+/// Cycles from the start field: three, a fourth where the third has still moved something; then 99.9 % of cells or
 /// more pick the exact field's best neighbour. From the last submission's field one does (docs/algorithm.md).
-inline constexpr std::int32_t kColdCycles = 4, kMostColdCycles = 5, kWarmCycles = 1;
+inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 4, kWarmCycles = 1;
+
+/// Times that pits are lifted before the certificate is read again. A pit that rounding has made is a plateau few cells
+/// wide; one that is deeper needs another solution.
+inline constexpr std::int32_t kLifts = 8;
 
 /// What the stages read and write; all of it the executor's memory.
 struct FieldArrays {
@@ -50,7 +55,10 @@ template <class Executor>
 class Pass {
  public:
   Pass(Executor& executor, std::int32_t max_side)
-      : executor_(executor), solver_(executor, max_side), queue_(Executor::kQueue ? max_side : 0) {
+      : executor_(executor),
+        solver_(executor, max_side),
+        queue_(Executor::kQueue ? max_side : 0,
+               kQueuedPerCell * static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0)) {
     const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
     const auto lines = static_cast<std::size_t>(max_side);
     const std::vector<std::uint16_t> table = rate_table(max_side);
@@ -97,37 +105,27 @@ class Pass {
     if (Executor::kQueue && started_ == goal) return true;
     started_ = goal;
     executor_.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a_.clearance, a_.table, a_.rate});
-    if constexpr (Executor::kQueue) {
-      if (!executor_.wait()) return false;
-      queue_.settle(grid, goal, a_.rate, a_.cost);
-    } else if (!sweep_until_settled(grid, goal)) {
-      return false;
-    }
+    if (!settle(grid, goal)) return false;
     executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, a_.start_psi});
     return executor_.wait();
   }
 
   /// From the start field to the potential and its index matrix; begins from the last solution when `warm`, which
-  /// must then have been on the same cells with the same goal. Whatever breaks the certificate is not used.
+  /// must then have been on the same cells with the same goal. Whatever breaks the certificate is not used: a warm
+  /// solution gives way to a cold one, a cold one to the start field itself.
   FieldQuality solve(Grid grid, std::int32_t goal, bool warm, float* psi) noexcept {
+    struct Attempt {
+      std::int32_t least_cycles, most_cycles, lifts;
+    };
+    const Attempt attempts[] = {
+        {kWarmCycles, kWarmCycles, kLifts}, {kColdCycles, kMostColdCycles, kLifts}, {0, 0, 2 * grid.side}};
     FieldQuality quality;
-    if (warm) quality = attempt(grid, goal, kWarmCycles, kWarmCycles, psi);
-    if (!quality.certified) {
-      executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
-      const std::int32_t before = quality.cycles;
-      quality = attempt(grid, goal, kColdCycles, kMostColdCycles, psi);
-      quality.cycles += before;
+    for (std::int32_t k = warm ? 0 : 1; k < 3 && !quality.certified; ++k) {
+      if (k > 0) executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
+      const std::int32_t cycles = improve(grid, goal, attempts[k].least_cycles, attempts[k].most_cycles, psi);
+      quality.cycles += cycles;
+      if (!lift(grid, goal, attempts[k].lifts, psi, quality)) break;
     }
-    if (quality.certified) {
-      executor_.for_each(grid.cells(), KeepCorrection{a_.start_psi, psi, a_.correction});
-    } else {
-      const std::int32_t cycles = quality.cycles;
-      executor_.for_each(grid.cells(), AddCorrection{a_.start_psi, a_.correction, psi});  // the start field itself
-      quality = certificate(grid, goal, psi);
-      quality.cycles = cycles;
-    }
-    executor_.for_each_cell(grid.side, grid.side, IndexOfEachCell{grid, psi, a_.index});
-    executor_.wait();
     return quality;
   }
 
@@ -142,6 +140,8 @@ class Pass {
 
  private:
   static constexpr std::int32_t kNowhere = -1;
+  /// Room in the queue. A cell is queued 1.3 times in all, and few at a time; where that should ever not do, sweeps do.
+  static constexpr std::size_t kQueuedPerCell = 1;
 
   /// What `clearance` was computed for, beside the occupants.
   struct Cleared {
@@ -165,21 +165,43 @@ class Pass {
     array = executor_.template take<T>(n);
   }
 
-  FieldQuality attempt(Grid grid, std::int32_t goal, std::int32_t least, std::int32_t most, float* psi) noexcept {
-    executor_.for_each(grid.cells(), AddCorrection{a_.start_psi, a_.correction, psi});
-    const std::int32_t cycles = solver_.improve(grid, goal, psi, least, most);
-    FieldQuality quality = certificate(grid, goal, psi);
-    quality.cycles = cycles;
-    return quality;
+  std::int32_t improve(Grid grid, std::int32_t goal, std::int32_t least, std::int32_t most, float* psi) noexcept {
+    return solver_.improve(grid, goal, psi, least, most,
+                           RowStep{grid.side, AddCorrection{grid, a_.start_psi, a_.correction, psi}},
+                           RowStep{1, PitsOfRow{grid, goal, psi, a_.pits, a_.joined}},
+                           RowStep{grid.side, KeepCorrection{grid, a_.start_psi, psi, a_.correction}},
+                           RowStep{grid.side, IndexOfEachCell{grid, psi, a_.index}});
   }
 
-  FieldQuality certificate(Grid grid, std::int32_t goal, const float* psi) noexcept {
-    executor_.for_each(grid.side, PitsOfRow{grid, goal, psi, a_.pits, a_.joined});
-    FieldQuality quality;
-    if (!executor_.wait()) return quality;
+  /// Reads the certificate; where there are pits, lifts them up to `most` times over, and keeps what that came to.
+  /// False when the executor has failed.
+  bool lift(Grid grid, std::int32_t goal, std::int32_t most, float* psi, FieldQuality& quality) noexcept {
+    if (!read_certificate(grid, quality)) return false;
+    for (std::int32_t lifts = 0; !quality.certified && lifts < most; lifts += kLifts) {
+      const std::int32_t half = grid.side / 2;
+      executor_.repeat(kLifts, grid.side, RowStep{half, LiftPit{grid, 0, goal, psi}},
+                       RowStep{half, LiftPit{grid, 1, goal, psi}});
+      executor_.for_each_row(grid.side, RowStep{1, PitsOfRow{grid, goal, psi, a_.pits, a_.joined}},
+                             RowStep{grid.side, KeepCorrection{grid, a_.start_psi, psi, a_.correction}},
+                             RowStep{grid.side, IndexOfEachCell{grid, psi, a_.index}});
+      if (!read_certificate(grid, quality)) return false;
+    }
+    return true;
+  }
+
+  bool read_certificate(Grid grid, FieldQuality& quality) noexcept {
+    quality.pits = quality.joined = 0;
+    quality.certified = false;
+    if (!executor_.wait()) return false;
     for (std::int32_t j = 0; j < grid.side; ++j) quality.pits += a_.pits[j], quality.joined += a_.joined[j];
     quality.certified = quality.pits == 0;
-    return quality;
+    return true;
+  }
+
+  bool settle(Grid grid, std::int32_t goal) noexcept {
+    if (!Executor::kQueue) return sweep_until_settled(grid, goal);
+    if (!executor_.wait()) return false;
+    return queue_.settle(grid, goal, a_.rate, a_.cost) || sweep_until_settled(grid, goal);
   }
 
   bool sweep_until_settled(Grid grid, std::int32_t goal) noexcept {
@@ -188,6 +210,8 @@ class Pass {
       executor_.for_each(grid.side, Fill<std::uint32_t>{a_.changed, 0U});
       executor_.for_each(grid.side, SweepLine{grid.side, 1, grid.side, a_.rate, a_.cost, a_.changed});
       executor_.for_each(grid.side, SweepLine{grid.side, grid.side, 1, a_.rate, a_.cost, a_.changed});
+      executor_.for_each_cell(grid.side, grid.side / 2, StepAcross{grid, 0, a_.rate, a_.cost, a_.changed});
+      executor_.for_each_cell(grid.side, grid.side / 2, StepAcross{grid, 1, a_.rate, a_.cost, a_.changed});
       if (!executor_.wait()) return false;
       settled = true;
       for (std::int32_t line = 0; line < grid.side; ++line) settled = settled && a_.changed[line] == 0;

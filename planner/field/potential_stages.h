@@ -28,27 +28,20 @@ JAYWALK_CELL BesideCell beside_cell(const Grid& grid, const float* psi, std::int
           psi[c - grid.side] + barred_if(j == 0)};
 }
 
-/// psi from rows to a board, one colour.
-struct PsiToBoard {
+/// An array from rows to a board.
+struct ToBoard {
   Board board;
-  std::int32_t colour;
-  const float* psi;
-  float* psi_on_board;
-
-  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
-    psi_on_board[board.row(colour, j) + h] = psi[j * board.side + 2 * h + Board::first_column(colour, j)];
-  }
+  const float* by_rows;
+  float* on_board;
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const { board.place(h, j, by_rows, on_board); }
 };
 
 /// And back.
-struct PsiFromBoard {
+struct FromBoard {
   Board board;
-  const float* psi_on_board;
-  float* psi;
-
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
-    psi[j * board.side + i] = psi_on_board[board.at(i, j)];
-  }
+  const float* on_board;
+  float* by_rows;
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const { board.take_back(h, j, on_board, by_rows); }
 };
 
 /// Sets up the finest level from psi, one colour: couplings to the next cell east and north. What is not
@@ -144,29 +137,46 @@ struct RebaseCouplings {
   }
 };
 
-/// How far from 1 the farthest v of a board's row is, where there are equations.
-struct FarthestOfRow {
+/// How many cells of a row a cycle has tilted: those whose v differs from their eastern or northern neighbour's by more
+/// than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
+struct TiltedOfRow {
   Board board;
+  float tilt;
   const float* x;
-  float* farthest;
+  std::int32_t *tilted, *joined;  ///< joined: cells with an equation
 
-  JAYWALK_CELL void operator()(std::int32_t row) const {
-    float most = 0.0F;
-    for (std::int32_t c = row * board.half(), end = c + board.half(); c < end; ++c) {
-      const float away = x[c] > 1.0F ? x[c] - 1.0F : 1.0F - x[c];
-      const float counted = x[c] > 0.0F ? away : 0.0F;
-      most = counted > most ? counted : most;
+  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
+    std::int32_t tilts = 0, joins = 0;
+    for (std::int32_t colour = 0; colour < 2; ++colour) {
+      const std::int32_t first = board.row(colour, j), last_east = (j + colour + 1) & 1;
+      for (std::int32_t h = 0; h < board.half(); ++h) {
+        const Neighbours n = board.neighbours(colour, h, j);
+        const float here = x[first + h], most = tilt * here;
+        const float east = h < board.half() - 1 + last_east ? x[n.east] : 0.0F, north = x[n.north];
+        joins += here > 0.0F ? 1 : 0;
+        tilts += ((here > 0.0F) & ((differs(here, east, most)) | (differs(here, north, most)))) ? 1 : 0;
+      }
     }
-    farthest[row] = most;
+    tilted[j] = tilts;
+    joined[j] = joins;
+  }
+
+ private:
+  /// From a neighbour that has an equation, that is v > 0.
+  JAYWALK_CELL static bool differs(float here, float there, float most) {
+    return (there > 0.0F) & ((there - here > most) | (here - there > most));
   }
 };
 
-/// Carries v over into psi and starts again from v = 1. Visits every place of the board.
+/// Carries v over into psi and starts again from v = 1. One colour.
 struct RebasePsi {
+  Board board;
+  std::int32_t colour;
   float* x;
   float* psi;
 
-  JAYWALK_CELL void operator()(std::int32_t c) const {
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
     const float v = x[c];
     psi[c] = cell::rebased(psi[c], v);
     x[c] = v > 0.0F ? 1.0F : v;
@@ -176,22 +186,49 @@ struct RebasePsi {
 /// What the potential came to above the start field, by cell: where the next submission's solver begins. A
 /// cell that is covered for a while keeps what it had, so that a mover passing leaves no scar.
 struct KeepCorrection {
+  Grid grid;
   const float* start;
   const float* psi;
   float* correction;
 
-  JAYWALK_CELL void operator()(std::int32_t c) const {
-    if (cell::is_joined(psi[c])) correction[c] = psi[c] - start[c];
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
+    const std::int32_t c = grid.at(i, j);
+    const float kept = correction[c], found = psi[c] - start[c];
+    correction[c] = cell::is_joined(psi[c]) ? found : kept;
   }
 };
 
 struct AddCorrection {
+  Grid grid;
   const float* start;
   const float* correction;
   float* psi;
 
-  JAYWALK_CELL void operator()(std::int32_t c) const {
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t j) const {
+    const std::int32_t c = grid.at(i, j);
     psi[c] = cell::is_joined(start[c]) ? start[c] + correction[c] : start[c];
+  }
+};
+
+/// Lifts each joined cell of one colour that has no strictly lower neighbour just above the lowest, as far as single
+/// precision tells them apart: what rounding has levelled descends again. Even, then odd cells, some times over.
+struct LiftPit {
+  Grid grid;
+  std::int32_t colour;
+  std::int32_t goal;
+  float* psi;  ///< may be read beyond the border (take_rows)
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t i = 2 * h + Board::first_column(colour, j), c = grid.at(i, j);
+    const float here = psi[c];
+    if (!cell::is_joined(here) || c == goal) return;
+    const BesideCell beside = beside_cell(grid, psi, i, j);
+    float lowest = cell::kUnreachable;
+    lowest = beside.east < lowest ? beside.east : lowest;
+    lowest = beside.west < lowest ? beside.west : lowest;
+    lowest = beside.north < lowest ? beside.north : lowest;
+    lowest = beside.south < lowest ? beside.south : lowest;
+    if (cell::is_joined(lowest) && !(lowest < here)) psi[c] = cell::next_above(lowest);
   }
 };
 
@@ -204,7 +241,7 @@ struct PitsOfRow {
   std::int32_t* pits;
   std::int32_t* joined;  ///< joined cells of the row, the goal included
 
-  JAYWALK_CELL void operator()(std::int32_t j) const {
+  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     std::int32_t pit_count = 0, joined_count = 0;
     for (std::int32_t i = 0; i < grid.side; ++i) {
       const std::int32_t c = grid.at(i, j);

@@ -5,14 +5,19 @@
 #include <vector>
 
 #include "planner/cell/clearance.h"
+#include "planner/cell/step.h"
 #include "planner/field/grid.h"
 
 namespace jaywalk::field {
 
-/// Cost units per unit of psi. A step costs at most 3942 (a passage two cells wide), so the longest way through
-/// 1024 x 1024 cells stays below 2^32; one through a passage of 512 cells still costs 25.
+/// Cost units per unit of psi.
 inline constexpr float kCostsPerPsi = 4096.0F;
 inline constexpr std::uint32_t kNoWay = 0xffffffffU;
+/// A step costs less than this: the dearest is 2 x 2697 x 5/4, in a passage one cell wide.
+inline constexpr std::uint32_t kDearestStep = 8192;
+/// Nothing is sought beyond this cost, a million units of psi: 800,000 cells of a passage one cell wide. What lies
+/// there counts as out of reach.
+inline constexpr std::uint32_t kFarthest = kNoWay - kDearestStep;
 
 /// Half a step's cost by passage width in steps of a quarter cell: half of acosh(2 - cos(pi/(w+1))),
 /// the rate at which a harmonic function decays along a passage w cells wide.
@@ -31,12 +36,11 @@ struct RateOfEachCell {
       rate[c] = 0;
       return;
     }
-    float best = 0.0F;
-    if (i > 0 && clearance[c - 1] > best) best = clearance[c - 1];
-    if (i < grid.side - 1 && clearance[c + 1] > best) best = clearance[c + 1];
-    if (j > 0 && clearance[c - grid.side] > best) best = clearance[c - grid.side];
-    if (j < grid.side - 1 && clearance[c + grid.side] > best) best = clearance[c + grid.side];
-    rate[c] = table[static_cast<std::int32_t>(4.0F * cell::passage_width(clearance[c], best))];
+    const float east = i < grid.side - 1 ? clearance[c + 1] : 0.0F, west = i > 0 ? clearance[c - 1] : 0.0F;
+    const float north = j < grid.side - 1 ? clearance[c + grid.side] : 0.0F,
+                south = j > 0 ? clearance[c - grid.side] : 0.0F;
+    const float width = cell::passage_width(clearance[c], east > west ? east : west, north > south ? north : south);
+    rate[c] = table[static_cast<std::int32_t>(4.0F * width)];
   }
 };
 
@@ -48,8 +52,8 @@ struct FarFromGoal {
   JAYWALK_CELL void operator()(std::int32_t c) const { cost[c] = c == goal ? 0U : kNoWay; }
 };
 
-/// Relaxes one line of cells forth and back. Rows and columns in turn, until nothing changes, reach the unique
-/// fixed point cost[n] = min(cost[c] + rate[c] + rate[n]). A line is one thread's alone.
+/// Relaxes one line of cells forth and back. Rows, columns and diagonals (StepAcross) in turn, until nothing changes,
+/// reach the unique fixed point cost[n] = min(cost[c] + step). A line is one thread's alone.
 struct SweepLine {
   std::int32_t length;
   std::int32_t along;   ///< index step from a cell to the next on its line
@@ -69,11 +73,42 @@ struct SweepLine {
 
  private:
   JAYWALK_CELL std::uint32_t relax(std::int32_t from, std::int32_t to) const {
-    if (rate[from] == 0 || rate[to] == 0 || cost[from] == kNoWay) return 0;
-    const std::uint32_t through = cost[from] + rate[from] + rate[to];
+    if (rate[from] == 0 || rate[to] == 0 || cost[from] >= kFarthest) return 0;
+    const std::uint32_t through = cost[from] + cell::straight_step(rate[from], rate[to]);
     if (through >= cost[to]) return 0;
     cost[to] = through;
     return 1;
+  }
+};
+
+/// Diagonal steps into every other row, the even or the odd ones, from the rows on either side.
+struct StepAcross {
+  Grid grid;
+  std::int32_t odd;
+  const std::uint16_t* rate;
+  std::uint32_t* cost;
+  std::uint32_t* changed;  ///< a row: whether it did
+
+  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t pair) const {
+    const std::int32_t j = 2 * pair + odd, c = grid.at(i, j);
+    if (rate[c] == 0) return;
+    std::uint32_t best = cost[c];
+    for (std::int32_t dj = -1; dj <= 1; dj += 2) {
+      for (std::int32_t di = -1; di <= 1; di += 2) {
+        if (grid.holds(i + di, j + dj))
+          best = lower(best, through(grid.at(i + di, j + dj), c + di, grid.at(i, j + dj), c));
+      }
+    }
+    if (best == cost[c]) return;
+    cost[c] = best;
+    changed[j] = 1;
+  }
+
+ private:
+  JAYWALK_CELL static std::uint32_t lower(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }
+  JAYWALK_CELL std::uint32_t through(std::int32_t from, std::int32_t a, std::int32_t b, std::int32_t to) const {
+    if (rate[from] == 0 || rate[a] == 0 || rate[b] == 0 || cost[from] >= kFarthest) return kNoWay;
+    return cost[from] + cell::diagonal_step(rate[from], rate[to], rate[a], rate[b]);
   }
 };
 
@@ -88,36 +123,6 @@ struct PsiOfCost {
              : cost[c] == kNoWay ? cell::kUnreachable
                                  : static_cast<float>(cost[c]) * (1.0F / kCostsPerPsi);
   }
-};
-
-/// The same fixed point by a queue of buckets: what one thread does best. A cell is in one bucket at a
-/// time, so memory is two links a cell; costs within a bucket may be taken in any order, since a cell
-/// that improves is queued again. All that is known of a cell lies together, with a ring of cells
-/// round the grid that are not free, so that a step is one fetch and no question.
-class BucketQueue {
- public:
-  explicit BucketQueue(std::int32_t max_side);
-  /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0.
-  void settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;
-
- private:
-  static constexpr std::uint32_t kBucketShift = 7;  ///< 128 costs a bucket
-  static constexpr std::uint32_t kBuckets = 64;     ///< in a ring: more than the dearest step covers
-
-  struct Node {
-    std::uint32_t cost, rate;
-    std::int32_t next, previous;
-  };
-
-  [[nodiscard]] Node& node(std::int32_t n) noexcept { return nodes_[static_cast<std::size_t>(n)]; }
-  void load(Grid grid, const std::uint16_t* rate) noexcept;
-  void insert(std::int32_t n) noexcept;
-  void remove(std::int32_t n) noexcept;
-  void relax(const Node& from, std::int32_t to) noexcept;
-
-  std::vector<Node> nodes_;
-  std::int32_t heads_[kBuckets];
-  std::int32_t queued_ = 0;
 };
 
 }  // namespace jaywalk::field

@@ -2,10 +2,12 @@
 #include <cmath>
 
 #include "planner/cell/band.h"
+#include "planner/cell/clearance.h"
 #include "planner/cell/exp_log.h"
 #include "planner/cell/kalman.h"
 #include "planner/cell/mark.h"
 #include "planner/cell/potential.h"
+#include "planner/cell/step.h"
 #include "planner/cell/warp.h"
 #include "planner/field/start_field.h"
 #include "tests/support/catch.h"
@@ -138,4 +140,19 @@ TEST_CASE("the band's tension points to the neighbours' middle, its force away f
   const cell::Point f = cell::clearance_force(2.0F, {0.0F, 1.0F}, 5.0F);
   CHECK(f.y == Approx(0.3F));
   CHECK(cell::clearance_force(6.0F, {0.0F, 1.0F}, 5.0F).y == 0.0F);
+}
+
+TEST_CASE("a passage is as wide as its cells' clearances say, from its middle line and from beside it") {
+  // Seven cells 1 2 3 4 3 2 1 and six 1 2 3 3 2 1, along x; those along y are as far from walls as the cell itself.
+  CHECK(cell::passage_width(4.0F, 3.0F, 4.0F) == 7.0F);
+  CHECK(cell::passage_width(3.0F, 3.0F, 3.0F) == 6.0F);
+  CHECK(cell::passage_width(3.0F, 4.0F, 3.0F) == 7.0F);
+  CHECK(cell::passage_width(1.0F, 0.0F, 1.0F) == 1.0F);  // one cell wide
+}
+
+TEST_CASE(
+    "a diagonal step costs a quarter more than a straight one, and never less than a way round the corner allows") {
+  CHECK(cell::straight_step(100, 60) == 160);
+  CHECK(cell::diagonal_step(100, 60, 70, 90) == 200);
+  CHECK(cell::diagonal_step(10, 20, 400, 300) == 321);  // 300 + 20 + 1: the corner, 320 from `to` at most, stays lower
 }

@@ -30,6 +30,16 @@ class ShuffledExecutor {
     for (const std::int32_t k : order_) stage(k % w, k / w);
   }
 
+  template <class... Steps>
+  void for_each_row(std::int32_t h, const Steps&... steps) {
+    (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
+  }
+
+  template <class... Steps>
+  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) {
+    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+  }
+
   bool wait() noexcept { return true; }
   [[nodiscard]] const char* name() const noexcept { return "shuffled"; }
 

@@ -1,7 +1,9 @@
+#include <algorithm>
 #include <vector>
 
 #include "planner/field/path.h"
 #include "tests/planner/field_rig.h"
+#include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -24,6 +26,12 @@ int pits_of(const field::Grid& grid, const float* psi, std::int32_t goal) {
   return pits;
 }
 
+TestMap office_corner() {
+  TestMap map("office corner", 64);
+  map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
+  return map;
+}
+
 }  // namespace
 
 TEST_CASE("the start field descends to the goal from every joined cell of every map") {
@@ -40,15 +48,36 @@ TEST_CASE("the start field descends to the goal from every joined cell of every 
 }
 
 TEST_CASE("a straight corridor costs its rate a cell") {
-  // Five free rows between walls; on the middle row D = 3, the best neighbour's 3 as well: width 7,
-  // rate acosh(2 - cos(pi/8)) = 0.38775, half of it 794 units. Ten steps cost 20 * 794.
+  // Five free rows between walls: on the middle row D = 3, and 2 across: width 5. Half of acosh(2 - cos(pi/6)) =
+  // 0.51223 is 1049 units. Ten steps cost 20 * 1049.
   TestMap map("corridor", 64);
   map.box(0, 0, 64, 10), map.box(0, 15, 64, 64);
   FieldRig<> rig(64);
   rig.load(map, 0.0F, rig.grid.at(20, 12));
-  CHECK(rig.arrays().rate[rig.grid.at(30, 12)] == 794);
-  CHECK(rig.arrays().cost[rig.grid.at(30, 12)] == 20 * 794);
-  CHECK(rig.arrays().start_psi[rig.grid.at(30, 12)] == Approx(20.0 * 794.0 / 4096.0));
+  CHECK(rig.arrays().rate[rig.grid.at(30, 12)] == 1049);
+  CHECK(rig.arrays().cost[rig.grid.at(30, 12)] == 20 * 1049);
+  CHECK(rig.arrays().start_psi[rig.grid.at(30, 12)] == Approx(20.0 * 1049.0 / 4096.0));
+}
+
+TEST_CASE("a queue without room gives up, and sweeps come to the same costs") {
+  FieldRig<> rig(64);
+  FieldRig<ShuffledExecutor> swept(64);
+  const TestMap map = office_corner();
+  const std::int32_t goal = rig.grid.at(10, 10), n = rig.grid.cells();
+  rig.load(map, 1.0F, goal);
+  swept.load(map, 1.0F, goal);
+  CHECK(std::equal(rig.arrays().cost, rig.arrays().cost + n, swept.arrays().cost));
+  std::vector<std::uint32_t> cost(static_cast<std::size_t>(n));
+  CHECK(field::BucketQueue(64, 4096).settle(rig.grid, goal, rig.arrays().rate, cost.data()));
+  CHECK(std::equal(cost.begin(), cost.end(), rig.arrays().cost));
+  // Every cell of an open square that is free costs more the farther it is: with no chunk but one a bucket to spare,
+  // a goal in the middle of a wide room runs out of them.
+  TestMap room("room", 1024);
+  FieldRig<> wide(1024);
+  const std::int32_t middle = wide.grid.at(512, 512);
+  wide.load(room, 1.0F, middle);
+  std::vector<std::uint32_t> more(static_cast<std::size_t>(wide.grid.cells()));
+  CHECK_FALSE(field::BucketQueue(1024, 0).settle(wide.grid, middle, wide.arrays().rate, more.data()));
 }
 
 TEST_CASE("cells behind a closed wall are free and unreachable, walls are neither") {

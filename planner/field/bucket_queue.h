@@ -1,0 +1,52 @@
+#pragma once
+#include <cstddef>
+#include <vector>
+
+#include "planner/field/start_field.h"
+
+namespace jaywalk::field {
+
+/// The start field's fixed point by a queue of buckets, Dial's, with costs within a bucket in any order: what one
+/// thread does best. A cell that improves is queued again and its old entry passed over. All that is known of a cell
+/// lies together, with a ring of cells round the grid that are not free, so that a step is one fetch and no question.
+class BucketQueue {
+ public:
+  /// Takes memory for grids up to `max_side` cells, and for `entries` of them queued at a time.
+  BucketQueue(std::int32_t max_side, std::size_t entries);
+  /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0. False when the entries
+  /// did not do: costs are then not settled.
+  [[nodiscard]] bool settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;
+
+ private:
+  static constexpr std::uint32_t kBucketShift = 7;  ///< 128 costs a bucket
+  static constexpr std::uint32_t kBuckets = kDearestStep >> kBucketShift;
+  static constexpr std::size_t kChunk = 63;  ///< entries: 256 bytes with the link
+
+  struct Node {
+    std::uint32_t cost, rate;
+  };
+  struct Chunk {
+    std::int32_t next;
+    std::int32_t cells[kChunk];
+  };
+  /// First in, first out: a list of chunks.
+  struct Bucket {
+    std::int32_t first, last;
+    std::size_t read, filled;  ///< entries read of the first, and filled in the last
+  };
+
+  void load(Grid grid, const std::uint16_t* rate) noexcept;
+  void relax(std::int32_t to, std::uint32_t through, std::uint32_t bucket) noexcept;
+  void push(std::int32_t n, std::uint32_t bucket) noexcept;
+  [[nodiscard]] std::int32_t pop(Bucket& from) noexcept;
+  void step_from(std::int32_t n, std::int32_t width, std::uint32_t bucket) noexcept;
+
+  std::vector<Node> nodes_;
+  std::vector<Chunk> chunks_;
+  std::int32_t spare_ = 0;  ///< first chunk that nobody uses
+  Bucket buckets_[kBuckets];
+  std::size_t queued_ = 0;
+  bool full_ = false;
+};
+
+}  // namespace jaywalk::field
