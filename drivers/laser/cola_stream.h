@@ -23,7 +23,7 @@ class ColaStream {
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
   /// Drops what waits, uncounted: another connection begins.
   void forget() noexcept {
-    queue_.drop(queue_.waiting().size());
+    queue_.clear();
     handed_out_ = 0;
   }
   /// The next whole telegram's body, without framing; nothing until more bytes came. Valid until the next call.

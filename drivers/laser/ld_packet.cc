@@ -7,15 +7,23 @@ namespace {
 constexpr std::uint8_t kHeader = 0x54, kTwelvePoints = 0x2C, kPolynomial = 0x4D;
 constexpr std::uint16_t kTurnCdeg = 36000;
 
+/// The checksum of each single byte.
+constexpr std::array<std::uint8_t, 256> kRemainders = [] {
+  std::array<std::uint8_t, 256> made{};
+  for (unsigned byte = 0; byte < made.size(); ++byte) {
+    unsigned crc = byte;
+    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1U) ^ ((crc & 0x80U) != 0 ? kPolynomial : 0U)) & 0xFFU;
+    made[byte] = static_cast<std::uint8_t>(crc);
+  }
+  return made;
+}();
+
 }  // namespace
 
 std::uint8_t crc8(wire::Bytes bytes) noexcept {
-  unsigned crc = 0;
-  for (const std::uint8_t byte : bytes) {
-    crc ^= byte;
-    for (int bit = 0; bit < 8; ++bit) crc = ((crc << 1U) ^ ((crc & 0x80U) != 0 ? kPolynomial : 0U)) & 0xFFU;
-  }
-  return static_cast<std::uint8_t>(crc);
+  std::uint8_t crc = 0;
+  for (const std::uint8_t byte : bytes) crc = kRemainders[crc ^ byte];
+  return crc;
 }
 
 Decoding decode_packet(wire::Bytes bytes, Packet& packet) noexcept {

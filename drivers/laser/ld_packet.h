@@ -36,7 +36,7 @@ class PacketStream {
  public:
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
   /// Drops what waits, uncounted: another connection begins.
-  void forget() noexcept { queue_.drop(queue_.waiting().size()); }
+  void forget() noexcept { queue_.clear(); }
   /// Nothing until more bytes came.
   [[nodiscard]] std::optional<Packet> next() noexcept;
   /// Bytes that belonged to no packet.

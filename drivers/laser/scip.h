@@ -22,7 +22,7 @@ class AnswerStream {
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
   /// Drops what waits, uncounted: another connection begins.
   void forget() noexcept {
-    queue_.drop(queue_.waiting().size());
+    queue_.clear();
     handed_out_ = 0;
   }
   /// The next whole answer without its empty line; valid until the next call.

@@ -19,7 +19,7 @@ class EventStream {
  public:
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
   [[nodiscard]] std::optional<InputEvent> next() noexcept;
-  void forget() noexcept { queue_.drop(queue_.waiting().size()); }
+  void forget() noexcept { queue_.clear(); }
 
  private:
   wire::ByteQueue<4096> queue_;

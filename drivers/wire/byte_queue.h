@@ -37,6 +37,8 @@ class ByteQueue {
     begin_ += count;
     size_ -= count;
   }
+  /// Forgets all that waits; what was lost stays counted.
+  void clear() noexcept { begin_ = size_ = 0; }
   [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
 
  private:

@@ -1,32 +1,30 @@
 #include "tests/drivers/fuzz/fuzz_targets.h"
 
+#include <sys/mman.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdlib>
 #include <cstring>
+#include <string>
 
 #include "drivers/can/kernel_frame.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_settings.h"
+#include "drivers/canopen/eds_file.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/canopen/services.h"
 #include "drivers/emulators/drive_objects.h"
-#include "drivers/laser/ld_sweep.h"
-#include "drivers/laser/scip.h"
-#include "drivers/laser/sick_scan.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
+#include "drivers/panel/input_event.h"
+#include "hal/types/errors.h"
+#include "tests/drivers/fuzz/fuzz_scanners.h"
 
 namespace jaywalk::tests {
 
 namespace {
-
-constexpr Time kArrival{std::chrono::seconds(10)};
-
-void require(bool holds) {
-  if (!holds) std::abort();
-}
 
 /// A bus that takes everything and says nothing.
 class SilentBus final : public CanBus {
@@ -47,13 +45,6 @@ void each_frame(wire::Bytes bytes, std::uint32_t identifiers, Take take) {
     std::copy_n(bytes.begin() + 3, frame.size, frame.bytes.begin());
     take(frame);
   }
-}
-
-void check_scan(Decoding decoding, const LaserScan& scan) {
-  if (decoding != Decoding::kScan) return;
-  require(scan.beam_count <= kMaxBeams);
-  require(scan.stamp <= kArrival && scan.sweep >= Duration{0} && scan.period >= Duration{0});
-  for (std::uint32_t beam = 0; beam < scan.beam_count; ++beam) require(std::isfinite(scan.range_m[beam]));
 }
 
 void fuzz_kernel_frame(wire::Bytes bytes) {
@@ -91,9 +82,35 @@ void fuzz_sdo_client(wire::Bytes bytes) {
   require(client.status() != canopen::SdoStatus::kBusy);
 }
 
+void check_finite(const vesc::StopSettings& settings) { require(std::isfinite(settings.brake_current_a)); }
+
+/// The bytes as a VESC's settings in pieces of any size, with the right checksum: so that what lies behind is tried.
+void read_settings(wire::Bytes bytes) {
+  vesc::SettingsReader reader;
+  reader.begin();
+  bytes = bytes.first(std::min(bytes.size(), vesc::SettingsReader::kMost));
+  for (std::size_t at = 0; at < bytes.size();) {
+    vesc::Piece piece;
+    piece.offset = static_cast<std::uint16_t>(at);
+    piece.size = static_cast<std::uint8_t>(std::min<std::size_t>(1 + bytes[at] % 7, bytes.size() - at));
+    std::copy_n(bytes.begin() + static_cast<std::ptrdiff_t>(at), piece.size, piece.bytes.begin());
+    reader.take(piece);
+    at += piece.size;
+  }
+  const auto settings =
+      reader.finish({.from = 1, .size = static_cast<std::uint16_t>(bytes.size()), .crc = vesc::crc16(bytes)});
+  if (settings) check_finite(*settings);
+}
+
 void fuzz_motors(wire::Bytes bytes) {
-  each_frame(bytes, 0x1FFF, [](const CanFrame& frame) {
-    static_cast<void>(vesc::decode(frame));
+  vesc::SettingsReader reader;
+  each_frame(bytes, 0x1FFF, [&reader](const CanFrame& frame) {
+    if (const auto from_vesc = vesc::decode(frame)) {
+      if (const auto* piece = std::get_if<vesc::Piece>(&from_vesc->content)) reader.take(*piece);
+      const auto* end = std::get_if<vesc::PiecesEnd>(&from_vesc->content);
+      const auto settings = end != nullptr ? reader.finish(*end) : std::nullopt;
+      if (settings) check_finite(*settings);
+    }
     const auto message = odrive::decode(frame);
     if (!message) return;
     const auto* estimates = std::get_if<odrive::EncoderEstimates>(&message->content);
@@ -101,64 +118,39 @@ void fuzz_motors(wire::Bytes bytes) {
       require(std::isfinite(estimates->position_turns) && std::isfinite(estimates->velocity_turns_per_s));
     }
   });
+  read_settings(bytes);
 }
 
-/// Filled again and again: what a refused scan leaves in it must not matter.
-LaserScan& reused_scan() {
-  static LaserScan scan;
-  return scan;
+void fuzz_input_event(wire::Bytes bytes) {
+  panel::EventStream events;
+  events.append(bytes);
+  while (events.next()) continue;
 }
 
-void fuzz_sick(wire::Bytes bytes) {
-  LaserScan& scan = reused_scan();
-  for (const sick::Cola dialect : {sick::Cola::kA, sick::Cola::kB}) {
-    sick::ColaStream stream(dialect);
-    sick::ScanHeader header;
-    check_scan(decode_scan(dialect, bytes, {}, kArrival, scan, header), scan);
-    stream.append(bytes);
-    while (const auto body = stream.next()) check_scan(decode_scan(dialect, *body, {}, kArrival, scan, header), scan);
-  }
-}
-
-void fuzz_scip(wire::Bytes bytes) {
-  LaserScan& scan = reused_scan();
-  scip::AnswerStream stream;
-  std::uint32_t device_time_ms = 0;
-  const std::string_view text(reinterpret_cast<const char*>(bytes.data()), bytes.size());
-  check_scan(scip::decode_scan(text, {}, kArrival, scan, device_time_ms), scan);
-  stream.append(bytes);
-  while (const auto answer = stream.next()) {
-    check_scan(scip::decode_scan(*answer, {}, kArrival, scan, device_time_ms), scan);
-  }
-}
-
-void fuzz_ldrobot(wire::Bytes bytes) {
-  LaserScan& scan = reused_scan();
-  ldrobot::PacketStream as_it_came, with_right_checksums;
-  ldrobot::SweepBuilder builder;
-  as_it_came.append(bytes);
-  while (const auto packet = as_it_came.next()) {
-    if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
-  }
-  // So that what lies behind the checksum is tried as well.
-  for (; bytes.size() >= ldrobot::kPacketBytes; bytes = bytes.subspan(ldrobot::kPacketBytes)) {
-    std::array<std::uint8_t, ldrobot::kPacketBytes> made{0x54, 0x2C};
-    std::copy_n(bytes.begin() + 2, made.size() - 3, made.begin() + 2);
-    made.back() = ldrobot::crc8(wire::Bytes(made).first(made.size() - 1));
-    with_right_checksums.append(made);
-    while (const auto packet = with_right_checksums.next()) {
-      if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
-    }
+/// A file without a name, for a reader that wants a path.
+void fuzz_eds_file(wire::Bytes bytes) {
+  static const int file = ::memfd_create("eds", MFD_CLOEXEC);
+  static const std::string path = "/proc/self/fd/" + std::to_string(file);
+  require(::ftruncate(file, 0) == 0);
+  require(::pwrite(file, bytes.data(), bytes.size(), 0) == static_cast<ssize_t>(bytes.size()));
+  try {
+    const canopen::EdsFile eds(path);
+    static_cast<void>(canopen::shortcomings(eds));
+  } catch (const StartupError&) {
+    return;  // refused, with its reason
   }
 }
 
 constexpr std::array<FuzzTarget, kFuzzTargets> kTargets{{{"kernel_frame", fuzz_kernel_frame},
                                                          {"canopen", fuzz_canopen},
                                                          {"sdo_client", fuzz_sdo_client},
+                                                         {"eds_file", fuzz_eds_file},
                                                          {"motors", fuzz_motors},
+                                                         {"input_event", fuzz_input_event},
                                                          {"sick", fuzz_sick},
                                                          {"scip", fuzz_scip},
-                                                         {"ldrobot", fuzz_ldrobot}}};
+                                                         {"ldrobot", fuzz_ldrobot},
+                                                         {"scanner_protocol", fuzz_scanner_protocol}}};
 
 }  // namespace
 

@@ -9,8 +9,8 @@ struct FuzzTarget {
   void (*run)(wire::Bytes bytes);
 };
 
-/// Every decoder of drivers/ that takes bytes from outside, except the reader of EDS files.
-inline constexpr std::size_t kFuzzTargets = 7;
+/// Every decoder of drivers/ that takes bytes from outside.
+inline constexpr std::size_t kFuzzTargets = 10;
 [[nodiscard]] const FuzzTarget& fuzz_target(std::size_t index);
 
 }  // namespace jaywalk::tests

@@ -1,0 +1,116 @@
+#include "tests/drivers/fuzz/fuzz_scanners.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <string_view>
+
+#include "drivers/laser/ld_protocol.h"
+#include "drivers/laser/scip_protocol.h"
+#include "drivers/laser/sick_protocol.h"
+
+namespace jaywalk::tests {
+
+namespace {
+
+void check_scan(Decoding decoding, const LaserScan& scan) {
+  if (decoding != Decoding::kScan) return;
+  require(scan.beam_count <= kMaxBeams);
+  require(scan.stamp <= kArrival && scan.sweep >= Duration{0} && scan.period >= Duration{0});
+  for (std::uint32_t beam = 0; beam < scan.beam_count; ++beam) require(std::isfinite(scan.range_m[beam]));
+}
+
+/// Filled again and again: what a refused scan leaves in it must not matter.
+LaserScan& reused_scan() {
+  static LaserScan scan;
+  return scan;
+}
+
+/// The first byte, which chooses what is done with the others.
+std::uint8_t take_choice(wire::Bytes& bytes) {
+  if (bytes.empty()) return 0;
+  const std::uint8_t choice = bytes.front();
+  bytes = bytes.subspan(1);
+  return choice;
+}
+
+/// A whole conversation: what the scanner sends comes in pieces, and what is to be said is said in between.
+void converse(ScannerProtocol& protocol, wire::Bytes bytes) {
+  protocol.begin();
+  Time now = kArrival;
+  while (!bytes.empty()) {
+    static_cast<void>(protocol.to_say());
+    const std::size_t count = std::min<std::size_t>(bytes.size(), 1 + take_choice(bytes));
+    protocol.hear(bytes.first(std::min(count, bytes.size())));
+    bytes = bytes.subspan(std::min(count, bytes.size()));
+    now += std::chrono::milliseconds(count);
+    LaserScan& scan = reused_scan();
+    for (Heard heard = protocol.next(now, scan); heard != Heard::kNothing; heard = protocol.next(now, scan)) {
+      if (heard == Heard::kScan) require(scan.beam_count <= kMaxBeams && scan.stamp <= now);
+    }
+  }
+}
+
+}  // namespace
+
+/// An even first byte: a body as it stands; an odd one: a stream of telegrams. The second bit chooses the dialect.
+void fuzz_sick(wire::Bytes bytes) {
+  static std::array<sick::ColaStream, 2> streams{sick::ColaStream(sick::Cola::kA), sick::ColaStream(sick::Cola::kB)};
+  LaserScan& scan = reused_scan();
+  sick::ScanHeader header;
+  const std::uint8_t choice = take_choice(bytes);
+  const std::size_t which = (choice >> 1U) & 1U;
+  const sick::Cola dialect = which == 0 ? sick::Cola::kA : sick::Cola::kB;
+  if ((choice & 1U) == 0) return check_scan(decode_scan(dialect, bytes, {}, kArrival, scan, header), scan);
+  streams[which].forget();
+  streams[which].append(bytes);
+  while (const auto body = streams[which].next()) {
+    check_scan(decode_scan(dialect, *body, {}, kArrival, scan, header), scan);
+  }
+}
+
+void fuzz_scip(wire::Bytes bytes) {
+  static scip::AnswerStream stream;
+  LaserScan& scan = reused_scan();
+  std::uint32_t device_time_ms = 0;
+  stream.forget();
+  stream.append(bytes);
+  while (const auto answer = stream.next()) {
+    check_scan(scip::decode_scan(*answer, {}, kArrival, scan, device_time_ms), scan);
+    scip::ScannerModel model;
+    if (scip::decode_model(*answer, model) != Decoding::kScan) continue;
+    require(model.steps_per_turn > 0 && model.period > Duration{0} && model.first_step < model.last_step);
+  }
+}
+
+void fuzz_ldrobot(wire::Bytes bytes) {
+  static ldrobot::PacketStream as_it_came, with_right_checksums;
+  LaserScan& scan = reused_scan();
+  ldrobot::SweepBuilder builder;
+  as_it_came.forget();
+  with_right_checksums.forget();
+  as_it_came.append(bytes);
+  while (const auto packet = as_it_came.next()) {
+    if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
+  }
+  // So that what lies behind the checksum is tried as well.
+  for (; bytes.size() >= ldrobot::kPacketBytes; bytes = bytes.subspan(ldrobot::kPacketBytes)) {
+    std::array<std::uint8_t, ldrobot::kPacketBytes> made{0x54, 0x2C};
+    std::copy_n(bytes.begin() + 2, made.size() - 3, made.begin() + 2);
+    made.back() = ldrobot::crc8(wire::Bytes(made).first(made.size() - 1));
+    with_right_checksums.append(made);
+    while (const auto packet = with_right_checksums.next()) {
+      if (builder.add(*packet, kArrival, scan)) check_scan(Decoding::kScan, scan);
+    }
+  }
+}
+
+void fuzz_scanner_protocol(wire::Bytes bytes) {
+  static sick::SickProtocol in_text(sick::Cola::kA, {}), in_binary(sick::Cola::kB, {});
+  static scip::ScipProtocol hokuyo;
+  static ldrobot::LdProtocol ldrobot;
+  const std::array<ScannerProtocol*, 4> all{&in_text, &in_binary, &hokuyo, &ldrobot};
+  converse(*all[take_choice(bytes) % all.size()], bytes);
+}
+
+}  // namespace jaywalk::tests

@@ -1,0 +1,21 @@
+#pragma once
+#include <cstdlib>
+
+#include "drivers/wire/byte_reader.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::tests {
+
+inline constexpr Time kArrival{std::chrono::seconds(10)};
+
+/// Ends the process, as a fuzzer wants it, where a promise is broken.
+inline void require(bool holds) {
+  if (!holds) std::abort();
+}
+
+void fuzz_sick(wire::Bytes bytes);
+void fuzz_scip(wire::Bytes bytes);
+void fuzz_ldrobot(wire::Bytes bytes);
+void fuzz_scanner_protocol(wire::Bytes bytes);
+
+}  // namespace jaywalk::tests
