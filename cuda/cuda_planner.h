@@ -2,6 +2,7 @@
 #include <memory>
 #include <string>
 
+#include "planner/field/map_field.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -12,5 +13,8 @@ namespace jaywalk {
 ///
 /// submit() returns when the plan is made: it waits for the device. Thread: the loop's.
 [[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, std::string& why_not);
+
+/// The same for a map alone.
+[[nodiscard]] std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, std::string& why_not);
 
 }  // namespace jaywalk

@@ -6,6 +6,7 @@
 #include "firmware/commands/bench_command.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/replay_command.h"
+#include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
 #include "hal/types/errors.h"
 
@@ -88,15 +89,17 @@ void add_field(CLI::App& app) {
       ->expected(2);
   field->add_option("--inflation_m", field_options.inflation_m, "Walls grow by this")->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
-  field->add_option("--backend", field_options.backend, "Who solves: auto or cpu; cuda gives way to the CPU")
+  field->add_option("--backend", field_options.backend, "Who solves: auto, cpu or cuda")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  field->add_flag("--start-field", field_options.start_only, "The start field alone: shortest ways, no potential solved");
   field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
 }
 
 void add_bench(CLI::App& app) {
   CLI::App* bench = app.add_subcommand("bench", "Measure solver and planner against what a user would pick instead");
   bench->add_option("--json", bench_options.json, "File for the rows");
+  bench->add_option("--map", bench_options.map, "One more map (.map or .txt), scaled to each size");
   bench->add_option("--largest", bench_options.largest, "Largest map, cells a side")
       ->check(CLI::IsMember({256, 512, 1024, 2048}))
       ->capture_default_str();
@@ -110,6 +113,8 @@ int run(int argc, char** argv) {
   add_replay(app);
   add_field(app);
   add_bench(app);
+  int exit_code = 0;
+  add_robot_commands(app, exit_code);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {
@@ -117,7 +122,8 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
   if (app.got_subcommand("field")) return run_field(field_options);
-  return app.got_subcommand("sim") ? run_sim(sim_options) : run_replay(replay_options);
+  if (app.got_subcommand("sim")) return run_sim(sim_options);
+  return app.got_subcommand("replay") ? run_replay(replay_options) : exit_code;
 }
 
 }  // namespace

@@ -3,40 +3,25 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
-#include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "firmware/backends.h"
 #include "firmware/commands/bench_maps.h"
 #include "firmware/commands/bench_rivals.h"
-#include "firmware/report/distribution.h"
+#include "firmware/commands/timing.h"
 #include "hal/types/errors.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
 namespace {
 
-constexpr float kInflation = 3.0F;  ///< cells
+/// The exact field of 256 x 256 cells takes less.
+constexpr double kMostMultiplications = 4e9;
 constexpr double kCell_m = 0.1;
-
-struct Timing {
-  std::string what;
-  double p50_ms = 0.0, p99_ms = 0.0;
-};
-
-/// Processor time of this one thread: what other programs take meanwhile does not count.
-template <class Work>
-Timing time(const char* what, int repeats, const Work& work) {
-  Distribution took_ms;
-  for (int k = 0; k < repeats; ++k) {
-    const std::clock_t begin = std::clock();
-    work();
-    took_ms.add(1e3 * static_cast<double>(std::clock() - begin) / CLOCKS_PER_SEC);
-  }
-  return {what, took_ms.quantile(0.5), took_ms.quantile(0.99)};
-}
 
 /// Movers that walk about, so that no two submissions are alike.
 std::array<Track, 8> walkers(double side_m) {
@@ -53,11 +38,12 @@ std::array<Track, 8> walkers(double side_m) {
 }
 
 /// The whole plan under way: robot and eight movers move on from tick to tick.
-Timing time_plan(const BenchMap& map, int repeats) {
+Timing time_plan(const BenchMap& map, Backend backend, int repeats) {
   const std::int32_t side = map.cells.width;
   PlannerConfig config;
   config.side_cells = config.max_side_cells = side;
-  const auto planner = make_cpu_planner(config);
+  const auto chosen = make_planner(config, backend);
+  Planner& planner = *chosen.planner;
   const double middle_m = side * kCell_m / 2.0;
   EvidenceMap evidence(2 * side, kCell_m, {middle_m, middle_m});
   for (std::int32_t j = 0; j < side; ++j) {
@@ -70,54 +56,74 @@ Timing time_plan(const BenchMap& map, int repeats) {
   request.still = &evidence;
   request.speed_mps = 0.6;
   request.goal_in_map = {(map.goal.i + 0.5) * kCell_m, (map.goal.j + 0.5) * kCell_m};
-  request.map_from_robot = {(side - 12) * kCell_m, request.goal_in_map.y, 0.0};
+  request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
   std::array<Track, 8> tracks = walkers(side * kCell_m);
   request.moving = tracks;
-  return time("plan, 8 movers", repeats, [&] {
+  return time("plan, 8 movers", repeats, planner.backend(), [&] {
     constexpr double kScan_s = 1.0 / 15.0;
     request.map_from_robot.x -= request.speed_mps * kScan_s;
     for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * kScan_s;
-    planner->submit(request);
-    (void)planner->collect();
+    planner.submit(request);
+    (void)planner.collect();
   });
 }
 
 class Bench {
  public:
   void measure(const BenchMap& map) {
-    field::MapField field(map.cells);
-    field.inflate(kInflation);
     const std::int32_t side = map.cells.width;
     const int repeats = side >= 2048 ? 3 : side >= 1024 ? 7 : side >= 512 ? 15 : 41;
-    bool certified = true;
-    const Timing cold = time("cold solve", repeats, [&] { certified &= field.solve_cold(map.goal).certified; });
-    const Timing warm = time("warm solve", repeats, [&] { certified &= field.solve_warm(map.goal).certified; });
-    const std::vector<Timing> rivals = time_rivals(map, field, repeats);
+    const std::vector<Timing> rivals = time_rivals(map, repeats);
     for (const Timing& rival : rivals) add(map, rival, rival);
-    for (const Timing& own : {cold, warm}) {
-      for (const Timing& rival : rivals) add(map, own, rival);
+    for (const Backend backend : {Backend::kCpu, Backend::kCuda}) {
+      const ChosenMapField chosen = make_map_field(map.cells, backend);
+      if (chosen.remark.empty()) measure(map, *chosen.solver, backend, repeats, rivals);
     }
-    if (side <= 1024) {
-      const Timing plan = time_plan(map, repeats);
-      for (const Timing& rival : rivals) add(map, plan, rival);
+  }
+
+  /// One backend's solver and planner.
+  void measure(const BenchMap& map, field::MapField& field, Backend backend, int repeats,
+               const std::vector<Timing>& rivals) {
+    field.inflate(kBenchInflation);
+    field::MapQuality quality;
+    bool certified = true;
+    std::vector<Timing> own{time("cold solve", repeats, field.backend(), [&] {
+      quality = field.solve_cold(map.goal);
+      certified &= quality.certified;
+    })};
+    std::printf("%s, %d: reach %.4f, %d cycles, best neighbours %s\n", map.name.c_str(), map.cells.width,
+                static_cast<double>(field.reach(map.goal)), quality.cycles, best_neighbours(field, map.goal).c_str());
+    own.push_back(
+        time("warm solve", repeats, field.backend(), [&] { certified &= field.solve_warm(map.goal).certified; }));
+    if (map.cells.width <= 1024) own.push_back(time_plan(map, backend, repeats));
+    for (const Timing& timing : own) {
+      for (const Timing& rival : rivals) add(map, timing, rival);
     }
-    if (!certified) std::printf("%s, %d: not certified\n", map.name.c_str(), side);
+    if (!certified) std::printf("%s, %d: not certified\n", map.name.c_str(), map.cells.width);
   }
 
   [[nodiscard]] const nlohmann::ordered_json& rows() const { return rows_; }
 
  private:
-  static std::vector<Timing> time_rivals(const BenchMap& map, const field::MapField& field, int repeats) {
+  static std::string best_neighbours(const field::MapField& field, CellIndex goal) {
+    const std::optional<double> best = field.best_neighbours(goal, kMostMultiplications);
+    return best ? std::to_string(100.0 * *best) + " %" : "not counted (too many cells)";
+  }
+
+  static std::vector<Timing> time_rivals(const BenchMap& map, int repeats) {
     const std::int32_t side = map.cells.width;
+    const auto field = field::make_cpu_map_field(map.cells);
+    field->inflate(kBenchInflation);
+    (void)field->solve_start(map.goal);
     std::vector<std::uint8_t> free;
     for (std::int32_t j = 0; j < side; ++j) {
-      for (std::int32_t i = 0; i < side; ++i) free.push_back(std::isnan(field.psi(i, j)) ? 0 : 1);
+      for (std::int32_t i = 0; i < side; ++i) free.push_back(std::isnan(field->psi(i, j)) ? 0 : 1);
     }
     BenchRivals rivals(side, side, std::move(free));
-    return {time("wavefront", repeats, [&] { rivals.wavefront(map.goal); }),
-            time("dijkstra, buckets", repeats, [&] { rivals.dijkstra_buckets(map.goal); }),
-            time("dijkstra, heap", repeats, [&] { rivals.dijkstra_heap(map.goal); }),
-            time("100 sweeps", repeats, [&] { rivals.hundred_sweeps(map.goal); })};
+    return {time("wavefront", repeats, "cpu", [&] { rivals.wavefront(map.goal); }),
+            time("dijkstra, buckets", repeats, "cpu", [&] { rivals.dijkstra_buckets(map.goal); }),
+            time("dijkstra, heap", repeats, "cpu", [&] { rivals.dijkstra_heap(map.goal); }),
+            time("100 sweeps", repeats, "cpu", [&] { rivals.hundred_sweeps(map.goal); })};
   }
 
   void add(const BenchMap& map, const Timing& own, const Timing& baseline) {
@@ -126,13 +132,13 @@ class Bench {
     rows_.push_back({{"what", own.what},
                      {"map", map.name},
                      {"size", side},
-                     {"backend", "cpu"},
+                     {"backend", own.backend},
                      {"p50_ms", own.p50_ms},
                      {"p99_ms", own.p99_ms},
                      {"baseline", baseline.what},
                      {"ratio", ratio}});
-    std::printf("%-18s %-15s %5d  cpu  %9.3f %9.3f  %-18s %7.2f\n", own.what.c_str(), map.name.c_str(), side,
-                own.p50_ms, own.p99_ms, baseline.what.c_str(), ratio);
+    std::printf("%-18s %-15s %5d  %-4s %9.3f %9.3f  %-18s %7.2f\n", own.what.c_str(), map.name.c_str(), side,
+                own.backend.c_str(), own.p50_ms, own.p99_ms, baseline.what.c_str(), ratio);
   }
 
   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
@@ -151,6 +157,7 @@ int run_bench(const BenchOptions& options) {
   Bench bench;
   for (std::int32_t side = 256; side <= options.largest; side *= 2) {
     for (const BenchMap& map : bench_maps(side)) bench.measure(map);
+    if (options.map) bench.measure(scaled_map(*options.map, side));
   }
   if (options.json) out << bench.rows().dump(1) << '\n';
   return 0;

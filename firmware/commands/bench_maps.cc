@@ -1,13 +1,17 @@
 #include "firmware/commands/bench_maps.h"
 
 #include <algorithm>
+#include <optional>
+
+#include "firmware/commands/map_cells.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
 BenchMap walled(std::string name, std::int32_t side) {
   const auto n = static_cast<std::size_t>(side);
-  BenchMap map{std::move(name), {side, side, std::vector<std::uint8_t>(n * n, 0)}, {12, 12}};
+  BenchMap map{std::move(name), {side, side, std::vector<std::uint8_t>(n * n, 0)}, {12, 12}, {side - 12, 12}};
   for (std::size_t k = 0; k < n; ++k) {
     map.cells.wall[k] = map.cells.wall[(n - 1) * n + k] = map.cells.wall[k * n] = map.cells.wall[k * n + n - 1] = 1;
   }
@@ -55,6 +59,7 @@ BenchMap serpentine(std::int32_t side, std::int32_t corridor) {
     set(map, {right ? 0 : 1 + corridor, j, right ? side - 1 - corridor : side, j + 2}, 1);
   }
   map.goal = {12, 5};
+  map.start = {side - 12, 5};
   return map;
 }
 
@@ -78,6 +83,26 @@ BenchMap clutter(std::int32_t side) {
 
 std::vector<BenchMap> bench_maps(std::int32_t side) {
   return {walled("open", side), office(side), serpentine(side, 15), serpentine(side, 10), clutter(side)};
+}
+
+BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
+  const MapCells coarse = load_map_cells(file, std::nullopt);
+  const double extent = std::max(coarse.cells.width, coarse.cells.height) * coarse.cell_m;
+  const MapCells fine = load_map_cells(file, extent / (side - 4));
+  const auto n = static_cast<std::size_t>(side);
+  BenchMap map{file.stem().string(), {side, side, std::vector<std::uint8_t>(n * n, 1)}, {}, {}};
+  for (std::int32_t j = 0; j < fine.cells.height; ++j) {
+    const auto row = fine.cells.wall.begin() + static_cast<std::ptrdiff_t>(j) * fine.cells.width;
+    std::copy(row, row + fine.cells.width, map.cells.wall.begin() + static_cast<std::ptrdiff_t>(j) * side);
+  }
+  const auto field = field::make_cpu_map_field(map.cells);
+  field->inflate(kBenchInflation);
+  map.goal = {fine.cells.width / 2, fine.cells.height / 2};
+  map.start = {fine.cells.width - 12, fine.cells.height - 12};
+  if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side)) {
+    throw StartupError(file.string() + ":0: no free cell", "give a map with room for a robot");
+  }
+  return map;
 }
 
 }  // namespace jaywalk

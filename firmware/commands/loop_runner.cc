@@ -16,13 +16,19 @@ const std::filesystem::path& made(const std::filesystem::path& out) {
   return out;
 }
 
+ChosenPlanner wrapped(ChosenPlanner chosen, const LoopRunner::Wrap& wrap) {
+  if (wrap) chosen.planner = wrap(std::move(chosen.planner));
+  return chosen;
+}
+
 }  // namespace
 
-LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record)
+LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record,
+                       const Wrap& wrap)
     : setup_(setup),
       clock_(hal.clock),
       out_(made(out)),
-      chosen_(make_planner(setup.planner(), setup.backend)),
+      chosen_(wrapped(make_planner(setup.planner(), setup.backend), wrap)),
       recorder_({.file = record ? (out / "recording.jwr").string() : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       report_(out),
@@ -32,12 +38,17 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
 
 const TickRecord& LoopRunner::step_at(Time due) {
   clock_.sleep_until(due);
+  tick_at(due);
+  recorder_.drain();
+  return *record_;
+}
+
+const TickRecord& LoopRunner::tick_at(Time due) noexcept {
   const auto began = std::chrono::steady_clock::now();
   record_ = &loop_.tick(due);
   took_ = std::chrono::steady_clock::now() - began;
   if (took_ > setup_.tick()) ++overruns_;
   due_ = due + setup_.tick();
-  recorder_.drain();
   return *record_;
 }
 

@@ -1,6 +1,8 @@
 #pragma once
 // A control loop under way, with everything that watches it: recorder, report, stopwatch.
 #include <filesystem>
+#include <functional>
+#include <memory>
 #include <string>
 
 #include "firmware/backends.h"
@@ -14,16 +16,25 @@ namespace jaywalk {
 /// happens between ticks.
 class LoopRunner {
  public:
+  /// Puts something round the planner.
+  using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
+
   /// Prints the planner's remark, if there is one. `record` says whether to leave recording.jwr in `out`.
   /// Throws StartupError.
-  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record);
+  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record, const Wrap& wrap = {});
 
   /// Sleeps until the next tick is due and lives through it.
   const TickRecord& step() { return step_at(due_); }
   /// The same for a tick at a time that the caller knows; the next is due a period later.
   const TickRecord& step_at(Time due);
+  /// For a loop with a thread of its own: a tick and nothing that is slow; neither sleeps nor writes.
+  const TickRecord& tick_at(Time due) noexcept;
+  /// The thread that reports: writes out what has been recorded.
+  void drain() { recorder_.drain(); }
   /// Tells the report of the last step. `truth` may be null.
   void report(const TrueState* truth);
+  /// The thread that reports: tells it of a tick that was kept.
+  void report(const RunSample& sample) { report_.add(sample); }
   /// Closes recording, tables and summary; prints where they are. Call once.
   void finish(RunEnd end);
 
@@ -32,6 +43,8 @@ class LoopRunner {
   [[nodiscard]] const ControlSetup& setup() const { return setup_; }
   [[nodiscard]] const RunReport& figures() const { return report_; }
   [[nodiscard]] const Planner& planner() const { return *chosen_.planner; }
+  /// How long the last tick took.
+  [[nodiscard]] Duration last_took() const { return took_; }
   /// Ticks that took longer than a period of the wall clock.
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 

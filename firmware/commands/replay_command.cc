@@ -7,6 +7,7 @@
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
 #include "hal/sim/logs/line_file.h"
@@ -98,7 +99,9 @@ int replay_recording(const ReplayOptions& options) {
   const ControlSetup setup = setup_from_text(reader.setup(), file);
   TickRecord recorded;
   RecordedHal devices(recorded);
-  LoopRunner runner(setup, devices.hal(), options.out, false);
+  LoopRunner runner(setup, devices.hal(), options.out, false, [&](std::unique_ptr<Planner> planner) {
+    return std::make_unique<HeldPlanner>(std::move(planner), recorded);
+  });
   RunPicture picture;
   std::uint64_t ticks = 0, lost = 0, different = 0;
   while (reader.next(recorded)) {

@@ -13,7 +13,7 @@ constexpr std::size_t kBlockBytes = 1U << 16U;
 
 }  // namespace
 
-std::string cell(double value) {
+std::string csv_cell(double value) {
   if (std::isnan(value)) return "";
   if (std::isinf(value)) return value > 0 ? "inf" : "-inf";
   std::array<char, 400> digits{};  // DBL_MAX has 309 before the point
@@ -43,7 +43,7 @@ void CsvFile::begin_cell() {
 
 CsvFile& CsvFile::number(double value) {
   begin_cell();
-  rows_ += cell(value);
+  rows_ += csv_cell(value);
   return *this;
 }
 

@@ -35,6 +35,6 @@ class CsvFile {
 };
 
 /// `value` as a cell of a table shows it.
-[[nodiscard]] std::string cell(double value);
+[[nodiscard]] std::string csv_cell(double value);
 
 }  // namespace jaywalk

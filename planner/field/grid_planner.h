@@ -164,7 +164,7 @@ class GridPlanner final : public Planner {
                                             [&](std::int32_t c) { return cell::is_joined(a.start_psi[c]); });
     if (start == kNoCell) return PlanStatus::kNoPath;
     const bool warm = solved_goal_ == goal && solved_window_.low == window_.low && solved_window_.side == window_.side;
-    const FieldQuality quality = pass_.solve(grid, goal, warm, result.psi);
+    const FieldQuality quality = pass_.solve(grid, goal, warm ? From::kLast : From::kNothing, result.psi);
     solved_goal_ = goal;
     solved_window_ = window_;
     if (quality.joined == 0) return PlanStatus::kBackendFailed;

@@ -2,6 +2,7 @@
 // The potential of a map alone: no robot, no movers, any shape of map.
 #include <cstdint>
 #include <memory>
+#include <optional>
 #include <vector>
 
 #include "planner/field/window.h"
@@ -14,7 +15,7 @@ struct CellMap {
   std::vector<std::uint8_t> wall;
 };
 
-/// Largest side of a map that MapField takes.
+/// Largest side of a map that a MapField takes.
 inline constexpr std::int32_t kMostMapCells = 2048;
 
 /// How a map's potential came out.
@@ -25,33 +26,35 @@ struct MapQuality {
   std::int32_t cycles = 0;
 };
 
-/// Solves the potential of a map on the CPU, by the planner's own stages. Takes its memory in the constructor, for the
-/// square of a power of two that holds the map. Not for the loop.
+/// Solves the potential of a map by the planner's own stages, on one executor (map_field_on.h). Takes its memory when
+/// made, for the square of a power of two that holds the map. Not for the loop.
 class MapField {
  public:
-  explicit MapField(CellMap map);
-  ~MapField();
+  MapField() = default;
+  virtual ~MapField() = default;
   MapField(const MapField&) = delete;
   MapField& operator=(const MapField&) = delete;
 
   /// Grows walls by `inflation` cells (0 or more); what is free afterwards can be a goal.
-  void inflate(float inflation) noexcept;
+  virtual void inflate(float inflation) noexcept = 0;
   /// The free cell nearest (i, j) within `radius` cells; false without one.
-  [[nodiscard]] bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept;
+  [[nodiscard]] virtual bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept = 0;
   /// From the walls to the certified potential of a free goal cell, nothing known before.
-  MapQuality solve_cold(CellIndex goal) noexcept;
+  virtual MapQuality solve_cold(CellIndex goal) noexcept = 0;
   /// The same from the last solution, as a tick does in which nothing has changed.
-  MapQuality solve_warm(CellIndex goal) noexcept;
+  virtual MapQuality solve_warm(CellIndex goal) noexcept = 0;
+  /// The start field in its place: shortest ways, no potential solved.
+  virtual MapQuality solve_start(CellIndex goal) noexcept = 0;
   /// Share of joined cells from which descent arrives, counted cell by cell.
-  [[nodiscard]] float reach(CellIndex goal) noexcept;
+  [[nodiscard]] virtual float reach(CellIndex goal) noexcept = 0;
+  /// Share of joined cells that pick the exact field's best neighbour (exact_field.h); none when that would take more
+  /// than `most` multiplications.
+  [[nodiscard]] virtual std::optional<double> best_neighbours(CellIndex goal, double most) const = 0;
   /// -ln(1 - phi) of a cell of the map: NaN where not free, infinity where the goal cannot be reached.
-  [[nodiscard]] float psi(std::int32_t i, std::int32_t j) const noexcept;
-
- private:
-  struct Solver;
-  CellMap map_;
-  float inflation_ = 0.0F;
-  std::unique_ptr<Solver> solver_;
+  [[nodiscard]] virtual float psi(std::int32_t i, std::int32_t j) const noexcept = 0;
+  [[nodiscard]] virtual const char* backend() const noexcept = 0;
 };
+
+[[nodiscard]] std::unique_ptr<MapField> make_cpu_map_field(CellMap map);
 
 }  // namespace jaywalk::field

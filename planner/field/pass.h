@@ -43,6 +43,13 @@ struct FieldArrays {
   cell::Point* points;
 };
 
+/// What a solution begins from.
+enum class From : std::uint8_t {
+  kLast,       ///< the last one, which must have been on the same cells with the same goal
+  kNothing,    ///< the start field
+  kStartOnly,  ///< the start field, and leave it at that
+};
+
 /// How the potential came out.
 struct FieldQuality {
   bool certified = false;
@@ -110,21 +117,22 @@ class Pass {
     return executor_.wait();
   }
 
-  /// From the start field to the potential and its index matrix; begins from the last solution when `warm`, which
-  /// must then have been on the same cells with the same goal. Whatever breaks the certificate is not used: a warm
-  /// solution gives way to a cold one, a cold one to the start field itself.
-  FieldQuality solve(Grid grid, std::int32_t goal, bool warm, float* psi) noexcept {
+  /// From the start field to the potential and its index matrix. Whatever breaks the certificate is not used: a
+  /// solution from the last gives way to one from the start field, and that to the start field itself.
+  FieldQuality solve(Grid grid, std::int32_t goal, From from, float* psi) noexcept {
     struct Attempt {
+      From from;
       std::int32_t least_cycles, most_cycles, lifts;
     };
-    const Attempt attempts[] = {
-        {kWarmCycles, kWarmCycles, kLifts}, {kColdCycles, kMostColdCycles, kLifts}, {0, 0, 2 * grid.side}};
+    const Attempt attempts[] = {{From::kLast, kWarmCycles, kWarmCycles, kLifts},
+                                {From::kNothing, kColdCycles, kMostColdCycles, kLifts},
+                                {From::kStartOnly, 0, 0, 2 * grid.side}};
     FieldQuality quality;
-    for (std::int32_t k = warm ? 0 : 1; k < 3 && !quality.certified; ++k) {
-      if (k > 0) executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
-      const std::int32_t cycles = improve(grid, goal, attempts[k].least_cycles, attempts[k].most_cycles, psi);
-      quality.cycles += cycles;
-      if (!lift(grid, goal, attempts[k].lifts, psi, quality)) break;
+    for (const Attempt& attempt : attempts) {
+      if (attempt.from < from || quality.certified) continue;
+      if (attempt.from != From::kLast) executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
+      quality.cycles += improve(grid, goal, attempt.least_cycles, attempt.most_cycles, psi);
+      if (!lift(grid, goal, attempt.lifts, psi, quality)) break;
     }
     return quality;
   }

@@ -4,12 +4,15 @@
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 #include <string>
 
+#include "planner/field/map_field_on.h"
 #include "tests/planner/field_rig.h"
+#include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -58,35 +61,75 @@ field::CellMap barn_map(const std::filesystem::path& file) {
 
 }  // namespace
 
-TEST_CASE("on random maps of random size descent arrives from every joined cell, cold and warm") {
+TEST_CASE("on a thousand random maps of random size descent arrives from every joined cell, cold and warm") {
   Random random(2026);
   int solved = 0;
-  for (int k = 0; k < 120; ++k) {
-    field::MapField field(random_map(random, k % 10 == 0 ? 300 : 90));
-    field.inflate(static_cast<float>(random.below(3)));
+  for (int k = 0; k < 1000; ++k) {
+    const auto field = field::make_cpu_map_field(random_map(random, k % 20 == 0 ? 300 : 90));
+    field->inflate(static_cast<float>(random.below(3)));
     CellIndex goal{random.below(60), random.below(60)};
-    if (!field.nearest_free(goal, 100)) continue;
-    const field::MapQuality cold = field.solve_cold(goal);
+    if (!field->nearest_free(goal, 100)) continue;
+    const field::MapQuality cold = field->solve_cold(goal);
     CHECK(cold.certified);
-    CHECK(field.reach(goal) == 1.0F);
-    CHECK(field.solve_warm(goal).certified);
-    CHECK(field.reach(goal) == 1.0F);
+    CHECK(field->reach(goal) == 1.0F);
+    CHECK(field->solve_warm(goal).certified);
+    CHECK(field->reach(goal) == 1.0F);
     ++solved;
   }
-  CHECK(solved > 100);
+  CHECK(solved > 900);
+}
+
+TEST_CASE("the start field alone is a mode: it descends from everywhere, and is no harmonic function") {
+  const TestMap map = office();
+  const auto field = field::make_cpu_map_field({map.side, map.side, map.wall});
+  field->inflate(3.0F);
+  const field::MapQuality start = field->solve_start({243, 243});
+  CHECK(start.certified);
+  CHECK(start.cycles == 0);
+  CHECK(field->best_neighbours({243, 243}, 1e10).value() < 0.96);
+  CHECK_FALSE(field->best_neighbours({243, 243}, 1e6).has_value());  // would take too long
+}
+
+TEST_CASE("maps of every shape have the same bytes in any visiting order") {
+  Random random(7);
+  std::vector<field::CellMap> maps{{64, 64, std::vector<std::uint8_t>(64 * 64, 0)},  // empty
+                                   {1, 65, std::vector<std::uint8_t>(65, 0)},        // a column
+                                   {130, 1, std::vector<std::uint8_t>(130, 0)},      // a row
+                                   {33, 47, std::vector<std::uint8_t>(33 * 47, 0)},  // odd
+                                   {512, 512, std::vector<std::uint8_t>(512 * 512, 0)}};
+  for (std::size_t i = 10; i < 33; ++i) maps[3].wall[20 * 33 + i] = 1;  // one wall
+  for (int k = 0; k < 6; ++k) maps.push_back(random_map(random, 120));
+  for (const field::CellMap& map : maps) {
+    const auto serial = field::make_cpu_map_field(map);
+    field::MapFieldOn<ShuffledExecutor> shuffled(map, std::make_unique<ShuffledExecutor>());
+    CellIndex goal{0, 0};
+    if (!serial->nearest_free(goal, 100)) continue;
+    CHECK(shuffled.solve_cold(goal).joined == serial->solve_cold(goal).joined);
+    CHECK(shuffled.solve_warm(goal).certified);
+    CHECK(serial->solve_warm(goal).certified);
+    int differ = 0;
+    for (std::int32_t j = 0; j < map.height; ++j) {
+      for (std::int32_t i = 0; i < map.width; ++i) {
+        const float a = serial->psi(i, j), b = shuffled.psi(i, j);
+        differ += std::memcmp(&a, &b, sizeof a) != 0 ? 1 : 0;
+      }
+    }
+    CHECK(differ == 0);
+  }
 }
 
 TEST_CASE("a single cell, a row and a column of cells are solved, and a map of walls has no goal") {
   for (const CellIndex size : {CellIndex{1, 1}, CellIndex{1, 65}, CellIndex{130, 1}}) {
-    field::MapField field({size.i, size.j, std::vector<std::uint8_t>(static_cast<std::size_t>(size.i * size.j), 0)});
-    const field::MapQuality quality = field.solve_cold({0, 0});
+    const auto field = field::make_cpu_map_field(
+        {size.i, size.j, std::vector<std::uint8_t>(static_cast<std::size_t>(size.i * size.j), 0)});
+    const field::MapQuality quality = field->solve_cold({0, 0});
     CHECK(quality.certified);
     CHECK(quality.joined == size.i * size.j);
-    CHECK(field.psi(0, 0) == 0.0F);
+    CHECK(field->psi(0, 0) == 0.0F);
   }
-  const field::MapField walls({3, 2, std::vector<std::uint8_t>(6, 1)});
+  const auto walls = field::make_cpu_map_field({3, 2, std::vector<std::uint8_t>(6, 1)});
   CellIndex goal{1, 1};
-  CHECK_FALSE(walls.nearest_free(goal, 10));
+  CHECK_FALSE(walls->nearest_free(goal, 10));
 }
 
 TEST_CASE("on the BARN worlds descent arrives from every joined cell") {
@@ -97,12 +140,12 @@ TEST_CASE("on the BARN worlds descent arrives from every joined cell") {
   int worlds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "barn")) {
     if (entry.path().extension() != ".txt") continue;
-    field::MapField field(barn_map(entry.path()));
-    field.inflate(4.0F);
+    const auto field = field::make_cpu_map_field(barn_map(entry.path()));
+    field->inflate(4.0F);
     CellIndex goal{55, 215};
-    if (!field.nearest_free(goal, 60)) continue;
-    CHECK(field.solve_cold(goal).certified);
-    CHECK(field.reach(goal) == 1.0F);
+    if (!field->nearest_free(goal, 60)) continue;
+    CHECK(field->solve_cold(goal).certified);
+    CHECK(field->reach(goal) == 1.0F);
     ++worlds;
   }
   std::printf("%d BARN worlds\n", worlds);
@@ -129,7 +172,8 @@ TEST_CASE("in 120 ticks with eight discs that open and close passages every fiel
       }
     }
     rig.load(now, 3.0F, goal);
-    const field::FieldQuality quality = rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+    const field::FieldQuality quality =
+        rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
     CHECK(quality.certified);
     CHECK(quality.joined > 8000);
   }

@@ -62,7 +62,7 @@ TEST_CASE("the band shortens the raw path, turns less, and never leaves free cel
   const TestMap map = clutter(11);
   const std::int32_t goal = rig.grid.at(240, 240), start = rig.grid.at(10, 12);
   rig.load(map, 3.0F, goal);
-  REQUIRE(rig.pass.solve(rig.grid, goal, false, rig.psi).certified);
+  REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
   const field::FieldArrays& a = rig.arrays();
   const std::int32_t count = field::follow(rig.grid, a.index, start, goal, a.points, 0, field::kMaxBandPoints);
   REQUIRE(count > 200);

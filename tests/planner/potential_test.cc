@@ -54,7 +54,8 @@ TEST_CASE("the solved potential is the harmonic function to a thousandth, everyw
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
   const auto reference = harmonic_reference(rig.grid, rig.arrays().clearance, goal);
-  for (int tick = 0; tick < 4; ++tick) (void)rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+  for (int tick = 0; tick < 4; ++tick)
+    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
   double worst = 0.0;
   int joined = 0;
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
@@ -72,12 +73,12 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
   for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(4), speckle(4)}) {
     const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(12, 12);
     rig.load(map, 3.0F, goal);
-    const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, false, rig.psi);
+    const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
     CHECK(cold.certified);
     CHECK(cold.cycles >= field::kColdCycles);
     CHECK(cold.cycles <= field::kMostColdCycles);
     CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
-    const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, true, rig.psi);
+    const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
     CHECK(warm.certified);
     CHECK(warm.cycles == field::kWarmCycles);
   }
@@ -105,7 +106,7 @@ TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's bes
   for (const TestMap& map : {open_room(), office(), clutter(1), speckle(1), serpentine(15), serpentine(10)}) {
     const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(243, 243);
     rig.load(map, 3.0F, goal);
-    REQUIRE(rig.pass.solve(rig.grid, goal, false, rig.psi).certified);
+    REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
     const double best = field::share_of_best(rig.grid, rig.psi, exact_of(rig, goal), goal);
     std::printf("%s: %.3f %% pick the best neighbour\n", map.name.c_str(), 100.0 * best);
     CHECK(best >= 0.999);
@@ -127,7 +128,7 @@ TEST_CASE("solved warm under discs that move, 98 percent or more pick the best n
     for (std::int32_t k = 0; k < 8; ++k)
       map.box(20 + 27 * k + tick, 118 + 3 * (k % 4), 26 + 27 * k + tick, 124 + 3 * (k % 4));
     rig.load(map, 3.0F, goal);
-    REQUIRE(rig.pass.solve(rig.grid, goal, tick > 0, rig.psi).certified);
+    REQUIRE(rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi).certified);
     if (tick % 5 == 4) CHECK(field::share_of_best(rig.grid, rig.psi, exact_of(rig, goal), goal) >= 0.98);
   }
 }
@@ -136,7 +137,7 @@ TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
-  (void)rig.pass.solve(rig.grid, goal, false, rig.psi);
+  (void)rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
   rig.psi[rig.grid.at(10, 10)] -= 5.0F;
   std::vector<std::int32_t> pits(64), joined(64);
   rig.executor.for_each_cell(1, 64, field::PitsOfRow{rig.grid, goal, rig.psi, pits.data(), joined.data()});
@@ -152,7 +153,7 @@ TEST_CASE("what rounding has levelled is lifted until it descends again, and not
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
-  (void)rig.pass.solve(rig.grid, goal, false, rig.psi);
+  (void)rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
   const std::vector<float> before(rig.psi, rig.psi + rig.grid.cells());
   const std::int32_t c = rig.grid.at(10, 10);
   const float lowest = std::min(std::min(rig.psi[c - 1], rig.psi[c + 1]), std::min(rig.psi[c - 64], rig.psi[c + 64]));
@@ -175,10 +176,11 @@ TEST_CASE("a passage that closes under a warm start is noticed: still certified,
   map.box(30, 0, 32, 64), map.box(30, 8, 32, 18, 0), map.box(30, 46, 32, 56, 0);
   const std::int32_t goal = rig.grid.at(50, 12), start = rig.grid.at(12, 12);
   rig.load(map, 1.0F, goal);
-  for (int tick = 0; tick < 5; ++tick) (void)rig.pass.solve(rig.grid, goal, tick > 0, rig.psi);
+  for (int tick = 0; tick < 5; ++tick)
+    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
   const float near_way = rig.psi[start];
   map.box(30, 8, 32, 18);
   rig.load(map, 1.0F, goal);
-  for (int tick = 0; tick < 5; ++tick) CHECK(rig.pass.solve(rig.grid, goal, true, rig.psi).certified);
+  for (int tick = 0; tick < 5; ++tick) CHECK(rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi).certified);
   CHECK(rig.psi[start] > near_way + 1.0F);
 }

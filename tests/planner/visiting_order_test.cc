@@ -57,8 +57,11 @@ TEST_CASE("clearance, start field, potential and index matrix do not depend on t
     CHECK(same(serial.arrays().rate, shuffled.arrays().rate, n));
     CHECK(same(serial.arrays().cost, shuffled.arrays().cost, n));
     for (int tick = 0; tick < 2; ++tick) {
-      const field::FieldQuality quality = serial.pass.solve(serial.grid, goal, tick > 0, serial.psi);
-      CHECK(shuffled.pass.solve(shuffled.grid, goal, tick > 0, shuffled.psi).pits == quality.pits);
+      const field::FieldQuality quality =
+          serial.pass.solve(serial.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, serial.psi);
+      CHECK(
+          shuffled.pass.solve(shuffled.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, shuffled.psi)
+              .pits == quality.pits);
       CHECK(quality.joined > 500);
       CHECK(same(serial.psi, shuffled.psi, n));
       CHECK(same(serial.arrays().index, shuffled.arrays().index, n));

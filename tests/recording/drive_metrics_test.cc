@@ -95,13 +95,13 @@ TEST_CASE("quantiles are of the nearest rank") {
 }
 
 TEST_CASE("cells have six decimals, no sign of zero, and are empty for NaN") {
-  CHECK(cell(1.0 / 3) == "0.333333");
-  CHECK(cell(-0.0) == "0.000000");
-  CHECK(cell(-4e-7) == "0.000000");
-  CHECK(cell(-6e-7) == "-0.000001");
-  CHECK(cell(std::numeric_limits<double>::quiet_NaN()).empty());
-  CHECK(cell(-std::numeric_limits<double>::infinity()) == "-inf");
-  CHECK(cell(1e300).size() == 308);  // 301 digits, a point, six decimals
+  CHECK(csv_cell(1.0 / 3) == "0.333333");
+  CHECK(csv_cell(-0.0) == "0.000000");
+  CHECK(csv_cell(-4e-7) == "0.000000");
+  CHECK(csv_cell(-6e-7) == "-0.000001");
+  CHECK(csv_cell(std::numeric_limits<double>::quiet_NaN()).empty());
+  CHECK(csv_cell(-std::numeric_limits<double>::infinity()) == "-inf");
+  CHECK(csv_cell(1e300).size() == 308);  // 301 digits, a point, six decimals
 }
 
 TEST_CASE("seconds are rounded from the nanosecond, before the epoch too") {
