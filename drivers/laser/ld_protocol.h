@@ -9,7 +9,7 @@ namespace jaywalk::ldrobot {
 class LdProtocol final : public ScannerProtocol {
  public:
   void begin() noexcept override;
-  [[nodiscard]] wire::Bytes to_say() noexcept override { return {}; }
+  [[nodiscard]] wire::Bytes to_say(Time) noexcept override { return {}; }
   [[nodiscard]] bool awaits_answer() const noexcept override { return false; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;

@@ -92,7 +92,7 @@ void ScannerConnection::talk(Time now) noexcept {
     take_messages(clock_.now());
   }
   if (phase_ != Phase::kTalking) return;
-  link_.write(protocol_->to_say());
+  link_.write(protocol_->to_say(now));
   if (link_.state() == wire::ByteLink::State::kClosed) return give_up(ScannerTrouble::kClosed, now);
   watch(now);
 }

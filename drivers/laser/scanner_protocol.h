@@ -32,7 +32,7 @@ class ScannerProtocol {
   /// A connection begins: what was half said and half heard before is forgotten.
   virtual void begin() noexcept = 0;
   /// The next command, handed out once; empty while an answer is awaited and when all is said. Valid until begin().
-  [[nodiscard]] virtual wire::Bytes to_say() noexcept = 0;
+  [[nodiscard]] virtual wire::Bytes to_say(Time now) noexcept = 0;
   [[nodiscard]] virtual bool awaits_answer() const noexcept = 0;
   virtual void hear(wire::Bytes bytes) noexcept = 0;
   /// The next message of what was heard, whose last byte came in at `arrival`. `scan` may be spoilt except at kScan.

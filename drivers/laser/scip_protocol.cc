@@ -26,7 +26,7 @@ void ScipProtocol::begin() noexcept {
   has_time_ = false;
 }
 
-wire::Bytes ScipProtocol::to_say() noexcept {
+wire::Bytes ScipProtocol::to_say(Time) noexcept {
   if (asked_ || step_ == Step::kDone) return {};
   asked_ = true;
   write_command();

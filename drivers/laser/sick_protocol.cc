@@ -38,7 +38,7 @@ void SickProtocol::begin() noexcept {
   has_counter_ = false;
 }
 
-wire::Bytes SickProtocol::to_say() noexcept {
+wire::Bytes SickProtocol::to_say(Time) noexcept {
   if (asked_ || at_ == steps_.size()) return {};
   asked_ = true;
   return {steps_[at_].command.data(), steps_[at_].command.size()};

@@ -16,7 +16,7 @@ class SickProtocol final : public ScannerProtocol {
   SickProtocol(Cola dialect, const ScannerModel& model) noexcept;
 
   void begin() noexcept override;
-  [[nodiscard]] wire::Bytes to_say() noexcept override;
+  [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;

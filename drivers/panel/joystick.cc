@@ -17,6 +17,12 @@ constexpr Duration kBetweenTries = std::chrono::milliseconds(500);
 constexpr double kDeadZone = 0.1;  ///< worn sticks come to rest up to here
 constexpr int kMostReads = 8;
 
+/// <linux/input.h>'s EVIOCGKEY (18h) and EVIOCGABS (40h and the axis), without their mixed signs.
+constexpr unsigned long question(unsigned number, std::size_t answer_bytes) noexcept {
+  return _IOC(_IOC_READ, 0x45U, number, static_cast<unsigned>(answer_bytes));  // 45h: 'E'
+}
+static_assert(question(0x40U + ABS_X, sizeof(input_absinfo)) == EVIOCGABS(ABS_X));
+
 }  // namespace
 
 double Joystick::Axis::share() const noexcept {
@@ -63,14 +69,14 @@ void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
 /// Events tell changes; how things stand must be asked for. What is no device does not answer.
 void Joystick::ask_present_state() noexcept {
   std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
-  if (::ioctl(device_.get(), EVIOCGKEY(keys.size()), keys.data()) >= 0) {
+  if (::ioctl(device_.get(), question(0x18, keys.size()), keys.data()) >= 0) {
     for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset}) {
       if (code <= KEY_MAX) take_button(code, (keys[code / 8U] >> (code % 8U) & 1U) != 0);
     }
   }
   const auto ask_axis = [this](std::uint16_t code, Axis& axis) {
     input_absinfo told{};
-    if (code > ABS_MAX || ::ioctl(device_.get(), EVIOCGABS(code), &told) < 0) return;
+    if (code > ABS_MAX || ::ioctl(device_.get(), question(0x40U + code, sizeof told), &told) < 0) return;
     axis = {told.minimum, told.maximum, told.value};
   };
   ask_axis(setup_.forward, forward_);

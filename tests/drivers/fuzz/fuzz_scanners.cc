@@ -6,6 +6,8 @@
 #include <string_view>
 
 #include "drivers/laser/ld_protocol.h"
+#include "drivers/laser/lms200_protocol.h"
+#include "drivers/laser/rplidar_protocol.h"
 #include "drivers/laser/scip_protocol.h"
 #include "drivers/laser/sick_protocol.h"
 
@@ -39,7 +41,7 @@ void converse(ScannerProtocol& protocol, wire::Bytes bytes) {
   protocol.begin();
   Time now = kArrival;
   while (!bytes.empty()) {
-    static_cast<void>(protocol.to_say());
+    static_cast<void>(protocol.to_say(now));
     const std::size_t count = std::min<std::size_t>(bytes.size(), 1 + take_choice(bytes));
     protocol.hear(bytes.first(std::min(count, bytes.size())));
     bytes = bytes.subspan(std::min(count, bytes.size()));
@@ -105,11 +107,24 @@ void fuzz_ldrobot(wire::Bytes bytes) {
   }
 }
 
+/// An even first byte: a body as it stands; an odd one: a stream of telegrams.
+void fuzz_lms200(wire::Bytes bytes) {
+  static lms200::TelegramStream stream;
+  LaserScan& scan = reused_scan();
+  const std::uint8_t choice = take_choice(bytes);
+  if ((choice & 1U) == 0) return check_scan(lms200::decode_scan(bytes, 38400, kArrival, scan), scan);
+  stream.forget();
+  stream.append(bytes);
+  while (const auto body = stream.next()) check_scan(lms200::decode_scan(*body, 38400, kArrival, scan), scan);
+}
+
 void fuzz_scanner_protocol(wire::Bytes bytes) {
   static sick::SickProtocol in_text(sick::Cola::kA, {}), in_binary(sick::Cola::kB, {});
   static scip::ScipProtocol hokuyo;
   static ldrobot::LdProtocol ldrobot;
-  const std::array<ScannerProtocol*, 4> all{&in_text, &in_binary, &hokuyo, &ldrobot};
+  static rplidar::RplidarProtocol rplidar;
+  static lms200::Lms200Protocol lms200(38400);
+  const std::array<ScannerProtocol*, 6> all{&in_text, &in_binary, &hokuyo, &ldrobot, &rplidar, &lms200};
   converse(*all[take_choice(bytes) % all.size()], bytes);
 }
 

@@ -150,6 +150,7 @@ constexpr std::array<FuzzTarget, kFuzzTargets> kTargets{{{"kernel_frame", fuzz_k
                                                          {"sick", fuzz_sick},
                                                          {"scip", fuzz_scip},
                                                          {"ldrobot", fuzz_ldrobot},
+                                                         {"lms200", fuzz_lms200},
                                                          {"scanner_protocol", fuzz_scanner_protocol}}};
 
 }  // namespace

@@ -1,0 +1,111 @@
+#include "drivers/laser/lms200.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "hal/types/trig.h"
+
+namespace jaywalk::lms200 {
+
+namespace {
+
+constexpr std::uint8_t kStx = 0x02, kAck = 0x06, kFromScanner = 0x80, kAllValues = 0xB0;
+constexpr std::size_t kHeader = 4, kChecksum = 2;
+constexpr double kTurn_s = 1.0 / 75.0;
+constexpr std::uint16_t kFarthest = 8182, kDistanceBits = 0x1FFF;
+
+/// What a number of values means: they are the only ones there are.
+struct Fan {
+  std::uint32_t values;
+  double field_deg, step_deg;
+  int turns;
+};
+constexpr std::array<Fan, 5> kFans{
+    {{181, 180.0, 1.0, 1}, {361, 180.0, 0.5, 2}, {101, 100.0, 1.0, 1}, {201, 100.0, 0.5, 2}, {401, 100.0, 0.25, 4}}};
+
+void place(const Fan& fan, std::size_t telegram_bytes, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept {
+  const double on_line_s = static_cast<double>(telegram_bytes) * 10.0 / baud;  // start and stop bit
+  const double sweep_s = kTurn_s * (fan.turns - 1 + fan.field_deg / 360.0);
+  const double turns = std::max(static_cast<double>(fan.turns), std::ceil(on_line_s / kTurn_s));
+  scan.first_angle_rad = static_cast<float>(-0.5 * fan.field_deg * kPi / 180.0);
+  scan.angle_step_rad = static_cast<float>(fan.step_deg * kPi / 180.0);
+  scan.sweep = duration_from_seconds(sweep_s);
+  scan.period = duration_from_seconds(turns * kTurn_s);
+  scan.stamp = arrival - duration_from_seconds(on_line_s + sweep_s);
+}
+
+}  // namespace
+
+std::uint16_t crc16(wire::Bytes bytes) noexcept {
+  unsigned crc = 0;
+  unsigned before = 0;
+  for (const std::uint8_t byte : bytes) {
+    crc = ((crc << 1U) ^ ((crc & 0x8000U) != 0 ? 0x8005U : 0U)) & 0xFFFFU;
+    crc ^= before << 8U | byte;
+    before = byte;
+  }
+  return static_cast<std::uint16_t>(crc);
+}
+
+Command framed(std::initializer_list<std::uint8_t> body) noexcept {
+  Command out;
+  const auto push = [&out](unsigned byte) { return out.push_back(static_cast<std::uint8_t>(byte)); };
+  bool fits = push(kStx) && push(0) && push(static_cast<unsigned>(body.size())) && push(0);
+  for (const std::uint8_t byte : body) fits = fits && push(byte);
+  const unsigned crc = crc16({out.data(), out.size()});
+  fits = fits && push(crc) && push(crc >> 8U);
+  if (!fits) out.clear();
+  return out;
+}
+
+void TelegramStream::forget() noexcept {
+  queue_.clear();
+  handed_out_ = 0;
+}
+
+std::optional<wire::Bytes> TelegramStream::next() noexcept {
+  queue_.drop(handed_out_);
+  handed_out_ = 0;
+  for (;;) {
+    const wire::Bytes waiting = queue_.waiting();
+    if (waiting.size() < kHeader) return std::nullopt;
+    const std::size_t length = wire::little_endian<std::uint16_t>(waiting.subspan(2));
+    const bool begins = waiting[0] == kStx && waiting[1] == kFromScanner && length >= 1 && length <= kMostBody;
+    const std::size_t whole = kHeader + length + kChecksum;
+    if (begins && waiting.size() < whole) return std::nullopt;
+    if (begins && crc16(waiting.first(whole - kChecksum)) ==
+                      wire::little_endian<std::uint16_t>(waiting.subspan(whole - kChecksum))) {
+      handed_out_ = whole;
+      return waiting.subspan(kHeader, length);
+    }
+    if (waiting[0] != kAck) ++skipped_;
+    queue_.drop(1);
+  }
+}
+
+Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept {
+  wire::ByteReader reader(body);
+  if (reader.little<std::uint8_t>() != kAllValues) return Decoding::kOtherMessage;
+  const auto head = reader.little<std::uint16_t>();
+  const std::uint32_t count = head & 0x3FFU;
+  const unsigned unit = head >> 14U;
+  if ((head & 0x3C00U) != 0 || unit > 1) return Decoding::kBadField;  // a part of a scan, or no unit
+  const auto* const fan = std::find_if(kFans.begin(), kFans.end(), [count](const Fan& f) { return f.values == count; });
+  if (fan == kFans.end()) return Decoding::kBadField;
+  const float metres_per_count = unit == 0 ? 0.01F : 0.001F;
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const std::uint16_t counts = reader.little<std::uint16_t>() & kDistanceBits;
+    scan.range_m[k] = counts <= kFarthest ? static_cast<float>(counts) * metres_per_count : 0.0F;
+  }
+  const auto status = reader.little<std::uint8_t>();
+  if (!reader.ok()) return Decoding::kTruncated;
+  if ((status & 7U) >= 3) return Decoding::kDeviceError;  // 1 note, 2 warning, 3 error, 4 fatal
+  scan.beam_count = count;
+  scan.range_min_m = 0.01F;
+  scan.range_max_m = static_cast<float>(kFarthest) * metres_per_count;
+  place(*fan, kHeader + body.size() + kChecksum, baud, arrival, scan);
+  return Decoding::kScan;
+}
+
+}  // namespace jaywalk::lms200

@@ -1,0 +1,49 @@
+#pragma once
+// SICK LMS200 on a serial line: STX, address, length, body, CRC-16; numbers least significant byte first.
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+
+#include "drivers/laser/decoding.h"
+#include "drivers/wire/byte_queue.h"
+#include "hal/types/fixed_vector.h"
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk::lms200 {
+
+/// The maker's own CRC: each byte goes in together with the one before it; generator 8005h.
+[[nodiscard]] std::uint16_t crc16(wire::Bytes bytes) noexcept;
+
+using Command = FixedVector<std::uint8_t, 16>;
+/// A command for scanner 0 with its framing; `body` has at most 8 bytes.
+[[nodiscard]] Command framed(std::initializer_list<std::uint8_t> body) noexcept;
+
+/// Cuts a stream into the bodies of telegrams from scanner 0; after garbage it goes on at the next whose checksum
+/// holds.
+class TelegramStream {
+ public:
+  static constexpr std::size_t kMostBody = 812;  ///< the longest that the maker's list of telegrams has
+
+  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  void forget() noexcept;
+  /// Command, fields and the scanner's status byte; valid until the next call.
+  [[nodiscard]] std::optional<wire::Bytes> next() noexcept;
+  /// Bytes that belonged to no telegram, other than ACK.
+  [[nodiscard]] std::uint64_t skipped() const noexcept { return skipped_ + queue_.lost(); }
+
+ private:
+  wire::ByteQueue<4096> queue_;
+  std::size_t handed_out_ = 0;
+  std::uint64_t skipped_ = 0;
+};
+
+/// Decodes a telegram B0h, all measured values, into `scan`, all but its sequence.
+///
+/// `baud` is the line's rate: the scan's stamp is `arrival` less what the telegram took on the line, less the sweep.
+/// Half and quarter degrees are measured in two and four turns of the mirror, interlaced; the sweep spans them all. The
+/// three highest bits of a value are flags, the rest a distance up to 8182 counts of a centimetre or a millimetre;
+/// above are the scanner's error codes: "no return".
+[[nodiscard]] Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept;
+
+}  // namespace jaywalk::lms200

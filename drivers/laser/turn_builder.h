@@ -1,0 +1,40 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk {
+
+/// Makes scans of the single points of a scanner that turns clockwise without end: a turn begins where the angle passes
+/// straight ahead.
+///
+/// Points lie at uneven angles; they are put into equal sectors, the nearest point of a sector counts (as is right for
+/// what must not be hit), and sectors without a point hold 0, "no return". The first turn, seen in part, is not handed
+/// out.
+class TurnBuilder {
+ public:
+  static constexpr std::uint32_t kMostSectors = 512;
+
+  /// `sectors` is 1 to kMostSectors.
+  TurnBuilder(std::uint32_t sectors, float range_min_m, float range_max_m) noexcept
+      : sectors_(sectors), range_min_m_(range_min_m), range_max_m_(range_max_m) {}
+
+  /// A point at `angle_deg` clockwise from ahead, 0 to 360, measured at `measured`. True when it is the first of a new
+  /// turn: then `scan` holds the one before, all but its sequence. Otherwise `scan` is left alone.
+  [[nodiscard]] bool add(double angle_deg, float range_m, Time measured, LaserScan& scan) noexcept;
+  /// The next turn is one seen in part.
+  void forget() noexcept { began_ = kNever; }
+
+ private:
+  void close_turn(Time end, LaserScan& scan) const noexcept;
+
+  std::uint32_t sectors_;
+  float range_min_m_, range_max_m_;
+  std::array<float, kMostSectors> nearest_m_{};
+  Time began_ = kNever;
+  double last_angle_deg_ = 0.0;
+};
+
+}  // namespace jaywalk
