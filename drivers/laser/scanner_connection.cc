@@ -1,6 +1,7 @@
 #include "drivers/laser/scanner_connection.h"
 
 #include <pthread.h>
+#include <sched.h>
 #include <signal.h>
 
 #include <algorithm>
@@ -39,13 +40,16 @@ ScannerConnection::~ScannerConnection() {
 }
 
 // Signals are for the threads that know what to do with them.
-void ScannerConnection::start() {
+bool ScannerConnection::start(int priority) {
   sigset_t all, before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this] { run(); });
   ::pthread_setname_np(thread_.native_handle(), "laser");
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  const sched_param wanted{.sched_priority = priority};
+  const int policy = priority > 0 ? SCHED_FIFO : SCHED_OTHER;
+  return ::pthread_setschedparam(thread_.native_handle(), policy, &wanted) == 0;
 }
 
 void ScannerConnection::run() noexcept {

@@ -65,7 +65,9 @@ class ScannerConnection final : public LaserScanner {
   ScannerConnection(const ScannerConnection&) = delete;
   ScannerConnection& operator=(const ScannerConnection&) = delete;
 
-  void start();
+  /// `priority` of SCHED_FIFO, 1 to 98, for the thread; 0: an ordinary one. False where the kernel does not permit it:
+  /// then it is an ordinary one, started all the same.
+  bool start(int priority = 0);
   /// Does what can be done at once.
   void step() noexcept;
 

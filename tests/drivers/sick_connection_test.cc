@@ -273,7 +273,7 @@ TEST_CASE("a connection with a thread of its own brings scans in real time and e
   {
     ScannerConnection connection(std::make_unique<wire::TcpEndpoint>("127.0.0.1", port),
                                  std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick::ScannerModel{}), clock);
-    connection.start();
+    CHECK(connection.start());
     while (connection.latest().sequence < 5 && clock.now() < began + 5s) {
       server.step(clock.now());
       clock.sleep_until(clock.now() + 1ms);
