@@ -37,11 +37,15 @@ std::int32_t fellow_leg(const Clusters& clusters, std::size_t lead, std::uint32_
 
 Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow) {
   const Cluster& c = clusters[lead];
-  if (!c.leg())
-    return {c.centre_in_map, kArcStdM, std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM), c.in_free_space};
-  if (fellow < 0) return {c.centre_in_map, kOneLegStdM, kPersonRadiusM, c.in_free_space};
-  const Vec2 other = clusters[static_cast<std::size_t>(fellow)].centre_in_map;
-  return {(c.centre_in_map + other) * 0.5, kTwoLegsStdM, kPersonRadiusM, c.in_free_space};
+  Observation seen{c.centre_in_map, kArcStdM, std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM), c.in_free_space,
+                   c.outline_in_map};
+  if (!c.leg()) return seen;
+  seen.std_m = kOneLegStdM;
+  seen.radius_m = kPersonRadiusM;
+  if (fellow < 0) return seen;
+  seen.std_m = kTwoLegsStdM;
+  seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+  return seen;
 }
 
 void free_strangers(const Track& track, std::size_t lead, std::int32_t fellow, Clusters& clusters) {

@@ -11,6 +11,7 @@ struct Observation {
   double std_m = 0.0;  ///< an axis
   double radius_m = 0.0;
   bool in_free_space = false;
+  Outline outline_in_map;  ///< of the nearest cluster
 };
 
 /// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of

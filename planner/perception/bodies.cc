@@ -32,6 +32,13 @@ Body born_at(Vec2 position, double std_m, double radius, Time now, std::uint32_t
   return body;
 }
 
+void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept {
+  body.anchor_in_map = body.track.position_in_map;
+  body.anchor_outline = body.outline_in_map;
+  body.anchor_in_laser = inverse(map_from_laser) * body.track.position_in_map;
+  body.still_since = now;
+}
+
 void admit(Bodies& bodies, const Body& newcomer, Vec2 robot) noexcept {
   if (bodies.full()) {
     const std::size_t k = farthest(bodies, robot);

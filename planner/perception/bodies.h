@@ -4,6 +4,7 @@
 
 #include "hal/types/fixed_vector.h"
 #include "planner/perception/recent_path.h"
+#include "planner/perception/segments.h"
 #include "planner/perception/track.h"
 
 namespace jaywalk {
@@ -18,10 +19,13 @@ struct Body {
   double free_share = 0.0;        ///< running mean: how much of the time it was seen where nothing stood before
   Time still_since = kNever;      ///< since when it has stood near `anchor`
   Vec2 anchor_in_map;             ///< where it last stood, or was born
+  Outline anchor_outline;         ///< points of it that were seen there, in the map
   Vec2 anchor_in_laser;           ///< the same, seen from where the laser was then
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
+  Outline outline_in_map;         ///< points of it that were seen last
   std::uint32_t misses = 0;       ///< scans in a row that did not see it
+  std::uint32_t walked = 0;       ///< scans in a row that it seemed to walk in
   bool settled = false;           ///< stands for good: its points may become walls
 
   /// Seen often enough to be believed; others are kept to themselves.
@@ -32,6 +36,9 @@ using Bodies = FixedVector<Body, kMaxTracks>;
 
 /// A body seen for the first time at `position_in_map`: it may be walking already, 1 m/s an axis.
 [[nodiscard]] Body born_at(Vec2 position_in_map, double std_m, double radius_m, Time now, std::uint32_t id) noexcept;
+
+/// From now on the body is watched for going away from where it now is, and was just seen.
+void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept;
 
 /// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, and that may be the
 /// newcomer.

@@ -5,42 +5,64 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kRoundOffM2 = 1e-12;  // scatter of places that are all the same, a micrometre's square
+constexpr double kWalkMps = 1.5;
+constexpr double kLongestStepS = 0.13;  // what was unseen for longer may be another
+constexpr double kRoundOffM2 = 1e-12;   // scatter of places that are all the same, a micrometre's square
 
 }  // namespace
 
 void RecentPath::add(Time when, Vec2 where) noexcept {
-  places_[count_ % kRemembered] = {when, where};
+  if (count_ > 0 && when - at(count_ - 1).since < kApart) {
+    Place& newest = places_[(count_ - 1) % kPlaces];
+    newest.seen += 1;
+    newest.when += (when - newest.when) / newest.seen;
+    newest.where = newest.where + (where - newest.where) * (1.0 / newest.seen);
+    return;
+  }
+  places_[count_ % kPlaces] = {when, when, where, 1};
   ++count_;
 }
 
+std::size_t RecentPath::first() const noexcept {
+  std::size_t k = count_ - std::min(count_, kPlaces);
+  while (k + 1 < count_ && at(count_ - 1).when - at(k).when > kRemembers) ++k;
+  return k;
+}
+
+double RecentPath::hop(std::size_t k) const noexcept {
+  const double walked_s = std::min(to_seconds(at(k).when - at(k - 1).when), kLongestStepS);
+  return distance(at(k - 1).where, at(k).where) - kWalkMps * walked_s;
+}
+
 StraightWalk RecentPath::fit() const noexcept {
-  const std::size_t n = std::min(count_, kRemembered);
-  if (n < 3) return {.places = n};
-  const Place& newest = places_[(count_ - 1) % kRemembered];
-  const Place& oldest = places_[(count_ - n) % kRemembered];
+  const std::size_t begin = first(), n = count_ - begin;
+  StraightWalk walk;
+  walk.places = n;
+  if (n < 3) return walk;
+  const Time newest = at(count_ - 1).when;
+  const auto seconds = [&](std::size_t k) { return to_seconds(at(k).when - newest); };
   double mean_t = 0.0;
   Vec2 mean;
-  for (std::size_t k = 0; k < n; ++k) {
-    mean_t += to_seconds(places_[k].when - newest.when) / static_cast<double>(n);
-    mean = mean + places_[k].where * (1.0 / static_cast<double>(n));
+  for (std::size_t k = begin; k < count_; ++k) {
+    mean_t += seconds(k) / static_cast<double>(n);
+    mean = mean + at(k).where * (1.0 / static_cast<double>(n));
+    if (k > begin) walk.longest_hop_m = std::max(walk.longest_hop_m, hop(k));
   }
   double tt = 0.0, scatter = 0.0;
   Vec2 tp;
-  for (std::size_t k = 0; k < n; ++k) {
-    const double t = to_seconds(places_[k].when - newest.when) - mean_t;
-    const Vec2 p = places_[k].where - mean;
+  for (std::size_t k = begin; k < count_; ++k) {
+    const double t = seconds(k) - mean_t;
+    const Vec2 p = at(k).where - mean;
     tt += t * t;
     tp = tp + p * t;
     scatter += dot(p, p);
   }
-  if (!(tt > 0.0) || scatter < kRoundOffM2) return {.places = n};
+  if (!(tt > 0.0) || scatter < kRoundOffM2) return walk;
   const Vec2 velocity = tp * (1.0 / tt);
-  const double duration = to_seconds(newest.when - oldest.when);
-  return {.places = n,
-          .length_m = norm(velocity) * duration,
-          .duration_s = duration,
-          .explained = dot(velocity, tp) / scatter};
+  walk.duration_s = -seconds(begin);
+  walk.length_m = norm(velocity) * walk.duration_s;
+  walk.explained = dot(velocity, tp) / scatter;
+  return walk;
 }
 
 }  // namespace jaywalk

@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <chrono>
 #include <cstddef>
 
 #include "hal/types/geometry.h"
@@ -10,13 +11,15 @@ namespace jaywalk {
 /// How well a body's last places lie on one straight walk of constant speed.
 struct StraightWalk {
   std::size_t places = 0;
-  double length_m = 0.0;    ///< of the fitted walk, from the oldest place to the newest
-  double duration_s = 0.0;  ///< from the oldest place to the newest
-  double explained = 0.0;   ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
+  double length_m = 0.0;       ///< of the fitted walk, from the oldest place to the newest
+  double duration_s = 0.0;     ///< from the oldest place to the newest
+  double longest_hop_m = 0.0;  ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
+  double explained = 0.0;  ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
 };
 
-/// Where a body was last seen, unfiltered. A filter follows whatever it is fed; the places themselves tell a walk from
-/// a cluster that hops between the legs of two chairs: of one hop in the middle, a straight walk explains 75 %.
+/// Where a body was seen in the last kRemembers, unfiltered. A filter follows whatever it is fed; the places themselves
+/// tell a walk from a cluster that hops between the legs of two chairs: of one hop in the middle, a straight walk
+/// explains 75 %.
 class RecentPath {
  public:
   void add(Time when, Vec2 where_in_map) noexcept;
@@ -24,14 +27,24 @@ class RecentPath {
   /// Least squares over the remembered places, x and y against time.
   [[nodiscard]] StraightWalk fit() const noexcept;
 
+  static constexpr Duration kRemembers = std::chrono::milliseconds(1500);
+  static constexpr Duration kApart = std::chrono::milliseconds(60);  ///< places nearer in time are one, their mean
+
  private:
   struct Place {
-    Time when = kNever;
+    Time since = kNever, when = kNever;  ///< first of them, mean of them
     Vec2 where;
+    int seen = 0;
   };
-  static constexpr std::size_t kRemembered = 10;
+  static constexpr std::size_t kPlaces = kRemembers / kApart + 1;
 
-  std::array<Place, kRemembered> places_{};
+  [[nodiscard]] const Place& at(std::size_t k) const { return places_[k % kPlaces]; }
+  /// How much farther it is from the place before to place `k` than a walker comes in the time.
+  [[nodiscard]] double hop(std::size_t k) const noexcept;
+  /// The oldest place that is not forgotten.
+  [[nodiscard]] std::size_t first() const noexcept;
+
+  std::array<Place, kPlaces> places_{};
   std::size_t count_ = 0;  ///< ever added
 };
 

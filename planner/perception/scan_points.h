@@ -16,6 +16,13 @@ struct ScanPoint {
 
 using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 
+/// From a beam of the scan to the next, s; 0 for a scan taken all at once, or by a robot that stands.
+[[nodiscard]] double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept;
+
+/// Where a robot that keeps `twist` stands after `after_s` seconds, seen from where it stood. A sweep is short: the
+/// chord's direction is taken at half the turn, which is exact for constant speeds up to (w t)^2 / 24.
+[[nodiscard]] Pose2 moved_by(const Twist2& twist, double after_s) noexcept;
+
 /// Fills `out` with the scan's hits in the order of the beams; beams without a return are left out. A sweep that takes
 /// time is put right: each beam starts from where a robot moving with `twist` stood when that beam was measured.
 void project_scan(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept;

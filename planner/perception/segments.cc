@@ -23,6 +23,13 @@ double jump_distance(double range, double angle_step) {
   return std::max(kJumpM, kJumpSteps * range * std::fabs(angle_step));
 }
 
+Outline outline_of(const Segment& segment, const PointsInMap& in_map) {
+  Outline outline;
+  const std::uint32_t span = segment.last - segment.first, most = static_cast<std::uint32_t>(Outline::capacity() - 1);
+  for (std::uint32_t k = 0; k <= most; ++k) (void)outline.push_back(in_map.position[segment.first + span * k / most]);
+  return outline;
+}
+
 /// Mean of the segment's points, moved back along the beam by what the visible arc stands before its centre.
 Cluster cluster_of(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map, Vec2 laser) {
   Vec2 sum;
@@ -36,7 +43,8 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
   return {.segment = segment,
           .centre_in_map = mean + along * (kArcMean * radius),
           .radius_m = radius,
-          .range_m = points[segment.first].range_m};
+          .range_m = points[segment.first].range_m,
+          .outline_in_map = outline_of(segment, in_map)};
 }
 
 struct GroundShares {
@@ -94,7 +102,7 @@ Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
       if (still.stands(c) && distance(still.surface(c), p) < near) return Ground::kWall;
     }
   }
-  return still.evidence(cell) < 0 ? Ground::kFree : Ground::kUnknown;
+  return still.seen_free(cell) ? Ground::kFree : Ground::kUnknown;
 }
 
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser,

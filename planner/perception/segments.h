@@ -14,6 +14,9 @@ struct Segment {
   std::uint32_t first = 0, last = 0;
 };
 
+/// Some of the points that something was seen by, spread over its width.
+using Outline = FixedVector<Vec2, 5>;
+
 /// Most segments kept of a scan; when full, the rest of the scan counts as wall.
 inline constexpr std::size_t kMaxSegments = 512;
 using Segments = FixedVector<Segment, kMaxSegments>;
@@ -21,9 +24,10 @@ using Segments = FixedVector<Segment, kMaxSegments>;
 /// A segment with no wall behind it that is small enough for a body: something may have come there.
 struct Cluster {
   Segment segment;
-  Vec2 centre_in_map;          ///< of the body: behind the visible arc
-  double radius_m = 0.0;       ///< half of the visible width
-  double range_m = 0.0;        ///< from the laser
+  Vec2 centre_in_map;     ///< of the body: behind the visible arc
+  double radius_m = 0.0;  ///< half of the visible width
+  double range_m = 0.0;   ///< from the laser
+  Outline outline_in_map;
   bool in_free_space = false;  ///< most of it stands where nothing stood before
   std::uint32_t track_id = 0;  ///< of the body that it was given to; 0: none
 
@@ -39,7 +43,7 @@ using Clusters = FixedVector<Cluster, kMaxClusters>;
 enum class Ground : std::uint8_t {
   kWall,     ///< a surface that has stood there is as near as noise and pose explain
   kUnknown,  ///< nothing, or a surface that came only now: a wall in view for the first time, or somebody
-  kFree,     ///< beams passed there
+  kFree,     ///< beams passed there, three or more in a row (EvidenceMap::seen_free)
 };
 
 /// The scan's points in the map, and the ground that each stands on.

@@ -17,12 +17,13 @@ namespace {
 constexpr double kAccelStd = 1.0;              // m/s^2 an axis: people start and turn within half a second
 constexpr double kGivenAccelStd = 0.5;         // the paper's movers keep their speed and seldom turn
 constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
-constexpr double kLookedThroughForS = 0.7;     // a body that beams pass through this long is gone
+constexpr double kPathBreaksS = 0.4;           // unseen so long, a body may be another
+constexpr double kLookedThroughForS = 0.3;     // a body that beams pass through this long is gone
 constexpr double kUnseenForS = 2.0;            // a hidden one is believed in this long, and no longer than it was seen
 constexpr double kGivenUnseenForS = 1.0;       // one from outside, this long after its last report
 constexpr std::uint32_t kTentativeMisses = 2;  // one not believed yet may be missed this often
 constexpr double kSkinM = 0.15;                // points this near a mover's body are its own
-constexpr double kSeenThroughM = 0.4;          // a beam that ends this far behind a body's centre passed through it
+constexpr double kEmptyWithinM = 0.1;          // beams that all pass over so much of its place pass through it
 constexpr double kSeenGain = 0.15;             // of the running mean of how often a body was seen
 constexpr double kFreeGain = 0.3;              // of the running mean of how free the ground under a body was
 constexpr double kRadiusGain = 0.2;            // of the running mean of a body's radius
@@ -45,10 +46,9 @@ struct Tracker::State {
   void drop_own_points() noexcept;
   void associate_and_correct() noexcept;
   void take(Body& body, const Observation& seen) noexcept;
-  void judge() noexcept;
-  void drop_unseen(const LaserScan& scan) noexcept;
+  void judge(const LineOfSight& sight) noexcept;
+  void drop_unseen(const LineOfSight& sight) noexcept;
   [[nodiscard]] bool gone(const Body& body) const noexcept;
-  [[nodiscard]] bool looked_through(const Body& body, const LaserScan& scan) const noexcept;
   void birth() noexcept;
   [[nodiscard]] bool kept_out_of_map(const Cluster& cluster) const noexcept;
   void enter_still() noexcept;
@@ -111,9 +111,13 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   correct(track, seen.position_in_map, seen.std_m);
   track.radius_m += kRadiusGain * (seen.radius_m - track.radius_m);
   track.hits += 1;
-  track.last_seen = now;
   body.misses = 0;
+  const bool after_a_gap = to_seconds(now - body.track.last_seen) > kPathBreaksS;
+  if (after_a_gap) body.path.clear();
+  track.last_seen = now;
   body.path.add(now, seen.position_in_map);
+  body.outline_in_map = seen.outline_in_map;
+  if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
   body.free_share += kFreeGain * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
 }
@@ -132,18 +136,8 @@ void Tracker::State::associate_and_correct() noexcept {
   }
 }
 
-void Tracker::State::judge() noexcept {
-  for (Body& body : bodies) judge_motion(body, still, map_from_laser, now);
-}
-
-bool Tracker::State::looked_through(const Body& body, const LaserScan& scan) const noexcept {
-  const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
-  const double angle = wrap_angle(atan2(in_laser.y, in_laser.x) - static_cast<double>(scan.first_angle_rad));
-  const double step = static_cast<double>(scan.angle_step_rad);
-  const double beam = std::floor((step > 0.0 && angle < 0.0 ? angle + 2 * kPi : angle) / step + 0.5);
-  if (!(beam >= 0.0 && beam < scan.beam_count)) return false;
-  const auto b = static_cast<std::size_t>(beam);
-  return scan.is_hit(b) && static_cast<double>(scan.range_m[b]) > norm(in_laser) + kSeenThroughM;
+void Tracker::State::judge(const LineOfSight& sight) noexcept {
+  for (Body& body : bodies) judge_motion(body, sight, map_from_laser, now);
 }
 
 bool Tracker::State::gone(const Body& body) const noexcept {
@@ -154,10 +148,11 @@ bool Tracker::State::gone(const Body& body) const noexcept {
   return unseen_s > std::min(kUnseenForS, known_s) || body.looked_through_s > kLookedThroughForS;
 }
 
-void Tracker::State::drop_unseen(const LaserScan& scan) noexcept {
+void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
   for (std::size_t b = bodies.size(); b-- > 0;) {
     Body& body = bodies[b];
-    if (body.misses > 0 && looked_through(body, scan)) body.looked_through_s += step_s;
+    const bool empty = sight.at(body.track.position_in_map, kEmptyWithinM) == Sight::kThrough;
+    if (body.misses > 0 && empty) body.looked_through_s += step_s;
     if (gone(body)) bodies.swap_remove(b);
   }
 }
@@ -168,7 +163,8 @@ void Tracker::State::birth() noexcept {
     if (clusters[k].track_id != 0) continue;
     const Observation seen = observe_new(clusters, k, ++last_id);
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
-    body.anchor_in_laser = inverse(map_from_laser) * seen.position_in_map;
+    body.outline_in_map = seen.outline_in_map;
+    anchor_here(body, map_from_laser, now);
     admit(bodies, body, map_from_laser.position());
   }
 }
@@ -217,8 +213,9 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   s.predict_to(scan.stamp);
   s.look(scan, map_from_robot, twist);
   s.associate_and_correct();
-  s.judge();
-  s.drop_unseen(scan);
+  const LineOfSight sight(scan, map_from_robot, s.config.robot_from_laser, twist);
+  s.judge(sight);
+  s.drop_unseen(sight);
   s.birth();
   s.enter_still();
   s.publish();

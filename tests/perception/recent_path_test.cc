@@ -22,12 +22,29 @@ TEST_CASE("of one hop in the middle a straight walk explains three quarters") {
   CHECK(path.fit().explained == Approx(0.7576).margin(1e-4));
 }
 
-TEST_CASE("only the last ten places count") {
+TEST_CASE("only the last one and a half seconds count") {
   RecentPath path;
   for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {5.0 * (k % 2), 0.0});
-  for (int k = 5; k < 15; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0});
+  for (int k = 5; k < 21; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0});
+  CHECK(path.fit().places == 16);  // from 0.5 s to 2.0 s
   CHECK(path.fit().explained == Approx(1.0));
-  CHECK(path.fit().length_m == Approx(0.9));
+  CHECK(path.fit().length_m == Approx(1.5));
+}
+
+TEST_CASE("places nearer in time than a fast laser tells apart are one") {
+  RecentPath path;
+  for (int k = 0; k < 80; ++k) path.add(time_from_seconds(0.025 * k), {0.01 * k, 0.0});  // 40 Hz, 0.4 m/s
+  // Three scans a place, 75 ms apart, and the last one (79 = 3 x 26 + 1) has two. Of those within 1.5 s of the newest,
+  // at 1.9625 s, the oldest is at 0.475 s: 20 steps later, 0.0125 s short of 1.5 s. 0.4 m/s for 1.4875 s is 0.595 m.
+  CHECK(path.fit().places == 21);
+  CHECK(path.fit().duration_s == Approx(1.4875));
+  CHECK(path.fit().length_m == Approx(0.595).margin(0.001));
+}
+
+TEST_CASE("a hop is what a walker could not have walked") {
+  RecentPath path;
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {0.05 * k + (k < 5 ? 0.0 : 0.4), 0.0});
+  CHECK(path.fit().longest_hop_m == Approx(0.3));  // 0.45 m in 0.1 s, of which a walker walks 0.15 m
 }
 
 TEST_CASE("standing exactly still is no walk") {

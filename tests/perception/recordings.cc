@@ -2,6 +2,7 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <iostream>
@@ -50,6 +51,16 @@ std::vector<double> numbers(const char*& text, int count) {
   return out;
 }
 
+/// One scan a turn, at most ten times a second: what a replay takes these lasers for (sim::RecordedLog).
+void spin(std::vector<LaserScan>& scans) {
+  const double seconds = to_seconds(scans.back().stamp - scans.front().stamp);
+  const double turn_s = std::min(0.1, seconds / static_cast<double>(scans.size() - 1));
+  for (LaserScan& scan : scans) {
+    const double fan = static_cast<double>(scan.angle_step_rad) * (scan.beam_count - 1);
+    scan.sweep = duration_from_seconds(turn_s * fan / (2.0 * kPi));
+  }
+}
+
 }  // namespace
 
 Recording read_scan_odom(const std::filesystem::path& scans, const std::optional<std::filesystem::path>& odometry) {
@@ -68,6 +79,7 @@ Recording read_scan_odom(const std::filesystem::path& scans, const std::optional
     read_ranges(text, static_cast<std::uint32_t>(head[5]), scan);
     out.scans.push_back(scan);
   }
+  spin(out.scans);
   if (!odometry) return out;
   for (const std::string& line : lines_of(*odometry)) {
     if (line[0] == '#') continue;
@@ -104,13 +116,16 @@ Recording read_carmen(const std::filesystem::path& file) {
 
 std::vector<Label> read_labels(const std::filesystem::path& file) {
   std::vector<Label> out;
-  for (const std::string& line : lines_of(file)) {
+  const std::vector<std::string> lines = lines_of(file);
+  const bool says_who_walks = !lines.empty() && lines.front().find("walks") != std::string::npos;
+  for (const std::string& line : lines) {
     std::istringstream row(line);
     Label label;
     char comma = ',';
-    if (row >> label.t_s >> comma >> label.id >> comma >> label.in_laser.x >> comma >> label.in_laser.y) {
-      out.push_back(label);
-    }
+    if (!(row >> label.t_s >> comma >> label.id >> comma >> label.in_laser.x >> comma >> label.in_laser.y)) continue;
+    double last = 0.0;
+    label.walks = !says_who_walks || (row >> comma >> last && last != 0.0);
+    out.push_back(label);
   }
   return out;
 }

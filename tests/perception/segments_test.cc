@@ -75,6 +75,8 @@ TEST_CASE("points within a wall's noise are the wall's") {
   CHECK(ground_at(map, {1.95, 0.05}, 1.0) == Ground::kWall);
   CHECK(ground_at(map, {1.92, 0.05}, 1.0) == Ground::kUnknown);
   CHECK(ground_at(map, {1.92, 0.05}, 5.0) == Ground::kWall);
+  map.add({18, 0}, -12);  // two beams passed: a slanting one frees what it only grazes
+  CHECK(ground_at(map, {1.85, 0.05}, 1.0) == Ground::kUnknown);
   map.add({18, 0}, -6);
   CHECK(ground_at(map, {1.85, 0.05}, 1.0) == Ground::kFree);
 }

@@ -102,6 +102,14 @@ TEST_CASE("walls that come into view behind a corner do not move") {
   CHECK(watch.most_moving == 0);
 }
 
+TEST_CASE("posts that are seen in turns are not one who walks") {
+  Watch watch;
+  watch.look_round();
+  const double at[] = {-0.75, -0.25, 0.25, 0.75};  // 0.5 m apart, each returns beams for 0.4 s: a walk of 1.25 m/s
+  for (int k = 0; k < 48; ++k) watch.see(with({{{2.0, at[k / 6 % 4]}, 0.05}}));
+  CHECK(watch.most_moving == 0);
+}
+
 TEST_CASE("whoever stops becomes still and enters the map, and moves again when setting out") {
   Watch watch;
   watch.look_round();

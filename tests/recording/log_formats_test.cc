@@ -56,6 +56,17 @@ TEST_CASE("odometry comes from its own file") {
   CHECK(log.odometry[1].pose.heading == Approx(7.0 - 2 * kPi));
 }
 
+TEST_CASE("a plain recording's laser spins once a scan, or ten times a second where scans are fewer") {
+  const Scratch scratch;
+  const std::string beams = " -0.1 0.1 0.03 11.0 3 1.0 1.0 1.0\n";
+  // 0.2 rad of a turn: 0.2 / 2 pi of 0.1 s, and of 0.05 s.
+  CHECK(to_seconds(load_scan_odom(scratch.write("scan.txt", kTwoScans)).sweep) == Approx(0.00318310));
+  const auto fast = scratch.write("fast.txt", "1.00" + beams + "1.05" + beams + "1.10" + beams);
+  CHECK(to_seconds(load_scan_odom(fast).sweep) == Approx(0.00159155));
+  CHECK(load_scan_odom(scratch.write("motion.txt", "1 0 0 0 3.14 30 3 1 1 1\n2 0 0 0 3.14 30 3 1 1 1\n")).sweep ==
+        Duration{0});
+}
+
 TEST_CASE("scans with motion increments carry their own odometry") {
   // Turn left a quarter, then twice half a metre ahead: (0, 1). The third line's time stands still:
   // its scan is left out, its half metre counts. Four beams over pi are 45 degrees apart from -90

@@ -20,6 +20,7 @@ class ReplayLaser final : public LaserScanner {
  public:
   ReplayLaser(const RecordedLog& log, Clock& clock) : log_(log), clock_(clock) {
     const double rate_hz = log.laser().rate_hz;
+    scan_.sweep = log.sweep;
     if (rate_hz > 0.0) scan_.period = duration_from_seconds(1.0 / rate_hz);
   }
   const LaserScan& latest() noexcept override {

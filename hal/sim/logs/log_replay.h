@@ -12,7 +12,7 @@ namespace jaywalk::sim {
 /// reading that is not younger than the clock; there is no outside localisation (sequence 0), and
 /// no wheels either (sequence 0) where the recording has no odometry.
 ///
-/// A scan appears at its stamp: recordings do not say how long a sweep took (`sweep` is 0).
+/// A scan appears at its stamp, though its sweep takes RecordedLog::sweep.
 /// The constructor allocates, nothing else does. Thread: the loop's.
 class LogReplay {
  public:

@@ -5,6 +5,8 @@
 namespace jaywalk::sim {
 namespace {
 
+constexpr double kSlowestTurnS = 0.1;
+
 Duration median_period(const std::vector<RecordedScan>& scans) {
   std::vector<Duration> periods;
   for (std::size_t i = 1; i < scans.size(); ++i) periods.push_back(scans[i].stamp - scans[i - 1].stamp);
@@ -48,6 +50,11 @@ LaserModel RecordedLog::laser() const {
   const Duration period = median_period(scans);
   laser.rate_hz = period > Duration{0} ? 1.0 / to_seconds(period) : 0.0;
   return laser;
+}
+
+Duration RecordedLog::spinning_sweep() const {
+  const double turn_s = std::min(to_seconds(median_period(scans)), kSlowestTurnS);
+  return duration_from_seconds(turn_s * laser().fov_rad / (2.0 * kPi));
 }
 
 BeamFan carmen_fan(std::size_t beams, double aperture_rad) {

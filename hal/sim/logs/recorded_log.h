@@ -37,6 +37,7 @@ struct RefusedLines {
 /// Stamps are seconds since the recording's own epoch; both lists rise strictly.
 struct RecordedLog {
   Pose2 robot_from_laser;
+  Duration sweep{0};  ///< of each scan, from the first beam to the last; 0: not known
   std::vector<RecordedScan> scans;
   std::vector<float> range_m;          ///< of all scans, one after the other
   std::vector<OdometryPose> odometry;  ///< empty where the recording has none
@@ -48,6 +49,9 @@ struct RecordedLog {
   [[nodiscard]] std::string complaint() const;
   /// The laser as the first scan shows it, at the median rate. Noise and drop-out are unknown: zero.
   [[nodiscard]] LaserModel laser() const;
+  /// How long a sweep takes when the laser spins once a scan, and no slower than ten times a second: logs are thinned
+  /// out, and spinning lasers slower than that are rare.
+  [[nodiscard]] Duration spinning_sweep() const;
 };
 
 /// Reads `scan_file`: a scan a line, told apart by the place of the number of beams n, which must
@@ -57,7 +61,8 @@ struct RecordedLog {
 ///                                                  since the line before, in its frame then
 /// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the
 /// second form the beams spread over the aperture as CARMEN's do (load_carmen), and the motion of
-/// a line that is left out still counts.
+/// a line that is left out still counts. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a
+/// robot that turns sees the whole room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
 ///
 /// Lines of a wrong length, and those whose time does not grow, are left out and counted. Throws
 /// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.

@@ -123,6 +123,7 @@ RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
                        "give the scans alone");
   }
   if (odom_file) read_odometry(log, *odom_file);
+  if (!own_odometry) log.sweep = log.spinning_sweep();
   return log;
 }
 

@@ -1,0 +1,106 @@
+#include "planner/perception/departure.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMostlySeen = 0.6;  // of the scans; what flickers is clutter
+constexpr double kMostlyFree = 0.7;  // of its places in free space
+constexpr double kGoneM = 0.25;      // from the anchor: half of a step, more than a person's swaying
+constexpr double kGoneSigmas = 3.0;
+constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
+constexpr double kSpeedSigmas = 2.5;
+constexpr double kFastMps = 1.8;  // faster than people walk: more often a hop between two like things
+constexpr std::size_t kPlacesWhenFast = 8;
+constexpr std::size_t kFewestPlaces = 5;
+constexpr double kHopM = 0.3;              // half of a stride: one leg is seen, then the other
+constexpr double kExplained = 0.8;         // by a straight walk: one hop reaches 0.75
+constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
+constexpr double kStrideM = 0.5;
+constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
+constexpr std::size_t kSteadyPlaces = 6;
+constexpr double kSteady = 0.98, kSteadyM = 0.12;
+constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
+constexpr int kMostLeft = 2, kMostThere = 1;        // of the three points of an anchor that are asked
+constexpr double kChordM = 0.25, kAlong = 0.7;      // legs are narrower; 45 degrees
+constexpr double kRidesWithinM = 1.2;
+constexpr double kRidesShare = 0.3;  // of its way in the map is all that it moved before the laser
+
+bool came_to_free_space(const Body& body) { return body.free_share > kMostlyFree; }
+
+/// What became of the place that a body set out from: of the points that it was seen by there, the half that lies
+/// behind on its way, how many still return a beam, and over how many beams pass. The other half it may cover itself.
+struct Anchor {
+  int there = 0, through = 0;
+};
+
+Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
+  Anchor anchor;
+  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
+  const Outline& outline = body.anchor_outline;  // in the order of the beams, so that it has two ends
+  if (outline.empty()) return anchor;
+  const bool first_lags = dot(outline.back() - outline[0], way) > 0.0;
+  for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
+    const Sight seen = sight.at(outline[first_lags ? k : outline.size() - 1 - k], tolerance);
+    anchor.there += seen == Sight::kThere ? 1 : 0;
+    anchor.through += seen == Sight::kThrough ? 1 : 0;
+  }
+  return anchor;
+}
+
+/// So straight that there is no doubt left: a slow robot is both slow and straight, a person fast and swaying.
+bool steady(const StraightWalk& walk) {
+  return walk.places >= kSteadyPlaces && walk.explained > kSteady && walk.length_m > kSteadyM;
+}
+
+/// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
+bool slides_along_itself(const Body& body) {
+  const Vec2 chord = body.outline_in_map.back() - body.outline_in_map[0];
+  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
+  return norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
+}
+
+/// A walk without hops, of a thing whose place is not still taken: straight, or longer and swaying, as one leg or the
+/// other is seen, when the world agrees twice.
+bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight, double range) {
+  if (walk.longest_hop_m > kHopM) return false;
+  const Anchor anchor = look_back(body, sight, kSameM + kSamePerM * range);
+  if (anchor.there > kMostThere) return false;
+  const bool came = came_to_free_space(body), left = anchor.through >= kMostLeft && anchor.there == 0;
+  if (!left && slides_along_itself(body)) return false;
+  if ((came || left) && steady(walk)) return true;
+  if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
+  return walk.explained > kExplained && walk.length_m > std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
+}
+
+double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
+
+bool far_from_anchor(const Body& body, const StraightWalk& walk) {
+  return gone(body) > std::max(steady(walk) ? kSteadyM : kGoneM, kGoneSigmas * std::sqrt(body.track.covariance.pp));
+}
+
+/// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
+bool rides_along(const Body& body, Vec2 in_laser) {
+  return norm(in_laser) < kRidesWithinM && distance(in_laser, body.anchor_in_laser) < kRidesShare * gone(body);
+}
+
+/// Fast against what the filter is unsure of, or steady.
+bool beyond_doubt(const Body& body, const StraightWalk& walk) {
+  const double speed = norm(body.track.velocity_in_map);
+  if (speed < kMovingMps || (speed > kFastMps && walk.places < kPlacesWhenFast)) return false;
+  return steady(walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
+}
+
+}  // namespace
+
+bool sets_out(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
+  if (body.seen_share <= kMostlySeen) return false;
+  const StraightWalk walk = body.path.fit();
+  const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
+  return walk.places >= kFewestPlaces && far_from_anchor(body, walk) && beyond_doubt(body, walk) &&
+         walks(body, walk, sight, norm(in_laser)) && !rides_along(body, in_laser);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,52 @@
+#include "planner/perception/line_of_sight.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/perception/scan_points.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMostBeamsAside = 3.0;
+
+}  // namespace
+
+LineOfSight::LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser,
+                         const Twist2& twist)
+    : scan_(scan),
+      map_from_robot_(map_from_robot),
+      robot_from_laser_(robot_from_laser),
+      twist_(twist),
+      beam_s_(beam_interval_s(scan, twist)),
+      laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
+
+LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noexcept {
+  const Vec2 in_laser = after_s == 0.0
+                            ? laser_from_map_ * place
+                            : inverse(map_from_robot_ * moved_by(twist_, after_s) * robot_from_laser_) * place;
+  const double step = static_cast<double>(scan_.angle_step_rad), turn = 2.0 * kPi / std::fabs(step);
+  const double beam = (atan2(in_laser.y, in_laser.x) - static_cast<double>(scan_.first_angle_rad)) / step;
+  return {norm(in_laser), beam - turn * std::floor((beam + 0.5) / turn)};  // beam in [-1/2, turn - 1/2)
+}
+
+Sight LineOfSight::at(Vec2 place, double tolerance) const noexcept {
+  if (scan_.angle_step_rad == 0.0F) return Sight::kUnseen;
+  Bearing seen = bearing(place, 0.0);
+  if (beam_s_ > 0.0 && seen.beam < scan_.beam_count) seen = bearing(place, seen.beam * beam_s_);
+  const auto [away, beam] = seen;
+  if (!(away > tolerance) || !(beam < scan_.beam_count)) return Sight::kUnseen;
+  const double aside =
+      std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
+  const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(beam - aside + 0.5)));
+  const auto last = std::min<std::size_t>(scan_.beam_count - 1, static_cast<std::size_t>(beam + aside + 0.5));
+  bool through = first <= last;
+  for (std::size_t b = first; b <= last; ++b) {
+    const double range = static_cast<double>(scan_.range_m[b]);
+    if (scan_.is_hit(b) && std::fabs(range - away) < tolerance) return Sight::kThere;
+    through = through && scan_.is_hit(b) && range > away;
+  }
+  return through ? Sight::kThrough : Sight::kUnseen;
+}
+
+}  // namespace jaywalk
