@@ -63,7 +63,8 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
 
-  if (new_scan && t.input.has_goal) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
+  t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();
+  if (t.plan_asked) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
   recorder_.commit();
   return t;
 }

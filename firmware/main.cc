@@ -92,7 +92,8 @@ void add_field(CLI::App& app) {
   field->add_option("--backend", field_options.backend, "Who solves: auto, cpu or cuda")
       ->transform(CLI::CheckedTransformer(
           std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
-  field->add_flag("--start-field", field_options.start_only, "The start field alone: shortest ways, no potential solved");
+  field->add_flag("--start-field", field_options.start_only,
+                  "The start field alone: shortest ways, no potential solved");
   field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
 }
 

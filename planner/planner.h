@@ -97,6 +97,8 @@ class Planner {
  public:
   virtual ~Planner() = default;
   virtual void submit(const PlanRequest& request) noexcept = 0;
+  /// True while an earlier request is being answered and no other is taken.
+  [[nodiscard]] virtual bool is_busy() const noexcept { return false; }
   [[nodiscard]] virtual const Plan& collect() noexcept = 0;
   /// The field behind the plan that collect() last returned. For pictures: never in the loop.
   [[nodiscard]] virtual FieldView view_field() const = 0;

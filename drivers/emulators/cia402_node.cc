@@ -1,6 +1,7 @@
 #include "drivers/emulators/cia402_node.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
@@ -49,8 +50,10 @@ void Cia402Node::take(const CanFrame& frame, Time now) noexcept {
 void Cia402Node::on_sync() noexcept {
   obey(pending_controlword_);
   objects_.set({0x60FF, 0}, static_cast<std::uint32_t>(pending_target_));
-  const auto speed = static_cast<std::uint32_t>(static_cast<std::int32_t>(velocity_));
-  const auto turned = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(position_)));
+  const double felt = has_encoder_ ? encoder_velocity_ : velocity_;
+  const double stands_at = has_encoder_ ? encoder_position_ : position_;
+  const auto speed = static_cast<std::uint32_t>(static_cast<std::int32_t>(felt));
+  const auto turned = static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(stands_at)));
   const std::uint32_t first = objects_.value({0x1800, 1});
   const std::uint32_t second = objects_.value({0x1801, 1});
   if ((first & kPdoOff) == 0) send(first, statusword() | static_cast<std::uint64_t>(speed) << 16U, 6);
@@ -129,6 +132,18 @@ void Cia402Node::lose_controller() noexcept {
     default:
       break;  // it drives on, as drives do that nobody told otherwise
   }
+}
+
+void Cia402Node::measure(double velocity, double position) noexcept {
+  has_encoder_ = true;
+  encoder_velocity_ = velocity;
+  encoder_position_ = position;
+}
+
+std::string_view Cia402Node::state_name() const noexcept {
+  constexpr std::array<std::string_view, 7> kNames{"off",        "ready",          "switched_on", "enabled",
+                                                   "quick_stop", "fault_reaction", "fault"};
+  return kNames[static_cast<std::size_t>(state_)];
 }
 
 void Cia402Node::raise_fault(std::uint16_t error_code) noexcept {

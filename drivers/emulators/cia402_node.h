@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 
 #include "drivers/can/can_bus.h"
 #include "drivers/emulators/drive_objects.h"
@@ -23,6 +24,11 @@ class Cia402Node {
   [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< counts/s
   [[nodiscard]] double position() const noexcept { return position_; }  ///< counts
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == State::kOperationEnabled; }
+  [[nodiscard]] std::string_view state_name() const noexcept;
+  /// When the controller's heartbeat came in last; kNever before the first and once it is missed.
+  [[nodiscard]] Time heard_controller() const noexcept { return heard_controller_; }
+  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): counts/s and counts.
+  void measure(double velocity, double position) noexcept;
 
   /// Something broke: it brakes, says so in an emergency message and waits in "fault".
   void raise_fault(std::uint16_t error_code) noexcept;
@@ -55,6 +61,8 @@ class Cia402Node {
   std::uint16_t last_controlword_ = 0;
   double velocity_ = 0.0;
   double position_ = 0.0;
+  bool has_encoder_ = false;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
   Time stepped_ = kNever;
   Time said_heartbeat_ = kNever;
   Time heard_controller_ = kNever;

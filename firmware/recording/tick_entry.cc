@@ -123,7 +123,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.pose.stamp);
   transfer_pose(ar, r.pose.map_from_robot);
   ar(r.pose.position_std_m), ar(r.pose.heading_std_rad);
-  ar(r.plan_sequence), ar(r.plan_stamp), ar(r.plan_status);
+  ar(r.plan_asked), ar(r.plan_sequence), ar(r.plan_stamp), ar(r.plan_status);
   transfer_twist(ar, r.wanted);
   transfer_twist(ar, r.verdict.permitted);
   ar(r.verdict.reasons), ar(r.verdict.gap_m);

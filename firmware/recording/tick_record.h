@@ -22,6 +22,7 @@ struct TickRecord {
   OutsideFix fix;
   // Made of it.
   PoseEstimate pose;
+  bool plan_asked = false;          ///< this tick submitted a request
   std::uint32_t plan_sequence = 0;  ///< which submission collect() answered with
   Time plan_stamp = kNever;
   PlanStatus plan_status = PlanStatus::kNone;

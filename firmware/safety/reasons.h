@@ -27,6 +27,10 @@ constexpr Reason operator|(Reason a, Reason b) {
   return static_cast<Reason>(static_cast<std::uint32_t>(a) | static_cast<std::uint32_t>(b));
 }
 constexpr Reason& operator|=(Reason& a, Reason b) { return a = a | b; }
+/// `set` less what is in `others`.
+constexpr Reason without(Reason set, Reason others) {
+  return static_cast<Reason>(static_cast<std::uint32_t>(set) & ~static_cast<std::uint32_t>(others));
+}
 constexpr bool has(Reason set, Reason bit) {
   return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit)) != 0;
 }

@@ -18,9 +18,9 @@ double StopZone::rim_speed_mps(const Twist2& twist) const noexcept {
   return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
 }
 
-double StopZone::speed_to_stop_within(double gap_m) const noexcept {
+double StopZone::speed_to_stop_within(double gap_m, Duration sweep) const noexcept {
   if (!(gap_m > 0.0)) return 0.0;
-  const double bt = config_.brake_mps2 * config_.reaction_s;
+  const double bt = config_.brake_mps2 * (config_.reaction_s + to_seconds(sweep));
   return std::sqrt(bt * bt + 2.0 * config_.brake_mps2 * gap_m) - bt;
 }
 

@@ -26,8 +26,9 @@ class StopZone {
   [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
   /// Speed of the fastest-moving part of the footprint, m/s.
   [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept;
-  /// The fastest rim speed from which the robot still stops within `gap_m`: v t + v^2 / (2 b) = gap.
-  [[nodiscard]] double speed_to_stop_within(double gap_m) const noexcept;
+  /// The fastest rim speed from which the robot still stops within `gap_m`: v t + v^2 / (2 b) = gap. t is the
+  /// reaction time and what a scan's first beam is older than its last.
+  [[nodiscard]] double speed_to_stop_within(double gap_m, Duration sweep = Duration{0}) const noexcept;
 
  private:
   /// What the robot does while its rim goes one step.

@@ -53,7 +53,10 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
   Reason reasons = Reason::kNone;
   const Duration max_scan_age = duration_from_seconds(1.5 / config_.model.laser.rate_hz);
-  stale_scans_ = age(input.scan.stamp, input.now) > max_scan_age ? stale_scans_ + 1 : 0;
+  // A scan is as old as its last beam; the stop zone reckons with the first.
+  const Duration scan_age = age(input.scan.stamp, input.now);
+  const bool too_old = scan_age == Duration::max() || scan_age - input.scan.sweep > max_scan_age;
+  stale_scans_ = too_old ? stale_scans_ + 1 : 0;
   if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
   if (input.scan.sequence > 0 && !trustworthy(input.scan, config_.model.laser.beams)) reasons |= Reason::kScanInvalid;
   if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
@@ -99,7 +102,8 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   at_most(plan_share(input.plan_stamp, input.now), Reason::kPlanStale);
   verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
-  if (rim_speed > 0.0) at_most(stop_zone_.speed_to_stop_within(verdict.gap_m) / rim_speed, Reason::kStopZone);
+  if (rim_speed > 0.0)
+    at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, input.scan.sweep) / rim_speed, Reason::kStopZone);
   return twist;
 }
 

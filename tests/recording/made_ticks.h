@@ -42,6 +42,7 @@ inline void fill(TickRecord& r, std::uint32_t n) {
     static_cast<void>(r.fix.movers.push_back({i + n / 5, {1.5 * i, 2.5 * i}, 0.125}));
   }
   r.pose = {Time{Duration{14}}, {x * 8, x * 9, -x}, x * 10, x * 11};
+  r.plan_asked = n % 3 == 0;
   r.plan_sequence = n + 2;
   r.plan_stamp = Time{Duration{15 + n}};
   r.plan_status = PlanStatus::kNoPath;
@@ -86,10 +87,11 @@ inline void fill(TickRecord& r, std::uint32_t n) {
 [[nodiscard]] inline bool same_bits(const TickRecord& a, const TickRecord& b) {
   return same_inputs(a, b) && a.pose.stamp == b.pose.stamp && a.pose.map_from_robot == b.pose.map_from_robot &&
          a.pose.position_std_m == b.pose.position_std_m && a.pose.heading_std_rad == b.pose.heading_std_rad &&
-         a.plan_sequence == b.plan_sequence && a.plan_stamp == b.plan_stamp && a.plan_status == b.plan_status &&
-         a.wanted == b.wanted && a.verdict.permitted == b.verdict.permitted && a.verdict.reasons == b.verdict.reasons &&
-         a.verdict.gap_m == b.verdict.gap_m && a.command.stamp == b.command.stamp &&
-         a.command.left_radps == b.command.left_radps && a.command.right_radps == b.command.right_radps;
+         a.plan_asked == b.plan_asked && a.plan_sequence == b.plan_sequence && a.plan_stamp == b.plan_stamp &&
+         a.plan_status == b.plan_status && a.wanted == b.wanted && a.verdict.permitted == b.verdict.permitted &&
+         a.verdict.reasons == b.verdict.reasons && a.verdict.gap_m == b.verdict.gap_m &&
+         a.command.stamp == b.command.stamp && a.command.left_radps == b.command.left_radps &&
+         a.command.right_radps == b.command.right_radps;
 }
 
 }  // namespace jaywalk

@@ -211,3 +211,15 @@ TEST_CASE("on wires what has not been there yet stops and does not latch") {
   CHECK(has(bench.ticks(5, {}).reasons, Reason::kScanStale));
   CHECK_FALSE(bench.supervisor.latched());
 }
+
+TEST_CASE("a scan is as old as its last beam, and the stop zone reckons with its first") {
+  Bench bench;
+  bench.scan.range_m.fill(INFINITY);
+  bench.scan.range_m[405] = 0.5F;
+  const double at_once = bench.ticks(60, {0.6, 0.0}).permitted.v_mps;
+  bench.scan.sweep = std::chrono::milliseconds(50);
+  CHECK(bench.ticks(60, {0.6, 0.0}).permitted.v_mps < at_once - 0.01);
+  bench.scan_fresh = false;
+  CHECK_FALSE(has(bench.ticks(7, {0.1, 0.0}).reasons, Reason::kScanStale));  // 140 ms after its first beam
+  CHECK(has(bench.ticks(3, {0.1, 0.0}).reasons, Reason::kScanStale));
+}

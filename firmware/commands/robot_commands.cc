@@ -1,0 +1,75 @@
+#include "firmware/commands/robot_commands.h"
+
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+#include "firmware/commands/run_command.h"
+#include "firmware/robot/control_socket.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+RunOptions run_options;
+std::filesystem::path socket_path;
+std::vector<double> goal;
+bool now = false;
+
+void add_socket(CLI::App* command) {
+  command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
+}
+
+/// Prints what the run answers; 1 where it refuses.
+int say(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  const bool refused = answer.starts_with("refused");
+  std::fputs(answer.c_str(), refused ? stderr : stdout);
+  return refused ? 1 : 0;
+}
+
+int say_goal() {
+  if (goal.size() > 2) {
+    throw StartupError("goto: no heading at the goal can be asked for yet", "leave it out: goto X,Y");
+  }
+  if (!std::isfinite(goal[0]) || !std::isfinite(goal[1])) throw StartupError("goto: no place", "give metres");
+  char line[80];
+  std::snprintf(line, sizeof line, "goto %.17g %.17g", goal[0], goal[1]);
+  return say(line);
+}
+
+void add_run(CLI::App& app, int& exit_code) {
+  CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
+  run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  run->add_option("--backend", run_options.backend, "Who plans: auto, cpu or cuda")
+      ->transform(CLI::CheckedTransformer(
+          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
+  run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->callback([&exit_code] { exit_code = run_robot(run_options); });
+}
+
+}  // namespace
+
+void add_robot_commands(CLI::App& app, int& exit_code) {
+  add_run(app, exit_code);
+  CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
+  go->add_option("goal", goal, "X,Y in the map (m)")->delimiter(',')->expected(2, 3)->required();
+  add_socket(go);
+  go->callback([&exit_code] { exit_code = say_goal(); });
+  CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
+  stop->add_flag("--now", now, "As an emergency: brake hard, and latch until a reset");
+  add_socket(stop);
+  stop->callback([&exit_code] { exit_code = say(now ? "stop now" : "stop"); });
+  CLI::App* reset = app.add_subcommand("reset", "After a fault that stopped a run: let it move again");
+  add_socket(reset);
+  reset->callback([&exit_code] { exit_code = say("reset"); });
+  CLI::App* status = app.add_subcommand("status", "Ask a run how it goes");
+  add_socket(status);
+  status->callback([&exit_code] { exit_code = say("status"); });
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,10 @@
+#pragma once
+#include <CLI/CLI.hpp>
+
+namespace jaywalk {
+
+/// Adds run, check, goto, stop, reset and status to the command line. The chosen one runs within parse() and leaves
+/// its exit code in `exit_code`; both outlive the parsing.
+void add_robot_commands(CLI::App& app, int& exit_code);
+
+}  // namespace jaywalk

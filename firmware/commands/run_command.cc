@@ -1,0 +1,149 @@
+#include "firmware/commands/run_command.h"
+
+#include <signal.h>
+#include <time.h>
+
+#include <cstdio>
+#include <fstream>
+
+#include "firmware/commands/run_picture.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/device_report.h"
+#include "firmware/robot/planner_thread.h"
+#include "firmware/robot/robot_loop.h"
+#include "firmware/robot/steady_clock.h"
+
+namespace jaywalk {
+namespace {
+
+/// SAFETY: a stall of the loop that is longer than this stops the drives, whatever else happens.
+constexpr Duration kLongestStall = std::chrono::milliseconds(100);
+constexpr long kReportPeriod_ns = 20'000'000;
+
+/// A robot without a localisation system outside it.
+class NoPoseSource final : public PoseSource {
+ public:
+  [[nodiscard]] const OutsideFix& latest() noexcept override { return none_; }
+
+ private:
+  OutsideFix none_;
+};
+
+/// SIGINT and SIGTERM wait from now on, here and in threads to come, until they are asked for.
+class EndSignals {
+ public:
+  EndSignals() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+  /// Waits for one, kReportPeriod_ns at most.
+  [[nodiscard]] bool came() const {
+    const timespec limit{.tv_sec = 0, .tv_nsec = kReportPeriod_ns};
+    return ::sigtimedwait(&signals_, nullptr, &limit) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+void remark(const std::string& text) { std::fprintf(stderr, "jaywalk: %s\n", text.c_str()); }
+
+/// What the loop's thread left for the report, and a line for a person where something happened.
+class LoopReport {
+ public:
+  LoopReport(LoopRunner& runner, RobotLoop& loop) : runner_(runner), loop_(loop) {}
+
+  void follow() {
+    runner_.drain();
+    for (const TickTrace* t = loop_.traces().front(); t != nullptr; t = loop_.traces().front()) {
+      runner_.report({.record = t->record,
+                      .tracks = {t->tracks.begin(), t->tracks.size()},
+                      .truth = nullptr,
+                      .tick_took = t->took,
+                      .plan_ms = t->plan_ms});
+      tell(t->status);
+      last_ = t->status;
+      loop_.traces().pop();
+    }
+  }
+  [[nodiscard]] const RunStatus& last() const { return last_; }
+
+ private:
+  void tell(const RunStatus& now) const {
+    if (now.latched && !last_.latched) {
+      const std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
+    }
+    if (!now.latched && last_.latched) remark("reset; say anew where to go");
+    if (now.goal_reached && !last_.goal_reached) remark("goal reached");
+  }
+
+  LoopRunner& runner_;
+  RobotLoop& loop_;
+  RunStatus last_;
+};
+
+std::string outcome(const RunStatus& last) {
+  if (last.latched) return "fault";
+  return last.goal_reached ? "reached" : "stopped";
+}
+
+std::filesystem::path socket_for(const RunOptions& options, const RobotFile& file) {
+  if (!options.control_socket.empty()) return options.control_socket;
+  return file.control_socket.empty() ? default_control_socket() : file.control_socket;
+}
+
+}  // namespace
+
+int run_robot(const RunOptions& options) {
+  RobotFile file = load_robot_file(options.robot);
+  file.setup.backend = options.backend;
+  SteadyClock clock;
+  RobotDevices devices(file, clock);
+  OperatorDesk desk(clock, file.setup.goal_tolerance_m);
+  const ControlSocket socket(socket_for(options, file), [&](std::string_view line) { return desk.obey(line); });
+  NoPoseSource no_fixes;
+  LoopRunner runner(file.setup, {devices.laser(), devices.drive(), desk, no_fixes, clock}, options.out, true,
+                    [&](std::unique_ptr<Planner> planner) {
+                      const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m,
+                                                       {});
+                      return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
+                    });
+  devices.await_first_scan();
+  const std::vector<std::string> proof = devices.drive().arm();
+  write_arming(options.out, proof);
+
+  const EndSignals signals;
+  std::vector<std::string> not_permitted;
+  if (file.realtime.lock_memory) not_permitted = lock_memory();
+  StallGuard guard(devices.brake(), clock, kLongestStall, file.realtime.priority > 0 ? file.realtime.priority + 1 : 0);
+  RobotLoop loop(runner, devices, desk, clock, guard);
+  loop.start(file.realtime);
+  for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
+  for (const std::string& line : not_permitted) remark(line);
+  remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y");
+
+  LoopReport report(runner, loop);
+  while (!loop.has_ended()) {
+    report.follow();
+    if (!signals.came()) continue;
+    desk.close();
+    loop.end();
+  }
+  report.follow();
+  const RunStatus& last = report.last();
+  runner.finish({.outcome = outcome(last),
+                 .success = outcome(last) == "reached",
+                 .missed_ticks = last.missed_ticks,
+                 .scenario = options.robot.filename().string()});
+  write_devices(options.out, last, not_permitted);
+  RunPicture picture;
+  picture.consider(runner);
+  picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
+  remark("disarmed; " + outcome(last) + "; see " + (options.out / "run.png").string());
+  return last.latched ? 1 : 0;
+}
+
+}  // namespace jaywalk

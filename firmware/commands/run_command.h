@@ -1,0 +1,20 @@
+#pragma once
+#include <filesystem>
+
+#include "firmware/control_setup.h"
+
+namespace jaywalk {
+
+struct RunOptions {
+  std::filesystem::path robot;  ///< ROBOT.toml
+  Backend backend = Backend::kAuto;
+  std::filesystem::path out = "out/run";
+  std::filesystem::path control_socket;  ///< empty: the file's, else the default
+};
+
+/// The controller on the robot, until SIGINT or SIGTERM: then it ramps to rest, disarms and writes its summary.
+/// Returns the process's exit code: 0 when it ended without a fault that waits for a reset, else 1.
+/// Throws StartupError for what keeps it from starting, an arming proof that failed among it.
+[[nodiscard]] int run_robot(const RunOptions& options);
+
+}  // namespace jaywalk

@@ -1,0 +1,49 @@
+#include "firmware/robot/device_report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+
+void write_arming(const std::filesystem::path& folder, const std::vector<std::string>& proof) {
+  std::ofstream file(folder / "arming.txt");
+  for (const std::string& line : proof) file << line << '\n';
+  file.flush();
+  if (!file) throw StartupError((folder / "arming.txt").string() + ": cannot be written", "free some space");
+}
+
+std::string in_short(const std::vector<std::string>& proof) {
+  const auto open = std::count_if(proof.begin(), proof.end(),
+                                  [](const std::string& line) { return line.find("NOT PROVED") != std::string::npos; });
+  const std::string proved = std::to_string(static_cast<std::ptrdiff_t>(proof.size()) - open) + " settings proved";
+  return open == 0 ? proved : proved + ", " + std::to_string(open) + " NOT PROVED";
+}
+
+void write_devices(const std::filesystem::path& folder, const RunStatus& last,
+                   const std::vector<std::string>& not_permitted) {
+  nlohmann::ordered_json json;
+  json["bus"] = {{"state", name(last.bus.state)},
+                 {"frames_lost", last.bus.frames_lost},
+                 {"malformed", last.bus.malformed},
+                 {"error_frames", last.bus.error_frames},
+                 {"bus_offs", last.bus.bus_off_count}};
+  json["laser"] = {{"trouble", name(last.laser.trouble)},
+                   {"scans", last.laser.scans},
+                   {"lost", last.laser.protocol.lost},
+                   {"malformed", last.laser.malformed},
+                   {"late", last.laser.late},
+                   {"skipped_bytes", last.laser.protocol.skipped_bytes},
+                   {"connections", last.laser.connections}};
+  json["drive"] = name(last.drive);
+  json["latched_by"] = to_string(last.latched_by);
+  json["ticks"] = last.ticks;
+  json["missed_ticks"] = last.missed_ticks;
+  json["stalls"] = last.stalls;
+  json["not_permitted"] = not_permitted;
+  std::ofstream(folder / "devices.json") << json.dump(2) << '\n';
+}
+
+}  // namespace jaywalk

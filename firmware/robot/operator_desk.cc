@@ -1,0 +1,87 @@
+#include "firmware/robot/operator_desk.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kFarthest_m = 1e5;  ///< a goal beyond is a slip of the finger
+constexpr double kRest_mps = 0.01;
+
+/// Exactly two finite numbers.
+bool read_goal(std::string_view words, Vec2& goal) {
+  const std::string text(words);
+  char rest = 0;
+  if (std::sscanf(text.c_str(), "%lf %lf %c", &goal.x, &goal.y, &rest) != 2) return false;
+  return std::fabs(goal.x) <= kFarthest_m && std::fabs(goal.y) <= kFarthest_m;  // false for NaN
+}
+
+}  // namespace
+
+std::string OperatorDesk::obey(std::string_view line) {
+  const std::lock_guard lock(asking_);
+  const RunStatus status = statuses_.latest();
+  if (line == "status") return describe(status);
+  if (line.starts_with("goto ")) return take_goal(line.substr(5), status);
+  if (line == "reset") return take_reset(status);
+  if (line != "stop" && line != "stop now") return "refused: not understood; say goto X Y, stop, reset or status\n";
+  ++wish_.number;
+  wish_.has_goal = false;
+  if (line == "stop now") ++wish_.emergencies;
+  wishes_.publish(wish_);
+  return "stopping\n";
+}
+
+std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& status) {
+  Vec2 goal;
+  if (!read_goal(words, goal)) return "refused: not a goal; give X and Y in metres\n";
+  if (closed_) return "refused: the run is ending\n";
+  if (!status.running) return "refused: the robot is not ready yet; try again\n";
+  if (status.latched) {
+    return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
+  }
+  ++wish_.number;
+  wish_.has_goal = true;
+  wish_.goal_in_map = goal;
+  wishes_.publish(wish_);
+  return "going\n";
+}
+
+std::string OperatorDesk::take_reset(const RunStatus& status) {
+  if (!status.latched) return "nothing to reset\n";
+  if (status.speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  ++wish_.resets;
+  wishes_.publish(wish_);
+  return "reset\n";
+}
+
+void OperatorDesk::close() {
+  const std::lock_guard lock(asking_);
+  closed_ = true;
+  ++wish_.number;
+  wish_.has_goal = false;
+  wishes_.publish(wish_);
+}
+
+OperatorInput OperatorDesk::latest() noexcept {
+  const Wish& wish = wishes_.latest();
+  if (wish.number != seen_.number) {
+    input_.has_goal = wish.has_goal;
+    input_.goal_in_map = wish.goal_in_map;
+  }
+  input_.stamp = clock_.now();
+  input_.goal_tolerance_m = goal_tolerance_m_;
+  input_.reset = wish.resets != seen_.resets;  // for one tick each
+  input_.emergency_stop = wish.emergencies != seen_.emergencies;
+  seen_ = wish;
+  return input_;
+}
+
+void OperatorDesk::tell(const RunStatus& status) noexcept {
+  if (status.latched || status.goal_reached) input_.has_goal = false;
+  statuses_.publish(status);
+}
+
+}  // namespace jaywalk

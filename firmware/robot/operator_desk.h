@@ -1,0 +1,56 @@
+#pragma once
+#include <mutex>
+#include <string>
+#include <string_view>
+
+#include "firmware/robot/run_status.h"
+#include "hal/hal.h"
+#include "hal/mailbox.h"
+
+namespace jaywalk {
+
+/// Where what people ask for through the control socket becomes the loop's operator panel, and the loop's status
+/// their answer.
+///
+/// A fault that is latched drops the goal: after a reset somebody has to say anew where to go. A goal that was reached
+/// is dropped too.
+class OperatorDesk final : public OperatorPanel {
+ public:
+  OperatorDesk(Clock& clock, double goal_tolerance_m) : clock_(clock), goal_tolerance_m_(goal_tolerance_m) {}
+
+  /// The socket's thread, or any, one at a time: obeys one line (control_socket.h) and returns the answer.
+  [[nodiscard]] std::string obey(std::string_view line);
+  /// Any thread: no goal from now on, and none is taken any more.
+  void close();
+
+  /// Loop's thread.
+  [[nodiscard]] OperatorInput latest() noexcept override;
+  /// Loop's thread: the rising edge of reset was in the input that latest() gave last.
+  [[nodiscard]] bool was_reset() const noexcept { return input_.reset; }
+  /// Loop's thread, after a tick.
+  void tell(const RunStatus& status) noexcept;
+
+ private:
+  struct Wish {
+    std::uint32_t number = 0;  ///< of goals and stops
+    bool has_goal = false;
+    Vec2 goal_in_map;
+    std::uint32_t resets = 0;
+    std::uint32_t emergencies = 0;
+  };
+
+  [[nodiscard]] std::string take_goal(std::string_view words, const RunStatus& status);
+  [[nodiscard]] std::string take_reset(const RunStatus& status);
+
+  Clock& clock_;
+  double goal_tolerance_m_;
+  std::mutex asking_;  ///< never the loop's
+  bool closed_ = false;
+  Wish wish_;  ///< the askers'
+  Mailbox<Wish> wishes_;
+  Mailbox<RunStatus> statuses_;
+  Wish seen_;  ///< the loop's
+  OperatorInput input_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,57 @@
+#include "firmware/robot/planner_thread.h"
+
+#include <pthread.h>
+#include <signal.h>
+
+#include <cassert>
+
+namespace jaywalk {
+
+PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map)
+    : planner_(std::move(planner)), still_(map) {
+  sigset_t all, before;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
+  thread_ = std::thread([this] { run(); });
+  ::pthread_setname_np(thread_.native_handle(), "plan");
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+}
+
+PlannerThread::~PlannerThread() {
+  ending_ = true;
+  asked_.fetch_add(1);
+  asked_.notify_one();
+  thread_.join();
+}
+
+void PlannerThread::submit(const PlanRequest& request) noexcept {
+  request_ = request;
+  assert(request.still->side() == still_.side());
+  still_ = *request.still;  // of the same size: no memory is taken
+  moving_.clear();
+  for (const Track& track : request.moving) {
+    if (!moving_.push_back(track)) break;
+  }
+  request_.still = &still_;
+  request_.moving = {moving_.begin(), moving_.size()};
+  busy_.store(true, std::memory_order_release);
+  asked_.fetch_add(1, std::memory_order_release);
+  asked_.notify_one();
+}
+
+void PlannerThread::run() noexcept {
+  for (std::uint32_t answered = 0;; ++answered) {
+    asked_.wait(answered, std::memory_order_acquire);
+    if (ending_) return;
+    planner_->submit(request_);
+    plans_.publish(planner_->collect());
+    busy_.store(false, std::memory_order_release);
+  }
+}
+
+FieldView PlannerThread::view_field() const {
+  while (is_busy()) std::this_thread::yield();
+  return planner_->view_field();
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,41 @@
+#pragma once
+#include <atomic>
+#include <memory>
+#include <thread>
+#include <vector>
+
+#include "hal/mailbox.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// Any planner in a thread of its own, so that a plan that takes long holds up no tick. One request at a time: while
+/// it is being answered is_busy() says so, and the loop asks again with its next scan.
+class PlannerThread final : public Planner {
+ public:
+  /// Takes the memory for a copy of the map as large as the loop's.
+  PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map);
+  ~PlannerThread() override;
+
+  /// Copies the request (some 4 MB of map) and returns. Not to be called while busy.
+  void submit(const PlanRequest& request) noexcept override;
+  [[nodiscard]] bool is_busy() const noexcept override { return busy_.load(std::memory_order_acquire); }
+  [[nodiscard]] const Plan& collect() noexcept override { return plans_.latest(); }
+  /// Waits while busy.
+  [[nodiscard]] FieldView view_field() const override;
+  [[nodiscard]] const char* backend() const noexcept override { return planner_->backend(); }
+
+ private:
+  void run() noexcept;
+
+  std::unique_ptr<Planner> planner_;
+  PlanRequest request_;
+  EvidenceMap still_;
+  FixedVector<Track, kMaxTracks> moving_;
+  Mailbox<Plan> plans_;
+  std::atomic<bool> busy_{false}, ending_{false};
+  std::atomic<std::uint32_t> asked_{0};
+  std::thread thread_;
+};
+
+}  // namespace jaywalk

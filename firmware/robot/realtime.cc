@@ -1,0 +1,58 @@
+#include "firmware/robot/realtime.h"
+
+#include <malloc.h>
+#include <pthread.h>
+#include <sched.h>
+#include <sys/mman.h>
+
+#include <array>
+#include <cerrno>
+#include <cstring>
+
+namespace jaywalk {
+namespace {
+
+/// What a tick may need of the stack, and twice that.
+constexpr std::size_t kStackBytes = 256 * 1024;
+
+__attribute__((noinline)) void touch_stack() {
+  std::array<unsigned char, kStackBytes> room;
+  volatile unsigned char* const bytes = room.data();
+  for (std::size_t at = 0; at < kStackBytes; at += 4096) bytes[at] = 0;
+}
+
+std::string refusal(const std::string& what, int error, const std::string& remedy) {
+  return what + ": " + std::strerror(error) + "; " + remedy;
+}
+
+}  // namespace
+
+std::vector<std::string> lock_memory() {
+  ::mallopt(M_TRIM_THRESHOLD, -1);  // what was had once stays
+  ::mallopt(M_MMAP_MAX, 0);
+  if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
+  return {refusal("memory is not locked", errno, "run as root, or raise memlock: ulimit -l unlimited")};
+}
+
+std::vector<std::string> enter_realtime(const RealtimeWishes& wishes) {
+  std::vector<std::string> refused;
+  if (wishes.cpu) {
+    cpu_set_t one;
+    CPU_ZERO(&one);
+    CPU_SET(static_cast<std::size_t>(*wishes.cpu), &one);
+    const int error = ::pthread_setaffinity_np(::pthread_self(), sizeof one, &one);
+    if (error != 0) refused.push_back(refusal("no processor of its own", error, "choose one that exists"));
+  }
+  if (wishes.priority > 0) {
+    sched_param wanted{};
+    wanted.sched_priority = wishes.priority;
+    const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wanted);
+    if (error != 0) {
+      refused.push_back(refusal("no real-time priority", error, "run as root, or raise rtprio: ulimit -r 99"));
+    }
+  }
+  touch_stack();
+  return refused;
+}
+
+}  // namespace jaywalk

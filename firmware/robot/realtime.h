@@ -1,0 +1,22 @@
+#pragma once
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace jaywalk {
+
+/// What the loop's thread asks of the kernel.
+struct RealtimeWishes {
+  int priority = 80;  ///< of SCHED_FIFO, 1 to 98; 0: an ordinary thread
+  bool lock_memory = true;
+  std::optional<int> cpu = {};  ///< a processor of its own
+};
+
+/// Keeps all memory, had and to come, from being paged out. Start-up only, once a process.
+/// Returns what was not permitted and what would permit it, a line each; empty: all is well.
+std::vector<std::string> lock_memory();
+
+/// Asks the kernel for what the calling thread wishes, except memory, and touches its stack. The same answer.
+std::vector<std::string> enter_realtime(const RealtimeWishes& wishes);
+
+}  // namespace jaywalk

@@ -1,0 +1,101 @@
+#include "firmware/robot/robot_file.h"
+
+#include <cmath>
+
+#include "hal/robot_model_file.h"
+#include "hal/toml_file.h"
+
+namespace jaywalk {
+namespace {
+
+/// The drives' own ramps lie above what the controller asks for, or they would lag behind it; the proof of 6084h and
+/// 6085h then covers limits.brake_mps2.
+constexpr double kRampOverBrake = 1.5;
+
+LaserWiring read_wiring(TomlTable& table) {
+  LaserWiring wiring;
+  const std::string kind = table.text("kind");
+  if (kind == "sick-cola-a") {
+    wiring.kind = LaserKind::kSickColaA;
+  } else if (kind != "sick-cola-b") {
+    table.refuse("kind", "is \"" + kind + "\"", "choose sick-cola-b or sick-cola-a");
+  }
+  wiring.host = table.text("host");
+  wiring.port = static_cast<std::uint16_t>(table.integer("port", {1, 65535}, wiring.port));
+  wiring.first_scan_limit =
+      duration_from_seconds(table.number("first_scan_limit_s", {0.1, 600.0}, to_seconds(wiring.first_scan_limit)));
+  return wiring;
+}
+
+std::uint8_t read_node(TomlTable& table, const std::string& key, std::int64_t otherwise) {
+  return static_cast<std::uint8_t>(table.integer(key, {1, 127}, otherwise));
+}
+
+/// Wheel acceleration (m/s2 at the rim) as counts/s2.
+std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) {
+  constexpr double kMost = 4294967295.0;
+  return static_cast<std::uint32_t>(std::fmin(mps2 / model.wheel_radius_m * counts_per_rad + 0.5, kMost));
+}
+
+DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+  DriveWiring wiring;
+  if (const std::string kind = table.text("kind"); kind != "cia402") {
+    table.refuse("kind", "is \"" + kind + "\"", "choose cia402");
+  }
+  wiring.can = table.text("can");
+  canopen::DriveSettings& settings = wiring.base.settings;
+  settings.controller_node = read_node(table, "controller_node", 1);
+  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
+  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
+  wiring.base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
+  wiring.base.allow_unproved = table.boolean("allow_unproved", false);
+  const double counts_per_rad = table.number("counts_per_wheel_turn", {1.0, 1e9}) / (2.0 * kPi);
+  const double left = table.boolean("left_reversed", false) ? -counts_per_rad : counts_per_rad;
+  const double right = table.boolean("right_reversed", false) ? -counts_per_rad : counts_per_rad;
+  wiring.base.axes = {canopen::AxisSetup{read_node(table, "left_node", 2), left},
+                      canopen::AxisSetup{read_node(table, "right_node", 3), right}};
+  settings.acceleration = settings.deceleration = settings.quick_stop =
+      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, counts_per_rad);
+  table.finish();
+  return wiring;
+}
+
+RealtimeWishes read_realtime(TomlTable table) {
+  RealtimeWishes wishes;
+  wishes.priority = static_cast<int>(table.integer("priority", {0, 98}, wishes.priority));
+  wishes.lock_memory = table.boolean("lock_memory", wishes.lock_memory);
+  if (table.has("cpu")) wishes.cpu = static_cast<int>(table.integer("cpu", {0, 1023}));
+  table.finish();
+  return wishes;
+}
+
+}  // namespace
+
+RobotFile load_robot_file(const std::filesystem::path& path) {
+  const TomlFile file(path);
+  TomlTable root = file.root();
+  RobotFile robot;
+  ControlSetup& setup = robot.setup;
+  setup.wired = true;
+  setup.model = read_model_choice(root, "model");
+  setup.model.limits.max_speed_mps =
+      root.number("max_speed_mps", {0.05, setup.model.limits.max_speed_mps}, setup.model.limits.max_speed_mps);
+  if (root.has("start")) {
+    const auto start = root.numbers("start", 3);
+    setup.start = {start[0], start[1], wrap_angle(start[2])};
+  }
+  setup.goal = setup.start.position();
+  setup.goal_tolerance_m = root.number("goal_tolerance_m", {0.05, 5.0}, setup.goal_tolerance_m);
+  setup.rate_hz = root.number("rate_hz", {20.0, 200.0}, setup.rate_hz);
+  TomlTable laser = root.table("laser");
+  robot.laser = read_wiring(laser);
+  read_laser(laser, setup.model.laser);
+  laser.finish();
+  robot.drive = read_drive(root.table("drive"), setup.model);
+  if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
+  robot.control_socket = root.text("control_socket", "");
+  root.finish();
+  return robot;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,38 @@
+#pragma once
+// ROBOT.toml: which robot this is and how its devices are wired. docs/robot.md has every key.
+#include <cstdint>
+#include <filesystem>
+#include <string>
+
+#include "drivers/canopen/drive_base.h"
+#include "firmware/control_setup.h"
+#include "firmware/robot/realtime.h"
+
+namespace jaywalk {
+
+enum class LaserKind { kSickColaA, kSickColaB };
+
+struct LaserWiring {
+  LaserKind kind = LaserKind::kSickColaB;
+  std::string host;
+  std::uint16_t port = 2112;
+  Duration first_scan_limit = std::chrono::seconds(10);  ///< at start; a scanner may still be waking up
+};
+
+struct DriveWiring {
+  std::string can;  ///< interface
+  canopen::DriveBaseSetup base;
+};
+
+struct RobotFile {
+  ControlSetup setup;  ///< start pose: where the robot stands when the program starts
+  LaserWiring laser;
+  DriveWiring drive;
+  RealtimeWishes realtime;
+  std::filesystem::path control_socket;  ///< empty: the default
+};
+
+/// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
+[[nodiscard]] RobotFile load_robot_file(const std::filesystem::path& file);
+
+}  // namespace jaywalk

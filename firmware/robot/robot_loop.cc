@@ -1,0 +1,126 @@
+#include "firmware/robot/robot_loop.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kRest_mps = 0.01;
+constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = std::chrono::milliseconds(500);
+
+}  // namespace
+
+RobotLoop::RobotLoop(LoopRunner& runner, RobotDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard)
+    : runner_(runner), devices_(devices), desk_(desk), clock_(clock), guard_(guard), period_(runner.setup().tick()) {}
+
+RobotLoop::~RobotLoop() {
+  end();
+  if (thread_.joinable()) thread_.join();
+}
+
+void RobotLoop::start(const RealtimeWishes& wishes) {
+  thread_ = std::thread([this, wishes] { run(wishes); });
+  begun_.wait(false);
+}
+
+void RobotLoop::end() noexcept { ending_ = true; }
+
+void RobotLoop::run(const RealtimeWishes& wishes) {
+  ::pthread_setname_np(::pthread_self(), "loop");
+  not_permitted_ = enter_realtime(wishes);
+  begun_ = true;
+  begun_.notify_all();
+  Time due = clock_.now() + period_;
+  std::optional<Time> asked_to_end;
+  for (bool at_rest = false; !(asked_to_end && (at_rest || due - *asked_to_end > kLongestRamp)); due += period_) {
+    due = next_due(due);
+    tick(due);
+    if (ending_ && !asked_to_end) asked_to_end = due;
+    at_rest = status_.speed_mps < kRest_mps && runner_.last().command.left_radps == 0.0 &&
+              runner_.last().command.right_radps == 0.0;
+  }
+  guard_.rest();
+  disarm(due);
+  ended_ = true;
+}
+
+/// Sleeps until the next tick; where that is a period late or more, the ticks that were missed are left out.
+Time RobotLoop::next_due(Time due) noexcept {
+  clock_.sleep_until(due);
+  const auto missed = std::max<std::int64_t>((clock_.now() - due) / period_, 0);
+  status_.missed_ticks += static_cast<std::uint64_t>(missed);
+  return due + missed * period_;
+}
+
+void RobotLoop::tick(Time due) noexcept {
+  guard_.beat(clock_.now());
+  const TickRecord& t = runner_.tick_at(due);
+  if (desk_.was_reset()) devices_.drive().reset();
+  tell(t);
+  trace(t);
+}
+
+double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
+  return std::max(std::fabs(wheels.left_radps), std::fabs(wheels.right_radps)) *
+         runner_.setup().model.drive.wheel_radius_m;
+}
+
+void RobotLoop::tell(const TickRecord& t) noexcept {
+  constexpr Reason kLimits = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
+                             Reason::kNoGoal | Reason::kLatched;
+  const bool was_latched = status_.latched;
+  status_.running = true;
+  status_.map_from_robot = t.pose.map_from_robot;
+  status_.speed_mps = speed_mps(t.wheels);
+  status_.enabled = devices_.drive().is_enabled();
+  if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
+  if (t.input.has_goal) {
+    const double way = distance(t.pose.map_from_robot.position(), t.input.goal_in_map);
+    status_.goal_reached = way <= t.input.goal_tolerance_m;
+  }
+  status_.has_goal = t.input.has_goal && !status_.goal_reached;
+  status_.goal_in_map = t.input.goal_in_map;
+  status_.reasons = t.verdict.reasons;
+  status_.latched = has(t.verdict.reasons, Reason::kLatched);
+  if (!status_.latched) status_.latched_by = Reason::kNone;
+  if (status_.latched && !was_latched) status_.latched_by = without(t.verdict.reasons, kLimits);
+  status_.drive = t.wheels.trouble;
+  status_.laser = devices_.laser().health();
+  status_.bus = devices_.bus_health();
+  ++status_.ticks;
+  status_.stalls = guard_.stalls();
+  desk_.tell(status_);
+}
+
+/// Where the report cannot follow, its tables lack a tick; the recording has it.
+void RobotLoop::trace(const TickRecord& t) noexcept {
+  TickTrace* const slot = traces_.draft();
+  if (slot == nullptr) return;
+  slot->record = t;
+  slot->tracks.clear();
+  for (const Track& track : runner_.loop().tracker().tracks()) {
+    if (!slot->tracks.push_back(track)) break;
+  }
+  slot->took = runner_.last_took();
+  slot->plan_ms.reset();
+  const Plan& plan = runner_.loop().plan();
+  if (plan.sequence != plan_traced_) slot->plan_ms = plan.duration_ms;
+  plan_traced_ = plan.sequence;
+  slot->status = status_;
+  traces_.publish();
+}
+
+void RobotLoop::disarm(Time due) noexcept {
+  const Time limit = due + kLongestDisarming;
+  do {
+    clock_.sleep_until(due);
+    static_cast<void>(devices_.drive().latest());
+    devices_.drive().disarm();
+    due += period_;
+  } while (devices_.drive().is_enabled() && due < limit);
+}
+
+}  // namespace jaywalk

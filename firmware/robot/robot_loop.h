@@ -1,0 +1,71 @@
+#pragma once
+// The loop's thread on a robot: wakes at fixed times, lives through ticks, tells how it goes.
+#include <atomic>
+#include <optional>
+#include <string>
+#include <thread>
+#include <vector>
+
+#include "firmware/commands/loop_runner.h"
+#include "firmware/robot/operator_desk.h"
+#include "firmware/robot/realtime.h"
+#include "firmware/robot/ring.h"
+#include "firmware/robot/robot_devices.h"
+#include "firmware/robot/stall_guard.h"
+
+namespace jaywalk {
+
+/// What the report wants to know of one tick.
+struct TickTrace {
+  TickRecord record;
+  FixedVector<Track, kMaxTracks> tracks;
+  Duration took{0};
+  std::optional<double> plan_ms;
+  RunStatus status;
+};
+
+/// A tick that comes a period late or more is missed: it is counted and never made up for. Nothing in this thread
+/// allocates, locks, logs or waits for anything but its next tick.
+class RobotLoop {
+ public:
+  using Traces = Ring<TickTrace, 128>;
+
+  /// All outlive it; the drives are armed.
+  RobotLoop(LoopRunner& runner, RobotDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard);
+  ~RobotLoop();
+  RobotLoop(const RobotLoop&) = delete;
+  RobotLoop& operator=(const RobotLoop&) = delete;
+
+  void start(const RealtimeWishes& wishes);
+  /// Ramps to rest, disarms the drives and ends the thread; the caller goes on taking traces until has_ended().
+  void end() noexcept;
+  [[nodiscard]] bool has_ended() const noexcept { return ended_; }
+
+  [[nodiscard]] Traces& traces() noexcept { return traces_; }
+  /// What the kernel did not permit the loop's thread, once it runs.
+  [[nodiscard]] const std::vector<std::string>& not_permitted() const { return not_permitted_; }
+
+ private:
+  void run(const RealtimeWishes& wishes);
+  void tick(Time due) noexcept;
+  [[nodiscard]] Time next_due(Time due) noexcept;
+  void tell(const TickRecord& t) noexcept;
+  void trace(const TickRecord& t) noexcept;
+  void disarm(Time due) noexcept;
+  [[nodiscard]] double speed_mps(const WheelState& wheels) const noexcept;
+
+  LoopRunner& runner_;
+  RobotDevices& devices_;
+  OperatorDesk& desk_;
+  Clock& clock_;
+  StallGuard& guard_;
+  Duration period_;
+  RunStatus status_;
+  Traces traces_;
+  std::uint32_t plan_traced_ = 0;
+  std::vector<std::string> not_permitted_;
+  std::atomic<bool> begun_{false}, ending_{false}, ended_{false};
+  std::thread thread_;
+};
+
+}  // namespace jaywalk

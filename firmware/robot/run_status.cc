@@ -1,0 +1,34 @@
+#include "firmware/robot/run_status.h"
+
+#include <sstream>
+
+namespace jaywalk {
+namespace {
+
+const char* state_of(const RunStatus& status) {
+  if (!status.running) return "starting";
+  if (status.latched) return "latched";
+  if (status.has_goal) return "driving";
+  return status.goal_reached ? "reached" : "waiting";
+}
+
+}  // namespace
+
+std::string describe(const RunStatus& status) {
+  std::ostringstream out;
+  const Pose2& pose = status.map_from_robot;
+  out << "state: " << state_of(status) << "\npose: " << pose.x << ' ' << pose.y << ' ' << pose.heading
+      << "\nspeed_mps: " << status.speed_mps << "\nenabled: " << (status.enabled ? "yes" : "no") << "\ngoal: ";
+  if (status.has_goal) out << status.goal_in_map.x << ' ' << status.goal_in_map.y;
+  out << "\nreasons: " << to_string(status.reasons) << "\nlatched_by: " << to_string(status.latched_by)
+      << "\ndrive: " << name(status.drive) << "\nlaser: " << name(status.laser.trouble)
+      << "\nlaser_last_trouble: " << name(status.laser.last_trouble) << "\nlaser_scans: " << status.laser.scans
+      << "\nlaser_malformed: " << status.laser.malformed << "\nlaser_lost: " << status.laser.protocol.lost
+      << "\nlaser_connections: " << status.laser.connections << "\nbus: " << name(status.bus.state)
+      << "\nbus_error_frames: " << status.bus.error_frames << "\nbus_lost: " << status.bus.frames_lost
+      << "\nbus_malformed: " << status.bus.malformed << "\nticks: " << status.ticks
+      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls << '\n';
+  return out.str();
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,36 @@
+#pragma once
+#include <cstdint>
+#include <string>
+
+#include "drivers/can/can_bus.h"
+#include "drivers/laser/scanner_connection.h"
+#include "firmware/safety/reasons.h"
+#include "hal/types/geometry.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk {
+
+/// How a run goes, as the loop tells it after each tick.
+struct RunStatus {
+  bool running = false;  ///< the loop has begun
+  Pose2 map_from_robot;
+  double speed_mps = 0.0;  ///< felt at the wheels; of the faster one
+  bool enabled = false;
+  bool has_goal = false;
+  bool goal_reached = false;  ///< the last one that there was
+  Vec2 goal_in_map;
+  Reason reasons = Reason::kNone;
+  bool latched = false;
+  Reason latched_by = Reason::kNone;  ///< since the last reset
+  DriveTrouble drive = DriveTrouble::kNone;
+  ScannerHealth laser;
+  CanHealth bus;
+  std::uint64_t ticks = 0;
+  std::uint64_t missed_ticks = 0;
+  std::uint64_t stalls = 0;
+};
+
+/// Lines of "word: value" for a person and for scripts. Not for the loop.
+[[nodiscard]] std::string describe(const RunStatus& status);
+
+}  // namespace jaywalk

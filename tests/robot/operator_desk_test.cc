@@ -1,0 +1,134 @@
+#include "firmware/robot/operator_desk.h"
+
+#include <string>
+
+#include "tests/drivers/hand_clock.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+struct Bench {
+  Bench() {
+    tell([](RunStatus&) {});
+  }
+  template <class Change>
+  void tell(Change change) {
+    status.running = true;
+    change(status);
+    desk.tell(status);
+  }
+  void latch() {
+    tell([](RunStatus& s) { s.latched = true, s.latched_by = Reason::kDrive; });
+  }
+  void unlatch() {
+    tell([](RunStatus& s) { s.latched = false; });
+  }
+
+  tests::HandClock clock;
+  OperatorDesk desk{clock, 0.25};
+  RunStatus status;
+};
+
+}  // namespace
+
+TEST_CASE("a goal that was asked for is the loop's until somebody says stop") {
+  Bench bench;
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.obey("goto 1.5 -2") == "going\n");
+  const OperatorInput input = bench.desk.latest();
+  CHECK(input.has_goal);
+  CHECK(input.goal_in_map == Vec2{1.5, -2.0});
+  CHECK(input.goal_tolerance_m == 0.25);
+  CHECK(bench.desk.obey("stop") == "stopping\n");
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK_FALSE(bench.desk.latest().emergency_stop);
+}
+
+TEST_CASE("a goal that was reached is dropped, and the next is taken") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 1") == "going\n");
+  CHECK(bench.desk.latest().has_goal);
+  bench.tell([](RunStatus& s) { s.goal_reached = true; });
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.obey("goto 2 2") == "going\n");
+  CHECK(bench.desk.latest().has_goal);
+}
+
+TEST_CASE("a latched fault drops the goal, refuses others, and a reset does not bring it back") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 1") == "going\n");
+  CHECK(bench.desk.latest().has_goal);
+  bench.latch();
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.obey("goto 1 1") == "refused: stopped by drive; see to it, then jaywalk reset\n");
+  CHECK(bench.desk.obey("reset") == "reset\n");
+  CHECK(bench.desk.latest().reset);
+  CHECK_FALSE(bench.desk.latest().reset);  // an edge
+  bench.unlatch();
+  CHECK_FALSE(bench.desk.latest().has_goal);
+}
+
+TEST_CASE("there is no reset on the move, and none where nothing is latched") {
+  Bench bench;
+  CHECK(bench.desk.obey("reset") == "nothing to reset\n");
+  bench.latch();
+  bench.tell([](RunStatus& s) { s.speed_mps = 0.2; });
+  CHECK(bench.desk.obey("reset").rfind("refused: the robot still moves", 0) == 0);
+  CHECK_FALSE(bench.desk.latest().reset);
+}
+
+TEST_CASE("an emergency stop is pressed for a tick and takes the goal") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 1") == "going\n");
+  CHECK(bench.desk.obey("stop now") == "stopping\n");
+  const OperatorInput input = bench.desk.latest();
+  CHECK(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+  CHECK_FALSE(bench.desk.latest().emergency_stop);
+}
+
+TEST_CASE("what is no order moves nothing") {
+  Bench bench;
+  for (const char* line : {"", "goto", "goto ", "goto 1", "goto 1 2 3", "goto nan 0", "goto inf 1", "goto 1 1e9",
+                           "go 1 2", "status now", "goto 1 2;", "GOTO 1 2", "\xff\x00"}) {
+    CHECK(bench.desk.obey(line).rfind("refused", 0) == 0);
+  }
+  CHECK_FALSE(bench.desk.latest().has_goal);
+}
+
+TEST_CASE("before the loop runs and after it was told to end there are no goals") {
+  tests::HandClock clock;
+  OperatorDesk desk(clock, 0.3);
+  CHECK(desk.obey("goto 1 1").rfind("refused: the robot is not ready", 0) == 0);
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 1") == "going\n");
+  bench.desk.close();
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.obey("goto 1 1").rfind("refused: the run is ending", 0) == 0);
+}
+
+TEST_CASE("the loop's side of the desk asks nothing of the heap") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 1") == "going\n");
+  const AllocationGuard guard;
+  const bool has_goal = bench.desk.latest().has_goal;
+  bench.desk.tell(bench.status);
+  const auto calls = guard.calls();
+  CHECK(has_goal);
+  CHECK(calls == 0);
+}
+
+TEST_CASE("status is told in lines of word and value") {
+  Bench bench;
+  bench.tell([](RunStatus& s) {
+    s.missed_ticks = 7;
+    s.reasons = Reason::kStopZone | Reason::kNoGoal;
+  });
+  const std::string status = bench.desk.obey("status");
+  CHECK(status.rfind("state: waiting\n", 0) == 0);
+  CHECK(status.find("\nmissed_ticks: 7\n") != std::string::npos);
+  CHECK(status.find("\nreasons: stop_zone|no_goal\n") != std::string::npos);
+}

@@ -1,0 +1,100 @@
+# For scripts that run under tools/rig/run: a plant at one end of vcan0 and of a TCP port, the controller at the other.
+# shellcheck shell=bash
+# usage: source rig_session.sh JAYWALK PLANT ROOT
+set -uo pipefail
+jaywalk=$1 plant=$2 root=$3
+talk=$(dirname "$plant")/jaywalk_talk
+# In memory: a file of this machine's would hold up the guest, whose time is real.
+out=$(mktemp -d -p /dev/shm) || exit 1
+export JAYWALK_SOCKET=$out/control
+failed=0
+run_pid='' plant_pid=''
+mkfifo "$out/orders"
+exec 3<>"$out/orders"
+
+fail() {
+  echo "FAILED: $*"
+  failed=1
+}
+order() { echo "$*" >&3; }
+status() { "$talk" status 2>/dev/null; }
+# field NAME: its value in the status, empty where nobody answers.
+field() {
+  local said
+  said=$'\n'$(status)
+  [[ $said == *$'\n'"$1: "* ]] || return
+  said=${said#*$'\n'"$1: "}
+  echo "${said%%$'\n'*}"
+}
+
+# start_plant [OPTIONS...]
+start_plant() {
+  rm -f "$out/plant.log"
+  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --log "$out/plant.log" "$@" <&3 &
+  plant_pid=$!
+  for _ in $(seq 50); do [ ! -s "$out/plant.log" ] || return 0; sleep 0.1; done
+  fail "the plant did not start"
+}
+end_plant() {
+  kill "$plant_pid" && wait "$plant_pid"
+  plant_pid=''
+}
+
+# start_run [ROBOT.toml]: until it takes goals.
+start_run() {
+  : >"$out/run.log"
+  "$jaywalk" run "${1:-$root/tools/rig/drive/robot.toml}" --backend cpu --out "$out/run" >"$out/run.log" 2>&1 &
+  run_pid=$!
+  for _ in $(seq 100); do
+    [[ $(<"$out/run.log") != *"ready for"* ]] || return 0
+    kill -0 "$run_pid" 2>/dev/null || break
+    sleep 0.2
+  done
+  fail "the run did not start: $(cat "$out/run.log")"
+  return 1
+}
+# end_run EXIT_CODE [SIGNAL]
+end_run() {
+  local code=0
+  kill "-${2:-TERM}" "$run_pid"
+  wait "$run_pid" || code=$?
+  run_pid=''
+  [ "$code" = "$1" ] || fail "the run's exit code is $code, not $1: $(cat "$out/run.log")"
+}
+
+# await_said SECONDS PATTERN: the run says so. Looks seldom: new processes take the guest's one processor.
+await_said() {
+  local end=$((SECONDS + $1))
+  while [ "$SECONDS" -le "$end" ]; do
+    [[ ! $(<"$out/run.log") =~ $2 ]] || return 0
+    sleep 0.5
+  done
+  fail "the run did not say '$2' within $1 s: $(<"$out/run.log")"
+  return 1
+}
+# await SECONDS FIELD PATTERN
+await() {
+  local end=$((SECONDS + $1))
+  while [ "$SECONDS" -le "$end" ]; do
+    [[ $(field "$2") != $3 ]] || return 0
+    sleep 0.3
+  done
+  fail "$2 is not $3 after $1 s: $(status | tr '\n' ' ')"
+  return 1
+}
+# logged PATTERN: the plant saw it.
+logged() { grep -qE -- "$1" "$out/plant.log" || fail "the plant saw no '$1': $(cat "$out/plant.log")"; }
+# number FILE KEY: from a JSON file of ours.
+number() { sed -nE "s/^ *\"$2\": ([-0-9.]+),?$/\1/p" "$1" | head -1; }
+
+end_session() {
+  # Whoever runs this may try again where time itself was not kept.
+  if [ "$failed" = 1 ]; then
+    grep -E ' late by ' "$out/plant.log" | head -3
+    if grep -qE ' late by ' "$out/plant.log" || grep -qE 'missed_ticks' "$out/run.log"; then echo "noise: this machine was held up"; fi
+  fi
+  [ -z "$run_pid" ] || kill -9 "$run_pid"
+  [ -z "$plant_pid" ] || kill -9 "$plant_pid"
+  rm -rf "$out"
+  exit "$failed"
+}

@@ -1,0 +1,109 @@
+#include "firmware/robot/robot_file.h"
+
+#include <unistd.h>
+
+#include <fstream>
+#include <string>
+
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+constexpr const char* kGood = R"(model = "p3dx"
+start = [1.0, 2.0, 0.5]
+max_speed_mps = 0.5
+
+[laser]
+kind = "sick-cola-b"
+host = "10.0.0.2"
+range_m = 10.0
+
+[drive]
+kind = "cia402"
+can = "can0"
+counts_per_wheel_turn = 76600
+right_reversed = true
+)";
+
+class File {
+ public:
+  explicit File(const std::string& text) { std::ofstream(path_) << text; }
+  ~File() { std::filesystem::remove(path_); }
+  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_ =
+      std::filesystem::temp_directory_path() / ("robot" + std::to_string(::getpid()) + ".toml");
+};
+
+RobotFile load(const std::string& text) {
+  const File file(text);
+  return load_robot_file(file.path());
+}
+
+/// kGood with the first `from` replaced.
+std::string with(const std::string& from, const std::string& to) {
+  std::string text = kGood;
+  return text.replace(text.find(from), from.size(), to);
+}
+
+/// What is said about the file, from its line on.
+std::string refusal(const std::string& text) {
+  try {
+    static_cast<void>(load(text));
+  } catch (const StartupError& error) {
+    const std::string said = error.what();
+    return said.substr(said.find(".toml:") + 6);
+  }
+  return "loaded";
+}
+
+}  // namespace
+
+TEST_CASE("a robot file says how the devices are wired") {
+  const RobotFile robot = load(kGood);
+  CHECK(robot.setup.wired);
+  CHECK(robot.setup.start == Pose2{1.0, 2.0, 0.5});
+  CHECK(robot.setup.model.limits.max_speed_mps == 0.5);
+  CHECK(robot.setup.model.laser.range_max_m == 10.0);
+  CHECK(robot.laser.host == "10.0.0.2");
+  CHECK(robot.laser.port == 2112);
+  CHECK(robot.drive.can == "can0");
+  CHECK(robot.drive.base.axes[0].node == 2);
+  CHECK(robot.drive.base.axes[1].node == 3);
+  // 76600 counts a turn are 12191.27 a radian.
+  CHECK(robot.drive.base.axes[0].counts_per_rad == Approx(12191.27));
+  CHECK(robot.drive.base.axes[1].counts_per_rad == Approx(-12191.27));
+  CHECK(robot.drive.base.settings.controller_timeout_ms == 100);
+  CHECK_FALSE(robot.drive.base.allow_unproved);
+}
+
+TEST_CASE("drives brake at least as hard as the stop zone reckons") {
+  const RobotFile robot = load(kGood);
+  // One and a half times the model's 1 m/s2, over a wheel of 0.0975 m: 15.3846 rad/s2 of 12191.27 counts.
+  REQUIRE(robot.setup.model.limits.brake_mps2 == 1.0);
+  CHECK(robot.drive.base.settings.quick_stop == 187558);
+  CHECK(robot.drive.base.settings.deceleration == 187558);
+}
+
+TEST_CASE("the robot file of the rig loads") {
+  const RobotFile robot = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  CHECK(robot.laser.host == "127.0.0.1");
+}
+
+TEST_CASE("what is wrong in a robot file is refused with its line") {
+  CHECK(refusal(kGood) == "loaded");
+  CHECK(refusal(with("start =", "begin =")).rfind("2: begin is not a known key; ", 0) == 0);
+  CHECK(refusal(with("host = ", "hots = ")).rfind("5: laser.host is missing; ", 0) == 0);
+  CHECK(refusal(with("right_reversed", "right_revresed")).rfind("14: drive.right_revresed is not a known key; ", 0) ==
+        0);
+  CHECK(refusal(with("sick-cola-b", "sonar")).rfind("6: laser.kind is \"sonar\"; ", 0) == 0);
+  CHECK(refusal(with("cia402", "steam")).rfind("11: drive.kind is \"steam\"; ", 0) == 0);
+  CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 50")).rfind("3: max_speed_mps is 50; ", 0) == 0);
+  CHECK(refusal(with("76600", "0")).rfind("13: drive.counts_per_wheel_turn is 0; ", 0) == 0);
+  CHECK(refusal(with("can = \"can0\"", "can = \"can0\"\ncontroller_timeout_ms = 1000"))
+            .rfind("13: drive.controller_timeout_ms is 1000; ", 0) == 0);
+}

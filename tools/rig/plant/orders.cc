@@ -1,0 +1,53 @@
+#include "tools/rig/plant/orders.h"
+
+#include <sstream>
+
+namespace jaywalk::rig {
+namespace {
+
+using emulators::ScannerFault;
+
+std::string order_scanner(std::istringstream& words, SimulatedRobot& robot) {
+  std::string what;
+  double seconds = 0.0;
+  words >> what >> seconds;
+  ScannerFault fault = ScannerFault::kNone;
+  if (what == "reset") fault = ScannerFault::kReset;
+  if (what == "half") fault = ScannerFault::kHalfTelegram;
+  if (what == "silence") fault = ScannerFault::kSilence;
+  if (what == "garbage") fault = ScannerFault::kGarbage;
+  if (what == "gone") fault = ScannerFault::kGone;
+  if (fault == ScannerFault::kNone) return "no such fault of a scanner: " + what;
+  robot.scanner().order(fault, duration_from_seconds(seconds));
+  return "";
+}
+
+}  // namespace
+
+std::string obey(std::string_view order, SimulatedRobot& robot) {
+  std::istringstream words{std::string(order)};
+  std::string what, side;
+  words >> what;
+  if (what == "scanner") return order_scanner(words, robot);
+  unsigned number = 0, sub = 0;
+  words >> side >> std::hex >> number >> sub;
+  if (side != "left" && side != "right") return "left or right? " + std::string(order);
+  emulators::Cia402Node& drive = robot.drive(side == "left" ? 0 : 1);
+  const canopen::ObjectAddress object{static_cast<std::uint16_t>(number), static_cast<std::uint8_t>(sub)};
+  if (what == "emergency") {
+    drive.raise_fault(static_cast<std::uint16_t>(number));
+  } else if (what == "unplug") {
+    drive.pull_cable();
+  } else if (what == "plug") {
+    drive.plug_cable();
+  } else if (what == "lie") {
+    drive.objects().lie_about(object);
+  } else if (what == "lack") {
+    drive.objects().lack(object);
+  } else {
+    return "no such order: " + std::string(order);
+  }
+  return "";
+}
+
+}  // namespace jaywalk::rig

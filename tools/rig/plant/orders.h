@@ -1,0 +1,21 @@
+#pragma once
+#include <string>
+#include <string_view>
+
+#include "tools/rig/plant/simulated_robot.h"
+
+namespace jaywalk::rig {
+
+/// What the far end is told to do wrong, a line an order:
+///
+///   emergency left|right CODE    a drive breaks, and says so (CODE as in CiA 301, hexadecimal)
+///   unplug left|right            its cable is pulled; plug puts it back
+///   lie left|right INDEX SUB     it acknowledges writes to an object (hexadecimal) and ignores them
+///   lack left|right INDEX SUB    it has no such object
+///   scanner reset|half           the connection is torn; half a telegram comes
+///   scanner silence|garbage|gone SECONDS
+///
+/// Returns what is wrong with the order; empty where it was obeyed.
+[[nodiscard]] std::string obey(std::string_view order, SimulatedRobot& robot);
+
+}  // namespace jaywalk::rig
