@@ -22,7 +22,7 @@ SweepShape turn() {
 std::uint8_t remainder_of(const std::vector<std::uint8_t>& bytes) {
   unsigned rest = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() + 1); ++bit) {
-    const unsigned next = bit / 8 < bytes.size() ? (bytes[bit / 8] >> (7 - bit % 8)) & 1U : 0U;
+    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
     rest = rest << 1U | next;
     if ((rest & 0x100U) != 0) rest ^= 0x14DU;
   }

@@ -23,7 +23,7 @@ double towards(double from, double to, double most) noexcept {
 std::uint16_t remainder_of(std::span<const std::uint8_t> bytes) {
   unsigned rest = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() + 2); ++bit) {
-    const unsigned next = bit / 8 < bytes.size() ? (bytes[bit / 8] >> (7 - bit % 8)) & 1U : 0U;
+    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
     rest = rest << 1U | next;
     if ((rest & 0x10000U) != 0) rest ^= 0x11021U;
   }

@@ -46,7 +46,7 @@ class VescNode {
 
   CanBus& bus_;
   std::uint8_t controller_;
-  std::uint32_t timeout_ms_ = 100, told_ms_ = 100;
+  std::uint32_t timeout_ms_ = 90, told_ms_ = 90;
   float brake_current_a_ = 10.0F;
   bool damaged_ = false, answers_ = true, tells_travel_ = true, connected_ = true;
   std::uint8_t fault_ = 0;

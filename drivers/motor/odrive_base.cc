@@ -113,10 +113,13 @@ bool OdriveBase::prove_watchdog(std::size_t index, std::string& line) {
   const auto after = std::chrono::duration_cast<std::chrono::milliseconds>(clock().now() - last_command).count();
   line = "watchdog: " + std::string(expired() ? "expired" : "nothing said") + " " + std::to_string(after) +
          " ms after the last command";
-  const bool let_go = expired() && seen.state != kClosedLoop;
-  if (expired() && !let_go) line += ", and holds on";
-  if (!let_go) line += ": NOT PROVED";
-  return let_go;
+  const bool holds_on = expired() && seen.state == kClosedLoop;
+  const bool hasty = expired() && clock().now() - last_command < setup_.watchdog_least;
+  if (holds_on) line += ", and holds on";
+  if (hasty) line += ", too soon for two commands";
+  const bool proved = expired() && !holds_on && !hasty;
+  if (!proved) line += ": NOT PROVED";
+  return proved;
 }
 
 void OdriveBase::take(const ReceivedFrame& received) noexcept {

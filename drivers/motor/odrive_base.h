@@ -19,6 +19,7 @@ struct BaseSetup {
   /// A watchdog that did not show itself so long after the last command is not proved. The heartbeat that shows it adds
   /// to what the watchdog takes: heartbeat_msg_rate_ms of 10 and watchdog_timeout of 0.06 fit.
   Duration watchdog_limit = std::chrono::milliseconds(100);
+  Duration watchdog_least = std::chrono::milliseconds(40);  ///< it must outlast two commands
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without a heartbeat
   Duration settling = std::chrono::milliseconds(300);
   bool allow_unproved = false;  ///< arms although an axis did not show that it stops by itself

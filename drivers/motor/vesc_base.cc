@@ -79,13 +79,17 @@ bool VescBase::prove_timeout(std::size_t index, std::string& line) {
     line = std::string("timeout: ") + (seen.answered ? "answer damaged" : "no answer") + ": NOT PROVED";
     return false;
   }
-  const auto limit_ms = std::chrono::duration_cast<std::chrono::milliseconds>(setup_.timeout_limit).count();
+  const auto in_ms = [](Duration d) {
+    return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
+  };
+  const auto timeout = std::chrono::milliseconds(seen.settings->timeout_ms);
   const bool proved =
-      seen.settings->timeout_ms > 0 && seen.settings->timeout_ms <= limit_ms && seen.settings->brake_current_a > 0.0;
+      timeout >= setup_.timeout_least && timeout <= setup_.timeout_most && seen.settings->brake_current_a > 0.0;
   std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), "timeout: wanted 1 to %d ms, reads %u ms, then brakes with %.1f A%s",
-                static_cast<int>(limit_ms), static_cast<unsigned>(seen.settings->timeout_ms),
-                seen.settings->brake_current_a, proved ? "" : ": NOT PROVED");
+  std::snprintf(text.data(), text.size(), "timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s",
+                in_ms(setup_.timeout_least), in_ms(setup_.timeout_most),
+                static_cast<unsigned>(seen.settings->timeout_ms), seen.settings->brake_current_a,
+                proved ? "" : ": NOT PROVED");
   line = text.data();
   return proved;
 }

@@ -20,8 +20,9 @@ struct AxisSetup {
 struct BaseSetup {
   std::array<AxisSetup, 2> axes;  ///< left, right
   std::uint8_t own = 254;         ///< whom the controllers answer
-  /// Longest timeout that a controller may be set to.
-  Duration timeout_limit = std::chrono::milliseconds(100);
+  /// Shortest and longest timeout that a controller may be set to: it must outlast two commands, and a controller looks
+  /// at its timeout every 10 ms.
+  Duration timeout_least = std::chrono::milliseconds(40), timeout_most = std::chrono::milliseconds(90);
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without status message 9
   Duration settling = std::chrono::milliseconds(300);
   bool allow_unproved = false;  ///< arms although a controller is not set to stop by itself

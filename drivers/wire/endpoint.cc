@@ -37,10 +37,14 @@ constexpr std::array<Rate, 9> kRates{{{9600, B9600},
 
 TcpEndpoint::TcpEndpoint(const std::string& host, std::uint16_t port) : name_(host + ":" + std::to_string(port)) {
   addrinfo wanted{};
-  wanted.ai_family = AF_UNSPEC;
   wanted.ai_socktype = SOCK_STREAM;
   addrinfo* found = nullptr;
-  const int failure = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+  int failure = 0;
+  for (const int family : {AF_INET, AF_INET6}) {  // the older first: that is what devices have
+    wanted.ai_family = family;
+    failure = ::getaddrinfo(host.c_str(), std::to_string(port).c_str(), &wanted, &found);
+    if (failure == 0) break;
+  }
   if (failure != 0) {
     throw StartupError(name_ + ": no such host (" + ::gai_strerror(failure) + ")",
                        "give the device's address, and see that the network is up");

@@ -73,10 +73,13 @@ TEST_CASE("an ODrive that says its watchdog expired and holds on is not armed") 
   CHECK_FALSE(bench.left.is_enabled());  // it was told to let go
 }
 
-TEST_CASE("an ODrive whose watchdog is slow is not armed") {
+TEST_CASE("an ODrive whose watchdog is slow or hasty is not armed") {
   Bench bench;
   bench.left.set_watchdog(150ms);
   CHECK(bench.armed().starts_with("ODrive node 3: watchdog: nothing said 100 ms"));
+  Bench hasty;
+  hasty.left.set_watchdog(15ms);
+  CHECK(hasty.armed().find("after the last command, too soon for two commands: NOT PROVED") != std::string::npos);
 }
 
 TEST_CASE("an unproved ODrive arms where that is allowed and it is on record") {

@@ -89,15 +89,15 @@ TEST_CASE("a VESC arms when its timeout and brake current were read back") {
   Bench bench;
   REQUIRE(bench.armed() == "armed");
   REQUIRE(bench.report.size() == 2);
-  CHECK(bench.report[0] == "VESC 23: timeout: wanted 1 to 100 ms, reads 100 ms, then brakes with 10.0 A");
-  CHECK(bench.report[1] == "VESC 24: timeout: wanted 1 to 100 ms, reads 100 ms, then brakes with 10.0 A");
+  CHECK(bench.report[0] == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
+  CHECK(bench.report[1] == "VESC 24: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
 }
 
 TEST_CASE("a VESC as it comes from the factory is not armed") {
   Bench bench;
   bench.right.set_timeout(1000, 0.0F);
   CHECK(bench.armed() ==
-        "VESC 24: timeout: wanted 1 to 100 ms, reads 1000 ms, then brakes with 0.0 A: NOT PROVED; set timeout and "
+        "VESC 24: timeout: wanted 40 to 90 ms, reads 1000 ms, then brakes with 0.0 A: NOT PROVED; set timeout and "
         "timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at your own risk");
   bench.drive(0.0, 0.0, 10);
   bench.drive(2.0, 2.0, 10);
@@ -108,9 +108,12 @@ TEST_CASE("a VESC as it comes from the factory is not armed") {
 TEST_CASE("a VESC without timeout or without brake or without a sound answer is not armed") {
   Bench never;
   never.left.set_timeout(0, 10.0F);
-  CHECK(never.armed().starts_with("VESC 23: timeout: wanted 1 to 100 ms, reads 0 ms, "));
+  CHECK(never.armed().starts_with("VESC 23: timeout: wanted 40 to 90 ms, reads 0 ms, "));
+  Bench hasty;
+  hasty.left.set_timeout(30, 10.0F);
+  CHECK(hasty.armed().starts_with("VESC 23: timeout: wanted 40 to 90 ms, reads 30 ms, "));
   Bench rolls;
-  rolls.left.set_timeout(100, 0.0F);
+  rolls.left.set_timeout(90, 0.0F);
   CHECK(rolls.armed().find("then brakes with 0.0 A: NOT PROVED") != std::string::npos);
   Bench damaged;
   damaged.left.damage_answers();
@@ -169,15 +172,15 @@ TEST_CASE("nothing with VESCs moves before a command of zero") {
 TEST_CASE("VESCs brake by themselves when the controller dies") {
   Bench bench;
   bench.bring_to_two_radps();
-  // The last command was 20 ms ago; 100 ms of timeout, 100 ms of ramp, two steps.
-  bench.clock.sleep_until(bench.clock.now() + 182ms);
+  // The last command was 20 ms ago; 90 ms of timeout, 100 ms of ramp, two steps.
+  bench.clock.sleep_until(bench.clock.now() + 172ms);
   CHECK(bench.is_at_rest());
 }
 
 TEST_CASE("reading back does not show that a VESC keeps to what it tells") {
   Bench bench;
   bench.left.set_timeout(1000, 10.0F);
-  bench.left.lie_about_timeout(100);
+  bench.left.lie_about_timeout(90);
   bench.bring_to_two_radps();  // it is armed: why the report says read back and not shown
   bench.clock.sleep_until(bench.clock.now() + 500ms);
   CHECK(bench.left.erpm() == Approx(3000.0));
