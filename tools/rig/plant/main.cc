@@ -85,9 +85,11 @@ int run(int argc, char** argv) {
   static_cast<void>(enter_realtime({.priority = 60}));
   OrderLines orders;
   const Time end = clock.now() + duration_from_seconds(options.for_s);
-  for (Time due = clock.now(); ending == 0 && due < end; due = std::max(due + kStep, clock.now())) {
+  Time before = clock.now();
+  for (Time due = before; ending == 0 && due < end; due = std::max(due + kStep, clock.now())) {
     clock.sleep_until(due);
-    if (const Duration late = clock.now() - due; late > kNoise) log.late(clock.now(), late);
+    if (const Duration gap = clock.now() - before; gap > kNoise) log.late(clock.now(), gap);
+    before = clock.now();
     orders.take(robot, log, clock.now());
     robot.step();
     log.follow(robot, clock.now());
