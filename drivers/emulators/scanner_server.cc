@@ -108,8 +108,8 @@ void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
     default:
       break;
   }
-  wire_->write(message);
-  ++messages_sent_;
+  held_.push_back({now + shape_.on_line, std::move(message)});
+  send_held(now);
 }
 
 void ScannerServer::send_held(Time now) {

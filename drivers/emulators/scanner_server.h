@@ -29,7 +29,8 @@ struct SweepShape {
   double first_angle_rad = 0.0;
   double angle_step_rad = 0.0;
   double rate_hz = 15.0;
-  Duration sweep{0};  ///< from the first beam to the last
+  Duration sweep{0};    ///< from the first beam to the last
+  Duration on_line{0};  ///< from a message's last beam to its last byte at the other end
 
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return first_angle_rad + angle_step_rad * static_cast<double>(beam);
