@@ -74,8 +74,8 @@ TEST_CASE("side slip leaves the heading exact and is made up for after a turn") 
   // Slipping 0.1 m to the left cannot be driven. After a quarter turn to the left, that way is
   // ahead, and driving on to (0, 1) ends where the recording does.
   const DriveModel drive = nominal_drive();
-  const std::vector<OdometryPose> poses{at(0, {0, 0, 0}), at(1, {0, 0.1, 0}), at(2, {0, 0.1, kPi / 2}),
-                                        at(3, {0, 1, kPi / 2})};
+  const std::vector<OdometryPose> poses{at(0, {0, 0, 0}), at(0.1, {0, 0.1, 0}), at(0.2, {0, 0.1, kPi / 2}),
+                                        at(0.3, {0, 1, kPi / 2})};
   const auto trail = wheel_trail(poses, drive);
   Pose2 pose = poses[0].pose;
   for (std::size_t i = 1; i < trail.size(); ++i) {
@@ -83,6 +83,23 @@ TEST_CASE("side slip leaves the heading exact and is made up for after a turn") 
     CHECK(pose.heading == Approx(poses[i].pose.heading).margin(1e-12));
   }
   CHECK(pose.y == Approx(1.0));
+}
+
+TEST_CASE("a robot that was seen seldom turned, drove and turned back") {
+  // From (0, 0) heading east to (-1, 1) heading east in 3 s: an eighth of a turn to the right, 1.414 m backwards, and
+  // back.
+  const DriveModel drive = nominal_drive();
+  const auto trail = wheel_trail({at(0, {0, 0, 0}), at(3, {-1, 1, 0})}, drive);
+  REQUIRE(trail.size() == 4);
+  CHECK(to_seconds(trail[1].stamp - trail[0].stamp) == Approx(1.0));
+  CHECK(trail[2].sequence == 3);
+  CHECK(trail[1].left_rad == Approx(0.25 * kPi / 4 / 0.1));  // 0.5 m between wheels of 0.1 m
+  CHECK(trail[2].left_rad - trail[1].left_rad == Approx(-14.142).epsilon(1e-4));
+  Pose2 pose;
+  for (std::size_t i = 1; i < trail.size(); ++i) pose = integrate(pose, trail[i - 1], trail[i], drive);
+  CHECK(pose.x == Approx(-1.0));
+  CHECK(pose.y == Approx(1.0));
+  CHECK(pose.heading == Approx(0.0).margin(1e-9));
 }
 
 TEST_CASE("recorded speeds are passed on, wheel by wheel") {

@@ -1,5 +1,8 @@
 #include "hal/sim/logs/wheel_trail.h"
 
+#include <chrono>
+#include <cmath>
+
 namespace jaywalk::sim {
 namespace {
 
@@ -25,31 +28,61 @@ void drive_arc(Driven& driven, const Pose2& to, const DriveModel& drive) {
   driven.wheels.right_rad += (arc + apart) / drive.wheel_radius_m;
 }
 
+constexpr double kAsideM = 0.01;                              // an arc that ends this near is the way that was driven
+constexpr Duration kSparse = std::chrono::milliseconds(150);  // in less a robot does not turn, drive and turn back
+
+/// What an arc to `to` would miss it by, sideways.
+double arc_misses_by(const Driven& driven, const Pose2& to) {
+  const double turn = wrap_angle(to.heading - driven.pose.heading);
+  return std::fabs(cross(direction(driven.pose.heading + turn / 2.0), to.position() - driven.pose.position()));
+}
+
+/// The heading to drive straight to `to` with: ahead, or backwards where that is less of a turn.
+double heading_towards(const Driven& driven, const Pose2& to) {
+  const Vec2 way = to.position() - driven.pose.position();
+  const double ahead = atan2(way.y, way.x);
+  return std::fabs(wrap_angle(ahead - driven.pose.heading)) <= kPi / 2 ? ahead : wrap_angle(ahead + kPi);
+}
+
+/// Stamps a reading; its speeds, where the recording says none, are the mean ones since `before`.
+void stamp_reading(WheelState& now, Time stamp, const WheelState& before) {
+  now.stamp = stamp;
+  ++now.sequence;
+  const double dt = to_seconds(stamp - before.stamp);
+  if (before.sequence == 0 || !(dt > 0.0)) return;
+  now.left_radps = (now.left_rad - before.left_rad) / dt;
+  now.right_radps = (now.right_rad - before.right_rad) / dt;
+}
+
 }  // namespace
 
 DriveModel nominal_drive() { return {.wheel_radius_m = 0.1, .track_width_m = 0.5, .max_wheel_speed_radps = 100.0}; }
 
 std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive) {
   std::vector<WheelState> trail;
-  trail.reserve(poses.size());
+  trail.reserve(3 * poses.size());
   Driven driven;
   if (!poses.empty()) driven.pose = poses.front().pose;
-  for (const OdometryPose& next : poses) {
+  const auto drive_to = [&](const Pose2& to, Time stamp) {
     const WheelState before = driven.wheels;
-    drive_arc(driven, next.pose, drive);
-    WheelState& now = driven.wheels;
-    now.stamp = next.stamp;
-    ++now.sequence;
-    if (next.twist) {
-      const double apart = next.twist->w_radps * drive.track_width_m / 2.0;
-      now.left_radps = (next.twist->v_mps - apart) / drive.wheel_radius_m;
-      now.right_radps = (next.twist->v_mps + apart) / drive.wheel_radius_m;
-    } else if (!trail.empty()) {
-      const double dt = to_seconds(now.stamp - before.stamp);
-      now.left_radps = (now.left_rad - before.left_rad) / dt;
-      now.right_radps = (now.right_rad - before.right_rad) / dt;
+    drive_arc(driven, to, drive);
+    stamp_reading(driven.wheels, stamp, before);
+    trail.push_back(driven.wheels);
+  };
+  for (const OdometryPose& next : poses) {
+    const bool sparse = !trail.empty() && next.stamp - trail.back().stamp > kSparse;
+    if (sparse && arc_misses_by(driven, next.pose) > kAsideM) {
+      const Time since = trail.back().stamp;
+      const Duration third = (next.stamp - since) / 3;
+      const double heading = heading_towards(driven, next.pose);
+      drive_to({driven.pose.x, driven.pose.y, heading}, since + third);
+      drive_to({next.pose.x, next.pose.y, heading}, since + 2 * third);
     }
-    trail.push_back(now);
+    drive_to(next.pose, next.stamp);
+    if (!next.twist) continue;
+    const double apart = next.twist->w_radps * drive.track_width_m / 2.0;
+    trail.back().left_radps = (next.twist->v_mps - apart) / drive.wheel_radius_m;
+    trail.back().right_radps = (next.twist->v_mps + apart) / drive.wheel_radius_m;
   }
   return trail;
 }

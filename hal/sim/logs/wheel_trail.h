@@ -21,14 +21,16 @@ struct OdometryPose {
 /// differential drive would do: whoever integrates the angles uses the same numbers.
 [[nodiscard]] DriveModel nominal_drive();
 
-/// Wheel readings, one a pose, that a differential drive integrating exact arcs turns back into the
-/// poses. Angles begin at zero with the first pose.
+/// Wheel readings that a differential drive integrating exact arcs turns back into the poses. Angles begin at zero with
+/// the first pose.
 ///
 /// Between two poses the drive runs along a circle's arc through the heading's change da: its
 /// length is s = c (da/2) / sin(da/2) with c the displacement along the mean heading. What lies
-/// across it (side slip, a SLAM correction) no such drive can do; it stays as an error of position
-/// and is made up for as soon as the robot has turned, while heading is exact in every reading.
-/// Speeds are the recording's where it has them, else differences. `poses` has rising stamps.
+/// across it (side slip, a SLAM correction) no such drive can do in a moment; it stays as an error of position
+/// and is made up for as soon as the robot has turned. Poses more than 0.15 s apart that no arc joins to 1 cm were
+/// joined by another way: the drive turns, drives straight and turns, in thirds of the time, with a reading after each.
+/// Heading is exact at every pose. Speeds are the recording's where it has them, else differences. `poses` has rising
+/// stamps.
 [[nodiscard]] std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive);
 
 }  // namespace jaywalk::sim
