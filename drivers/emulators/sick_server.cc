@@ -86,6 +86,7 @@ void SickServer::obey(std::string_view command) {
   const std::string_view word = rest.substr(0, rest.find(' '));
   const std::string_view argument = rest.size() > word.size() ? rest.substr(word.size() + 1) : std::string_view();
   const std::string password = text ? "03 F4724744" : "\x03\xF4\x72\x47\x44";
+  if (!ignored_word_.empty() && word == ignored_word_) return;
   if (!refused_word_.empty() && word == refused_word_) return say(text ? "sFA 3" : std::string_view("sFA \x00\x03", 6));
   if (kind == "sMN" && word == "SetAccessMode") {
     logged_in_ = argument == password;

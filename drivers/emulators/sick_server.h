@@ -27,6 +27,8 @@ class SickServer final : public ScannerServer {
 
   /// From now on the command with this word is refused, as by a scanner that does not have it.
   void refuse(std::string word) { refused_word_ = std::move(word); }
+  /// From now on the command with this word is not answered, and not obeyed.
+  void ignore(std::string word) { ignored_word_ = std::move(word); }
   /// The status bit that says "error" in every telegram.
   void set_unwell(bool unwell) noexcept { unwell_ = unwell; }
 
@@ -43,7 +45,7 @@ class SickServer final : public ScannerServer {
 
   SickModel model_;
   std::string came_in_;
-  std::string refused_word_;
+  std::string refused_word_, ignored_word_;
   bool logged_in_ = false;
   bool unwell_ = false;
   std::uint16_t telegrams_ = 0;

@@ -144,7 +144,11 @@ void ScannerConnection::take_scan(Time arrival) noexcept {
 
 void ScannerConnection::watch(Time now) noexcept {
   const Duration without = age(progress_, now);
-  if (protocol_->awaits_answer() && without > timing_.answer_limit) return give_up(ScannerTrouble::kNoAnswer, now);
+  if (protocol_->awaits_answer() && without > timing_.answer_limit) {
+    if (!protocol_->go_on_unanswered()) return give_up(ScannerTrouble::kNoAnswer, now);
+    progress_ = now;
+    return;
+  }
   if (without <= timing_.silence_limit) return;
   const bool unwell = health_.trouble == ScannerTrouble::kDeviceError;
   give_up(unwell ? ScannerTrouble::kDeviceError : scan_late_ ? ScannerTrouble::kLate : ScannerTrouble::kSilent, now);

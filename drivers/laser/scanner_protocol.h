@@ -20,7 +20,7 @@ enum class Heard : std::uint8_t {
 struct ProtocolCounts {
   std::uint64_t lost = 0;           ///< scans that the scanner numbered and that did not come
   std::uint64_t skipped_bytes = 0;  ///< that belonged to no message
-  std::uint64_t refused = 0;        ///< commands that the scanner refused and that it can do without
+  std::uint64_t refused = 0;        ///< commands that the scanner refused or did not answer, and can do without
   bool operator==(const ProtocolCounts&) const = default;
 };
 
@@ -34,6 +34,8 @@ class ScannerProtocol {
   /// The next command, handed out once; empty while an answer is awaited and when all is said. Valid until begin().
   [[nodiscard]] virtual wire::Bytes to_say(Time now) noexcept = 0;
   [[nodiscard]] virtual bool awaits_answer() const noexcept = 0;
+  /// The answer does not come: false where that is the end, true where the conversation goes on without it.
+  [[nodiscard]] virtual bool go_on_unanswered() noexcept { return false; }
   virtual void hear(wire::Bytes bytes) noexcept = 0;
   /// The next message of what was heard, whose last byte came in at `arrival`. `scan` may be spoilt except at kScan.
   [[nodiscard]] virtual Heard next(Time arrival, LaserScan& scan) noexcept = 0;

@@ -73,12 +73,18 @@ Heard SickProtocol::on_answer(std::string_view body) noexcept {
     const char last = rest.back();
     taken = word.size() == rest.size() || last == '1' || last == '\x01';
   }
-  asked_ = false;
+  return conclude(taken) ? Heard::kAnswer : Heard::kRefused;
+}
+
+bool SickProtocol::go_on_unanswered() noexcept { return conclude(false); }
+
+bool SickProtocol::conclude(bool taken) noexcept {
   const bool must = at_ + 1 == steps_.size();
-  if (!taken && must) return Heard::kRefused;
-  if (!taken) ++refused_;
+  if (!taken && must) return false;
+  asked_ = false;
   ++at_;
-  return Heard::kAnswer;
+  if (!taken) ++refused_;
+  return true;
 }
 
 void SickProtocol::count_lost(std::uint16_t telegram_counter) noexcept {

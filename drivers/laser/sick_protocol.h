@@ -10,7 +10,7 @@ namespace jaywalk::sick {
 
 /// Makes a TiM5xx or LMS1xx send scans: log in as authorised client, first distances of 16 bits and nothing else in
 /// each telegram, run, scans on. What is set is not saved in the scanner. Only the last command must be taken; a
-/// scanner that refuses another sends scans as it was set before, and the refusal is counted.
+/// scanner that refuses another or does not answer it sends scans as it was set before, and that is counted.
 class SickProtocol final : public ScannerProtocol {
  public:
   SickProtocol(Cola dialect, const ScannerModel& model) noexcept;
@@ -18,6 +18,7 @@ class SickProtocol final : public ScannerProtocol {
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
+  [[nodiscard]] bool go_on_unanswered() noexcept override;
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override;
@@ -29,6 +30,8 @@ class SickProtocol final : public ScannerProtocol {
   };
 
   [[nodiscard]] Heard on_answer(std::string_view body) noexcept;
+  /// The command was taken, or not: on to the next. False where it must be taken.
+  [[nodiscard]] bool conclude(bool taken) noexcept;
   void count_lost(std::uint16_t telegram_counter) noexcept;
 
   Cola dialect_;

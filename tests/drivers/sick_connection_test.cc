@@ -219,9 +219,9 @@ TEST_CASE("a scanner that falls silent is called again and again") {
   Bench bench;
   const auto outage = bench.suffer(ScannerFault::kSilence, 5s);
   CHECK(outage.trouble == ScannerTrouble::kSilent);
-  CHECK(bench.at.health().last_trouble == ScannerTrouble::kNoAnswer);
+  CHECK(bench.at.health().last_trouble == ScannerTrouble::kNoAnswer);  // four commands, a second each
   CHECK(bench.at.health().connections >= 3);
-  // Silent for 4 s more; then an answer awaited in vain for 1 s, a rest of 1.6 s, the conversation and a sweep.
+  // Silent for 4 s more; then an answer awaited in vain for 1 s, a rest, the conversation and a sweep.
   CHECK(outage.lasted <= 4s + 1s + 1600ms + 2 * kPeriod + 20ms);
 }
 
@@ -230,6 +230,15 @@ TEST_CASE("a setting that a scanner refuses is counted and does not keep scans a
   bench.at.server->refuse("LMDscandatacfg");
   bench.come_to_life();
   CHECK(bench.at.health().protocol.refused == 1);
+}
+
+TEST_CASE("a setting that a scanner does not answer is counted and passed over after a second") {
+  Bench bench;
+  bench.at.server->ignore("LMDscandatacfg");
+  CHECK(bench.at.run_until([&] { return bench.at.is_well(); }, 5s) <= 1s + 2 * kPeriod + 20ms);
+  CHECK(bench.at.is_well());
+  CHECK(bench.at.health().protocol.refused == 1);
+  CHECK(bench.at.health().connections == 1);
 }
 
 TEST_CASE("a scanner that refuses to send scans is named so") {
