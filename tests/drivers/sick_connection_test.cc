@@ -2,10 +2,12 @@
 #include <chrono>
 #include <deque>
 #include <string>
+#include <vector>
 
 #include "drivers/emulators/sick_server.h"
 #include "drivers/laser/sick_protocol.h"
 #include "hal/types/errors.h"
+#include "tests/drivers/data_files.h"
 #include "tests/drivers/scanner_bench.h"
 #include "tests/support/catch.h"
 
@@ -121,6 +123,17 @@ TEST_CASE("scans that were held back look as old as they are") {
   const std::deque<Time>& began = bench.began;
   CHECK(std::any_of(began.begin(), began.end(),
                     [&](Time t) { return std::chrono::abs(bench.at.scan().stamp - t) <= 1ms; }));
+}
+
+TEST_CASE("of scans that come at once on a new connection none is handed out that is no newer than the one before") {
+  Bench bench;
+  bench.at.server->order(ScannerFault::kHeldBack, 500ms);
+  bench.at.run_until([&] { return bench.at.health().scans > 0; }, 2s);
+  // Seven had been held; nothing tells when they were taken, so they look simultaneous to a millisecond.
+  const ScannerHealth health = bench.at.health();
+  CHECK(health.late >= 3);
+  CHECK(health.scans + health.late == bench.at.server->messages_sent());
+  CHECK(bench.at.scan().sequence == health.scans);
 }
 
 TEST_CASE("a wire that begins to hold every scan back for 0.7 s is given up") {
@@ -267,6 +280,40 @@ TEST_CASE("a scanner that reports an error is named so until it is well") {
 
 TEST_CASE("a host that nobody knows is refused at start") {
   CHECK_THROWS_AS(wire::TcpEndpoint("no such host.invalid", 2112), StartupError);
+}
+
+TEST_CASE("the 16 real telegrams of a TiM come over TCP as they came from it") {
+  const auto path = tests::data_file("sick/sick_tim_colaB_16_telegrams.bin");
+  if (path.empty()) return;
+  const std::vector<std::uint8_t> recorded = tests::read_bytes(path);
+  emulators::TcpServer wire(0);
+  tests::HandClock clock;
+  ScannerConnection connection(std::make_unique<wire::TcpEndpoint>("127.0.0.1", wire.port()),
+                               std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick::ScannerModel{}), clock);
+  Duration least = 1s, most = 0s;
+  Time before = kNever;
+  for (std::size_t at = 0; at < recorded.size();) {
+    clock.sleep_until(clock.now() + 1ms);
+    connection.step();
+    // A telegram of 3374 bytes each 67 ms, in the pieces that an Ethernet makes of it; nobody answers commands.
+    const std::size_t due = 3374 * (1 + static_cast<std::size_t>((clock.now().time_since_epoch() - 1ms) / 67ms));
+    if (!wire.has_peer() || at >= due) continue;
+    const std::size_t piece = std::min({std::size_t{1448}, due - at, recorded.size() - at});
+    wire.write(wire::Bytes(recorded).subspan(at, piece));
+    at += piece;
+    connection.step();
+    const Time stamp = connection.latest().stamp;
+    if (stamp == before) continue;
+    if (before != kNever) least = std::min(least, stamp - before), most = std::max(most, stamp - before);
+    before = stamp;
+  }
+  CHECK(connection.latest().sequence == 16);
+  CHECK(connection.latest().beam_count == 811);
+  const ScannerHealth health = connection.health();
+  CHECK(health.malformed + health.late + health.protocol.lost + health.protocol.skipped_bytes == 0);
+  // The scanner's own clock put 66.6 to 66.7 ms between them, and 0.8 ms more or less into sending them.
+  CHECK(least >= 65ms);
+  CHECK(most <= 69ms);
 }
 
 TEST_CASE("a connection with a thread of its own brings scans in real time and ends at once") {
