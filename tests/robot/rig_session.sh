@@ -1,11 +1,16 @@
 # For scripts that run under tools/rig/run: a plant at one end of vcan0 and of a TCP port, the controller at the other.
 # shellcheck shell=bash
+# $RIG_GOAL: another goal than the usual one; $RIG_SLOW: leave out what takes long on an emulated machine;
+# $RIG_CAN and $RIG_FAR_CAN name other interfaces than vcan0: two controllers on one bus.
 # usage: source rig_session.sh JAYWALK PLANT ROOT
 set -uo pipefail
 jaywalk=$1 plant=$2 root=$3
 talk=$(dirname "$plant")/jaywalk_talk
 # In memory: a file of this machine's would hold up the guest, whose time is real.
 out=$(mktemp -d -p /dev/shm) || exit 1
+can=${RIG_CAN:-vcan0} far_can=${RIG_FAR_CAN:-vcan0}
+[ -e "/sys/class/net/$can" ] || { rm -r "$out"; echo "skipped: no interface $can"; exit 77; }
+sed "s/vcan0/$can/" "$root/tools/rig/drive/robot.toml" >"$out/robot.toml"
 export JAYWALK_SOCKET=$out/control
 failed=0
 run_pid='' plant_pid=''
@@ -30,7 +35,7 @@ field() {
 # start_plant [OPTIONS...]
 start_plant() {
   rm -f "$out/plant.log"
-  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --log "$out/plant.log" "$@" <&3 &
+  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --can "$far_can" --log "$out/plant.log" "$@" <&3 &
   plant_pid=$!
   for _ in $(seq 50); do [ ! -s "$out/plant.log" ] || return 0; sleep 0.1; done
   fail "the plant did not start"
@@ -40,10 +45,10 @@ end_plant() {
   plant_pid=''
 }
 
-# start_run [ROBOT.toml]: until it takes goals.
+# start_run: until it takes goals.
 start_run() {
   : >"$out/run.log"
-  "$jaywalk" run "${1:-$root/tools/rig/drive/robot.toml}" --backend cpu --out "$out/run" >"$out/run.log" 2>&1 &
+  "$jaywalk" run "$out/robot.toml" --backend cpu --out "$out/run" >"$out/run.log" 2>&1 &
   run_pid=$!
   for _ in $(seq 100); do
     [[ $(<"$out/run.log") != *"ready for"* ]] || return 0
