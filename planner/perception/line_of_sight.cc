@@ -19,6 +19,7 @@ LineOfSight::LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, con
       robot_from_laser_(robot_from_laser),
       twist_(twist),
       beam_s_(beam_interval_s(scan, twist)),
+      beams_(static_cast<double>(std::min<std::size_t>(scan.beam_count, kMaxBeams))),
       laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
 
 LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noexcept {
@@ -33,13 +34,13 @@ LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noex
 Sight LineOfSight::at(Vec2 place, double tolerance) const noexcept {
   if (scan_.angle_step_rad == 0.0F) return Sight::kUnseen;
   Bearing seen = bearing(place, 0.0);
-  if (beam_s_ > 0.0 && seen.beam < scan_.beam_count) seen = bearing(place, seen.beam * beam_s_);
+  if (beam_s_ > 0.0 && seen.beam < beams_) seen = bearing(place, seen.beam * beam_s_);
   const auto [away, beam] = seen;
-  if (!(away > tolerance) || !(beam < scan_.beam_count)) return Sight::kUnseen;
+  if (!(away > tolerance) || !(beam < beams_)) return Sight::kUnseen;
   const double aside =
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
   const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(beam - aside + 0.5)));
-  const auto last = std::min<std::size_t>(scan_.beam_count - 1, static_cast<std::size_t>(beam + aside + 0.5));
+  const auto last = std::min(static_cast<std::size_t>(beams_) - 1, static_cast<std::size_t>(beam + aside + 0.5));
   bool through = first <= last;
   for (std::size_t b = first; b <= last; ++b) {
     const double range = static_cast<double>(scan_.range_m[b]);

@@ -34,6 +34,7 @@ class LineOfSight {
   Pose2 map_from_robot_, robot_from_laser_;
   Twist2 twist_;
   double beam_s_;
+  double beams_;               ///< in use, whatever the scan claims
   Transform2 laser_from_map_;  ///< at the stamp
 };
 

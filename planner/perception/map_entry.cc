@@ -52,6 +52,8 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
   AxisWalk x(from.x, to.x - from.x, cell.i, map.cell_m()), y(from.y, to.y - from.y, cell.j, map.cell_m());
   const std::int32_t cells = std::abs(end.i - cell.i) + std::abs(end.j - cell.j);
   for (std::int32_t k = 0; k < cells; ++k) {  // the last cell is left out: the beam ends just behind it
+    if (!map.contains(cell))
+      return;  // a straight line does not come back: a beam of a kilometre costs no more than the map
     const bool at_the_end = k + kNoiseCells >= cells;
     if (!(at_the_end && map.evidence(cell) > 0) && first_visit(cell)) map.add(cell, kPass);
     if (x.next < y.next) {
