@@ -17,10 +17,15 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
 
 FollowerConfig follower_config(const ControlSetup& setup) {
   return {.limits = setup.model.limits,
-          .robot_radius_m = setup.planner().inflation_m,
+          .robot_radius_m = setup.mover_radius_m(),
           .constant_speed = setup.keeps_speed(),
           .goal_tolerance_m = setup.goal_tolerance_m,
           .tick_s = to_seconds(setup.tick())};
+}
+
+std::unique_ptr<FootprintGuide> guide_for(const ControlSetup& setup) {
+  if (!setup.guides_body()) return nullptr;
+  return std::make_unique<FootprintGuide>(setup.model.footprint, setup.model.limits);
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
@@ -37,6 +42,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       localizer_(localization_config(setup)),
       tracker_(perception_config(setup)),
       follower_(follower_config(setup)),
+      guide_(guide_for(setup)),
       supervisor_(supervisor_config(setup)),
       diff_drive_(setup.model.drive),
       plan_(&planner.collect()) {}
@@ -63,6 +69,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
 
+  if (guide_ && t.input.has_goal && plans_.is_new(plan_->sequence)) guide_->look(guide_input(t));
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();
   if (t.plan_asked) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
   recorder_.commit();
@@ -81,7 +88,16 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .goal_in_map = t.input.goal_in_map,
           .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
           .tracks = tracker_.tracks(),
-          .permitted_before = driven_};
+          .permitted_before = driven_,
+          .guide = guide_.get()};
+}
+
+GuideInput ControlLoop::guide_input(const TickRecord& t) const noexcept {
+  return {.path = plan_->path,
+          .map_from_robot = t.pose.map_from_robot,
+          .wanted = t.wanted,
+          .driven = driven_,
+          .still = tracker_.still()};
 }
 
 PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
@@ -90,7 +106,8 @@ PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
           .goal_in_map = t.input.goal_in_map,
           .speed_mps = setup_.model.limits.max_speed_mps,
           .still = &tracker_.still(),
-          .moving = tracker_.moving()};
+          .moving = tracker_.moving(),
+          .body = setup_.guides_body() ? &setup_.model.footprint : nullptr};
 }
 
 }  // namespace jaywalk

@@ -1,6 +1,7 @@
 #pragma once
 // The fixed-rate loop. One tick: sense, estimate, plan, act, record.
 #include <cstdint>
+#include <memory>
 #include <utility>
 
 #include "firmware/control_setup.h"
@@ -30,6 +31,7 @@ class ControlLoop {
  private:
   void note_plan(TickRecord& t) const noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
+  [[nodiscard]] GuideInput guide_input(const TickRecord& t) const noexcept;
   [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
 
   /// Tells a device's new reading from one seen before.
@@ -48,11 +50,12 @@ class ControlLoop {
   Localizer localizer_;
   Tracker tracker_;
   Follower follower_;
+  std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;  ///< what collect() last answered, never null
   Twist2 driven_;     ///< what the wheels were last asked for
-  Fresh scans_, fixes_;
+  Fresh scans_, fixes_, plans_;
 };
 
 }  // namespace jaywalk

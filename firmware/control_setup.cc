@@ -25,19 +25,29 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlSetup, model, mode, constant_speed, ba
 namespace {
 
 constexpr double kCell_m = 0.1;  // the paper's
-/// A robot that is nearly round plans with the circle that holds it and may turn anywhere; a long one with the circle
-/// inside it and a margin.
+/// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
+constexpr double kMoverMargin_m = PlannerConfig{}.mover_margin_m;
 
 }  // namespace
+
+bool ControlSetup::guides_body() const {
+  const Footprint& body = model.footprint;
+  return !keeps_speed() && body.circumscribed_radius_m() > body.inscribed_radius_m() + kMarginOverInscribed_m;
+}
+
+double ControlSetup::mover_radius_m() const {
+  const Footprint& body = model.footprint;
+  return std::min(body.circumscribed_radius_m(), body.inscribed_radius_m() + kMarginOverInscribed_m);
+}
 
 PlannerConfig ControlSetup::planner() const {
   PlannerConfig config;
   config.mode = mode;
   config.cell_m = kCell_m;
   config.side_cells = grid_side_for(start.position(), goal, kCell_m);
-  config.inflation_m =
-      std::min(model.footprint.circumscribed_radius_m(), model.footprint.inscribed_radius_m() + kMarginOverInscribed_m);
+  config.inflation_m = guides_body() ? model.footprint.inscribed_radius_m() : mover_radius_m();
+  config.mover_margin_m = kMoverMargin_m + mover_radius_m() - config.inflation_m;
   return config;
 }
 

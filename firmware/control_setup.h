@@ -23,6 +23,11 @@ struct ControlSetup {
   bool wired = false;  ///< devices on wires: every fault waits for a reset
   double rate_hz = 50.0;
 
+  /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
+  /// one with the circle inside it and a FootprintGuide. At constant speed nothing can be guided.
+  [[nodiscard]] bool guides_body() const;
+  /// The robot's radius where movers are concerned, and walls for a nearly round one.
+  [[nodiscard]] double mover_radius_m() const;
   [[nodiscard]] PlannerConfig planner() const;
   [[nodiscard]] bool keeps_speed() const { return constant_speed || mode == PlanMode::kPaper; }
   /// In mode paper verdicts are recorded and not applied: the paper never stops.

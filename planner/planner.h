@@ -8,6 +8,7 @@
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 #include "hal/types/time.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/perception/track.h"
@@ -43,6 +44,9 @@ struct PlanRequest {
   double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
   const EvidenceMap* still = nullptr;  ///< walls; read during submit only
   std::span<const Track> moving;       ///< copied during submit
+  /// Of a robot that cannot turn anywhere and does not see behind itself: what lies near it, was never seen and is not
+  /// under it is no way while there is another. Null: what was never seen is free. Read during submit only.
+  const Footprint* body = nullptr;
 };
 
 /// Where a mover is expected, and how it was marked.

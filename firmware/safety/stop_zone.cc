@@ -18,6 +18,11 @@ double StopZone::rim_speed_mps(const Twist2& twist) const noexcept {
   return std::fabs(twist.v_mps) + std::fabs(twist.w_radps) * rim_radius_m_;
 }
 
+double StopZone::margin_at(double rim_mps) const noexcept {
+  const double share = std::min(rim_mps / kFullMargin_mps, 1.0);
+  return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
+}
+
 double StopZone::speed_to_stop_within(double gap_m, Duration sweep) const noexcept {
   if (!(gap_m > 0.0)) return 0.0;
   const double bt = config_.brake_mps2 * (config_.reaction_s + to_seconds(sweep));
@@ -32,16 +37,17 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist) const noexcep
   // Driving a chord and then turning differs from the arc by less than 0.3 mm a step.
   const Step step{twist.v_mps * step_s, direction(-twist.w_radps * step_s)};
   const Transform2 robot_from_laser(config_.robot_from_laser);
+  const double margin = margin_at(rim_speed);
   const double reach_m = rim_radius_m_ + config_.margin_m + config_.look_ahead_m;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     if (!scan.is_hit(beam)) continue;
     const Vec2 hit = robot_from_laser * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
-    if (norm(hit) <= reach_m) gap = std::min(gap, way_to(hit, step, std::min(gap, config_.look_ahead_m)));
+    if (norm(hit) <= reach_m) gap = std::min(gap, way_to(hit, step, margin, std::min(gap, config_.look_ahead_m)));
   }
   return gap;
 }
 
-double StopZone::way_to(Vec2 point, const Step& step, double most_m) const noexcept {
+double StopZone::way_to(Vec2 point, const Step& step, double margin_m, double most_m) const noexcept {
   const double clearance_now = config_.footprint.distance_to(point);
   double before = clearance_now;
   const int steps = static_cast<int>(most_m / kStep_m) + 1;
@@ -50,9 +56,9 @@ double StopZone::way_to(Vec2 point, const Step& step, double most_m) const noexc
     point = {step.turn_back.x * q.x - step.turn_back.y * q.y, step.turn_back.y * q.x + step.turn_back.x * q.y};
     const double clearance = config_.footprint.distance_to(point);
     const bool still_touching = clearance_now == 0.0 && clearance == 0.0;
-    if (still_touching || (clearance < config_.margin_m && clearance < clearance_now - 1e-4)) {
+    if (still_touching || (clearance < margin_m && clearance < clearance_now - 1e-4)) {
       // The margin is met within this step, where the clearance has fallen to it; at once where it had before.
-      const double within = before > config_.margin_m ? (before - config_.margin_m) / (before - clearance) : 0.0;
+      const double within = before > margin_m ? (before - margin_m) / (before - clearance) : 0.0;
       return (k + within) * kStep_m;
     }
     before = clearance;

@@ -91,11 +91,13 @@ class GridPlanner final : public Planner {
     std::fill_n(result.psi, window_.grid().cells(), cell::kNotFree);
     const std::int32_t movers = fetch_movers(window_, request.moving, pass_.arrays().movers, mover_ids_);
     Warping warping = warping_for(config_, window_, request);
-    PlanStatus status = plan_among(request, warping, movers, result);
+    const bool minds_unseen = request.body != nullptr && request.still != nullptr;
+    PlanStatus status = plan_among(request, warping, movers, minds_unseen, result);
+    if (status != PlanStatus::kOk && minds_unseen) status = plan_among(request, warping, movers, false, result);
     if (status == PlanStatus::kNoPath && movers > 0 && config_.mode == PlanMode::kFull) {
       // Movers may have left what they block by the time the robot comes there: beyond the horizon they do not count.
       warping.reach = warping.robot_speed * warping.cap_s;
-      status = plan_among(request, warping, movers, result);
+      status = plan_among(request, warping, movers, false, result);
     }
     const CellIndex robot = window_.cell_at(request.map_from_robot.position());
     if (status == PlanStatus::kNoPath) {
@@ -106,10 +108,11 @@ class GridPlanner final : public Planner {
     return status;
   }
 
-  PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers,
+  PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers, bool minds_unseen,
                         Result& result) noexcept {
     const Grid grid = window_.grid();
     fetch_walls(window_, request.still, pass_.arrays().occupants);
+    if (minds_unseen) fetch_unseen(window_, request, pass_.arrays().occupants);
     if (!pass_.mark(grid, warping, movers)) return PlanStatus::kBackendFailed;
     report_predictions(movers, result.plan);
     if (!pass_.clear(grid, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;

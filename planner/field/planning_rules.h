@@ -12,6 +12,8 @@ inline constexpr double kStartRadius_m = 1.0;
 inline constexpr double kGoalRadius_m = 0.5;
 /// The same for a goal beside which a mover is marked: it will move on, the robot may come closer.
 inline constexpr double kGoalRadiusBesideMover_m = 2.0;
+/// How far unseen places count as walls for a body that must not back into them.
+inline constexpr double kUnseenRadius_m = 2.0;
 /// Submissions in a row that walls alone keep from the goal before the window doubles: a second at 15 scans a
 /// second. A doorway that noise closes for a scan must not quadruple the work for good.
 inline constexpr int kPatience = 15;
@@ -38,5 +40,8 @@ void check(const PlannerConfig& config);
 
 /// Walls of the map as occupants; everything else empty.
 void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept;
+
+/// Adds as walls what was never seen within kUnseenRadius_m of the robot, but for what is under `body`.
+void fetch_unseen(const Window& window, const PlanRequest& request, std::uint8_t* occupants) noexcept;
 
 }  // namespace jaywalk::field

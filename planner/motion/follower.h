@@ -3,6 +3,8 @@
 
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
+#include "planner/motion/footprint_guide.h"
+#include "planner/motion/pursuit.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
 #include "planner/perception/track.h"
@@ -24,8 +26,9 @@ struct FollowerInput {
   Pose2 map_from_robot;
   Vec2 goal_in_map;
   bool has_goal = false;
-  std::span<const Track> tracks;  ///< all of them: see choose_speed
-  Twist2 permitted_before;        ///< what the supervisor made of the last wish
+  std::span<const Track> tracks;    ///< all of them: see choose_speed
+  Twist2 permitted_before;          ///< what the supervisor made of the last wish
+  FootprintGuide* guide = nullptr;  ///< of a body that is longer than wide; null: the path fits everywhere
 };
 
 /// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and movers
@@ -37,15 +40,12 @@ class Follower {
 
  private:
   [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
+  [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input) const noexcept;
   [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
 
   FollowerConfig config_;
   SpeedChoiceConfig speed_choice_;
   TwistRamp ramp_;
 };
-
-/// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`; the last one where the path ends
-/// before. The path is not empty.
-[[nodiscard]] Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept;
 
 }  // namespace jaywalk

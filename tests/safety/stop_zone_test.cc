@@ -78,3 +78,13 @@ TEST_CASE("a cylinder of 70 mm is seen wherever it stands in the way") {
     REQUIRE(kZone.gap_m(scan_of({{1.5, aside}}), {0.5, 0.0}) < 1.0);
   }
 }
+
+TEST_CASE("the slower the outline, the less is kept free: 10 cm from 0.4 m/s on, 4 cm at rest, 7 cm half-way") {
+  CHECK(kZone.margin_at(0.4) == Approx(0.1));
+  CHECK(kZone.margin_at(1.5) == Approx(0.1));
+  CHECK(kZone.margin_at(0.0) == Approx(0.04));
+  CHECK(kZone.margin_at(0.2) == Approx(0.07));
+  // 7 cm beside the box, ahead of its front: met at 0.5 m/s, passed at 0.1 m/s (4 + 6/4 = 5.5 cm).
+  CHECK(std::isfinite(kZone.gap_m(scan_of({{1.0, 0.37}}), {0.5, 0.0})));
+  CHECK(std::isinf(kZone.gap_m(scan_of({{1.0, 0.37}}), {0.1, 0.0})));
+}

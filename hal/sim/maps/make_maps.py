@@ -65,6 +65,16 @@ CROSSING = outer(20.0, 14.0) + [
     (7.9, 3.4, 8.3, 3.8), (11.7, 3.4, 12.1, 3.8), (7.9, 10.2, 8.3, 10.6), (11.7, 10.2, 12.1, 10.6)]
 
 
+# Tight places for a wheelchair of 0.65 m x 1.10 m. Two rooms and a door of 0.90 m; 8.2 m x 5 m inside.
+DOOR = outer(8.6, 5.4) + [along(4.3, 0, 2.3), along(4.3, 3.2, 5.4)]
+
+# A corridor of 1.2 m with one corner; 5 m long either way.
+CORNER = outer(5.4, 5.4) + [(0, 1.4, 4.0, 5.4)]
+
+# A room, and off it a dead end 1.2 m wide and 2.5 m deep.
+DEAD_END = outer(7.9, 5.4) + [(5.2, 0, 7.9, 2.0), (5.2, 3.2, 7.9, 5.4)]
+
+
 def rasterise(width, height, walls):
     """Rows of grey values from the top, as pictures have them."""
     columns, rows = round(width / CELL), round(height / CELL)
@@ -98,6 +108,9 @@ def main():
     for name, walls in (("map1", MAP1), ("map2", MAP2), ("map3", MAP3), ("map4", MAP4)):
         write_map(folder, name, SIDE, SIDE, walls)
     write_map(folder, "crossing", 20.0, 14.0, CROSSING)
+    write_map(folder, "door", 8.6, 5.4, DOOR)
+    write_map(folder, "corner", 5.4, 5.4, CORNER)
+    write_map(folder, "dead_end", 7.9, 5.4, DEAD_END)
 
 
 if __name__ == "__main__":

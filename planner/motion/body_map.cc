@@ -1,0 +1,122 @@
+#include "planner/motion/body_map.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kPitch_m = 0.1;  // between samples of the outline
+
+/// Points from `a` towards `b`, evenly spaced, without `b`.
+void sample_edge(Vec2 a, Vec2 b, std::vector<Vec2>& points) {
+  const double pieces = std::ceil(distance(a, b) / kPitch_m);
+  for (double k = 0.0; k < pieces; k += 1.0) points.push_back(a + (b - a) * (k / pieces));
+}
+
+}  // namespace
+
+BodyMap::BodyMap(const Footprint& footprint)
+    : footprint_(footprint),
+      distance_(static_cast<std::size_t>(kSide * kSide), static_cast<float>(kFar_m)),
+      unseen_(static_cast<std::size_t>(kPatches * kPatches)) {
+  // The front first: it is what meets things most often, and the looking ends there.
+  const std::array<Vec2, 4> corners{{{footprint.front_m, -footprint.half_width_m},
+                                     {footprint.front_m, footprint.half_width_m},
+                                     {-footprint.rear_m, footprint.half_width_m},
+                                     {-footprint.rear_m, -footprint.half_width_m}}};
+  for (std::size_t k = 0; k < corners.size(); ++k) sample_edge(corners[k], corners[(k + 1) % 4], outline_);
+}
+
+void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot) noexcept {
+  const Vec2 centre = map_from_robot.position();
+  std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
+  low_ = centre - Vec2{kReach_m, kReach_m};
+  const double reach_m = kReach_m + kFar_m;
+  const CellIndex first = still.cell_at(centre - Vec2{reach_m, reach_m});
+  const CellIndex last = still.cell_at(centre + Vec2{reach_m, reach_m});
+  for (std::int32_t j = first.j; j <= last.j; ++j) {
+    for (std::int32_t i = first.i; i <= last.i; ++i) {
+      if (!still.occupied({i, j})) continue;
+      const Vec2 here = still.surface({i, j});
+      stamp(here);
+      // Half-way to its neighbours too: a surface has a point a cell, and an outline could seem clear of it between
+      // them.
+      for (const CellIndex beside : {CellIndex{i + 1, j}, {i, j + 1}, {i + 1, j + 1}, {i - 1, j + 1}}) {
+        if (still.occupied(beside)) stamp((here + still.surface(beside)) * 0.5);
+      }
+    }
+  }
+  note_unseen(still, map_from_robot);
+  for (float& d : distance_) d = std::sqrt(d);
+}
+
+void BodyMap::note_unseen(const EvidenceMap& still, const Pose2& map_from_robot) noexcept {
+  const Transform2 robot_from_map(inverse(map_from_robot));
+  for (std::int32_t j = 0; j < kPatches; ++j) {
+    for (std::int32_t i = 0; i < kPatches; ++i) {
+      const Vec2 p = low_ + Vec2{(i + 0.5) * kPatch_m, (j + 0.5) * kPatch_m};
+      const CellIndex cell = still.cell_at(p);
+      const bool seen = still.seen_free(cell) || still.occupied(cell);
+      const bool stood_on = footprint_.distance_to(robot_from_map * p) < kPatch_m;
+      unseen_[static_cast<std::size_t>(j * kPatches + i)] = seen || stood_on ? 0 : 1;
+    }
+  }
+}
+
+bool BodyMap::goes_unseen(Vec2 position, Vec2 ahead) const noexcept {
+  for (const Vec2 p : outline_) {
+    const Vec2 on_map = position + Vec2{ahead.x * p.x - ahead.y * p.y, ahead.y * p.x + ahead.x * p.y};
+    if (!covers(on_map)) continue;
+    const Vec2 at = (on_map - low_) * (1.0 / kPatch_m);
+    const std::int32_t patch = static_cast<std::int32_t>(at.y) * kPatches + static_cast<std::int32_t>(at.x);
+    if (unseen_[static_cast<std::size_t>(patch)] != 0) return true;
+  }
+  return false;
+}
+
+/// Squared distances of the nodes within kFar_m of a surface, where it is the nearest so far.
+void BodyMap::stamp(Vec2 surface) noexcept {
+  const auto x = static_cast<float>((surface.x - low_.x) / kNode_m);
+  const auto y = static_cast<float>((surface.y - low_.y) / kNode_m);
+  constexpr auto kReachNodes = static_cast<float>(kFar_m / kNode_m);
+  constexpr auto kLast = static_cast<float>(kSide - 1);
+  constexpr auto kSquare = static_cast<float>(kNode_m * kNode_m);
+  const auto node = [&](float at) { return static_cast<std::int32_t>(std::clamp(at, 0.0F, kLast)); };
+  if (x < -kReachNodes || y < -kReachNodes || x > kLast + kReachNodes || y > kLast + kReachNodes) return;
+  for (std::int32_t j = node(y - kReachNodes); j <= node(y + kReachNodes); ++j) {
+    const float dy = static_cast<float>(j) - y;
+    float* row = distance_.data() + j * kSide;
+    for (std::int32_t i = node(x - kReachNodes); i <= node(x + kReachNodes); ++i) {
+      const float dx = static_cast<float>(i) - x;
+      row[i] = std::min(row[i], (dx * dx + dy * dy) * kSquare);
+    }
+  }
+}
+
+bool BodyMap::covers(Vec2 p) const noexcept {
+  const Vec2 at = (p - low_) * (1.0 / kNode_m);
+  return at.x >= 0.0 && at.y >= 0.0 && at.x < kSide - 1 && at.y < kSide - 1;
+}
+
+double BodyMap::distance_at(Vec2 p) const noexcept {
+  if (!covers(p)) return kFar_m;
+  const Vec2 at = (p - low_) * (1.0 / kNode_m);
+  const auto i = static_cast<std::int32_t>(at.x), j = static_cast<std::int32_t>(at.y);
+  const double u = at.x - i, v = at.y - j;
+  const float* node = distance_.data() + j * kSide + i;
+  const auto of = [&](std::int32_t offset) { return static_cast<double>(node[offset]); };
+  return (1.0 - v) * ((1.0 - u) * of(0) + u * of(1)) + v * ((1.0 - u) * of(kSide) + u * of(kSide + 1));
+}
+
+double BodyMap::clearance(Vec2 position, Vec2 ahead, double least_m) const noexcept {
+  double nearest = kFar_m;
+  for (const Vec2 p : outline_) {
+    const Vec2 sample = position + Vec2{ahead.x * p.x - ahead.y * p.y, ahead.y * p.x + ahead.x * p.y};
+    nearest = std::min(nearest, distance_at(sample));
+    if (nearest < least_m) break;
+  }
+  return nearest;
+}
+
+}  // namespace jaywalk

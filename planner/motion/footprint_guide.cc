@@ -1,0 +1,180 @@
+#include "planner/motion/footprint_guide.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/motion/pursuit.h"
+
+namespace jaywalk {
+namespace {
+
+/// Kept between outline and surfaces: the stop zone's 8 cm, and what a scan's noise makes of them.
+constexpr double kMargin_m = 0.10;
+/// Where nothing better is found; what the stop zone wants of a robot that creeps.
+constexpr double kTightMargin_m = 0.075;
+/// A manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
+constexpr double kLeastMargin_m = 0.05;
+constexpr double kNoNearer_m = 0.002;  // what is nearer from the start may be left, or passed alike
+constexpr int kRefusedLooks = 15;      // a second
+constexpr double kOff_m = 0.12;        // a manoeuvre left by more is given up
+constexpr double kAhead_m = 1.6;       // looked at along the path, whatever the speed
+constexpr double kAhead_s = 8.0, kStep_s = 0.1;
+constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
+constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
+constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45, kBackStep_m = 0.1;
+
+double toward(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
+
+/// Half a step before, for the middle of an arc.
+Pose2 moved(const Pose2& pose, const Twist2& twist, double dt_s) {
+  const Vec2 ahead = direction(pose.heading + 0.5 * twist.w_radps * dt_s);
+  return {pose.x + ahead.x * twist.v_mps * dt_s, pose.y + ahead.y * twist.v_mps * dt_s,
+          wrap_angle(pose.heading + twist.w_radps * dt_s)};
+}
+
+}  // namespace
+
+FootprintGuide::FootprintGuide(const Footprint& footprint, const MotionLimits& limits)
+    : limits_(limits), map_(footprint), reach_(footprint.inscribed_radius_m()), search_(footprint), drive_(limits) {}
+
+void FootprintGuide::look(const GuideInput& input) noexcept {
+  const bool refused = is_refused(input);
+  if (input.path.empty()) {
+    drive_.stop();
+    return;
+  }
+  map_.draw(input.still, input.map_from_robot);
+  if (refused) {
+    back_off(input.map_from_robot);
+    return;
+  }
+  if (keeps_manoeuvre(input)) return;
+  drive_.stop();
+  most_speed_mps_ = speed_that_fits(input);
+  unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
+  if (most_speed_mps_ == 0.0) search(input);
+}
+
+/// Whether the supervisor has refused for a while: the surfaces are nearer than the map has them.
+bool FootprintGuide::is_refused(const GuideInput& input) noexcept {
+  const bool refused =
+      input.wanted != Twist2{} && std::fabs(input.driven.v_mps) < 1e-3 && std::fabs(input.driven.w_radps) < 1e-3;
+  refused_looks_ = refused ? refused_looks_ + 1 : 0;
+  if (refused_looks_ < kRefusedLooks) return false;
+  refused_looks_ = 0;
+  return true;
+}
+
+bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
+  return drive_.active() && drive_.off_by(input.map_from_robot) < kOff_m &&
+         drive_.clearance_left(map_) >= std::min(kLeastMargin_m, map_.clearance(input.map_from_robot) - 0.01);
+}
+
+double FootprintGuide::speed_that_fits(const GuideInput& input) const noexcept {
+  for (const double share : std::array{1.0, 0.5, 0.25}) {
+    const double speed = share * limits_.max_speed_mps;
+    if (fits_following(input, speed)) return share == 1.0 ? std::numeric_limits<double>::infinity() : speed;
+  }
+  return 0.0;
+}
+
+bool FootprintGuide::fits_following(const GuideInput& input, double most_mps) const noexcept {
+  Pose2 pose = input.map_from_robot;
+  Twist2 twist{std::max(input.driven.v_mps, 0.0), input.driven.w_radps};
+  double room = map_.clearance(pose);
+  double gone = 0.0;
+  for (double t = 0.0; t < kAhead_s && gone < kAhead_m; t += kStep_s) {
+    const Steering steering = pursue(input.path, pose, twist.v_mps);
+    Twist2 wish{0.0, steering.turn_radps(limits_.max_turn_radps)};
+    if (!steering.turns_first()) {
+      wish.v_mps = std::min(most_mps, curve_speed(steering.curvature_per_m, limits_.max_turn_radps));
+      wish.w_radps = steering.circle_radps(std::max(wish.v_mps, twist.v_mps), limits_.max_turn_radps);
+    }
+    twist.v_mps = toward(twist.v_mps, wish.v_mps, limits_.max_accel_mps2 * kStep_s);
+    twist.w_radps = toward(twist.w_radps, wish.w_radps, limits_.max_turn_accel_radps2 * kStep_s);
+    pose = moved(pose, twist, kStep_s);
+    gone += twist.v_mps * kStep_s;
+    const double least = std::min(kMargin_m, room - kNoNearer_m);
+    room = map_.clearance(pose);
+    if (room < least) return false;
+    if (steering.turns_first() && map_.goes_unseen(pose.position(), direction(pose.heading))) return false;
+    if (distance(pose.position(), input.path.back()) < kMargin_m) return true;
+  }
+  return true;
+}
+
+/// The point of the path farthest along, within kAheadOnPath_m, that the circle inside the body can get to.
+ManoeuvreGoal FootprintGuide::goal_along(const GuideInput& input) noexcept {
+  const Path& path = input.path;
+  const Vec2 robot = input.map_from_robot.position();
+  reach_.settle(map_, robot);
+  std::size_t nearest = 0;
+  for (std::size_t k = 1; k < path.size(); ++k) {
+    if (distance(path[k], robot) < distance(path[nearest], robot)) nearest = k;
+  }
+  double gone = 0.0;
+  std::size_t end = nearest;
+  for (std::size_t k = nearest + 1; k < path.size() && gone < kAheadOnPath_m; ++k) {
+    gone += distance(path[k - 1], path[k]);
+    if (reach_.from(path[k]) < std::numeric_limits<float>::infinity()) end = k;
+  }
+  const Vec2 along = path[end] - path[end > nearest ? end - 1 : nearest];
+  return {path[end], atan2(along.y, along.x), end + 1 == path.size()};
+}
+
+/// Where nothing else is left: straight back into what it has not seen, from the place and heading beside its own that
+/// leave the most room; then it sees more.
+void FootprintGuide::back_out(const Pose2& here) noexcept {
+  Pose2 best = here;
+  double most = 0.0;
+  for (const double turn : std::array{0.0, 0.04, -0.04, 0.08, -0.08}) {
+    for (const double aside : std::array{0.0, 0.03, -0.03, 0.06, -0.06, 0.09, -0.09}) {
+      const Vec2 place = here * Vec2{0.0, aside};
+      const Pose2 pose{place.x, place.y, wrap_angle(here.heading + turn)};
+      const double room = map_.clearance(pose);
+      if (room > most + 0.005) most = room, best = pose;
+    }
+  }
+  draw_back(best, kBackOut_m);
+  if (back_.size() > 1) drive_.begin(back_);
+}
+
+/// Straight back without steering: whatever is beside the body stays as far as it is.
+void FootprintGuide::back_off(const Pose2& here) noexcept {
+  draw_back(here, kBackOff_m);
+  if (back_.size() > 1) drive_.begin(back_, ManoeuvreDrive::Steering::kHeld);
+}
+
+/// Poses straight behind, as far as nothing comes nearer than it is, or than the margin.
+void FootprintGuide::draw_back(const Pose2& from, double length_m) noexcept {
+  back_.clear();
+  const double room = map_.clearance(from);
+  for (double gone = 0.0; gone < length_m; gone += kBackStep_m) {
+    const Vec2 place = from * Vec2{-gone, 0.0};
+    const Pose2 pose{place.x, place.y, from.heading};
+    if (map_.clearance(pose) < std::min(kTightMargin_m, room - kNoNearer_m)) break;
+    (void)back_.push_back({pose, Gear::kBackward, room, 0.0});
+  }
+}
+
+bool FootprintGuide::unseen_behind(const Pose2& here) const noexcept {
+  return map_.goes_unseen(here * Vec2{-kBackOut_m, 0.0}, direction(here.heading));
+}
+
+void FootprintGuide::search(const GuideInput& input) noexcept {
+  const bool stands = std::fabs(input.driven.v_mps) < 0.02 && std::fabs(input.driven.w_radps) < 0.1;
+  const ManoeuvreGoal goal = goal_along(input);
+  // One search a look: where there is none with room, every fourth time one with less.
+  const double margin = unfit_looks_ % 4 != 0 ? kMargin_m : kTightMargin_m;
+  const Manoeuvre& found = search_.find(map_, input.map_from_robot, goal, margin);
+  if (found.size() < 2) {
+    if (unfit_looks_ >= kUnfitLooks && stands && unseen_behind(input.map_from_robot)) back_out(input.map_from_robot);
+    return;
+  }
+  // A robot under way takes up only what goes on forward; for anything else it stops first, and looks again.
+  if (!(stands && unfit_looks_ >= kUnfitLooks) && found[1].gear != Gear::kForward) return;
+  drive_.begin(found);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,60 @@
+#pragma once
+#include <limits>
+
+#include "hal/types/robot_model.h"
+#include "planner/motion/body_map.h"
+#include "planner/motion/manoeuvre_drive.h"
+#include "planner/motion/manoeuvre_search.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// What the guide looks at when a new path has come.
+struct GuideInput {
+  const Path& path;
+  Pose2 map_from_robot;
+  Twist2 wanted, driven;  ///< what the follower asked for this tick, and what the supervisor made of it
+  const EvidenceMap& still;
+};
+
+/// For a body that is longer than wide: the path is one for the circle inside it, and says nothing about which way
+/// the body points. On each new path the guide drives it ahead in thought, with the follower's own steering, and looks
+/// whether the outline keeps clear of what stands: at full speed, at half, at a quarter (slower means closer to the
+/// path). Where none of them fits it searches a manoeuvre: turning elsewhere, swinging wide, backing out.
+///
+/// A body that is nearly round needs none of that and gets none: it plans with the circle that holds it.
+/// Memory in the constructor; thread: the loop's, after the wheels have their command.
+class FootprintGuide {
+ public:
+  FootprintGuide(const Footprint& footprint, const MotionLimits& limits);
+
+  void look(const GuideInput& input) noexcept;
+  /// Fastest along the path (m/s); infinity where nothing is in the way of the body.
+  [[nodiscard]] double most_speed_mps() const noexcept { return most_speed_mps_; }
+  /// To be driven in place of the path while it is active.
+  [[nodiscard]] ManoeuvreDrive& manoeuvre() noexcept { return drive_; }
+
+ private:
+  [[nodiscard]] double speed_that_fits(const GuideInput& input) const noexcept;
+  [[nodiscard]] bool fits_following(const GuideInput& input, double most_mps) const noexcept;
+  [[nodiscard]] ManoeuvreGoal goal_along(const GuideInput& input) noexcept;
+  [[nodiscard]] bool unseen_behind(const Pose2& here) const noexcept;
+  void back_out(const Pose2& here) noexcept;
+  void back_off(const Pose2& here) noexcept;
+  void draw_back(const Pose2& from, double length_m) noexcept;
+  [[nodiscard]] bool keeps_manoeuvre(const GuideInput& input) const noexcept;
+  [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
+  void search(const GuideInput& input) noexcept;
+
+  MotionLimits limits_;
+  BodyMap map_;
+  WayCost reach_;
+  ManoeuvreSearch search_;
+  ManoeuvreDrive drive_;
+  Manoeuvre back_;
+  double most_speed_mps_ = std::numeric_limits<double>::infinity();
+  int unfit_looks_ = 0;    ///< in a row, at which the path fitted at no speed
+  int refused_looks_ = 0;  ///< in a row, at which the supervisor had refused to move
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,41 @@
+#pragma once
+#include "hal/types/robot_model.h"
+#include "planner/motion/body_map.h"
+#include "planner/motion/manoeuvre.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// Drives a manoeuvre pose by pose, stopping where the gear changes. Knows how far it has come; thread: the loop's.
+class ManoeuvreDrive {
+ public:
+  explicit ManoeuvreDrive(const MotionLimits& limits) : limits_(limits) {}
+
+  /// kHeld: wheels straight, no correction.
+  enum class Steering { kFree, kHeld };
+  void begin(const Manoeuvre& manoeuvre, Steering steering = Steering::kFree) noexcept;
+  void stop() noexcept { at_ = 0, manoeuvre_.clear(); }
+  [[nodiscard]] bool active() const noexcept { return at_ < manoeuvre_.size(); }
+
+  /// The twist that keeps to the manoeuvre from here, not ramped; zero when there is nothing left of it.
+  [[nodiscard]] Twist2 wish(const Pose2& map_from_robot) noexcept;
+  /// Its places, for looking out for movers on the way.
+  [[nodiscard]] const Path& places() const noexcept { return places_; }
+  /// How far (m) the robot is from where it should be.
+  [[nodiscard]] double off_by(const Pose2& map_from_robot) const noexcept;
+  /// Least clearance (m) of the poses that are left.
+  [[nodiscard]] double clearance_left(const BodyMap& map) const noexcept;
+
+ private:
+  [[nodiscard]] std::size_t end_of_gear() const noexcept;
+  [[nodiscard]] Twist2 turn(const Pose2& here) noexcept;
+  [[nodiscard]] Twist2 drive(const Pose2& here) noexcept;
+
+  MotionLimits limits_;
+  Manoeuvre manoeuvre_;
+  Path places_;
+  Steering steering_ = Steering::kFree;
+  std::size_t at_ = 0;  ///< the step on the way to which it is
+};
+
+}  // namespace jaywalk

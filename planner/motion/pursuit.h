@@ -1,0 +1,27 @@
+#pragma once
+#include "hal/types/geometry.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`; the last one where the path ends
+/// before. The path is not empty.
+[[nodiscard]] Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept;
+
+/// How to steer for the point that a robot at `v_mps` (0 or more) looks at. The path is not empty.
+struct Steering {
+  double bearing = 0.0;          ///< of that point (rad, left positive)
+  double curvature_per_m = 0.0;  ///< of the circle through it that is tangent to the heading
+  /// It lies so far aside that the robot turns on the spot before it drives.
+  [[nodiscard]] bool turns_first() const noexcept;
+  /// Turning on the spot (rad/s), at most `most_radps`.
+  [[nodiscard]] double turn_radps(double most_radps) const noexcept;
+  /// Turning (rad/s) on the circle at `v_mps`, at most `most_radps`.
+  [[nodiscard]] double circle_radps(double v_mps, double most_radps) const noexcept;
+};
+[[nodiscard]] Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept;
+
+/// Fastest in a curve (m/s): what is comfortable sideways, and what the robot can turn.
+[[nodiscard]] double curve_speed(double curvature_per_m, double most_turn_radps) noexcept;
+
+}  // namespace jaywalk
