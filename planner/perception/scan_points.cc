@@ -1,12 +1,16 @@
 #include "planner/perception/scan_points.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace jaywalk {
 namespace {
 
 /// Ranges beyond are no laser's: whatever a scan claims, cell indices stay small.
 constexpr double kFarthestBelievedM = 1000.0;
+
+/// No scanner counts its turns as far: such angles are none.
+constexpr float kMostRad = 100.0F;
 
 /// Nearer than this a laser sees only its own robot: masts, cables, the rim of its own window.
 constexpr double kNearestM = 0.2;
@@ -27,6 +31,7 @@ Pose2 moved_by(const Twist2& twist, double after_s) noexcept {
 void project_scan(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept {
   out.clear();
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
+  if (!(std::fabs(scan.first_angle_rad) < kMostRad && std::fabs(scan.angle_step_rad) < kMostRad)) return;  // NaN too
   const double beam_s = beam_interval_s(scan, twist);
   const Transform2 at_stamp(robot_from_laser);
   for (std::size_t b = 0; b < beams; ++b) {

@@ -23,7 +23,8 @@ using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 /// chord's direction is taken at half the turn, which is exact for constant speeds up to (w t)^2 / 24.
 [[nodiscard]] Pose2 moved_by(const Twist2& twist, double after_s) noexcept;
 
-/// Fills `out` with the scan's hits in the order of the beams; beams without a return are left out. A sweep that takes
+/// Fills `out` with the scan's hits in the order of the beams; beams without a return are left out, and all of
+/// them where the angles are no fan. A sweep that takes
 /// time is put right: each beam starts from where a robot moving with `twist` stood when that beam was measured.
 void project_scan(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept;
 

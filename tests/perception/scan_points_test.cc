@@ -45,6 +45,18 @@ TEST_CASE("beams without a return are left out") {
   CHECK(points->empty());
 }
 
+TEST_CASE("angles that are no fan give no points") {
+  const auto points = std::make_unique<ScanPoints>();
+  LaserScan scan = three_beams();
+  scan.first_angle_rad = 1e38F;
+  project_scan(scan, {}, {}, *points);
+  CHECK(points->empty());
+  scan = three_beams();
+  scan.angle_step_rad = std::numeric_limits<float>::quiet_NaN();
+  project_scan(scan, {}, {}, *points);
+  CHECK(points->empty());
+}
+
 TEST_CASE("more beams than there is room for are cut off") {
   LaserScan scan = three_beams();
   scan.beam_count = 1000000;
