@@ -72,8 +72,7 @@ std::vector<std::uint8_t> Lms200Server::framed(std::span<const std::uint8_t> bod
 std::vector<std::uint8_t> Lms200Server::message_of(std::size_t, std::span<const float> range_m, Time, Time) {
   std::vector<std::uint8_t> body{0xB0, kBeams, 0x00};
   for (const float m : range_m) {
-    const unsigned cm =
-        m > 0.0F && m <= 80.0F ? static_cast<unsigned>(m * 100.0F + 0.5F) : 8183U;  // 8183: nothing seen
+    const unsigned cm = m > 0.0F && m <= 80.0F ? in_counts(m, 0.01) : 8183U;  // 8183: nothing seen
     body.push_back(static_cast<std::uint8_t>(cm % 256));
     body.push_back(static_cast<std::uint8_t>(cm / 256));
   }

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+#include <cstdint>
 #include <deque>
 #include <functional>
 #include <memory>
@@ -36,6 +38,11 @@ struct SweepShape {
     return first_angle_rad + angle_step_rad * static_cast<double>(beam);
   }
 };
+
+/// The nearest whole number of counts of `count_m` metres to `range_m`, 0 or more.
+[[nodiscard]] inline std::uint32_t in_counts(float range_m, double count_m) noexcept {
+  return static_cast<std::uint32_t>(std::floor(static_cast<double>(range_m) / count_m + 0.5));
+}
 
 /// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells whoever
 /// wants to know. How commands and scans look is the derived class' matter. For tests and the bench; it shares no

@@ -102,7 +102,7 @@ std::vector<std::uint8_t> ScipServer::message_of(std::size_t, std::span<const fl
       const float m = range_m[k - model_.first_step];
       if (m > 0.0F && (nearest_m == 0.0F || m < nearest_m)) nearest_m = m;
     }
-    const auto mm = static_cast<std::uint32_t>(nearest_m * 1000.0F + 0.5F);
+    const auto mm = in_counts(nearest_m, 0.001);
     distances += characters(mm <= model_.range_max_mm ? std::max(mm, 1U) : 1U, 3);  // 1: an error code, no return
   }
   for (std::size_t at = 0; at < distances.size(); at += kLine) text += with_sum(distances.substr(at, kLine)) + '\n';

@@ -1,5 +1,6 @@
 #include "drivers/emulators/sick_server.h"
 
+#include <cmath>
 #include <cstdio>
 
 #include "hal/types/trig.h"
@@ -134,7 +135,7 @@ std::vector<std::uint8_t> SickServer::message_of(std::size_t, std::span<const fl
   fields.number(on_device(now), 4);
   for (int inputs_and_outputs = 0; inputs_and_outputs < 4; ++inputs_and_outputs) fields.number(0, 1);
   fields.number(0, 2);
-  fields.number(static_cast<std::uint32_t>(model_.rate_hz * 100.0 + 0.5), 4);
+  fields.number(static_cast<std::uint32_t>(std::floor(model_.rate_hz * 100.0 + 0.5)), 4);
   fields.number(162, 4);
   fields.number(0, 2);  // encoders
   fields.number(1, 2);  // channels of 16 bits
@@ -146,7 +147,7 @@ std::vector<std::uint8_t> SickServer::message_of(std::size_t, std::span<const fl
   fields.number(model_.beams, 2);
   for (const float m : range_m) {
     const bool seen = static_cast<double>(m) <= model_.range_max_m && m > 0.0F;
-    fields.number(seen ? static_cast<std::uint32_t>(m * 1000.0F + 0.5F) : 0, 2);
+    fields.number(seen ? in_counts(m, 0.001) : 0, 2);
   }
   for (int k = 0; k < 6; ++k) fields.number(0, 2);  // channels of 8 bits, position, name, comment, time, event
   const std::string telegram = framed("sSN LMDscandata " + fields.made());
