@@ -20,11 +20,11 @@ JAYWALK_CELL std::int32_t last_nearer(std::int32_t i, std::int32_t gi, std::int3
 }
 
 /// Cells between a cell and the nearest one that is not free, at least 1; 0 when the cell itself is
-/// not free, that is within `inflation` cells of an obstacle. `to_border` counts cells to the
-/// first one outside the window, which is not free but does not inflate.
+/// not free, that is within `inflation` cells of an obstacle or outside the window. `to_border` counts cells to the
+/// first one outside (0 or less: it is outside itself), which is not free but does not inflate.
 JAYWALK_CELL float clearance(std::int32_t squared, float inflation, std::int32_t to_border) {
   const auto d2 = static_cast<float>(squared);
-  if (d2 <= inflation * inflation) return 0.0F;
+  if (d2 <= inflation * inflation || to_border <= 0) return 0.0F;
   const float to_obstacle = std::sqrt(d2) - inflation;
   const auto border = static_cast<float>(to_border);
   const float nearest = to_obstacle < border ? to_obstacle : border;

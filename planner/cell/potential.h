@@ -45,10 +45,10 @@ JAYWALK_CELL float relaxed(const Couplings& a, float east, float west, float nor
   return ((a.east * east + a.west * west) + (a.north * north + a.south * south)) + source;
 }
 
-/// v after a coarse correction: never below half of what it was, since u stays positive (with a
-/// floor of 0.1 descent is lost at 512 cells a side). v = 0 is where there is no equation, and stays.
+/// v after a coarse correction: never below an eighth of what it was, since u stays positive. (Half would hold back a
+/// level that is too high by a factor of two a cycle; less than a tenth leaves pits where a correction was too strong.)
 JAYWALK_CELL float corrected(float v, float correction) {
-  const float floor = 0.5F * v;
+  const float floor = 0.125F * v;
   const float moved = v + (v > 0.0F ? correction : 0.0F);
   return moved > floor ? moved : floor;
 }

@@ -35,6 +35,7 @@ struct NearestInColumns {
 /// The lower envelope of a row's columns, then each cell's clearance; 0 where it is not free.
 struct ClearanceOfRow {
   Grid grid;
+  std::int32_t width, height;  ///< cells of the grid that count; what lies beyond is outside
   const std::int32_t* rows_away;
   float inflation;         ///< cells
   std::int32_t* envelope;  ///< room for a row: columns whose obstacle is the nearest of some stretch
@@ -68,8 +69,8 @@ struct ClearanceOfRow {
 
  private:
   JAYWALK_CELL std::int32_t to_border(std::int32_t i, std::int32_t j) const {
-    const std::int32_t x = i < grid.side - 1 - i ? i : grid.side - 1 - i;
-    const std::int32_t y = j < grid.side - 1 - j ? j : grid.side - 1 - j;
+    const std::int32_t x = i < width - 1 - i ? i : width - 1 - i;
+    const std::int32_t y = j < height - 1 - j ? j : height - 1 - j;
     return (x < y ? x : y) + 1;
   }
 };

@@ -20,6 +20,7 @@ struct BlockRows {
   float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
   float *open_east, *open_north;    ///< whether it is coupled to the next one there, 1 or 0
   float* lacking;                   ///< its right-hand side
+  std::int32_t* members;  ///< which of its cells it speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1)
 };
 
 /// Builds the equations of blocks from their four cells each.
@@ -36,8 +37,17 @@ struct CoarsenBlock {
     const cell::Couplings a00 = fine.couplings.at(c00), a10 = fine.couplings.at(c10);
     const cell::Couplings a01 = fine.couplings.at(c01), a11 = fine.couplings.at(c11);
     const float base = lower(lower(psi_of(c00, a00), psi_of(c10, a10)), lower(psi_of(c01, a01), psi_of(c11, a11)));
-    const float w00 = weight(c00, a00, base), w10 = weight(c10, a10, base);
-    const float w01 = weight(c01, a01, base), w11 = weight(c11, a11, base);
+    // It speaks for its lowest cell and those joined to that one inside it, not for what lies behind a wall.
+    const bool south = a00.east > 0.0F, north = a01.east > 0.0F, west = a00.north > 0.0F, east = a10.north > 0.0F;
+    bool m00 = psi_of(c00, a00) == base, m10 = psi_of(c10, a10) == base;
+    bool m01 = psi_of(c01, a01) == base, m11 = psi_of(c11, a11) == base;
+    for (int step = 0; step < 2; ++step) {  // the farthest cell is two steps away
+      const bool n00 = m00 | (south & m10) | (west & m01), n10 = m10 | (south & m00) | (east & m11);
+      const bool n01 = m01 | (north & m11) | (west & m00), n11 = m11 | (north & m01) | (east & m10);
+      m00 = n00, m10 = n10, m01 = n01, m11 = n11;
+    }
+    const float w00 = weight(c00, a00, base, m00), w10 = weight(c10, a10, base, m10);
+    const float w01 = weight(c01, a01, base, m01), w11 = weight(c11, a11, base, m11);
     // Blocks lie twice as far apart as cells: half the conductance.
     const cell::Couplings faces{0.5F * (w10 * a10.east + w11 * a11.east), 0.5F * (w00 * a00.west + w01 * a01.west),
                                 0.5F * (w01 * a01.north + w11 * a11.north), 0.5F * (w00 * a00.south + w10 * a10.south)};
@@ -53,6 +63,7 @@ struct CoarsenBlock {
     blocks.diagonal[block] = total;
     blocks.low_weight[block] = w00 * scale;
     blocks.high_weight[block] = w11 * scale;
+    blocks.members[block] = (m00 ? 1 : 0) | (m10 ? 2 : 0) | (m01 ? 4 : 0) | (m11 ? 8 : 0);
     blocks.open_east[block] = a.east > 0.0F ? 1.0F : 0.0F;
     blocks.open_north[block] = a.north > 0.0F ? 1.0F : 0.0F;
   }
@@ -63,8 +74,8 @@ struct CoarsenBlock {
   JAYWALK_CELL float psi_of(std::int32_t c, const cell::Couplings& a) const {
     return cell::sum(a) > 0.0F ? fine.psi[c] : cell::kLargest;
   }
-  JAYWALK_CELL float weight(std::int32_t c, const cell::Couplings& a, float base) const {
-    return cell::block_weight(cell::sum(a) > 0.0F, fine.diagonal[c], fine.psi[c], base);
+  JAYWALK_CELL float weight(std::int32_t c, const cell::Couplings& a, float base, bool is_member) const {
+    return cell::block_weight((cell::sum(a) > 0.0F) & is_member, fine.diagonal[c], fine.psi[c], base);
   }
 };
 
@@ -117,10 +128,12 @@ struct LackingToBoard {
 };
 
 /// Adds the blocks' corrections to one colour of cells, bilinear (9, 3, 3, 1)/16 among the blocks that are
-/// coupled to the cell's own. The blocks' arrays are by rows and may be read a row and a cell beyond either end.
+/// coupled to the cell's own, where that one speaks for the cell. The blocks' arrays are by rows and may be read a row
+/// and a cell beyond either end.
 template <bool kFinest>
 struct ProlongToCell {
   std::int32_t block_side;
+  const std::int32_t* members;
   const float *open_east, *open_north;
   const float* correction;
   Board board;  ///< the cells'
@@ -138,7 +151,8 @@ struct ProlongToCell {
     const float to_corner = to_beside * to_above * open_north[beside + face];
     const float value = 9.0F * correction[block] + 3.0F * (to_beside * correction[beside]) +
                         (3.0F * (to_above * correction[block + step]) + to_corner * correction[beside + step]);
-    const float mean = value / (9.0F + 3.0F * (to_beside + to_above) + to_corner);
+    const float weight = 9.0F + 3.0F * (to_beside + to_above) + to_corner;
+    const float mean = (members[block] & (1 << (east + 2 * north))) != 0 ? value / weight : 0.0F;
     if constexpr (kFinest) {
       x[c] = cell::corrected(x[c], mean);
     } else {

@@ -39,11 +39,7 @@ class MapFieldOn final : public MapField {
         a.occupants[grid_.at(i, j)] = row[i] != 0 ? std::uint8_t{kWall} : std::uint8_t{0};
     }
     pass_.forget();
-    (void)pass_.clear(grid_, inflation, kWall);
-    for (std::int32_t j = 0; j < grid_.side; ++j) {
-      const std::int32_t from = j < map_.height ? map_.width : 0;
-      std::fill(a.clearance + grid_.at(from, j), a.clearance + grid_.at(0, j + 1), 0.0F);
-    }
+    (void)pass_.clear(grid_, map_.width, map_.height, inflation, kWall);
   }
 
   [[nodiscard]] bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept override {

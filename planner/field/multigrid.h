@@ -49,11 +49,11 @@ class Multigrid {
   /// Further sweeps after a correction, by depth. Blocks of 8 cells are the largest that still tell the two sides of an
   /// ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep, and they are few.
   static constexpr std::array<std::int32_t, 4> kFurtherSweeps{0, 0, 4, 96};
-  /// A cycle that has tilted less than a 32nd of the cells by more than a hundredth has found their directions: the
+  /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: the
   /// next would tilt a tenth of that, and 99.9 % of cells and more pick the exact field's best neighbour
   /// (potential_test).
   static constexpr float kTilt = 0.01F;
-  static constexpr std::int32_t kSettledShare = 32;
+  static constexpr std::int32_t kSettledShare = 128;
 
   /// A level's memory. The last two only blocks have a use for.
   struct Arrays {
@@ -68,7 +68,8 @@ class Multigrid {
     const auto rows = [&] { return take_rows<float>(executor_, side); };
     Arrays a{{board(), board(), board(), board()}, board(), board(), board(), board(), {}, nullptr};
     if (arrays_.empty()) return a;
-    a.rows = {{rows(), rows(), rows(), rows()}, rows(), rows(), rows(), rows(), rows(), rows(), rows()};
+    a.rows = {{rows(), rows(), rows(), rows()},        rows(), rows(), rows(), rows(), rows(), rows(), rows(),
+              take_rows<std::int32_t>(executor_, side)};
     a.correction = rows();
     return a;
   }
@@ -131,7 +132,8 @@ class Multigrid {
     const Board blocks{board.side / 2};
     const auto prolong = [&](std::int32_t colour) {
       return RowStep<ProlongToCell<kFinest>>{
-          board.half(), {blocks.side, b.rows.open_east, b.rows.open_north, b.correction, board, colour, a.x}};
+          board.half(),
+          {blocks.side, b.rows.members, b.rows.open_east, b.rows.open_north, b.correction, board, colour, a.x}};
     };
     executor_.for_each_cell(blocks.half(), blocks.side, FromBoard{blocks, b.x, b.correction});
     executor_.for_each_row(board.side, prolong(0), prolong(1), relax(board, 0, a), relax(board, 1, a),

@@ -19,13 +19,13 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 inline constexpr std::int32_t kBandRounds = 60;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// Cycles from the start field: three, a fourth where the third has still moved something; then 99.9 % of cells or
-/// more pick the exact field's best neighbour. From the last submission's field one does (docs/algorithm.md).
+/// Cycles from the start field: three, and on while the last has still found something; then 99.9 % of cells or more
+/// pick the exact field's best neighbour. From the last submission's field one does (docs/algorithm.md).
 inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 4, kWarmCycles = 1;
 
-/// Times that pits are lifted before the certificate is read again. A pit that rounding has made is a plateau few cells
-/// wide; one that is deeper needs another solution.
-inline constexpr std::int32_t kLifts = 8;
+/// Times that pits are lifted at most, and before the certificate is read again. A pit that rounding has made is a
+/// plateau a few cells wide; one that is deeper needs another solution.
+inline constexpr std::int32_t kLifts = 32, kLiftsAtOnce = 4;
 
 /// What the stages read and write; all of it the executor's memory.
 struct FieldArrays {
@@ -92,16 +92,20 @@ class Pass {
   /// Clearance from the occupants in `wanted`. Where the host looks through memory quickly, the same occupants as the
   /// last time keep their clearance, and the start field with it.
   bool clear(Grid grid, float inflation, std::uint8_t wanted) noexcept {
-    if (Executor::kQueue && is_cleared(grid, {grid.side, inflation, wanted})) return true;
+    return clear(grid, grid.side, grid.side, inflation, wanted);
+  }
+  /// The same where only the lowest width x height cells count.
+  bool clear(Grid grid, std::int32_t width, std::int32_t height, float inflation, std::uint8_t wanted) noexcept {
+    if (Executor::kQueue && is_cleared(grid, {grid.side, width, height, inflation, wanted})) return true;
     started_ = kNowhere;
     constexpr std::int32_t kColumns = Executor::kColumns;
     executor_.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a_.occupants, wanted, a_.rows_away});
-    executor_.for_each(grid.side, ClearanceOfRow{grid, a_.rows_away, inflation, a_.envelope, a_.stretch, a_.clearance});
+    executor_.for_each(
+        grid.side, ClearanceOfRow{grid, width, height, a_.rows_away, inflation, a_.envelope, a_.stretch, a_.clearance});
     return executor_.wait();
   }
 
-  /// The next clear and start are done anew though nothing has changed: for measuring, and when the host has changed
-  /// the clearance.
+  /// The next clear and start are done anew though nothing has changed: for measuring.
   void forget() noexcept {
     cleared_ = {};
     started_ = kNowhere;
@@ -118,19 +122,22 @@ class Pass {
   }
 
   /// From the start field to the potential and its index matrix. Whatever breaks the certificate is not used: a
-  /// solution from the last gives way to one from the start field, and that to the start field itself.
+  /// solution from the last gives way to one from the start field, that to one with twice the cycles, and that to the
+  /// start field itself.
   FieldQuality solve(Grid grid, std::int32_t goal, From from, float* psi) noexcept {
     struct Attempt {
       From from;
+      bool anew;  ///< from the start field, not from what the attempt before came to
       std::int32_t least_cycles, most_cycles, lifts;
     };
-    const Attempt attempts[] = {{From::kLast, kWarmCycles, kWarmCycles, kLifts},
-                                {From::kNothing, kColdCycles, kMostColdCycles, kLifts},
-                                {From::kStartOnly, 0, 0, 2 * grid.side}};
+    const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kWarmCycles, kLifts},
+                                {From::kNothing, true, kColdCycles, kMostColdCycles, kLifts},
+                                {From::kNothing, false, kMostColdCycles, kMostColdCycles, kLifts},
+                                {From::kStartOnly, true, 0, 0, 2 * grid.side}};
     FieldQuality quality;
     for (const Attempt& attempt : attempts) {
       if (attempt.from < from || quality.certified) continue;
-      if (attempt.from != From::kLast) executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
+      if (attempt.anew) executor_.for_each(grid.cells(), Fill<float>{a_.correction, 0.0F});
       quality.cycles += improve(grid, goal, attempt.least_cycles, attempt.most_cycles, psi);
       if (!lift(grid, goal, attempt.lifts, psi, quality)) break;
     }
@@ -153,7 +160,7 @@ class Pass {
 
   /// What `clearance` was computed for, beside the occupants.
   struct Cleared {
-    std::int32_t side = 0;
+    std::int32_t side = 0, width = 0, height = 0;
     float inflation = 0.0F;
     std::uint8_t wanted = 0;
     bool operator==(const Cleared&) const = default;
@@ -185,16 +192,18 @@ class Pass {
   /// False when the executor has failed.
   bool lift(Grid grid, std::int32_t goal, std::int32_t most, float* psi, FieldQuality& quality) noexcept {
     if (!read_certificate(grid, quality)) return false;
-    for (std::int32_t lifts = 0; !quality.certified && lifts < most; lifts += kLifts) {
-      const std::int32_t half = grid.side / 2;
-      executor_.repeat(kLifts, grid.side, RowStep{half, LiftPit{grid, 0, goal, psi}},
-                       RowStep{half, LiftPit{grid, 1, goal, psi}});
-      executor_.for_each_row(grid.side, RowStep{1, PitsOfRow{grid, goal, psi, a_.pits, a_.joined}},
-                             RowStep{grid.side, KeepCorrection{grid, a_.start_psi, psi, a_.correction}},
-                             RowStep{grid.side, IndexOfEachCell{grid, psi, a_.index}});
+    if (quality.certified) return true;
+    for (std::int32_t lifts = 0; !quality.certified && lifts < most; lifts += kLiftsAtOnce) {
+      for (std::int32_t k = 1; k <= kLiftsAtOnce; ++k) {
+        executor_.for_each_row(grid.side, RowStep{1, LiftPitsOfRow{grid, 0, goal, 2 * k - 1, a_.pits, psi}},
+                               RowStep{1, LiftPitsOfRow{grid, 1, goal, 2 * k, a_.pits, psi}});
+      }
+      executor_.for_each_cell(1, grid.side, PitsOfRow{grid, goal, psi, a_.pits, a_.joined});
       if (!read_certificate(grid, quality)) return false;
     }
-    return true;
+    executor_.for_each_row(grid.side, RowStep{grid.side, KeepCorrection{grid, a_.start_psi, psi, a_.correction}},
+                           RowStep{grid.side, IndexOfEachCell{grid, psi, a_.index}});
+    return executor_.wait();
   }
 
   bool read_certificate(Grid grid, FieldQuality& quality) noexcept {

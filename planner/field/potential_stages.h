@@ -73,7 +73,8 @@ struct CoupleBack {
   JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = board.row(colour, j) + h;
     const Neighbours n = board.neighbours(colour, h, j);
-    couplings.west[c] = cell::coupling_back(couplings.east[n.west]);  // beyond the border: 0, as that one has no east
+    const bool has_west = h > 0 || Board::first_column(colour, j) > 0;
+    couplings.west[c] = has_west ? cell::coupling_back(couplings.east[n.west]) : 0.0F;
     couplings.south[c] = j > 0 ? cell::coupling_back(couplings.north[n.south]) : 0.0F;
   }
 };
@@ -211,15 +212,26 @@ struct AddCorrection {
 };
 
 /// Lifts each joined cell of one colour that has no strictly lower neighbour just above the lowest, as far as single
-/// precision tells them apart: what rounding has levelled descends again. Even, then odd cells, some times over.
-struct LiftPit {
+/// precision tells them apart: what rounding has levelled descends again. Even, then odd cells, some times over. Visits
+/// rows; those that no lift has come to yet it leaves alone.
+struct LiftPitsOfRow {
   Grid grid;
   std::int32_t colour;
   std::int32_t goal;
-  float* psi;  ///< may be read beyond the border (take_rows)
+  std::int32_t lifts;        ///< since the pits were counted, this one included
+  const std::int32_t* pits;  ///< of each row, as the certificate counted them
+  float* psi;                ///< may be read beyond the border (take_rows)
 
-  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
-    const std::int32_t i = 2 * h + Board::first_column(colour, j), c = grid.at(i, j);
+  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
+    const std::int32_t low = j - lifts > 0 ? j - lifts : 0, high = j + lifts < grid.side ? j + lifts + 1 : grid.side;
+    std::int32_t near = 0;
+    for (std::int32_t row = low; row < high; ++row) near += pits[row];
+    for (std::int32_t h = 0; near > 0 && h < grid.side / 2; ++h) lift(2 * h + Board::first_column(colour, j), j);
+  }
+
+ private:
+  JAYWALK_CELL void lift(std::int32_t i, std::int32_t j) const {
+    const std::int32_t c = grid.at(i, j);
     const float here = psi[c];
     if (!cell::is_joined(here) || c == goal) return;
     const BesideCell beside = beside_cell(grid, psi, i, j);

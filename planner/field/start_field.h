@@ -13,8 +13,8 @@ namespace jaywalk::field {
 /// Cost units per unit of psi.
 inline constexpr float kCostsPerPsi = 4096.0F;
 inline constexpr std::uint32_t kNoWay = 0xffffffffU;
-/// A step costs less than this: the dearest is 2 x 2697 x 5/4, in a passage one cell wide.
-inline constexpr std::uint32_t kDearestStep = 8192;
+/// A step costs less than this: the dearest is a diagonal one of w = 2 x 2697, in a passage one cell wide, 8,518.
+inline constexpr std::uint32_t kDearestStep = 16384;
 /// Nothing is sought beyond this cost, a million units of psi: 800,000 cells of a passage one cell wide. What lies
 /// there counts as out of reach.
 inline constexpr std::uint32_t kFarthest = kNoWay - kDearestStep;

@@ -117,9 +117,9 @@ TEST_CASE("a block weighs its cells by u squared, and not those without an equat
   CHECK(cell::block_weight(false, 1.5F, cell::kNotFree, 3.0F) == 0.0F);
 }
 
-TEST_CASE("a correction never takes v below half of what it was, and leaves cells without an equation at 0") {
+TEST_CASE("a correction never takes v below an eighth of what it was, and leaves cells without an equation at 0") {
   CHECK(cell::corrected(1.0F, 0.5F) == 1.5F);
-  CHECK(cell::corrected(1.0F, -0.9F) == 0.5F);
+  CHECK(cell::corrected(1.0F, -0.9F) == 0.125F);
   CHECK(cell::corrected(0.0F, 0.5F) == 0.0F);
 }
 
@@ -153,6 +153,7 @@ TEST_CASE("a passage is as wide as its cells' clearances say, from its middle li
 TEST_CASE(
     "a diagonal step costs a quarter more than a straight one, and never less than a way round the corner allows") {
   CHECK(cell::straight_step(100, 60) == 160);
-  CHECK(cell::diagonal_step(100, 60, 70, 90) == 200);
+  CHECK(cell::diagonal_step(100, 60, 70, 90) == 201);          // 160 + 40 + 160^2/16384
+  CHECK(cell::diagonal_step(1971, 1971, 1971, 1971) == 5875);  // two cells wide: 3942 + 985 + 948
   CHECK(cell::diagonal_step(10, 20, 400, 300) == 321);  // 300 + 20 + 1: the corner, 320 from `to` at most, stays lower
 }

@@ -113,6 +113,26 @@ TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's bes
   }
 }
 
+TEST_CASE("free cells at the window's border are as right as others: nothing is coupled across it") {
+  FieldRig<> rig(64);
+  const std::int32_t goal = rig.grid.at(20, 30), n = rig.grid.cells();
+  std::fill_n(rig.arrays().occupants, n, std::uint8_t{0});
+  for (std::int32_t i = 30; i < 60; ++i) rig.arrays().occupants[rig.grid.at(i, 20)] = field::kWall;
+  (void)rig.pass.clear(rig.grid, 0.0F, field::kWall);
+  (void)rig.pass.start(rig.grid, goal);
+  for (int k = 0; k < 4; ++k) {
+    (void)rig.pass.solve(rig.grid, goal, k > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
+  }
+  const std::vector<double> exact = exact_of(rig, goal);
+  double worst = 0.0;
+  for (std::int32_t j = 0; j < 64; ++j) {
+    for (const std::int32_t c : {rig.grid.at(0, j), rig.grid.at(63, j), rig.grid.at(j, 0), rig.grid.at(j, 63)}) {
+      worst = std::max(worst, std::fabs(static_cast<double>(rig.psi[c]) - exact[static_cast<std::size_t>(c)]));
+    }
+  }
+  CHECK(worst < 1e-3);
+}
+
 TEST_CASE("the start field alone picks the best neighbour less often: the comparison can fail") {
   FieldRig<> rig(256);
   const std::int32_t goal = rig.grid.at(243, 243);
@@ -159,7 +179,9 @@ TEST_CASE("what rounding has levelled is lifted until it descends again, and not
   const float lowest = std::min(std::min(rig.psi[c - 1], rig.psi[c + 1]), std::min(rig.psi[c - 64], rig.psi[c + 64]));
   rig.psi[c] = lowest;
   for (const std::int32_t colour : {0, 1}) {
-    rig.executor.for_each_cell(32, 64, field::LiftPit{rig.grid, colour, goal, rig.psi});
+    std::vector<std::int32_t> pits(64, 0);
+    pits[10] = 1;
+    rig.executor.for_each_cell(1, 64, field::LiftPitsOfRow{rig.grid, colour, goal, 1, pits.data(), rig.psi});
   }
   CHECK(rig.psi[c] > lowest);
   CHECK(rig.psi[c] == std::nextafter(lowest, 1e9F));
