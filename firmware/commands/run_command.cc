@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <fstream>
 
+#include "drivers/can/restart_link.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
@@ -102,7 +103,7 @@ int run_robot(const RunOptions& options) {
   file.setup.backend = options.backend;
   SteadyClock clock;
   RobotDevices devices(file, clock);
-  OperatorDesk desk(clock, file.setup.goal_tolerance_m);
+  OperatorDesk desk(clock, file.setup.goal_tolerance_m, [&] { return restart_link(file.drive.can); });
   const ControlSocket socket(socket_for(options, file), [&](std::string_view line) { return desk.obey(line); });
   NoPoseSource no_fixes;
   LoopRunner runner(file.setup, {devices.laser(), devices.drive(), desk, no_fixes, clock}, options.out, true,

@@ -52,9 +52,23 @@ std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& sta
 std::string OperatorDesk::take_reset(const RunStatus& status) {
   if (!status.latched) return "nothing to reset\n";
   if (status.speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  if (status.bus.state == CanState::kBusOff) {
+    if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
+    if (!bus_comes_back())
+      return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
+  }
   ++wish_.resets;
   wishes_.publish(wish_);
   return "reset\n";
+}
+
+bool OperatorDesk::bus_comes_back() {
+  constexpr Duration kLongest = std::chrono::seconds(1), kLook = std::chrono::milliseconds(20);
+  const Time limit = clock_.now() + kLongest;
+  while (statuses_.latest().bus.state == CanState::kBusOff && clock_.now() < limit) {
+    clock_.sleep_until(clock_.now() + kLook);
+  }
+  return statuses_.latest().bus.state != CanState::kBusOff;
 }
 
 void OperatorDesk::close() {

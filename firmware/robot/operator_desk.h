@@ -1,7 +1,9 @@
 #pragma once
+#include <functional>
 #include <mutex>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"
@@ -16,7 +18,11 @@ namespace jaywalk {
 /// is dropped too.
 class OperatorDesk final : public OperatorPanel {
  public:
-  OperatorDesk(Clock& clock, double goal_tolerance_m) : clock_(clock), goal_tolerance_m_(goal_tolerance_m) {}
+  /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
+  using RestartBus = std::function<std::string()>;
+
+  OperatorDesk(Clock& clock, double goal_tolerance_m, RestartBus restart_bus)
+      : clock_(clock), goal_tolerance_m_(goal_tolerance_m), restart_bus_(std::move(restart_bus)) {}
 
   /// The socket's thread, or any, one at a time: obeys one line (control_socket.h) and returns the answer.
   [[nodiscard]] std::string obey(std::string_view line);
@@ -41,9 +47,12 @@ class OperatorDesk final : public OperatorPanel {
 
   [[nodiscard]] std::string take_goal(std::string_view words, const RunStatus& status);
   [[nodiscard]] std::string take_reset(const RunStatus& status);
+  /// True when the loop says that the bus is well again, within a second.
+  [[nodiscard]] bool bus_comes_back();
 
   Clock& clock_;
   double goal_tolerance_m_;
+  RestartBus restart_bus_;
   std::mutex asking_;  ///< never the loop's
   bool closed_ = false;
   Wish wish_;  ///< the askers'

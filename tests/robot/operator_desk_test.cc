@@ -28,7 +28,14 @@ struct Bench {
   }
 
   tests::HandClock clock;
-  OperatorDesk desk{clock, 0.25};
+  int restarts = 0;
+  std::string restart_fails;
+  bool bus_answers = true;
+  OperatorDesk desk{clock, 0.25, [this] {
+                      ++restarts;
+                      if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive; });
+                      return restart_fails;
+                    }};
   RunStatus status;
 };
 
@@ -80,6 +87,27 @@ TEST_CASE("there is no reset on the move, and none where nothing is latched") {
   CHECK_FALSE(bench.desk.latest().reset);
 }
 
+TEST_CASE("a reset at bus-off restarts the bus first, and is none where that fails") {
+  Bench bench;
+  bench.latch();
+  CHECK(bench.desk.obey("reset") == "reset\n");
+  CHECK(bench.restarts == 0);
+  CHECK(bench.desk.latest().reset);
+  const auto off = [](RunStatus& s) { s.bus.state = CanState::kBusOff; };
+  bench.tell(off);
+  CHECK(bench.desk.obey("reset") == "reset\n");
+  CHECK(bench.restarts == 1);
+  CHECK(bench.desk.latest().reset);
+  bench.tell(off);
+  bench.restart_fails = "can0: not permitted";
+  CHECK(bench.desk.obey("reset") == "refused: can0: not permitted\n");
+  bench.restart_fails.clear();
+  bench.bus_answers = false;
+  bench.tell(off);
+  CHECK(bench.desk.obey("reset").rfind("refused: bus-off, and nobody", 0) == 0);
+  CHECK_FALSE(bench.desk.latest().reset);
+}
+
 TEST_CASE("an emergency stop is pressed for a tick and takes the goal") {
   Bench bench;
   CHECK(bench.desk.obey("goto 1 1") == "going\n");
@@ -101,7 +129,7 @@ TEST_CASE("what is no order moves nothing") {
 
 TEST_CASE("before the loop runs and after it was told to end there are no goals") {
   tests::HandClock clock;
-  OperatorDesk desk(clock, 0.3);
+  OperatorDesk desk(clock, 0.3, [] { return std::string(); });
   CHECK(desk.obey("goto 1 1").rfind("refused: the robot is not ready", 0) == 0);
   Bench bench;
   CHECK(bench.desk.obey("goto 1 1") == "going\n");
