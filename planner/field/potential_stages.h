@@ -155,7 +155,8 @@ struct TiltedOfRow {
         const float here = x[first + h], most = tilt * here;
         const float east = h < board.half() - 1 + last_east ? x[n.east] : 0.0F, north = x[n.north];
         joins += here > 0.0F ? 1 : 0;
-        tilts += ((here > 0.0F) & ((differs(here, east, most)) | (differs(here, north, most)))) ? 1 : 0;
+        const bool from_east = differs(here, east, most), from_north = differs(here, north, most);
+        tilts += ((here > 0.0F) & (from_east | from_north)) ? 1 : 0;
       }
     }
     tilted[j] = tilts;
