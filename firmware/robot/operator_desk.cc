@@ -51,12 +51,12 @@ std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& sta
 
 std::string OperatorDesk::take_reset(const RunStatus& status) {
   if (!status.latched) return "nothing to reset\n";
-  if (status.speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
-  if (status.bus.state == CanState::kBusOff) {
+  if (status.bus.state == CanState::kBusOff) {  // first of all: off the bus nobody knows how fast the wheels are
     if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
     if (!bus_comes_back())
       return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
   }
+  if (statuses_.latest().speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
   ++wish_.resets;
   wishes_.publish(wish_);
   return "reset\n";

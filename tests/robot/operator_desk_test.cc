@@ -33,7 +33,7 @@ struct Bench {
   bool bus_answers = true;
   OperatorDesk desk{clock, 0.25, [this] {
                       ++restarts;
-                      if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive; });
+                      if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive, s.speed_mps = 0.0; });
                       return restart_fails;
                     }};
   RunStatus status;
@@ -93,7 +93,8 @@ TEST_CASE("a reset at bus-off restarts the bus first, and is none where that fai
   CHECK(bench.desk.obey("reset") == "reset\n");
   CHECK(bench.restarts == 0);
   CHECK(bench.desk.latest().reset);
-  const auto off = [](RunStatus& s) { s.bus.state = CanState::kBusOff; };
+  // The speed is what was felt last, on the move.
+  const auto off = [](RunStatus& s) { s.bus.state = CanState::kBusOff, s.speed_mps = 0.6; };
   bench.tell(off);
   CHECK(bench.desk.obey("reset") == "reset\n");
   CHECK(bench.restarts == 1);
