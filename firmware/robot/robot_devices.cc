@@ -1,5 +1,9 @@
 #include "firmware/robot/robot_devices.h"
 
+#include "drivers/laser/ld_protocol.h"
+#include "drivers/laser/lms200_protocol.h"
+#include "drivers/laser/rplidar_protocol.h"
+#include "drivers/laser/scip_protocol.h"
 #include "drivers/laser/sick_protocol.h"
 #include "drivers/wire/endpoint.h"
 #include "hal/types/errors.h"
@@ -7,21 +11,67 @@
 namespace jaywalk {
 namespace {
 
+std::unique_ptr<ScannerProtocol> make_protocol(const LaserWiring& wiring, const LaserModel& model) {
+  const sick::ScannerModel sick_model{.range_min_m = static_cast<float>(model.range_min_m),
+                                      .range_max_m = static_cast<float>(model.range_max_m)};
+  switch (wiring.kind) {
+    case LaserKind::kSickColaA:
+      return std::make_unique<sick::SickProtocol>(sick::Cola::kA, sick_model);
+    case LaserKind::kSickColaB:
+      return std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick_model);
+    case LaserKind::kHokuyo:
+      return std::make_unique<scip::ScipProtocol>();
+    case LaserKind::kLd19:
+      return std::make_unique<ldrobot::LdProtocol>();
+    case LaserKind::kRplidar:
+      return std::make_unique<rplidar::RplidarProtocol>();
+    case LaserKind::kLms200:
+      return std::make_unique<lms200::Lms200Protocol>(wiring.baud);
+  }
+  return nullptr;
+}
+
 std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock) {
-  const sick::ScannerModel model{.range_min_m = static_cast<float>(file.setup.model.laser.range_min_m),
-                                 .range_max_m = static_cast<float>(file.setup.model.laser.range_max_m)};
-  const sick::Cola dialect = file.laser.kind == LaserKind::kSickColaA ? sick::Cola::kA : sick::Cola::kB;
-  return std::make_unique<ScannerConnection>(std::make_unique<wire::TcpEndpoint>(file.laser.host, file.laser.port),
-                                             std::make_unique<sick::SickProtocol>(dialect, model), clock);
+  const LaserWiring& wiring = file.laser;
+  std::unique_ptr<wire::Endpoint> endpoint;
+  if (wiring.host.empty()) {
+    endpoint = std::make_unique<wire::SerialEndpoint>(wiring.device, wiring.baud);
+  } else {
+    endpoint = std::make_unique<wire::TcpEndpoint>(wiring.host, wiring.port);
+  }
+  return std::make_unique<ScannerConnection>(std::move(endpoint), make_protocol(wiring, file.setup.model.laser), clock);
+}
+
+std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
+  if (wiring.kind == DriveKind::kOdrive) return std::make_unique<odrive::OdriveBase>(bus, clock, wiring.odrive);
+  if (wiring.kind == DriveKind::kVesc) return std::make_unique<vesc::VescBase>(bus, clock, wiring.vesc);
+  return std::make_unique<canopen::CanopenDriveBase>(bus, clock, wiring.cia402);
+}
+
+std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
+  const auto& odrives = wiring.odrive.axes;
+  const auto& vescs = wiring.vesc.axes;
+  const auto& axes = wiring.cia402.axes;
+  switch (wiring.kind) {
+    case DriveKind::kOdrive:
+      return std::make_unique<odrive::Stopper>(bus, std::array{odrives[0].node, odrives[1].node});
+    case DriveKind::kVesc:
+      return std::make_unique<vesc::Stopper>(bus, std::array{vescs[0].controller, vescs[1].controller});
+    case DriveKind::kCia402:
+      break;
+  }
+  return std::make_unique<canopen::QuickStopper>(bus, std::array{axes[0].node, axes[1].node});
 }
 
 }  // namespace
 
-std::vector<CanFilter> filters_for(const canopen::DriveBaseSetup& setup) {
+std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
+  if (wiring.kind == DriveKind::kOdrive) return {CanFilter{}};
+  if (wiring.kind == DriveKind::kVesc) return {CanFilter{.id = 0, .mask = 0, .extended = true}};
   std::vector<CanFilter> filters;
-  for (const canopen::AxisSetup& axis : setup.axes) {
+  for (const canopen::AxisSetup& axis : wiring.cia402.axes) {
     for (const std::uint32_t base : {0x080U, 0x180U, 0x280U, 0x580U, 0x700U}) {
-      filters.push_back({.id = base + axis.node, .mask = kMaxStandardId});
+      filters.push_back({.id = base + axis.node, .mask = kMaxStandardId, .extended = false});
     }
   }
   return filters;
@@ -30,12 +80,11 @@ std::vector<CanFilter> filters_for(const canopen::DriveBaseSetup& setup) {
 RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
-      bus_(open_can(file.drive.can, filters_for(file.drive.base)), clock),
+      bus_(open_can(file.drive.can, filters_for(file.drive)), clock),
       brake_bus_(open_can(file.drive.can, {}), clock),
       laser_(make_laser(file, clock)),
-      drive_(std::make_unique<canopen::CanopenDriveBase>(bus_, clock, file.drive.base)),
-      brake_(std::make_unique<canopen::QuickStopper>(
-          brake_bus_, std::array{file.drive.base.axes[0].node, file.drive.base.axes[1].node})) {}
+      drive_(make_drive(file.drive, bus_, clock)),
+      brake_(make_brake(file.drive, brake_bus_)) {}
 
 void RobotDevices::await_first_scan() {
   laser_->start();

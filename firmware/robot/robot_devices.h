@@ -36,7 +36,7 @@ class RobotDevices {
   std::unique_ptr<EmergencyBrake> brake_;
 };
 
-/// What two CiA 402 drives send: answers, process data, emergencies, heartbeats.
-[[nodiscard]] std::vector<CanFilter> filters_for(const canopen::DriveBaseSetup& setup);
+/// The frames that the drives send, and of CiA 402 drives no others.
+[[nodiscard]] std::vector<CanFilter> filters_for(const DriveWiring& wiring);
 
 }  // namespace jaywalk

@@ -1,5 +1,6 @@
 #include "firmware/robot/robot_file.h"
 
+#include <array>
 #include <cmath>
 
 #include "hal/robot_model_file.h"
@@ -12,16 +13,43 @@ namespace {
 /// 6085h then covers limits.brake_mps2.
 constexpr double kRampOverBrake = 1.5;
 
-LaserWiring read_wiring(TomlTable& table) {
-  LaserWiring wiring;
+struct LaserChoice {
+  const char* name;
+  LaserKind kind;
+  std::uint16_t port;  ///< 0: not on a network
+  std::uint32_t baud;  ///< 0: not on a serial line
+};
+constexpr std::array kLasers{
+    LaserChoice{"sick-cola-b", LaserKind::kSickColaB, 2112, 0},
+    LaserChoice{"sick-cola-a", LaserKind::kSickColaA, 2111, 0},
+    LaserChoice{"hokuyo", LaserKind::kHokuyo, 10940, 115200},
+    LaserChoice{"ld19", LaserKind::kLd19, 0, 230400},
+    LaserChoice{"rplidar", LaserKind::kRplidar, 0, 115200},
+    LaserChoice{"lms200", LaserKind::kLms200, 0, 9600},
+};
+
+const LaserChoice& choose_laser(TomlTable& table) {
   const std::string kind = table.text("kind");
-  if (kind == "sick-cola-a") {
-    wiring.kind = LaserKind::kSickColaA;
-  } else if (kind != "sick-cola-b") {
-    table.refuse("kind", "is \"" + kind + "\"", "choose sick-cola-b or sick-cola-a");
+  std::string names;
+  for (const LaserChoice& choice : kLasers) {
+    if (kind == choice.name) return choice;
+    names += std::string(names.empty() ? "" : ", ") + choice.name;
   }
-  wiring.host = table.text("host");
-  wiring.port = static_cast<std::uint16_t>(table.integer("port", {1, 65535}, wiring.port));
+  table.refuse("kind", "is \"" + kind + "\"", "choose one of " + names);
+}
+
+LaserWiring read_wiring(TomlTable& table) {
+  const LaserChoice& choice = choose_laser(table);
+  LaserWiring wiring;
+  wiring.kind = choice.kind;
+  const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
+  if (serial) {
+    wiring.device = table.text("device");
+    wiring.baud = static_cast<std::uint32_t>(table.integer("baud", {1200, 4000000}, choice.baud));
+  } else {
+    wiring.host = table.text("host");
+    wiring.port = static_cast<std::uint16_t>(table.integer("port", {1, 65535}, choice.port));
+  }
   wiring.first_scan_limit =
       duration_from_seconds(table.number("first_scan_limit_s", {0.1, 600.0}, to_seconds(wiring.first_scan_limit)));
   return wiring;
@@ -37,25 +65,50 @@ std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) 
   return static_cast<std::uint32_t>(std::fmin(mps2 / model.wheel_radius_m * counts_per_rad + 0.5, kMost));
 }
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model) {
-  DriveWiring wiring;
-  if (const std::string kind = table.text("kind"); kind != "cia402") {
-    table.refuse("kind", "is \"" + kind + "\"", "choose cia402");
-  }
-  wiring.can = table.text("can");
-  canopen::DriveSettings& settings = wiring.base.settings;
+/// What a radian of a wheel is in the drive's own unit, `key` of them a turn; negative for a motor that is reversed.
+std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
+  const double per_rad = table.number(key, {1e-3, 1e9}) / (2.0 * kPi);
+  const bool left = table.boolean("left_reversed", false), right = table.boolean("right_reversed", false);
+  return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
+}
+
+canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
+  canopen::DriveBaseSetup base;
+  canopen::DriveSettings& settings = base.settings;
   settings.controller_node = read_node(table, "controller_node", 1);
   settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
   settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
-  wiring.base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
-  wiring.base.allow_unproved = table.boolean("allow_unproved", false);
-  const double counts_per_rad = table.number("counts_per_wheel_turn", {1.0, 1e9}) / (2.0 * kPi);
-  const double left = table.boolean("left_reversed", false) ? -counts_per_rad : counts_per_rad;
-  const double right = table.boolean("right_reversed", false) ? -counts_per_rad : counts_per_rad;
-  wiring.base.axes = {canopen::AxisSetup{read_node(table, "left_node", 2), left},
-                      canopen::AxisSetup{read_node(table, "right_node", 3), right}};
+  base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
+  base.allow_unproved = table.boolean("allow_unproved", false);
+  const auto scales = read_scales(table, "counts_per_wheel_turn");
+  base.axes = {canopen::AxisSetup{read_node(table, "left_node", 2), scales[0]},
+               canopen::AxisSetup{read_node(table, "right_node", 3), scales[1]}};
   settings.acceleration = settings.deceleration = settings.quick_stop =
-      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, counts_per_rad);
+      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
+  return base;
+}
+
+DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+  DriveWiring wiring;
+  const std::string kind = table.text("kind");
+  wiring.can = table.text("can");
+  if (kind == "cia402") {
+    wiring.cia402 = read_cia402(table, model);
+  } else if (kind == "odrive") {
+    wiring.kind = DriveKind::kOdrive;
+    const auto scales = read_scales(table, "motor_turns_per_wheel_turn");
+    wiring.odrive.axes = {odrive::AxisSetup{read_node(table, "left_node", 1), scales[0]},
+                          odrive::AxisSetup{read_node(table, "right_node", 2), scales[1]}};
+    wiring.odrive.allow_unproved = table.boolean("allow_unproved", false);
+  } else if (kind == "vesc") {
+    wiring.kind = DriveKind::kVesc;
+    const auto scales = read_scales(table, "electrical_turns_per_wheel_turn");
+    wiring.vesc.axes = {vesc::AxisSetup{read_node(table, "left_node", 1), scales[0]},
+                        vesc::AxisSetup{read_node(table, "right_node", 2), scales[1]}};
+    wiring.vesc.allow_unproved = table.boolean("allow_unproved", false);
+  } else {
+    table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
+  }
   table.finish();
   return wiring;
 }

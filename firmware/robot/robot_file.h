@@ -5,23 +5,31 @@
 #include <string>
 
 #include "drivers/canopen/drive_base.h"
+#include "drivers/motor/odrive_base.h"
+#include "drivers/motor/vesc_base.h"
 #include "firmware/control_setup.h"
 #include "firmware/robot/realtime.h"
 
 namespace jaywalk {
 
-enum class LaserKind { kSickColaA, kSickColaB };
+enum class LaserKind { kSickColaA, kSickColaB, kHokuyo, kLd19, kRplidar, kLms200 };
+enum class DriveKind { kCia402, kOdrive, kVesc };
 
 struct LaserWiring {
   LaserKind kind = LaserKind::kSickColaB;
-  std::string host;
-  std::uint16_t port = 2112;
+  std::string host;  ///< empty: on a serial line
+  std::uint16_t port = 0;
+  std::string device;
+  std::uint32_t baud = 0;
   Duration first_scan_limit = std::chrono::seconds(10);  ///< at start; a scanner may still be waking up
 };
 
 struct DriveWiring {
+  DriveKind kind = DriveKind::kCia402;
   std::string can;  ///< interface
-  canopen::DriveBaseSetup base;
+  canopen::DriveBaseSetup cia402;
+  odrive::BaseSetup odrive;
+  vesc::BaseSetup vesc;
 };
 
 struct RobotFile {

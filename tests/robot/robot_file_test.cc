@@ -72,21 +72,40 @@ TEST_CASE("a robot file says how the devices are wired") {
   CHECK(robot.laser.host == "10.0.0.2");
   CHECK(robot.laser.port == 2112);
   CHECK(robot.drive.can == "can0");
-  CHECK(robot.drive.base.axes[0].node == 2);
-  CHECK(robot.drive.base.axes[1].node == 3);
+  CHECK(robot.drive.cia402.axes[0].node == 2);
+  CHECK(robot.drive.cia402.axes[1].node == 3);
   // 76600 counts a turn are 12191.27 a radian.
-  CHECK(robot.drive.base.axes[0].counts_per_rad == Approx(12191.27));
-  CHECK(robot.drive.base.axes[1].counts_per_rad == Approx(-12191.27));
-  CHECK(robot.drive.base.settings.controller_timeout_ms == 100);
-  CHECK_FALSE(robot.drive.base.allow_unproved);
+  CHECK(robot.drive.cia402.axes[0].counts_per_rad == Approx(12191.27));
+  CHECK(robot.drive.cia402.axes[1].counts_per_rad == Approx(-12191.27));
+  CHECK(robot.drive.cia402.settings.controller_timeout_ms == 100);
+  CHECK_FALSE(robot.drive.cia402.allow_unproved);
 }
 
 TEST_CASE("drives brake at least as hard as the stop zone reckons") {
   const RobotFile robot = load(kGood);
   // One and a half times the model's 1 m/s2, over a wheel of 0.0975 m: 15.3846 rad/s2 of 12191.27 counts.
   REQUIRE(robot.setup.model.limits.brake_mps2 == 1.0);
-  CHECK(robot.drive.base.settings.quick_stop == 187558);
-  CHECK(robot.drive.base.settings.deceleration == 187558);
+  CHECK(robot.drive.cia402.settings.quick_stop == 187558);
+  CHECK(robot.drive.cia402.settings.deceleration == 187558);
+}
+
+TEST_CASE("every kind of scanner and drive has its own keys") {
+  const RobotFile serial = load(with("\"sick-cola-b\"\nhost = \"10.0.0.2\"", "\"ld19\"\ndevice = \"/dev/ttyUSB0\""));
+  CHECK(serial.laser.kind == LaserKind::kLd19);
+  CHECK(serial.laser.host.empty());
+  CHECK(serial.laser.device == "/dev/ttyUSB0");
+  CHECK(serial.laser.baud == 230400);
+  CHECK(load(with("sick-cola-b", "hokuyo")).laser.port == 10940);
+  const RobotFile odrives = load(with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600",
+                                      "odrive\"\ncan = \"can0\"\nmotor_turns_per_wheel_turn = 6.283185307179586"));
+  CHECK(odrives.drive.kind == DriveKind::kOdrive);
+  CHECK(odrives.drive.odrive.axes[0].turns_per_rad == Approx(1.0));
+  CHECK(odrives.drive.odrive.axes[1].turns_per_rad == Approx(-1.0));
+  const RobotFile vescs = load(with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600",
+                                    "vesc\"\ncan = \"can0\"\nelectrical_turns_per_wheel_turn = 6.283185307179586"));
+  CHECK(vescs.drive.kind == DriveKind::kVesc);
+  CHECK(vescs.drive.vesc.axes[1].electrical_turns_per_rad == Approx(-1.0));
+  CHECK(refusal(with("cia402", "odrive")).rfind("10: drive.motor_turns_per_wheel_turn is missing; ", 0) == 0);
 }
 
 TEST_CASE("the robot file of the rig loads") {
