@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "planner/cell/cell.h"
 
 namespace jaywalk::cell {
@@ -22,6 +24,15 @@ JAYWALK_CELL Point clearance_force(float clearance, Point slope, float reach) {
   if (clearance >= reach) return {0.0F, 0.0F};
   const float strength = 0.5F * (1.0F - clearance / reach);
   return {strength * slope.x, strength * slope.y};
+}
+
+/// Cosine of the sharpest turn that a move may make at a point of the band: 45 degrees.
+inline constexpr float kSharpest = 0.70710678F;
+
+/// Cosine of the turn at `here`; NaN where two of the points coincide.
+JAYWALK_CELL float turn_cosine(Point before, Point here, Point after) {
+  const float ax = here.x - before.x, ay = here.y - before.y, bx = after.x - here.x, by = after.y - here.y;
+  return (ax * bx + ay * by) / std::sqrt((ax * ax + ay * ay) * (bx * bx + by * by));
 }
 
 /// The point moved by its resultant force (equations resultant and drag). A `give` of 1 would take a

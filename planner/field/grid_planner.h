@@ -194,6 +194,10 @@ class GridPlanner final : public Planner {
     const cell::Point last = a.points[count - 1];
     const Vec2 end =
         at_true_goal ? request.goal_in_map : window_.in_map({static_cast<double>(last.x), static_cast<double>(last.y)});
+    if (at_true_goal && count > 1) {
+      const Vec2 there = window_.in_cells(end);
+      a.points[count - 1] = {static_cast<float>(there.x), static_cast<float>(there.y)};
+    }
     if (!pass_.pull(window_.grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
     resample(window_, a.points, count, from, end, path);
     return PlanStatus::kOk;

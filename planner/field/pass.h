@@ -1,7 +1,9 @@
 #pragma once
 // The order of stages, once for every executor. Between the calls the host chooses goal and start.
+#include <algorithm>
 #include <cstddef>
 #include <cstring>
+#include <vector>
 
 #include "planner/field/bucket_queue.h"
 #include "planner/field/clearance_stages.h"
@@ -17,6 +19,8 @@ namespace jaywalk::field {
 inline constexpr std::int32_t kMaxBandPoints = 16384;
 /// Rounds of the band: enough for a corner to spread over its dozen neighbours.
 inline constexpr std::int32_t kBandRounds = 60;
+/// Rounds of tension alone between two looks at the band's length.
+inline constexpr std::int32_t kTautRounds = 4;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
 /// Cycles from the start field: three, and on while the last has still found something; then 99.9 % of cells or more
@@ -65,7 +69,8 @@ class Pass {
       : executor_(executor),
         solver_(executor, max_side),
         queue_(Executor::kQueue ? max_side : 0,
-               kQueuedPerCell * static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0)) {
+               kQueuedPerCell * static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0)),
+        raw_(static_cast<std::size_t>(kMaxBandPoints)) {
     const auto cells = static_cast<std::size_t>(Grid{max_side}.cells());
     const auto lines = static_cast<std::size_t>(max_side);
     const std::vector<std::uint16_t> table = rate_table(max_side);
@@ -144,13 +149,19 @@ class Pass {
     return quality;
   }
 
-  /// Pulls the band's `count` points taut; those before `first` and the last stay.
+  /// Pulls the band's `count` points taut; those before `first` and the last stay. The band is no longer than the raw
+  /// path: where what is near has made it so, tension alone draws it in, and where that takes too long, tension alone
+  /// acts on the raw path. Tension never lengthens: a point goes towards the middle of its neighbours.
   bool pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
-    for (std::int32_t half = 0; half < 2 * kBandRounds; ++half) {
-      const std::int32_t from = first + (half & 1);
-      executor_.for_each((count - from) / 2, PullBand{grid, from, a_.clearance, kBandReach, a_.points});
+    const double raw_length = length_of(a_.points, count);
+    std::copy_n(a_.points, count, raw_.begin());
+    if (!drag(grid, first, count, kBandReach, kBandRounds)) return false;
+    for (std::int32_t r = 0; r < kBandRounds && length_of(a_.points, count) > raw_length; r += kTautRounds) {
+      if (!drag(grid, first, count, 0.0F, kTautRounds)) return false;
     }
-    return executor_.wait();
+    if (length_of(a_.points, count) <= raw_length) return true;
+    std::copy_n(raw_.begin(), count, a_.points);
+    return drag(grid, first, count, 0.0F, kBandRounds);
   }
 
  private:
@@ -206,6 +217,14 @@ class Pass {
     return executor_.wait();
   }
 
+  bool drag(Grid grid, std::int32_t first, std::int32_t count, float reach, std::int32_t rounds) noexcept {
+    for (std::int32_t third = 0; third < 3 * rounds; ++third) {
+      const std::int32_t from = first + third % 3;
+      executor_.for_each((count - from + 1) / 3, PullBand{grid, from, count, a_.clearance, reach, a_.points});
+    }
+    return executor_.wait();
+  }
+
   bool read_certificate(Grid grid, FieldQuality& quality) noexcept {
     quality.pits = quality.joined = 0;
     quality.certified = false;
@@ -240,6 +259,7 @@ class Pass {
   FieldArrays a_{};
   Multigrid<Executor> solver_;
   BucketQueue queue_;
+  std::vector<cell::Point> raw_;  ///< the path before it was pulled
   Cleared cleared_;
   std::int32_t started_ = kNowhere;  ///< goal of the start field that belongs to the clearance
 };

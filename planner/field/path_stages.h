@@ -1,5 +1,7 @@
 #pragma once
 // The index matrix and the paper's fourth kernel, the rubber band.
+#include <cmath>
+
 #include "planner/cell/band.h"
 #include "planner/field/grid.h"
 #include "planner/field/potential_stages.h"
@@ -54,24 +56,33 @@ struct IndexOfEachCell {
   };
 };
 
-/// One half of the band's points, every other one, moved by its neighbours' tension and by what is near. A
-/// point stays where it is rather than leave free cells, itself or half-way to a neighbour.
+/// Every third of the band's points, moved by its neighbours' tension and by what is near: the whole way, half, or a
+/// quarter of it, and else not at all. What a move keeps, whatever the force:
+/// - Free cells: all cells of the box that two neighbouring points span are free, so the segment between is in free
+/// cells.
+///   The raw path begins so, since its diagonal steps lie between two free cells.
+/// - No turning back: the sharpest turn, at the point and at its neighbours, is at most 45 degrees, or no sharper than
+///   before.
+/// The turns at the neighbours reach two points to either side: hence thirds, for the same bits in any order.
 /// Points in cells from the window's low corner.
 struct PullBand {
   Grid grid;
-  std::int32_t first;  ///< the first point that may move
+  std::int32_t first, count;  ///< the first point that may move; points in all
   const float* clearance;
   float reach;  ///< cells of clearance below which things push
   cell::Point* points;
 
   JAYWALK_CELL void operator()(std::int32_t k) const {
-    const std::int32_t p = first + 2 * k;
-    const cell::Point before = points[p - 1], here = points[p], after = points[p + 1];
+    const std::int32_t p = first + 3 * k;
+    const cell::Point here = points[p];
     const cell::Point force = cell::clearance_force(clearance_at(here), slope_at(here), reach);
-    const cell::Point there = cell::dragged(here, cell::tension(before, here, after), force, kGive);
-    const cell::Point half_back{0.5F * (before.x + there.x), 0.5F * (before.y + there.y)};
-    const cell::Point half_on{0.5F * (there.x + after.x), 0.5F * (there.y + after.y)};
-    if (clearance_at(there) > 0.0F && clearance_at(half_back) > 0.0F && clearance_at(half_on) > 0.0F) points[p] = there;
+    const cell::Point pull = cell::tension(points[p - 1], here, points[p + 1]);
+    for (float give = kGive; give > 0.15F * kGive; give *= 0.5F) {
+      const cell::Point there = cell::dragged(here, pull, force, give);
+      if (!stays_free(p, there) || !stays_gentle(p, there)) continue;
+      points[p] = there;
+      return;
+    }
   }
 
  private:
@@ -81,14 +92,50 @@ struct PullBand {
     return grid.holds(i, j) ? clearance[grid.at(i, j)] : 0.0F;
   }
   JAYWALK_CELL float clearance_at(cell::Point p) const {
-    if (p.x < 0.0F || p.y < 0.0F) return 0.0F;
     return clearance_of(static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y));
   }
+  JAYWALK_CELL bool stays_free(std::int32_t p, cell::Point there) const {
+    return there.x >= 0.0F && there.y >= 0.0F && is_box_free(points[p - 1], there) && is_box_free(there, points[p + 1]);
+  }
+  JAYWALK_CELL bool is_box_free(cell::Point a, cell::Point b) const {
+    const auto ai = static_cast<std::int32_t>(a.x), aj = static_cast<std::int32_t>(a.y);
+    const auto bi = static_cast<std::int32_t>(b.x), bj = static_cast<std::int32_t>(b.y);
+    for (std::int32_t j = aj < bj ? aj : bj; j <= (aj < bj ? bj : aj); ++j) {
+      for (std::int32_t i = ai < bi ? ai : bi; i <= (ai < bi ? bi : ai); ++i) {
+        if (!(clearance_of(i, j) > 0.0F)) return false;
+      }
+    }
+    return true;
+  }
+  /// The sharpest turn's cosine at point p and beside it, were p `at`.
+  JAYWALK_CELL float sharpest_with(std::int32_t p, cell::Point at) const {
+    float cosine = cell::turn_cosine(points[p - 1], at, points[p + 1]);
+    if (p >= 2) cosine = sharper(cosine, cell::turn_cosine(points[p - 2], points[p - 1], at));
+    if (p + 2 < count) cosine = sharper(cosine, cell::turn_cosine(at, points[p + 1], points[p + 2]));
+    return cosine;
+  }
+  JAYWALK_CELL bool stays_gentle(std::int32_t p, cell::Point there) const {
+    const float cosine = sharpest_with(p, there);
+    return cosine >= cell::kSharpest || cosine >= sharpest_with(p, points[p]);
+  }
+  /// NaN, where points coincide, comes first and stays: such a move is refused.
+  JAYWALK_CELL static float sharper(float a, float b) { return b < a ? b : a; }
   JAYWALK_CELL cell::Point slope_at(cell::Point p) const {
     const auto i = static_cast<std::int32_t>(p.x), j = static_cast<std::int32_t>(p.y);
     return {0.5F * (clearance_of(i + 1, j) - clearance_of(i - 1, j)),
             0.5F * (clearance_of(i, j + 1) - clearance_of(i, j - 1))};
   }
 };
+
+/// Length of the polyline through `count` points, in cells.
+[[nodiscard]] inline double length_of(const cell::Point* points, std::int32_t count) noexcept {
+  double length = 0.0;
+  for (std::int32_t k = 1; k < count; ++k) {
+    const double x = static_cast<double>(points[k].x) - static_cast<double>(points[k - 1].x);
+    const double y = static_cast<double>(points[k].y) - static_cast<double>(points[k - 1].y);
+    length += std::sqrt(x * x + y * y);
+  }
+  return length;
+}
 
 }  // namespace jaywalk::field
