@@ -69,7 +69,7 @@ void add_map(Digest& digest, const EvidenceMap& map) {
 }  // namespace
 
 TEST_CASE("poses, tracks and map have the same bits with every compiler, optimisation level and processor") {
-  // The digest is what g++ 11 and 12, clang 14 and aarch64 give, at -O0 to -O3, sanitized or not; it changes with what
+  // The digest is what g++ 11 and 12, clang 14 and aarch64 give (docs/tracking.md has the list); it changes with what
   // perception or localisation computes. g++ 12 with -march=x86-64-v3 gives another: it fuses a rotation's two products
   // (vfmaddsub), whatever -ffp-contract=off says; clang does not.
   Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}});

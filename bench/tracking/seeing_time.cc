@@ -1,0 +1,73 @@
+// How long seeing takes in a crowd: processor time of the one thread, a scan at a time. docs/performance.md.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <ctime>
+#include <memory>
+
+#include "bench/tracking/crowd.h"
+#include "firmware/report/distribution.h"
+#include "planner/localization/localizer.h"
+#include "planner/perception/tracker.h"
+
+namespace jaywalk::bench {
+namespace {
+
+constexpr std::uint32_t kSettled = 150;  // scans until the crowd is known
+
+double thread_ms() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return 1e3 * static_cast<double>(now.tv_sec) + 1e-6 * static_cast<double>(now.tv_nsec);
+}
+
+struct Figures {
+  Distribution localizing_ms, tracking_ms, seeing_ms, tracks, moving;
+};
+
+Figures measure(std::uint32_t scans) {
+  const auto crowd = std::make_unique<Crowd>();
+  Localizer localizer({.map_from_robot_at_start = crowd->start(),
+                       .drive = crowd->model().drive,
+                       .robot_from_laser = crowd->model().laser.robot_from_laser});
+  Tracker tracker({.robot_from_laser = crowd->model().laser.robot_from_laser, .map_centre = {}});
+  const auto scan = std::make_unique<LaserScan>();
+  WheelState wheels;
+  Figures figures;
+  for (std::uint32_t k = 0; k < kSettled + scans; ++k) {
+    crowd->at(k, *scan, wheels);
+    const double begun = thread_ms();
+    (void)localizer.update(wheels, *scan, {}, tracker.still());
+    const double placed = thread_ms();
+    tracker.update(*scan, localizer.map_from_robot_at_scan(), localizer.twist());
+    const double seen = thread_ms();
+    if (k < kSettled) continue;
+    figures.localizing_ms.add(placed - begun);
+    figures.tracking_ms.add(seen - placed);
+    figures.seeing_ms.add(seen - begun);
+    figures.tracks.add(static_cast<double>(tracker.tracks().size()));
+    figures.moving.add(static_cast<double>(tracker.moving().size()));
+  }
+  return figures;
+}
+
+void row(const char* what, const Distribution& figure) {
+  std::printf("| %-28s | %8.3f | %8.3f | %8.3f |\n", what, figure.quantile(0.5), figure.quantile(0.99),
+              figure.quantile(1.0));
+}
+
+}  // namespace
+}  // namespace jaywalk::bench
+
+int main(int argc, char** argv) {
+  std::uint32_t scans = 3000;
+  CLI::App app("Times localisation and tracking among 64 walkers, 1,081 beams a scan", "jaywalk_seeing_time");
+  app.add_option("--scans", scans, "how many to time")->check(CLI::Range(1, 1000000))->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  const jaywalk::bench::Figures figures = jaywalk::bench::measure(scans);
+  std::printf("| %-28s | %8s | %8s | %8s |\n|---|---|---|---|\n", "a scan", "p50", "p99", "max");
+  jaywalk::bench::row("localisation, ms", figures.localizing_ms);
+  jaywalk::bench::row("tracking, ms", figures.tracking_ms);
+  jaywalk::bench::row("both, ms", figures.seeing_ms);
+  jaywalk::bench::row("tracks", figures.tracks);
+  jaywalk::bench::row("moving ones", figures.moving);
+}
