@@ -5,11 +5,12 @@
 
 namespace jaywalk::sim {
 
-Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed)
+Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip)
     : radius_m_(model.drive.wheel_radius_m),
       track_m_(model.drive.track_width_m),
       max_speed_(model.drive.max_wheel_speed_radps),
       max_accel_(kAccelOverBrake * model.limits.brake_mps2 / model.drive.wheel_radius_m),
+      slip_(slip),
       map_from_robot_(start),
       random_(seed, Purpose::kSlip) {}
 
@@ -35,8 +36,8 @@ double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
 /// along the heading that the robot has half way through it.
 void Plant::step(double step_s, Time now) noexcept {
   const bool alive = age(commanded_, now) <= kDriveWatchdog;
-  const double left = turn(left_, step_s, alive) * radius_m_ * (1.0 - left_.slip) * left_grip_;
-  const double right = turn(right_, step_s, alive) * radius_m_ * (1.0 - right_.slip);
+  const double left = turn(left_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - left_.slip) * left_grip_;
+  const double right = turn(right_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - right_.slip);
   const double forward = 0.5 * (left + right), turned = (right - left) / track_m_;
   twist_ = {forward / step_s, turned / step_s};
   const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * forward;
@@ -47,7 +48,7 @@ void Plant::step(double step_s, Time now) noexcept {
 /// An Ornstein-Uhlenbeck process, sampled exactly: it keeps its standard deviation whatever the step.
 void Plant::change_slip(double step_s) noexcept {
   const double kept = exp(-step_s / kSlipTime);
-  const double fresh = kSlipStd * std::sqrt(1.0 - kept * kept);
+  const double fresh = slip_.std * std::sqrt(1.0 - kept * kept);
   left_.slip = kept * left_.slip + fresh * random_.normal();
   right_.slip = kept * right_.slip + fresh * random_.normal();
 }

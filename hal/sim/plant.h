@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "hal/sim/random.h"
+#include "hal/sim/scenario.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
 
@@ -12,8 +13,7 @@ namespace jaywalk::sim {
 inline constexpr double kMotorLag = 0.05;
 /// ... but gains or loses no more than this share of the drive's proved braking.
 inline constexpr double kAccelOverBrake = 1.5;
-/// Slip of each wheel: a share of its speed, Gaussian, correlated over a second.
-inline constexpr double kSlipStd = 0.005;
+/// Slip is correlated over this time (s).
 inline constexpr double kSlipTime = 1.0;
 /// A wheel that has lost its grip (fault wheel_slip) moves the robot by this share of what it turns.
 inline constexpr double kLostGrip = 0.4;
@@ -26,7 +26,7 @@ inline constexpr Duration kDriveWatchdog{100'000'000};
 /// that count whole ticks of the wheels' turning. Equations in plant.cc.
 class Plant {
  public:
-  Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed);
+  Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip = {});
 
   /// A command that is not finite is no command.
   void command(const WheelCommand& command, Time now) noexcept;
@@ -50,12 +50,13 @@ class Plant {
     double wanted = 0.0;  ///< rad/s
     double speed = 0.0;   ///< rad/s
     double angle = 0.0;   ///< rad
-    double slip = 0.0;    ///< share of its speed that the ground does not see
+    double slip = 0.0;    ///< share of its speed that the ground does not see, beyond the mean
   };
   /// Turns the wheel for one step and returns the angle (rad).
   double turn(Wheel& wheel, double step_s, bool alive) const noexcept;
 
   double radius_m_, track_m_, max_speed_, max_accel_;
+  SlipSpec slip_;
   Pose2 map_from_robot_;
   Twist2 twist_;
   Wheel left_, right_;

@@ -37,6 +37,12 @@ struct FaultSpec {
   FaultKind kind = FaultKind::kScanStale;
 };
 
+/// How the wheels slip: shares of a wheel's speed that the ground does not see.
+struct SlipSpec {
+  double mean = 0.0;   ///< of both wheels, always
+  double std = 0.005;  ///< of each by itself, about the mean: Gaussian, correlated over kSlipTime (plant.h)
+};
+
 struct PoseSourceSpec {
   bool enabled = false;
   double rate_hz = 5.0;
@@ -56,6 +62,7 @@ struct Scenario {
   std::string start_place, goal_place;  ///< "office.toml:12: ", for complaints; empty for a scenario from no file
   double goal_tolerance_m = 0.3;
   RobotModel model;  ///< with the scenario's own speed and laser already in it
+  SlipSpec slip;
   PoseSourceSpec pose_source;
   std::vector<WanderSpec> wanderers;
   std::vector<RecordedSpec> recorded;

@@ -35,6 +35,14 @@ PoseSourceSpec read_pose_source(TomlTable table) {
   return spec;
 }
 
+SlipSpec read_slip(TomlTable table) {
+  SlipSpec spec;
+  spec.mean = table.number("mean", {0.0, 0.5}, spec.mean);
+  spec.std = table.number("std", {0.0, 0.5}, spec.std);
+  table.finish();
+  return spec;
+}
+
 RobotModel read_model(TomlTable& table) {
   RobotModel model = table.has("model") ? read_model_choice(table, "model") : p3dx();
   const double fastest = model.drive.max_wheel_speed_radps * model.drive.wheel_radius_m;
@@ -56,6 +64,7 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.goal_place = table.place_of("goal");
   scenario.goal_tolerance_m = table.number("goal_tolerance_m", {0.01, 10.0}, scenario.goal_tolerance_m);
   scenario.model = read_model(table);
+  if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
   table.finish();
 }

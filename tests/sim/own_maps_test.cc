@@ -26,6 +26,16 @@ TEST_CASE("the four maps' shortest paths are the paper's: 46, 67, 48 and 49 m wi
   CHECK(shortest(own("map4_00")) == Approx(49.0).epsilon(0.03));
 }
 
+TEST_CASE("the long way is one of 100 m for a robot that keeps off the walls, on wheels that slip") {
+  // Round the four walls' ends at a body's half width, 0.19 m: 19.9 m to the first, three times 17.5 m (16.8 across,
+  // 5.1 up), 19.8 m from the last.
+  const Scenario scenario = own("long_way_slip");
+  CHECK(shortest(scenario) == Approx(92.2).epsilon(0.02));
+  CHECK(scenario.slip.mean == 0.05);
+  CHECK(scenario.slip.std == 0.05);
+  CHECK(scenario.goal_tolerance_m == 0.2);
+}
+
 TEST_CASE("every map has scenarios with 0, 1, 4 and 16 movers, which 20 seeds can place") {
   for (const char* map : {"map1", "map2", "map3", "map4"}) {
     for (const int count : {0, 1, 4, 16}) {

@@ -17,7 +17,9 @@ constexpr double kTick = 2.0 * kPi / kTicksPerTurn;
 /// Commands the plant at 50 Hz and moves it on.
 class Drive {
  public:
-  Plant plant{p3dx(), {}, 1};
+  explicit Drive(const SlipSpec& slip = {}) : plant(p3dx(), {}, 1, slip) {}
+
+  Plant plant;
 
   void run(double left, double right, double seconds) {
     for (int k = 0; k < static_cast<int>(seconds / kStep + 0.5); ++k) {
@@ -145,6 +147,34 @@ TEST_CASE("each wheel slips by half a percent: their mean by 0.5 over root 2 per
   }
   CHECK(sum / kCount == Approx(0.0).margin(0.0002));  // three times 0.0035 / sqrt(4000)
   CHECK(std::sqrt(squares / kCount) == Approx(0.005 / std::sqrt(2.0)).epsilon(0.05));
+}
+
+TEST_CASE("wheels that slip by a share carry the robot by the rest") {
+  // A mean slip of 0.05 and no more: two metres of rims are 1.9 m of ground, straight on.
+  Drive drive(SlipSpec{.mean = 0.05, .std = 0.0});
+  for (int k = 0; k < 100; ++k) {
+    drive.plant.change_slip(0.02);
+    drive.run(4.0, 4.0, 0.02);
+  }
+  const double rims_m = drive.read().left_rad * kRadius;
+  CHECK(rims_m > 0.7);
+  CHECK(drive.plant.map_from_robot().x == Approx(0.95 * rims_m).margin(kTick * kRadius));
+  CHECK(drive.plant.map_from_robot().y == Approx(0.0).margin(1e-9));
+}
+
+TEST_CASE("wheels that slip by 5 percent each by itself turn the robot off its way") {
+  // The turn rate's standard deviation: sqrt 2 times 0.05 times the rims' 0.39 m/s over a track of 0.33 m, 0.0836
+  // rad/s.
+  Drive drive(SlipSpec{.mean = 0.0, .std = 0.05});
+  drive.run(4.0, 4.0, 1.0);
+  double squares = 0.0;
+  constexpr int kCount = 2000;
+  for (int k = 0; k < kCount; ++k) {
+    drive.plant.change_slip(5.0);
+    drive.run(4.0, 4.0, 0.02);
+    squares += drive.plant.twist().w_radps * drive.plant.twist().w_radps;
+  }
+  CHECK(std::sqrt(squares / kCount) == Approx(0.0836).epsilon(0.05));
 }
 
 TEST_CASE("a left wheel without grip turns as told, but the robot veers to the left") {

@@ -29,14 +29,15 @@ Scenario parsed(const std::string& text) { return load_scenario(folder().write("
 
 TEST_CASE("a scenario says everything that it says") {
   folder().write("body.toml", kBody);
-  const Scenario s = parsed("name = \"all\"\nseed = 7\ntimeout_s = 60\n" + kMap + kRobot +
-                            "goal_tolerance_m = 0.5\nmodel = \"wheelchair\"\nmax_speed_mps = 1.1\n"
-                            "[robot.laser]\nfov_deg = 180\nbeams = 361\nrate_hz = 20\nrange_m = 8\nnoise_m = 0.02\n"
-                            "drop_out = 0.1\n[robot.pose_source]\nrate_hz = 4\nposition_std_m = 0.2\n"
-                            "[[movers]]\nkind = \"wander\"\ncount = 3\nspeed_mps = 0.7\nradius_m = 0.3\n"
-                            "turn_rate_radps = 2\nspontaneous_turns_hz = 0.1\n"
-                            "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\noffset = [1, 2]\nloop = true\n"
-                            "start_at_s = 3\n[[faults]]\nkind = \"scan_stale\"\nat_s = 1\nfor_s = 0.5\n");
+  const Scenario s = parsed(
+      "name = \"all\"\nseed = 7\ntimeout_s = 60\n" + kMap + kRobot +
+      "goal_tolerance_m = 0.5\nmodel = \"wheelchair\"\nmax_speed_mps = 1.1\n"
+      "[robot.laser]\nfov_deg = 180\nbeams = 361\nrate_hz = 20\nrange_m = 8\nnoise_m = 0.02\n"
+      "drop_out = 0.1\n[robot.slip]\nmean = 0.05\nstd = 0.02\n[robot.pose_source]\nrate_hz = 4\nposition_std_m = 0.2\n"
+      "[[movers]]\nkind = \"wander\"\ncount = 3\nspeed_mps = 0.7\nradius_m = 0.3\n"
+      "turn_rate_radps = 2\nspontaneous_turns_hz = 0.1\n"
+      "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\noffset = [1, 2]\nloop = true\n"
+      "start_at_s = 3\n[[faults]]\nkind = \"scan_stale\"\nat_s = 1\nfor_s = 0.5\n");
   CHECK(s.name == "all");
   CHECK(s.seed == 7);
   CHECK(s.timeout_s == 60.0);
@@ -52,6 +53,8 @@ TEST_CASE("a scenario says everything that it says") {
   CHECK(s.model.laser.beams == 361);
   CHECK(s.model.laser.drop_out == 0.1);
   CHECK(s.model.laser.robot_from_laser.x == wheelchair().laser.robot_from_laser.x);
+  CHECK(s.slip.mean == 0.05);
+  CHECK(s.slip.std == 0.02);
   CHECK(s.pose_source.enabled);
   CHECK(s.pose_source.rate_hz == 4.0);
   REQUIRE(s.wanderers.size() == 1);
@@ -71,6 +74,8 @@ TEST_CASE("a short scenario gets a P3-DX, nobody moving and no outside fixes") {
   CHECK(s.model.name == "p3dx");
   CHECK(s.wanderers.empty());
   CHECK_FALSE(s.pose_source.enabled);
+  CHECK(s.slip.mean == 0.0);
+  CHECK(s.slip.std == 0.005);
 }
 
 TEST_CASE("bad scenarios are refused with file, line and cause") {
@@ -106,6 +111,7 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
       {good + "[robot.laser]\nfov_deg = 400\n", "s.toml:7: robot.laser.fov_deg is 400"},
       {good + "[robot.laser]\ncolour = 1\n", "s.toml:7: robot.laser.colour is not a known key"},
       {good + "[robot.laser]\nrange_min_m = 3\nrange_m = 2\n", "s.toml:7: robot.laser.range_min_m is not below"},
+      {good + "[robot.slip]\nmean = 0.6\n", "s.toml:7: robot.slip.mean"},
       {good + "[robot.pose_source]\nenabled = 1\n", "s.toml:7: robot.pose_source.enabled is not true or false"},
       {good + "[movers]\nkind = \"wander\"\n", "s.toml:6: movers is not a list of tables"},
       {good + "[[movers]]\ncount = 3\n", "s.toml:6: movers.kind is missing"},
