@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bench/tracking/innovations.h"
 #include "bench/tracking/reference_poses.h"
 #include "bench/tracking/run_folder.h"
 #include "bench/tracking/track_score.h"
@@ -18,6 +19,8 @@ struct Options {
   bool nobody = false;
   ScoreRules rules;
   ViewRule view;
+
+  [[nodiscard]] bool simulated() const { return !nobody && labels.empty() && reference.empty(); }
 };
 
 void row(const char* what, double value, const char* unit) {
@@ -52,13 +55,23 @@ void print(const char* what, const std::vector<PosePair>& poses) {
   std::printf("\n");
 }
 
+void print(const Innovations& innovations) {
+  if (innovations.count() == 0) return;
+  std::printf("| %-44s | %10s | %-5s |\n|---|---|---|\n", "innovations of tracks that move", "", "");
+  row("how many", innovations.count());
+  row("normalised and squared, mean; 2 is right", innovations.mean(), "");
+  row("95 % bounds of that: 2 and 2 less or more", innovations.mean_bound(), "");
+  row("within their own 95 % bound", 100.0 * innovations.share_within_95(), "%");
+  std::printf("\n");
+}
+
 void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
   if (o.nobody) {
     for (const double t_s : run.track_times()) frame(t_s, {});
   } else if (!o.labels.empty()) {
     const Pose2 robot_from_laser{o.laser_mount[0], o.laser_mount[1], o.laser_mount[2]};
     labelled_frames(o.labels, run, {robot_from_laser, o.between_s}, frame);
-  } else if (o.reference.empty()) {
+  } else if (o.simulated()) {
     simulated_frames(o.folder, run, o.view, frame);
   }
 }
@@ -72,6 +85,7 @@ void score(const Options& o) {
   });
   if (o.reference.empty() || o.nobody) print("tracks that move", moving, run.minutes());
   if (any.targets() > 0) print("all tracks; standing ones are no error", any, run.minutes());
+  if (o.simulated()) print(innovations_of(std::filesystem::path(o.folder) / "recording.jwr"));
   print("poses against the truth", run.poses());
   if (o.reference.empty()) return;
   const ReferencePoses reference = reference_poses(o.reference, run);

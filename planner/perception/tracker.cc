@@ -14,7 +14,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kAccelStd = 1.0;              // m/s^2 an axis: people start and turn within half a second
 constexpr double kGivenAccelStd = 0.5;         // the paper's movers keep their speed and seldom turn
 constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
 constexpr double kPathBreaksS = 0.4;           // unseen so long, a body may be another
@@ -79,7 +78,7 @@ void Tracker::State::predict_to(Time stamp) noexcept {
   step_s = step_seconds(now, stamp);
   now = stamp;
   for (Body& body : bodies) {
-    predict(body.track, step_seconds(body.track.stamp, stamp), body.given ? kGivenAccelStd : kAccelStd);
+    predict(body.track, step_seconds(body.track.stamp, stamp), body.given ? kGivenAccelStd : kBodyAccelStd);
     body.track.stamp = std::max(body.track.stamp, stamp);
   }
 }
