@@ -23,6 +23,25 @@ __global__ void visit_cells(std::int32_t w, std::int32_t h, Stage stage) {
   if (i < w && j < h) stage(i, j);
 }
 
+/// Threads of the one block that small boards get; registers are shared out among as many.
+inline constexpr int kBlockThreads = 1024;
+
+/// All visits of one step by the threads of one block; the next step sees what it has written.
+template <class Step>
+__device__ void visit_in_block(std::int32_t h, const Step& step) {
+  const std::int32_t visits = step.width * (h / step.every);
+  for (auto k = static_cast<std::int32_t>(threadIdx.x); k < visits; k += static_cast<std::int32_t>(blockDim.x)) {
+    step.stage(k % step.width, k / step.width);
+  }
+  __syncthreads();
+}
+
+/// The steps in order, `n` times over, in one block: for boards so small that launching takes longer than visiting.
+template <class... Steps>
+__global__ void __launch_bounds__(kBlockThreads) repeat_in_block(std::int32_t n, std::int32_t h, Steps... steps) {
+  for (std::int32_t k = 0; k < n; ++k) (visit_in_block(h, steps), ...);
+}
+
 class CudaExecutor {
  public:
   static constexpr bool kQueue = false;
@@ -62,12 +81,17 @@ class CudaExecutor {
 
   template <class... Steps>
   void for_each_row(std::int32_t h, const Steps&... steps) noexcept {
-    (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
+    repeat(1, h, steps...);
   }
 
   template <class... Steps>
   void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
-    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+    constexpr std::int32_t kMostInBlock = 8192;  ///< visits of a step: eight of each thread
+    if (((h * steps.width <= kMostInBlock) && ...)) {
+      if (n > 0) repeat_in_block<<<1, kBlockThreads, 0, stream_>>>(n, h, steps...);
+      return;
+    }
+    for (std::int32_t k = 0; k < n; ++k) (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
   }
 
   bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
