@@ -15,6 +15,13 @@ std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
 constexpr double kSeenUnitsPerS = 64.0;
 constexpr double kLongestStepS = 0.25;  // one hit after a gap is one hit
 
+/// Rounded down and held within kFarthest: a number that no integer holds becomes another one on each processor.
+std::int32_t whole_cells(double cells) {
+  constexpr double kFarthest = 5e8;  // the sum of two differences of such still is an integer
+  const double not_below = cells > -kFarthest ? cells : -kFarthest;
+  return static_cast<std::int32_t>(std::floor(not_below < kFarthest ? not_below : kFarthest));
+}
+
 }  // namespace
 
 EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map)
@@ -27,9 +34,7 @@ EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
 
-CellIndex EvidenceMap::cell_at(Vec2 p) const {
-  return {static_cast<std::int32_t>(std::floor(p.x / cell_m_)), static_cast<std::int32_t>(std::floor(p.y / cell_m_))};
-}
+CellIndex EvidenceMap::cell_at(Vec2 p) const { return {whole_cells(p.x / cell_m_), whole_cells(p.y / cell_m_)}; }
 
 Vec2 EvidenceMap::centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
 

@@ -30,6 +30,7 @@ class EvidenceMap {
 
   [[nodiscard]] std::int32_t side() const { return side_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
+  /// Beyond 500 million cells from the origin the last one there; what is not a number is in the first.
   [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const;
   [[nodiscard]] Vec2 centre_of(CellIndex cell) const;
   [[nodiscard]] bool contains(CellIndex cell) const;

@@ -36,7 +36,8 @@ Sight LineOfSight::at(Vec2 place, double tolerance) const noexcept {
   Bearing seen = bearing(place, 0.0);
   if (beam_s_ > 0.0 && seen.beam < beams_) seen = bearing(place, seen.beam * beam_s_);
   const auto [away, beam] = seen;
-  if (!(away > tolerance) || !(beam < beams_)) return Sight::kUnseen;
+  const bool in_sweep = beams_ >= 1.0 && beam > -1.0 && beam < beams_;  // below: angles that a double cannot tell apart
+  if (!(away > tolerance) || !in_sweep) return Sight::kUnseen;
   const double aside =
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
   const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(beam - aside + 0.5)));

@@ -74,3 +74,11 @@ TEST_CASE("a robot that turns during the sweep looks along the beam that was the
   CHECK(turning.at({1.9, 0.0}, 0.05) == Sight::kThere);
   CHECK(standing.at({1.9, 0.0}, 0.05) == Sight::kThrough);
 }
+
+TEST_CASE("an empty scan sees nothing, whatever ranges an earlier one left behind") {
+  LaserScan scan = scan_of(with_post(), {}, 1);
+  const Vec2 place = direction(scan.angle_rad(0) - 0.3 * static_cast<double>(scan.angle_step_rad));  // beam -0.3
+  CHECK(LineOfSight(scan, {}, {}, {}).at(place, 0.05) == Sight::kThrough);
+  scan.beam_count = 0;
+  CHECK(LineOfSight(scan, {}, {}, {}).at(place, 0.05) == Sight::kUnseen);
+}

@@ -1,5 +1,7 @@
 #include "planner/grid/evidence_map.h"
 
+#include <cmath>
+
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -39,4 +41,11 @@ TEST_CASE("small moves do not roll and what is outside is ignored") {
   CHECK(map.contains({-32, -32}));
   map.add({1000, 1000}, 50);
   CHECK(map.evidence({1000, 1000}) == 0);
+}
+
+TEST_CASE("a place that is farther off than integers count is in the last cell, one that is no number in the first") {
+  const EvidenceMap map(64, 0.1, {0.0, 0.0});
+  CHECK(map.cell_at({1e30, -1e30}) == CellIndex{500000000, -500000000});
+  CHECK(map.cell_at({std::nan(""), -0.05}) == CellIndex{-500000000, -1});
+  CHECK(map.cell_at({1e6, -1e6}) == CellIndex{10000000, -10000000});
 }
