@@ -11,6 +11,12 @@ set(JAYWALK_CXX_FLAGS
     -fno-trapping-math # lets comparisons vectorise; values stay the IEEE ones
     -fsigned-char) # plain char is unsigned on aarch64
 
+# g++ 12's vectoriser makes fused instructions out of x - y and x + y side by side whatever -ffp-contract says, where the
+# processor is said to have them (-march=native, x86-64-v3).
+if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
+  list(APPEND JAYWALK_CXX_FLAGS -mno-fma)
+endif()
+
 # Warnings are errors with the compilers that the project is tried with. A newer one may know new
 # warnings, and those must not keep a newcomer from building.
 set(JAYWALK_TRIED_COMPILER OFF)
