@@ -90,7 +90,7 @@ void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
     const std::uint8_t node = axis.setup.node;
     if (heartbeat && heartbeat->node == node) {
       axis.heard = received.stamp;
-      if (heartbeat->state != NmtState::kOperational && clock_.now() > settled_) latch(DriveTrouble::kDriveRestarted);
+      if (heartbeat->state != NmtState::kOperational && received.stamp > settled_) latch(DriveTrouble::kDriveRestarted);
     }
     if (emergency && emergency->node == node && emergency->error_code != 0) latch(DriveTrouble::kEmergency);
     if (received.frame.extended) continue;
