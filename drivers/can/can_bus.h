@@ -45,4 +45,22 @@ class CanBus {
   [[nodiscard]] virtual CanHealth health() const noexcept = 0;
 };
 
+/// Whether a bus was well since it was last looked at. Thread: the bus's.
+class BusWatch {
+ public:
+  /// What was before is forgotten.
+  void begin(const CanHealth& health) noexcept { bus_offs_seen_ = health.bus_off_count; }
+  /// False when the controller is passive, off or down now, or was off meanwhile: that may be over before anybody
+  /// looks.
+  [[nodiscard]] bool is_well(const CanHealth& health) noexcept {
+    const bool takes_part = health.state == CanState::kActive || health.state == CanState::kWarning;
+    const bool was_off = health.bus_off_count != bus_offs_seen_;
+    begin(health);
+    return takes_part && !was_off;
+  }
+
+ private:
+  std::uint64_t bus_offs_seen_ = 0;
+};
+
 }  // namespace jaywalk

@@ -135,11 +135,7 @@ void CanopenDriveBase::publish(Time stamp) noexcept {
 void CanopenDriveBase::watch() noexcept {
   if (!armed_) return;
   const Time now = clock_.now();
-  const CanHealth health = bus_.health();
-  const bool takes_part = health.state == CanState::kActive || health.state == CanState::kWarning;
-  const bool was_off = health.bus_off_count != bus_offs_seen_;  // it may be over before anybody looked
-  bus_offs_seen_ = health.bus_off_count;
-  if (!takes_part || was_off) latch(DriveTrouble::kBusUnwell);
+  if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
   for (Axis& axis : axes_) {
     if (age(axis.heard, now) > setup_.silence_limit) latch(DriveTrouble::kDriveSilent);
     const bool in_fault = axis.state == DriveState::kFault || axis.state == DriveState::kFaultReactionActive;

@@ -86,7 +86,7 @@ class CanopenDriveBase final : public WiredDrive {
   bool armed_ = false;
   bool awaits_zero_ = true;
   bool reset_pulse_ = false;
-  std::uint64_t bus_offs_seen_ = 0;
+  BusWatch bus_watch_;
   Time settled_ = kNever;  ///< faults that a drive still shows before this are those being reset
 };
 

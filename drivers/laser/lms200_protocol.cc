@@ -24,16 +24,7 @@ Heard Lms200Protocol::next(Time arrival, LaserScan& scan) noexcept {
     ++at_;
   }
   if (at_ < steps_.size()) return Heard::kAnswer;  // what it still sends from before
-  switch (decode_scan(*body, baud_, arrival, scan)) {
-    case Decoding::kScan:
-      return Heard::kScan;
-    case Decoding::kOtherMessage:
-      return Heard::kAnswer;
-    case Decoding::kDeviceError:
-      return Heard::kDeviceError;
-    default:
-      return Heard::kMalformed;
-  }
+  return heard_of(decode_scan(*body, baud_, arrival, scan));
 }
 
 }  // namespace jaywalk::lms200

@@ -1,6 +1,7 @@
 #pragma once
 #include <cstdint>
 
+#include "drivers/laser/decoding.h"
 #include "drivers/wire/byte_reader.h"
 #include "hal/types/laser_scan.h"
 
@@ -15,6 +16,20 @@ enum class Heard : std::uint8_t {
   kDeviceError,  ///< the scanner says that it is not well
   kRefused       ///< it will not send scans
 };
+
+/// What a message was, as far as its decoding tells.
+[[nodiscard]] constexpr Heard heard_of(Decoding decoding) noexcept {
+  switch (decoding) {
+    case Decoding::kScan:
+      return Heard::kScan;
+    case Decoding::kOtherMessage:
+      return Heard::kAnswer;
+    case Decoding::kDeviceError:
+      return Heard::kDeviceError;
+    default:
+      return Heard::kMalformed;
+  }
+}
 
 /// Since start, over all connections.
 struct ProtocolCounts {

@@ -77,18 +77,12 @@ Heard ScipProtocol::on_scan(std::string_view answer, Time arrival, LaserScan& sc
   }
   skipped_ += begin;
   std::uint32_t device_time_ms = 0;
-  switch (decode_scan(answer.substr(begin), model_, arrival, scan, device_time_ms)) {
-    case Decoding::kScan:
-      count_lost(device_time_ms);
-      scan.stamp -= device_clock_.delay(device_time_ms, arrival);
-      return Heard::kScan;
-    case Decoding::kOtherMessage:
-      return Heard::kAnswer;
-    case Decoding::kDeviceError:
-      return Heard::kDeviceError;
-    default:
-      return Heard::kMalformed;
+  const Heard heard = heard_of(decode_scan(answer.substr(begin), model_, arrival, scan, device_time_ms));
+  if (heard == Heard::kScan) {
+    count_lost(device_time_ms);
+    scan.stamp -= device_clock_.delay(device_time_ms, arrival);
   }
+  return heard;
 }
 
 // Scans are not numbered: one that is missing shows as two periods between two.

@@ -48,18 +48,13 @@ Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
   const auto body = stream_.next();
   if (!body) return Heard::kNothing;
   ScanHeader header;
-  switch (decode_scan(dialect_, *body, model_, arrival, scan, header)) {
-    case Decoding::kScan:
-      count_lost(header.telegram_counter);
-      scan.stamp -= device_clock_.delay(header.sent_time_us, arrival);
-      return Heard::kScan;
-    case Decoding::kOtherMessage:
-      return on_answer(text_of(*body));
-    case Decoding::kDeviceError:
-      return Heard::kDeviceError;
-    default:
-      return Heard::kMalformed;
+  const Heard heard = heard_of(decode_scan(dialect_, *body, model_, arrival, scan, header));
+  if (heard == Heard::kAnswer) return on_answer(text_of(*body));
+  if (heard == Heard::kScan) {
+    count_lost(header.telegram_counter);
+    scan.stamp -= device_clock_.delay(header.sent_time_us, arrival);
   }
+  return heard;
 }
 
 // "sAN Run 1", "sWA LMDscandatacfg", "sEA LMDscandata 1", or "sFA" and a number for any command that is refused.

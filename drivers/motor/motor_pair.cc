@@ -41,11 +41,7 @@ void MotorPair::publish(Time stamp) noexcept {
 
 void MotorPair::watch() noexcept {
   if (!armed_) return;
-  const CanHealth health = bus_.health();
-  const bool takes_part = health.state == CanState::kActive || health.state == CanState::kWarning;
-  const bool was_off = health.bus_off_count != bus_offs_seen_;  // it may be over before anybody looked
-  bus_offs_seen_ = health.bus_off_count;
-  if (!takes_part || was_off) latch(DriveTrouble::kBusUnwell);
+  if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
   for (MotorAxis& a : axes_) {
     if (!awaits_zero_ && age(a.heard, clock_.now()) > silence_limit_) latch(DriveTrouble::kDriveSilent);
     if (a.was_enabled && !a.obeys) latch(DriveTrouble::kLeftOperation);
@@ -64,7 +60,7 @@ void MotorPair::report_fault(DriveTrouble trouble) noexcept {
 
 void MotorPair::begin_watch() noexcept {
   armed_ = true;
-  bus_offs_seen_ = bus_.health().bus_off_count;
+  bus_watch_.begin(bus_.health());
 }
 
 void MotorPair::reset() noexcept {

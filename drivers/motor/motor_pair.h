@@ -79,7 +79,7 @@ class MotorPair : public WiredDrive {
   DriveTrouble trouble_ = DriveTrouble::kNone;
   bool armed_ = false;
   bool awaits_zero_ = true;
-  std::uint64_t bus_offs_seen_ = 0;
+  BusWatch bus_watch_;
   Time settled_ = kNever;
 };
 
