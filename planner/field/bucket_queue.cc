@@ -27,46 +27,43 @@ void BucketQueue::load(Grid grid, const std::uint16_t* rate) noexcept {
   for (std::size_t k = 0; k < chunks_.size(); ++k) chunks_[k].next = static_cast<std::int32_t>(k) + 1;
   chunks_.back().next = kNone;
   spare_ = 0;
-  std::fill_n(buckets_, kBuckets, Bucket{kNone, kNone, 0, 0});
-  queued_ = 0;
+  std::fill_n(buckets_, kBuckets, Bucket{kNone, kNone, kChunk});
+  chunks_in_use_ = 0;
   full_ = false;
 }
 
 void BucketQueue::push(std::int32_t n, std::uint32_t bucket) noexcept {
   Bucket& into = buckets_[bucket % kBuckets];
-  if (into.first == kNone || into.filled == kChunk) {
+  if (into.filled == kChunk) {
     if (spare_ == kNone) {
       full_ = true;
       return;
     }
     const std::int32_t chunk = spare_;
     spare_ = std::exchange(chunks_[at(chunk)].next, kNone);
-    if (into.first == kNone) {
-      into = {chunk, chunk, 0, 0};
-    } else {
-      chunks_[at(into.last)].next = chunk;
-      into.last = chunk;
-      into.filled = 0;
-    }
+    (into.first == kNone ? into.first : chunks_[at(into.last)].next) = chunk;
+    into.last = chunk;
+    into.filled = 0;
+    ++chunks_in_use_;
   }
   chunks_[at(into.last)].cells[into.filled++] = n;
-  ++queued_;
 }
 
-std::int32_t BucketQueue::pop(Bucket& from) noexcept {
-  if (from.first == kNone) return kNone;
-  Chunk& chunk = chunks_[at(from.first)];
-  const std::int32_t n = chunk.cells[from.read++];
-  --queued_;
-  const bool was_last = from.first == from.last;
-  if (from.read == (was_last ? from.filled : kChunk)) {
-    const std::int32_t emptied = from.first;
-    from.first = was_last ? kNone : chunk.next;
-    from.read = 0;
-    chunk.next = spare_;
-    spare_ = emptied;
+/// What is queued in it meanwhile is stepped from as well.
+void BucketQueue::drain(std::int32_t width, std::uint32_t bucket) noexcept {
+  Bucket& from = buckets_[bucket % kBuckets];
+  while (from.first != kNone) {
+    Chunk& chunk = chunks_[at(from.first)];
+    for (std::size_t k = 0; k < (from.first == from.last ? from.filled : kChunk); ++k) {
+      const std::int32_t n = chunk.cells[k];
+      const std::uint32_t reached = nodes_[at(n)].cost;
+      if (reached >> kBucketShift == bucket && reached < kFarthest) step_from(n, width, bucket);
+    }
+    const std::int32_t emptied = std::exchange(from.first, chunk.next);
+    chunk.next = std::exchange(spare_, emptied);
+    --chunks_in_use_;
   }
-  return n;
+  from.filled = kChunk;
 }
 
 /// `bucket`: the one that is being emptied.
@@ -88,9 +85,11 @@ void BucketQueue::step_from(std::int32_t n, std::int32_t width, std::uint32_t bu
   relax(n + width, here.cost + cell::straight_step(here.rate, north), bucket);
   relax(n - width, here.cost + cell::straight_step(here.rate, south), bucket);
   const auto across = [&](std::int32_t to, std::uint32_t a, std::uint32_t b) {
+    const Node there = nodes_[at(to)];
+    // Most have been reached for less than a straight step would cost: seen before the dearer questions.
+    if (there.cost <= here.cost + cell::straight_step(here.rate, there.rate)) return;
     if (a == 0 || b == 0) return;
-    const std::uint32_t rate = nodes_[at(to)].rate;
-    relax(to, here.cost + cell::diagonal_step(here.rate, rate, a, b), bucket);
+    relax(to, here.cost + cell::diagonal_step(here.rate, there.rate, a, b), bucket);
   };
   across(n + width + 1, east, north), across(n + width - 1, west, north);
   across(n - width + 1, east, south), across(n - width - 1, west, south);
@@ -102,12 +101,7 @@ bool BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate
   const std::int32_t first = (goal / grid.side + 1) * width + goal % grid.side + 1;
   nodes_[at(first)].cost = 0;
   push(first, 0);
-  for (std::uint32_t bucket = 0; queued_ > 0; ++bucket) {
-    for (std::int32_t n = 0; (n = pop(buckets_[bucket % kBuckets])) != kNone;) {
-      const std::uint32_t reached = nodes_[at(n)].cost;
-      if (reached >> kBucketShift == bucket && reached < kFarthest) step_from(n, width, bucket);
-    }
-  }
+  for (std::uint32_t bucket = 0; chunks_in_use_ > 0; ++bucket) drain(width, bucket);
   for (std::int32_t j = 0; j < grid.side; ++j) {
     const Node* row = &nodes_[at((j + 1) * width + 1)];
     for (std::int32_t i = 0; i < grid.side; ++i) cost[grid.at(i, j)] = row[i].rate == 0 ? kNoWay : row[i].cost;

@@ -29,23 +29,23 @@ class BucketQueue {
     std::int32_t next;
     std::int32_t cells[kChunk];
   };
-  /// First in, first out: a list of chunks.
+  /// A list of chunks, all full but the last.
   struct Bucket {
     std::int32_t first, last;
-    std::size_t read, filled;  ///< entries read of the first, and filled in the last
+    std::size_t filled;  ///< entries of the last
   };
 
   void load(Grid grid, const std::uint16_t* rate) noexcept;
   void relax(std::int32_t to, std::uint32_t through, std::uint32_t bucket) noexcept;
   void push(std::int32_t n, std::uint32_t bucket) noexcept;
-  [[nodiscard]] std::int32_t pop(Bucket& from) noexcept;
+  void drain(std::int32_t width, std::uint32_t bucket) noexcept;
   void step_from(std::int32_t n, std::int32_t width, std::uint32_t bucket) noexcept;
 
   std::vector<Node> nodes_;
   std::vector<Chunk> chunks_;
   std::int32_t spare_ = 0;  ///< first chunk that nobody uses
   Bucket buckets_[kBuckets];
-  std::size_t queued_ = 0;
+  std::size_t chunks_in_use_ = 0;
   bool full_ = false;
 };
 

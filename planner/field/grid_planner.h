@@ -199,7 +199,7 @@ class GridPlanner final : public Planner {
       a.points[count - 1] = {static_cast<float>(there.x), static_cast<float>(there.y)};
     }
     if (!pass_.pull(window_.grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
-    resample(window_, a.points, count, from, end, path);
+    resample(window_, a.clearance, a.points, count, from, end, path);
     return PlanStatus::kOk;
   }
 

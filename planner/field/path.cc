@@ -9,8 +9,66 @@ namespace {
 constexpr double kSpacing = 0.1;     // m, as wide as a cell
 constexpr double kMaxSpacing = 0.2;  // m
 
-Vec2 in_map(const Window& window, cell::Point p) {
-  return window.in_map({static_cast<double>(p.x), static_cast<double>(p.y)});
+/// A place on the band: on the piece that begins at this point of it.
+struct Place {
+  std::int32_t piece = 0;
+  Vec2 at;  ///< cells
+};
+
+/// The band's polyline in cells, between exact ends.
+class Band {
+ public:
+  Band(const cell::Point* points, std::int32_t count, Vec2 from, Vec2 to)
+      : points_(points), last_(count - 1), from_(from), to_(to) {}
+
+  [[nodiscard]] Place begin() const { return {0, from_}; }
+  [[nodiscard]] Place end() const { return {last_, to_}; }
+  [[nodiscard]] bool is_end(Place p) const { return p.piece >= last_; }
+
+  [[nodiscard]] double length() const {
+    double sum = 0.0;
+    for (std::int32_t k = 0; k < last_; ++k) sum += distance(point(k), point(k + 1));
+    return sum;
+  }
+
+  /// `step` farther along; the end where that comes first.
+  [[nodiscard]] Place ahead(Place p, double step) const {
+    for (; !is_end(p); p = {p.piece + 1, point(p.piece + 1)}) {
+      const Vec2 corner = point(p.piece + 1);
+      const double left = distance(p.at, corner);
+      if (step < left) return {p.piece, p.at + (corner - p.at) * (step / left)};
+      step -= left;
+    }
+    return p;
+  }
+
+  /// The last corner before p, as a place on the piece that ends there.
+  [[nodiscard]] Place back_to_corner(Place p) const { return {p.piece - 1, point(p.piece)}; }
+  /// The same place; on the next piece where it is a piece's end.
+  [[nodiscard]] Place past_corner(Place p) const {
+    return !is_end(p) && p.at == point(p.piece + 1) ? Place{p.piece + 1, p.at} : p;
+  }
+
+ private:
+  [[nodiscard]] Vec2 point(std::int32_t k) const {
+    if (k == 0) return from_;
+    return k == last_ ? to_ : Vec2{static_cast<double>(points_[k].x), static_cast<double>(points_[k].y)};
+  }
+
+  const cell::Point* points_;
+  std::int32_t last_;
+  Vec2 from_, to_;
+};
+
+/// Whether all cells of the box that two places span are free, and with them the chord between the places.
+bool is_box_free(Grid grid, const float* clearance, Vec2 a, Vec2 b) {
+  const auto cell_of = [](double x) { return static_cast<std::int32_t>(std::floor(x)); };
+  for (std::int32_t j = cell_of(std::min(a.y, b.y)); j <= cell_of(std::max(a.y, b.y)); ++j) {
+    for (std::int32_t i = cell_of(std::min(a.x, b.x)); i <= cell_of(std::max(a.x, b.x)); ++i) {
+      if (!grid.holds(i, j) || !(clearance[grid.at(i, j)] > 0.0F)) return false;
+    }
+  }
+  return true;
 }
 
 /// A cell's successor; itself where the index leads nowhere.
@@ -53,30 +111,22 @@ float share_arriving(Grid grid, const float* psi, const std::uint8_t* index, std
   return joined == 0 ? 0.0F : static_cast<float>(arriving) / static_cast<float>(joined);
 }
 
-void resample(const Window& window, const cell::Point* points, std::int32_t count, Vec2 from, Vec2 to,
-              Path& path) noexcept {
-  const auto point = [&](std::int32_t k) { return k == 0 ? from : (k == count - 1 ? to : in_map(window, points[k])); };
-  double length = 0.0;
-  for (std::int32_t k = 1; k < count; ++k) length += distance(point(k - 1), point(k));
-  const double most = static_cast<double>(kMaxPathPoints - 1);
+void resample(const Window& window, const float* clearance, const cell::Point* points, std::int32_t count, Vec2 from,
+              Vec2 to, Path& path) noexcept {
+  const Band band(points, count, window.in_cells(from), window.in_cells(to));
+  const double most = static_cast<double>(kMaxPathPoints - 1), length = band.length() * window.cell_m;
   const double pieces = std::clamp(std::ceil(length / kSpacing), 1.0, most);
-  const double spacing = std::min(length / pieces, kMaxSpacing);
+  const double spacing = std::min(length / pieces, kMaxSpacing) / window.cell_m;
+  const Grid grid = window.grid();
   path.clear();
-  double walked = 0.0;  // along the band to its point k - 1
-  for (std::int32_t k = 1; k < count && !path.full(); ++k) {
-    const Vec2 a = point(k - 1), b = point(k);
-    const double step = distance(a, b);
-    for (double next = spacing * static_cast<double>(path.size()); next < walked + step && !path.full();
-         next = spacing * static_cast<double>(path.size())) {
-      (void)path.push_back(a + (b - a) * ((next - walked) / step));
-    }
-    walked += step;
+  (void)path.push_back(from);
+  for (Place last = band.begin(); !band.is_end(last) && !path.full();) {
+    Place next = band.ahead(last, spacing);
+    if (band.is_end(band.ahead(next, 0.5 * spacing))) next = band.end();
+    while (next.piece > last.piece && !is_box_free(grid, clearance, last.at, next.at)) next = band.back_to_corner(next);
+    last = band.past_corner(next);
+    (void)path.push_back(band.is_end(last) ? to : window.in_map(last.at));
   }
-  const bool whole = length <= most * kMaxSpacing;
-  if (!whole) return;
-  // The last sample may have fallen just short of the end: it becomes the end.
-  const bool is_close = path.size() > 1 && distance(path.back(), to) < 0.5 * spacing;
-  if (is_close || !path.push_back(to)) path.back() = to;
 }
 
 }  // namespace jaywalk::field

@@ -15,9 +15,11 @@ namespace jaywalk::field {
 [[nodiscard]] float share_arriving(Grid grid, const float* psi, const std::uint8_t* index, std::int32_t goal,
                                    std::uint8_t* seen) noexcept;
 
-/// The band as a path in the map: 0.1 m apart or a little less, wider (at most 0.2 m) where it would not fit,
-/// cut at kMaxPathPoints beyond that. First and last point exactly `from` and `to`.
-void resample(const Window& window, const cell::Point* points, std::int32_t count, Vec2 from, Vec2 to,
-              Path& path) noexcept;
+/// The band as a path in the map: 0.1 m apart or a little less, wider (at most 0.2 m) where it would not fit, cut at
+/// kMaxPathPoints beyond that, and closer at the band's corners: where the straight line from one place to the next
+/// would leave free cells (`clearance` above 0, by rows) it goes by the corner instead. First and last point exactly
+/// `from` and `to`.
+void resample(const Window& window, const float* clearance, const cell::Point* points, std::int32_t count, Vec2 from,
+              Vec2 to, Path& path) noexcept;
 
 }  // namespace jaywalk::field

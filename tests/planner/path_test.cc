@@ -23,6 +23,7 @@ double length_of(const std::vector<cell::Point>& p) {
 }
 
 const field::Window kWindow{{100, -50}, 64, 0.1};
+const std::vector<float> kAllFree(64 * 64, 9.0F);
 
 }  // namespace
 
@@ -101,7 +102,7 @@ TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between po
   for (int k = 0; k < 40; ++k)
     band.push_back({static_cast<float>(k) + 0.5F, k < 20 ? 10.5F : 0.5F * static_cast<float>(k) + 0.5F});
   const Vec2 from{10.07, -3.93}, to{13.96, -2.99};
-  field::resample(kWindow, band.data(), 40, from, to, *path);
+  field::resample(kWindow, kAllFree.data(), band.data(), 40, from, to, *path);
   REQUIRE(path->size() > 30);
   CHECK((*path)[0] == from);
   CHECK(path->back() == to);
@@ -114,20 +115,44 @@ TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between po
 TEST_CASE("a path of one point and one that goes nowhere are drawn") {
   const auto path = std::make_unique<Path>();
   const cell::Point here[2] = {{5.5F, 5.5F}, {5.5F, 5.5F}};
-  field::resample(kWindow, here, 2, {1.0, 2.0}, {1.0, 2.0}, *path);
+  field::resample(kWindow, kAllFree.data(), here, 2, {1.0, 2.0}, {1.0, 2.0}, *path);
   CHECK(path->size() >= 1);
   CHECK(path->back() == Vec2{1.0, 2.0});
 }
 
+TEST_CASE("a path goes by the band's corner where the straight line would cut through a cell that is not free") {
+  // Right along row 10 for 4.1 cells, up along column 14 for 18.7: 23 pieces of 0.9913 cells. The fifth goes from
+  // (13.97, 10.9) to (14.1, 11.76), through cell (13, 11) inside the bend.
+  const auto path = std::make_unique<Path>();
+  const cell::Point band[3] = {{10.0F, 10.9F}, {14.1F, 10.9F}, {14.1F, 29.6F}};
+  const auto corner_in_map = kWindow.in_map({static_cast<double>(band[1].x), static_cast<double>(band[1].y)});
+  const auto goes_by_corner = [&](const std::vector<float>& clearance) {
+    field::resample(kWindow, clearance.data(), band, 3, kWindow.in_map({10.0, 10.9}), kWindow.in_map({14.1, 29.6}),
+                    *path);
+    bool found = false;
+    for (const Vec2& p : *path) found = found || distance(p, corner_in_map) < 1e-9;
+    return found;
+  };
+  CHECK_FALSE(goes_by_corner(kAllFree));
+  const std::size_t free_size = path->size();
+  std::vector<float> clearance = kAllFree;
+  clearance[11 * 64 + 13] = 0.0F;
+  CHECK(goes_by_corner(clearance));
+  CHECK(path->back() == kWindow.in_map({14.1, 29.6}));
+  CHECK(path->size() <= free_size + 1);
+}
+
 TEST_CASE("a long path spreads its points to 0.2 m and beyond that is cut") {
   const auto path = std::make_unique<Path>();
+  const field::Window wide{{100, -50}, 16384, 0.1};
+  const std::vector<float> lowest_row(16384, 9.0F);
   std::vector<cell::Point> band;
   for (int k = 0; k < 6000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 600 m
-  field::resample(kWindow, band.data(), 6000, {10.0, -5.0}, {609.9, -5.0}, *path);
+  field::resample(wide, lowest_row.data(), band.data(), 6000, {10.0, -5.0}, {609.9, -5.0}, *path);
   CHECK(path->back() == Vec2{609.9, -5.0});
   CHECK(distance((*path)[0], (*path)[1]) == Approx(599.9 / 4095).epsilon(1e-3));
   for (int k = 6000; k < 12000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 1.2 km
-  field::resample(kWindow, band.data(), 12000, {10.0, -5.0}, {1209.9, -5.0}, *path);
+  field::resample(wide, lowest_row.data(), band.data(), 12000, {10.0, -5.0}, {1209.9, -5.0}, *path);
   CHECK(path->full());
   CHECK(distance((*path)[0], (*path)[1]) == Approx(0.2).epsilon(1e-3));
   CHECK(path->back().x == Approx(10.0 + 4095 * 0.2).epsilon(1e-3));
