@@ -103,6 +103,8 @@ wire::FileDescriptor open_can(const std::string& interface, std::span<const CanF
 
 SocketCan::SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept : socket_(std::move(socket)), clock_(clock) {}
 
+void SocketCan::listen(std::span<const CanFilter> filters) { set_filters(socket_.get(), filters, "CAN"); }
+
 SendResult SocketCan::send(const CanFrame& frame) noexcept {
   if (!is_valid(frame)) return SendResult::kNotAFrame;
   const can_frame raw = to_kernel(frame);

@@ -23,6 +23,9 @@ class SocketCan final : public CanBus {
   /// `socket` is open_can's; the clock, which outlives this, counts the control time line.
   SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept;
 
+  /// Start-up only: hands out what passes these from now on. Throws StartupError.
+  void listen(std::span<const CanFilter> filters);
+
   [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override;
   [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override;
   [[nodiscard]] CanHealth health() const noexcept override { return health_; }

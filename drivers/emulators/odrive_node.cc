@@ -102,8 +102,14 @@ void OdriveNode::move(double seconds) noexcept {
 void OdriveNode::say(Time now) noexcept {
   if (is_due(said_heartbeat_, heartbeat_period_, now)) send(0x01, errors_, state_);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
-  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position_)),
-       std::bit_cast<std::uint32_t>(static_cast<float>(velocity_)));
+  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_position_ : position_)),
+       std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_velocity_ : velocity_)));
+}
+
+void OdriveNode::measure(double velocity, double position) noexcept {
+  has_encoder_ = true;
+  encoder_velocity_ = velocity;
+  encoder_position_ = position;
 }
 
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 
 #include "drivers/can/can_bus.h"
 
@@ -33,6 +34,13 @@ class OdriveNode {
   [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< turns a second
   [[nodiscard]] double position() const noexcept { return position_; }  ///< turns
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == 8; }
+  [[nodiscard]] std::string_view state_name() const noexcept { return is_enabled() ? "enabled" : "off"; }
+  /// When it was last told anything; kNever before the first time.
+  [[nodiscard]] Time heard_controller() const noexcept { return fed_; }
+  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): turns a second and turns.
+  void measure(double velocity, double position) noexcept;
+  /// It lets go until somebody clears the error.
+  void raise_fault(std::uint32_t error) noexcept { disarm(error); }
 
  private:
   void take(const CanFrame& frame, Time now) noexcept;
@@ -54,6 +62,8 @@ class OdriveNode {
   double target_ = 0.0;
   double velocity_ = 0.0;
   double position_ = 0.0;
+  bool has_encoder_ = false;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
   Time stepped_ = kNever, fed_ = kNever, said_heartbeat_ = kNever, said_estimates_ = kNever;
 };
 

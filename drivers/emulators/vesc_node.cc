@@ -125,13 +125,33 @@ void VescNode::say(Time now) noexcept {
   if (said_ != kNever && now - said_ < kStatusPeriod) return;
   said_ = now;
   std::array<std::uint8_t, 8> bytes{};
-  wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(erpm_)), bytes);
+  const double felt = has_encoder_ ? 60.0 * encoder_velocity_ : erpm_;
+  wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)), bytes);
   send(9, controller_, bytes);
   if (!tells_travel_) return;
-  const auto sixths = static_cast<std::int64_t>(std::floor(6.0 * position_));
+  const auto sixths = static_cast<std::int64_t>(std::floor(6.0 * (has_encoder_ ? encoder_position_ : position_)));
   wire::put_big_endian(static_cast<std::uint32_t>(sixths), bytes);
   wire::put_big_endian(std::uint16_t{240}, std::span(bytes).subspan(4));
   send(27, controller_, bytes);
+}
+
+void VescNode::measure(double velocity, double position) noexcept {
+  has_encoder_ = true;
+  encoder_velocity_ = velocity;
+  encoder_position_ = position;
+}
+
+std::string_view VescNode::state_name() const noexcept {
+  if (fault_ != 0) return "fault";
+  switch (mode_) {
+    case Mode::kSpeed:
+      return "enabled";
+    case Mode::kBrake:
+      return "braking";
+    case Mode::kCurrent:
+      break;
+  }
+  return "off";
 }
 
 void VescNode::send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <string_view>
 #include <vector>
 
 #include "drivers/can/can_bus.h"
@@ -30,9 +31,18 @@ class VescNode {
   void set_travel(std::int32_t sixths) noexcept { position_ = sixths / 6.0; }
   /// No more frames out, as when its cable is pulled; frames in are lost too.
   void pull_cable() noexcept { connected_ = false; }
+  void plug_cable() noexcept { connected_ = true; }
 
   [[nodiscard]] double erpm() const noexcept { return erpm_; }
+  [[nodiscard]] double velocity() const noexcept { return erpm_ / 60.0; }  ///< electrical turns a second
   [[nodiscard]] double electrical_turns() const noexcept { return position_; }
+  [[nodiscard]] std::string_view state_name() const noexcept;
+  /// When it was last told a speed or a current; kNever before the first time.
+  [[nodiscard]] Time heard_controller() const noexcept { return fed_; }
+  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): electrical turns a second
+  /// and electrical turns.
+  void measure(double velocity, double position) noexcept;
+  void raise_fault(std::uint16_t code) noexcept { fault_ = static_cast<std::uint8_t>(code); }
 
  private:
   enum class Mode { kSpeed, kCurrent, kBrake };
@@ -54,6 +64,8 @@ class VescNode {
   double target_erpm_ = 0.0;
   double erpm_ = 0.0;
   double position_ = 0.0;  ///< electrical turns
+  bool has_encoder_ = false;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
   Time stepped_ = kNever, fed_ = kNever, said_ = kNever;
 };
 

@@ -14,25 +14,18 @@ namespace jaywalk {
 
 namespace {
 
-/// What a kind has by its maker; 0: it has no such wire.
-struct Kind {
-  std::string_view name;
-  ScannerKind kind;
-  std::uint16_t port;
-  std::uint32_t baud;
-};
-constexpr std::array<Kind, 6> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
-                                      {"sick-cola-b", ScannerKind::kSickColaB, 2112, 0},
-                                      {"hokuyo", ScannerKind::kHokuyo, 10940, 115200},
-                                      {"ld19", ScannerKind::kLdrobot, 0, 230400},
-                                      {"lms200", ScannerKind::kLms200, 0, 9600},
-                                      {"rplidar", ScannerKind::kRplidar, 0, 115200}}};
+constexpr std::array<ScannerMake, 6> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
+                                             {"sick-cola-b", ScannerKind::kSickColaB, 2112, 0},
+                                             {"hokuyo", ScannerKind::kHokuyo, 10940, 115200},
+                                             {"ld19", ScannerKind::kLdrobot, 0, 230400},
+                                             {"lms200", ScannerKind::kLms200, 0, 9600},
+                                             {"rplidar", ScannerKind::kRplidar, 0, 115200}}};
 
-const Kind& kind_of(ScannerKind kind) noexcept {
-  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const Kind& k) { return k.kind == kind; });
+const ScannerMake& kind_of(ScannerKind kind) noexcept {
+  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const ScannerMake& k) { return k.kind == kind; });
 }
 
-std::unique_ptr<wire::Endpoint> endpoint_of(const ScannerSetup& setup, const Kind& kind, std::uint32_t baud) {
+std::unique_ptr<wire::Endpoint> endpoint_of(const ScannerSetup& setup, const ScannerMake& kind, std::uint32_t baud) {
   const bool on_network = !setup.host.empty();
   if (on_network == !setup.device.empty()) {
     throw StartupError("scanner: " + std::string(on_network ? "both host and device" : "neither host nor device"),
@@ -69,14 +62,16 @@ std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uin
 
 }  // namespace
 
+std::span<const ScannerMake> scanner_makes() noexcept { return kKinds; }
+
 std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept {
   const auto* const found =
-      std::find_if(kKinds.begin(), kKinds.end(), [name](const Kind& k) { return k.name == name; });
+      std::find_if(kKinds.begin(), kKinds.end(), [name](const ScannerMake& k) { return k.name == name; });
   return found == kKinds.end() ? std::nullopt : std::optional(found->kind);
 }
 
 std::unique_ptr<ScannerConnection> make_scanner(const ScannerSetup& setup, Clock& clock) {
-  const Kind& kind = kind_of(setup.kind);
+  const ScannerMake& kind = kind_of(setup.kind);
   const std::uint32_t baud = setup.baud == 0 ? kind.baud : setup.baud;
   return std::make_unique<ScannerConnection>(endpoint_of(setup, kind, baud), protocol_of(setup, baud), clock);
 }

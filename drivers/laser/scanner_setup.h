@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 
@@ -10,6 +11,16 @@
 namespace jaywalk {
 
 enum class ScannerKind : std::uint8_t { kSickColaA, kSickColaB, kHokuyo, kLdrobot, kLms200, kRplidar };
+
+/// What a kind has by its maker.
+struct ScannerMake {
+  std::string_view name;  ///< in files
+  ScannerKind kind;
+  std::uint16_t port;  ///< 0: not on a network
+  std::uint32_t baud;  ///< 0: not on a serial line
+};
+
+[[nodiscard]] std::span<const ScannerMake> scanner_makes() noexcept;
 
 /// "sick-cola-a", "sick-cola-b", "hokuyo", "ld19" (and LD06), "lms200", "rplidar"; nothing for other names.
 [[nodiscard]] std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept;

@@ -10,7 +10,9 @@
 #include "firmware/commands/run_picture.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
+#include "firmware/robot/no_pose_source.h"
 #include "firmware/robot/planner_thread.h"
+#include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
 
@@ -20,15 +22,6 @@ namespace {
 /// SAFETY: a stall of the loop that is longer than this stops the drives, whatever else happens.
 constexpr Duration kLongestStall = std::chrono::milliseconds(100);
 constexpr long kReportPeriod_ns = 20'000'000;
-
-/// A robot without a localisation system outside it.
-class NoPoseSource final : public PoseSource {
- public:
-  [[nodiscard]] const OutsideFix& latest() noexcept override { return none_; }
-
- private:
-  OutsideFix none_;
-};
 
 /// SIGINT and SIGTERM wait from now on, here and in threads to come, until they are asked for.
 class EndSignals {
@@ -112,15 +105,16 @@ int run_robot(const RunOptions& options) {
                                                        {});
                       return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
                     });
-  devices.await_first_scan();
+  std::vector<std::string> not_permitted;
+  if (file.realtime.lock_memory) not_permitted = lock_memory();
+  devices.start();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
 
   const EndSignals signals;
-  std::vector<std::string> not_permitted;
-  if (file.realtime.lock_memory) not_permitted = lock_memory();
-  StallGuard guard(devices.brake(), clock, kLongestStall, file.realtime.priority > 0 ? file.realtime.priority + 1 : 0);
-  RobotLoop loop(runner, devices, desk, clock, guard);
+  StallGuard guard(devices.brake(), clock, kLongestStall);
+  guard.start(guard_priority(file.realtime));
+  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus()}, desk, clock, guard);
   loop.start(file.realtime);
   for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
   for (const std::string& line : not_permitted) remark(line);

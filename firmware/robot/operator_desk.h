@@ -31,8 +31,6 @@ class OperatorDesk final : public OperatorPanel {
 
   /// Loop's thread.
   [[nodiscard]] OperatorInput latest() noexcept override;
-  /// Loop's thread: the rising edge of reset was in the input that latest() gave last.
-  [[nodiscard]] bool was_reset() const noexcept { return input_.reset; }
   /// Loop's thread, after a tick.
   void tell(const RunStatus& status) noexcept;
 

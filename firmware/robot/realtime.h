@@ -12,6 +12,13 @@ struct RealtimeWishes {
   std::optional<int> cpu = {};  ///< a processor of its own
 };
 
+/// Who goes before whom where processors are few: the guard, the loop, then whoever takes in what the scanner sends.
+/// Planner, report and control socket are ordinary threads: a plan that takes long holds up none of these.
+[[nodiscard]] constexpr int guard_priority(const RealtimeWishes& w) { return w.priority > 0 ? w.priority + 1 : 0; }
+[[nodiscard]] constexpr int laser_priority(const RealtimeWishes& w) {
+  return w.priority > 1 ? w.priority - 1 : w.priority;
+}
+
 /// Keeps all memory, had and to come, from being paged out. Start-up only, once a process.
 /// Returns what was not permitted and what would permit it, a line each; empty: all is well.
 std::vector<std::string> lock_memory();

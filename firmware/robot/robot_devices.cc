@@ -1,52 +1,10 @@
 #include "firmware/robot/robot_devices.h"
 
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
-#include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
-#include "drivers/wire/endpoint.h"
+#include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-std::unique_ptr<ScannerProtocol> make_protocol(const LaserWiring& wiring, const LaserModel& model) {
-  const sick::ScannerModel sick_model{.range_min_m = static_cast<float>(model.range_min_m),
-                                      .range_max_m = static_cast<float>(model.range_max_m)};
-  switch (wiring.kind) {
-    case LaserKind::kSickColaA:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kA, sick_model);
-    case LaserKind::kSickColaB:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kB, sick_model);
-    case LaserKind::kHokuyo:
-      return std::make_unique<scip::ScipProtocol>();
-    case LaserKind::kLd19:
-      return std::make_unique<ldrobot::LdProtocol>();
-    case LaserKind::kRplidar:
-      return std::make_unique<rplidar::RplidarProtocol>();
-    case LaserKind::kLms200:
-      return std::make_unique<lms200::Lms200Protocol>(wiring.baud);
-  }
-  return nullptr;
-}
-
-std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock) {
-  const LaserWiring& wiring = file.laser;
-  std::unique_ptr<wire::Endpoint> endpoint;
-  if (wiring.host.empty()) {
-    endpoint = std::make_unique<wire::SerialEndpoint>(wiring.device, wiring.baud);
-  } else {
-    endpoint = std::make_unique<wire::TcpEndpoint>(wiring.host, wiring.port);
-  }
-  return std::make_unique<ScannerConnection>(std::move(endpoint), make_protocol(wiring, file.setup.model.laser), clock);
-}
-
-std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
-  if (wiring.kind == DriveKind::kOdrive) return std::make_unique<odrive::OdriveBase>(bus, clock, wiring.odrive);
-  if (wiring.kind == DriveKind::kVesc) return std::make_unique<vesc::VescBase>(bus, clock, wiring.vesc);
-  return std::make_unique<canopen::CanopenDriveBase>(bus, clock, wiring.cia402);
-}
 
 std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
   const auto& odrives = wiring.odrive.axes;
@@ -65,6 +23,25 @@ std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bu
 
 }  // namespace
 
+std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock) {
+  const LaserWiring& wiring = file.laser;
+  const LaserModel& model = file.setup.model.laser;
+  return make_scanner({.kind = wiring.kind,
+                       .host = wiring.host,
+                       .port = wiring.port,
+                       .device = wiring.device,
+                       .baud = wiring.baud,
+                       .range_min_m = static_cast<float>(model.range_min_m),
+                       .range_max_m = static_cast<float>(model.range_max_m)},
+                      clock);
+}
+
+std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
+  if (wiring.kind == DriveKind::kOdrive) return std::make_unique<odrive::OdriveBase>(bus, clock, wiring.odrive);
+  if (wiring.kind == DriveKind::kVesc) return std::make_unique<vesc::VescBase>(bus, clock, wiring.vesc);
+  return std::make_unique<canopen::CanopenDriveBase>(bus, clock, wiring.cia402);
+}
+
 std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
   if (wiring.kind == DriveKind::kOdrive) return {CanFilter{}};
   if (wiring.kind == DriveKind::kVesc) return {CanFilter{.id = 0, .mask = 0, .extended = true}};
@@ -80,14 +57,19 @@ std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
 RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
-      bus_(open_can(file.drive.can, filters_for(file.drive)), clock),
+      bus_(open_can(file.drive.can, {}), clock),
       brake_bus_(open_can(file.drive.can, {}), clock),
       laser_(make_laser(file, clock)),
       drive_(make_drive(file.drive, bus_, clock)),
       brake_(make_brake(file.drive, brake_bus_)) {}
 
+void RobotDevices::start() {
+  await_first_scan();
+  bus_.listen(filters_for(file_.drive));
+}
+
 void RobotDevices::await_first_scan() {
-  laser_->start();
+  laser_->start(laser_priority(file_.realtime));  // the loop's thread tells what is not permitted
   const Time limit = clock_.now() + file_.laser.first_scan_limit;
   while (laser_->latest().sequence == 0) {
     if (clock_.now() > limit) {

@@ -11,7 +11,7 @@
 
 namespace jaywalk {
 
-/// Everything on wires. The constructor opens the bus; nothing moves before drive().arm().
+/// Everything on wires. The constructor opens the bus, deaf still; nothing moves before drive().arm().
 class RobotDevices {
  public:
   /// `clock` outlives it. Throws StartupError.
@@ -20,13 +20,16 @@ class RobotDevices {
   [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
   [[nodiscard]] EmergencyBrake& brake() noexcept { return *brake_; }
-  [[nodiscard]] CanHealth bus_health() const noexcept { return bus_.health(); }
+  [[nodiscard]] const CanBus& bus() const noexcept { return bus_; }
 
-  /// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or
-  /// where it is not the scanner that the file describes.
-  void await_first_scan();
+  /// Start-up only, when all else is ready: starts the scanner and waits for its first scan, then listens to the
+  /// drives, which are to be armed at once: some speak without being asked, and nobody would fetch it. Throws
+  /// StartupError where no scan comes in time, or where it is not the scanner that the file describes.
+  void start();
 
  private:
+  void await_first_scan();
+
   const RobotFile& file_;
   Clock& clock_;
   SocketCan bus_;
@@ -35,6 +38,10 @@ class RobotDevices {
   std::unique_ptr<WiredDrive> drive_;
   std::unique_ptr<EmergencyBrake> brake_;
 };
+
+/// Not started yet, not armed yet. `bus` and `clock` outlive them. Throw StartupError.
+[[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock);
+[[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
 
 /// The frames that the drives send, and of CiA 402 drives no others.
 [[nodiscard]] std::vector<CanFilter> filters_for(const DriveWiring& wiring);

@@ -13,33 +13,18 @@ namespace {
 /// 6085h then covers limits.brake_mps2.
 constexpr double kRampOverBrake = 1.5;
 
-struct LaserChoice {
-  const char* name;
-  LaserKind kind;
-  std::uint16_t port;  ///< 0: not on a network
-  std::uint32_t baud;  ///< 0: not on a serial line
-};
-constexpr std::array kLasers{
-    LaserChoice{"sick-cola-b", LaserKind::kSickColaB, 2112, 0},
-    LaserChoice{"sick-cola-a", LaserKind::kSickColaA, 2111, 0},
-    LaserChoice{"hokuyo", LaserKind::kHokuyo, 10940, 115200},
-    LaserChoice{"ld19", LaserKind::kLd19, 0, 230400},
-    LaserChoice{"rplidar", LaserKind::kRplidar, 0, 115200},
-    LaserChoice{"lms200", LaserKind::kLms200, 0, 9600},
-};
-
-const LaserChoice& choose_laser(TomlTable& table) {
+const ScannerMake& choose_laser(TomlTable& table) {
   const std::string kind = table.text("kind");
   std::string names;
-  for (const LaserChoice& choice : kLasers) {
+  for (const ScannerMake& choice : scanner_makes()) {
     if (kind == choice.name) return choice;
-    names += std::string(names.empty() ? "" : ", ") + choice.name;
+    names += (names.empty() ? "" : ", ") + std::string(choice.name);
   }
   table.refuse("kind", "is \"" + kind + "\"", "choose one of " + names);
 }
 
 LaserWiring read_wiring(TomlTable& table) {
-  const LaserChoice& choice = choose_laser(table);
+  const ScannerMake& choice = choose_laser(table);
   LaserWiring wiring;
   wiring.kind = choice.kind;
   const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));

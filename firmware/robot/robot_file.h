@@ -5,6 +5,7 @@
 #include <string>
 
 #include "drivers/canopen/drive_base.h"
+#include "drivers/laser/scanner_setup.h"
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
 #include "firmware/control_setup.h"
@@ -12,11 +13,10 @@
 
 namespace jaywalk {
 
-enum class LaserKind { kSickColaA, kSickColaB, kHokuyo, kLd19, kRplidar, kLms200 };
 enum class DriveKind { kCia402, kOdrive, kVesc };
 
 struct LaserWiring {
-  LaserKind kind = LaserKind::kSickColaB;
+  ScannerKind kind = ScannerKind::kSickColaB;
   std::string host;  ///< empty: on a serial line
   std::uint16_t port = 0;
   std::string device;

@@ -13,7 +13,8 @@ constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = s
 
 }  // namespace
 
-RobotLoop::RobotLoop(LoopRunner& runner, RobotDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard)
+RobotLoop::RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock,
+                     StallGuard& guard)
     : runner_(runner), devices_(devices), desk_(desk), clock_(clock), guard_(guard), period_(runner.setup().tick()) {}
 
 RobotLoop::~RobotLoop() {
@@ -58,7 +59,9 @@ Time RobotLoop::next_due(Time due) noexcept {
 void RobotLoop::tick(Time due) noexcept {
   guard_.beat(clock_.now());
   const TickRecord& t = runner_.tick_at(due);
-  if (desk_.was_reset()) devices_.drive().reset();
+  const bool reset_edge = t.input.reset && !reset_before_;
+  reset_before_ = t.input.reset;
+  if (reset_edge && speed_mps(t.wheels) < kRest_mps) devices_.drive.reset();
   tell(t);
   trace(t);
 }
@@ -75,7 +78,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
   status_.speed_mps = speed_mps(t.wheels);
-  status_.enabled = devices_.drive().is_enabled();
+  status_.enabled = devices_.drive.is_enabled();
   if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
   if (t.input.has_goal) {
     const double way = distance(t.pose.map_from_robot.position(), t.input.goal_in_map);
@@ -88,8 +91,8 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   if (!status_.latched) status_.latched_by = Reason::kNone;
   if (status_.latched && !was_latched) status_.latched_by = without(t.verdict.reasons, kLimits);
   status_.drive = t.wheels.trouble;
-  status_.laser = devices_.laser().health();
-  status_.bus = devices_.bus_health();
+  status_.laser = devices_.laser.health();
+  status_.bus = devices_.bus.health();
   ++status_.ticks;
   status_.stalls = guard_.stalls();
   desk_.tell(status_);
@@ -117,10 +120,10 @@ void RobotLoop::disarm(Time due) noexcept {
   const Time limit = due + kLongestDisarming;
   do {
     clock_.sleep_until(due);
-    static_cast<void>(devices_.drive().latest());
-    devices_.drive().disarm();
+    static_cast<void>(devices_.drive.latest());
+    devices_.drive.disarm();
     due += period_;
-  } while (devices_.drive().is_enabled() && due < limit);
+  } while (devices_.drive.is_enabled() && due < limit);
 }
 
 }  // namespace jaywalk

@@ -6,11 +6,12 @@
 #include <thread>
 #include <vector>
 
+#include "drivers/can/can_bus.h"
+#include "drivers/laser/scanner_connection.h"
 #include "firmware/commands/loop_runner.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/ring.h"
-#include "firmware/robot/robot_devices.h"
 #include "firmware/robot/stall_guard.h"
 
 namespace jaywalk {
@@ -24,6 +25,13 @@ struct TickTrace {
   RunStatus status;
 };
 
+/// What the loop asks of its devices beyond the HAL.
+struct LoopDevices {
+  WiredDrive& drive;
+  ScannerConnection& laser;
+  const CanBus& bus;
+};
+
 /// A tick that comes a period late or more is missed: it is counted and never made up for. Nothing in this thread
 /// allocates, locks, logs or waits for anything but its next tick.
 class RobotLoop {
@@ -31,7 +39,7 @@ class RobotLoop {
   using Traces = Ring<TickTrace, 128>;
 
   /// All outlive it; the drives are armed.
-  RobotLoop(LoopRunner& runner, RobotDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard);
+  RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard);
   ~RobotLoop();
   RobotLoop(const RobotLoop&) = delete;
   RobotLoop& operator=(const RobotLoop&) = delete;
@@ -41,13 +49,16 @@ class RobotLoop {
   void end() noexcept;
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 
+  /// The tick that is due at `due`, now: what the loop's thread does when it wakes. By hand where no thread was
+  /// started.
+  void tick(Time due) noexcept;
+
   [[nodiscard]] Traces& traces() noexcept { return traces_; }
   /// What the kernel did not permit the loop's thread, once it runs.
   [[nodiscard]] const std::vector<std::string>& not_permitted() const { return not_permitted_; }
 
  private:
   void run(const RealtimeWishes& wishes);
-  void tick(Time due) noexcept;
   [[nodiscard]] Time next_due(Time due) noexcept;
   void tell(const TickRecord& t) noexcept;
   void trace(const TickRecord& t) noexcept;
@@ -55,7 +66,7 @@ class RobotLoop {
   [[nodiscard]] double speed_mps(const WheelState& wheels) const noexcept;
 
   LoopRunner& runner_;
-  RobotDevices& devices_;
+  LoopDevices devices_;
   OperatorDesk& desk_;
   Clock& clock_;
   StallGuard& guard_;
@@ -63,6 +74,7 @@ class RobotLoop {
   RunStatus status_;
   Traces traces_;
   std::uint32_t plan_traced_ = 0;
+  bool reset_before_ = false;
   std::vector<std::string> not_permitted_;
   std::atomic<bool> begun_{false}, ending_{false}, ended_{false};
   std::thread thread_;

@@ -4,16 +4,20 @@
 
 namespace jaywalk {
 
-StallGuard::StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit, int priority)
-    : brake_(brake), clock_(clock), limit_(limit), priority_(priority), thread_([this] { watch(); }) {}
+StallGuard::StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept
+    : brake_(brake), clock_(clock), limit_(limit) {}
 
 StallGuard::~StallGuard() {
   ending_ = true;
-  thread_.join();
+  if (thread_.joinable()) thread_.join();
 }
 
-void StallGuard::watch() noexcept {
-  static_cast<void>(enter_realtime({.priority = priority_}));  // the loop's thread tells what is not permitted
+void StallGuard::start(int priority) {
+  thread_ = std::thread([this, priority] { watch(priority); });
+}
+
+void StallGuard::watch(int priority) noexcept {
+  static_cast<void>(enter_realtime({.priority = priority}));  // the loop's thread tells what is not permitted
   bool stalled = false;
   while (!ending_) {
     clock_.sleep_until(clock_.now() + limit_ / 4);

@@ -13,11 +13,13 @@ namespace jaywalk {
 class StallGuard {
  public:
   /// Both outlive it. The brake is used by the guard's thread alone.
-  StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit, int priority);
+  StallGuard(EmergencyBrake& brake, Clock& clock, Duration limit) noexcept;
   ~StallGuard();
   StallGuard(const StallGuard&) = delete;
   StallGuard& operator=(const StallGuard&) = delete;
 
+  /// Starts the thread, with a priority of SCHED_FIFO (0: an ordinary one).
+  void start(int priority);
   /// The loop's thread, at every tick. Watching begins with the first.
   void beat(Time now) noexcept { beat_.store(now.time_since_epoch().count(), std::memory_order_release); }
   /// The loop has ended as it should.
@@ -28,12 +30,11 @@ class StallGuard {
  private:
   static constexpr std::int64_t kResting = INT64_MIN;
 
-  void watch() noexcept;
+  void watch(int priority) noexcept;
 
   EmergencyBrake& brake_;
   Clock& clock_;
   Duration limit_;
-  int priority_;
   std::atomic<std::int64_t> beat_{kResting};
   std::atomic<std::uint64_t> stalls_{0};
   std::atomic<bool> ending_{false};

@@ -1,6 +1,7 @@
 # For scripts that run under tools/rig/run: a plant at one end of vcan0 and of a TCP port, the controller at the other.
 # shellcheck shell=bash
-# $RIG_GOAL: another goal than the usual one; $RIG_SLOW: leave out what takes long on an emulated machine;
+# $RIG_ROBOT: another file of tools/rig/drive than robot.toml; $RIG_GOAL: another goal than the usual one;
+# $RIG_SLOW: leave out what takes long on an emulated machine;
 # $RIG_CAN and $RIG_FAR_CAN name other interfaces than vcan0: two controllers on one bus.
 # usage: source rig_session.sh JAYWALK PLANT ROOT
 set -uo pipefail
@@ -10,7 +11,7 @@ talk=$(dirname "$plant")/jaywalk_talk
 out=$(mktemp -d -p /dev/shm) || exit 1
 can=${RIG_CAN:-vcan0} far_can=${RIG_FAR_CAN:-vcan0}
 [ -e "/sys/class/net/$can" ] || { rm -r "$out"; echo "skipped: no interface $can"; exit 77; }
-sed "s/vcan0/$can/" "$root/tools/rig/drive/robot.toml" >"$out/robot.toml"
+sed "s/vcan0/$can/; s#/tmp/jaywalk_scanner#$out/scanner#" "$root/tools/rig/drive/${RIG_ROBOT:-robot}.toml" >"$out/robot.toml"
 export JAYWALK_SOCKET=$out/control
 failed=0
 run_pid='' plant_pid=''
@@ -35,7 +36,7 @@ field() {
 # start_plant [OPTIONS...]
 start_plant() {
   rm -f "$out/plant.log"
-  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --can "$far_can" --log "$out/plant.log" "$@" <&3 &
+  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --robot "$out/robot.toml" --can "$far_can" --log "$out/plant.log" "$@" <&3 &
   plant_pid=$!
   for _ in $(seq 50); do [ ! -s "$out/plant.log" ] || return 0; sleep 0.1; done
   fail "the plant did not start"

@@ -91,7 +91,7 @@ TEST_CASE("drives brake at least as hard as the stop zone reckons") {
 
 TEST_CASE("every kind of scanner and drive has its own keys") {
   const RobotFile serial = load(with("\"sick-cola-b\"\nhost = \"10.0.0.2\"", "\"ld19\"\ndevice = \"/dev/ttyUSB0\""));
-  CHECK(serial.laser.kind == LaserKind::kLd19);
+  CHECK(serial.laser.kind == ScannerKind::kLdrobot);
   CHECK(serial.laser.host.empty());
   CHECK(serial.laser.device == "/dev/ttyUSB0");
   CHECK(serial.laser.baud == 230400);

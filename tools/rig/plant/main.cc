@@ -6,7 +6,9 @@
 
 #include <CLI/CLI.hpp>
 #include <cstdio>
+#include <utility>
 
+#include "drivers/can/socketcan.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
@@ -17,19 +19,21 @@ namespace {
 
 using namespace jaywalk;
 
-constexpr Duration kStep = std::chrono::milliseconds(1);
+/// Short for drives and scanner. In User-Mode Linux a system call takes 40 us: more often would leave the controller
+/// little of the processor.
+constexpr Duration kStep = std::chrono::milliseconds(2);
+constexpr int kStepsToOrders = 10;
 /// A far end that was held up for longer is no fair judge.
 constexpr Duration kNoise = std::chrono::milliseconds(15);
 
 volatile sig_atomic_t ending = 0;
 
 struct Options {
-  std::filesystem::path scenario;
-  std::filesystem::path log;
+  std::filesystem::path scenario, robot, log;
+  std::string can;
   std::uint64_t seed = 1;
   double for_s = 600.0;
   std::vector<std::string> orders;
-  rig::PlantWiring wiring;
 };
 
 Options options_from(int argc, char** argv, CLI::App& app) {
@@ -38,8 +42,8 @@ Options options_from(int argc, char** argv, CLI::App& app) {
   app.add_option("--log", options.log, "File for what happens")->required();
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--for", options.for_s, "Seconds until it ends by itself");
-  app.add_option("--can", options.wiring.can, "CAN interface")->capture_default_str();
-  app.add_option("--scanner-port", options.wiring.scanner_port, "TCP port of the scanner")->capture_default_str();
+  app.add_option("--robot", options.robot, "The controller's side of the same wires (docs/robot.md)")->required();
+  app.add_option("--can", options.can, "CAN interface (default: the controller's)");
   app.add_option("--order", options.orders, "What goes wrong from the start (tools/rig/plant/orders.h)");
   app.parse(argc, argv);
   return options;
@@ -67,6 +71,11 @@ class OrderLines {
   bool ended_ = false;
 };
 
+SocketCan place_on_bus(const Options& options, const DriveWiring& drive, Clock& clock) {
+  const std::array all{CanFilter{.id = 0, .mask = 0, .extended = drive.kind == DriveKind::kVesc}};
+  return {open_can(options.can.empty() ? drive.can : options.can, all), clock};
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"The simulated robot at the far end of real wires. Orders on standard input: tools/rig/plant/orders.h"};
   Options options;
@@ -76,7 +85,10 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : 2;
   }
   SteadyClock clock;
-  rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, options.wiring, clock);
+  const RobotFile wiring = load_robot_file(options.robot);
+  SocketCan left = place_on_bus(options, wiring.drive, clock), right = place_on_bus(options, wiring.drive, clock);
+  rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, wiring, {&left, &right},
+                            rig::make_far_wire(wiring.laser), clock.now());
   for (const std::string& order : options.orders) {
     if (const std::string complaint = obey(order, robot); !complaint.empty())
       throw StartupError(complaint, "see --help");
@@ -85,14 +97,16 @@ int run(int argc, char** argv) {
   static_cast<void>(enter_realtime({.priority = 60}));
   OrderLines orders;
   const Time end = clock.now() + duration_from_seconds(options.for_s);
-  Time before = clock.now();
-  for (Time due = before; ending == 0 && due < end; due = std::max(due + kStep, clock.now())) {
+  Time now = clock.now();
+  Time due = now;
+  for (int step = 0; ending == 0 && now < end; ++step) {
     clock.sleep_until(due);
-    if (const Duration gap = clock.now() - before; gap > kNoise) log.late(clock.now(), gap);
-    before = clock.now();
-    orders.take(robot, log, clock.now());
-    robot.step();
-    log.follow(robot, clock.now());
+    const Time before = std::exchange(now, clock.now());
+    if (now - before > kNoise) log.late(now, now - before);
+    if (step % kStepsToOrders == 0) orders.take(robot, log, now);
+    robot.step(now);
+    log.follow(robot, now);
+    due = std::max(due + kStep, now);
   }
   log.finish(robot, clock.now());
   return 0;

@@ -32,7 +32,7 @@ std::string obey(std::string_view order, SimulatedRobot& robot) {
   unsigned number = 0, sub = 0;
   words >> side >> std::hex >> number >> sub;
   if (side != "left" && side != "right") return "left or right? " + std::string(order);
-  emulators::Cia402Node& drive = robot.drive(side == "left" ? 0 : 1);
+  WheelDrive& drive = robot.drive(side == "left" ? 0 : 1);
   const canopen::ObjectAddress object{static_cast<std::uint16_t>(number), static_cast<std::uint8_t>(sub)};
   if (what == "emergency") {
     drive.raise_fault(static_cast<std::uint16_t>(number));
@@ -40,10 +40,10 @@ std::string obey(std::string_view order, SimulatedRobot& robot) {
     drive.pull_cable();
   } else if (what == "plug") {
     drive.plug_cable();
-  } else if (what == "lie") {
-    drive.objects().lie_about(object);
-  } else if (what == "lack") {
-    drive.objects().lack(object);
+  } else if (what == "lie" && drive.objects() != nullptr) {
+    drive.objects()->lie_about(object);
+  } else if (what == "lack" && drive.objects() != nullptr) {
+    drive.objects()->lack(object);
   } else {
     return "no such order: " + std::string(order);
   }

@@ -8,9 +8,9 @@ namespace jaywalk::rig {
 
 /// What the far end is told to do wrong, a line an order:
 ///
-///   emergency left|right CODE    a drive breaks, and says so (CODE as in CiA 301, hexadecimal)
+///   emergency left|right CODE    a drive breaks, and says so (CODE as in CiA 301, or its own; hexadecimal)
 ///   unplug left|right            its cable is pulled; plug puts it back
-///   lie left|right INDEX SUB     it acknowledges writes to an object (hexadecimal) and ignores them
+///   lie left|right INDEX SUB     a CiA 402 drive acknowledges writes to an object (hexadecimal) and ignores them
 ///   lack left|right INDEX SUB    it has no such object
 ///   scanner reset|half           the connection is torn; half a telegram comes
 ///   scanner silence|garbage|gone SECONDS

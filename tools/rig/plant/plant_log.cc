@@ -36,7 +36,7 @@ void PlantLog::follow(SimulatedRobot& robot, Time now) {
 }
 
 void PlantLog::follow_drive(SimulatedRobot& robot, std::size_t side, Time now) {
-  const emulators::Cia402Node& drive = robot.drive(side);
+  const WheelDrive& drive = robot.drive(side);
   if (drive.heard_controller() != kNever && drive.heard_controller() != heard_[side]) {
     heard_[side] = drive.heard_controller();
     speed_heard_mps_ = robot.rim_speed();

@@ -2,76 +2,59 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace jaywalk::rig {
 namespace {
 
 constexpr Duration kEncoderPeriod = std::chrono::milliseconds(10);
 
-SocketCan place_on(const std::string& interface, Clock& clock) {
-  const std::array all{CanFilter{}};
-  return {open_can(interface, all), clock};
-}
-
-emulators::SickModel scanner_model(const LaserModel& laser) {
-  constexpr double kTdegPerRad = 1.8e6 / kPi, kAhead = 900000.0;
-  return {.beams = laser.beams,
-          .first_angle_tdeg = static_cast<std::int32_t>(kAhead - 0.5 * laser.fov_rad * kTdegPerRad),
-          .step_tdeg = static_cast<std::uint16_t>(laser.fov_rad / (laser.beams - 1) * kTdegPerRad),
-          .rate_hz = laser.rate_hz,
-          .range_max_m = laser.range_max_m};
+/// Mounted and shaped as the controller believes, as noisy as the scenario says.
+LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring) {
+  LaserModel laser = wiring.setup.model.laser;
+  laser.noise_m = scenario.model.laser.noise_m;
+  return laser;
 }
 
 }  // namespace
 
-SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const PlantWiring& wiring,
-                               Clock& clock)
-    : clock_(clock),
-      began_(clock.now()),
+SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const RobotFile& wiring,
+                               const Buses& buses, std::unique_ptr<emulators::ByteServer> wire, Time now)
+    : began_(now),
       world_(scenario, seed),
-      laser_(scenario.model.laser),
+      laser_(laser_of(scenario, wiring)),
       wheel_radius_m_(scenario.model.drive.wheel_radius_m),
       noise_(seed, sim::Purpose::kRange),
-      counts_per_rad_{wiring.counts_per_wheel_turn / (2.0 * kPi),
-                      (wiring.right_reversed ? -1.0 : 1.0) * wiring.counts_per_wheel_turn / (2.0 * kPi)},
-      left_socket_(place_on(wiring.can, clock)),
-      right_socket_(place_on(wiring.can, clock)),
-      left_(left_socket_, wiring.nodes[0]),
-      right_(right_socket_, wiring.nodes[1]),
-      scanner_(std::make_unique<emulators::TcpServer>(wiring.scanner_port), scanner_model(laser_),
-               [this](std::size_t first, std::span<float> range_m) { look(first, range_m); }) {}
+      buses_(buses),
+      drives_{make_wheel_drive(wiring.drive, 0, *buses[0]), make_wheel_drive(wiring.drive, 1, *buses[1])},
+      scanner_(make_far_scanner(wiring.laser, laser_, std::move(wire),
+                                [this](std::size_t first, std::span<float> range_m) { look(first, range_m); })) {}
 
-void SimulatedRobot::step() {
-  const Time now = clock_.now();
-  left_.step(now);
-  right_.step(now);
+void SimulatedRobot::step(Time now) {
+  for (const auto& drive : drives_) drive->step(now);
   while (world_.now() + (began_.time_since_epoch()) < now) {
     turn_wheels();
     world_.step();
   }
-  scanner_.step(now);
+  scanner_->step(now);
 }
 
 void SimulatedRobot::turn_wheels() {
-  world_.plant().command({world_.now(), wheel_speed(0), wheel_speed(1)}, world_.now());
+  world_.plant().command({world_.now(), drives_[0]->speed_radps(), drives_[1]->speed_radps()}, world_.now());
   if (age(encoders_read_, world_.now()) < kEncoderPeriod) return;
   encoders_read_ = world_.now();
   const WheelState wheels = world_.plant().read_encoders(world_.now());
-  left_.measure(wheels.left_radps * counts_per_rad_[0], wheels.left_rad * counts_per_rad_[0]);
-  right_.measure(wheels.right_radps * counts_per_rad_[1], wheels.right_rad * counts_per_rad_[1]);
-}
-
-double SimulatedRobot::wheel_speed(std::size_t side) const noexcept {
-  return (side == 0 ? left_ : right_).velocity() / counts_per_rad_[side];
+  drives_[0]->measure(wheels.left_radps, wheels.left_rad);
+  drives_[1]->measure(wheels.right_radps, wheels.right_rad);
 }
 
 double SimulatedRobot::rim_speed() const noexcept {
-  return std::max(std::fabs(wheel_speed(0)), std::fabs(wheel_speed(1))) * wheel_radius_m_;
+  return std::max(std::fabs(drives_[0]->speed_radps()), std::fabs(drives_[1]->speed_radps())) * wheel_radius_m_;
 }
 
 CanHealth SimulatedRobot::bus_health() const noexcept {
-  CanHealth both = left_socket_.health();
-  const CanHealth right = right_socket_.health();
+  CanHealth both = buses_[0]->health();
+  const CanHealth right = buses_[1]->health();
   both.frames_lost = std::max(both.frames_lost, right.frames_lost);
   both.malformed = std::max(both.malformed, right.malformed);
   both.error_frames = std::max(both.error_frames, right.error_frames);
@@ -83,7 +66,7 @@ CanHealth SimulatedRobot::bus_health() const noexcept {
 void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
   const Pose2 map_from_laser = truth().map_from_robot * laser_.robot_from_laser;
   for (std::size_t k = 0; k < range_m.size(); ++k) {
-    const double angle = scanner_.shape().angle_rad(first_beam + k);
+    const double angle = scanner_->shape().angle_rad(first_beam + k);
     const Vec2 beam = direction(map_from_laser.heading + angle);
     double range = world_.walls().cast(map_from_laser.position(), beam, laser_.range_max_m);
     for (const sim::Disc& body : world_.bodies())

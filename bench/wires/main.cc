@@ -1,0 +1,127 @@
+// How long it takes from a tick's start to its last frame, and from a scan's last byte to the first frame whose verdict
+// used it: the whole controller in real time, CAN in this process, the scanner on a real socket. docs/performance.md.
+#include <CLI/CLI.hpp>
+#include <cstdio>
+#include <filesystem>
+#include <functional>
+
+#include "firmware/report/distribution.h"
+#include "firmware/robot/planner_thread.h"
+#include "firmware/robot/steady_clock.h"
+#include "hal/types/errors.h"
+#include "tools/rig/plant/in_process_robot.h"
+
+namespace jaywalk::bench {
+namespace {
+
+constexpr Duration kFarEndStep = std::chrono::milliseconds(1);
+
+/// Real time, in which whoever sleeps lets the wires' far end live.
+class SharedClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return steady_.now(); }
+  void sleep_until(Time wake) noexcept override {
+    for (Time next = now() + kFarEndStep; next < wake; next = now() + kFarEndStep) {
+      steady_.sleep_until(next);
+      if (live) live();
+    }
+    steady_.sleep_until(wake);
+  }
+  std::function<void()> live;
+
+ private:
+  SteadyClock steady_;
+};
+
+struct Options {
+  std::filesystem::path scenario = "tools/rig/drive/hall.toml", robot = "tools/rig/drive/robot.toml";
+  std::filesystem::path out = "out/wire_time";
+  double seconds = 60.0;
+};
+
+struct Figures {
+  Distribution waking_ms, tick_to_frame_ms, scan_to_frame_ms;
+};
+
+/// Drives to and fro between the scenario's goal and its start.
+class Drive {
+ public:
+  Drive(const sim::Scenario& scenario, rig::InProcessRobot& robot) : scenario_(scenario), robot_(robot) {}
+  void keep_going() {
+    const Vec2 place = robot_.far_end().truth().map_from_robot.position();
+    if (under_way_ && distance(place, goal_) > 0.5) return;
+    under_way_ = true;
+    goal_ = goal_ == scenario_.goal ? scenario_.start.position() : scenario_.goal;
+    const std::string line = "goto " + std::to_string(goal_.x) + " " + std::to_string(goal_.y);
+    static_cast<void>(robot_.desk().obey(line));
+  }
+
+ private:
+  const sim::Scenario& scenario_;
+  rig::InProcessRobot& robot_;
+  Vec2 goal_{};
+  bool under_way_ = false;
+};
+
+Figures measure(const Options& options) {
+  const sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const RobotFile file = load_robot_file(options.robot);
+  SharedClock clock;
+  rig::InProcessRobot robot(file, scenario, 3, clock, options.out, [](std::unique_ptr<Planner> planner) {
+    const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, PlannerConfig{}.cell_m, {});
+    return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
+  });
+  clock.live = [&robot] { robot.step_far_end(); };
+  for (const std::string& line : lock_memory()) std::fprintf(stderr, "%s\n", line.c_str());
+  robot.laser().start(laser_priority(file.realtime));
+  while (robot.laser().latest().sequence == 0) clock.sleep_until(clock.now() + kFarEndStep);
+  static_cast<void>(robot.drive().arm());
+  for (const std::string& line : enter_realtime(file.realtime)) std::fprintf(stderr, "%s\n", line.c_str());
+
+  Figures figures;
+  Drive drive(scenario, robot);
+  const Time end = clock.now() + duration_from_seconds(options.seconds);
+  std::uint32_t used = robot.laser().latest().sequence;
+  for (Time due = clock.now() + file.setup.tick(); due < end; due += file.setup.tick()) {
+    clock.sleep_until(due);
+    const Time began = clock.now();
+    robot.loop().tick(due);
+    const auto ms_since = [sent = robot.bus().sent()](Time t) { return 1e3 * to_seconds(sent - t); };
+    figures.waking_ms.add(1e3 * to_seconds(began - due));
+    figures.tick_to_frame_ms.add(ms_since(began));
+    for (; used < robot.runner().last().scan.sequence; ++used)
+      figures.scan_to_frame_ms.add(ms_since(robot.messages()[used]));
+    robot.runner().drain();
+    while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
+    drive.keep_going();
+  }
+  return figures;
+}
+
+void row(const char* what, const Distribution& figure) {
+  std::printf("| %-52s | %8.3f | %8.3f | %8.3f |\n", what, figure.quantile(0.5), figure.quantile(0.99), figure.max());
+}
+
+}  // namespace
+}  // namespace jaywalk::bench
+
+int main(int argc, char** argv) {
+  using namespace jaywalk::bench;
+  Options options;
+  CLI::App app("Times ticks and scans on their way to the wheels, in real time", "jaywalk_wire_time");
+  app.add_option("--scenario", options.scenario, "The far end's world")->capture_default_str();
+  app.add_option("--robot", options.robot, "The controller's side (docs/robot.md)")->capture_default_str();
+  app.add_option("--seconds", options.seconds, "How long")->check(CLI::Range(1.0, 3600.0))->capture_default_str();
+  app.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
+  CLI11_PARSE(app, argc, argv);
+  try {
+    const Figures figures = measure(options);
+    std::printf("| %-52s | %8s | %8s | %8s |\n|---|---|---|---|\n", "ms", "p50", "p99", "max");
+    row("from when a tick was due to its start", figures.waking_ms);
+    row("from a tick's start to its last frame", figures.tick_to_frame_ms);
+    row("from a scan's last byte to the first frame that used it", figures.scan_to_frame_ms);
+  } catch (const jaywalk::StartupError& error) {
+    std::fprintf(stderr, "jaywalk_wire_time: %s\n", error.what());
+    return 2;
+  }
+}

@@ -1,0 +1,50 @@
+#include "tools/rig/plant/in_process_robot.h"
+
+#include "firmware/robot/robot_devices.h"
+
+namespace jaywalk::rig {
+namespace {
+
+constexpr std::size_t kMostMessages = 100'000;
+
+/// The file with the port that the scanner's wire really has.
+RobotFile with_port(RobotFile file, const emulators::ByteServer& wire) {
+  if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(&wire)) file.laser.port = network->port();
+  return file;
+}
+
+std::unique_ptr<emulators::ByteServer> wire_for(LaserWiring wiring) {
+  wiring.port = 0;  // any that is free
+  return make_far_wire(wiring);
+}
+
+}  // namespace
+
+InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
+                               const std::filesystem::path& out, const LoopRunner::Wrap& wrap)
+    : InProcessRobot(file, scenario, seed, clock, out, wrap, wire_for(file.laser)) {}
+
+InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
+                               const std::filesystem::path& out, const LoopRunner::Wrap& wrap,
+                               std::unique_ptr<emulators::ByteServer> wire)
+    : clock_(clock),
+      file_(with_port(std::move(file), *wire)),
+      wires_(clock, seed),
+      bus_(wires_.port(0), clock),
+      far_end_(scenario, seed, file_, {&wires_.port(1), &wires_.port(2)}, std::move(wire), clock.now()),
+      laser_(make_laser(file_, clock)),
+      drive_(make_drive(file_.drive, bus_, clock)),
+      desk_(clock, file_.setup.goal_tolerance_m, [] { return std::string(); }),
+      runner_(file_.setup, {*laser_, *drive_, desk_, no_fixes_, clock}, out, true, wrap),
+      guard_(no_brake_, clock, std::chrono::seconds(1)),
+      loop_(runner_, {*drive_, *laser_, bus_}, desk_, clock, guard_) {
+  messages_.reserve(kMostMessages);
+}
+
+void InProcessRobot::step_far_end() {
+  far_end_.step(clock_.now());
+  const Time now = clock_.now();
+  while (messages_.size() < far_end_.scanner().messages_sent()) messages_.push_back(now);
+}
+
+}  // namespace jaywalk::rig
