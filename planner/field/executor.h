@@ -13,6 +13,7 @@
 //   kColumns                     columns that one visit should take where a stage goes down columns; divides 64
 //   name()                       for reports
 // Every stage gives the same bits in any visiting order, so all executors agree to the last bit.
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <memory>
@@ -25,20 +26,27 @@
 #define JAYWALK_INDEPENDENT_VISITS
 #endif
 
+#define JAYWALK_INLINED [[gnu::always_inline]] inline
+
 #if defined(__x86_64__) && !defined(__CUDACC__)
-#define JAYWALK_EIGHT_WIDE [[gnu::target("avx2")]]
-#else
-#define JAYWALK_EIGHT_WIDE
+#define JAYWALK_CHOOSES_LANES 1
+#define JAYWALK_EIGHT_LANES [[gnu::target("avx2")]]
+#define JAYWALK_SIXTEEN_LANES [[gnu::target("avx512f,avx512bw,avx512dq,avx512vl")]]
 #endif
 
 namespace jaywalk::field {
 
-/// Whether this processor has the instructions of JAYWALK_EIGHT_WIDE.
-inline bool goes_eight_wide() {
-#if defined(__x86_64__) && !defined(__CUDACC__)
-  return __builtin_cpu_supports("avx2") != 0;
+/// Cells that a processor takes at a time; kFour is what every one of its kind can do.
+enum class Lanes : std::uint8_t { kFour, kEight, kSixteen };
+
+/// The most that this processor has instructions for.
+inline Lanes most_lanes() {
+#ifdef JAYWALK_CHOOSES_LANES
+  const bool sixteen = __builtin_cpu_supports("avx512f") && __builtin_cpu_supports("avx512bw") &&
+                       __builtin_cpu_supports("avx512dq") && __builtin_cpu_supports("avx512vl");
+  return sixteen ? Lanes::kSixteen : (__builtin_cpu_supports("avx2") ? Lanes::kEight : Lanes::kFour);
 #else
-  return false;
+  return Lanes::kFour;
 #endif
 }
 
@@ -62,6 +70,9 @@ class SerialExecutor {
   static constexpr bool kQueue = true;
   static constexpr std::int32_t kColumns = 64;
 
+  /// With so many lanes, or as many as there are.
+  explicit SerialExecutor(Lanes lanes = most_lanes()) : lanes_(std::min(lanes, most_lanes())) {}
+
   template <class T>
   T* take(std::size_t n) {
     // new[] of bytes is aligned for any fundamental type, which is 16 on all our machines.
@@ -71,59 +82,77 @@ class SerialExecutor {
   }
 
   template <class Stage>
-  void for_each(std::int32_t n, Stage stage) noexcept {
-    wide_ ? visit_wide(n, stage) : visit(n, stage);
+  void for_each(std::int32_t n, const Stage& stage) noexcept {
+    for_each_cell(n, 1, OnOneRow<Stage>{stage});
   }
 
   template <class Stage>
-  void for_each_cell(std::int32_t w, std::int32_t h, Stage stage) noexcept {
-    for (std::int32_t j = 0; j < h; ++j) {
-      wide_ ? visit_wide(w, stage, j) : visit(w, stage, j);
-    }
+  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
+    repeat(1, h, RowStep<Stage>{w, stage});
   }
 
   /// Row by row, so that what one step has fetched is still at hand for the next.
   template <class... Steps>
   void for_each_row(std::int32_t h, const Steps&... steps) noexcept {
-    const std::int32_t end = h + static_cast<std::int32_t>(sizeof...(Steps)) - 1;
-    for (std::int32_t front = 0; front < end; ++front) {
-      std::int32_t row = front;
-      (visit_row(h, row--, steps), ...);
-    }
+    repeat(1, h, steps...);
   }
 
+  /// All rounds in one function, which holds the loops for these lanes: small boards have rows of a few cells.
   template <class... Steps>
   void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
-    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+#ifdef JAYWALK_CHOOSES_LANES
+    if (lanes_ == Lanes::kSixteen) return visit_by_sixteen(n, h, steps...);
+    if (lanes_ == Lanes::kEight) return visit_by_eight(n, h, steps...);
+#endif
+    visit_rows(n, h, steps...);
   }
 
   bool wait() noexcept { return true; }
   [[nodiscard]] const char* name() const noexcept { return "cpu"; }
 
  private:
-  template <class Step>
-  void visit_row(std::int32_t h, std::int32_t row, const Step& step) noexcept {
-    if (row < 0 || row >= h || (row + 1) % step.every != 0) return;
-    const std::int32_t j = row / step.every;
-    wide_ ? visit_wide(step.width, step.stage, j) : visit(step.width, step.stage, j);
+  /// A stage that knows no rows.
+  template <class Stage>
+  struct OnOneRow {
+    Stage stage;
+    JAYWALK_INLINED void operator()(std::int32_t k, std::int32_t) const { stage(k); }
+  };
+
+#ifdef JAYWALK_CHOOSES_LANES
+  // No fused instructions among any of them: the bits are the same.
+  template <class... Steps>
+  JAYWALK_SIXTEEN_LANES static void visit_by_sixteen(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
+    visit_rows(n, h, steps...);
+  }
+  template <class... Steps>
+  JAYWALK_EIGHT_LANES static void visit_by_eight(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
+    visit_rows(n, h, steps...);
+  }
+#endif
+
+  template <class... Steps>
+  JAYWALK_INLINED static void visit_rows(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
+    const std::int32_t end = h + static_cast<std::int32_t>(sizeof...(Steps)) - 1;
+    for (std::int32_t k = 0; k < n; ++k) {
+      for (std::int32_t front = 0; front < end; ++front) {
+        std::int32_t row = front;
+        (visit_row(h, row--, steps.width, steps.every, steps.stage), ...);
+      }
+    }
   }
 
-  template <class Stage, class... Row>
-  static void visit(std::int32_t n, Stage stage, Row... row) noexcept {
+  /// The stage is a copy, so that the compiler knows that nothing which a visit writes changes it.
+  template <class Stage>
+  JAYWALK_INLINED static void visit_row(std::int32_t h, std::int32_t row, std::int32_t width, std::int32_t every,
+                                        Stage stage) noexcept {
+    if (row < 0 || row >= h || (row + 1) % every != 0) return;
+    const std::int32_t j = row / every;
     JAYWALK_INDEPENDENT_VISITS
-    for (std::int32_t k = 0; k < n; ++k) stage(k, row...);
-  }
-
-  /// The same loop in instructions for eight cells at a time, which not every processor has. No fused ones
-  /// among them: the bits are the same.
-  template <class Stage, class... Row>
-  JAYWALK_EIGHT_WIDE static void visit_wide(std::int32_t n, Stage stage, Row... row) noexcept {
-    JAYWALK_INDEPENDENT_VISITS
-    for (std::int32_t k = 0; k < n; ++k) stage(k, row...);
+    for (std::int32_t i = 0; i < width; ++i) stage(i, j);
   }
 
   std::vector<std::unique_ptr<std::byte[]>> blocks_;
-  bool wide_ = goes_eight_wide();
+  Lanes lanes_;
 };
 
 }  // namespace jaywalk::field
