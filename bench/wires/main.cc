@@ -1,6 +1,7 @@
 // How long it takes from a tick's start to its last frame, and from a scan's last byte to the first frame whose verdict
 // used it: the whole controller in real time, CAN in this process, the scanner on a real socket. docs/performance.md.
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <functional>
@@ -21,11 +22,10 @@ class SharedClock final : public Clock {
  public:
   [[nodiscard]] Time now() noexcept override { return steady_.now(); }
   void sleep_until(Time wake) noexcept override {
-    for (Time next = now() + kFarEndStep; next < wake; next = now() + kFarEndStep) {
-      steady_.sleep_until(next);
+    do {
       if (live) live();
-    }
-    steady_.sleep_until(wake);
+      steady_.sleep_until(std::min(wake, now() + kFarEndStep));
+    } while (now() < wake);
   }
   std::function<void()> live;
 
