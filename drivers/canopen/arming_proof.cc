@@ -43,7 +43,8 @@ void ArmingProof::poll(Time now) noexcept {
       return;
     }
     case Step::kWriting:
-      if (!conclude_failure()) begin_read(now);
+      read_only_ = client_.status() == SdoStatus::kAbortedByDrive && client_.abort_code() == kAbortReadOnly;
+      if (read_only_ || !conclude_failure()) begin_read(now);
       return;
     case Step::kReading:
       if (!conclude_failure()) conclude_read();
@@ -63,6 +64,7 @@ void ArmingProof::conclude_read() noexcept {
   std::copy_n(value.begin(), std::min(value.size(), padded.size()), padded.begin());
   const std::uint32_t said = cut(wire::little_endian<std::uint32_t>(padded), wanted.bytes);
   const bool same = value.size() >= wanted.bytes && said == cut(wanted.value, wanted.bytes);
+  if (read_only_ && !same) return conclude(ProofVerdict::kRefused, kAbortReadOnly);
   conclude(same ? ProofVerdict::kProved : ProofVerdict::kDiffers, said);
 }
 
@@ -78,6 +80,7 @@ void ArmingProof::conclude(ProofVerdict verdict, std::uint32_t said) noexcept {
   lines_[at_].said = said;
   ++at_;
   step_ = Step::kStart;
+  read_only_ = false;
 }
 
 std::string describe(const ProofLine& line) {

@@ -28,7 +28,8 @@ struct ProofLine {
   std::uint32_t said = 0;  ///< the value read, or the abort code
 };
 
-/// Writes settings to one drive and reads each back; goes on after a failure, so that all is known.
+/// Writes settings to one drive and reads each back; goes on after a failure, so that all is known. What a drive says
+/// is read-only is proved where it holds the value that was wanted.
 ///
 /// Never waits: call on_frame with every frame and poll until done().
 class ArmingProof {
@@ -58,6 +59,7 @@ class ArmingProof {
   Lines lines_;
   std::size_t at_ = 0;
   Step step_ = Step::kStart;
+  bool read_only_ = false;  ///< the drive said so of this item
 };
 
 /// "1016h:1 watching the controller's heartbeat: wanted 00010064h, reads 00000000h: NOT PROVED". Not for the loop.

@@ -30,6 +30,8 @@ CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t c
 }  // namespace
 
 DriveObjects::DriveObjects() noexcept {
+  add({0x1000, 0}, 4, 0x00020192, false);  // a servo drive of CiA 402
+  add({0x6502, 0}, 4, 1U << 2U, false);    // profile velocity, and nothing else
   add({0x1016, 1}, 4, 0, true);
   add({0x1017, 0}, 2, 0, true);
   for (const std::uint16_t communication : Indices{0x1400, 0x1401, 0x1800, 0x1801}) {
@@ -77,6 +79,13 @@ void DriveObjects::set(ObjectAddress address, std::uint32_t value) noexcept {
 void DriveObjects::lack(ObjectAddress address) noexcept {
   for (std::size_t i = 0; i < objects_.size(); ++i) {
     if (objects_[i].address == address) return objects_.swap_remove(i);
+  }
+}
+
+void DriveObjects::fix(ObjectAddress address, std::uint32_t value) noexcept {
+  if (Object* const object = find(address)) {
+    object->value = value;
+    object->writable = false;
   }
 }
 

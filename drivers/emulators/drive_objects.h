@@ -23,6 +23,8 @@ class DriveObjects {
 
   /// From now on the object does not exist.
   void lack(canopen::ObjectAddress address) noexcept;
+  /// From now on it is read-only and holds this.
+  void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;
   /// From now on writes are acknowledged and change nothing.
   void lie_about(canopen::ObjectAddress address) noexcept;
 

@@ -157,6 +157,16 @@ TEST_CASE("a drive without the abort connection option arms only when that is al
   CHECK(lax.report[2].ends_with("refused (no such object): NOT PROVED"));
 }
 
+TEST_CASE("an option that a drive keeps as it is proves it where it is the wanted one, and only there") {
+  Bench bench;
+  bench.left.objects().fix({0x605E, 0}, 2);
+  CHECK(bench.refusal() == "armed");
+  REQUIRE(bench.report.size() == 66);
+  Bench other;
+  other.right.objects().fix({0x605E, 0}, 1);
+  CHECK(other.refusal().find("node 6: 605Eh:0 brakes at a fault: wanted 0002h, refused (read only): NOT PROVED") == 0);
+}
+
 TEST_CASE("a drive that does not answer is not armed") {
   Bench bench;
   bench.left.pull_cable();
