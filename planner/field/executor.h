@@ -73,12 +73,15 @@ class SerialExecutor {
   /// With so many lanes, or as many as there are.
   explicit SerialExecutor(Lanes lanes = most_lanes()) : lanes_(std::min(lanes, most_lanes())) {}
 
+  /// A few lines into a page, elsewhere for each array: grids are powers of two large, and arrays that all begin at the
+  /// same place of a page would drive each other's cells from the nearest cache (a tenth of a solve).
   template <class T>
   T* take(std::size_t n) {
-    // new[] of bytes is aligned for any fundamental type, which is 16 on all our machines.
-    static_assert(alignof(T) <= 16);
-    blocks_.push_back(std::make_unique<std::byte[]>(n * sizeof(T)));
-    return reinterpret_cast<T*>(blocks_.back().get());
+    static_assert(alignof(T) <= sizeof(Line));
+    constexpr std::size_t kLinesOfPage = 64, kLinesApart = 13;
+    const std::size_t shift = kLinesApart * blocks_.size() % kLinesOfPage;
+    blocks_.push_back(std::make_unique<Line[]>(n * sizeof(T) / sizeof(Line) + 1 + shift));
+    return reinterpret_cast<T*>(blocks_.back().get() + shift);
   }
 
   template <class Stage>
@@ -151,7 +154,12 @@ class SerialExecutor {
     for (std::int32_t i = 0; i < width; ++i) stage(i, j);
   }
 
-  std::vector<std::unique_ptr<std::byte[]>> blocks_;
+  /// Of a cache: what is fetched at a time.
+  struct alignas(64) Line {
+    std::byte bytes[64];
+  };
+
+  std::vector<std::unique_ptr<Line[]>> blocks_;
   Lanes lanes_;
 };
 
