@@ -15,6 +15,9 @@ class WiredDrive : public DriveBase {
   /// Start-up only, may wait up to some seconds: sets the drives up and has each prove that it stops by itself.
   /// Returns what each said, a line a setting, for the record. Throws StartupError that names what was not proved.
   virtual std::vector<std::string> arm() = 0;
+  /// Start-up only, in place of arm(): asks the drive on side 0 (left) or 1 what it is and how it is set. Changes
+  /// nothing, no wheel gets torque. Returns what it said; throws StartupError where it could not be armed so.
+  [[nodiscard]] virtual std::string inspect(std::size_t side) = 0;
   /// Also in latest().trouble.
   [[nodiscard]] virtual DriveTrouble trouble() const noexcept = 0;
   /// A person's reset edge: forgets the trouble.

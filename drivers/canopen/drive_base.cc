@@ -59,14 +59,49 @@ std::vector<std::string> CanopenDriveBase::arm() {
   return report;
 }
 
-void CanopenDriveBase::prove(Axis& axis, std::vector<std::string>& report) {
-  ArmingProof proof(bus_, axis.setup.node, proof_items(axis.setup.node, setup_.settings), setup_.answer_timeout);
+void CanopenDriveBase::conduct(ArmingProof& proof) {
   ReceivedFrame received;
   while (!proof.done()) {
     proof.poll(clock_.now());
     clock_.sleep_until(clock_.now() + kArmingStep);
     while (bus_.receive(received)) proof.on_frame(received.frame, clock_.now());
   }
+}
+
+std::string CanopenDriveBase::inspect(std::size_t side) {
+  const std::uint8_t node = axes_[side].setup.node;
+  const std::string who = "node " + std::to_string(node);
+  ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
+  conduct(identity);
+  if (identity.lines()[0].verdict == ProofVerdict::kSilent) {
+    throw StartupError(who + ": no answer", "see that it has power, this number and the bus's bit rate");
+  }
+  if (!speaks_profile_velocity(identity.lines())) {
+    throw StartupError(who + ": is no CiA 402 drive with profile velocity, by its 1000h and 6502h", "use one that is");
+  }
+  ArmingProof::Items items = proof_items(node, setup_.settings);
+  for (ProofItem& item : items) item.write = false;
+  ArmingProof settings(bus_, node, items, setup_.answer_timeout);
+  conduct(settings);
+  const std::size_t behaviours = behaviour_items(setup_.settings).size();  // the first of all
+  std::string lacking;
+  std::size_t as_wanted = 0;
+  for (std::size_t k = 0; k < settings.lines().size(); ++k) {
+    const ProofLine& line = settings.lines()[k];
+    if (line.verdict == ProofVerdict::kProved && k < behaviours) ++as_wanted;
+    if (line.verdict == ProofVerdict::kProved || line.verdict == ProofVerdict::kDiffers) continue;
+    lacking += (lacking.empty() ? "" : "; ") + describe(line);
+  }
+  if (!lacking.empty() && !setup_.allow_unproved) {
+    throw StartupError(who + ": " + lacking, "use a drive that has it, or allow_unproved at your own risk");
+  }
+  return who + ": CiA 402, profile velocity; " + std::to_string(as_wanted) + " of " + std::to_string(behaviours) +
+         " settings stand as arming writes them" + (lacking.empty() ? "" : "; " + lacking);
+}
+
+void CanopenDriveBase::prove(Axis& axis, std::vector<std::string>& report) {
+  ArmingProof proof(bus_, axis.setup.node, proof_items(axis.setup.node, setup_.settings), setup_.answer_timeout);
+  conduct(proof);
   const std::string who = "node " + std::to_string(axis.setup.node) + ": ";
   for (const ProofLine& line : proof.lines()) report.push_back(who + describe(line));
   if (proof.proved() || setup_.allow_unproved) return;

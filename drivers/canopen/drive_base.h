@@ -41,6 +41,7 @@ class CanopenDriveBase final : public WiredDrive {
   /// Throws StartupError that names the first thing not proved, unless allow_unproved.
   /// Returns what each drive said, one line a setting, for the record.
   std::vector<std::string> arm() override;
+  [[nodiscard]] std::string inspect(std::size_t side) override;
 
   [[nodiscard]] WheelState latest() noexcept override;
   /// A speed that is not finite counts as trouble on the controller's side: zero is sent instead.
@@ -66,6 +67,8 @@ class CanopenDriveBase final : public WiredDrive {
     Time heard = kNever;
   };
 
+  /// Lets a proof run to its end.
+  void conduct(ArmingProof& proof);
   void prove(Axis& axis, std::vector<std::string>& report);
   void take(const ReceivedFrame& received) noexcept;
   void take_status(Axis& axis, const CanFrame& frame) noexcept;

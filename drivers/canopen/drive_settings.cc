@@ -11,6 +11,7 @@ namespace jaywalk::canopen {
 namespace {
 
 constexpr std::uint8_t kAtEverySync = 1;
+constexpr std::uint32_t kHasProfileVelocity = 1U << 2U;
 
 // Option codes of CiA 402: 6007h 3 is quick stop; 605Ah 2 brakes by 6085h, then switches off; 605Bh, 605Ch and 605Dh 1
 // brake by 6084h; 605Eh 2 brakes by 6085h.
@@ -40,7 +41,7 @@ PdoSetup status_pdo(std::uint8_t node) noexcept {
 
 PdoSetup position_pdo(std::uint8_t node) noexcept { return setup(0x1801, 0x1A01, 0x280U + node, {{kPosition, 4}}); }
 
-ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept {
+ArmingProof::Items behaviour_items(const DriveSettings& settings) noexcept {
   const std::uint32_t watch = heartbeat_consumer_entry(settings.controller_node, settings.controller_timeout_ms);
   ArmingProof::Items items;
   bool fits = true;
@@ -60,13 +61,36 @@ ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings)
   need({kQuickStopDeceleration, settings.quick_stop, 4}, "quick stop deceleration");
   need({kModeWanted, kProfileVelocityMode, 1}, "profile velocity wanted");
   fits = fits && items.push_back({{kModeShown, kProfileVelocityMode, 1}, false, "profile velocity shown"});
-  ObjectWrites pdos;
-  fits = fits && append_setup(command_pdo(node), pdos) && append_setup(status_pdo(node), pdos) &&
-         append_setup(position_pdo(node), pdos);
-  for (const ObjectWrite& write : pdos) need(write, "process data");
   assert(fits);
   static_cast<void>(fits);
   return items;
+}
+
+ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept {
+  ArmingProof::Items items = behaviour_items(settings);
+  ObjectWrites pdos;
+  bool fits = append_setup(command_pdo(node), pdos) && append_setup(status_pdo(node), pdos) &&
+              append_setup(position_pdo(node), pdos);
+  for (const ObjectWrite& write : pdos) fits = fits && items.push_back({write, true, "process data"});
+  assert(fits);
+  static_cast<void>(fits);
+  return items;
+}
+
+// CiA 301: the low 16 bits of 1000h name the device's profile. CiA 402: bit 2 of 6502h is profile velocity.
+ArmingProof::Items identity_items() noexcept {
+  ArmingProof::Items items;
+  static_cast<void>(items.push_back({{{0x1000, 0}, 402, 2}, false, "device type"}));
+  static_cast<void>(items.push_back({{{0x6502, 0}, kHasProfileVelocity, 4}, false, "modes"}));
+  return items;
+}
+
+bool speaks_profile_velocity(const ArmingProof::Lines& identity) noexcept {
+  const auto was_read = [](const ProofLine& line) {
+    return line.verdict == ProofVerdict::kProved || line.verdict == ProofVerdict::kDiffers;
+  };
+  return identity.size() == 2 && identity[0].verdict == ProofVerdict::kProved && was_read(identity[1]) &&
+         (identity[1].said & kHasProfileVelocity) != 0;
 }
 
 }  // namespace jaywalk::canopen

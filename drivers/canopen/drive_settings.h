@@ -20,7 +20,14 @@ struct DriveSettings {
 /// Transmit PDO 2: position.
 [[nodiscard]] PdoSetup position_pdo(std::uint8_t node) noexcept;
 
-/// The items of the arming proof: heartbeats, what happens when they fail, ramps, mode, PDOs.
+/// How the drive is to behave: heartbeats, what happens when they fail, ramps, mode.
+[[nodiscard]] ArmingProof::Items behaviour_items(const DriveSettings& settings) noexcept;
+/// The items of the arming proof: these, and the PDOs, which are switched off, mapped and switched on.
 [[nodiscard]] ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings) noexcept;
+
+/// What tells a CiA 402 drive: its device type (1000h), and its modes (6502h), to be read alone.
+[[nodiscard]] ArmingProof::Items identity_items() noexcept;
+/// Of the answers to these.
+[[nodiscard]] bool speaks_profile_velocity(const ArmingProof::Lines& identity) noexcept;
 
 }  // namespace jaywalk::canopen

@@ -62,6 +62,12 @@ std::vector<std::string> OdriveBase::arm() {
   return report;
 }
 
+std::string OdriveBase::inspect(std::size_t side) {
+  await_messages(side);
+  return who(side) + "heartbeat and encoder estimates; errors " + hex(seen_[side].errors) +
+         "; whether its watchdog lets go is seen at arming, which takes torque";
+}
+
 void OdriveBase::await_messages(std::size_t index) {
   const Time began = clock().now();
   const auto complete = [&] { return axis(index).heard > began && seen_[index].has_position; };

@@ -34,6 +34,7 @@ class OdriveBase final : public MotorPair {
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
   std::vector<std::string> arm() override;
+  [[nodiscard]] std::string inspect(std::size_t side) override;
 
  private:
   struct Seen {

@@ -43,21 +43,27 @@ std::string VescBase::who(std::size_t index) const {
 std::vector<std::string> VescBase::arm() {
   std::vector<std::string> report;
   for (std::size_t k = 0; k < setup_.axes.size(); ++k) await_messages(k);
-  for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
-    std::string line;
-    const bool proved = prove_timeout(k, line);
-    report.push_back(who(k) + line);
-    if (!proved && !setup_.allow_unproved) {
-      throw StartupError(report.back(),
-                         "set timeout and timeout brake current (App Settings, General) with VESC Tool, or "
-                         "allow_unproved at your own risk");
-    }
-  }
+  for (std::size_t k = 0; k < setup_.axes.size(); ++k) report.push_back(proof_of(k));
   if (trouble() != DriveTrouble::kNone) {
     throw StartupError("CAN: " + std::string(name(trouble())), "see that the bus is up and the drives are powered");
   }
   begin_watch();
   return report;
+}
+
+std::string VescBase::inspect(std::size_t side) {
+  await_messages(side);
+  return proof_of(side);
+}
+
+std::string VescBase::proof_of(std::size_t index) {
+  std::string line;
+  const bool proved = prove_timeout(index, line);
+  line = who(index) + line;
+  if (proved || setup_.allow_unproved) return line;
+  throw StartupError(line,
+                     "set timeout and timeout brake current (App Settings, General) with VESC Tool, or "
+                     "allow_unproved at your own risk");
 }
 
 void VescBase::await_messages(std::size_t index) {

@@ -39,6 +39,7 @@ class VescBase final : public MotorPair {
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   VescBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
   std::vector<std::string> arm() override;
+  [[nodiscard]] std::string inspect(std::size_t side) override;
 
  private:
   struct Seen {
@@ -59,6 +60,8 @@ class VescBase final : public MotorPair {
   void send_reset(std::size_t) noexcept override {}
 
   void await_messages(std::size_t index);
+  /// The proof's line. Throws StartupError where it was none and has to be one.
+  [[nodiscard]] std::string proof_of(std::size_t index);
   [[nodiscard]] bool prove_timeout(std::size_t index, std::string& line);
   [[nodiscard]] std::string who(std::size_t index) const;
 

@@ -52,10 +52,18 @@ void add_run(CLI::App& app, int& exit_code) {
   run->callback([&exit_code] { exit_code = run_robot(run_options); });
 }
 
+void add_check(CLI::App& app, int& exit_code) {
+  CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
+  check->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  check->callback([&exit_code] { exit_code = check_robot(run_options); });
+}
+
 }  // namespace
 
 void add_robot_commands(CLI::App& app, int& exit_code) {
   add_run(app, exit_code);
+  add_check(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
   go->add_option("goal", goal, "X,Y in the map (m)")->delimiter(',')->expected(2, 3)->required();
   add_socket(go);

@@ -11,10 +11,13 @@
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
 #include "firmware/robot/no_pose_source.h"
+#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/planner_thread.h"
+#include "firmware/robot/preflight.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
@@ -96,11 +99,12 @@ int run_robot(const RunOptions& options) {
   file.setup.backend = options.backend;
   SteadyClock clock;
   RobotDevices devices(file, clock);
-  OperatorDesk desk(clock, file.setup.goal_tolerance_m, [&] { return restart_link(file.drive.can); });
+  OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
+  OperatorDesk& desk = controls.desk();
   const ControlSocket socket(socket_for(options, file), [&](std::string_view line) { return desk.obey(line); });
   NoPoseSource no_fixes;
-  LoopRunner runner(file.setup, {devices.laser(), devices.drive(), desk, no_fixes, clock}, options.out, true,
-                    [&](std::unique_ptr<Planner> planner) {
+  LoopRunner runner(file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out,
+                    true, [&](std::unique_ptr<Planner> planner) {
                       const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m,
                                                        {});
                       return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
@@ -139,6 +143,23 @@ int run_robot(const RunOptions& options) {
   picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
   remark("disarmed; " + outcome(last) + "; see " + (options.out / "run.png").string());
   return last.latched ? 1 : 0;
+}
+
+int check_robot(const RunOptions& options) {
+  bool all_well = true;
+  const auto tell = [&all_well](const CheckedPart& part) {
+    all_well = all_well && part.is_well;
+    std::printf("%-4s  %-15s %s\n", part.is_well ? "ok" : "FAIL", part.part.c_str(), part.said.c_str());
+  };
+  try {
+    const RobotFile file = load_robot_file(options.robot);
+    tell({"file", true, options.robot.string()});
+    SteadyClock clock;
+    for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) tell(part);
+  } catch (const StartupError& error) {
+    tell({"file", false, error.what()});
+  }
+  return all_well ? 0 : 1;
 }
 
 }  // namespace jaywalk

@@ -17,4 +17,8 @@ struct RunOptions {
 /// Throws StartupError for what keeps it from starting, an arming proof that failed among it.
 [[nodiscard]] int run_robot(const RunOptions& options);
 
+/// Prints a line for each part that a run would need, with a remedy where it is not well. Nothing moves.
+/// Returns the process's exit code: 0 where all is well, else 1.
+[[nodiscard]] int check_robot(const RunOptions& options);
+
 }  // namespace jaywalk

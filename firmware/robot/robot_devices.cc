@@ -1,5 +1,8 @@
 #include "firmware/robot/robot_devices.h"
 
+#include <cmath>
+#include <cstdio>
+
 #include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"
 
@@ -64,27 +67,30 @@ RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
       brake_(make_brake(file.drive, brake_bus_)) {}
 
 void RobotDevices::start() {
-  await_first_scan();
+  await_first_scan(*laser_, file_, clock_);
   bus_.listen(filters_for(file_.drive));
 }
 
-void RobotDevices::await_first_scan() {
-  laser_->start(laser_priority(file_.realtime));  // the loop's thread tells what is not permitted
-  const Time limit = clock_.now() + file_.laser.first_scan_limit;
-  while (laser_->latest().sequence == 0) {
-    if (clock_.now() > limit) {
-      const auto trouble = laser_->health().trouble;
-      throw StartupError(laser_->name() + ": no scan: " + std::string(name(trouble)),
+void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock) {
+  laser.start(laser_priority(file.realtime));  // the loop's thread tells what is not permitted
+  const Time limit = clock.now() + file.laser.first_scan_limit;
+  while (laser.latest().sequence == 0) {
+    if (clock.now() > limit) {
+      throw StartupError(laser.name() + ": no scan: " + std::string(name(laser.health().trouble)),
                          "see that the scanner has power and this address, and that nobody else uses it");
     }
-    clock_.sleep_until(clock_.now() + std::chrono::milliseconds(5));
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(5));
   }
-  const std::uint32_t beams = laser_->latest().beam_count;
-  const LaserModel& model = file_.setup.model.laser;
-  if (beams != model.beams) {
-    throw StartupError(laser_->name() + ": scans of " + std::to_string(beams) + " beams, and the file says " +
-                           std::to_string(model.beams),
-                       "correct [laser] beams and fov_deg");
+  const LaserScan& scan = laser.latest();
+  const LaserModel& model = file.setup.model.laser;
+  const double step_rad = std::fabs(static_cast<double>(scan.angle_step_rad));
+  const double swept_rad = step_rad * (scan.beam_count - 1.0);
+  if (scan.beam_count != model.beams || std::fabs(swept_rad - model.fov_rad) > 2.0 * step_rad) {
+    char differs[120];
+    std::snprintf(differs, sizeof differs, ": scans of %u beams over %.1f degrees, and the file says %u over %.1f",
+                  static_cast<unsigned>(scan.beam_count), swept_rad * 180.0 / kPi, static_cast<unsigned>(model.beams),
+                  model.fov_rad * 180.0 / kPi);
+    throw StartupError(laser.name() + differs, "correct [laser] beams and fov_deg");
   }
 }
 

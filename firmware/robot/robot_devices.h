@@ -28,8 +28,6 @@ class RobotDevices {
   void start();
 
  private:
-  void await_first_scan();
-
   const RobotFile& file_;
   Clock& clock_;
   SocketCan bus_;
@@ -42,6 +40,10 @@ class RobotDevices {
 /// Not started yet, not armed yet. `bus` and `clock` outlive them. Throw StartupError.
 [[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock);
 [[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
+
+/// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or
+/// where it is not the scanner that the file describes.
+void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock);
 
 /// The frames that the drives send, and of CiA 402 drives no others.
 [[nodiscard]] std::vector<CanFilter> filters_for(const DriveWiring& wiring);

@@ -107,6 +107,22 @@ RealtimeWishes read_realtime(TomlTable table) {
   return wishes;
 }
 
+PanelWiring read_panel(TomlTable table) {
+  PanelWiring panel;
+  panel::JoystickSetup& joystick = panel.joystick;
+  const auto button = [&table](const char* key, std::uint16_t otherwise) {
+    return static_cast<std::uint16_t>(table.integer(key, {0, 0x2FF}, otherwise));
+  };
+  joystick.path = table.text("joystick");
+  panel.needs_dead_man = table.boolean("needs_dead_man", panel.needs_dead_man);
+  joystick.dead_man = button("dead_man_button", joystick.dead_man);
+  joystick.stop = button("stop_button", joystick.stop);
+  joystick.stop_opens = table.boolean("stop_opens", joystick.stop_opens);
+  joystick.reset = button("reset_button", joystick.reset);
+  table.finish();
+  return panel;
+}
+
 }  // namespace
 
 RobotFile load_robot_file(const std::filesystem::path& path) {
@@ -131,6 +147,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   laser.finish();
   robot.drive = read_drive(root.table("drive"), setup.model);
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
+  if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
   return robot;

@@ -2,12 +2,14 @@
 // ROBOT.toml: which robot this is and how its devices are wired. docs/robot.md has every key.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 
 #include "drivers/canopen/drive_base.h"
 #include "drivers/laser/scanner_setup.h"
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
+#include "drivers/panel/joystick.h"
 #include "firmware/control_setup.h"
 #include "firmware/robot/realtime.h"
 
@@ -32,11 +34,17 @@ struct DriveWiring {
   vesc::BaseSetup vesc;
 };
 
+struct PanelWiring {
+  panel::JoystickSetup joystick;
+  bool needs_dead_man = true;  ///< the robot drives only while its button is held
+};
+
 struct RobotFile {
   ControlSetup setup;  ///< start pose: where the robot stands when the program starts
   LaserWiring laser;
   DriveWiring drive;
   RealtimeWishes realtime;
+  std::optional<PanelWiring> panel;
   std::filesystem::path control_socket;  ///< empty: the default
 };
 

@@ -167,6 +167,28 @@ TEST_CASE("an option that a drive keeps as it is proves it where it is the wante
   CHECK(other.refusal().find("node 6: 605Eh:0 brakes at a fault: wanted 0002h, refused (read only): NOT PROVED") == 0);
 }
 
+TEST_CASE("looking at a drive tells what arming would meet and changes nothing") {
+  Bench bench;
+  bench.left.objects().lack({0x6007, 0});
+  const auto told = [&bench](std::size_t side) -> std::string {
+    try {
+      return bench.base.inspect(side);
+    } catch (const StartupError& error) {
+      return error.what();
+    }
+  };
+  bench.right.objects().set({0x605A, 0}, 2);
+  CHECK(told(1) == "node 6: CiA 402, profile velocity; 1 of 13 settings stand as arming writes them");
+  CHECK(told(0).rfind("node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (no such object)", 0) ==
+        0);
+  CHECK(bench.right.objects().value({0x1016, 1}) == 0);
+  CHECK_FALSE(bench.right.is_enabled());
+  bench.right.objects().set({0x6502, 0}, 1);  // profile position alone
+  CHECK(told(1).rfind("node 6: is no CiA 402 drive with profile velocity", 0) == 0);
+  bench.right.pull_cable();
+  CHECK(told(1).rfind("node 6: no answer", 0) == 0);
+}
+
 TEST_CASE("a drive that does not answer is not armed") {
   Bench bench;
   bench.left.pull_cable();

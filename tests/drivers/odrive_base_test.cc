@@ -54,6 +54,15 @@ TEST_CASE("an ODrive arms when its watchdog was seen to let go by itself") {
   CHECK(bench.left.position() == 0.0);
 }
 
+TEST_CASE("looking at an ODrive hears it and gives it no torque") {
+  Bench bench;
+  CHECK(bench.base.inspect(1).starts_with("ODrive node 4: heartbeat and encoder estimates; errors 00000000h;"));
+  CHECK_FALSE(bench.right.is_enabled());
+  bench.left.pull_cable();
+  bench.drive(0.0, 0.0, 1);
+  CHECK_THROWS_AS(bench.base.inspect(0), StartupError);
+}
+
 TEST_CASE("an ODrive whose watchdog is off is not armed") {
   Bench bench;
   bench.right.set_watchdog(0ms);

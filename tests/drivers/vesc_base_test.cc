@@ -93,6 +93,14 @@ TEST_CASE("a VESC arms when its timeout and brake current were read back") {
   CHECK(bench.report[1] == "VESC 24: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
 }
 
+TEST_CASE("looking at a VESC reads its settings back and sends no speed") {
+  Bench bench;
+  CHECK(bench.base.inspect(0) == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
+  CHECK(bench.left.heard_controller() == kNever);
+  bench.right.set_timeout(1000, 0.0F);
+  CHECK_THROWS_AS(bench.base.inspect(1), StartupError);
+}
+
 TEST_CASE("a VESC as it comes from the factory is not armed") {
   Bench bench;
   bench.right.set_timeout(1000, 0.0F);

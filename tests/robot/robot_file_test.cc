@@ -113,6 +113,22 @@ TEST_CASE("the robot file of the rig loads") {
   CHECK(robot.laser.host == "127.0.0.1");
 }
 
+TEST_CASE("a joystick is read from the file with its buttons") {
+  CHECK_FALSE(load(kGood).panel);
+  const std::string panel =
+      "\n[panel]\njoystick = \"/dev/input/by-id/pad\"\nneeds_dead_man = false\nstop_button = 0x130\nstop_opens = "
+      "true\n";
+  const RobotFile robot = load(kGood + panel);
+  REQUIRE(robot.panel);
+  CHECK(robot.panel->joystick.path == "/dev/input/by-id/pad");
+  CHECK_FALSE(robot.panel->needs_dead_man);
+  CHECK(robot.panel->joystick.stop == 0x130);
+  CHECK(robot.panel->joystick.stop_opens);
+  CHECK(robot.panel->joystick.dead_man == 0x136);  // BTN_TL
+  CHECK(refusal(std::string(kGood) + "\n[panel]\nneeds_dead_man = true\n").find("joystick") != std::string::npos);
+  CHECK(refusal(kGood + panel + "throttle = 1\n").find("throttle") != std::string::npos);
+}
+
 TEST_CASE("what is wrong in a robot file is refused with its line") {
   CHECK(refusal(kGood) == "loaded");
   CHECK(refusal(with("start =", "begin =")).rfind("2: begin is not a known key; ", 0) == 0);

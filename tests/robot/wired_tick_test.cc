@@ -1,6 +1,12 @@
 // A tick of the whole controller with both ends of its wires in this process, time moved on by hand.
+#include <fcntl.h>
+#include <linux/input.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
 #include <filesystem>
 #include <functional>
+#include <optional>
 
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -30,9 +36,10 @@ class LivingClock final : public Clock {
 };
 
 struct Bench {
-  explicit Bench(const std::string& robot_name)
+  explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {})
       : folder(std::filesystem::temp_directory_path() / ("jaywalk_wired_tick_" + robot_name)),
-        robot(file(robot_name), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, folder) {
+        robot(file(robot_name, panel), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
+              folder) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;
@@ -44,10 +51,11 @@ struct Bench {
     due = clock.now();
   }
   ~Bench() { std::filesystem::remove_all(folder); }
-  [[nodiscard]] RobotFile file(const std::string& name) const {
+  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel) const {
     std::filesystem::create_directories(folder);
     RobotFile wiring = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
     wiring.setup.backend = Backend::kCpu;
+    wiring.panel = panel;
     if (wiring.laser.host.empty()) wiring.laser.device = folder / "scanner";
     return wiring;
   }
@@ -60,6 +68,10 @@ struct Bench {
     robot.runner().drain();
     while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
   }
+  void tick(int times) {
+    for (int k = 0; k < times; ++k) tick();
+  }
+  [[nodiscard]] double speed_mps() { return robot.far_end().rim_speed(); }
   [[nodiscard]] const TickRecord& last() { return robot.runner().last(); }
 
   std::filesystem::path folder;
@@ -67,6 +79,32 @@ struct Bench {
   std::uint64_t heap_calls = 0;
   rig::InProcessRobot robot;
   Time due{};
+};
+
+/// A named pipe in the place of a joystick.
+class Joystick {
+ public:
+  Joystick() {
+    std::filesystem::remove(path);
+    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
+    pipe_ = wire::FileDescriptor(::open(path.c_str(), O_RDWR | O_NONBLOCK));
+  }
+  ~Joystick() { std::filesystem::remove(path); }
+  void press(std::uint16_t button, bool pressed = true) {
+    input_event event{};
+    event.type = EV_KEY;
+    event.code = button;
+    event.value = pressed ? 1 : 0;
+    REQUIRE(::write(pipe_.get(), &event, sizeof event) == sizeof event);
+  }
+  void pull() {
+    std::filesystem::remove(path);
+    pipe_ = wire::FileDescriptor();
+  }
+  const std::string path = std::filesystem::temp_directory_path() / ("jaywalk_tick_" + std::to_string(::getpid()));
+
+ private:
+  wire::FileDescriptor pipe_;
 };
 
 }  // namespace
@@ -89,7 +127,7 @@ TEST_CASE("a scan is in the verdict of the next tick, whose frames leave within 
   }
   CHECK(used >= 70);  // 15 a second, 5 s
   CHECK(bench.last().verdict.reasons == Reason::kNone);
-  CHECK(bench.robot.far_end().rim_speed() > 0.3);
+  CHECK(bench.speed_mps() > 0.3);
 }
 
 TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, whatever the devices") {
@@ -101,6 +139,45 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
     for (int k = 0; k < 100; ++k) bench.tick();
     const auto calls = bench.heap_calls;
     CHECK(calls == 0);
-    CHECK(bench.robot.far_end().rim_speed() > 0.3);
+    CHECK(bench.speed_mps() > 0.3);
   }
+}
+
+TEST_CASE("with a joystick the robot drives while its dead man is held, and its stop and reset are the robot's") {
+  Joystick joystick;
+  Bench bench("robot", PanelWiring{.joystick = {.path = joystick.path}});
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(50);
+  CHECK(bench.speed_mps() == 0.0);
+  joystick.press(BTN_TL, false);  // a button that was never seen released is tied down
+  joystick.press(BTN_TL);
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+  joystick.press(BTN_TL, false);
+  bench.tick(100);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(has(bench.last().verdict.reasons, Reason::kNoGoal));
+  CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+  joystick.press(BTN_TL);
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+
+  joystick.press(BTN_EAST);
+  bench.tick(100);
+  CHECK(bench.speed_mps() == 0.0);
+  joystick.press(BTN_EAST, false);
+  bench.tick(50);
+  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+  joystick.press(BTN_START);
+  bench.tick(50);
+  CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+  CHECK(bench.speed_mps() == 0.0);  // the goal went with the stop
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+  joystick.pull();
+  bench.tick(100);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(has(bench.last().verdict.reasons, Reason::kEmergencyStop));
 }

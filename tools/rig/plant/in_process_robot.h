@@ -8,6 +8,7 @@
 
 #include "drivers/can/in_process_bus.h"
 #include "firmware/robot/no_pose_source.h"
+#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_loop.h"
 #include "tools/rig/plant/simulated_robot.h"
 
@@ -49,7 +50,7 @@ class InProcessRobot {
   [[nodiscard]] SimulatedRobot& far_end() noexcept { return far_end_; }
   [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
-  [[nodiscard]] OperatorDesk& desk() noexcept { return desk_; }
+  [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
   [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
   [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
   [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
@@ -73,7 +74,7 @@ class InProcessRobot {
   SimulatedRobot far_end_;
   std::unique_ptr<ScannerConnection> laser_;
   std::unique_ptr<WiredDrive> drive_;
-  OperatorDesk desk_;
+  OperatorControls controls_;
   NoPoseSource no_fixes_;
   LoopRunner runner_;
   NoBrake no_brake_;

@@ -1,0 +1,102 @@
+#include "drivers/can/link_facts.h"
+
+#include <linux/can/netlink.h>
+#include <linux/if_link.h>
+#include <linux/rtnetlink.h>
+#include <net/if.h>
+#include <net/if_arp.h>
+#include <sys/socket.h>
+#include <sys/time.h>
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+#include "drivers/wire/file_descriptor.h"
+
+namespace jaywalk {
+namespace {
+
+using Octets = std::span<const std::uint8_t>;
+
+template <class T>
+T read_as(Octets bytes) {
+  T value{};
+  if (bytes.size() >= sizeof value) std::memcpy(&value, bytes.data(), sizeof value);
+  return value;
+}
+
+/// What the attribute of that type holds (struct rtattr, each at a multiple of four); empty where there is none.
+Octets attribute(Octets bytes, std::uint16_t type) {
+  while (bytes.size() >= sizeof(rtattr)) {
+    const auto head = read_as<rtattr>(bytes);
+    if (head.rta_len < sizeof head || head.rta_len > bytes.size()) return {};
+    if ((head.rta_type & NLA_TYPE_MASK) == type) return bytes.subspan(sizeof head, head.rta_len - sizeof head);
+    bytes = bytes.subspan(std::min<std::size_t>((head.rta_len + 3U) & ~3U, bytes.size()));
+  }
+  return {};
+}
+
+std::optional<CanState> state_of(Octets bytes) {
+  if (bytes.size() < sizeof(std::uint32_t)) return std::nullopt;
+  switch (read_as<std::uint32_t>(bytes)) {
+    case CAN_STATE_ERROR_ACTIVE:
+      return CanState::kActive;
+    case CAN_STATE_ERROR_WARNING:
+      return CanState::kWarning;
+    case CAN_STATE_ERROR_PASSIVE:
+      return CanState::kPassive;
+    case CAN_STATE_BUS_OFF:
+      return CanState::kBusOff;
+    default:
+      return CanState::kDown;
+  }
+}
+
+/// The kernel's answer to "what is interface `index`?"; empty where none came.
+std::vector<std::uint8_t> ask_kernel(int index) {
+  struct Question {
+    nlmsghdr head;
+    ifinfomsg about;
+  } question{};
+  question.head.nlmsg_len = sizeof question;
+  question.head.nlmsg_type = RTM_GETLINK;
+  question.head.nlmsg_flags = NLM_F_REQUEST;
+  question.about.ifi_index = index;
+  const wire::FileDescriptor socket(::socket(AF_NETLINK, SOCK_RAW | SOCK_CLOEXEC, NETLINK_ROUTE));
+  const timeval patience{.tv_sec = 1, .tv_usec = 0};
+  ::setsockopt(socket.get(), SOL_SOCKET, SO_RCVTIMEO, &patience, sizeof patience);
+  if (::send(socket.get(), &question, sizeof question, 0) < 0) return {};
+  std::vector<std::uint8_t> answer(32768);
+  const ssize_t got = ::recv(socket.get(), answer.data(), answer.size(), 0);
+  answer.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+  return answer;
+}
+
+}  // namespace
+
+LinkFacts link_facts(const std::string& interface) {
+  LinkFacts facts;
+  const unsigned index = ::if_nametoindex(interface.c_str());
+  const std::vector<std::uint8_t> answer =
+      index == 0 ? std::vector<std::uint8_t>() : ask_kernel(static_cast<int>(index));
+  const Octets bytes(answer);
+  if (bytes.size() < sizeof(nlmsghdr) + sizeof(ifinfomsg) || read_as<nlmsghdr>(bytes).nlmsg_type != RTM_NEWLINK) {
+    return facts;
+  }
+  const auto about = read_as<ifinfomsg>(bytes.subspan(sizeof(nlmsghdr)));
+  facts.exists = true;
+  facts.is_can = about.ifi_type == ARPHRD_CAN;
+  facts.is_up = (about.ifi_flags & IFF_UP) != 0;
+  const Octets link = attribute(bytes.subspan(sizeof(nlmsghdr) + sizeof(ifinfomsg)), IFLA_LINKINFO);
+  const Octets kind = attribute(link, IFLA_INFO_KIND), can = attribute(link, IFLA_INFO_DATA);
+  for (const std::uint8_t letter : kind) {
+    if (letter != 0) facts.kind += static_cast<char>(letter);
+  }
+  if (facts.kind != "can") return facts;
+  facts.bitrate = read_as<can_bittiming>(attribute(can, IFLA_CAN_BITTIMING)).bitrate;
+  facts.state = state_of(attribute(can, IFLA_CAN_STATE));
+  return facts;
+}
+
+}  // namespace jaywalk

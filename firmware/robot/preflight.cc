@@ -1,0 +1,158 @@
+#include "firmware/robot/preflight.h"
+
+#include <sys/mman.h>
+#include <time.h>
+
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <thread>
+
+#include "drivers/can/link_facts.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/robot_devices.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr Duration kRateSpan = std::chrono::seconds(1);
+constexpr double kRateTolerance = 0.1;
+
+std::string first_line(const char* path) {
+  std::string line;
+  std::getline(std::ifstream(path) >> std::ws, line);
+  return line;
+}
+
+std::string check_clock() {
+  const std::string source = first_line("/sys/devices/system/clocksource/clocksource0/current_clocksource");
+  timespec step{};
+  ::clock_getres(CLOCK_MONOTONIC, &step);
+  if (step.tv_sec != 0 || step.tv_nsec > 1000 || source.find("jiffies") != std::string::npos) {
+    throw StartupError("steps of " + std::to_string(step.tv_nsec) + " ns, source " + source,
+                       "use a kernel with high-resolution timers, and no clocksource= of its own on its command line");
+  }
+  const bool realtime = first_line("/sys/kernel/realtime") == "1";
+  return (source.empty() ? "source not told" : source) +
+         std::string(realtime ? ", PREEMPT_RT" : ", no real-time kernel");
+}
+
+void refuse_first(const std::vector<std::string>& refused, const std::string& otherwise) {
+  if (!refused.empty()) throw StartupError(refused.front(), otherwise);
+}
+
+/// In a thread of its own: this one stays as it is.
+std::string check_realtime(const RealtimeWishes& wishes) {
+  std::vector<std::string> refused;
+  std::thread([&] { refused = enter_realtime(wishes); }).join();
+  refuse_first(refused, "or set [realtime] priority = 0");
+  return wishes.priority == 0 ? "an ordinary thread is asked for" : "SCHED_FIFO " + std::to_string(wishes.priority);
+}
+
+std::string check_memory(const RealtimeWishes& wishes) {
+  if (!wishes.lock_memory) return "is not to be locked";
+  const std::vector<std::string> refused = lock_memory();
+  ::munlockall();
+  refuse_first(refused, "or set [realtime] lock_memory = false");
+  return "can be locked";
+}
+
+std::string check_socket(const std::filesystem::path& path) {
+  const ControlSocket trial(path, [](std::string_view) { return std::string(); });
+  return path.string();
+}
+
+bool a_run_listens(const std::filesystem::path& path) {
+  try {
+    return !ask(path, "status").empty();
+  } catch (const StartupError&) {
+    return false;
+  }
+}
+
+std::string check_link(const std::string& can) {
+  const std::string bring_up = "ip link set " + can + " up type can bitrate 500000";
+  const LinkFacts link = link_facts(can);
+  if (!link.exists) throw StartupError("no such interface", "load its driver, then: " + bring_up);
+  if (!link.is_can)
+    throw StartupError("is no CAN interface", "give [drive] can the one that is: ip link show type can");
+  const bool has_rate = link.kind != "can" || link.bitrate > 0;
+  if (!link.is_up || !has_rate) throw StartupError("is down or has no bit rate", bring_up);
+  if (link.state && *link.state != CanState::kActive) {
+    throw StartupError("is " + std::string(name(*link.state)),
+                       "see to wires, termination and bit rate, then set it down and up");
+  }
+  const std::string rate = link.bitrate > 0 ? std::to_string(link.bitrate) + " bit/s" : "no bit rate of its own";
+  return "up, " + (link.kind.empty() ? std::string("can") : link.kind) + ", " + rate;
+}
+
+std::string check_scanner(const RobotFile& file, Clock& clock) {
+  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock);
+  await_first_scan(*laser, file, clock);
+  const std::uint32_t before = laser->latest().sequence;
+  clock.sleep_until(clock.now() + kRateSpan);
+  const LaserScan& scan = laser->latest();
+  const double wanted_hz = file.setup.model.laser.rate_hz, rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
+  char said[100];
+  std::snprintf(said, sizeof said, ": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count), rate_hz);
+  // One more or fewer may fall into the span.
+  if (std::fabs(rate_hz - wanted_hz) > std::fmax(kRateTolerance * wanted_hz, 1.0)) {
+    throw StartupError(laser->name() + said, "correct [laser] rate_hz, or set the scanner's");
+  }
+  return laser->name() + said;
+}
+
+std::string check_joystick(const PanelWiring& panel, Clock& clock) {
+  panel::Joystick joystick(panel.joystick);
+  joystick.poll(clock.now());
+  const panel::JoystickState state = joystick.state();
+  if (!state.connected)
+    throw StartupError(panel.joystick.path + ": is not there", "plug it in, or correct [panel] joystick");
+  if (state.stop) throw StartupError(panel.joystick.path + ": its stop is pressed, or not known", "release it");
+  return panel.joystick.path + ": connected, stop released";
+}
+
+/// Lists what each part says for itself.
+class Inspection {
+ public:
+  void look(const std::string& part, const std::function<std::string()>& at) {
+    try {
+      parts_.push_back({part, true, at()});
+    } catch (const StartupError& error) {
+      parts_.push_back({part, false, error.what()});
+    }
+  }
+  [[nodiscard]] bool last_is_well() const { return parts_.back().is_well; }
+  [[nodiscard]] std::vector<CheckedPart> parts() && { return std::move(parts_); }
+
+ private:
+  std::vector<CheckedPart> parts_;
+};
+
+std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& clock) {
+  SocketCan bus(open_can(wiring.can, filters_for(wiring)), clock);
+  return make_drive(wiring, bus, clock)->inspect(side);
+}
+
+}  // namespace
+
+std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket, Clock& clock) {
+  Inspection inspection;
+  inspection.look("clock", check_clock);
+  inspection.look("priority", [&] { return check_realtime(file.realtime); });
+  inspection.look("memory", [&] { return check_memory(file.realtime); });
+  inspection.look("control socket", [&] { return check_socket(control_socket); });
+  if (!inspection.last_is_well() && a_run_listens(control_socket)) return std::move(inspection).parts();
+  inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
+  if (inspection.last_is_well()) {
+    inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });
+    inspection.look("right drive", [&] { return check_drive(file.drive, 1, clock); });
+  }
+  inspection.look("scanner", [&] { return check_scanner(file, clock); });
+  if (file.panel) inspection.look("joystick", [&] { return check_joystick(*file.panel, clock); });
+  return std::move(inspection).parts();
+}
+
+}  // namespace jaywalk

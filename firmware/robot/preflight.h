@@ -1,0 +1,24 @@
+#pragma once
+// What `jaywalk check` looks at before a robot is let run.
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "firmware/robot/robot_file.h"
+#include "hal/hal.h"
+
+namespace jaywalk {
+
+struct CheckedPart {
+  std::string part;  ///< "scanner", "left drive", ...
+  bool is_well = false;
+  std::string said;  ///< what it is; where it is not well, the cause and what to do about it
+};
+
+/// Looks at all that a run needs: clock, real-time rights, memory, control socket, CAN interface, both drives, scanner,
+/// joystick. Nothing moves, no setting of a device is changed but what makes a scanner send. Where a run has the robot
+/// already, that is said and its devices are left alone. Takes some seconds.
+[[nodiscard]] std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket,
+                                                 Clock& clock);
+
+}  // namespace jaywalk

@@ -1,0 +1,79 @@
+#include "firmware/robot/preflight.h"
+
+#include <unistd.h>
+
+#include "drivers/can/link_facts.h"
+#include "drivers/emulators/byte_server.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/steady_clock.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// A robot whose bus is not there, and whose scanner's port belongs to nobody.
+RobotFile nothing_connected() {
+  RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  file.drive.can = "nocan0";
+  file.laser.port = emulators::TcpServer(0).port();  // free again
+  file.laser.first_scan_limit = std::chrono::milliseconds(100);
+  return file;
+}
+
+std::filesystem::path socket_path() {
+  return std::filesystem::temp_directory_path() / ("jaywalk_preflight_" + std::to_string(::getpid()));
+}
+
+const CheckedPart* find(const std::vector<CheckedPart>& parts, const std::string& name) {
+  for (const CheckedPart& part : parts) {
+    if (part.part == name) return &part;
+  }
+  return nullptr;
+}
+
+}  // namespace
+
+TEST_CASE("each part that is missing is told with what to do about it, and the others all the same") {
+  SteadyClock clock;
+  RobotFile file = nothing_connected();
+  file.panel = PanelWiring{.joystick = {.path = "/dev/input/by-id/none"}};
+  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+  REQUIRE(parts.size() == 7);  // no drives where there is no bus
+  REQUIRE(find(parts, "clock") != nullptr);
+  REQUIRE(find(parts, "control socket") != nullptr);
+  CHECK(find(parts, "control socket")->is_well);
+  REQUIRE(find(parts, "nocan0") != nullptr);
+  CHECK_FALSE(find(parts, "nocan0")->is_well);
+  CHECK(find(parts, "nocan0")->said ==
+        "no such interface; load its driver, then: ip link set nocan0 up type can bitrate 500000");
+  REQUIRE(find(parts, "scanner") != nullptr);
+  CHECK_FALSE(find(parts, "scanner")->is_well);
+  CHECK(find(parts, "scanner")->said.find(": no scan: scanner unreachable; see that") != std::string::npos);
+  REQUIRE(find(parts, "joystick") != nullptr);
+  CHECK_FALSE(find(parts, "joystick")->is_well);
+  CHECK_FALSE(std::filesystem::exists(socket_path()));
+}
+
+TEST_CASE("an interface that is no CAN bus is told from one") {
+  const LinkFacts loopback = link_facts("lo");
+  CHECK(loopback.exists);
+  CHECK_FALSE(loopback.is_can);
+  CHECK_FALSE(link_facts("nocan0").exists);
+  SteadyClock clock;
+  RobotFile file = nothing_connected();
+  file.drive.can = "lo";
+  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+  REQUIRE(find(parts, "lo") != nullptr);
+  CHECK(find(parts, "lo")->said.rfind("is no CAN interface", 0) == 0);
+}
+
+TEST_CASE("the devices of a robot that runs are left alone") {
+  SteadyClock clock;
+  const ControlSocket run(socket_path(), [](std::string_view) { return std::string("state: driving\n"); });
+  const std::vector<CheckedPart> parts = preflight(nothing_connected(), socket_path(), clock);
+  REQUIRE(parts.size() == 4);
+  CHECK(parts.back().part == "control socket");
+  CHECK_FALSE(parts.back().is_well);
+  CHECK(parts.back().said.find("another run listens there") != std::string::npos);
+}
