@@ -5,7 +5,6 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
-#include "planner/perception/kalman.h"
 
 namespace jaywalk::bench {
 namespace {
@@ -27,25 +26,16 @@ class NoPlanner final : public Planner {
 }  // namespace
 
 void Innovations::add(std::span<const Track> tracks) {
-  std::map<std::uint32_t, Track> now;
+  std::map<std::uint32_t, std::uint32_t> hits;
   for (const Track& track : tracks) {
-    now[track.id] = track;
-    const auto before = before_.find(track.id);
-    const bool seen = before != before_.end() && track.hits == before->second.hits + 1;
-    if (seen && track.moving) add(before->second, track);
+    hits[track.id] = track.hits;
+    const auto before = hits_before_.find(track.id);
+    if (!track.moving || before == hits_before_.end() || track.hits == before->second) continue;
+    count_ += 1;
+    sum_ += track.surprise;
+    within_ += track.surprise <= kWithin95 ? 1U : 0U;
   }
-  before_ = std::move(now);
-}
-
-void Innovations::add(const Track& before, const Track& after) {
-  Track predicted = before;
-  predict(predicted, to_seconds(after.stamp - before.stamp), kBodyAccelStd);
-  const double gain = 1.0 - after.covariance.pp / predicted.covariance.pp;
-  const double step = distance(predicted.position_in_map, after.position_in_map);
-  const double squared = step * step / (gain * predicted.covariance.pp);
-  count_ += 1;
-  sum_ += squared;
-  within_ += squared <= kWithin95 ? 1U : 0U;
+  hits_before_ = std::move(hits);
 }
 
 double Innovations::mean() const { return sum_ / static_cast<double>(count_); }

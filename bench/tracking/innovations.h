@@ -13,9 +13,8 @@ namespace jaywalk::bench {
 /// with two degrees of freedom where the filter is honest, mean 2, 95 in 100 below 5.99. Less: it doubts too much.
 class Innovations {
  public:
-  /// The tracks after each scan, in the order of time. An innovation is worked out backwards from a track before and
-  /// after it: with K = 1 - after.pp / predicted.pp it was the step that was taken over K, its variance predicted.pp /
-  /// K.
+  /// The tracks after each scan, in the order of time. Those that move, were there before and were seen again tell
+  /// theirs (Track::surprise).
   void add(std::span<const Track> tracks);
 
   [[nodiscard]] std::size_t count() const { return count_; }
@@ -26,9 +25,7 @@ class Innovations {
   [[nodiscard]] double share_within_95() const;
 
  private:
-  void add(const Track& before, const Track& after);
-
-  std::map<std::uint32_t, Track> before_;
+  std::map<std::uint32_t, std::uint32_t> hits_before_;  ///< of each track
   std::size_t count_ = 0, within_ = 0;
   double sum_ = 0.0;
 };

@@ -21,7 +21,8 @@ void TrackScore::pair_up(std::span<const Target> targets, std::span<const Hypoth
   for (std::size_t a = 0; a < targets.size(); ++a) {
     for (std::size_t b = 0; b < tracks.size(); ++b) {
       const double d = distance(targets[a].position_in_map, tracks[b].position_in_map);
-      if (d <= rules_.match_m) near.push_back({a, b, d});
+      const bool may = !rules_.as_it_is || tracks[b].moving || targets[a].stands();
+      if (may && d <= rules_.match_m) near.push_back({a, b, d});
     }
   }
   const auto before = [&](const Pair& p) {
@@ -53,9 +54,11 @@ void TrackScore::count(double t_s, const Target& target, const Hypothesis& track
 }
 
 void TrackScore::note_stay(double t_s, const Target& target, bool found) {
-  const auto [at, fresh] = stays_.try_emplace(target.id, Stay{.since_s = t_s, .last_s = t_s});
-  Stay& stay = at->second;
-  if (!fresh && t_s - stay.last_s > kAwayS) stay = {.since_s = t_s, .last_s = t_s};
+  const auto known = stays_.find(target.id);
+  const bool comes = known == stays_.end() || t_s - known->second.last_s > kAwayS;
+  if (comes && target.stands()) return;  // nothing moves yet
+  Stay& stay = stays_[target.id];
+  if (comes) stay = {.since_s = t_s, .last_s = t_s};
   stay.last_s = t_s;
   if (stay.found || stay.late) return;
   stay.found = found;

@@ -18,6 +18,9 @@ struct Target {
   Vec2 position_in_map;  ///< m
   Vec2 velocity_in_map;  ///< m/s; NaN: not known
   bool in_view = true;   ///< false: finding it is neither right nor wrong
+
+  /// Known to stand: it turns on the spot, or waits.
+  [[nodiscard]] bool stands() const { return velocity_in_map == Vec2{}; }
 };
 
 /// A track of the controller's.
@@ -31,7 +34,8 @@ struct Hypothesis {
 struct ScoreRules {
   double match_m = 0.5;          ///< a hypothesis this near a target may be its
   double settled_after_s = 1.0;  ///< velocities are compared once a track is this old
-  double soon_s = 0.6;           ///< a target that moves is found soon when found within this after it came into view
+  double soon_s = 0.6;           ///< a target is found soon when found within this after it was first seen to move
+  bool as_it_is = false;         ///< a track that stands may find only a target that stands
 };
 
 /// Adds up frame by frame. Pairs of the frame before stay pairs while they are near enough; the rest pair up nearest
@@ -56,7 +60,7 @@ class TrackScore {
   [[nodiscard]] double velocity_rmse_mps() const;
   /// Tracks that moved and never were anybody's.
   [[nodiscard]] std::size_t false_movers() const;
-  /// Share of the times a target came into view that it was found soon; NaN where none came.
+  /// Share of the times a target moved in view, having come there, that it was found soon; NaN where none did.
   [[nodiscard]] double found_soon() const;
 
  private:

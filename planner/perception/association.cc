@@ -1,8 +1,10 @@
 #include "planner/perception/association.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
+#include "hal/types/trig.h"
 #include "planner/perception/kalman.h"
 
 namespace jaywalk {
@@ -15,10 +17,14 @@ constexpr double kPersonRadiusM = 0.25;
 constexpr double kLeastRadiusM = 0.2;  // whatever stands on legs is wider than they are
 constexpr double kMostRadiusM = 0.5;
 
-// Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle.
+// Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle;
+// an arc's ends lie somewhere between beams.
 constexpr double kOneLegStdM = 0.12;
 constexpr double kTwoLegsStdM = 0.08;
-constexpr double kArcStdM = 0.05;
+constexpr double kArcStdM = 0.005, kArcStdPerSpacing = 0.25;
+constexpr double kHiddenStdPerM = 0.15;  // of what is hidden of a body whose width is known
+constexpr double kLeastShare = 1e-3;     // of a body's width that is seen: beams may be all one
+constexpr double kGateStdM = 0.12;       // whatever part of a body is seen
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -35,16 +41,53 @@ std::int32_t fellow_leg(const Clusters& clusters, std::size_t lead, std::uint32_
   return best;
 }
 
-Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow) {
-  const Cluster& c = clusters[lead];
-  Observation seen{c.centre_in_map, kArcStdM, std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM), c.in_free_space,
-                   c.outline_in_map};
-  if (!c.leg()) return seen;
-  seen.std_m = kOneLegStdM;
+/// Of a half circle of radius 1 that is seen from one side up to `share` of its width: how far its mean lies before
+/// its centre. With the angle a that is seen, (a - sin a cos a) / (2 (1 - cos a)); all of it, kArcMean.
+double arc_mean(double share) {
+  share = std::max(share, kLeastShare);
+  const double c = 1.0 - 2.0 * share, s = std::sqrt(std::max(0.0, 1.0 - c * c));
+  return (atan2(s, c) - s * c) / (4.0 * share);
+}
+
+/// Moves what was taken for the middle of the cluster to the middle of its body, which is `arc_m` from the side that is
+/// seen. Hidden on both sides, it may be either way.
+void add_hidden_part(const Cluster& c, double arc_m, Observation& seen) {
+  const double hidden = std::max(0.0, arc_m - c.radius_m);
+  if (c.low_hidden && c.high_hidden) {
+    seen.std_m += hidden;
+    return;
+  }
+  seen.std_m += kHiddenStdPerM * hidden;
+  if (hidden == 0.0) return;
+  const double deeper = arc_m * arc_mean(c.radius_m / arc_m) - c.radius_m * kArcMean;
+  seen.position_in_map = seen.position_in_map + c.high_side * (c.high_hidden ? hidden : -hidden) + c.along * deeper;
+}
+
+void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
+  seen.std_m = fellow < 0 ? kOneLegStdM : kTwoLegsStdM;
   seen.radius_m = kPersonRadiusM;
-  if (fellow < 0) return seen;
-  seen.std_m = kTwoLegsStdM;
-  seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+  if (fellow < 0) return;
+  seen.position_in_map =
+      (clusters[lead].centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+}
+
+/// `arc_m`: Body::arc_m.
+Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow, double arc_m) {
+  const Cluster& c = clusters[lead];
+  Observation seen{.position_in_map = c.centre_in_map,
+                   .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
+                   .radius_m = std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM),
+                   .in_free_space = c.in_free_space,
+                   .outline_in_map = c.outline_in_map,
+                   .whole = c.whole()};
+  if (seen.whole) {
+    seen.width_m = distance(c.outline_in_map[0], c.outline_in_map.back());
+    if (!c.leg()) seen.arc_m = c.radius_m;
+  } else {
+    add_hidden_part(c, arc_m > 0.0 ? arc_m : std::max(c.radius_m, kPersonRadiusM), seen);
+  }
+  const bool part_of_more = !seen.whole && arc_m > 0.0;
+  if (c.leg() && !part_of_more) be_legs(clusters, lead, fellow, seen);
   return seen;
 }
 
@@ -63,13 +106,14 @@ void associate(const Bodies& bodies, Clusters& clusters) noexcept {
     double best = kGate2;
     for (const Body& body : bodies) {
       if (body.given) continue;
-      const double d2 = gate_distance2(body.track, c.centre_in_map, c.leg() ? kOneLegStdM : kArcStdM);
+      const double d2 = gate_distance2(body.track, c.centre_in_map, kGateStdM);
       if (d2 < best) best = d2, c.track_id = body.track.id;
     }
   }
 }
 
-bool observe(const Track& track, Clusters& clusters, Observation& out) noexcept {
+bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept {
+  const Track& track = body.track;
   std::size_t lead = clusters.size();
   double nearest = kInfinity;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
@@ -78,14 +122,14 @@ bool observe(const Track& track, Clusters& clusters, Observation& out) noexcept 
   }
   if (lead == clusters.size()) return false;
   const std::int32_t fellow = clusters[lead].leg() ? fellow_leg(clusters, lead, track.id) : -1;
-  out = observation_of(clusters, lead, fellow);
+  out = observation_of(clusters, lead, fellow, body.arc_m);
   free_strangers(track, lead, fellow, clusters);
   return true;
 }
 
 Observation observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id) noexcept {
   const std::int32_t fellow = clusters[index].leg() ? fellow_leg(clusters, index, 0) : -1;
-  const Observation seen = observation_of(clusters, index, fellow);
+  const Observation seen = observation_of(clusters, index, fellow, 0.0);
   clusters[index].track_id = becomes_track_id;
   if (fellow >= 0) clusters[static_cast<std::size_t>(fellow)].track_id = becomes_track_id;
   return seen;

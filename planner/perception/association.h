@@ -8,20 +8,23 @@ namespace jaywalk {
 /// What one scan says of a body: one cluster, or a person's two legs.
 struct Observation {
   Vec2 position_in_map;
-  double std_m = 0.0;  ///< an axis
+  double std_m = 0.0;  ///< an axis, as expected of its kind; Body::noise tells what comes of it
   double radius_m = 0.0;
   bool in_free_space = false;
   Outline outline_in_map;  ///< of the nearest cluster
+  bool whole = false;      ///< nothing hid either side of that
+  double width_m = 0.0;    ///< of its visible side where it is whole; else 0
+  double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
 };
 
 /// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of
 /// bodies and clusters does not matter except between exact equals.
 void associate(const Bodies& bodies, Clusters& clusters) noexcept;
 
-/// What the clusters given to `track` say together. Its nearest cluster leads; when it is a leg, the nearest
+/// What the clusters given to `body` say together. Its nearest cluster leads; when it is a leg, the nearest
 /// other leg within a stride joins it. Clusters that are left over and too far to belong are set free again.
 /// False when it got none.
-bool observe(const Track& track, Clusters& clusters, Observation& out) noexcept;
+bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept;
 
 /// A new body's observation from free cluster `index` and, for a leg, its nearest free fellow; both are given to
 /// the track that it becomes.

@@ -3,6 +3,7 @@
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
+#include "planner/perception/motion_models.h"
 #include "planner/perception/recent_path.h"
 #include "planner/perception/segments.h"
 #include "planner/perception/track.h"
@@ -11,7 +12,11 @@ namespace jaywalk {
 
 struct Body {
   Track track;
+  MotionModels models;
   RecentPath path;
+  double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
+  double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
+  bool whole = false;          ///< when it was seen last, nothing hid either side of it
   bool given = false;          ///< named by an outside system; the laser does not judge it
   std::uint32_t given_id = 0;  ///< that system's own name for it
   Time born = kNever;

@@ -20,21 +20,28 @@ constexpr double kExplained = 0.8;         // by a straight walk: one hop reache
 constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
 constexpr double kStrideM = 0.5;
 constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
-constexpr std::size_t kSteadyPlaces = 6;
-constexpr double kSteady = 0.98, kSteadyM = 0.12;
-constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
-constexpr int kMostLeft = 2, kMostThere = 1;        // of the three points of an anchor that are asked
-constexpr double kChordM = 0.25, kAlong = 0.7;      // legs are narrower; 45 degrees
+constexpr double kMayStand = 0.4;               // probability that it stands, at most
+constexpr double kNarrowM = 0.18,
+                 kWideM = 0.4;  // half widths between which what is seen whole is a body: not a post, no panel
+constexpr double kBodySigmas = 8.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
+constexpr double kRigidSigmas = 9.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kSameM = 0.08, kSamePerM = 0.015;       // about a point of the anchor, what ends there is still it
+constexpr double kChordM = 0.25, kAlong = 0.7;           // legs are narrower; 45 degrees
+constexpr double kSlant = 0.35;                          // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
-constexpr double kRidesShare = 0.3;  // of its way in the map is all that it moved before the laser
+constexpr double kRidesShare = 0.6;  // of its way in the map is all that it moved before the laser
 
 bool came_to_free_space(const Body& body) { return body.free_share > kMostlyFree; }
 
 /// What became of the place that a body set out from: of the points that it was seen by there, the half that lies
-/// behind on its way, how many still return a beam, and over how many beams pass. The other half it may cover itself.
+/// behind on its way and that it has left, how many still return a beam, and over how many beams pass.
 struct Anchor {
   int there = 0, through = 0;
 };
+
+bool covers(const Outline& outline, Vec2 place, double within) {
+  return std::any_of(outline.begin(), outline.end(), [&](Vec2 p) { return distance(p, place) < within; });
+}
 
 Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
   Anchor anchor;
@@ -43,42 +50,60 @@ Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
   if (outline.empty()) return anchor;
   const bool first_lags = dot(outline.back() - outline[0], way) > 0.0;
   for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
-    const Sight seen = sight.at(outline[first_lags ? k : outline.size() - 1 - k], tolerance);
+    const Vec2 place = outline[first_lags ? k : outline.size() - 1 - k];
+    if (covers(body.outline_in_map, place, tolerance)) continue;
+    const Sight seen = sight.at(place, tolerance);
     anchor.there += seen == Sight::kThere ? 1 : 0;
     anchor.through += seen == Sight::kThrough ? 1 : 0;
   }
   return anchor;
 }
 
-/// So straight that there is no doubt left: a slow robot is both slow and straight, a person fast and swaying.
-bool steady(const StraightWalk& walk) {
-  return walk.places >= kSteadyPlaces && walk.explained > kSteady && walk.length_m > kSteadyM;
+/// As wide as people and robots are: where its middle lies is known to a centimetre or two.
+bool as_wide_as_a_body(const Body& body) { return body.arc_m > kNarrowM && body.arc_m < kWideM; }
+
+/// So straight for its length that there is no doubt left, and longer than growing or shrinking explains: a slow robot
+/// is both slow and straight, a person fast and swaying.
+bool steady(const Body& body, const StraightWalk& walk) {
+  return walk.sigmas > (as_wide_as_a_body(body) ? kBodySigmas : kThingSigmas) &&
+         walk.length_m > std::max(kSteadyM, walk.width_change_m);
+}
+
+/// Both its sides went along, and nothing hides either: no surface that comes into view does that.
+bool rigid(const Body& body, const StraightWalk& walk) {
+  return body.whole && as_wide_as_a_body(body) && walk.sigmas > kRigidSigmas && walk.length_m > kSteadyM &&
+         walk.width_change_m < kRigidShare * walk.length_m;
 }
 
 /// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
-bool slides_along_itself(const Body& body) {
+bool slides_along_itself(const Body& body, Vec2 laser) {
   const Vec2 chord = body.outline_in_map.back() - body.outline_in_map[0];
-  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
-  return norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
+  const Vec2 way = body.track.position_in_map - body.anchor_in_map, beam = body.track.position_in_map - laser;
+  const bool slanted = std::fabs(dot(chord, beam)) > kSlant * norm(chord) * norm(beam);
+  return (slanted || !body.whole) && norm(chord) > kChordM &&
+         std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
 }
 
 /// A walk without hops, of a thing whose place is not still taken: straight, or longer and swaying, as one leg or the
 /// other is seen, when the world agrees twice.
-bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight, double range) {
+bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight, Vec2 laser) {
   if (walk.longest_hop_m > kHopM) return false;
+  const double range = distance(laser, body.track.position_in_map);
   const Anchor anchor = look_back(body, sight, kSameM + kSamePerM * range);
-  if (anchor.there > kMostThere) return false;
-  const bool came = came_to_free_space(body), left = anchor.through >= kMostLeft && anchor.there == 0;
-  if (!left && slides_along_itself(body)) return false;
-  if ((came || left) && steady(walk)) return true;
+  if (anchor.there > 0) return false;
+  const bool came = came_to_free_space(body), left = anchor.through > 0;
+  if (!left && slides_along_itself(body, laser)) return false;
+  if (rigid(body, walk) || ((came || left) && steady(body, walk))) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
-  return walk.explained > kExplained && walk.length_m > std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
+  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
+  return (came || body.whole) && walk.explained > kExplained && walk.length_m - walk.width_change_m > far;
 }
 
 double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
 
 bool far_from_anchor(const Body& body, const StraightWalk& walk) {
-  return gone(body) > std::max(steady(walk) ? kSteadyM : kGoneM, kGoneSigmas * std::sqrt(body.track.covariance.pp));
+  return gone(body) >
+         std::max(steady(body, walk) ? kSteadyM : kGoneM, kGoneSigmas * std::sqrt(body.track.covariance.pp));
 }
 
 /// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
@@ -89,18 +114,21 @@ bool rides_along(const Body& body, Vec2 in_laser) {
 /// Fast against what the filter is unsure of, or steady.
 bool beyond_doubt(const Body& body, const StraightWalk& walk) {
   const double speed = norm(body.track.velocity_in_map);
-  if (speed < kMovingMps || (speed > kFastMps && walk.places < kPlacesWhenFast)) return false;
-  return steady(walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
+  if (speed < kMovingMps || body.models.weight(MotionModels::kStands) > kMayStand) return false;
+  if (speed > kFastMps && walk.places < kPlacesWhenFast) return false;
+  return steady(body, walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
 }
 
 }  // namespace
 
-bool sets_out(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
-  if (body.seen_share <= kMostlySeen) return false;
+Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
+  if (body.seen_share <= kMostlySeen) return Departure::kNone;
   const StraightWalk walk = body.path.fit();
+  if (walk.places < kFewestPlaces || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
+  const Vec2 laser = map_from_laser.position();
   const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
-  return walk.places >= kFewestPlaces && far_from_anchor(body, walk) && beyond_doubt(body, walk) &&
-         walks(body, walk, sight, norm(in_laser)) && !rides_along(body, in_laser);
+  if (rides_along(body, in_laser) || !walks(body, walk, sight, laser)) return Departure::kNone;
+  return rigid(body, walk) ? Departure::kCertain : Departure::kLikely;
 }
 
 }  // namespace jaywalk

@@ -1,18 +1,27 @@
 #pragma once
 // Whether a body that was taken for standing has set out.
+#include <cstdint>
+
 #include "planner/perception/bodies.h"
 #include "planner/perception/line_of_sight.h"
 
 namespace jaywalk {
 
-/// True when this scan's sight of the body (Body::misses is 0) says that it walks: it was seen steadily, is farther
-/// from where it stood than swaying and doubt explain, came here in small steps along one line, and no longer stands
-/// where it stood. The less the ground tells (beams that now pass over where it stood, ground under it that was free
-/// before), the longer and straighter the walk must be, and the more so the farther off: few points, and a heading's
-/// error grows. What rides along with the laser belongs to the robot.
+enum class Departure : std::uint8_t {
+  kNone,
+  kLikely,   ///< to be seen again
+  kCertain,  ///< both sides of a body went along, seen whole
+};
+
+/// Whether this scan's sight of the body (Body::misses is 0) says that it walks: it was seen steadily, is farther from
+/// where it stood than swaying and doubt explain, came here in small steps along one line, and no longer stands where
+/// it stood. The less the ground tells (beams that now pass over where it stood, ground under it that was free before)
+/// and the less of a body is seen, the longer and straighter the walk must be, and the more so the farther off: few
+/// points, and a heading's error grows. A walk counts only as far as the thing does not grow or shrink meanwhile. What
+/// rides along with the laser belongs to the robot.
 ///
-/// The thresholds are the smallest at which nothing set out in 18 passes over a minute of scans that were taken where
-/// nobody was (`no_people_left`, each from another scan on, with three sweep times; 2026-11-20).
-[[nodiscard]] bool sets_out(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept;
+/// The thresholds are the smallest at which hardly anything set out in 27 passes over a minute of scans that were taken
+/// where nobody was (`no_people_left`, each from another scan on, with three sweep times): docs/tracking.md.
+[[nodiscard]] Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept;
 
 }  // namespace jaywalk

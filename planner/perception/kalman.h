@@ -8,9 +8,6 @@
 
 namespace jaywalk {
 
-/// What a body that the laser sees may accelerate by, m/s^2 an axis: people start and turn within half a second.
-inline constexpr double kBodyAccelStd = 1.0;
-
 /// Eqs. 12 and 13: moves the track `dt_s` >= 0 seconds on. `accel_std_mps2`: what it may accelerate by, an axis.
 void predict(Track& track, double dt_s, double accel_std_mps2) noexcept;
 

@@ -1,5 +1,7 @@
 #include "planner/perception/motion_judgement.h"
 
+#include <utility>
+
 #include "planner/perception/departure.h"
 
 namespace jaywalk {
@@ -8,7 +10,7 @@ namespace {
 constexpr double kStoppedMps = 0.10;
 constexpr std::size_t kFewestPlaces = 5;
 constexpr std::uint32_t kWalkedScans = 2;                  // in a row: a hop is over by the next scan
-constexpr Duration kSlowFor = duration_from_seconds(2.5);  // who turns on the spot walks on
+constexpr Duration kSlowFor = duration_from_seconds(3.5);  // who turns on the spot walks on
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
 constexpr double kSettledM = 0.25;  // has not gone farther
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
@@ -29,12 +31,20 @@ void judge_mover(Body& body, const Pose2& map_from_laser, Time now) {
   if (body.slow_since == kNever) body.slow_since = now;
   if (now - body.slow_since < kSlowFor) return;
   body.track.moving = false;
-  body.slow_since = kNever;
   anchor_here(body, map_from_laser, now);
+  body.still_since = std::exchange(body.slow_since, kNever);  // it has stood here for as long as it was slow
+}
+
+void note_departure(Body& body, Departure seen) {
+  if (seen == Departure::kNone) {
+    body.walked = 0;
+  } else {
+    body.walked += seen == Departure::kCertain ? kWalkedScans : 1;
+  }
 }
 
 void judge_stander(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) {
-  if (body.misses == 0) body.walked = sets_out(body, sight, map_from_laser) ? body.walked + 1 : 0;
+  if (body.misses == 0) note_departure(body, departure(body, sight, map_from_laser));
   if (body.walked >= kWalkedScans) {
     body.walked = 0;
     body.track.moving = true;

@@ -1,25 +1,34 @@
 #include "planner/perception/recent_path.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace jaywalk {
 namespace {
 
 constexpr double kWalkMps = 1.5;
-constexpr double kLongestStepS = 0.13;  // what was unseen for longer may be another
-constexpr double kRoundOffM2 = 1e-12;   // scatter of places that are all the same, a micrometre's square
+constexpr double kLongestStepS = 0.13;                // what was unseen for longer may be another
+constexpr double kNoiseM = 0.01, kNoiseWeighs = 4.0;  // of a place an axis, as if known from so many
+constexpr double kRoundOffM2 = 1e-12;                 // scatter of places that are all the same, a micrometre's square
+
+/// Of `n` places an axis, from what a walk leaves of their scatter: 2 n numbers, of which 4 went into the walk.
+double noise_variance(double left_m2, std::size_t n) {
+  return (left_m2 + kNoiseWeighs * kNoiseM * kNoiseM) / (2.0 * static_cast<double>(n) - 4.0 + kNoiseWeighs);
+}
 
 }  // namespace
 
-void RecentPath::add(Time when, Vec2 where) noexcept {
+void RecentPath::add(Time when, Vec2 where, double width) noexcept {
   if (count_ > 0 && when - at(count_ - 1).since < kApart) {
     Place& newest = places_[(count_ - 1) % kPlaces];
     newest.seen += 1;
     newest.when += (when - newest.when) / newest.seen;
     newest.where = newest.where + (where - newest.where) * (1.0 / newest.seen);
+    newest.width_m = width;
     return;
   }
-  places_[count_ % kPlaces] = {when, when, where, 1};
+  places_[count_ % kPlaces] = {when, when, where, width, 1};
   ++count_;
 }
 
@@ -32,6 +41,15 @@ std::size_t RecentPath::first() const noexcept {
 double RecentPath::hop(std::size_t k) const noexcept {
   const double walked_s = std::min(to_seconds(at(k).when - at(k - 1).when), kLongestStepS);
   return distance(at(k - 1).where, at(k).where) - kWalkMps * walked_s;
+}
+
+double RecentPath::width_change(std::size_t begin) const noexcept {
+  double widest = 0.0, narrowest = std::numeric_limits<double>::infinity();
+  for (std::size_t k = begin; k < count_; ++k) {
+    const double width = at(k).width_m;
+    if (width > 0.0) widest = std::max(widest, width), narrowest = std::min(narrowest, width);
+  }
+  return std::max(0.0, widest - narrowest);
 }
 
 StraightWalk RecentPath::fit() const noexcept {
@@ -61,7 +79,10 @@ StraightWalk RecentPath::fit() const noexcept {
   const Vec2 velocity = tp * (1.0 / tt);
   walk.duration_s = -seconds(begin);
   walk.length_m = norm(velocity) * walk.duration_s;
-  walk.explained = dot(velocity, tp) / scatter;
+  const double explained = dot(velocity, tp);
+  walk.explained = explained / scatter;
+  walk.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n));
+  walk.width_change_m = width_change(begin);
   return walk;
 }
 

@@ -11,9 +11,11 @@ namespace jaywalk {
 /// How well a body's last places lie on one straight walk of constant speed.
 struct StraightWalk {
   std::size_t places = 0;
-  double length_m = 0.0;       ///< of the fitted walk, from the oldest place to the newest
-  double duration_s = 0.0;     ///< from the oldest place to the newest
-  double longest_hop_m = 0.0;  ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
+  double length_m = 0.0;        ///< of the fitted walk, from the oldest place to the newest
+  double duration_s = 0.0;      ///< from the oldest place to the newest
+  double longest_hop_m = 0.0;   ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
+  double sigmas = 0.0;          ///< length over its own standard deviation, by the places' scatter about the walk
+  double width_change_m = 0.0;  ///< widest less narrowest of the places whose width is known
   double explained = 0.0;  ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
 };
 
@@ -22,7 +24,8 @@ struct StraightWalk {
 /// explains 75 %.
 class RecentPath {
  public:
-  void add(Time when, Vec2 where_in_map) noexcept;
+  /// `width_m`: of what was seen there; 0: not known, part of it was hidden.
+  void add(Time when, Vec2 where_in_map, double width_m = 0.0) noexcept;
   void clear() noexcept { count_ = 0; }
   /// Least squares over the remembered places, x and y against time.
   [[nodiscard]] StraightWalk fit() const noexcept;
@@ -34,6 +37,7 @@ class RecentPath {
   struct Place {
     Time since = kNever, when = kNever;  ///< first of them, mean of them
     Vec2 where;
+    double width_m = 0.0;
     int seen = 0;
   };
   static constexpr std::size_t kPlaces = kRemembers / kApart + 1;
@@ -41,6 +45,7 @@ class RecentPath {
   [[nodiscard]] const Place& at(std::size_t k) const { return places_[k % kPlaces]; }
   /// How much farther it is from the place before to place `k` than a walker comes in the time.
   [[nodiscard]] double hop(std::size_t k) const noexcept;
+  [[nodiscard]] double width_change(std::size_t begin) const noexcept;
   /// The oldest place that is not forgotten.
   [[nodiscard]] std::size_t first() const noexcept;
 

@@ -16,9 +16,6 @@ constexpr std::uint32_t kFewestPoints = 3;
 constexpr double kWallNoiseM = 0.10;      // a wall's points scatter this far about where the map holds it
 constexpr double kWallNoisePerM = 0.012;  // and this much more a metre of range: 0.7 degrees of heading
 
-/// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
-constexpr double kArcMean = kPi / 4.0;
-
 double jump_distance(double range, double angle_step) {
   return std::max(kJumpM, kJumpSteps * range * std::fabs(angle_step));
 }
@@ -37,14 +34,18 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
   const Vec2 mean = sum * (1.0 / (segment.last - segment.first + 1));
   const double range = std::max(distance(laser, mean), 1e-6);
   const Vec2 along = (mean - laser) * (1.0 / range);
-  const double width = std::fabs(cross(along, in_map.position[segment.last] - in_map.position[segment.first]));
+  const double across = cross(along, in_map.position[segment.last] - in_map.position[segment.first]);
+  const double width = std::fabs(across);
   const double spacing = width / std::max(1U, segment.last - segment.first);  // the arc's ends lie between beams
   const double radius = 0.5 * (width + spacing);
   return {.segment = segment,
           .centre_in_map = mean + along * (kArcMean * radius),
           .radius_m = radius,
           .range_m = points[segment.first].range_m,
-          .outline_in_map = outline_of(segment, in_map)};
+          .spacing_m = spacing,
+          .outline_in_map = outline_of(segment, in_map),
+          .along = along,
+          .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0)};
 }
 
 struct GroundShares {
@@ -61,15 +62,16 @@ GroundShares shares_of(const Segment& segment, const PointsInMap& in_map) {
   return {wall / count, free / count};
 }
 
-/// Whether both neighbours in the sweep lie behind the segment, or nothing was returned beside it.
-bool stands_out(const Segment& segment, const ScanPoints& points) {
-  const auto behind = [&](std::uint32_t end, std::uint32_t neighbour) {
-    return points[neighbour].beam + 1 < points[end].beam || points[end].beam + 1 < points[neighbour].beam ||
-           points[neighbour].range_m > points[end].range_m;
+/// Where something nearer stands beside the cluster, or the sweep ends, it may go on unseen.
+void note_hidden_sides(const ScanPoints& points, std::uint32_t last_beam, Cluster& cluster) {
+  const std::uint32_t first = cluster.segment.first, last = cluster.segment.last;
+  const auto nearer = [&](std::uint32_t end, std::uint32_t beside) {
+    const std::uint32_t apart =
+        std::max(points[end].beam, points[beside].beam) - std::min(points[end].beam, points[beside].beam);
+    return apart == 1 && points[beside].range_m <= points[end].range_m;
   };
-  const bool low = segment.first == 0 || behind(segment.first, segment.first - 1);
-  const bool high = segment.last + 1 >= points.size() || behind(segment.last, segment.last + 1);
-  return low && high;
+  cluster.low_hidden = points[first].beam == 0 || (first > 0 && nearer(first, first - 1));
+  cluster.high_hidden = points[last].beam == last_beam || (last + 1 < points.size() && nearer(last, last + 1));
 }
 
 bool body_sized(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map) {
@@ -105,8 +107,8 @@ Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
   return still.seen_free(cell) ? Ground::kFree : Ground::kUnknown;
 }
 
-void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser,
-                   Clusters& out) noexcept {
+void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments,
+                   std::uint32_t last_beam, Vec2 laser, Clusters& out) noexcept {
   out.clear();
   for (const Segment& segment : segments) {
     if (!body_sized(segment, points, in_map)) continue;
@@ -114,7 +116,8 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
     if (shares.wall > kMostWall) continue;
     Cluster cluster = cluster_of(segment, points, in_map, laser);
     cluster.in_free_space = shares.free > kMostFree;
-    if (!cluster.in_free_space && !stands_out(segment, points)) continue;
+    note_hidden_sides(points, last_beam, cluster);
+    if (!cluster.in_free_space && cluster.low_hidden && cluster.high_hidden) continue;
     if (!out.push_back(cluster)) return;
   }
 }

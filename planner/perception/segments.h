@@ -24,16 +24,24 @@ using Segments = FixedVector<Segment, kMaxSegments>;
 /// A segment with no wall behind it that is small enough for a body: something may have come there.
 struct Cluster {
   Segment segment;
-  Vec2 centre_in_map;     ///< of the body: behind the visible arc
-  double radius_m = 0.0;  ///< half of the visible width
-  double range_m = 0.0;   ///< from the laser
+  Vec2 centre_in_map;      ///< of the body: behind the visible arc
+  double radius_m = 0.0;   ///< half of the visible width
+  double range_m = 0.0;    ///< from the laser
+  double spacing_m = 0.0;  ///< from beam to beam, across them
   Outline outline_in_map;
-  bool in_free_space = false;  ///< most of it stands where nothing stood before
-  std::uint32_t track_id = 0;  ///< of the body that it was given to; 0: none
+  Vec2 along;                                    ///< unit vector of the beams, away from the laser
+  Vec2 high_side;                                ///< unit vector across the beams, from the first to the last
+  bool low_hidden = false, high_hidden = false;  ///< at its first and last beam: it may go on behind something nearer
+  bool in_free_space = false;                    ///< most of it stands where nothing stood before
+  std::uint32_t track_id = 0;                    ///< of the body that it was given to; 0: none
 
+  [[nodiscard]] bool whole() const { return !low_hidden && !high_hidden; }
   /// Leg-sized: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
 };
+
+/// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
+inline constexpr double kArcMean = kPi / 4.0;
 
 /// Most clusters followed in a scan; when full, later ones (in the order of the beams) are left for the next scans.
 inline constexpr std::size_t kMaxClusters = 128;
@@ -60,8 +68,9 @@ void cut_at_jumps(const ScanPoints& points, double angle_step_rad, Segments& out
 [[nodiscard]] Ground ground_at(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
 
 /// The segments that are no walls and small enough for a body (at most 1.1 m across). In unknown space only those that
-/// stand out before whatever is beside them count: what half hides behind something else is a wall coming into view.
-void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, Vec2 laser_in_map,
-                   Clusters& out) noexcept;
+/// stand out on one side at least count: what goes on behind something nearer on both is a wall seen through a gap.
+/// `last_beam` of the scan: what reaches there, or to beam 0, may go on outside the sweep.
+void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments,
+                   std::uint32_t last_beam, Vec2 laser_in_map, Clusters& out) noexcept;
 
 }  // namespace jaywalk

@@ -29,6 +29,9 @@ struct Track {
   bool moving = false;     ///< moving beyond reasonable doubt
   std::uint32_t hits = 0;  ///< scans that saw it
   Time last_seen = kNever;
+  /// The last innovation, squared and over its variance: how far from where it was expected the last scan saw it.
+  /// Chi-squared with two degrees of freedom, 2 on average, where the covariance is honest.
+  double surprise = 0.0;
 };
 
 }  // namespace jaywalk

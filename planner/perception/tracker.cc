@@ -25,9 +25,19 @@ constexpr double kSkinM = 0.15;                // points this near a mover's bod
 constexpr double kEmptyWithinM = 0.1;          // beams that all pass over so much of its place pass through it
 constexpr double kSeenGain = 0.15;             // of the running mean of how often a body was seen
 constexpr double kFreeGain = 0.3;              // of the running mean of how free the ground under a body was
+constexpr double kNoiseGain = 0.075;           // a scan: a second teaches how noisy a body is
+constexpr double kMostNoise = 25.0;            // times the variance expected, or as small a part of it
+constexpr double kMostSurprise = 8.0;          // that one scan teaches: more is another's place
 constexpr double kRadiusGain = 0.2;            // of the running mean of a body's radius
 
 bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading); }
+
+/// Steers the measurement noise to where surprises are 2 on average, whatever the body is: a disc is seen to a
+/// centimetre, a pair of legs sways.
+void learn_noise(Body& body) {
+  const double wanted = 0.5 * std::min(body.track.surprise, kMostSurprise) - 1.0;
+  body.noise = std::clamp(body.noise * (1.0 + kNoiseGain * wanted), 1.0 / kMostNoise, kMostNoise);
+}
 
 double step_seconds(Time from, Time to) {
   if (from == kNever || to <= from) return 0.0;
@@ -78,7 +88,12 @@ void Tracker::State::predict_to(Time stamp) noexcept {
   step_s = step_seconds(now, stamp);
   now = stamp;
   for (Body& body : bodies) {
-    predict(body.track, step_seconds(body.track.stamp, stamp), body.given ? kGivenAccelStd : kBodyAccelStd);
+    const double dt = step_seconds(body.track.stamp, stamp);
+    if (body.given) {
+      predict(body.track, dt, kGivenAccelStd);
+    } else {
+      body.models.predict(body.track, dt);
+    }
     body.track.stamp = std::max(body.track.stamp, stamp);
   }
 }
@@ -94,7 +109,8 @@ void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, co
     in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
   cut_at_jumps(points, static_cast<double>(scan.angle_step_rad), segments);
-  find_clusters(points, in_map, segments, map_from_laser.position(), clusters);
+  const std::uint32_t last_beam = std::max(scan.beam_count, 1U) - 1;
+  find_clusters(points, in_map, segments, last_beam, map_from_laser.position(), clusters);
 }
 
 void Tracker::State::drop_own_points() noexcept {
@@ -107,15 +123,20 @@ void Tracker::State::drop_own_points() noexcept {
 
 void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   Track& track = body.track;
-  correct(track, seen.position_in_map, seen.std_m);
+  const double std_m = seen.std_m * std::sqrt(body.noise);
+  track.surprise = gate_distance2(track, seen.position_in_map, std_m);
+  learn_noise(body);
+  body.models.correct(track, seen.position_in_map, std_m);
   track.radius_m += kRadiusGain * (seen.radius_m - track.radius_m);
+  if (seen.arc_m > 0.0) body.arc_m += (body.arc_m > 0.0 ? kRadiusGain : 1.0) * (seen.arc_m - body.arc_m);
   track.hits += 1;
   body.misses = 0;
   const bool after_a_gap = to_seconds(now - body.track.last_seen) > kPathBreaksS;
   if (after_a_gap) body.path.clear();
   track.last_seen = now;
-  body.path.add(now, seen.position_in_map);
+  body.path.add(now, seen.position_in_map, seen.width_m);
   body.outline_in_map = seen.outline_in_map;
+  body.whole = seen.whole;
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
   body.free_share += kFreeGain * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
@@ -125,7 +146,7 @@ void Tracker::State::associate_and_correct() noexcept {
   associate(bodies, clusters);
   for (Body& body : bodies) {
     Observation seen;
-    const bool found = observe(body.track, clusters, seen);
+    const bool found = observe(body, clusters, seen);
     body.seen_share += kSeenGain * ((found ? 1.0 : 0.0) - body.seen_share);
     if (found) {
       take(body, seen);

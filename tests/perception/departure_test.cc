@@ -19,12 +19,14 @@ Body walker(Vec2 from, Vec2 to) {
   body.track.velocity_in_map = to - from;
   body.track.covariance = {.pp = 0.002, .pv = 0.0, .vv = 0.04};
   body.free_share = 1.0;
+  body.whole = true;
+  body.models = MotionModels(body.track);
   return body;
 }
 
 bool sees_it_set_out(const Body& body, const Room& room) {
   const LaserScan scan = scan_of(room, {}, 1);
-  return sets_out(body, LineOfSight(scan, {}, {}, {}), {});
+  return departure(body, LineOfSight(scan, {}, {}, {}), {}) != Departure::kNone;
 }
 
 }  // namespace
@@ -33,6 +35,33 @@ TEST_CASE("who walked a metre and is seen to have left has set out") {
   Room room = rectangle(12.0, 10.0);
   room.discs = {{{3.0, 0.5}, 0.1}};
   CHECK(sees_it_set_out(walker({3.0, -0.5}, {3.0, 0.5}), room));
+}
+
+TEST_CASE("a body that both sides of went along has set out for certain, and one that grew has not") {
+  // 0.2 m in a second, as straight as can be.
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.arc_m = 0.25;
+  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  body.path.clear();
+  for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
+    body.path.add(time_from_seconds(0.1 * k), {3.0, 0.02 * k}, 0.2 + 0.04 * k);
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
+TEST_CASE("who most likely stands has not set out") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.5}, 0.1}};
+  Body body = walker({3.0, -0.5}, {3.0, 0.5});
+  Track still = body.track;
+  still.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 1e-4};
+  body.models = MotionModels(still);
+  for (int k = 0; k < 20; ++k) {
+    body.models.predict(still, 0.1);
+    body.models.correct(still, {3.0, 0.5}, 0.02);
+  }
+  CHECK_FALSE(sees_it_set_out(body, room));
 }
 
 TEST_CASE("whose place still returns beams has not set out") {

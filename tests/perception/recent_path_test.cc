@@ -53,3 +53,19 @@ TEST_CASE("standing exactly still is no walk") {
   CHECK(path.fit().explained == 0.0);
   CHECK(path.fit().length_m == 0.0);
 }
+
+TEST_CASE("a walk is as many standard deviations long as its places scatter about it") {
+  // x = 0.04 k and 1 cm to and fro beside it, k = 0 .. 9, 0.1 s apart: tt = 0.825 s^2. y = +-0.01 in turns has
+  // slope sum(t y) / tt = 0.01 x (-0.5) / 0.825 and leaves 0.001 - (0.005)^2 / 0.825 = 0.00096970 m^2. The noise:
+  // (0.00096970 + 4 x 0.0001) / (20 - 4 + 4) = 6.8485e-5 m^2; speed sqrt(0.4^2 + 0.00606^2) = 0.40005 m/s.
+  RecentPath path;
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {0.04 * k, k % 2 == 0 ? 0.01 : -0.01});
+  CHECK(path.fit().sigmas == Approx(0.40005 * 0.9083 / 0.0082756).epsilon(1e-3));
+}
+
+TEST_CASE("width changes by the widest less the narrowest of those known") {
+  RecentPath path;
+  const double widths[] = {0.5, 0.0, 0.42, 0.61, 0.0};  // 0: partly hidden
+  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0}, widths[k]);
+  CHECK(path.fit().width_change_m == Approx(0.19));
+}

@@ -21,7 +21,7 @@ struct Cut {
       in_map.ground[k] = ground_at(still, points[k].in_robot, points[k].range_m);
     }
     cut_at_jumps(points, kStepRad, segments);
-    find_clusters(points, in_map, segments, {0.0, 0.0}, clusters);
+    find_clusters(points, in_map, segments, 810, {0.0, 0.0}, clusters);
   }
 
   ScanPoints points;
@@ -94,18 +94,43 @@ TEST_CASE("a surface is no wall before it has stood for a second") {
   CHECK_FALSE(map.stands({20, 0}));  // one hit after a gap is one hit
 }
 
-TEST_CASE("in unknown space only what stands out before its surroundings may be a body") {
-  Room room;
-  room.walls = {{{1.0, 0.5}, {1.0, 1.0}}, {{2.0, 1.0}, {2.0, 1.3}}};  // the second half hides behind the first
-  room.discs = {{{2.0, -1.0}, 0.2}};
+TEST_CASE("in unknown space what goes on behind nearer things on both sides is no body") {
+  Room room;  // a wall seen through a gap of 0.4 m, and a disc that nothing hides
+  room.walls = {{{1.0, 0.2}, {1.0, 2.0}}, {{1.0, -0.2}, {1.0, -2.0}}, {{1.5, -2.0}, {1.5, 2.0}}};
+  room.discs = {{{-1.0, 2.0}, 0.2}};
   const auto cut = std::make_unique<Cut>(room);
-  bool hidden_one = false, disc = false;
+  bool gap = false, disc = false;
   for (const Cluster& c : cut->clusters) {
-    hidden_one = hidden_one || distance(c.centre_in_map, {2.0, 1.15}) < 0.3;
-    disc = disc || distance(c.centre_in_map, {2.0, -1.0}) < 0.1;
+    gap = gap || distance(c.centre_in_map, {1.5, 0.0}) < 0.4;
+    disc = disc || distance(c.centre_in_map, {-1.0, 2.0}) < 0.1;
   }
   CHECK(disc);
-  CHECK_FALSE(hidden_one);
+  CHECK_FALSE(gap);
+}
+
+TEST_CASE("a body half behind something nearer knows which of its sides is hidden") {
+  Room room;
+  room.walls = {{{1.0, 0.0}, {1.0, -0.8}}};  // hides what lies to the right of straight ahead
+  room.discs = {{{3.0, 0.0}, 0.27}};
+  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Cluster* half = nullptr;
+  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  REQUIRE(half != nullptr);
+  CHECK(half->low_hidden);  // beams count from right to left
+  CHECK_FALSE(half->high_hidden);
+  CHECK_FALSE(half->whole());
+  CHECK(half->radius_m == Approx(0.135).margin(0.02));
+  CHECK(half->high_side.y > 0.99);
+  CHECK(half->along.x > 0.99);
+}
+
+TEST_CASE("what reaches the end of the sweep may go on outside it") {
+  Room room;
+  room.discs = {{direction(0.75 * kPi) * 3.0, 0.27}};
+  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  REQUIRE(cut->clusters.size() == 1);
+  CHECK(cut->clusters[0].high_hidden);
+  CHECK_FALSE(cut->clusters[0].low_hidden);
 }
 
 TEST_CASE("a scan in more pieces than fit is cut short and the rest counts as wall") {

@@ -84,3 +84,25 @@ TEST_CASE("coming into view is told soon once a stay and again after a second aw
   s.frame(2.8, {target(1, 0.0)}, {track(7, 0.0)});
   CHECK(s.score.found_soon() == Approx(0.5));
 }
+
+TEST_CASE("the time to be found begins when a target first moves in view") {
+  Scored s;
+  const Target stands{1, {0.0, 0.0}, {0.0, 0.0}, true}, walks{1, {0.0, 0.0}, {0.4, 0.0}, true};
+  s.frame(0.0, {stands}, {});
+  s.frame(0.9, {stands}, {});
+  s.frame(1.0, {walks}, {});
+  s.frame(1.5, {walks}, {track(7, 0.0)});  // after half a second
+  CHECK(s.score.found_soon() == 1.0);
+}
+
+TEST_CASE("where each is to be taken as it is a standing track finds only who stands") {
+  ScoreRules rules;
+  rules.as_it_is = true;
+  TrackScore score(rules);
+  const std::vector<Target> targets{{1, {0.0, 0.0}, {0.0, 0.0}, true}, {2, {5.0, 0.0}, {0.4, 0.0}, true}};
+  score.add(0.0, targets, std::vector<Hypothesis>{track(7, 0.0, false), track(8, 5.0, false)});
+  CHECK(score.matches() == 1);
+  score.add(0.1, targets, std::vector<Hypothesis>{track(7, 0.0, true), track(8, 5.0, true)});
+  CHECK(score.matches() == 3);
+  CHECK(score.false_positives() == 0);
+}
