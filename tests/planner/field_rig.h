@@ -1,7 +1,9 @@
 #pragma once
 // The pass on a test map, without window or planner.
 #include <memory>
+#include <vector>
 
+#include "planner/field/exact_field.h"
 #include "planner/field/executor.h"
 #include "planner/field/pass.h"
 #include "tests/planner/test_maps.h"
@@ -25,6 +27,13 @@ struct FieldRig {
     for (std::size_t c = 0; c < map.wall.size(); ++c) arrays().occupants[c] = map.wall[c];
     (void)pass.clear(grid, inflation, field::kWall);
     (void)pass.start(grid, goal);
+  }
+
+  /// The exact field of the free cells.
+  [[nodiscard]] std::vector<double> exact(std::int32_t goal) const {
+    std::vector<std::uint8_t> free(static_cast<std::size_t>(grid.cells()));
+    for (std::size_t c = 0; c < free.size(); ++c) free[c] = arrays().clearance[c] > 0.0F ? 1 : 0;
+    return field::exact_psi(grid, free.data(), goal);
   }
 };
 

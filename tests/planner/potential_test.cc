@@ -35,12 +35,6 @@ std::vector<double> harmonic_reference(const field::Grid& grid, const float* cle
   return u;
 }
 
-std::vector<double> exact_of(const FieldRig<>& rig, std::int32_t goal) {
-  std::vector<std::uint8_t> free(static_cast<std::size_t>(rig.grid.cells()));
-  for (std::size_t c = 0; c < free.size(); ++c) free[c] = rig.arrays().clearance[c] > 0.0F ? 1 : 0;
-  return field::exact_psi(rig.grid, free.data(), goal);
-}
-
 TestMap rooms() {
   TestMap map("rooms", 64);
   map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
@@ -80,7 +74,7 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
     CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
     const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
     CHECK(warm.certified);
-    CHECK(warm.cycles == field::kWarmCycles);
+    CHECK(warm.cycles <= field::kMostWarmCycles);
   }
 }
 
@@ -88,7 +82,7 @@ TEST_CASE("the exact field is the harmonic function, to the last digits, however
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
-  const std::vector<double> exact = exact_of(rig, goal);
+  const std::vector<double> exact = rig.exact(goal);
   const std::vector<double> swept = harmonic_reference(rig.grid, rig.arrays().clearance, goal);
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
     const auto k = static_cast<std::size_t>(c);
@@ -107,7 +101,7 @@ TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's bes
     const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(243, 243);
     rig.load(map, 3.0F, goal);
     REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
-    const double best = field::share_of_best(rig.grid, rig.psi, exact_of(rig, goal), goal);
+    const double best = field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal);
     std::printf("%s: %.3f %% pick the best neighbour\n", map.name.c_str(), 100.0 * best);
     CHECK(best >= 0.999);
   }
@@ -123,7 +117,7 @@ TEST_CASE("free cells at the window's border are as right as others: nothing is 
   for (int k = 0; k < 4; ++k) {
     (void)rig.pass.solve(rig.grid, goal, k > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
   }
-  const std::vector<double> exact = exact_of(rig, goal);
+  const std::vector<double> exact = rig.exact(goal);
   double worst = 0.0;
   for (std::int32_t j = 0; j < 64; ++j) {
     for (const std::int32_t c : {rig.grid.at(0, j), rig.grid.at(63, j), rig.grid.at(j, 0), rig.grid.at(j, 63)}) {
@@ -137,7 +131,7 @@ TEST_CASE("the start field alone picks the best neighbour less often: the compar
   FieldRig<> rig(256);
   const std::int32_t goal = rig.grid.at(243, 243);
   rig.load(office(), 3.0F, goal);
-  CHECK(field::share_of_best(rig.grid, rig.arrays().start_psi, exact_of(rig, goal), goal) < 0.95);
+  CHECK(field::share_of_best(rig.grid, rig.arrays().start_psi, rig.exact(goal), goal) < 0.95);
 }
 
 TEST_CASE("solved warm under discs that move, 98 percent or more pick the best neighbour of the field as it is now") {
@@ -149,7 +143,7 @@ TEST_CASE("solved warm under discs that move, 98 percent or more pick the best n
       map.box(20 + 27 * k + tick, 118 + 3 * (k % 4), 26 + 27 * k + tick, 124 + 3 * (k % 4));
     rig.load(map, 3.0F, goal);
     REQUIRE(rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi).certified);
-    if (tick % 5 == 4) CHECK(field::share_of_best(rig.grid, rig.psi, exact_of(rig, goal), goal) >= 0.98);
+    if (tick > 0) CHECK(field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal) >= 0.98);
   }
 }
 

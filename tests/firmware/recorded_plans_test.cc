@@ -1,0 +1,103 @@
+// What a drive asked its planner for, asked of every executor: the same bytes.
+#include <cstdio>
+#include <cstring>
+#include <filesystem>
+#include <vector>
+
+#include "firmware/recording/recorded_hal.h"
+#include "firmware/recording/recording_stream.h"
+#include "planner/field/grid_planner.h"
+#include "tests/firmware/simulated_drive.h"
+#include "tests/planner/shuffled_executor.h"
+#include "tests/support/catch.h"
+#if JAYWALK_HAS_CUDA
+#include "cuda/cuda_planner.h"
+#endif
+
+using namespace jaywalk;
+
+namespace {
+
+/// Plans as `inner` does; some of the requests go to others as well, whose answers are compared with one another.
+class ComparingPlanner final : public Planner {
+ public:
+  ComparingPlanner(std::unique_ptr<Planner> inner, std::vector<std::unique_ptr<Planner>> others, int first, int count)
+      : inner_(std::move(inner)), others_(std::move(others)), first_(first), count_(count) {}
+
+  void submit(const PlanRequest& request) noexcept override {
+    inner_->submit(request);
+    if (const int k = asked_++ - first_; k < 0 || k >= count_) return;
+    movers += request.moving.size();
+    for (const auto& planner : others_) planner->submit(request);
+    const Plan& a = others_[0]->collect();
+    for (const auto& planner : others_) alike += is_same(*others_[0], a, *planner, planner->collect()) ? 1 : 0;
+  }
+  [[nodiscard]] const Plan& collect() noexcept override { return inner_->collect(); }
+  [[nodiscard]] FieldView view_field() const override { return inner_->view_field(); }
+  [[nodiscard]] const char* backend() const noexcept override { return inner_->backend(); }
+
+  int alike = 0;
+  std::size_t movers = 0;
+
+ private:
+  static bool is_same(const Planner& one, const Plan& a, const Planner& other, const Plan& b) {
+    const auto psi_a = one.view_field().psi, psi_b = other.view_field().psi;
+    return a.status == PlanStatus::kOk && b.status == a.status && a.path.size() == b.path.size() &&
+           a.cycles == b.cycles && psi_a.size() == psi_b.size() &&
+           std::memcmp(a.path.data(), b.path.data(), a.path.size() * sizeof(Vec2)) == 0 &&
+           std::memcmp(psi_a.data(), psi_b.data(), psi_a.size_bytes()) == 0;
+  }
+
+  std::unique_ptr<Planner> inner_;
+  std::vector<std::unique_ptr<Planner>> others_;
+  int first_, count_, asked_ = 0;
+};
+
+/// Serial first, then whatever else there is.
+std::vector<std::unique_ptr<Planner>> every_executor(const PlannerConfig& config) {
+  std::vector<std::unique_ptr<Planner>> planners;
+  planners.push_back(make_cpu_planner(config));
+  planners.push_back(
+      std::make_unique<field::GridPlanner<test::ShuffledExecutor>>(config, std::make_unique<test::ShuffledExecutor>()));
+#if JAYWALK_HAS_CUDA
+  std::string why_not;
+  auto gpu = make_cuda_planner(config, why_not);
+  gpu ? planners.push_back(std::move(gpu)) : void(std::printf("skipped: no CUDA device (%s)\n", why_not.c_str()));
+#endif
+  return planners;
+}
+
+/// Lives through a recording up to the last of `count` requests from the `first` on.
+void check_plans(const std::string& file, int first, int count) {
+  RecordingReader reader(file);
+  const ControlSetup setup = setup_from_text(reader.setup(), file);
+  PlannerConfig config = setup.planner();
+  config.max_side_cells = config.side_cells;
+  auto others = every_executor(config);
+  const auto executors = static_cast<int>(others.size());
+  ComparingPlanner planner(make_cpu_planner(setup.planner()), std::move(others), first, count);
+  TickRecord recorded;
+  RecordedHal devices(recorded);
+  Recorder nowhere({});
+  ControlLoop loop(setup, devices.hal(), planner, nowhere);
+  while (reader.next(recorded)) {
+    loop.tick(recorded.now);
+    nowhere.drain();
+  }
+  CHECK(planner.alike == count * executors);
+  CHECK(planner.movers > 0);
+}
+
+}  // namespace
+
+TEST_CASE("the plans of a recorded drive among walkers have the same bytes on every executor") {
+  constexpr int kFirst = 45, kCount = 25;  // at 15 scans a second
+  const std::string file = (std::filesystem::temp_directory_path() / "jaywalk_plans.jwr").string();
+  {
+    SimulatedDrive drive("map1_16", 11, {}, PlanMode::kFull, file);
+    drive.drive(5.0);
+    REQUIRE(drive.recorder().close());
+  }
+  check_plans(file, kFirst, kCount);
+  std::remove(file.c_str());
+}
