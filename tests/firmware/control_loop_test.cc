@@ -74,6 +74,21 @@ TEST_CASE("a busy thousand ticks ask nothing of the heap") {
   CHECK(tracks >= 2);
 }
 
+TEST_CASE("a wheelchair that searches its way out of a dead end asks nothing of the heap") {
+  SimulatedDrive drive("dead_end", 3);
+  drive.drive(2.0);
+  std::uint64_t calls = 0, backwards = 0;
+  for (int k = 0; k < 1500; ++k) {
+    drive.sleep();
+    const AllocationGuard guard;
+    const TickRecord& t = drive.tick_now();
+    calls += guard.calls();
+    backwards += t.verdict.permitted.v_mps < -0.02 ? 1 : 0;
+  }
+  CHECK(calls == 0);
+  CHECK(backwards > 25);  // half a second: it did back out
+}
+
 TEST_CASE("a recorded drive replays to the same commands, bit for bit") {
   CHECK(different_commands(PlanMode::kFull, 20.0) == 0);
   CHECK(different_commands(PlanMode::kPaper, 20.0) == 0);
