@@ -23,8 +23,9 @@ constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range
 constexpr double kMayStand = 0.4;               // probability that it stands, at most
 constexpr double kNarrowM = 0.18,
                  kWideM = 0.4;  // half widths between which what is seen whole is a body: not a post, no panel
-constexpr double kBodySigmas = 8.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
-constexpr double kRigidSigmas = 9.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
+constexpr double kSolidNoise = 1.5;  // times what is expected: legs and corners that change places have more
+constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
 constexpr double kSameM = 0.08, kSamePerM = 0.015;       // about a point of the anchor, what ends there is still it
 constexpr double kChordM = 0.25, kAlong = 0.7;           // legs are narrower; 45 degrees
 constexpr double kSlant = 0.35;                          // 20 degrees off square to the beams
@@ -59,19 +60,19 @@ Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
   return anchor;
 }
 
-/// As wide as people and robots are: where its middle lies is known to a centimetre or two.
-bool as_wide_as_a_body(const Body& body) { return body.arc_m > kNarrowM && body.arc_m < kWideM; }
+/// As wide as people and robots are, and seen to stay where it should be as solid things do.
+bool solid(const Body& body) { return body.arc_m > kNarrowM && body.arc_m < kWideM && body.noise < kSolidNoise; }
 
 /// So straight for its length that there is no doubt left, and longer than growing or shrinking explains: a slow robot
 /// is both slow and straight, a person fast and swaying.
 bool steady(const Body& body, const StraightWalk& walk) {
-  return walk.sigmas > (as_wide_as_a_body(body) ? kBodySigmas : kThingSigmas) &&
+  return walk.sigmas > (solid(body) ? kSolidSigmas : kThingSigmas) &&
          walk.length_m > std::max(kSteadyM, walk.width_change_m);
 }
 
 /// Both its sides went along, and nothing hides either: no surface that comes into view does that.
 bool rigid(const Body& body, const StraightWalk& walk) {
-  return body.whole && as_wide_as_a_body(body) && walk.sigmas > kRigidSigmas && walk.length_m > kSteadyM &&
+  return body.whole && solid(body) && walk.sigmas > kRigidSigmas && walk.length_m > kSteadyM &&
          walk.width_change_m < kRigidShare * walk.length_m;
 }
 
@@ -80,8 +81,8 @@ bool slides_along_itself(const Body& body, Vec2 laser) {
   const Vec2 chord = body.outline_in_map.back() - body.outline_in_map[0];
   const Vec2 way = body.track.position_in_map - body.anchor_in_map, beam = body.track.position_in_map - laser;
   const bool slanted = std::fabs(dot(chord, beam)) > kSlant * norm(chord) * norm(beam);
-  return (slanted || !body.whole) && norm(chord) > kChordM &&
-         std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
+  const bool may_be_wall = slanted || (!body.whole && !came_to_free_space(body));
+  return may_be_wall && norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
 }
 
 /// A walk without hops, of a thing whose place is not still taken: straight, or longer and swaying, as one leg or the

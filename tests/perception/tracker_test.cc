@@ -146,6 +146,29 @@ TEST_CASE("two that cross keep their names") {
   CHECK(id_at(far_at(79)) == far_id);
 }
 
+TEST_CASE("who is hidden for more than a second is not said to move and keeps its name for another") {
+  Watch watch;
+  watch.look_round();
+  const auto hall_with = [](Disc walker) {
+    Room room = rectangle(12.0, 10.0);
+    room.walls.push_back({{1.5, 0.0}, {1.5, 4.0}});  // hides what is farther to the left than straight ahead
+    room.discs = {walker};
+    return room;
+  };
+  int hidden = 0;
+  std::uint32_t id = 0;
+  for (int k = 0; k < 75; ++k) {
+    watch.see(hall_with({{2.5, -3.0 + 0.06 * k}, 0.25}));  // behind the panel from k = 60 on
+    if (k == 40) id = watch.tracker.moving().empty() ? 0 : watch.tracker.moving()[0].id;
+    for (const Track& t : watch.tracker.tracks()) {
+      if (t.id == id && watch.tracker.moving().empty()) ++hidden;
+    }
+  }
+  CHECK(id != 0);
+  CHECK(hidden > 0);
+  CHECK(hidden <= 15);
+}
+
 TEST_CASE("two legs are one walker") {
   Watch watch;
   watch.look_round();
