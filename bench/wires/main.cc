@@ -1,37 +1,17 @@
 // How long it takes from a tick's start to its last frame, and from a scan's last byte to the first frame whose verdict
 // used it: the whole controller in real time, CAN in this process, the scanner on a real socket. docs/performance.md.
 #include <CLI/CLI.hpp>
-#include <algorithm>
 #include <cstdio>
 #include <filesystem>
-#include <functional>
 
 #include "firmware/report/distribution.h"
 #include "firmware/robot/planner_thread.h"
-#include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
 #include "tools/rig/plant/in_process_robot.h"
+#include "tools/rig/plant/living_clock.h"
 
 namespace jaywalk::bench {
 namespace {
-
-constexpr Duration kFarEndStep = std::chrono::milliseconds(1);
-
-/// Real time, in which whoever sleeps lets the wires' far end live.
-class SharedClock final : public Clock {
- public:
-  [[nodiscard]] Time now() noexcept override { return steady_.now(); }
-  void sleep_until(Time wake) noexcept override {
-    do {
-      if (live) live();
-      steady_.sleep_until(std::min(wake, now() + kFarEndStep));
-    } while (now() < wake);
-  }
-  std::function<void()> live;
-
- private:
-  SteadyClock steady_;
-};
 
 struct Options {
   std::filesystem::path scenario = "tools/rig/drive/hall.toml", robot = "tools/rig/drive/robot.toml";
@@ -66,15 +46,15 @@ class Drive {
 Figures measure(const Options& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const RobotFile file = load_robot_file(options.robot);
-  SharedClock clock;
-  rig::InProcessRobot robot(file, scenario, 3, clock, options.out, [](std::unique_ptr<Planner> planner) {
-    const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, PlannerConfig{}.cell_m, {});
+  rig::RealLivingClock clock;
+  rig::InProcessRobot robot(file, scenario, 3, clock, options.out, [&file](std::unique_ptr<Planner> planner) {
+    const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m, {});
     return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
   });
   clock.live = [&robot] { robot.step_far_end(); };
   for (const std::string& line : lock_memory()) std::fprintf(stderr, "%s\n", line.c_str());
   robot.laser().start(laser_priority(file.realtime));
-  while (robot.laser().latest().sequence == 0) clock.sleep_until(clock.now() + kFarEndStep);
+  while (robot.laser().latest().sequence == 0) clock.sleep_until(clock.now() + rig::kLivingStep);
   static_cast<void>(robot.drive().arm());
   for (const std::string& line : enter_realtime(file.realtime)) std::fprintf(stderr, "%s\n", line.c_str());
 

@@ -127,9 +127,7 @@ int run_robot(const RunOptions& options) {
   LoopReport report(runner, loop);
   while (!loop.has_ended()) {
     report.follow();
-    if (!signals.came()) continue;
-    desk.close();
-    loop.end();
+    if (signals.came()) loop.end();
   }
   report.follow();
   const RunStatus& last = report.last();

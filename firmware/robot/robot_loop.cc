@@ -27,7 +27,10 @@ void RobotLoop::start(const RealtimeWishes& wishes) {
   begun_.wait(false);
 }
 
-void RobotLoop::end() noexcept { ending_ = true; }
+void RobotLoop::end() noexcept {
+  desk_.close();
+  ending_ = true;
+}
 
 void RobotLoop::run(const RealtimeWishes& wishes) {
   ::pthread_setname_np(::pthread_self(), "loop");

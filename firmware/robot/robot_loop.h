@@ -45,7 +45,8 @@ class RobotLoop {
   RobotLoop& operator=(const RobotLoop&) = delete;
 
   void start(const RealtimeWishes& wishes);
-  /// Ramps to rest, disarms the drives and ends the thread; the caller goes on taking traces until has_ended().
+  /// Takes no more goals, ramps to rest, disarms the drives and ends the thread; the caller goes on taking traces until
+  /// has_ended().
   void end() noexcept;
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 

@@ -94,10 +94,12 @@ logged() { grep -qE -- "$1" "$out/plant.log" || fail "the plant saw no '$1': $(c
 number() { sed -nE "s/^ *\"$2\": ([-0-9.]+),?$/\1/p" "$1" | head -1; }
 
 end_session() {
-  # Whoever runs this may try again where time itself was not kept.
   if [ "$failed" = 1 ]; then
     grep -E ' late by ' "$out/plant.log" | head -3
-    if grep -qE ' late by ' "$out/plant.log" || grep -qE 'missed_ticks' "$out/run.log"; then echo "noise: this machine was held up"; fi
+    # Whoever runs this may try again where time was not kept and nothing else happened.
+    if grep -q 'stopped by' "$out/run.log" && ! grep 'stopped by' "$out/run.log" | grep -qv missed_ticks; then
+      echo "missed ticks alone: this machine was held up"
+    fi
   fi
   [ -z "$run_pid" ] || kill -9 "$run_pid"
   [ -z "$plant_pid" ] || kill -9 "$plant_pid"

@@ -5,12 +5,12 @@
 #include <unistd.h>
 
 #include <filesystem>
-#include <functional>
 #include <optional>
 
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 #include "tools/rig/plant/in_process_robot.h"
+#include "tools/rig/plant/living_clock.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -18,22 +18,6 @@ using namespace std::chrono_literals;
 namespace {
 
 constexpr Duration kTick = 20ms;
-
-/// Whoever sleeps lets the wires' far end and the scanner's thread live, a millisecond at a time.
-class LivingClock final : public Clock {
- public:
-  [[nodiscard]] Time now() noexcept override { return now_; }
-  void sleep_until(Time wake) noexcept override {
-    while (now_ < wake) {
-      now_ += 1ms;
-      if (live) live();
-    }
-  }
-  std::function<void()> live;
-
- private:
-  Time now_{};
-};
 
 struct Bench {
   explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {})
@@ -75,7 +59,7 @@ struct Bench {
   [[nodiscard]] const TickRecord& last() { return robot.runner().last(); }
 
   std::filesystem::path folder;
-  LivingClock clock;
+  rig::HandLivingClock clock;
   std::uint64_t heap_calls = 0;
   rig::InProcessRobot robot;
   Time due{};
