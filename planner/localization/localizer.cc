@@ -5,15 +5,10 @@
 
 #include "planner/localization/odometry.h"
 #include "planner/localization/scan_matcher.h"
+#include "planner/localization/wheel_trust.h"
 
 namespace jaywalk {
 namespace {
-
-// Wheel odometry drifts as a random walk: 5 cm after a metre, 2 degrees a metre and 4 degrees a turn of one radian.
-constexpr double kPositionVarPerM = 0.05 * 0.05;
-constexpr double kPositionVarPerRad = 0.15 * 0.15;  // a laser that is not where it is said to be, slip in turns
-constexpr double kHeadingVarPerM = 0.035 * 0.035;
-constexpr double kHeadingVarPerRad = 0.07 * 0.07;
 
 // Without wheels the robot keeps its speed from scan to scan within what a wheelchair can accelerate by.
 constexpr double kAccelStd = 1.5;                         // m/s^2
@@ -23,9 +18,33 @@ constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match w
 constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
 constexpr double kTwistGain = 0.7;                        // of the running mean of speeds between matches
 
-// No map of 10 cm cells places a robot better than this, however often it is asked.
+// No map of 10 cm cells places a robot better than this, and nobody puts it anywhere more exactly.
 constexpr double kLeastPositionVar = 0.005 * 0.005;
 constexpr double kLeastHeadingVar = 0.002 * 0.002;
+// Added after each match: the map's own errors are the same from scan to scan, so that many do not make a sure one.
+constexpr double kMatchPositionVar = 0.0009 * 0.0009;
+constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
+
+// Wheels that have earned trust may slip all the same. A match that leaves the prediction by three standard deviations,
+// or fits worse than matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits
+// better.
+constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.15, kBetterFit = 0.05;
+constexpr double kFitGain = 0.1;  // of the running mean
+
+/// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T with
+/// F = I + (-dy, dx) in the heading's column.
+Symmetric3 carried(Symmetric3 p, double dx, double dy) {
+  p.xx += -2.0 * dy * p.xh + dy * dy * p.hh;
+  p.yy += 2.0 * dx * p.yh + dx * dx * p.hh;
+  p.xy += dx * p.xh - dy * p.yh - dx * dy * p.hh;
+  p.xh -= dy * p.hh;
+  p.yh += dx * p.hh;
+  return p;
+}
+
+Symmetric3 of_wheels(const WheelDoubt& doubt, double share) {
+  return diagonal(share * doubt.position_var, share * doubt.position_var, share * doubt.heading_var);
+}
 
 bool finite(const Pose2& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading); }
 
@@ -36,13 +55,17 @@ struct Localizer::State {
       : config(c),
         odometry(c.drive),
         map_from_odom(c.map_from_robot_at_start),
-        covariance(diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar)) {
+        covariance(diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar)),
+        if_wheels_slipped(covariance) {
     publish();
   }
 
   void move_by_wheels(const WheelState& wheels) noexcept;
   void coast_to(Time stamp) noexcept;
   void place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept;
+  [[nodiscard]] MatchResult match(const Pose2& predicted, const EvidenceMap& still) noexcept;
+  [[nodiscard]] bool doubtful(const MatchResult& found, const Pose2& predicted) const noexcept;
+  void take(const MatchResult& found, const Pose2& predicted) noexcept;
   void learn_twist(const Pose2& placed, Time stamp) noexcept;
   void forget_twist(Time stamp) noexcept;
   void blend(const OutsideFix& fix) noexcept;
@@ -55,7 +78,13 @@ struct Localizer::State {
   LocalizationConfig config;
   Odometry odometry;
   Pose2 map_from_odom;
-  Symmetric3 covariance;  ///< of (x, y, heading) in the map
+  Symmetric3 covariance;         ///< of (x, y, heading) in the map
+  Symmetric3 if_wheels_slipped;  ///< the same, had nothing been known of the wheels since the last match
+
+  WheelTrust trust;
+  SideDrift drift;
+  bool last_matched = false;
+  double usual_fit = 0.0;  ///< running mean of the matches'
 
   ScanMatcher matcher;
   ScanPoints points;
@@ -79,17 +108,12 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   const ArcStep step = odometry.take(wheels);
   const Pose2 after = map_from_odom * odometry.odom_from_robot();
   twist = odometry.twist();
-  // A heading error turns the whole step: P <- F P F^T with F = I + (-dy, dx) in the heading's column.
-  Symmetric3& p = covariance;
   const double dx = after.x - before.x, dy = after.y - before.y;
-  p.xx += -2.0 * dy * p.xh + dy * dy * p.hh;
-  p.yy += 2.0 * dx * p.yh + dx * dx * p.hh;
-  p.xy += dx * p.xh - dy * p.yh - dx * dy * p.hh;
-  p.xh -= dy * p.hh;
-  p.yh += dx * p.hh;
-  const double metres = std::fabs(step.distance_m), radians = std::fabs(step.turn_rad);
-  const double position_var = kPositionVarPerM * metres + kPositionVarPerRad * radians;
-  p = p + diagonal(position_var, position_var, kHeadingVarPerM * metres + kHeadingVarPerRad * radians);
+  const WheelDoubt doubt = doubt_of_unknown_wheels(step);
+  covariance = carried(covariance, dx, dy) + of_wheels(doubt, trust.share());
+  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(doubt, 1.0);
+  trust.drove(step);
+  drift.drove(step);
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {
@@ -99,6 +123,7 @@ void Localizer::State::coast_to(Time stamp) noexcept {
   odometry.coast({velocity_in_robot.x * dt, velocity_in_robot.y * dt, turn_radps * dt}, stamp);
   const double metres = kAccelStd * dt * std::max(dt, 0.1), radians = kTurnAccelStd * dt * std::max(dt, 0.1);
   covariance = covariance + diagonal(metres * metres, metres * metres, radians * radians);
+  if_wheels_slipped = covariance;
 }
 
 void Localizer::State::learn_twist(const Pose2& placed, Time stamp) noexcept {
@@ -126,6 +151,33 @@ void Localizer::State::forget_twist(Time stamp) noexcept {
   twist = {velocity_in_robot.x, turn_radps};
 }
 
+bool Localizer::State::doubtful(const MatchResult& found, const Pose2& predicted) const noexcept {
+  if (!found.matched || found.fit < usual_fit - kDoubtfulFit) return true;
+  const Pose2& p = found.belief.map_from_robot;
+  const Row3 off{p.x - predicted.x, p.y - predicted.y, wrap_angle(p.heading - predicted.heading)};
+  return inverse(covariance).quadratic(off) > kDoubtfulSigmas * kDoubtfulSigmas;
+}
+
+MatchResult Localizer::State::match(const Pose2& predicted, const EvidenceMap& still) noexcept {
+  const bool lost = !last_matched || trust.share() >= 1.0;
+  const MatchResult found = matcher.match(points, still, {predicted, lost ? if_wheels_slipped : covariance});
+  if (!odometry.has_wheels() || lost || !doubtful(found, predicted)) return found;
+  const MatchResult wider = matcher.match(points, still, {predicted, if_wheels_slipped});
+  return wider.matched && (!found.matched || wider.fit > found.fit + kBetterFit) ? wider : found;
+}
+
+void Localizer::State::take(const MatchResult& found, const Pose2& predicted) noexcept {
+  const Pose2& placed = found.belief.map_from_robot;
+  correct_to(placed, odom_from_robot_at_scan);
+  covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
+  if_wheels_slipped = covariance;
+  usual_fit += kFitGain * (found.fit - usual_fit);
+  if (!odometry.has_wheels()) return;
+  trust.corrected(map_from_odom, odom_from_robot_at_scan);
+  drift.corrected(wrap_angle(placed.heading - predicted.heading));
+  odometry.set_side_drift(drift.turn_per_m());
+}
+
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept {
   const bool wheels = odometry.has_wheels();
   if (!wheels) coast_to(scan.stamp);
@@ -134,12 +186,11 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   bool matched = false;
   if (config.match_scans) {
     project_scan(scan, config.robot_from_laser, twist, points);
-    const MatchResult found = matcher.match(points, still, {map_from_odom * odom_from_robot_at_scan, covariance});
+    const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
+    const MatchResult found = match(predicted, still);
     matched = found.matched && finite(found.belief.map_from_robot);
-    if (matched) {
-      correct_to(found.belief.map_from_robot, odom_from_robot_at_scan);
-      covariance = found.belief.covariance + diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar);
-    }
+    if (matched) take(found, predicted);
+    last_matched = matched;
   }
   if (wheels) return;
   if (matched) {
@@ -157,6 +208,8 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const double heading_var = std::max(fix.heading_std_rad * fix.heading_std_rad, kLeastHeadingVar);
   const Symmetric3 fix_information = diagonal(1.0 / position_var, 1.0 / position_var, 1.0 / heading_var);
   covariance = inverse(inverse(covariance) + fix_information);
+  if_wheels_slipped = covariance;
+  trust.begin_anew();
   const Pose2& m = fix.map_from_robot;
   const Row3 step = covariance * (fix_information * Row3{m.x - predicted.x, m.y - predicted.y,
                                                          wrap_angle(m.heading - predicted.heading)});

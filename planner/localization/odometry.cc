@@ -46,9 +46,11 @@ ArcStep Odometry::take(const WheelState& wheels) noexcept {
     const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
     step = {0.5 * (left + right), (right - left) / drive_.track_width_m};
     if (!believable(step, to_seconds(wheels.stamp - last_.stamp))) step = {};
+    step.turn_rad += side_drift_ * step.distance_m;
   }
   last_ = wheels;
   twist_ = twist_of(wheels, drive_);
+  twist_.w_radps += side_drift_ * twist_.v_mps;
   remember({wheels.stamp, after_arc(odom_from_robot(), step)});
   return step;
 }

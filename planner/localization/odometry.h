@@ -27,6 +27,8 @@ class Odometry {
   /// Takes a reading with a new sequence number: what the wheels did since the last. A step that is not finite, or
   /// faster than twice what the motors can do (encoders that restarted), counts as standing.
   ArcStep take(const WheelState& wheels) noexcept;
+  /// From now on the robot turns by so much more with every metre than its wheels say (rad / m, to the left).
+  void set_side_drift(double turn_per_m) noexcept { side_drift_ = turn_per_m; }
   /// Without wheels: moves by a pose in the robot's own frame.
   void coast(const Pose2& before_from_after, Time stamp) noexcept;
 
@@ -51,6 +53,7 @@ class Odometry {
 
   DriveModel drive_;
   WheelState last_;
+  double side_drift_ = 0.0;
   Twist2 twist_;
   std::array<Entry, kRemembered> entries_{};
   std::size_t count_ = 0;  ///< ever remembered

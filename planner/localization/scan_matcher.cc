@@ -1,6 +1,7 @@
 #include "planner/localization/scan_matcher.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 namespace jaywalk {
@@ -8,18 +9,20 @@ namespace {
 
 using Sample = ScanMatcher::Sample;
 
-constexpr double kCoarseM = 0.1;      // a cell; then half of it
-constexpr double kCoarseRad = 0.035;  // two degrees: a cell at 3 m; then half of it
-constexpr double kMostWindowM = 0.4, kMostWindowRad = 0.42;
-constexpr int kUnknownWorth = EvidenceMap::kMax / 2;  // of a point in unknown space: were it nothing, a robot that
-                                                      // drives on would seem to stay where its walls are known
+constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then half of it
+constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
+constexpr int kMostCells = 4;             // to each side; then half a cell
+constexpr double kMostWindowRad = 0.42;
+// What a point is worth, in EvidenceMap::kMax: in unknown space half (were it nothing, a robot that drives on would
+// seem to stay where its walls are known); on a wall that was hit once more than that, on a certain one all.
+constexpr int kUnknownWorth = 32, kWallWorth = 48;
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
 constexpr std::uint32_t kFewestOnWalls = 25;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
-constexpr double kNearM = 0.3;  // a wall's points about a scan's point
+constexpr double kNearM = 0.25;  // a wall's points about a scan's point
 constexpr double kThinWallM =
     0.06;  // standard deviation across: a wall seen with 5 cm of noise; thicker things have no direction
 constexpr double kPointStdM = 0.02;   // range noise and the map's own roughness
@@ -76,13 +79,17 @@ bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
   return true;
 }
 
-/// Share of every `stride`-th point that lies on walls, each weighed by how sure the map is of the wall.
-double share_on_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose, std::size_t stride) {
+int worth_of(int evidence) {
+  if (evidence == 0) return kUnknownWorth;
+  return evidence < 0 ? 0 : kWallWorth + evidence * (EvidenceMap::kMax - kWallWorth) / EvidenceMap::kMax;
+}
+
+/// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
+double share_on_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose) {
   const Transform2 to_map(pose);
   int sum = 0, count = 0;
-  for (std::size_t k = 0; k < sample.size(); k += stride, ++count) {
-    const int evidence = still.evidence(still.cell_at(to_map * sample[k]));
-    sum += evidence == 0 ? kUnknownWorth : std::max(0, evidence);
+  for (std::size_t k = 0; k < sample.size(); ++k, ++count) {
+    sum += worth_of(still.evidence(still.cell_at(to_map * sample[k])));
   }
   return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
 }
@@ -105,29 +112,76 @@ void ScanMatcher::sample(const ScanPoints& scan) noexcept {
 
 namespace {
 
-/// Poses on a lattice about `centre`: `reach` steps to each side.
-struct Lattice {
-  Row3 centre;  ///< from the prediction
-  double step_m = 0.0, step_rad = 0.0;
-  int reach = 0, reach_heading = 0;
-  std::size_t stride = 1;  ///< of the points that are asked
+/// Poses on a lattice about the prediction.
+struct Window {
+  int cells = 0;     ///< to each side
+  int headings = 0;  ///< to each side
+  double cell_m = 0.0;
 };
 
-/// The best offset from the prediction on the lattice.
-Row3 best_on(const Lattice& lattice, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
-             const Symmetric3& information) {
-  Row3 best = lattice.centre;
+/// What the coarse lattice's poses of one heading are worth: whole cells apart, so that each point is turned and put
+/// into its cell once, and then looked up in the cells about it.
+class WorthOfShifts {
+ public:
+  void add_up(const Sample& sample, const EvidenceMap& still, const Pose2& pose, int reach) {
+    sum_.fill(0);
+    count_ = 0;
+    const Transform2 to_map(pose);
+    for (std::size_t k = 0; k < sample.size(); k += kCoarseStride, ++count_)
+      add(still, still.cell_at(to_map * sample[k]), reach);
+  }
+  /// Of the pose moved by (x, y) cells: 0 to 1.
+  [[nodiscard]] double share(int x, int y) const {
+    return static_cast<double>(sum_[place(x, y)]) / (EvidenceMap::kMax * std::max(1, count_));
+  }
+
+ private:
+  static constexpr int kSide = 2 * kMostCells + 1;
+  static std::size_t place(int x, int y) { return static_cast<std::size_t>((y + kMostCells) * kSide + x + kMostCells); }
+  void add(const EvidenceMap& still, CellIndex cell, int reach) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) sum_[place(x, y)] += worth_of(still.evidence({cell.i + x, cell.j + y}));
+    }
+  }
+
+  std::array<int, static_cast<std::size_t>(kSide* kSide)> sum_{};
+  int count_ = 0;
+};
+
+double price(const Symmetric3& information, const Row3& by) {
+  return kThreeSigmaPrice / 9.0 * information.quadratic(by);
+}
+
+/// The best offset from the prediction, in steps of a cell and of kCoarseRad.
+Row3 best_cell(const Window& window, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
+               const Symmetric3& information) {
+  WorthOfShifts worth_of_shifts;
+  Row3 best;
   double best_worth = -1e9;
-  for (int h = -lattice.reach_heading; h <= lattice.reach_heading; ++h) {
-    for (int y = -lattice.reach; y <= lattice.reach; ++y) {
-      for (int x = -lattice.reach; x <= lattice.reach; ++x) {
-        const Row3 by{lattice.centre.x + x * lattice.step_m, lattice.centre.y + y * lattice.step_m,
-                      lattice.centre.heading + h * lattice.step_rad};
-        const double price = kThreeSigmaPrice / 9.0 * information.quadratic(by);
-        const double worth = share_on_walls(sample, still, moved(predicted, by), lattice.stride) - price;
+  for (int h = -window.headings; h <= window.headings; ++h) {
+    worth_of_shifts.add_up(sample, still, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
+    for (int y = -window.cells; y <= window.cells; ++y) {
+      for (int x = -window.cells; x <= window.cells; ++x) {
+        const Row3 by{x * window.cell_m, y * window.cell_m, h * kCoarseRad};
+        const double worth = worth_of_shifts.share(x, y) - price(information, by);
         if (worth > best_worth) best_worth = worth, best = by;
       }
     }
+  }
+  return best;
+}
+
+/// The best of the offsets half a step to each side of `centre`.
+Row3 best_half_step(const Row3& centre, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
+                    const Symmetric3& information) {
+  Row3 best = centre;
+  double best_worth = -1e9;
+  const double half_m = 0.5 * still.cell_m(), half_rad = 0.5 * kCoarseRad;
+  for (int k = 0; k < 27; ++k) {
+    const Row3 by{centre.x + (k % 3 - 1) * half_m, centre.y + (k / 3 % 3 - 1) * half_m,
+                  centre.heading + (k / 9 - 1) * half_rad};
+    const double worth = share_on_walls(sample, still, moved(predicted, by)) - price(information, by);
+    if (worth > best_worth) best_worth = worth, best = by;
   }
   return best;
 }
@@ -139,26 +193,19 @@ int steps(double variance, double most, double step) {
 Pose2 search(const Sample& sample, const EvidenceMap& still, const PoseBelief& predicted,
              const Symmetric3& information) {
   const Symmetric3& p = predicted.covariance;
-  const Lattice coarse{.centre = {},
-                       .step_m = kCoarseM,
-                       .step_rad = kCoarseRad,
-                       .reach = steps(std::max(p.xx, p.yy), kMostWindowM, kCoarseM),
-                       .reach_heading = steps(p.hh, kMostWindowRad, kCoarseRad),
-                       .stride = 3};
-  const Row3 valley = best_on(coarse, sample, still, predicted.map_from_robot, information);
-  const Lattice fine{.centre = valley,
-                     .step_m = kCoarseM / 2,
-                     .step_rad = kCoarseRad / 2,
-                     .reach = 1,
-                     .reach_heading = 1,
-                     .stride = 1};
-  return moved(predicted.map_from_robot, best_on(fine, sample, still, predicted.map_from_robot, information));
+  const double cell_m = still.cell_m();
+  const Window window{.cells = steps(std::max(p.xx, p.yy), kMostCells * cell_m, cell_m),
+                      .headings = steps(p.hh, kMostWindowRad, kCoarseRad),
+                      .cell_m = cell_m};
+  const Row3 valley = best_cell(window, sample, still, predicted.map_from_robot, information);
+  return moved(predicted.map_from_robot, best_half_step(valley, sample, still, predicted.map_from_robot, information));
 }
 
 struct Pull {
   Symmetric3 information;
   Row3 gradient;
   std::uint32_t on_walls = 0, in_the_open = 0;
+  double fit = 0.0;  ///< a point that lies on its wall adds one
 };
 
 Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose) {
@@ -175,6 +222,7 @@ Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& 
     const double r = dot(wall.normal, p - wall.point);
     const Row3 jacobian{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
     const double doubt = 1.0 + r * r / (kDoubtM * kDoubtM);
+    pull.fit += 1.0 / doubt;
     const double weight = kIndependent / (wall.variance * doubt * doubt);
     pull.information.add_outer(jacobian, weight);
     pull.gradient.x += weight * r * jacobian.x;
@@ -203,6 +251,7 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
     const Pull pull = pull_of_walls(sample_, still, pose);
     result.points_on_walls = pull.on_walls;
     if (!enough(pull)) return result;
+    result.fit = pull.fit / (pull.on_walls + pull.in_the_open);
     const Row3 from_prior = prior * offset(predicted.map_from_robot, pose);
     posterior = inverse(prior + pull.information);
     const Row3 step = posterior * Row3{pull.gradient.x + from_prior.x, pull.gradient.y + from_prior.y,

@@ -1,0 +1,78 @@
+#include "planner/localization/wheel_trust.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+// Unknown wheels: 5 cm and 2 degrees after a metre, 15 cm and 4 degrees after a turn of one radian (a laser that is not
+// where it is said to be moves aside then).
+constexpr double kPositionVarPerM = 0.05 * 0.05;
+constexpr double kPositionVarPerRad = 0.15 * 0.15;
+constexpr double kHeadingVarPerM = 0.035 * 0.035;
+constexpr double kHeadingVarPerRad = 0.07 * 0.07;
+
+constexpr double kWindowHeadingVar = 0.1 * 0.1;
+constexpr double kWindowPositionVar = 0.14 * 0.14;
+constexpr double kMapHeading = 0.01, kMapM = 0.03;  // what the map may be off by: measured, docs/tracking.md
+constexpr double kWindowGain = 0.5;
+
+// Kalman filter for the one number that SideDrift learns.
+constexpr double kMatchHeadingVar = 0.015 * 0.015;
+constexpr double kWheelHeadingVar = 0.03 * 0.03;     // a metre or radian
+constexpr double kDriftChangeVar = 0.0005 * 0.0005;  // a metre or radian: tyres wear, loads shift
+constexpr double kMostDriftVar = 0.06 * 0.06;
+constexpr double kMostSigmas = 3.0;  // of a surprise that are believed
+
+double squared_beyond(double value, double allowed) { return std::max(0.0, value * value - allowed * allowed); }
+
+double way(const ArcStep& step) { return std::fabs(step.distance_m) + std::fabs(step.turn_rad); }
+
+}  // namespace
+
+WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept {
+  const double metres = std::fabs(step.distance_m), radians = std::fabs(step.turn_rad);
+  return {kPositionVarPerM * metres + kPositionVarPerRad * radians,
+          kHeadingVarPerM * metres + kHeadingVarPerRad * radians};
+}
+
+void WheelTrust::drove(const ArcStep& step) noexcept {
+  const WheelDoubt more = doubt_of_unknown_wheels(step);
+  window_.position_var += more.position_var;
+  window_.heading_var += more.heading_var;
+}
+
+void WheelTrust::corrected(const Pose2& map_from_odom, const Pose2& odom_from_robot) noexcept {
+  if (begun_) {
+    const Pose2& start = map_from_odom_at_start_;
+    const double turned = wrap_angle(map_from_odom.heading - start.heading);
+    const double moved = distance(start * odom_from_robot.position(), map_from_odom * odom_from_robot.position());
+    worst_ = std::max({worst_, squared_beyond(turned, kMapHeading) / std::max(window_.heading_var, kWindowHeadingVar),
+                       0.5 * squared_beyond(moved, kMapM) / std::max(window_.position_var, kWindowPositionVar)});
+    share_ = std::clamp(std::max(share_, worst_), kLeastShare, 1.0);
+    if (window_.heading_var < kWindowHeadingVar) return;
+    share_ = std::clamp(share_ + kWindowGain * (worst_ - share_), kLeastShare, 1.0);
+  }
+  begun_ = true;
+  window_ = {};
+  worst_ = 0.0;
+  map_from_odom_at_start_ = map_from_odom;
+}
+
+void SideDrift::drove(const ArcStep& step) noexcept {
+  since_.distance_m += step.distance_m;
+  since_.turn_rad += step.turn_rad;
+}
+
+void SideDrift::corrected(double turn_rad) noexcept {
+  const double metres = since_.distance_m, driven = way(since_);
+  since_ = {};
+  variance_ = std::min(variance_ + kDriftChangeVar * driven, kMostDriftVar);
+  const double surprise_var = kMatchHeadingVar + kWheelHeadingVar * driven + metres * metres * variance_;
+  const double most = kMostSigmas * std::sqrt(surprise_var), gain = variance_ * metres / surprise_var;
+  turn_per_m_ = std::clamp(turn_per_m_ + gain * std::clamp(turn_rad, -most, most), -kMost, kMost);
+  variance_ -= gain * metres * variance_;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,63 @@
+#pragma once
+// How far the wheels are to be believed: learnt from how far the map corrected them over the last metres.
+#include "hal/types/geometry.h"
+#include "planner/localization/odometry.h"
+
+namespace jaywalk {
+
+/// By how much a drive may have gone wrong, as variances.
+struct WheelDoubt {
+  double position_var = 0.0;  ///< m^2, an axis
+  double heading_var = 0.0;   ///< rad^2
+};
+
+/// Of wheels that nothing is known of: a random walk, a generous one.
+[[nodiscard]] WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept;
+
+/// Watches map_from_odom, which stands still while the wheels are right. A window ends when unknown wheels would have
+/// turned wrong by 6 degrees: after 8 m straight on, or 2 rad. What moved in it at most, beyond what the map itself may
+/// be off by, is what these wheels do wrong; windows are averaged. Worse wheels are believed less at once, better ones
+/// more from window to window. A window, not a scan: how little single matches correct is no proof of good wheels,
+/// since a match that trusts them corrects little. Thread: the loop's.
+class WheelTrust {
+ public:
+  /// These wheels' doubt over that of unknown ones: at most 1, which is where it starts, and never less than
+  /// kLeastShare.
+  [[nodiscard]] double share() const { return share_; }
+
+  void drove(const ArcStep& step) noexcept;
+  /// After each match.
+  void corrected(const Pose2& map_from_odom, const Pose2& odom_from_robot) noexcept;
+  /// The pose was moved by something else than scans: what has moved in this window tells nothing.
+  void begin_anew() noexcept { begun_ = false; }
+
+  static constexpr double kLeastShare = 0.002;
+
+ private:
+  double share_ = 1.0;
+  bool begun_ = false;
+  WheelDoubt window_;
+  double worst_ = 0.0;  ///< share that would explain what moved in this window so far
+  Pose2 map_from_odom_at_start_;
+};
+
+/// Wheels of unequal size turn the robot a little with every metre: learnt from the turns that matches put right.
+/// Turning itself is left alone: what is wrong there goes away when the robot turns back. Thread: the loop's.
+class SideDrift {
+ public:
+  /// rad a metre, to be added to what the wheels say; at most kMost to either side.
+  [[nodiscard]] double turn_per_m() const { return turn_per_m_; }
+
+  void drove(const ArcStep& step) noexcept;
+  /// A match turned the robot by `turn_rad` after what it drove since the last.
+  void corrected(double turn_rad) noexcept;
+
+  static constexpr double kMost = 0.12;
+
+ private:
+  double turn_per_m_ = 0.0;
+  double variance_ = 0.06 * 0.06;
+  ArcStep since_;  ///< the last match
+};
+
+}  // namespace jaywalk
