@@ -73,13 +73,13 @@ bool a_run_listens(const std::filesystem::path& path) {
 }
 
 std::string check_link(const std::string& can) {
-  const std::string bring_up = "ip link set " + can + " up type can bitrate 500000";
   const LinkFacts link = link_facts(can);
+  const bool needs_rate = !link.exists || link.kind == "can";  // virtual ones and serial adapters have theirs elsewhere
+  const std::string bring_up = "ip link set " + can + (needs_rate ? " up type can bitrate 500000" : " up");
   if (!link.exists) throw StartupError("no such interface", "load its driver, then: " + bring_up);
   if (!link.is_can)
     throw StartupError("is no CAN interface", "give [drive] can the one that is: ip link show type can");
-  const bool has_rate = link.kind != "can" || link.bitrate > 0;
-  if (!link.is_up || !has_rate) throw StartupError("is down or has no bit rate", bring_up);
+  if (!link.is_up || (needs_rate && link.bitrate == 0)) throw StartupError("is down or has no bit rate", bring_up);
   if (link.state && *link.state != CanState::kActive) {
     throw StartupError("is " + std::string(name(*link.state)),
                        "see to wires, termination and bit rate, then set it down and up");
