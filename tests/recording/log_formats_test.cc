@@ -163,6 +163,30 @@ TEST_CASE("CARMEN beams of 180 and 181 are one degree apart and begin at the rig
   CHECK(carmen_fan(360, kPi).angle_step_rad == Approx(degree / 2));
 }
 
+TEST_CASE(
+    "where scans lie beside what the ODOM lines say, those are of another frame and left out; an arc is not beside") {
+  const Scratch scratch;
+  // Half a metre a scan straight ahead, an ODOM line half way; from the 18th scan on each is `beside_m` off, to the
+  // left.
+  const auto log_with = [&](double beside_m, int from) {
+    std::string text;
+    for (int k = 1; k <= 20; ++k) {
+      const std::string x = std::to_string(0.5 * k), half = std::to_string(0.5 * k - 0.25), t = std::to_string(k);
+      const std::string y = std::to_string(k >= from ? beside_m * (k - from + 1) : 0.0);
+      const std::string before = std::to_string(k > from ? beside_m * (k - from) : 0.0);
+      text += "ODOM " + half + " " + before + " 0 0 0 0 " + std::to_string(k - 0.5) + " host 1\n";
+      text += "FLASER 2 1 1 " + x + " " + y + " 0 " + x + " " + y + " 0 " + t + " host " + t + "\n";
+    }
+    return load_carmen(scratch.write("beside.carmen", text)).odometry.size();
+  };
+  CHECK(log_with(0.03, 18) == 20);  // three of 20 scans
+  CHECK(log_with(0.03, 19) == 40);  // two: one in ten
+  CHECK(log_with(0.005, 1) == 40);  // no more than wheels may slip
+  // A quarter circle of 1 m radius in one step: (1, 1, 90 degrees) lies on its mean heading.
+  const std::string arc = "ODOM 0 0 0 0 0 0 1 host 1\nFLASER 2 1 1 1 1 1.5707963 1 1 1.5707963 2 host 2\n";
+  CHECK(load_carmen(scratch.write("arc.carmen", arc)).odometry.size() == 2);
+}
+
 TEST_CASE("CARMEN lines become scans and odometry, the FLASER pose before ODOM") {
   // The ODOM line of 2.0 is contradicted by the FLASER line of 2.0, the one of time 0 goes back.
   const Scratch scratch;

@@ -1,5 +1,9 @@
+#include <cmath>
+#include <utility>
+
 #include "hal/sim/logs/recorded_log.h"
 #include "hal/sim/logs/scan_lines.h"
+#include "hal/types/trig.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -13,7 +17,31 @@ constexpr std::size_t kLaserRanges = 2, kLaserTail = 9, kOdomPoseInTail = 3, kTi
 // ODOM x y theta tv rv accel t host t
 constexpr std::size_t kOdomWords = 10, kOdomTime = 7;
 
-void read_laser(RecordedLog& log, const LineFile& file) {
+// Where a log was corrected afterwards, a scan's pose lies beside where the ODOM lines led: by more than a wheeled
+// robot can have gone sideways, and not just once.
+constexpr double kSidewaysM = 0.01;
+constexpr std::size_t kCorrectedOneIn = 10, kEnoughScans = 20;
+
+/// How far a step leads across its mean heading: along it lies what a circle's arc can do.
+double sideways(const Pose2& step) {
+  return std::fabs(cos(0.5 * step.heading) * step.y - sin(0.5 * step.heading) * step.x);
+}
+
+/// The robot's poses as the FLASER lines have them, and how many lie beside the ODOM lines' way.
+struct LaserPoses {
+  std::vector<OdometryPose> poses;
+  std::size_t beside = 0;
+
+  void add(const std::vector<OdometryPose>& odometry, const OdometryPose& pose) {
+    if (!odometry.empty() && sideways(inverse(odometry.back().pose) * pose.pose) > kSidewaysM) ++beside;
+    poses.push_back(pose);
+  }
+  [[nodiscard]] bool were_corrected() const {
+    return poses.size() >= kEnoughScans && beside * kCorrectedOneIn > poses.size();
+  }
+};
+
+void read_laser(RecordedLog& log, LaserPoses& poses, const LineFile& file) {
   const std::size_t words = file.words().size();
   const std::size_t beams = words > 1 ? file.count(1, 1'000'000) : 0;
   if (words != kLaserRanges + beams + kLaserTail) {
@@ -34,7 +62,9 @@ void read_laser(RecordedLog& log, const LineFile& file) {
   scan.range_max_m = static_cast<float>(kNothingFromM);
   if (!add_scan(log, file, scan, kLaserRanges, kNothingFromM)) return;
   while (!log.odometry.empty() && log.odometry.back().stamp >= scan.stamp) log.odometry.pop_back();
-  log.odometry.push_back({scan.stamp, pose_at(file, tail + kOdomPoseInTail), std::nullopt});
+  const OdometryPose pose{scan.stamp, pose_at(file, tail + kOdomPoseInTail), std::nullopt};
+  poses.add(log.odometry, pose);
+  log.odometry.push_back(pose);
 }
 
 void read_odometry(RecordedLog& log, const LineFile& file) {
@@ -56,11 +86,13 @@ RecordedLog load_carmen(const std::filesystem::path& path, const Pose2& robot_fr
   RecordedLog log;
   log.robot_from_laser = robot_from_laser;
   LineFile file(path);
+  LaserPoses poses;
   while (file.next()) {
-    if (file.words().front() == "FLASER") read_laser(log, file);
+    if (file.words().front() == "FLASER") read_laser(log, poses, file);
     if (file.words().front() == "ODOM") read_odometry(log, file);
   }
   require_scans(log, file, "CARMEN messages, FLASER among them");
+  if (poses.were_corrected()) log.odometry = std::move(poses.poses);
   return log;
 }
 

@@ -77,7 +77,8 @@ struct RecordedLog {
 /// of 50 m and over are the scanners' codes for "nothing" and become infinite.
 /// Odometry is the robot's pose in the FLASER lines, and the ODOM lines between them. Where a log's
 /// poses were corrected afterwards its ODOM lines repeat, go back in time or jump; those that do not
-/// come after what is known are left out and counted, and a FLASER line overrules what it contradicts.
+/// come after what is known are left out and counted, and a FLASER line overrules what it contradicts. Where more than
+/// one scan in ten lies a centimetre beside where the ODOM lines led, those are of another frame, and all are left out.
 /// Errors as load_scan_odom.
 [[nodiscard]] RecordedLog load_carmen(const std::filesystem::path& file, const Pose2& robot_from_laser = {});
 
