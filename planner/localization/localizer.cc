@@ -18,6 +18,8 @@ constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match w
 constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
 constexpr double kTwistGain = 0.7;                        // of the running mean of speeds between matches
 
+constexpr double kMostHeading_rad = 100.0;  // of a fix: whole turns may be in it, but 16 of them are a mistake
+
 // No map of 10 cm cells places a robot better than this, and nobody puts it anywhere more exactly.
 constexpr double kLeastPositionVar = 0.005 * 0.005;
 constexpr double kLeastHeadingVar = 0.002 * 0.002;
@@ -201,7 +203,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
 }
 
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
-  if (!finite(fix.map_from_robot)) return;
+  if (!finite(fix.map_from_robot) || std::fabs(fix.map_from_robot.heading) > kMostHeading_rad) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
   const Pose2 predicted = map_from_odom * odom_from_robot;
   const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
