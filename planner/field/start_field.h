@@ -56,7 +56,7 @@ struct FarFromGoal {
 /// reach the unique fixed point cost[n] = min(cost[c] + step). A line is one thread's alone.
 struct SweepLine {
   std::int32_t length;
-  std::int32_t along;   ///< index step from a cell to the next on its line
+  std::int32_t along;   ///< index step from a cell to the next on its line, 1 or more
   std::int32_t across;  ///< index step from a line to the next
   const std::uint16_t* rate;
   std::uint32_t* cost;
@@ -66,8 +66,8 @@ struct SweepLine {
     const std::int32_t first = line * across;
     const std::int32_t last = first + (length - 1) * along;
     std::uint32_t any = 0;
-    for (std::int32_t c = first; c != last; c += along) any |= relax(c, c + along);
-    for (std::int32_t c = last; c != first; c -= along) any |= relax(c, c - along);
+    for (std::int32_t c = first; c < last; c += along) any |= relax(c, c + along);
+    for (std::int32_t c = last; c > first; c -= along) any |= relax(c, c - along);
     changed[line] |= any;
   }
 

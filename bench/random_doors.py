@@ -1,0 +1,96 @@
+#!/usr/bin/env python3
+"""A wheelchair and doors that nobody has tuned it on: two rooms, a wall of any thickness across at any angle, a door anywhere in it,
+start and heading anywhere in front. One line a door, and how many were passed without contact.
+
+    bench/random_doors.py --seeds 101-140 --width 0.90 --out out/doors
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import pathlib
+import random
+import subprocess
+import sys
+
+ROOT = pathlib.Path(__file__).resolve().parent.parent
+PROGRAM = ROOT / "build/firmware/jaywalk"
+ROOM_M, CELL_M, BORDER_M = (9.0, 7.0), 0.02, 0.1
+
+YAML = "image: {name}.pgm\nresolution: {cell}\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
+SCENARIO = """name = "{name}"
+seed = {seed}
+timeout_s = 120.0
+[map]
+yaml = "{name}.yaml"
+[robot]
+start = [1.4, {start_y:.3f}, {heading:.3f}]
+goal = [7.6, {goal_y:.3f}]
+model = "wheelchair"
+max_speed_mps = 0.6
+"""
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seeds", default="101-140", help="first-last")
+    parser.add_argument("--width", type=float, default=0.90, help="of the door, m")
+    parser.add_argument("--angle", type=float, default=45.0, help="the wall turns by at most this, degrees")
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/doors"))
+    return parser.parse_args()
+
+
+def is_wall(x, y, door, width):
+    """Whether there is a wall at x, y: the rooms' border, or the wall between them."""
+    if min(x, y, ROOM_M[0] - x, ROOM_M[1] - y) < BORDER_M:
+        return True
+    dx, dy, c, s = x - ROOM_M[0] / 2, y - door["y"], math.cos(door["angle"]), math.sin(door["angle"])
+    return abs(dx * c + dy * s) < door["thickness"] / 2 and abs(dy * c - dx * s) > width / 2
+
+
+def write(seed, options):
+    """Map and scenario of a seed; returns the scenario's path and the door."""
+    rng = random.Random(seed)
+    door = {"thickness": rng.uniform(0.1, 0.3), "y": rng.uniform(1.6, 5.4), "angle": math.radians(rng.uniform(-1, 1) * options.angle)}
+    columns, rows = (round(side / CELL_M) for side in ROOM_M)
+    places = (((i + 0.5) * CELL_M, (rows - 0.5 - j) * CELL_M) for j in range(rows) for i in range(columns))
+    pixels = bytes(0 if is_wall(x, y, door, options.width) else 254 for x, y in places)
+    name, folder = f"door_{seed}", options.out
+    (folder / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (columns, rows) + pixels)
+    (folder / f"{name}.yaml").write_text(YAML.format(name=name, cell=CELL_M))
+    where = {"start_y": rng.uniform(1.2, 5.8), "goal_y": rng.uniform(1.2, 5.8), "heading": rng.uniform(-math.pi, math.pi)}
+    (folder / f"{name}.toml").write_text(SCENARIO.format(name=name, seed=seed, **where))
+    return folder / f"{name}.toml", door
+
+
+def run(job):
+    options, seed = job
+    scenario, door = write(seed, options)
+    out = options.out / f"run_{seed}"
+    done = subprocess.run([PROGRAM, "sim", scenario, "--out", out], capture_output=True, text=True)
+    if done.returncode not in (0, 1):
+        return seed, door, None, done.stderr.strip().splitlines()[-1]
+    return seed, door, json.loads((out / "summary.json").read_text()), ""
+
+
+def main():
+    options = arguments()
+    options.out.mkdir(parents=True, exist_ok=True)
+    first, last = map(int, options.seeds.split("-"))
+    passed = doors = 0
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        for seed, door, summary, refused in pool.map(run, [(options, seed) for seed in range(first, last + 1)]):
+            place = f"{seed}: {math.degrees(door['angle']):6.1f} degrees, wall {door['thickness']:.2f} m: "
+            if summary is None:  # a goal in the slanting wall, say
+                print(f"{place}not counted: {refused}")
+                continue
+            doors += 1
+            passed += summary["success"]
+            print(f"{place}{summary['outcome']} after {summary['duration_s']:.0f} s, {summary['min_clearance_m']:.3f} m clear")
+    print(f"{passed} of {doors} doors of {options.width} m passed")
+    return 0 if doors else 1
+
+
+if __name__ == "__main__":
+    sys.exit(main())
