@@ -18,7 +18,9 @@ constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match w
 constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
 constexpr double kTwistGain = 0.7;                        // of the running mean of speeds between matches
 
-constexpr double kMostHeading_rad = 100.0;  // of a fix: whole turns may be in it, but 16 of them are a mistake
+// Of a fix: beyond, it is a mistake, and what it would turn the robot by no number can hold.
+constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
+constexpr double kMostTurnedRad = 100.0;  // whole turns may be in it
 
 // No map of 10 cm cells places a robot better than this, and nobody puts it anywhere more exactly.
 constexpr double kLeastPositionVar = 0.005 * 0.005;
@@ -49,6 +51,11 @@ Symmetric3 of_wheels(const WheelDoubt& doubt, double share) {
 }
 
 bool finite(const Pose2& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading); }
+
+/// Whether a robot may be there; false for NaN.
+bool is_place(const Pose2& p) {
+  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && std::fabs(p.heading) <= kMostTurnedRad;
+}
 
 }  // namespace
 
@@ -203,7 +210,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
 }
 
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
-  if (!finite(fix.map_from_robot) || std::fabs(fix.map_from_robot.heading) > kMostHeading_rad) return;
+  if (!is_place(fix.map_from_robot)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
   const Pose2 predicted = map_from_odom * odom_from_robot;
   const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
