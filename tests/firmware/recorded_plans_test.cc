@@ -62,7 +62,7 @@ std::vector<std::unique_ptr<Planner>> every_executor(const PlannerConfig& config
 #if JAYWALK_HAS_CUDA
   std::string why_not;
   auto gpu = make_cuda_planner(config, why_not);
-  gpu ? planners.push_back(std::move(gpu)) : void(std::printf("skipped: no CUDA device (%s)\n", why_not.c_str()));
+  gpu ? planners.push_back(std::move(gpu)) : void(std::printf("not compared with a GPU (%s)\n", why_not.c_str()));
 #endif
   return planners;
 }
