@@ -45,8 +45,9 @@ struct ConnectionTiming {
   Duration silence_limit = std::chrono::seconds(1);
   /// A scan is late when its stamp is this much older than its sweep.
   Duration late_limit = std::chrono::milliseconds(500);
-  /// From one try to the next; doubles with each that brought no scan.
-  Duration first_rest = std::chrono::milliseconds(100);
+  /// From one try to the next; doubles with each that brought no scan. The first is long enough for scans to grow too
+  /// old, one and a half periods of 5 Hz or more: a wire that broke stops the robot however soon it is whole again.
+  Duration first_rest = std::chrono::milliseconds(300);
   Duration longest_rest = std::chrono::milliseconds(1600);
 };
 

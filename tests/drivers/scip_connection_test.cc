@@ -129,7 +129,7 @@ TEST_CASE("a Hokuyo whose laser does not come on is named so and asked again wit
   bench->server->break_laser();
   bench->run(3s);
   CHECK(bench->health().last_trouble == ScannerTrouble::kRefused);
-  CHECK(bench->health().connections == 5);  // rests of 0.1, 0.2, 0.4, 0.8 s
+  CHECK(bench->health().connections == 4);  // rests of 0.3, 0.6, 1.2 s
 }
 
 TEST_CASE("half an answer of a Hokuyo costs one scan") {

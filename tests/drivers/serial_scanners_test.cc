@@ -140,6 +140,6 @@ TEST_CASE("an RPLIDAR that is broken is named so and asked again with rests") {
   bench->server->break_down();
   bench->run(3s);
   CHECK(bench->health().last_trouble == ScannerTrouble::kRefused);
-  CHECK(bench->health().connections == 5);  // rests of 0.1, 0.2, 0.4, 0.8 s
+  CHECK(bench->health().connections == 4);  // rests of 0.3, 0.6, 1.2 s
   CHECK(bench->scan().sequence == 0);
 }
