@@ -45,6 +45,12 @@ Crowd::Crowd() : model_(all_round()), walls_(hall()), laser_(model_.laser, 1), w
 
 Pose2 Crowd::start() const { return {kCircle, 0.0, 0.5 * kPi}; }
 
+CrowdWatcher::CrowdWatcher(const Crowd& crowd)
+    : localizer({.map_from_robot_at_start = crowd.start(),
+                 .drive = crowd.model().drive,
+                 .robot_from_laser = crowd.model().laser.robot_from_laser}),
+      tracker({.robot_from_laser = crowd.model().laser.robot_from_laser, .map_centre = {}}) {}
+
 void Crowd::at(std::uint32_t k, LaserScan& scan, WheelState& wheels) {
   const double t_s = k / kRate, turned = kTurn * t_s;
   for (std::size_t w = 0; w < walkers_.size(); ++w) {

@@ -2,6 +2,8 @@
 // The busiest place that seeing is built for: as many walkers round the robot as there may be tracks.
 #include "hal/sim/laser_sim.h"
 #include "hal/types/wheels.h"
+#include "planner/localization/localizer.h"
+#include "planner/perception/tracker.h"
 
 namespace jaywalk::bench {
 
@@ -21,6 +23,13 @@ class Crowd {
   sim::Walls walls_;
   sim::LaserSim laser_;
   std::vector<sim::Disc> walkers_;
+};
+
+/// The controller's part that sees, where the robot in the crowd starts.
+struct CrowdWatcher {
+  explicit CrowdWatcher(const Crowd& crowd);
+  Localizer localizer;
+  Tracker tracker;
 };
 
 }  // namespace jaywalk::bench

@@ -6,8 +6,6 @@
 
 #include "bench/tracking/crowd.h"
 #include "firmware/report/distribution.h"
-#include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
 
 namespace jaywalk::bench {
 namespace {
@@ -26,10 +24,8 @@ struct Figures {
 
 Figures measure(std::uint32_t scans) {
   const auto crowd = std::make_unique<Crowd>();
-  Localizer localizer({.map_from_robot_at_start = crowd->start(),
-                       .drive = crowd->model().drive,
-                       .robot_from_laser = crowd->model().laser.robot_from_laser});
-  Tracker tracker({.robot_from_laser = crowd->model().laser.robot_from_laser, .map_centre = {}});
+  CrowdWatcher watcher(*crowd);
+  auto& [localizer, tracker] = watcher;
   const auto scan = std::make_unique<LaserScan>();
   WheelState wheels;
   Figures figures;

@@ -2,18 +2,14 @@
 
 #include <memory>
 
-#include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
 TEST_CASE("the crowd that seeing is timed in fills every track with a mover and leaves the pose right") {
   const auto crowd = std::make_unique<bench::Crowd>();
-  Localizer localizer({.map_from_robot_at_start = crowd->start(),
-                       .drive = crowd->model().drive,
-                       .robot_from_laser = crowd->model().laser.robot_from_laser});
-  Tracker tracker({.robot_from_laser = crowd->model().laser.robot_from_laser, .map_centre = {}});
+  bench::CrowdWatcher watcher(*crowd);
+  auto& [localizer, tracker] = watcher;
   const auto scan = std::make_unique<LaserScan>();
   WheelState wheels;
   for (std::uint32_t k = 0; k <= 150; ++k) {
