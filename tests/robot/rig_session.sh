@@ -35,6 +35,8 @@ field() {
 
 # start_plant [OPTIONS...]
 start_plant() {
+  late_lines >"$out/late_before"
+  mv "$out/late_before" "$out/late"
   rm -f "$out/plant.log"
   "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --robot "$out/robot.toml" --can "$far_can" --log "$out/plant.log" "$@" <&3 &
   plant_pid=$!
@@ -93,13 +95,16 @@ logged() { grep -qE -- "$1" "$out/plant.log" || fail "the plant saw no '$1': $(c
 # number FILE KEY: from a JSON file of ours.
 number() { sed -nE "s/^ *\"$2\": ([-0-9.]+),?$/\1/p" "$1" | head -1; }
 
+# late_lines: where the far end says that it was held up itself. It goes before everything else on the guest's
+# processor: what held it up was the machine that the guest runs on.
+late_lines() { cat "$out/late" "$out/plant.log" 2>/dev/null | grep ' late by '; }
+# missed_ticks_alone: whether that is all that stopped the robot.
+missed_ticks_alone() { grep -q 'stopped by' "$out/run.log" && ! grep 'stopped by' "$out/run.log" | grep -qv missed_ticks; }
+
 end_session() {
-  if [ "$failed" = 1 ]; then
-    grep -E ' late by ' "$out/plant.log" | head -3
-    # Whoever runs this may try again where time was not kept and nothing else happened.
-    if grep -q 'stopped by' "$out/run.log" && ! grep 'stopped by' "$out/run.log" | grep -qv missed_ticks; then
-      echo "missed ticks alone: this machine was held up"
-    fi
+  # Whoever runs this may try again where time was not kept.
+  if [ "$failed" = 1 ] && { missed_ticks_alone || [ -n "$(late_lines)" ]; }; then
+    echo "held up: this machine did not keep time: $(late_lines | sort -k4nr | head -3 | tr '\n' ' ')"
   fi
   [ -z "$run_pid" ] || kill -9 "$run_pid"
   [ -z "$plant_pid" ] || kill -9 "$plant_pid"

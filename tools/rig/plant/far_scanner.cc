@@ -23,6 +23,15 @@ SickModel sick_model(const LaserModel& laser, ColaDialect dialect) {
           .range_max_m = laser.range_max_m};
 }
 
+ScipModel scip_model(const LaserModel& laser) {
+  const auto last = static_cast<std::uint32_t>(laser.beams - 1);
+  return {.steps_per_turn = static_cast<std::uint32_t>(2.0 * kPi * last / laser.fov_rad + 0.5),
+          .last_step = last,
+          .front_step = last / 2,
+          .turns_per_minute = static_cast<std::uint32_t>(60.0 * laser.rate_hz + 0.5),
+          .range_max_mm = static_cast<std::uint32_t>(1000.0 * laser.range_max_m + 0.5)};
+}
+
 }  // namespace
 
 std::unique_ptr<ByteServer> make_far_wire(const LaserWiring& wiring) {
@@ -38,7 +47,7 @@ std::unique_ptr<ScannerServer> make_far_scanner(const LaserWiring& wiring, const
     case ScannerKind::kSickColaB:
       return std::make_unique<SickServer>(std::move(wire), sick_model(model, ColaDialect::kBinary), std::move(world));
     case ScannerKind::kHokuyo:
-      return std::make_unique<ScipServer>(std::move(wire), ScipModel{}, std::move(world));
+      return std::make_unique<ScipServer>(std::move(wire), scip_model(model), std::move(world));
     case ScannerKind::kLdrobot:
       return std::make_unique<LdServer>(std::move(wire), std::move(world));
     case ScannerKind::kRplidar:
