@@ -28,6 +28,11 @@ std::unique_ptr<FootprintGuide> guide_for(const ControlSetup& setup) {
   return std::make_unique<FootprintGuide>(setup.model.footprint, setup.model.limits);
 }
 
+std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
+  if (setup.keeps_speed()) return nullptr;
+  return std::make_unique<GoalTurn>(setup.model.footprint, setup.model.limits, !setup.guides_body());
+}
+
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
   return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
 }
@@ -43,6 +48,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       tracker_(perception_config(setup)),
       follower_(follower_config(setup)),
       guide_(guide_for(setup)),
+      turn_(turn_for(setup)),
       supervisor_(supervisor_config(setup)),
       diff_drive_(setup.model.drive),
       plan_(&planner.collect()) {}
@@ -63,13 +69,15 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   plan_ = &planner_.collect();  // Plan: take what was asked for in an earlier tick.
   note_plan(t);
 
+  if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
   t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
+  if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
 
-  if (guide_ && t.input.has_goal && plans_.is_new(plan_->sequence)) guide_->look(guide_input(t));
+  if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();
   if (t.plan_asked) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
   recorder_.commit();
@@ -89,15 +97,22 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
           .tracks = tracker_.tracks(),
           .permitted_before = driven_,
-          .guide = guide_.get()};
+          .guide = guide_.get(),
+          .turn = turn_.get()};
 }
 
-GuideInput ControlLoop::guide_input(const TickRecord& t) const noexcept {
-  return {.path = plan_->path,
-          .map_from_robot = t.pose.map_from_robot,
-          .wanted = t.wanted,
-          .driven = driven_,
-          .still = tracker_.still()};
+void ControlLoop::look(const TickRecord& t) noexcept {
+  const GuideInput input{.path = plan_->path,
+                         .map_from_robot = t.pose.map_from_robot,
+                         .wanted = t.wanted,
+                         .driven = driven_,
+                         .still = tracker_.still()};
+  if (turns_at_goal()) {
+    turn_->look(input);
+    if (guide_) guide_->manoeuvre().stop();
+  } else if (guide_) {
+    guide_->look(input);
+  }
 }
 
 PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {

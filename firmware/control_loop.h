@@ -27,11 +27,14 @@ class ControlLoop {
 
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
+  /// At the goal, on the way to the heading wanted there.
+  [[nodiscard]] bool turns_at_goal() const noexcept { return turn_ && turn_->active(); }
 
  private:
   void note_plan(TickRecord& t) const noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
-  [[nodiscard]] GuideInput guide_input(const TickRecord& t) const noexcept;
+  /// With a new plan, and after the wheels have their command: is there room for the body?
+  void look(const TickRecord& t) noexcept;
   [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
 
   /// Tells a device's new reading from one seen before.
@@ -51,6 +54,7 @@ class ControlLoop {
   Tracker tracker_;
   Follower follower_;
   std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
+  std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;  ///< what collect() last answered, never null

@@ -167,12 +167,14 @@ std::string TomlTable::text(const std::string& key, const std::string& otherwise
   return find(key) == nullptr ? otherwise : text(key);
 }
 
-std::vector<double> TomlTable::numbers(const std::string& key, std::size_t count) {
+std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least, std::size_t most) {
   const toml::value& node = need(key);
-  const std::string remedy = "write [ ] with " + std::to_string(count) + " numbers";
+  const std::string counts = std::to_string(least) + (most > least ? " or " + std::to_string(most) : "");
+  const std::string remedy = "write [ ] with " + counts + " numbers";
   if (!node.is_array()) refuse(key, "is not an array", remedy);
   const toml::array& array = node.as_array();
-  if (array.size() != count) refuse(key, "has " + std::to_string(array.size()) + " elements", remedy);
+  if (array.size() != least && array.size() != most)
+    refuse(key, "has " + std::to_string(array.size()) + " elements", remedy);
   std::vector<double> values;
   for (const toml::value& item : array) {
     if (!is_number(item) || !std::isfinite(as_number(item))) refuse(key, "holds what is no number", remedy);

@@ -32,7 +32,11 @@ class TomlTable {
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise);
   /// An array of exactly `count` finite numbers.
-  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count);
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) {
+    return numbers(key, count, count);
+  }
+  /// Of `least` or `most` of them.
+  [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
   /// A table that must be there.
   [[nodiscard]] TomlTable table(const std::string& key);
   /// The tables written as [[key]]; none when the key is absent.

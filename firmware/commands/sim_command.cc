@@ -1,12 +1,14 @@
 #include "firmware/commands/sim_command.h"
 
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <thread>
 
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/run_picture.h"
 #include "hal/sim/simulation.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
@@ -41,6 +43,11 @@ class TruthForReport {
 
 sim::Scenario scenario_for(const SimOptions& options) {
   sim::Scenario scenario = sim::load_scenario(options.scenario);
+  const bool never_stops = options.mode == PlanMode::kPaper || options.constant_speed;
+  if (never_stops && std::isfinite(scenario.goal_heading_rad)) {
+    throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
+                       "leave the third number out, or run without --mode paper and --constant-speed");
+  }
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
   return scenario;
 }
@@ -61,6 +68,9 @@ std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
   return walls;
 }
 
+/// At a goal with a heading the robot is to stand.
+bool rests(const Twist2& twist) { return std::fabs(twist.v_mps) < 0.01 && std::fabs(twist.w_radps) < 0.02; }
+
 /// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth
 /// reaching.
 /// A stop that waits for a reset does: nobody is there to press it.
@@ -68,7 +78,7 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (truth.contacts > 0) return "collision";
   const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
-  if (distance(truth.map_from_robot.position(), scenario.goal) <= scenario.goal_tolerance_m) {
+  if (t.input.is_reached_at(truth.map_from_robot) && (!t.input.wants_heading() || rests(truth.twist))) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
@@ -93,10 +103,14 @@ int run_sim(const SimOptions& options) {
     if (options.realtime) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const OperatorInput& wanted = runner.last().input;
+  std::optional<double> heading_error;
+  if (wanted.wants_heading()) heading_error = wanted.heading_error_rad(simulation.truth().map_from_robot);
   const double lasted_s = to_seconds(simulation.truth().now);
   runner.finish({.outcome = ended,
                  .success = ended == "reached",
                  .static_shortest_path_m = simulation.static_shortest_path_m(),
+                 .heading_error_rad = heading_error,
                  .missed_ticks = options.realtime ? runner.overruns() : 0,
                  .seed = seed,
                  .scenario = scenario.name,

@@ -124,9 +124,9 @@ void RecordingReader::read_header() {
   std::uint32_t setup_bytes = 0;
   numbers.number(version);
   numbers.number(setup_bytes);
-  if (version != kRecordingVersion) {
+  if (version < kOldestVersion || version > kRecordingVersion) {
     throw StartupError(file_ + ": byte 8: format version " + std::to_string(version) + ", this program reads " +
-                           std::to_string(kRecordingVersion),
+                           std::to_string(kOldestVersion) + " to " + std::to_string(kRecordingVersion),
                        "replay it with the jaywalk that recorded it");
   }
   if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
@@ -138,6 +138,7 @@ void RecordingReader::read_header() {
   std::uint32_t crc = 0;
   ByteSource(check).number(crc);
   if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
+  decoder_ = TickDecoder(version);
   position_ = head.size() + setup_bytes + check.size();
 }
 

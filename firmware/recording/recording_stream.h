@@ -18,7 +18,6 @@
 
 namespace jaywalk {
 
-inline constexpr std::uint32_t kRecordingVersion = 2;
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
 /// Whether `file` begins as a recording of ours does; false where it cannot be read.

@@ -13,6 +13,7 @@ namespace {
 
 struct Put {
   ByteSink sink;
+  std::uint32_t version = kRecordingVersion;
   template <Number T>
   void operator()(const T& value) {
     sink.number(value);
@@ -31,6 +32,7 @@ struct Put {
 
 struct Get {
   ByteSource source;
+  std::uint32_t version = kRecordingVersion;
   template <Number T>
   void operator()(T& value) {
     source.number(value);
@@ -119,7 +121,9 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
-  ar(r.input.goal_tolerance_m), ar(r.input.emergency_stop), ar(r.input.reset);
+  ar(r.input.goal_tolerance_m);
+  if (ar.version >= 3) ar(r.input.goal_heading_rad), ar(r.input.goal_heading_tolerance_rad);
+  ar(r.input.emergency_stop), ar(r.input.reset);
   ar(r.pose.stamp);
   transfer_pose(ar, r.pose.map_from_robot);
   ar(r.pose.position_std_m), ar(r.pose.heading_std_rad);
@@ -181,7 +185,8 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
 }
 
 bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept {
-  Get get{ByteSource(in)};
+  Get get{ByteSource(in), version_};
+  record.input = {};  // what an older recording does not have
   bool new_scan = false;
   bool new_fix = false;
   get(lost_before);

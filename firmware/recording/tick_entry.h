@@ -9,6 +9,9 @@
 
 namespace jaywalk {
 
+/// Version 2 had no heading at the goal, and is read as well: nobody wanted one then.
+inline constexpr std::uint32_t kRecordingVersion = 3, kOldestVersion = 2;
+
 /// Most bytes that an encoded record takes: every beam and every mover in use, and room for the rest.
 inline constexpr std::size_t kMaxEntryBytes = 4 * kMaxBeams + 40 * kMaxObservedMovers + 1024;
 
@@ -27,10 +30,13 @@ class TickEncoder {
 /// Turns bytes back into records; keeps the last scan and fix for those that bring none.
 class TickDecoder {
  public:
+  /// `version`: of the recording, kOldestVersion to kRecordingVersion.
+  explicit TickDecoder(std::uint32_t version = kRecordingVersion) : version_(version) {}
   /// False when the bytes are no record: too few, too many, or a value out of its range.
   [[nodiscard]] bool decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept;
 
  private:
+  std::uint32_t version_;
   LaserScan scan_;
   OutsideFix fix_;
 };

@@ -48,6 +48,7 @@ struct RunEnd {
   std::string outcome = {};  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
   bool success = false;
   std::optional<double> static_shortest_path_m = {};
+  std::optional<double> heading_error_rad = {};  ///< at the end, where a heading was wanted at the goal
   std::uint64_t missed_ticks = 0;
   std::uint64_t dropped_records = 0;
   std::string backend = {};

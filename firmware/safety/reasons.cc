@@ -6,7 +6,7 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 14> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 15> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kWheelsStale, "wheels_stale"},
@@ -19,7 +19,8 @@ std::string to_string(Reason reasons) {
                                                                    {Reason::kUnwatched, "unwatched"},
                                                                    {Reason::kNoGoal, "no_goal"},
                                                                    {Reason::kBus, "bus"},
-                                                                   {Reason::kDrive, "drive"}}};
+                                                                   {Reason::kDrive, "drive"},
+                                                                   {Reason::kTurnBlocked, "turn_blocked"}}};
   std::string words;
   for (const auto& [bit, name] : kNames) {
     if (!has(reasons, bit)) continue;

@@ -4,7 +4,7 @@
 
 namespace jaywalk {
 
-/// Why the supervisor permits less than was wanted. A set of bits.
+/// Why the supervisor permits less than was wanted, or nothing is wanted. A set of bits.
 enum class Reason : std::uint32_t {
   kNone = 0,
   kStopZone = 1U << 0,       ///< limit: something stands in the way (raw scan)
@@ -21,6 +21,7 @@ enum class Reason : std::uint32_t {
   kNoGoal = 1U << 11,        ///< nowhere to go
   kBus = 1U << 12,           ///< fault, latched: the drives' bus refuses frames or is unwell
   kDrive = 1U << 13,         ///< fault, latched: a drive is in trouble
+  kTurnBlocked = 1U << 14,   ///< no room to turn to the heading wanted at the goal: the robot waits
 };
 
 constexpr Reason operator|(Reason a, Reason b) {

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "hal/types/geometry.h"
+#include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::sim {
@@ -61,6 +62,8 @@ struct Scenario {
   Vec2 goal;
   std::string start_place, goal_place;  ///< "office.toml:12: ", for complaints; empty for a scenario from no file
   double goal_tolerance_m = 0.3;
+  double goal_heading_rad = kAnyHeading;  ///< wanted at the goal, in the map; NaN: any
+  double goal_heading_tolerance_rad = 0.1;
   RobotModel model;  ///< with the scenario's own speed and laser already in it
   SlipSpec slip;
   PoseSourceSpec pose_source;

@@ -58,11 +58,14 @@ RobotModel read_model(TomlTable& table) {
 void read_robot(TomlTable table, Scenario& scenario) {
   const auto start = table.numbers("start", 3);
   scenario.start = {start[0], start[1], wrap_angle(start[2])};
-  const auto goal = table.numbers("goal", 2);
+  const auto goal = table.numbers("goal", 2, 3);
   scenario.goal = {goal[0], goal[1]};
+  if (goal.size() == 3) scenario.goal_heading_rad = wrap_angle(goal[2]);
   scenario.start_place = table.place_of("start");
   scenario.goal_place = table.place_of("goal");
   scenario.goal_tolerance_m = table.number("goal_tolerance_m", {0.01, 10.0}, scenario.goal_tolerance_m);
+  scenario.goal_heading_tolerance_rad =
+      table.number("goal_heading_tolerance_rad", {0.01, kPi}, scenario.goal_heading_tolerance_rad);
   scenario.model = read_model(table);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));

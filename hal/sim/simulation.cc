@@ -33,19 +33,21 @@ class SimDrive final : public DriveBase {
 class SimPanel final : public OperatorPanel {
  public:
   SimPanel(const World& world, const Scenario& scenario)
-      : world_(world), goal_(scenario.goal), goal_tolerance_m_(scenario.goal_tolerance_m) {}
+      : world_(world),
+        input_{.has_goal = true,
+               .goal_in_map = scenario.goal,
+               .goal_tolerance_m = scenario.goal_tolerance_m,
+               .goal_heading_rad = scenario.goal_heading_rad,
+               .goal_heading_tolerance_rad = scenario.goal_heading_tolerance_rad} {}
   OperatorInput latest() noexcept override {
-    return {.stamp = world_.now(),
-            .has_goal = true,
-            .goal_in_map = goal_,
-            .goal_tolerance_m = goal_tolerance_m_,
-            .emergency_stop = world_.fault_active(FaultKind::kEmergencyStop)};
+    input_.stamp = world_.now();
+    input_.emergency_stop = world_.fault_active(FaultKind::kEmergencyStop);
+    return input_;
   }
 
  private:
   const World& world_;
-  Vec2 goal_;
-  double goal_tolerance_m_;
+  OperatorInput input_;
 };
 
 class SimPoseSource final : public PoseSource {

@@ -25,10 +25,13 @@ Twist2 Follower::twist(const FollowerInput& input) noexcept {
 Twist2 Follower::wish(const FollowerInput& input) noexcept {
   const double cruise = config_.constant_speed && input.has_goal ? config_.limits.max_speed_mps : 0.0;
   if (input.path.empty() || !input.has_goal) return {cruise, 0.0};
+  if (input.turn != nullptr && input.turn->active()) return at_goal(input);
   const Vec2 robot = input.map_from_robot.position();
   if (cruise == 0.0 && distance(robot, input.goal_in_map) < config_.goal_tolerance_m * kStopWithin) return {};
 
-  if (input.guide != nullptr && input.guide->manoeuvre().active()) return manoeuvre(input);
+  if (input.guide != nullptr && input.guide->manoeuvre().active()) {
+    return manoeuvre(input, input.guide->manoeuvre());
+  }
   if (input.guide != nullptr && input.guide->most_speed_mps() == 0.0) return {};
   const double v_now = std::max(input.permitted_before.v_mps, 0.0);
   const Steering steering = pursue(input.path, input.map_from_robot, v_now);
@@ -37,9 +40,13 @@ Twist2 Follower::wish(const FollowerInput& input) noexcept {
   return {v, steering.circle_radps(std::max(v, v_now), config_.limits.max_turn_radps)};
 }
 
+Twist2 Follower::at_goal(const FollowerInput& input) const noexcept {
+  ManoeuvreDrive& drive = input.turn->manoeuvre();
+  return drive.active() ? manoeuvre(input, drive) : input.turn->wish(input.map_from_robot);
+}
+
 /// Slower, or not at all, where somebody is about to come by.
-Twist2 Follower::manoeuvre(const FollowerInput& input) const noexcept {
-  ManoeuvreDrive& drive = input.guide->manoeuvre();
+Twist2 Follower::manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept {
   const Twist2 twist = drive.wish(input.map_from_robot);
   const double among_movers = choose_speed(drive.places(), input.map_from_robot.position(),
                                            std::fabs(input.permitted_before.v_mps), input.tracks, speed_choice_);

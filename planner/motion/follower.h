@@ -4,6 +4,7 @@
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 #include "planner/motion/footprint_guide.h"
+#include "planner/motion/goal_turn.h"
 #include "planner/motion/pursuit.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
@@ -29,6 +30,7 @@ struct FollowerInput {
   std::span<const Track> tracks;    ///< all of them: see choose_speed
   Twist2 permitted_before;          ///< what the supervisor made of the last wish
   FootprintGuide* guide = nullptr;  ///< of a body that is longer than wide; null: the path fits everywhere
+  GoalTurn* turn = nullptr;         ///< to the heading wanted at the goal; null: none can be
 };
 
 /// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and movers
@@ -40,7 +42,8 @@ class Follower {
 
  private:
   [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
-  [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input) const noexcept;
+  [[nodiscard]] Twist2 at_goal(const FollowerInput& input) const noexcept;
+  [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept;
   [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
 
   FollowerConfig config_;

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/motion/pursuit.h"
+#include "planner/motion/straight_piece.h"
 
 namespace jaywalk {
 namespace {
@@ -22,7 +23,7 @@ constexpr double kAhead_m = 1.6;       // looked at along the path, whatever the
 constexpr double kAhead_s = 8.0, kStep_s = 0.1;
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
-constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45, kBackStep_m = 0.1;
+constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
 
 double toward(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
 
@@ -136,26 +137,14 @@ void FootprintGuide::back_out(const Pose2& here) noexcept {
       if (room > most + 0.005) most = room, best = pose;
     }
   }
-  draw_back(best, kBackOut_m);
+  draw_straight(map_, best, -kBackOut_m, kTightMargin_m, back_);
   if (back_.size() > 1) drive_.begin(back_);
 }
 
 /// Straight back without steering: whatever is beside the body stays as far as it is.
 void FootprintGuide::back_off(const Pose2& here) noexcept {
-  draw_back(here, kBackOff_m);
+  draw_straight(map_, here, -kBackOff_m, kTightMargin_m, back_);
   if (back_.size() > 1) drive_.begin(back_, ManoeuvreDrive::Steering::kHeld);
-}
-
-/// Poses straight behind, as far as nothing comes nearer than it is, or than the margin.
-void FootprintGuide::draw_back(const Pose2& from, double length_m) noexcept {
-  back_.clear();
-  const double room = map_.clearance(from);
-  for (double gone = 0.0; gone < length_m; gone += kBackStep_m) {
-    const Vec2 place = from * Vec2{-gone, 0.0};
-    const Pose2 pose{place.x, place.y, from.heading};
-    if (map_.clearance(pose) < std::min(kTightMargin_m, room - kNoNearer_m)) break;
-    (void)back_.push_back({pose, Gear::kBackward, room, 0.0});
-  }
 }
 
 bool FootprintGuide::unseen_behind(const Pose2& here) const noexcept {

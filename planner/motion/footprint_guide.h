@@ -41,7 +41,6 @@ class FootprintGuide {
   [[nodiscard]] bool unseen_behind(const Pose2& here) const noexcept;
   void back_out(const Pose2& here) noexcept;
   void back_off(const Pose2& here) noexcept;
-  void draw_back(const Pose2& from, double length_m) noexcept;
   [[nodiscard]] bool keeps_manoeuvre(const GuideInput& input) const noexcept;
   [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
   void search(const GuideInput& input) noexcept;

@@ -19,9 +19,10 @@ constexpr double kTightest_per_m = 4.0;
 
 }  // namespace
 
-void ManoeuvreDrive::begin(const Manoeuvre& manoeuvre, Steering steering) noexcept {
+void ManoeuvreDrive::begin(const Manoeuvre& manoeuvre, Steering steering, End end) noexcept {
   manoeuvre_ = manoeuvre;
   steering_ = steering;
+  end_ = end;
   at_ = 1;
   places_.clear();
   for (const ManoeuvreStep& step : manoeuvre_) (void)places_.push_back(step.map_from_robot.position());
@@ -59,7 +60,7 @@ Twist2 ManoeuvreDrive::drive(const Pose2& here) noexcept {
   while (at_ < last && left_to(at_) <= 0.0) ++at_;
   const ManoeuvreStep& step = manoeuvre_[at_];
   const double left = left_to(at_), bend = step.curvature_per_m;
-  const bool ends = last + 1 == manoeuvre_.size();
+  const bool leads_on = end_ == End::kOnward && sign > 0.0 && last + 1 == manoeuvre_.size();
   double to_end = left;
   for (std::size_t k = at_; k < last; ++k) {
     to_end += distance(manoeuvre_[k].map_from_robot.position(), manoeuvre_[k + 1].map_from_robot.position());
@@ -72,7 +73,7 @@ Twist2 ManoeuvreDrive::drive(const Pose2& here) noexcept {
   const double most = sign > 0.0 ? kForward_mps : kBackward_mps;
   double speed = std::clamp(kPerRoom_per_s * step.room_m, kCreep_mps, most);
   speed = std::min(speed, limits_.max_turn_radps / std::max(std::fabs(turn), 1e-6));
-  if (!ends || sign < 0.0) speed = std::min(speed, std::sqrt(limits_.max_accel_mps2 * std::max(to_end, 0.0)));
+  if (!leads_on) speed = std::min(speed, std::sqrt(limits_.max_accel_mps2 * std::max(to_end, 0.0)));
   if (to_end < kArrived_m) at_ = last + 1;
   return {sign * speed, steering_ == Steering::kHeld ? 0.0 : turn * speed};
 }

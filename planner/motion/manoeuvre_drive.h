@@ -13,7 +13,9 @@ class ManoeuvreDrive {
 
   /// kHeld: wheels straight, no correction.
   enum class Steering { kFree, kHeld };
-  void begin(const Manoeuvre& manoeuvre, Steering steering = Steering::kFree) noexcept;
+  /// kOnward: its last piece, where that leads forward, is left at speed, for the path goes on from there.
+  enum class End { kOnward, kAtRest };
+  void begin(const Manoeuvre& manoeuvre, Steering steering = Steering::kFree, End end = End::kOnward) noexcept;
   void stop() noexcept { at_ = 0, manoeuvre_.clear(); }
   [[nodiscard]] bool active() const noexcept { return at_ < manoeuvre_.size(); }
 
@@ -35,6 +37,7 @@ class ManoeuvreDrive {
   Manoeuvre manoeuvre_;
   Path places_;
   Steering steering_ = Steering::kFree;
+  End end_ = End::kOnward;
   std::size_t at_ = 0;  ///< the step on the way to which it is
 };
 

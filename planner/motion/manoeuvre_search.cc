@@ -14,8 +14,7 @@ constexpr double kHalfStep_rad = 2.0 * kPi / kHalfSteps;
 constexpr double kCell_m = 0.05;
 constexpr std::int32_t kSide = 128, kHeadings = 48;
 constexpr std::size_t kMostNodes = 131072;
-constexpr int kMostLooks = 24000;  // poses whose outline is looked at
-constexpr double kArrived_m = 0.15;
+constexpr int kMostLooks = 24000;      // poses whose outline is looked at
 constexpr double kNoNearer_m = 0.002;  // what stands too near from the start is left, or passed alike
 constexpr float kGreed = 2.0F;  // the way left counts double: not the cheapest manoeuvre, but found ten times sooner
 
@@ -87,8 +86,16 @@ void ManoeuvreSearch::begin(const BodyMap& map, const Pose2& start, const Manoeu
 float ManoeuvreSearch::rest(const Node& node) const noexcept {
   const float way = way_.from(node.position);
   if (goal_.any_heading) return way;
+  return way + kTurn * static_cast<float>(heading_error(node));
+}
+
+double ManoeuvreSearch::heading_error(const Node& node) const noexcept {
   const double heading = start_.heading + node.heading * kHalfStep_rad;
-  return way + kTurn * static_cast<float>(std::fabs(wrap_angle(heading - goal_.heading)));
+  return std::fabs(wrap_angle(heading - goal_.heading));
+}
+
+bool ManoeuvreSearch::has_arrived(const Node& node) const noexcept {
+  return distance(node.position, goal_.position_in_map) < goal_.within_m && heading_error(node) <= goal_.within_rad;
 }
 
 double ManoeuvreSearch::clearance(Vec2 position, std::int32_t heading, double least_m) const noexcept {
@@ -187,7 +194,7 @@ const Manoeuvre& ManoeuvreSearch::find(const BodyMap& map, const Pose2& start, c
     std::uint32_t& closed = closed_[static_cast<std::size_t>(state_of(node))];
     if (closed == search_ || (node.move != kNoMove && !fits_on_the_way(node))) continue;
     closed = search_;
-    if (distance(node.position, goal.position_in_map) < kArrived_m) {
+    if (has_arrived(node)) {
       draw(index);
       break;
     }

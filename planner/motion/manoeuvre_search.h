@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include "planner/motion/body_map.h"
@@ -14,6 +15,9 @@ struct ManoeuvreGoal {
   Vec2 position_in_map;
   double heading = 0.0;      ///< wished for there
   bool any_heading = false;  ///< the goal itself: how it stands there does not matter
+  double within_m = 0.15;    ///< of the place counts as there
+  /// And within this of the heading: infinity where it is no more than a wish. Steps are 3.75 degrees (0.065 rad) wide.
+  double within_rad = std::numeric_limits<double>::infinity();
 };
 
 /// Finds how the whole body gets from a pose towards a place: best-first over (x, y, heading) in cells of 5 cm and
@@ -49,6 +53,8 @@ class ManoeuvreSearch {
 
   void begin(const BodyMap& map, const Pose2& start, const ManoeuvreGoal& goal, double margin_m) noexcept;
   [[nodiscard]] float rest(const Node& node) const noexcept;
+  [[nodiscard]] double heading_error(const Node& node) const noexcept;
+  [[nodiscard]] bool has_arrived(const Node& node) const noexcept;
   [[nodiscard]] std::int32_t state_of(const Node& node) const noexcept;
   [[nodiscard]] bool fits_on_the_way(Node& node) const noexcept;
   [[nodiscard]] double clearance(Vec2 position, std::int32_t heading, double least_m) const noexcept;

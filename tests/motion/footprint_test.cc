@@ -6,34 +6,15 @@
 #include "planner/motion/manoeuvre_drive.h"
 #include "planner/motion/manoeuvre_search.h"
 #include "planner/motion/way_cost.h"
+#include "tests/motion/ground.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
+using tests::Ground;
 
 namespace {
 
 const RobotModel kChair = wheelchair();
-
-/// A map in which everything from (-4, -4) to (6, 6) has been seen, free but for the walls drawn.
-class Ground {
- public:
-  Ground() : map_(256, 0.1, {1.0, 1.0}) {
-    for (int j = -40; j < 60; ++j) {
-      for (int i = -40; i < 60; ++i) map_.add({i, j}, -40);
-    }
-  }
-  Ground& wall(Vec2 from, Vec2 to) {
-    const int points = static_cast<int>(distance(from, to) / 0.01) + 1;
-    for (int k = 0; k <= points; ++k) {
-      for (int scan = 0; scan < 6; ++scan) map_.add_hit(from + (to - from) * (1.0 * k / points), 16, 0.2);
-    }
-    return *this;
-  }
-  [[nodiscard]] const EvidenceMap& map() const { return map_; }
-
- private:
-  EvidenceMap map_;
-};
 
 /// A wall along x = 2 with a door of 0.90 m about y = 0.
 Ground door() { return Ground().wall({2.03, -3.0}, {2.03, -0.45}).wall({2.03, 0.45}, {2.03, 3.0}); }

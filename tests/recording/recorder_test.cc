@@ -85,6 +85,23 @@ TEST_CASE("the largest record that there can be fits an entry") {
   CHECK(same_bits(*read, *record));
 }
 
+TEST_CASE("a tick of version 2, which had no heading at the goal, comes back with any") {
+  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the input's stamp
+  // 8, flag 1, point 16 and tolerance 8: 96 bytes.
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  bytes.resize(TickEncoder().encode(*made(5), 0, bytes));
+  bytes.erase(bytes.begin() + 96, bytes.begin() + 112);
+  const auto read = std::make_unique<TickRecord>();
+  read->input.goal_heading_rad = 1.0;
+  std::uint64_t lost = 0;
+  REQUIRE(TickDecoder(2).decode(bytes, *read, lost));
+  const auto expected = made(5);
+  expected->input.goal_heading_rad = kAnyHeading;
+  expected->input.goal_heading_tolerance_rad = 0.1;
+  CHECK(same_bits(*read, *expected));
+  CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
+}
+
 TEST_CASE("a full ring drops the tick, counts it, and the next one kept tells") {
   // Room for 4: ticks 0 to 3 are kept, 4 to 6 dropped, 7 is kept after a drain and says 3.
   const Scratch scratch;

@@ -1,3 +1,5 @@
+#include <cmath>
+
 #include "hal/robot_model_file.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"
@@ -76,6 +78,14 @@ TEST_CASE("a short scenario gets a P3-DX, nobody moving and no outside fixes") {
   CHECK_FALSE(s.pose_source.enabled);
   CHECK(s.slip.mean == 0.0);
   CHECK(s.slip.std == 0.005);
+  CHECK(std::isnan(s.goal_heading_rad));
+}
+
+TEST_CASE("a goal may have a heading, and a tolerance for it") {
+  const Scenario s = parsed(kMap + "[robot]\nstart = [5, 5, 0]\ngoal = [8, 8, -4]\ngoal_heading_tolerance_rad = 0.2\n");
+  CHECK(s.goal == Vec2{8, 8});
+  CHECK(s.goal_heading_rad == Approx(2.0 * kPi - 4.0));
+  CHECK(s.goal_heading_tolerance_rad == 0.2);
 }
 
 TEST_CASE("bad scenarios are refused with file, line and cause") {
@@ -104,6 +114,10 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
       {kMap + "[robot]\nstart = [5, 5]\ngoal = [8, 8]\n", "s.toml:4: robot.start has 2 elements"},
       {kMap + "[robot]\nstart = [5, 5, nan]\ngoal = [8, 8]\n", "s.toml:4: robot.start holds what is no number"},
       {kMap + "[robot]\nstart = [5, 5, 0]\ngoal = 8\n", "s.toml:5: robot.goal is not an array"},
+      {kMap + "[robot]\nstart = [5, 5, 0]\ngoal = [8, 8, 0, 0]\n",
+       "s.toml:5: robot.goal has 4 elements; write [ ] with 2 or 3 numbers"},
+      {kMap + "[robot]\nstart = [5, 5, 0]\ngoal = [8, 8, nan]\n", "s.toml:5: robot.goal holds what is no number"},
+      {good + "goal_heading_tolerance_rad = 0\n", "s.toml:6: robot.goal_heading_tolerance_rad is 0"},
       {good + "model = \"tank\"\n", "s.toml:6: robot.model names "},
       {good + "max_speed_mps = 9\n", "s.toml:6: robot.max_speed_mps is 9"},
       {good + "goal_tolerance_m = 0\n", "s.toml:6: robot.goal_tolerance_m is 0"},

@@ -1,0 +1,185 @@
+#include "planner/motion/goal_turn.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/motion/straight_piece.h"
+
+namespace jaywalk {
+namespace {
+
+/// Kept between outline and surfaces; where that is not to be had, what the stop zone wants of a body that creeps.
+constexpr std::array kMargins_m{0.10, 0.075};
+/// A way or a manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
+constexpr double kLeastMargin_m = 0.045;
+constexpr double kNoNearer_m = 0.002;  // what is nearer from the start may be left, or passed alike
+constexpr double kLeft_m = 0.12;       // a manoeuvre left by more is given up
+constexpr double kOff_m = 0.45;        // straight away from where the supervisor refuses
+constexpr double kLook_rad = 0.06;     // between two looks at the outline: 5 cm of a wheelchair's foremost corner
+constexpr double kRest_mps = 0.01, kRest_radps = 0.02;
+constexpr double kTurnGain_per_s = 2.0;  // as Steering::turn_radps()
+constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close enough to stand still
+constexpr int kRefusedLooks = 15;        // a second
+constexpr int kLeftAloneLooks = 150;     // ten
+constexpr int kGiveUpLooks = 15;         // a second
+constexpr int kSearchEveryLooks = 8;     // while it is blocked
+constexpr double kClosest_rad = 0.07;    // what a search's steps of headings can promise
+
+/// To the same heading the other way round.
+double long_way(double turn_rad) { return turn_rad > 0.0 ? turn_rad - 2.0 * kPi : turn_rad + 2.0 * kPi; }
+
+bool is_at_rest(const Twist2& twist) {
+  return std::fabs(twist.v_mps) < kRest_mps && std::fabs(twist.w_radps) < kRest_radps;
+}
+
+}  // namespace
+
+GoalTurn::GoalTurn(const Footprint& footprint, const MotionLimits& limits, bool is_nearly_round)
+    : limits_(limits), is_nearly_round_(is_nearly_round), map_(footprint), search_(footprint), drive_(limits) {}
+
+void GoalTurn::aim(const OperatorInput& input, const Pose2& here, const Twist2& driven) noexcept {
+  const bool same_goal = input.goal_in_map == input_.goal_in_map && input.goal_heading_rad == input_.goal_heading_rad;
+  if (!input.wants_heading() || !same_goal) active_ = false;
+  input_ = input;
+  driven_ = driven;
+  if (!input.wants_heading()) return;
+  to_go_rad_ -= wrap_angle(here.heading - heading_before_);
+  heading_before_ = here.heading;
+  const bool near = distance(here.position(), input.goal_in_map) <= input.goal_tolerance_m;
+  if (near && !drive_.active()) away_ = false;
+  if (active_) {
+    active_ = near || away_;
+  } else if (arrives(here)) {
+    begin();
+  }
+}
+
+bool GoalTurn::arrives(const Pose2& here) const noexcept {
+  const double near_m = input_.goal_tolerance_m * (is_at_rest(driven_) ? 1.0 : kStopWithin);
+  return distance(here.position(), input_.goal_in_map) <= near_m;
+}
+
+void GoalTurn::begin() noexcept {
+  active_ = true;
+  settled_ = blocked_ = chosen_ = away_ = false;
+  drive_.stop();
+  refused_for_ = {};
+  refused_looks_ = waits_ = 0;
+  off_m_ = kOff_m;
+}
+
+Twist2 GoalTurn::wish(const Pose2& here) noexcept {
+  if (away_) return {};
+  const double error = std::fabs(input_.heading_error_rad(here));
+  settled_ = error <= input_.goal_heading_tolerance_rad * (settled_ ? 1.0 : kSettled);
+  if (settled_ || blocked_ || !chosen_ || std::fabs(driven_.v_mps) > kRest_mps) return {};
+  // w^2 = 2 a e with half of what the ramp can take back: the other half is the drives' share.
+  const double angle = std::fabs(to_go_rad_);
+  const double most = std::min({limits_.max_turn_radps, std::sqrt(limits_.max_turn_accel_radps2 * angle)});
+  return {0.0, std::copysign(std::min(kTurnGain_per_s * angle, most), to_go_rad_)};
+}
+
+void GoalTurn::look(const GuideInput& input) noexcept {
+  for (int& looks : refused_for_) looks = std::max(looks - 1, 0);
+  const bool refused = is_refused(input);
+  if (settled_) return;
+  map_.draw(input.still, input.map_from_robot);
+  if (goes_on(input, refused)) return;
+  if (refused && !drive_.active()) refused_for(to_go_rad_) = kLeftAloneLooks;
+  if (refused) searches_ = 0;
+  drive_.stop();
+  if (away_) {
+    seek_back(input.map_from_robot, refused);
+  } else {
+    seek(input.map_from_robot);
+  }
+}
+
+/// At the goal: a way to turn, else a manoeuvre.
+void GoalTurn::seek(const Pose2& here) noexcept {
+  chosen_ = choose_way(here);
+  waits_ = chosen_ ? 0 : waits_ + 1;
+  blocked_ = !chosen_ && !(waits_ % kSearchEveryLooks == 1 && !has_room(here) && search(here));
+}
+
+/// Out of a manoeuvre that could not be driven to its end: another from here, or else the path. Where the supervisor
+/// has refused, surfaces are nearer than the map has them: first straight off, back or ahead in turns.
+void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
+  if (refused) {
+    off_m_ = -off_m_;
+    draw_straight(map_, here, off_m_, kMargins_m[1], straight_);
+    if (straight_.size() < 2) draw_straight(map_, here, -off_m_, kMargins_m[1], straight_);
+    if (straight_.size() > 1) {
+      drive_.begin(straight_, ManoeuvreDrive::Steering::kHeld, ManoeuvreDrive::End::kAtRest);
+      return;
+    }
+  }
+  waits_ = search(here) ? 0 : waits_ + 1;
+  away_ = waits_ < kGiveUpLooks;
+}
+
+/// Whether what is under way is kept.
+bool GoalTurn::goes_on(const GuideInput& input, bool refused) const noexcept {
+  if (refused) return false;
+  const Pose2& here = input.map_from_robot;
+  if (!drive_.active()) return chosen_ && fits(here, to_go_rad_, kLeastMargin_m);
+  return drive_.off_by(here) < kLeft_m &&
+         drive_.clearance_left(map_) >= std::min(kLeastMargin_m, map_.clearance(here) - 0.01);
+}
+
+/// Whether the supervisor has refused for a while, or as good as.
+bool GoalTurn::is_refused(const GuideInput& input) noexcept {
+  const bool refused = input.wanted != Twist2{} && is_at_rest(input.driven);
+  refused_looks_ = refused ? refused_looks_ + 1 : 0;
+  if (refused_looks_ < kRefusedLooks) return false;
+  refused_looks_ = 0;
+  return true;
+}
+
+/// The short way before the long one, and each with room before either with little.
+bool GoalTurn::choose_way(const Pose2& here) noexcept {
+  const double error = input_.heading_error_rad(here);
+  for (const double margin : kMargins_m) {
+    for (const double turn : std::array{error, long_way(error)}) {
+      if (refused_for(turn) > 0 || !fits(here, turn, margin)) continue;
+      to_go_rad_ = turn;
+      return true;
+    }
+  }
+  return false;
+}
+
+/// Whether there is room for the short way or the long one, and it is only that somebody stands there.
+bool GoalTurn::has_room(const Pose2& here) const noexcept {
+  const double error = input_.heading_error_rad(here);
+  return fits(here, error, kMargins_m[0]) || fits(here, long_way(error), kMargins_m[0]);
+}
+
+/// Whether the outline keeps `margin_m` all the way round, or from what is nearer at the start comes no nearer.
+bool GoalTurn::fits(const Pose2& here, double turn_rad, double margin_m) const noexcept {
+  const int looks = static_cast<int>(std::fabs(turn_rad) / kLook_rad) + 1;
+  double room = map_.clearance(here);
+  for (int k = 1; k <= looks; ++k) {
+    const Vec2 ahead = direction(here.heading + turn_rad * k / looks);
+    const double least = std::min(margin_m, room - kNoNearer_m);
+    room = map_.clearance(here.position(), ahead, least);
+    if (room < least || (!is_nearly_round_ && map_.goes_unseen(here.position(), ahead))) return false;
+  }
+  return true;
+}
+
+/// From here to the goal with its heading. The margins take turns: where there is no way with room, there may be one
+/// with less; and from where the supervisor has refused to go on, which is closer than it wants, with room is away.
+bool GoalTurn::search(const Pose2& here) noexcept {
+  const ManoeuvreGoal goal{.position_in_map = input_.goal_in_map,
+                           .heading = input_.goal_heading_rad,
+                           .within_m = std::min(ManoeuvreGoal{}.within_m, kStopWithin * input_.goal_tolerance_m),
+                           .within_rad = std::max(kClosest_rad, input_.goal_heading_tolerance_rad * kSettled)};
+  const Manoeuvre& found = search_.find(map_, here, goal, kMargins_m[searches_++ % kMargins_m.size()]);
+  if (found.size() < 2) return false;
+  drive_.begin(found, ManoeuvreDrive::Steering::kFree, ManoeuvreDrive::End::kAtRest);
+  away_ = true;
+  return true;
+}
+
+}  // namespace jaywalk
