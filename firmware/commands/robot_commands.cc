@@ -1,6 +1,5 @@
 #include "firmware/commands/robot_commands.h"
 
-#include <cmath>
 #include <cstdio>
 #include <filesystem>
 #include <map>
@@ -9,6 +8,7 @@
 
 #include "firmware/commands/run_command.h"
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -16,7 +16,7 @@ namespace {
 
 RunOptions run_options;
 std::filesystem::path socket_path;
-std::vector<double> goal;
+std::vector<std::string> goal;
 bool now = false;
 
 void add_socket(CLI::App* command) {
@@ -32,13 +32,9 @@ int say(const std::string& line) {
 }
 
 int say_goal() {
-  if (goal.size() > 2) {
-    throw StartupError("goto: no heading at the goal can be asked for yet", "leave it out: goto X,Y");
-  }
-  if (!std::isfinite(goal[0]) || !std::isfinite(goal[1])) throw StartupError("goto: no place", "give metres");
-  char line[80];
-  std::snprintf(line, sizeof line, "goto %.17g %.17g", goal[0], goal[1]);
-  return say(line);
+  std::string words;
+  for (const std::string& word : goal) words += " " + word;
+  return say("goto " + words_of(read_goal_order(words)));
 }
 
 void add_run(CLI::App& app, int& exit_code) {
@@ -65,7 +61,10 @@ void add_robot_commands(CLI::App& app, int& exit_code) {
   add_run(app, exit_code);
   add_check(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
-  go->add_option("goal", goal, "X,Y in the map (m)")->delimiter(',')->expected(2, 3)->required();
+  go->add_option("goal", goal, "X,Y [HEADING] in the map (m, rad; any heading where none is given)")
+      ->delimiter(',')
+      ->expected(2, 3)
+      ->required();
   add_socket(go);
   go->callback([&exit_code] { exit_code = say_goal(); });
   CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");

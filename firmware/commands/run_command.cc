@@ -3,6 +3,7 @@
 #include <signal.h>
 #include <time.h>
 
+#include <cmath>
 #include <cstdio>
 #include <fstream>
 
@@ -87,6 +88,11 @@ std::string outcome(const RunStatus& last) {
   return last.goal_reached ? "reached" : "stopped";
 }
 
+/// How far off the heading wanted at the last goal.
+std::optional<double> at_goal(const RunStatus& last) {
+  return std::isnan(last.heading_error_rad) ? std::nullopt : std::optional(last.heading_error_rad);
+}
+
 std::filesystem::path socket_for(const RunOptions& options, const RobotFile& file) {
   if (!options.control_socket.empty()) return options.control_socket;
   return file.control_socket.empty() ? default_control_socket() : file.control_socket;
@@ -122,7 +128,7 @@ int run_robot(const RunOptions& options) {
   loop.start(file.realtime);
   for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
   for (const std::string& line : not_permitted) remark(line);
-  remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y");
+  remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
 
   LoopReport report(runner, loop);
   while (!loop.has_ended()) {
@@ -133,6 +139,7 @@ int run_robot(const RunOptions& options) {
   const RunStatus& last = report.last();
   runner.finish({.outcome = outcome(last),
                  .success = outcome(last) == "reached",
+                 .heading_error_rad = at_goal(last),
                  .missed_ticks = last.missed_ticks,
                  .scenario = options.robot.filename().string()});
   write_devices(options.out, last, not_permitted);

@@ -2,8 +2,8 @@
 // The local socket through which a person, or a program, talks to a run: one line there, an answer back, the end.
 //
 //   goto X Y      the goal, m in the map         stop          no goal: the robot ramps to rest
-//   status        how it goes                    stop now      emergency stop, latched
-//   reset         after a latched fault, at rest
+//   goto X Y H    and its heading there, rad     stop now      emergency stop, latched
+//   status        how it goes                    reset         after a latched fault, at rest
 #include <atomic>
 #include <filesystem>
 #include <functional>

@@ -14,7 +14,7 @@ class OperatorControls {
  public:
   /// `clock` outlives it.
   OperatorControls(const RobotFile& file, Clock& clock, OperatorDesk::RestartBus restart_bus)
-      : desk_(clock, file.setup.goal_tolerance_m, std::move(restart_bus)) {
+      : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus)) {
     if (file.panel) joystick_.emplace(desk_, clock, file.panel->joystick, file.panel->needs_dead_man);
   }
   OperatorControls(const OperatorControls&) = delete;

@@ -1,22 +1,11 @@
 #include "firmware/robot/operator_desk.h"
 
-#include <array>
-#include <cmath>
-#include <cstdio>
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-constexpr double kFarthest_m = 1e5;  ///< a goal beyond is a slip of the finger
 constexpr double kRest_mps = 0.01;
-
-/// Exactly two finite numbers.
-bool read_goal(std::string_view words, Vec2& goal) {
-  const std::string text(words);
-  char rest = 0;
-  if (std::sscanf(text.c_str(), "%lf %lf %c", &goal.x, &goal.y, &rest) != 2) return false;
-  return std::fabs(goal.x) <= kFarthest_m && std::fabs(goal.y) <= kFarthest_m;  // false for NaN
-}
 
 }  // namespace
 
@@ -26,7 +15,8 @@ std::string OperatorDesk::obey(std::string_view line) {
   if (line == "status") return describe(status);
   if (line.starts_with("goto ")) return take_goal(line.substr(5), status);
   if (line == "reset") return take_reset(status);
-  if (line != "stop" && line != "stop now") return "refused: not understood; say goto X Y, stop, reset or status\n";
+  if (line != "stop" && line != "stop now")
+    return "refused: not understood; say goto X Y [HEADING], stop, reset or status\n";
   ++wish_.number;
   wish_.has_goal = false;
   if (line == "stop now") ++wish_.emergencies;
@@ -35,8 +25,12 @@ std::string OperatorDesk::obey(std::string_view line) {
 }
 
 std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& status) {
-  Vec2 goal;
-  if (!read_goal(words, goal)) return "refused: not a goal; give X and Y in metres\n";
+  GoalOrder goal;
+  try {
+    goal = read_goal_order(words);
+  } catch (const StartupError& error) {
+    return std::string("refused: ") + error.what() + "\n";
+  }
   if (closed_) return "refused: the run is ending\n";
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
   if (status.latched) {
@@ -44,7 +38,7 @@ std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& sta
   }
   ++wish_.number;
   wish_.has_goal = true;
-  wish_.goal_in_map = goal;
+  wish_.goal = goal;
   wishes_.publish(wish_);
   return "going\n";
 }
@@ -83,10 +77,12 @@ OperatorInput OperatorDesk::latest() noexcept {
   const Wish& wish = wishes_.latest();
   if (wish.number != seen_.number) {
     input_.has_goal = wish.has_goal;
-    input_.goal_in_map = wish.goal_in_map;
+    input_.goal_in_map = wish.goal.position_in_map;
+    input_.goal_heading_rad = wish.goal.heading_rad;
   }
   input_.stamp = clock_.now();
-  input_.goal_tolerance_m = goal_tolerance_m_;
+  input_.goal_tolerance_m = tolerances_.place_m;
+  input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
   input_.reset = wish.resets != seen_.resets;  // for one tick each
   input_.emergency_stop = wish.emergencies != seen_.emergencies;
   seen_ = wish;

@@ -5,11 +5,18 @@
 #include <string_view>
 #include <utility>
 
+#include "firmware/robot/goal_order.h"
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
 
 namespace jaywalk {
+
+/// How near to a goal counts as there.
+struct GoalTolerances {
+  double place_m = OperatorInput{}.goal_tolerance_m;
+  double heading_rad = OperatorInput{}.goal_heading_tolerance_rad;
+};
 
 /// Where what people ask for through the control socket becomes the loop's operator panel, and the loop's status
 /// their answer.
@@ -21,8 +28,8 @@ class OperatorDesk final : public OperatorPanel {
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
   using RestartBus = std::function<std::string()>;
 
-  OperatorDesk(Clock& clock, double goal_tolerance_m, RestartBus restart_bus)
-      : clock_(clock), goal_tolerance_m_(goal_tolerance_m), restart_bus_(std::move(restart_bus)) {}
+  OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus)
+      : clock_(clock), tolerances_(tolerances), restart_bus_(std::move(restart_bus)) {}
 
   /// The socket's thread, or any, one at a time: obeys one line (control_socket.h) and returns the answer.
   [[nodiscard]] std::string obey(std::string_view line);
@@ -38,7 +45,7 @@ class OperatorDesk final : public OperatorPanel {
   struct Wish {
     std::uint32_t number = 0;  ///< of goals and stops
     bool has_goal = false;
-    Vec2 goal_in_map;
+    GoalOrder goal;
     std::uint32_t resets = 0;
     std::uint32_t emergencies = 0;
   };
@@ -49,7 +56,7 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] bool bus_comes_back();
 
   Clock& clock_;
-  double goal_tolerance_m_;
+  GoalTolerances tolerances_;
   RestartBus restart_bus_;
   std::mutex asking_;  ///< never the loop's
   bool closed_ = false;

@@ -140,6 +140,8 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   }
   setup.goal = setup.start.position();
   setup.goal_tolerance_m = root.number("goal_tolerance_m", {0.05, 5.0}, setup.goal_tolerance_m);
+  robot.goal_heading_tolerance_rad =
+      root.number("goal_heading_tolerance_rad", {0.02, kPi}, robot.goal_heading_tolerance_rad);
   setup.rate_hz = root.number("rate_hz", {20.0, 200.0}, setup.rate_hz);
   TomlTable laser = root.table("laser");
   robot.laser = read_wiring(laser);

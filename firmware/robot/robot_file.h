@@ -12,6 +12,7 @@
 #include "drivers/panel/joystick.h"
 #include "firmware/control_setup.h"
 #include "firmware/robot/realtime.h"
+#include "hal/types/operator_input.h"
 
 namespace jaywalk {
 
@@ -41,6 +42,7 @@ struct PanelWiring {
 
 struct RobotFile {
   ControlSetup setup;  ///< start pose: where the robot stands when the program starts
+  double goal_heading_tolerance_rad = OperatorInput{}.goal_heading_tolerance_rad;
   LaserWiring laser;
   DriveWiring drive;
   RealtimeWishes realtime;

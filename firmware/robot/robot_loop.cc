@@ -76,7 +76,7 @@ double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
 
 void RobotLoop::tell(const TickRecord& t) noexcept {
   constexpr Reason kLimits = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
-                             Reason::kNoGoal | Reason::kLatched;
+                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked;
   const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
@@ -84,11 +84,14 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.enabled = devices_.drive.is_enabled();
   if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
   if (t.input.has_goal) {
-    const double way = distance(t.pose.map_from_robot.position(), t.input.goal_in_map);
-    status_.goal_reached = way <= t.input.goal_tolerance_m;
+    const bool stands = status_.speed_mps < kRest_mps;
+    status_.goal_reached = t.input.is_reached_at(t.pose.map_from_robot) && (stands || !t.input.wants_heading());
+    status_.heading_error_rad = t.input.heading_error_rad(t.pose.map_from_robot);
   }
   status_.has_goal = t.input.has_goal && !status_.goal_reached;
   status_.goal_in_map = t.input.goal_in_map;
+  status_.goal_heading_rad = t.input.goal_heading_rad;
+  status_.turns_at_goal = runner_.loop().turns_at_goal();
   status_.reasons = t.verdict.reasons;
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
   if (!status_.latched) status_.latched_by = Reason::kNone;

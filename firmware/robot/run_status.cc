@@ -1,5 +1,6 @@
 #include "firmware/robot/run_status.h"
 
+#include <cmath>
 #include <sstream>
 
 namespace jaywalk {
@@ -8,7 +9,7 @@ namespace {
 const char* state_of(const RunStatus& status) {
   if (!status.running) return "starting";
   if (status.latched) return "latched";
-  if (status.has_goal) return "driving";
+  if (status.has_goal) return status.turns_at_goal ? "turning" : "driving";
   return status.goal_reached ? "reached" : "waiting";
 }
 
@@ -20,6 +21,7 @@ std::string describe(const RunStatus& status) {
   out << "state: " << state_of(status) << "\npose: " << pose.x << ' ' << pose.y << ' ' << pose.heading
       << "\nspeed_mps: " << status.speed_mps << "\nenabled: " << (status.enabled ? "yes" : "no") << "\ngoal: ";
   if (status.has_goal) out << status.goal_in_map.x << ' ' << status.goal_in_map.y;
+  if (status.has_goal && !std::isnan(status.goal_heading_rad)) out << ' ' << status.goal_heading_rad;
   out << "\nreasons: " << to_string(status.reasons) << "\nlatched_by: " << to_string(status.latched_by)
       << "\ndrive: " << name(status.drive) << "\nlaser: " << name(status.laser.trouble)
       << "\nlaser_last_trouble: " << name(status.laser.last_trouble) << "\nlaser_scans: " << status.laser.scans

@@ -5,7 +5,7 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
 #include "firmware/safety/reasons.h"
-#include "hal/types/geometry.h"
+#include "hal/types/operator_input.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
@@ -17,8 +17,11 @@ struct RunStatus {
   double speed_mps = 0.0;  ///< felt at the wheels; of the faster one
   bool enabled = false;
   bool has_goal = false;
-  bool goal_reached = false;  ///< the last one that there was
+  bool turns_at_goal = false;  ///< has come to the goal and turns to the heading wanted there
+  bool goal_reached = false;   ///< the last one that there was
   Vec2 goal_in_map;
+  double goal_heading_rad = kAnyHeading;   ///< wanted at the goal; NaN: any
+  double heading_error_rad = kAnyHeading;  ///< from the robot's heading to that, the short way; NaN where any will do
   Reason reasons = Reason::kNone;
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset

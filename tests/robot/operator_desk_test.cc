@@ -1,5 +1,6 @@
 #include "firmware/robot/operator_desk.h"
 
+#include <cmath>
 #include <string>
 
 #include "tests/drivers/hand_clock.h"
@@ -31,7 +32,7 @@ struct Bench {
   int restarts = 0;
   std::string restart_fails;
   bool bus_answers = true;
-  OperatorDesk desk{clock, 0.25, [this] {
+  OperatorDesk desk{clock, {0.25, 0.05}, [this] {
                       ++restarts;
                       if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive, s.speed_mps = 0.0; });
                       return restart_fails;
@@ -52,6 +53,31 @@ TEST_CASE("a goal that was asked for is the loop's until somebody says stop") {
   CHECK(bench.desk.obey("stop") == "stopping\n");
   CHECK_FALSE(bench.desk.latest().has_goal);
   CHECK_FALSE(bench.desk.latest().emergency_stop);
+}
+
+TEST_CASE("a goal's heading is the loop's as well, and the next goal may have none") {
+  Bench bench;
+  CHECK(std::isnan(bench.desk.latest().goal_heading_rad));
+  CHECK(bench.desk.obey("goto -1 -2 -1.57") == "going\n");
+  CHECK(bench.desk.latest().goal_in_map == Vec2{-1.0, -2.0});
+  CHECK(bench.desk.latest().goal_heading_rad == -1.57);
+  CHECK(bench.desk.latest().goal_heading_tolerance_rad == 0.05);
+  CHECK(bench.desk.latest().wants_heading());
+  CHECK(bench.desk.obey("goto 1 2") == "going\n");
+  CHECK_FALSE(bench.desk.latest().wants_heading());
+}
+
+TEST_CASE("a heading in degrees, none, and a word too many are refused, and the goal stays as it was") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 2 0.5") == "going\n");
+  CHECK(bench.desk.obey("goto 3 4 90") ==
+        "refused: goto: HEADING 90 is out of range; give radians in the map, a turn (6.2832) at most\n");
+  CHECK(bench.desk.obey("goto 3 4 nan") ==
+        "refused: goto: HEADING nan is not finite; give radians in the map, a turn (6.2832) at most\n");
+  CHECK(bench.desk.obey("goto 3 4 east").rfind("refused: goto: HEADING east is no number; ", 0) == 0);
+  CHECK(bench.desk.obey("goto 3 4 0 0") == "refused: goto: 4 words; give X Y, or X Y HEADING\n");
+  CHECK(bench.desk.latest().goal_in_map == Vec2{1.0, 2.0});
+  CHECK(bench.desk.latest().goal_heading_rad == 0.5);
 }
 
 TEST_CASE("a goal that was reached is dropped, and the next is taken") {
@@ -121,7 +147,7 @@ TEST_CASE("an emergency stop is pressed for a tick and takes the goal") {
 
 TEST_CASE("what is no order moves nothing") {
   Bench bench;
-  for (const char* line : {"", "goto", "goto ", "goto 1", "goto 1 2 3", "goto nan 0", "goto inf 1", "goto 1 1e9",
+  for (const char* line : {"", "goto", "goto ", "goto 1", "goto 1 2 3 4", "goto nan 0", "goto inf 1", "goto 1 1e9",
                            "go 1 2", "status now", "goto 1 2;", "GOTO 1 2", "\xff\x00"}) {
     CHECK(bench.desk.obey(line).rfind("refused", 0) == 0);
   }
@@ -130,7 +156,7 @@ TEST_CASE("what is no order moves nothing") {
 
 TEST_CASE("before the loop runs and after it was told to end there are no goals") {
   tests::HandClock clock;
-  OperatorDesk desk(clock, 0.3, [] { return std::string(); });
+  OperatorDesk desk(clock, {}, [] { return std::string(); });
   CHECK(desk.obey("goto 1 1").rfind("refused: the robot is not ready", 0) == 0);
   Bench bench;
   CHECK(bench.desk.obey("goto 1 1") == "going\n");
@@ -160,4 +186,19 @@ TEST_CASE("status is told in lines of word and value") {
   CHECK(status.rfind("state: waiting\n", 0) == 0);
   CHECK(status.find("\nmissed_ticks: 7\n") != std::string::npos);
   CHECK(status.find("\nreasons: stop_zone|no_goal\n") != std::string::npos);
+  CHECK(status.find("\ngoal: \n") != std::string::npos);
+}
+
+TEST_CASE("status tells the heading at the goal, that the robot turns to it, and that it has no room to") {
+  Bench bench;
+  bench.tell([](RunStatus& s) {
+    s.has_goal = s.turns_at_goal = true;
+    s.goal_in_map = {1.5, -2.0};
+    s.goal_heading_rad = 1.57;
+    s.reasons = Reason::kTurnBlocked;
+  });
+  const std::string status = bench.desk.obey("status");
+  CHECK(status.rfind("state: turning\n", 0) == 0);
+  CHECK(status.find("\ngoal: 1.5 -2 1.57\n") != std::string::npos);
+  CHECK(status.find("\nreasons: turn_blocked\n") != std::string::npos);
 }

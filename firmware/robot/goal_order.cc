@@ -1,0 +1,66 @@
+#include "firmware/robot/goal_order.h"
+
+#include <array>
+#include <charconv>
+#include <cmath>
+#include <cstdio>
+#include <vector>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kFarthest_m = 1e5;   ///< a goal beyond is a slip of the finger
+constexpr double kTurn_rad = 6.2832;  ///< a heading beyond is one in degrees
+
+std::vector<std::string> split(std::string_view text) {
+  std::vector<std::string> words;
+  for (std::size_t at = 0; (at = text.find_first_not_of(' ', at)) != std::string_view::npos;) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    words.emplace_back(text.substr(at, end - at));
+    at = end;
+  }
+  return words;
+}
+
+/// A number of at most `most` either way; `what` it is, for complaints.
+double read_number(const std::string& word, const std::string& what, double most, const std::string& remedy) {
+  double value = 0.0;
+  const char* const end = word.data() + word.size();
+  const auto [rest, error] = std::from_chars(word.data(), end, value);
+  const std::string place = "goto: " + what + " " + word;
+  if (rest != end || error != std::errc{}) throw StartupError(place + " is no number", remedy);
+  if (!std::isfinite(value)) throw StartupError(place + " is not finite", remedy);
+  if (std::fabs(value) > most) throw StartupError(place + " is out of range", remedy);
+  return value;
+}
+
+}  // namespace
+
+GoalOrder read_goal_order(std::string_view text) {
+  const std::vector<std::string> words = split(text);
+  if (words.size() != 2 && words.size() != 3) {
+    throw StartupError("goto: " + std::to_string(words.size()) + " words", "give X Y, or X Y HEADING");
+  }
+  const std::string metres = "give metres in the map, at most 100000";
+  GoalOrder order;
+  order.position_in_map = {read_number(words[0], "X", kFarthest_m, metres),
+                           read_number(words[1], "Y", kFarthest_m, metres)};
+  if (words.size() == 3) {
+    order.heading_rad =
+        wrap_angle(read_number(words[2], "HEADING", kTurn_rad, "give radians in the map, a turn (6.2832) at most"));
+  }
+  return order;
+}
+
+std::string words_of(const GoalOrder& order) {
+  std::array<char, 100> words{};
+  const Vec2 p = order.position_in_map;
+  const int length = std::snprintf(words.data(), words.size(), "%.17g %.17g", p.x, p.y);
+  if (std::isnan(order.heading_rad)) return words.data();
+  std::snprintf(words.data() + length, words.size() - static_cast<std::size_t>(length), " %.17g", order.heading_rad);
+  return words.data();
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,59 @@
+#include "firmware/robot/goal_order.h"
+
+#include <cmath>
+
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+std::string complaint_about(const std::string& words) {
+  try {
+    static_cast<void>(read_goal_order(words));
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+  return {};
+}
+
+}  // namespace
+
+TEST_CASE("a goal is two numbers, or three with the heading") {
+  const GoalOrder place = read_goal_order("4.0 -1.5");
+  CHECK(place.position_in_map == Vec2{4.0, -1.5});
+  CHECK(std::isnan(place.heading_rad));
+  const GoalOrder pose = read_goal_order("  -1   -2 -1.57 ");
+  CHECK(pose.position_in_map == Vec2{-1.0, -2.0});
+  CHECK(pose.heading_rad == -1.57);
+}
+
+TEST_CASE("a heading of up to a turn is the same one between -pi and pi") {
+  CHECK(read_goal_order("0 0 4").heading_rad == Approx(4.0 - 2.0 * kPi));  // -2.283
+  CHECK(read_goal_order("0 0 -6.283").heading_rad == Approx(2.0 * kPi - 6.283).margin(1e-9));
+  CHECK(complaint_about("0 0 6.29").rfind("goto: HEADING 6.29 is out of range; give radians", 0) == 0);
+  CHECK(complaint_about("0 0 -90").rfind("goto: HEADING -90 is out of range; give radians", 0) == 0);
+}
+
+TEST_CASE("an order's words give the same order, to the last bit") {
+  for (const char* words : {"0.1 -1e5", "0.1 0.2 0.30000000000000004", "-1e-300 3 -3.1"}) {
+    const GoalOrder order = read_goal_order(words);
+    const GoalOrder again = read_goal_order(words_of(order));
+    CHECK(again.position_in_map == order.position_in_map);
+    CHECK((again.heading_rad == order.heading_rad || std::isnan(order.heading_rad)));
+    CHECK(std::isnan(again.heading_rad) == std::isnan(order.heading_rad));
+  }
+}
+
+TEST_CASE("what is no goal is refused with its place, its cause and what to give") {
+  CHECK(complaint_about("") == "goto: 0 words; give X Y, or X Y HEADING");
+  CHECK(complaint_about("1") == "goto: 1 words; give X Y, or X Y HEADING");
+  CHECK(complaint_about("1 2 3 4") == "goto: 4 words; give X Y, or X Y HEADING");
+  CHECK(complaint_about("1 2m") == "goto: Y 2m is no number; give metres in the map, at most 100000");
+  CHECK(complaint_about("nan 2") == "goto: X nan is not finite; give metres in the map, at most 100000");
+  CHECK(complaint_about("1 -inf") == "goto: Y -inf is not finite; give metres in the map, at most 100000");
+  CHECK(complaint_about("1e9 2") == "goto: X 1e9 is out of range; give metres in the map, at most 100000");
+  CHECK_FALSE(complaint_about("1e999 2").empty());
+  CHECK_FALSE(complaint_about(std::string("1 2\0", 4)).empty());
+}
