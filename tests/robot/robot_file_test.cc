@@ -79,6 +79,10 @@ TEST_CASE("a robot file says how the devices are wired") {
   CHECK(robot.drive.cia402.axes[1].counts_per_rad == Approx(-12191.27));
   CHECK(robot.drive.cia402.settings.controller_timeout_ms == 100);
   CHECK_FALSE(robot.drive.cia402.allow_unproved);
+  CHECK(robot.goal_heading_tolerance_rad == 0.1);
+  CHECK(load(with("start =", "goal_heading_tolerance_rad = 0.25\nstart =")).goal_heading_tolerance_rad == 0.25);
+  CHECK(refusal(with("start =", "goal_heading_tolerance_rad = 5\nstart ="))
+            .rfind("2: goal_heading_tolerance_rad is 5; ", 0) == 0);
 }
 
 TEST_CASE("drives brake at least as hard as the stop zone reckons") {

@@ -114,6 +114,30 @@ TEST_CASE("a scan is in the verdict of the next tick, whose frames leave within 
   CHECK(bench.speed_mps() > 0.3);
 }
 
+TEST_CASE("a heading that is asked for over the desk is turned to over the wires, and then the goal is reached") {
+  Bench bench("robot");
+  bench.tick(10);
+  const Pose2 start = bench.robot.runner().setup().start;
+  const std::string place = "goto " + std::to_string(start.x) + " " + std::to_string(start.y) + " ";
+  CHECK(bench.robot.desk().obey(place + "2.5") == "going\n");
+  bench.tick(40);
+  const std::string on_the_way = bench.robot.desk().obey("status");
+  CHECK(on_the_way.rfind("state: turning\n", 0) == 0);
+  CHECK(on_the_way.find(" 2.5\nreasons: \n") != std::string::npos);
+  CHECK(bench.speed_mps() > 0.1);
+  bench.heap_calls = 0;
+  bench.tick(250);
+  CHECK(bench.heap_calls == 0);
+  CHECK(bench.robot.desk().obey("status").rfind("state: reached\n", 0) == 0);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(wrap_angle(bench.last().pose.map_from_robot.heading - 2.5) == Approx(0.0).margin(0.1));
+  // Another goal there without a heading is reached as it stands.
+  CHECK(bench.robot.desk().obey(place) == "going\n");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("status").rfind("state: reached\n", 0) == 0);
+  CHECK(bench.speed_mps() == 0.0);
+}
+
 TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, whatever the devices") {
   for (const char* robot : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
     Bench bench(robot);
