@@ -45,6 +45,8 @@ void RunPicture::save(const std::filesystem::path& folder, const std::string& ti
   scene.start = setup.start;
   scene.goal = setup.goal;
   scene.goal_tolerance_m = setup.goal_tolerance_m;
+  const OperatorInput& wanted = runner.last().input;
+  if (wanted.wants_heading()) scene.goal_heading_rad = wanted.goal_heading_rad;
   scene.footprint = setup.model.footprint;
   scene.extent = extent_of(scene);
   draw_picture(scene, (folder / "run.png").string());

@@ -82,7 +82,11 @@ TEST_CASE("it takes over within two thirds of the tolerance, and anywhere within
   CHECK_FALSE(turn.active());
   turn.aim(to_heading(1.0, {1.0, 0.0}), {0.81, 0.0, 0.0}, {0.3, 0.0});
   CHECK(turn.active());
+  const Ground ground;
+  turn.look({.path = {}, .map_from_robot = {0.81, 0.0, 0.0}, .wanted = {}, .driven = {}, .still = ground.map()});
   CHECK(turn.wish({0.81, 0.0, 0.0}) == Twist2{});  // to rest, before it turns
+  turn.aim(to_heading(1.0, {1.0, 0.0}), {0.81, 0.0, 0.0}, {});
+  CHECK(turn.wish({0.81, 0.0, 0.0}) == Twist2{0.0, 1.5});
   turn.aim(to_heading(1.0, {5.0, 0.0}), {0.81, 0.0, 0.0}, {});
   CHECK_FALSE(turn.active());  // another goal
   turn.aim(to_heading(1.0, {1.1, 0.0}), {0.81, 0.0, 0.0}, {});

@@ -197,6 +197,10 @@ void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sce
     canvas.fill_disc(at, radius, ink::kGoal.faded(0.25));
     canvas.stroke_circle(at, radius, {ink::kGoal, 3.0 * weight});
     canvas.fill_disc(at, 4.0 * weight, ink::kGoal);
+    if (scene.goal_heading_rad) {
+      const Vec2 ahead = to_sheet(*scene.goal + direction(*scene.goal_heading_rad)) - at;
+      canvas.stroke(Polyline{at, at + ahead * (radius / norm(ahead))}, {ink::kGoal, 3.0 * weight});
+    }
     write_on_map(canvas, at + Vec2{0.0, -radius - 10.0}, "goal", {20.0, ink::kGoal, Align::kCentre, true});
   }
 }

@@ -57,6 +57,7 @@ struct PictureScene {
   std::optional<Pose2> start;
   std::optional<Vec2> goal;
   double goal_tolerance_m = 0.3;
+  std::optional<double> goal_heading_rad;  ///< where one was wanted there
   Footprint footprint;
 };
 
