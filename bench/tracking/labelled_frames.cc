@@ -12,16 +12,17 @@ constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Frames = std::map<double, std::vector<Target>>;
 using Trails = std::map<std::uint32_t, std::map<double, Vec2>>;  ///< places of each id by time
 
-Frames labels_in_map(const std::filesystem::path& file, const RunFolder& run, const Pose2& robot_from_laser) {
+Frames labels_in_map(const std::filesystem::path& file, const RunFolder& run, const LabelRule& rule) {
   const NumberTable labels(file);
   const bool in_laser = labels.has("t_bag"), says_who_walks = labels.has("walks");
   const auto &t = labels.column(in_laser ? "t_bag" : "t_s"), &id = labels.column("id"),
              &x = labels.column(in_laser ? "x" : "x_m"), &y = labels.column(in_laser ? "y" : "y_m");
   Frames frames;
   for (std::size_t k = 0; k < labels.rows(); ++k) {
-    const Pose2 map_from_labels = in_laser ? run.estimate_at(t[k]) * robot_from_laser : Pose2{};
+    const double when = t[k] - rule.late_s;
+    const Pose2 map_from_labels = in_laser ? run.estimate_at(when) * rule.robot_from_laser : Pose2{};
     const bool counts = !says_who_walks || labels.column("walks")[k] != 0.0;
-    frames[t[k]].push_back(
+    frames[when].push_back(
         {static_cast<std::uint32_t>(id[k]), map_from_labels * Vec2{x[k], y[k]}, {kUnknown, kUnknown}, counts});
   }
   return frames;
@@ -50,7 +51,7 @@ void add_those_between(Frames& frames, double between_s) {
 
 void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const LabelRule& rule,
                      const FrameSink& frame) {
-  Frames frames = labels_in_map(file, run, rule.robot_from_laser);
+  Frames frames = labels_in_map(file, run, rule);
   add_those_between(frames, rule.between_s);
   for (const auto& [when, targets] : frames) frame(when, targets);
 }

@@ -15,7 +15,7 @@ namespace {
 struct Options {
   std::string folder, labels, reference;
   std::vector<double> laser_mount{0.0, 0.0, 0.0};
-  double between_s = 0.0;
+  double between_s = 0.0, late_s = 0.0;
   bool nobody = false;
   ScoreRules rules;
   ViewRule view;
@@ -70,7 +70,7 @@ void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
     for (const double t_s : run.track_times()) frame(t_s, {});
   } else if (!o.labels.empty()) {
     const Pose2 robot_from_laser{o.laser_mount[0], o.laser_mount[1], o.laser_mount[2]};
-    labelled_frames(o.labels, run, {robot_from_laser, o.between_s}, frame);
+    labelled_frames(o.labels, run, {robot_from_laser, o.between_s, o.late_s}, frame);
   } else if (o.simulated()) {
     simulated_frames(o.folder, run, o.view, frame);
   }
@@ -109,6 +109,7 @@ int main(int argc, char** argv) {
                  "t_s,id,x_m,y_m in the map, or t_bag,id,x,y in the laser's frame; walks = 0: no matter");
   app.add_option("--between", o.between_s,
                  "s: whoever has labels before and after, so far apart, may be found as well");
+  app.add_option("--labels-late", o.late_s, "s: from a scan's stamp to the time that its labels have");
   app.add_option("--laser-mount", o.laser_mount, "X,Y,YAW as given to the replay, for labels in the laser's frame")
       ->delimiter(',')
       ->expected(3);

@@ -57,6 +57,7 @@ void simulated_frames(const std::filesystem::path& folder, const RunFolder& run,
 struct LabelRule {
   Pose2 robot_from_laser{};  ///< for labels in the laser's frame
   double between_s = 0.0;  ///< whoever has labels before and after a frame, at most so far apart, is taken to be there
+  double late_s = 0.0;     ///< a label's time is so long after the stamp of the scan that it holds for
 };
 
 /// Labels: t_s,id,x_m,y_m in the map, or t_bag,id,x,y in the laser's frame; a frame for every time that stands in it.

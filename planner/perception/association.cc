@@ -79,7 +79,8 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .radius_m = std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM),
                    .in_free_space = c.in_free_space,
                    .outline_in_map = c.outline_in_map,
-                   .whole = c.whole()};
+                   .whole = c.whole(),
+                   .edge_m = c.emerges() ? c.spacing_m : 0.0};
   if (seen.whole) {
     seen.width_m = distance(c.outline_in_map[0], c.outline_in_map.back());
     if (!c.leg()) seen.arc_m = c.radius_m;
@@ -87,7 +88,7 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
     add_hidden_part(c, arc_m > 0.0 ? arc_m : std::max(c.radius_m, kPersonRadiusM), seen);
   }
   const bool part_of_more = !seen.whole && arc_m > 0.0;
-  if (c.leg() && !part_of_more) be_legs(clusters, lead, fellow, seen);
+  if (c.leg() && !part_of_more && !c.behind_more) be_legs(clusters, lead, fellow, seen);
   return seen;
 }
 

@@ -13,6 +13,7 @@ struct Observation {
   bool in_free_space = false;
   Outline outline_in_map;  ///< of the nearest cluster
   bool whole = false;      ///< nothing hid either side of that
+  double edge_m = 0.0;     ///< Body::edge_m
   double width_m = 0.0;    ///< of its visible side where it is whole; else 0
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
 };

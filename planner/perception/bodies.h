@@ -17,6 +17,7 @@ struct Body {
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
   double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
+  double edge_m = 0.0;         ///< how well its free side was seen then, behind something wider than legs; 0: not so
   bool given = false;          ///< named by an outside system; the laser does not judge it
   std::uint32_t given_id = 0;  ///< that system's own name for it
   Time born = kNever;

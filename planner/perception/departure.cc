@@ -14,18 +14,20 @@ constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' m
 constexpr double kSpeedSigmas = 2.5;
 constexpr double kFastMps = 1.8;  // faster than people walk: more often a hop between two like things
 constexpr std::size_t kPlacesWhenFast = 8;
-constexpr std::size_t kFewestPlaces = 5;
+constexpr std::size_t kFewestPlaces = 5, kFewestSteady = 4;
 constexpr double kHopM = 0.3;              // half of a stride: one leg is seen, then the other
 constexpr double kExplained = 0.8;         // by a straight walk: one hop reaches 0.75
 constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
 constexpr double kStrideM = 0.5;
 constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
-constexpr double kMayStand = 0.4;               // probability that it stands, at most
+constexpr double kMayStand = 0.5;               // probability that it stands, at most
 constexpr double kNarrowM = 0.18,
                  kWideM = 0.4;  // half widths between which what is seen whole is a body: not a post, no panel
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
 constexpr double kSolidNoise = 1.5;  // times what is expected: legs and corners that change places have more
+constexpr double kCameSigmas = 4.5, kCameM = 0.06;       // the same of bodies that came to free space
 constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kEdges = 1.5;                           // beam spacings: where its free side is, is known to one
 constexpr double kSameM = 0.08, kSamePerM = 0.015;       // about a point of the anchor, what ends there is still it
 constexpr double kChordM = 0.25, kAlong = 0.7;           // legs are narrower; 45 degrees
 constexpr double kSlant = 0.35;                          // 20 degrees off square to the beams
@@ -63,18 +65,41 @@ Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
 /// As wide as people and robots are, and seen to stay where it should be as solid things do.
 bool solid(const Body& body) { return body.arc_m > kNarrowM && body.arc_m < kWideM && body.noise < kSolidNoise; }
 
+/// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
+/// path is measured, and a surface that comes into view has that where it always was.
+bool emerges(const Body& body) { return body.edge_m > 0.0 && body.noise < kSolidNoise; }
+
+bool came_straight(const Body& body, const StraightWalk& walk) {
+  return came_to_free_space(body) && walk.explained > kExplained;
+}
+
+/// The least of a steady walk that is believed: the more the body and the ground tell, the less.
+struct LeastWalk {
+  double sigmas = 0.0, length_m = 0.0;
+};
+
+LeastWalk least_walk(const Body& body, const StraightWalk& walk) {
+  if (!solid(body) && !emerges(body)) return {kThingSigmas, kSteadyM};
+  if (came_straight(body, walk)) return {kCameSigmas, kCameM};
+  return {kSolidSigmas, kSteadyM};
+}
+
 /// So straight for its length that there is no doubt left, and longer than growing or shrinking explains: a slow robot
 /// is both slow and straight, a person fast and swaying.
 bool steady(const Body& body, const StraightWalk& walk) {
-  return walk.sigmas > (solid(body) ? kSolidSigmas : kThingSigmas) &&
-         walk.length_m > std::max(kSteadyM, walk.width_change_m);
+  const LeastWalk least = least_walk(body, walk);
+  return walk.sigmas > least.sigmas &&
+         walk.length_m > std::max({least.length_m, walk.width_change_m, kEdges * body.edge_m});
 }
 
 /// Both its sides went along, and nothing hides either: no surface that comes into view does that.
 bool rigid(const Body& body, const StraightWalk& walk) {
-  return body.whole && solid(body) && walk.sigmas > kRigidSigmas && walk.length_m > kSteadyM &&
-         walk.width_change_m < kRigidShare * walk.length_m;
+  return body.whole && solid(body) && steady(body, walk) && walk.width_change_m < kRigidShare * walk.length_m &&
+         (came_straight(body, walk) || walk.sigmas > kRigidSigmas);
 }
+
+/// What its free side went says more, and sooner, than a filter that does not know yet how wide it is.
+bool edge_walks(const Body& body, const StraightWalk& walk) { return emerges(body) && steady(body, walk); }
 
 /// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
 bool slides_along_itself(const Body& body, Vec2 laser) {
@@ -93,7 +118,7 @@ bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight,
   const Anchor anchor = look_back(body, sight, kSameM + kSamePerM * range);
   if (anchor.there > 0) return false;
   const bool came = came_to_free_space(body), left = anchor.through > 0;
-  if (!left && slides_along_itself(body, laser)) return false;
+  if (!left && !edge_walks(body, walk) && slides_along_itself(body, laser)) return false;
   if (rigid(body, walk) || ((came || left) && steady(body, walk))) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
   const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
@@ -103,8 +128,9 @@ bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight,
 double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
 
 bool far_from_anchor(const Body& body, const StraightWalk& walk) {
-  return gone(body) >
-         std::max(steady(body, walk) ? kSteadyM : kGoneM, kGoneSigmas * std::sqrt(body.track.covariance.pp));
+  if (edge_walks(body, walk)) return true;
+  const double least_m = steady(body, walk) ? least_walk(body, walk).length_m : kGoneM;
+  return gone(body) > std::max(least_m, kGoneSigmas * std::sqrt(body.track.covariance.pp));
 }
 
 /// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
@@ -114,10 +140,16 @@ bool rides_along(const Body& body, Vec2 in_laser) {
 
 /// Fast against what the filter is unsure of, or steady.
 bool beyond_doubt(const Body& body, const StraightWalk& walk) {
+  const bool at_a_walk = walk.length_m > kMovingMps * walk.duration_s && walk.length_m < kFastMps * walk.duration_s;
+  if (edge_walks(body, walk) && at_a_walk) return true;
   const double speed = norm(body.track.velocity_in_map);
   if (speed < kMovingMps || body.models.weight(MotionModels::kStands) > kMayStand) return false;
   if (speed > kFastMps && walk.places < kPlacesWhenFast) return false;
   return steady(body, walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
+}
+
+bool places_enough(const Body& body, const StraightWalk& walk) {
+  return walk.places >= (steady(body, walk) ? kFewestSteady : kFewestPlaces);
 }
 
 }  // namespace
@@ -125,7 +157,7 @@ bool beyond_doubt(const Body& body, const StraightWalk& walk) {
 Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
   if (body.seen_share <= kMostlySeen) return Departure::kNone;
   const StraightWalk walk = body.path.fit();
-  if (walk.places < kFewestPlaces || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
+  if (!places_enough(body, walk) || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
   const Vec2 laser = map_from_laser.position();
   const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
   if (rides_along(body, in_laser) || !walks(body, walk, sight, laser)) return Departure::kNone;

@@ -10,7 +10,7 @@ namespace {
 constexpr double kStoppedMps = 0.10;
 constexpr std::size_t kFewestPlaces = 5;
 constexpr std::uint32_t kWalkedScans = 2;                  // in a row: a hop is over by the next scan
-constexpr Duration kSlowFor = duration_from_seconds(3.5);  // who turns on the spot walks on
+constexpr Duration kSlowFor = duration_from_seconds(4.3);  // who turns on the spot walks on
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
 constexpr double kSettledM = 0.25;  // has not gone farther
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);

@@ -13,6 +13,7 @@ constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a
 constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
 constexpr double kMostFree = 0.6;    // of its points in free space: it came there
 constexpr std::uint32_t kFewestPoints = 3;
+constexpr double kLegsM = 0.35;           // wider than a leg, or two side by side
 constexpr double kWallNoiseM = 0.10;      // a wall's points scatter this far about where the map holds it
 constexpr double kWallNoisePerM = 0.012;  // and this much more a metre of range: 0.7 degrees of heading
 
@@ -74,6 +75,15 @@ void note_hidden_sides(const ScanPoints& points, std::uint32_t last_beam, Cluste
   cluster.high_hidden = points[last].beam == last_beam || (last + 1 < points.size() && nearer(last, last + 1));
 }
 
+/// What neighbouring segment `n` +- 1 hides the cluster that segment `n` is.
+void note_what_hides(const Segments& segments, std::size_t n, const PointsInMap& in_map, Cluster& cluster) {
+  const auto wide = [&](const Segment& s) {
+    return distance(in_map.position[s.first], in_map.position[s.last]) > kLegsM;
+  };
+  cluster.behind_more = (cluster.low_hidden && n > 0 && wide(segments[n - 1])) ||
+                        (cluster.high_hidden && n + 1 < segments.size() && wide(segments[n + 1]));
+}
+
 bool body_sized(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map) {
   return segment.last - segment.first + 1 >= kFewestPoints && points[segment.first].range_m < kFarthestM &&
          distance(in_map.position[segment.first], in_map.position[segment.last]) < kWidestM;
@@ -110,13 +120,15 @@ Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments,
                    std::uint32_t last_beam, Vec2 laser, Clusters& out) noexcept {
   out.clear();
-  for (const Segment& segment : segments) {
+  for (std::size_t n = 0; n < segments.size(); ++n) {
+    const Segment& segment = segments[n];
     if (!body_sized(segment, points, in_map)) continue;
     const GroundShares shares = shares_of(segment, in_map);
     if (shares.wall > kMostWall) continue;
     Cluster cluster = cluster_of(segment, points, in_map, laser);
     cluster.in_free_space = shares.free > kMostFree;
     note_hidden_sides(points, last_beam, cluster);
+    note_what_hides(segments, n, in_map, cluster);
     if (!cluster.in_free_space && cluster.low_hidden && cluster.high_hidden) continue;
     if (!out.push_back(cluster)) return;
   }

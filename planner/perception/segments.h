@@ -32,10 +32,13 @@ struct Cluster {
   Vec2 along;                                    ///< unit vector of the beams, away from the laser
   Vec2 high_side;                                ///< unit vector across the beams, from the first to the last
   bool low_hidden = false, high_hidden = false;  ///< at its first and last beam: it may go on behind something nearer
+  bool behind_more = false;                      ///< that is wider than legs
   bool in_free_space = false;                    ///< most of it stands where nothing stood before
   std::uint32_t track_id = 0;                    ///< of the body that it was given to; 0: none
 
   [[nodiscard]] bool whole() const { return !low_hidden && !high_hidden; }
+  /// Seen on one side of something wider than legs.
+  [[nodiscard]] bool emerges() const { return behind_more && low_hidden != high_hidden; }
   /// Leg-sized: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
 };

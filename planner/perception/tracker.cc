@@ -139,8 +139,9 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   body.path.add(now, seen.position_in_map, seen.width_m);
   body.outline_in_map = seen.outline_in_map;
   body.whole = seen.whole;
+  body.edge_m = seen.edge_m;
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
-  body.free_share += kFreeGain * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
+  body.free_share += std::max(kFreeGain, 1.0 / body.track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
 }
 
@@ -186,6 +187,7 @@ void Tracker::State::birth() noexcept {
     const Observation seen = observe_new(clusters, k, ++last_id);
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
     body.outline_in_map = seen.outline_in_map;
+    body.free_share = seen.in_free_space ? 1.0 : 0.0;
     anchor_here(body, map_from_laser, now);
     admit(bodies, body, map_from_laser.position());
   }

@@ -50,6 +50,33 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
   CHECK(departure(body, sight, {}) == Departure::kNone);
 }
 
+TEST_CASE("who comes out from behind something has set out by the way of the side that is seen") {
+  // 0.2 m in a second, straight, on ground that was free before. The filter does not believe it yet.
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.whole = false;
+  body.track.velocity_in_map = {0.0, 0.05};
+  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+  body.edge_m = 0.03;
+  CHECK(departure(body, sight, {}) == Departure::kLikely);
+  body.edge_m = 0.15;  // so far apart are the beams: the way is not longer than one and a half of that
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
+TEST_CASE("a body that came to free space is known by a shorter walk than one on unknown ground") {
+  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  Body body = walker({3.0, 0.0}, {3.0, 0.09});  // shorter than 0.10 m
+  body.arc_m = 0.25;
+  body.track.velocity_in_map = {0.0, 0.3};
+  body.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  body.models = MotionModels(body.track);
+  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  body.free_share = 0.0;
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
 TEST_CASE("who most likely stands has not set out") {
   Room room = rectangle(12.0, 10.0);
   room.discs = {{{3.0, 0.5}, 0.1}};

@@ -67,6 +67,23 @@ TEST_CASE("labels in the laser's frame are placed by pose and mount") {
   CHECK(seen[0].position_in_map.y == Approx(3.5));
 }
 
+TEST_CASE("labels that were timed when the scan had arrived hold for its stamp") {
+  const MadeRun made;
+  const RunFolder run(made.folder());
+  const auto file = made.write("people.csv", "t_bag,id,x,y,z\n1.11,3,2.0,0.0,0.0\n");
+  double when_s = 0.0;
+  Vec2 there;
+  const LabelRule rule{.late_s = 0.13};
+  // 1.11 - 0.13 = 0.98 s, when the robot stood at (1, 0) facing +x; at 1 s it has turned.
+  labelled_frames(file, run, rule, [&](double t_s, const std::vector<Target>& targets) {
+    when_s = t_s;
+    there = targets[0].position_in_map;
+  });
+  CHECK(when_s == Approx(0.98));
+  CHECK(there.x == Approx(3.0));
+  CHECK(there.y == Approx(0.0).margin(1e-9));
+}
+
 TEST_CASE("labels in the map stay where they are") {
   const MadeRun made;
   const RunFolder run(made.folder());

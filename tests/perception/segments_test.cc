@@ -119,9 +119,21 @@ TEST_CASE("a body half behind something nearer knows which of its sides is hidde
   CHECK(half->low_hidden);  // beams count from right to left
   CHECK_FALSE(half->high_hidden);
   CHECK_FALSE(half->whole());
+  CHECK(half->emerges());
   CHECK(half->radius_m == Approx(0.135).margin(0.02));
   CHECK(half->high_side.y > 0.99);
   CHECK(half->along.x > 0.99);
+}
+
+TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding one another") {
+  Room room;
+  room.discs = {{{2.0, 0.0}, 0.06}, {{3.0, 0.15}, 0.1}};  // the nearer hides what lies up to 0.09 m left of straight
+  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Cluster* half = nullptr;
+  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
+  REQUIRE(half != nullptr);
+  CHECK(half->low_hidden);
+  CHECK_FALSE(half->emerges());
 }
 
 TEST_CASE("what reaches the end of the sweep may go on outside it") {
