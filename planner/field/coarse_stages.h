@@ -93,6 +93,28 @@ struct BlocksToBoard {
   }
 };
 
+/// For how many of the blocks below, those that have an equation, a row of blocks speaks. One visit a row.
+struct SpokenOfRow {
+  std::int32_t side;              ///< blocks a row
+  const float* diagonal;          ///< of those below, by rows
+  const std::int32_t* members;    ///< of these
+  std::int32_t *spoken, *joined;  ///< joined: those below with an equation
+
+  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
+    std::int32_t speaks = 0, joins = 0;
+    for (std::int32_t i = 0; i < 2 * side; ++i) {
+      for (std::int32_t north = 0; north < 2; ++north) {
+        const bool has_equation = diagonal[(2 * j + north) * 2 * side + i] > 0.0F;
+        const bool is_member = (members[j * side + i / 2] & (1 << (i % 2 + 2 * north))) != 0;
+        joins += has_equation ? 1 : 0;
+        speaks += (has_equation & is_member) ? 1 : 0;
+      }
+    }
+    spoken[j] = speaks;
+    joined[j] = joins;
+  }
+};
+
 /// The right-hand sides of blocks: the weighted sum of what their cells lack. Odd cells lack nothing, they were relaxed
 /// last.
 struct RestrictToBlock {

@@ -23,10 +23,12 @@ inline constexpr std::int32_t kBandRounds = 60;
 inline constexpr std::int32_t kTautRounds = 4;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// Cycles from the start field: three, and on while the last has still found something; then 99.9 % of cells or more
-/// pick the exact field's best neighbour. From the last submission's field one does where nothing has changed since,
-/// and a second where the first has found something (docs/algorithm.md).
-inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 4, kWarmCycles = 1, kMostWarmCycles = 2;
+/// Cycles from the start field: three, and on while the last has still found something, up to six; then 99.9 % of cells
+/// or more pick the exact field's best neighbour. On windows of more than 256 cells a side four are the most, for the
+/// time they take. From the last submission's field one does where nothing has changed since, and a second where the
+/// first has found something (docs/algorithm.md).
+inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 6, kWarmCycles = 1, kMostWarmCycles = 2;
+[[nodiscard]] constexpr std::int32_t most_cold_cycles(Grid grid) { return grid.side > 256 ? 4 : kMostColdCycles; }
 
 /// Times that pits are lifted at most, and before the certificate is read again. A pit that rounding has made is a
 /// plateau a few cells wide; one that is deeper needs another solution.
@@ -136,9 +138,10 @@ class Pass {
       bool anew;  ///< from the start field, not from what the attempt before came to
       std::int32_t least_cycles, most_cycles, lifts;
     };
+    const std::int32_t most = most_cold_cycles(grid);
     const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kMostWarmCycles, kLifts},
-                                {From::kNothing, true, kColdCycles, kMostColdCycles, kLifts},
-                                {From::kNothing, false, kMostColdCycles, kMostColdCycles, kLifts},
+                                {From::kNothing, true, kColdCycles, most, kLifts},
+                                {From::kNothing, false, most, most, kLifts},
                                 {From::kStartOnly, true, 0, 0, 2 * grid.side}};
     FieldQuality quality;
     for (const Attempt& attempt : attempts) {
