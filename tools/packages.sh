@@ -12,6 +12,7 @@ missing_packages() {
   command -v cmake >/dev/null || echo cmake
   command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
   command -v pkg-config >/dev/null || echo pkg-config
+  command -v ip >/dev/null || echo iproute2 # for the tests over wires
   for library in "${kLibraries[@]}"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$library" 2>/dev/null)" = installed ] || echo "$library"
   done
