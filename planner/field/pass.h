@@ -23,10 +23,11 @@ inline constexpr std::int32_t kBandRounds = 60;
 inline constexpr std::int32_t kTautRounds = 4;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// Cycles from the start field: three, and on while the last has still found something, up to five; then 99.9 % of cells
-/// or more pick the exact field's best neighbour. (Six take longer than 100 plain sweeps where eight lanes are the most.)
-/// On windows of more than 256 cells a side four are the most, for the time they take. From the last submission's field one does where nothing has changed since, and a second where the
-/// first has found something (docs/algorithm.md).
+/// Cycles from the start field: three, and on while the last has still found something, up to five; then 99.9 % of
+/// cells or more pick the exact field's best neighbour. (Six take longer than 100 plain sweeps where eight lanes are
+/// the most.) On windows of more than 256 cells a side four are the most, for the time they take. From the last
+/// submission's field one does where nothing has changed since, and a second where the first has found something
+/// (docs/algorithm.md).
 inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 5, kWarmCycles = 1, kMostWarmCycles = 2;
 [[nodiscard]] constexpr std::int32_t most_cold_cycles(Grid grid) { return grid.side > 256 ? 4 : kMostColdCycles; }
 
