@@ -1,12 +1,10 @@
 #include "firmware/control_loop.h"
 
 #include <bit>
-#include <cstdio>
 #include <filesystem>
 #include <vector>
 
-#include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recording_stream.h"
+#include "tests/firmware/relived.h"
 #include "tests/firmware/simulated_drive.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -34,25 +32,9 @@ int different_commands(PlanMode mode, double seconds) {
     drive.drive(seconds);
     REQUIRE(drive.recorder().close());
   }
-  RecordingReader reader(file);
-  const ControlSetup setup = setup_from_text(reader.setup(), file);
-  TickRecord recorded;
-  RecordedHal devices(recorded);
-  const ChosenPlanner planner = make_planner(setup.planner(), setup.backend);
-  Recorder nowhere({});
-  ControlLoop loop(setup, devices.hal(), *planner.planner, nowhere);
-  int different = 0, ticks = 0;
-  for (; reader.next(recorded); ++ticks) {
-    loop.tick(recorded.now);
-    nowhere.drain();
-    const WheelCommand& again = devices.commanded();
-    different +=
-        std::bit_cast<std::uint64_t>(again.left_radps) != std::bit_cast<std::uint64_t>(recorded.command.left_radps) ||
-        std::bit_cast<std::uint64_t>(again.right_radps) != std::bit_cast<std::uint64_t>(recorded.command.right_radps);
-  }
-  std::remove(file.c_str());
-  REQUIRE(ticks == static_cast<int>(seconds * 50.0));
-  return different;
+  const Relived relived = relive(file);
+  REQUIRE(relived.ticks == static_cast<int>(seconds * 50.0));
+  return relived.different;
 }
 
 }  // namespace

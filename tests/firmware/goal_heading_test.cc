@@ -1,11 +1,8 @@
 // Drives to a goal with a heading, simulated.
-#include <bit>
 #include <cmath>
-#include <cstdio>
 #include <filesystem>
 
-#include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recording_stream.h"
+#include "tests/firmware/relived.h"
 #include "tests/firmware/simulated_drive.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -79,7 +76,7 @@ TEST_CASE("a robot that keeps its speed does not turn at the goal") {
 
 TEST_CASE("turning at the goal asks nothing of the heap and replays to the same commands, bit for bit") {
   const std::string file = (std::filesystem::temp_directory_path() / "jaywalk_goal_heading.jwr").string();
-  int turning = 0, different = 0, ticks = 0;
+  int turning = 0;
   {
     SimulatedDrive drive(
         "door", 1,
@@ -100,22 +97,7 @@ TEST_CASE("turning at the goal asks nothing of the heap and replays to the same 
     REQUIRE(drive.recorder().close());
   }
   CHECK(turning > 50);
-  RecordingReader reader(file);
-  const ControlSetup setup = setup_from_text(reader.setup(), file);
-  TickRecord recorded;
-  RecordedHal devices(recorded);
-  const ChosenPlanner planner = make_planner(setup.planner(), setup.backend);
-  Recorder nowhere({});
-  ControlLoop loop(setup, devices.hal(), *planner.planner, nowhere);
-  for (; reader.next(recorded); ++ticks) {
-    (void)loop.tick(recorded.now);
-    nowhere.drain();
-    const WheelCommand& again = devices.commanded();
-    different +=
-        std::bit_cast<std::uint64_t>(again.left_radps) != std::bit_cast<std::uint64_t>(recorded.command.left_radps) ||
-        std::bit_cast<std::uint64_t>(again.right_radps) != std::bit_cast<std::uint64_t>(recorded.command.right_radps);
-  }
-  std::remove(file.c_str());
-  CHECK(ticks == 600);
-  CHECK(different == 0);
+  const Relived relived = relive(file);
+  CHECK(relived.ticks == 600);
+  CHECK(relived.different == 0);
 }
