@@ -49,7 +49,8 @@ class Multigrid {
   static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
   /// Further sweeps after a correction, by depth; even numbers. Blocks of 8 cells are the largest that still tell the
   /// two sides of an ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep,
-  /// and they are few. Blocks of 2 and 4 tell those of a thin one apart.
+  /// and they are few. Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
+  /// (docs/performance.md).
   static constexpr std::array<std::int32_t, 4> kFurtherSweeps{0, 6, 24, 64};
   /// Of the blocks below that have an equation, those that a level above these speaks for, at least, where it is used.
   /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)

@@ -25,7 +25,8 @@ constexpr double kNarrowM = 0.18,
                  kWideM = 0.4;  // half widths between which what is seen whole is a body: not a post, no panel
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
 constexpr double kSolidNoise = 1.5;  // times what is expected: legs and corners that change places have more
-constexpr double kCameSigmas = 4.5, kCameM = 0.06;       // the same of bodies that came to free space
+// The same of bodies that came to free space: no false mover in no_people_left.
+constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
 constexpr double kEdges = 1.5;                           // beam spacings: where its free side is, is known to one
 constexpr double kSameM = 0.08, kSamePerM = 0.015;       // about a point of the anchor, what ends there is still it

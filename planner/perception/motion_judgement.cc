@@ -9,8 +9,9 @@ namespace {
 
 constexpr double kStoppedMps = 0.10;
 constexpr std::size_t kFewestPlaces = 5;
-constexpr std::uint32_t kWalkedScans = 2;                  // in a row: a hop is over by the next scan
-constexpr Duration kSlowFor = duration_from_seconds(4.3);  // who turns on the spot walks on
+constexpr std::uint32_t kWalkedScans = 2;  // in a row: a hop is over by the next scan
+// Who turns on the spot walks on. Less than the 5 s in which who stays is to be in the map.
+constexpr Duration kSlowFor = duration_from_seconds(4.3);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
 constexpr double kSettledM = 0.25;  // has not gone farther
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
