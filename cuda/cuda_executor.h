@@ -8,6 +8,8 @@
 #include <stdexcept>
 #include <vector>
 
+#include "planner/field/executor.h"
+
 namespace jaywalk {
 
 template <class Stage>
@@ -45,7 +47,9 @@ __global__ void __launch_bounds__(kBlockThreads) repeat_in_block(std::int32_t n,
 class CudaExecutor {
  public:
   static constexpr bool kQueue = false;
+  static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 1;
+  static constexpr std::int32_t kCellsOfRow = 16;
 
   /// Throws std::runtime_error with the driver's own words.
   CudaExecutor() { must(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
@@ -64,6 +68,19 @@ class CudaExecutor {
     must(cudaMemset(block, 0, n * sizeof(T)));
     must(cudaDeviceSynchronize());
     return static_cast<T*>(block);
+  }
+  template <class T>
+  T* show(T* stages, std::size_t) {
+    return stages;
+  }
+  template <class T>
+  void fill(T* to, const T* from, std::size_t n) {
+    must(cudaMemcpy(to, from, n * sizeof(T), cudaMemcpyDefault));
+  }
+  template <class Order>
+  bool run(const Order& order) noexcept {
+    order(*this);
+    return wait();
   }
 
   template <class Stage>
@@ -94,10 +111,15 @@ class CudaExecutor {
     for (std::int32_t k = 0; k < n; ++k) (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
   }
 
-  bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
+  /// None where the device has failed, so that the order comes to its end.
+  field::Counted total(std::int32_t n, const field::Counted* counted) noexcept {
+    return wait() ? field::SerialExecutor::total(n, counted) : field::Counted{};
+  }
+
   [[nodiscard]] const char* name() const noexcept { return "cuda"; }
 
  private:
+  bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
   static unsigned blocks(std::int32_t n, std::int32_t threads) {
     return static_cast<unsigned>((n + threads - 1) / threads);
   }

@@ -2,6 +2,7 @@
 // Coarse levels of the potential's solver: blocks of 2 x 2 cells, weighted by exp(-2 psi), the weights
 // that make the rebased equations symmetric (docs/algorithm.md).
 #include "planner/field/board.h"
+#include "planner/field/executor.h"
 
 namespace jaywalk::field {
 
@@ -95,10 +96,10 @@ struct BlocksToBoard {
 
 /// For how many of the blocks below, those that have an equation, a row of blocks speaks. One visit a row.
 struct SpokenOfRow {
-  std::int32_t side;              ///< blocks a row
-  const float* diagonal;          ///< of those below, by rows
-  const std::int32_t* members;    ///< of these
-  std::int32_t *spoken, *joined;  ///< joined: those below with an equation
+  std::int32_t side;            ///< blocks a row
+  const float* diagonal;        ///< of those below, by rows
+  const std::int32_t* members;  ///< of these
+  Counted* spoken;              ///< joined: those below with an equation
 
   JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     std::int32_t speaks = 0, joins = 0;
@@ -110,8 +111,7 @@ struct SpokenOfRow {
         speaks += (has_equation & is_member) ? 1 : 0;
       }
     }
-    spoken[j] = speaks;
-    joined[j] = joins;
+    spoken[j] = {speaks, joins};
   }
 };
 

@@ -1,17 +1,24 @@
 #pragma once
-// An executor visits: it has memory and loops, and no mathematics. What it must offer:
-//   T* take<T>(n)                zeroed memory for n values, its own, readable by the host after wait()
+// An executor visits: it has memory and loops, and no mathematics. To the host it offers:
+//   T* take<T>(n)                zeroed memory for n values, for stages alone
+//   kOneMemory                   whether host and stages share theirs
+//   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
+//                                it gave, where they share theirs; elsewhere other memory, and orders copy
+//   fill(to, from, n)            n values from the host into memory for stages
+//   run(order)                   order(executor); false: it failed. What was shown may then be read
+//   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
+//                                (start_field.h), looking whether anything has changed (pass.h)
+//   name()                       for reports
+// and to orders (order.h), which know no more of it:
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
 //   for_each_row(h, steps...)    the steps one after the other, each as for_each_cell does; or, to the same bits, all
-//   of
-//                                them row by row, each a row behind the one before (RowStep says what that asks)
+//                                of them row by row, each a row behind the one before (RowStep says what that asks)
 //   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
-//   wait()                       returns when all that was asked for is done; false: it failed
-//   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
-//                                (start_field.h), looking whether anything has changed (pass.h)
+//   total(n, counted)            the sums of n pairs of numbers, for the order to choose by
 //   kColumns                     columns that one visit should take where a stage goes down columns; divides 64
-//   name()                       for reports
+//   kCellsOfRow                  cells that one visit should take where a stage goes along rows; divides 64, or is
+//                                kWholeRow
 // Every stage gives the same bits in any visiting order, so all executors agree to the last bit.
 #include <algorithm>
 #include <cstddef>
@@ -27,6 +34,9 @@
 #endif
 
 #define JAYWALK_INLINED [[gnu::always_inline]] inline
+
+/// Of functions that are an order or part of one: they run wherever their executor does.
+#define JAYWALK_ORDER
 
 #if defined(__x86_64__) && !defined(__CUDACC__)
 #define JAYWALK_CHOOSES_LANES 1
@@ -64,11 +74,33 @@ RowStep(std::int32_t, Stage) -> RowStep<Stage>;
 template <class Stage>
 RowStep(std::int32_t, Stage, std::int32_t) -> RowStep<Stage>;
 
+/// What a stage counts in a row or a piece of one.
+struct Counted {
+  std::int32_t cells = 0;   ///< those that it looks for
+  std::int32_t joined = 0;  ///< those that it looks at
+};
+
+inline constexpr std::int32_t kWholeRow = 1 << 30;
+
+/// Cells that a visit takes of a row of `side` cells, a power of two.
+template <class Executor>
+[[nodiscard]] constexpr JAYWALK_ORDER std::int32_t cells_of_row(std::int32_t side) {
+  return side < Executor::kCellsOfRow ? side : Executor::kCellsOfRow;
+}
+
+/// Pieces of that many cells that a grid has.
+template <class Executor>
+[[nodiscard]] constexpr std::size_t pieces_of_grid(std::int32_t side) {
+  return static_cast<std::size_t>(side) * static_cast<std::size_t>(side / cells_of_row<Executor>(side));
+}
+
 /// Visits one after the other, on the caller's thread.
 class SerialExecutor {
  public:
   static constexpr bool kQueue = true;
+  static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 64;
+  static constexpr std::int32_t kCellsOfRow = kWholeRow;
 
   /// With so many lanes, or as many as there are.
   explicit SerialExecutor(Lanes lanes = most_lanes()) : lanes_(std::min(lanes, most_lanes())) {}
@@ -82,6 +114,20 @@ class SerialExecutor {
     const std::size_t shift = kLinesApart * blocks_.size() % kLinesOfPage;
     blocks_.push_back(std::make_unique<Line[]>(n * sizeof(T) / sizeof(Line) + 1 + shift));
     return reinterpret_cast<T*>(blocks_.back().get() + shift);
+  }
+
+  template <class T>
+  T* show(T* stages, std::size_t) {
+    return stages;
+  }
+  template <class T>
+  void fill(T* to, const T* from, std::size_t n) {
+    std::copy_n(from, n, to);
+  }
+  template <class Order>
+  bool run(const Order& order) noexcept {
+    order(*this);
+    return true;
   }
 
   template <class Stage>
@@ -110,7 +156,11 @@ class SerialExecutor {
     visit_rows(n, h, steps...);
   }
 
-  bool wait() noexcept { return true; }
+  static Counted total(std::int32_t n, const Counted* counted) noexcept {
+    Counted sum;
+    for (std::int32_t k = 0; k < n; ++k) sum.cells += counted[k].cells, sum.joined += counted[k].joined;
+    return sum;
+  }
   [[nodiscard]] const char* name() const noexcept { return "cpu"; }
 
  private:

@@ -25,7 +25,7 @@ class GridPlanner final : public Planner {
         window_{{0, 0}, config.side_cells, config.cell_m} {
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>();
-      answer->psi = take_rows<float>(*executor_, config.max_side_cells);
+      answer->psi = pass_.take_psi();
     }
   }
 
@@ -77,7 +77,7 @@ class GridPlanner final : public Planner {
   }
   [[nodiscard]] float inflation() const noexcept { return static_cast<float>(config_.inflation_m / config_.cell_m); }
 
-  [[nodiscard]] bool is_free(std::int32_t c) const noexcept { return pass_.arrays().clearance[c] > 0.0F; }
+  [[nodiscard]] bool is_free(std::int32_t c) const noexcept { return pass_.shown().clearance[c] > 0.0F; }
 
   /// The free cell nearest the robot, within kStartRadius_m.
   [[nodiscard]] std::int32_t nearest_free(CellIndex robot) const noexcept {
@@ -89,7 +89,7 @@ class GridPlanner final : public Planner {
     window_ = placed(window_, request.map_from_robot.position(), request.goal_in_map);
     result.window = window_;
     std::fill_n(result.psi, window_.grid().cells(), cell::kNotFree);
-    const std::int32_t movers = fetch_movers(window_, request.moving, pass_.arrays().movers, mover_ids_);
+    const std::int32_t movers = fetch_movers(window_, request.moving, pass_.shown().movers, mover_ids_);
     Warping warping = warping_for(config_, window_, request);
     const bool minds_unseen = request.body != nullptr && request.still != nullptr;
     PlanStatus status = plan_among(request, warping, movers, minds_unseen, result);
@@ -111,11 +111,10 @@ class GridPlanner final : public Planner {
   PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers, bool minds_unseen,
                         Result& result) noexcept {
     const Grid grid = window_.grid();
-    fetch_walls(window_, request.still, pass_.arrays().occupants);
-    if (minds_unseen) fetch_unseen(window_, request, pass_.arrays().occupants);
-    if (!pass_.mark(grid, warping, movers)) return PlanStatus::kBackendFailed;
+    fetch_walls(window_, request.still, pass_.shown().occupants);
+    if (minds_unseen) fetch_unseen(window_, request, pass_.shown().occupants);
+    if (!pass_.mark_and_clear(grid, warping, movers, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
     report_predictions(movers, result.plan);
-    if (!pass_.clear(grid, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
     const CellIndex robot = window_.cell_at(request.map_from_robot.position());
     if (nearest_free(robot) == kNoCell) return PlanStatus::kRobotBlocked;
     const std::int32_t goal = choose_goal(request, robot);
@@ -125,7 +124,7 @@ class GridPlanner final : public Planner {
   void report_predictions(std::int32_t movers, Plan& plan) const noexcept {
     plan.predictions.clear();
     for (std::int32_t k = 0; k < movers; ++k) {
-      const Mark& mark = pass_.arrays().marks[k];
+      const Mark& mark = pass_.shown().marks[k];
       (void)plan.predictions.push_back(
           {.track_id = mover_ids_[static_cast<std::size_t>(k)],
            .position_in_map = window_.in_map({static_cast<double>(mark.x), static_cast<double>(mark.y)}),
@@ -141,7 +140,7 @@ class GridPlanner final : public Planner {
     const bool inside = window_.holds(request.goal_in_map, 0);
     const CellIndex wanted = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
     if (inside && is_free(grid.at(wanted.i, wanted.j))) return grid.at(wanted.i, wanted.j);
-    flood_.fill(grid, pass_.arrays().clearance, nearest_free(robot));
+    flood_.fill(grid, pass_.shown().clearance, nearest_free(robot));
     if (!inside) {
       return nearest_cell(grid, wanted.i, wanted.j, 2 * grid.side, [&](std::int32_t c) {
         const std::int32_t i = c % grid.side, j = c / grid.side;
@@ -155,22 +154,22 @@ class GridPlanner final : public Planner {
   /// Whether a mover's mark keeps this cell from being free.
   [[nodiscard]] bool has_mover_near(CellIndex at) const noexcept {
     return nearest_cell(window_.grid(), at.i, at.j, cells(config_.inflation_m),
-                        [this](std::int32_t c) { return (pass_.arrays().occupants[c] & kMover) != 0; }) != kNoCell;
+                        [this](std::int32_t c) { return (pass_.shown().occupants[c] & kMover) != 0; }) != kNoCell;
   }
 
   /// Field, index matrix, band and path to a free goal cell.
   PlanStatus descend(const PlanRequest& request, CellIndex robot, std::int32_t goal, Result& result) noexcept {
-    const FieldArrays& a = pass_.arrays();
+    const ShownArrays& a = pass_.shown();
     const Grid grid = window_.grid();
-    if (!pass_.start(grid, goal)) return PlanStatus::kBackendFailed;
-    const std::int32_t start = nearest_cell(grid, robot.i, robot.j, cells(kStartRadius_m),
-                                            [&](std::int32_t c) { return cell::is_joined(a.start_psi[c]); });
-    if (start == kNoCell) return PlanStatus::kNoPath;
     const bool warm = solved_goal_ == goal && solved_window_.low == window_.low && solved_window_.side == window_.side;
-    const FieldQuality quality = pass_.solve(grid, goal, warm ? From::kLast : From::kNothing, result.psi);
+    const Disc near{robot.i, robot.j, cells(kStartRadius_m)};
+    const FieldQuality quality = pass_.solve(grid, goal, warm ? From::kLast : From::kNothing, near, result.psi);
+    if (!quality.done) return PlanStatus::kBackendFailed;
+    if (quality.joined == 0) return PlanStatus::kNoPath;
+    const std::int32_t start =
+        nearest_cell(grid, near.i, near.j, near.radius, [&](std::int32_t c) { return cell::is_joined(result.psi[c]); });
     solved_goal_ = goal;
     solved_window_ = window_;
-    if (quality.joined == 0) return PlanStatus::kBackendFailed;
     result.plan.certified = quality.certified;
     result.plan.cycles = quality.cycles;
     // Nothing reads the occupants any more: room for the count.
@@ -182,7 +181,7 @@ class GridPlanner final : public Planner {
   /// leave an obstacle's inflation goes straight to the start cell, and that leg is not pulled.
   PlanStatus draw(const PlanRequest& request, bool starts_free, std::int32_t start, std::int32_t goal,
                   Path& path) noexcept {
-    const FieldArrays& a = pass_.arrays();
+    const ShownArrays& a = pass_.shown();
     const Vec2 from = request.map_from_robot.position();
     const Vec2 robot = window_.in_cells(from);
     const std::int32_t fixed = starts_free ? 0 : 1;  // points before the start cell's
@@ -210,7 +209,7 @@ class GridPlanner final : public Planner {
     if (2 * grid.side > config_.max_side_cells || !pass_.clear(grid, inflation(), kWall)) return;
     const std::int32_t start = nearest_free(robot);
     if (start == kNoCell) return;
-    flood_.fill(grid, pass_.arrays().clearance, start);
+    flood_.fill(grid, pass_.shown().clearance, start);
     const CellIndex goal = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
     const bool walled_off = flood_.touches_border() && window_.holds(request.goal_in_map, 0) &&
                             nearest_cell(grid, goal.i, goal.j, cells(kGoalRadius_m),

@@ -26,12 +26,12 @@ class MapFieldOn final : public MapField {
         executor_(std::move(executor)),
         grid_{side_for(map_)},
         pass_(*executor_, grid_.side),
-        psi_(take_rows<float>(*executor_, grid_.side)) {
+        psi_(pass_.take_psi()) {
     MapFieldOn::inflate(0.0F);
   }
 
   void inflate(float inflation) noexcept override {
-    const FieldArrays& a = pass_.arrays();
+    const ShownArrays& a = pass_.shown();
     inflation_ = inflation;
     for (std::int32_t j = 0; j < map_.height; ++j) {
       const auto row = map_.wall.begin() + static_cast<std::ptrdiff_t>(j) * map_.width;
@@ -43,7 +43,7 @@ class MapFieldOn final : public MapField {
   }
 
   [[nodiscard]] bool nearest_free(CellIndex& at, std::int32_t radius) const noexcept override {
-    const float* clearance = pass_.arrays().clearance;
+    const float* clearance = pass_.shown().clearance;
     const std::int32_t found =
         nearest_cell(grid_, at.i, at.j, radius, [clearance](std::int32_t c) { return clearance[c] > 0.0F; });
     if (found == kNoCell) return false;
@@ -60,12 +60,12 @@ class MapFieldOn final : public MapField {
 
   [[nodiscard]] float reach(CellIndex goal) noexcept override {
     std::vector<std::uint8_t> seen(static_cast<std::size_t>(grid_.cells()));
-    return share_arriving(grid_, psi_, pass_.arrays().index, grid_.at(goal.i, goal.j), seen.data());
+    return share_arriving(grid_, psi_, pass_.shown().index, grid_.at(goal.i, goal.j), seen.data());
   }
 
   [[nodiscard]] std::optional<double> best_neighbours(CellIndex goal, double most) const override {
     std::vector<std::uint8_t> free(static_cast<std::size_t>(grid_.cells()));
-    for (std::size_t c = 0; c < free.size(); ++c) free[c] = pass_.arrays().clearance[c] > 0.0F ? 1 : 0;
+    for (std::size_t c = 0; c < free.size(); ++c) free[c] = pass_.shown().clearance[c] > 0.0F ? 1 : 0;
     const std::int32_t at = grid_.at(goal.i, goal.j);
     if (exact_cost(grid_, free.data(), at) > most) return std::nullopt;
     return share_of_best(grid_, psi_, exact_psi(grid_, free.data(), at), at);
@@ -77,7 +77,6 @@ class MapFieldOn final : public MapField {
  private:
   MapQuality solve(CellIndex goal, From from) noexcept {
     const std::int32_t c = grid_.at(goal.i, goal.j);
-    (void)pass_.start(grid_, c);
     const FieldQuality q = pass_.solve(grid_, c, from, psi_);
     return {q.certified, q.certified ? 1.0F : reach(goal), q.joined, q.cycles};
   }

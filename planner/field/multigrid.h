@@ -1,6 +1,5 @@
 #pragma once
 // Solves the rebased potential by V-cycles over blocks of 2 x 2. Order only; no formula lives here.
-#include <array>
 #include <cstddef>
 #include <vector>
 
@@ -10,32 +9,68 @@
 
 namespace jaywalk::field {
 
+inline constexpr std::int32_t kCoarsestSide = 4;
+inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
+
+/// A level's memory. The last two only blocks have a use for.
+struct LevelArrays {
+  CouplingArrays couplings;
+  float *psi, *diagonal, *source, *x;
+  BlockRows rows;
+  float* correction;  ///< by rows
+};
+
+struct MultigridArrays {
+  LevelArrays levels[kMostLevels];  ///< finest first
+  Counted* counted;                 ///< by pieces of the finest board's rows
+};
+
+template <class Executor>
+[[nodiscard]] LevelArrays take_level(Executor& executor, std::int32_t side, bool finest) {
+  const auto board = [&] { return executor.template take<float>(static_cast<std::size_t>(Board{side}.size())); };
+  const auto rows = [&] { return take_rows<float>(executor, side); };
+  LevelArrays a{{board(), board(), board(), board()}, board(), board(), board(), board(), {}, nullptr};
+  if (finest) return a;
+  a.rows = {{rows(), rows(), rows(), rows()},       rows(), rows(), rows(), rows(), rows(), rows(), rows(),
+            take_rows<std::int32_t>(executor, side)};
+  a.correction = rows();
+  return a;
+}
+
+/// Memory for grids up to `max_side` cells, a power of two from kCoarsestSide on.
+template <class Executor>
+[[nodiscard]] MultigridArrays take_multigrid(Executor& executor, std::int32_t max_side) {
+  MultigridArrays a{};
+  std::int32_t depth = 0;
+  for (std::int32_t side = max_side; side >= kCoarsestSide; side /= 2, ++depth) {
+    a.levels[depth] = take_level(executor, side, depth == 0);
+  }
+  const std::vector<float> ones(static_cast<std::size_t>(Board{max_side}.size()), 1.0F);
+  executor.fill(a.levels[0].diagonal, ones.data(), ones.size());
+  a.counted = executor.template take<Counted>(pieces_of_grid<Executor>(max_side));
+  return a;
+}
+
+/// The order of a solution's stages, for as long as one improvement takes.
 template <class Executor>
 class Multigrid {
  public:
-  /// Takes memory for grids up to `max_side` cells, a power of two times kCoarsestSide or more.
-  Multigrid(Executor& executor, std::int32_t max_side) : executor_(executor) {
-    for (std::int32_t side = max_side; side >= kCoarsestSide; side /= 2) arrays_.push_back(take_level(side));
-    executor_.for_each(Board{max_side}.size(), Fill<float>{arrays_[0].diagonal, 1.0F});
-    counted_ = executor_.template take<std::int32_t>(static_cast<std::size_t>(max_side));
-    joined_ = executor_.template take<std::int32_t>(static_cast<std::size_t>(max_side));
-    executor_.wait();
-  }
+  JAYWALK_ORDER Multigrid(Executor& executor, const MultigridArrays& arrays)
+      : executor_(executor), levels_(arrays.levels), counted_(arrays.counted) {}
 
   /// Improves the estimate that the step `first` leaves in psi (by rows; cell::kUnreachable and cell::kNotFree where
   /// that is so) by `least` cycles or more, until one has found hardly anything new, at most `most`; the steps `last`
   /// then visit the result. Returns how many. Blocks are weighted afresh each time: with the weights of the cycle
   /// before, the second makes things worse.
   template <class First, class... Last>
-  std::int32_t improve(Grid grid, std::int32_t goal, float* psi, std::int32_t least, std::int32_t most,
-                       const First& first, const Last&... last) noexcept {
+  JAYWALK_ORDER std::int32_t improve(Grid grid, std::int32_t goal, float* psi, std::int32_t least, std::int32_t most,
+                                     const First& first, const Last&... last) noexcept {
     const Board board{grid.side};
-    const Arrays& a = arrays_[0];
+    const LevelArrays& a = levels_[0];
     set_up(board, goal, psi, first);
-    levels_ = arrays_.size();
     std::int32_t cycles = 0;
     for (bool enough = least == 0; !enough;) {
-      cycle(board, 0, cycles == 0);
+      cycle(board, cycles == 0);
       enough = ++cycles >= least && (cycles >= most || is_settled(board));
     }
     executor_.for_each_row(board.side, RowStep{board.half(), RebasePsi{board, 0, a.x, a.psi}},
@@ -45,13 +80,15 @@ class Multigrid {
   }
 
  private:
-  static constexpr std::int32_t kCoarsestSide = 4;
   static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
   /// Further sweeps after a correction, by depth; even numbers. Blocks of 8 cells are the largest that still tell the
   /// two sides of an ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep,
   /// and they are few. Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
   /// (docs/performance.md).
-  static constexpr std::array<std::int32_t, 4> kFurtherSweeps{0, 6, 24, 64};
+  static constexpr JAYWALK_ORDER std::int32_t further_sweeps(std::int32_t depth) {
+    return depth == 1 ? 6 : (depth == 2 ? 24 : (depth == kBulkyDepth ? 64 : 0));
+  }
+  static constexpr std::int32_t kBulkyDepth = 3;  ///< whose blocks are 8 cells wide
   /// Of the blocks below that have an equation, those that a level above these speaks for, at least, where it is used.
   /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)
   static constexpr float kSpokenShare = 0.8F;
@@ -61,28 +98,9 @@ class Multigrid {
   static constexpr float kTilt = 0.01F;
   static constexpr std::int32_t kSettledShare = 128;
 
-  /// A level's memory. The last two only blocks have a use for.
-  struct Arrays {
-    CouplingArrays couplings;
-    float *psi, *diagonal, *source, *x;
-    BlockRows rows;
-    float* correction;  ///< by rows
-  };
-
-  Arrays take_level(std::int32_t side) {
-    const auto board = [&] { return executor_.template take<float>(static_cast<std::size_t>(Board{side}.size())); };
-    const auto rows = [&] { return take_rows<float>(executor_, side); };
-    Arrays a{{board(), board(), board(), board()}, board(), board(), board(), board(), {}, nullptr};
-    if (arrays_.empty()) return a;
-    a.rows = {{rows(), rows(), rows(), rows()},        rows(), rows(), rows(), rows(), rows(), rows(), rows(),
-              take_rows<std::int32_t>(executor_, side)};
-    a.correction = rows();
-    return a;
-  }
-
   template <class First>
-  void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
-    const Arrays& a = arrays_[0];
+  JAYWALK_ORDER void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
+    const LevelArrays& a = levels_[0];
     const std::int32_t half = board.half();
     executor_.for_each_row(board.side, first, RowStep{half, ToBoard{board, psi, a.psi}},
                            RowStep{half, CoupleAhead{board, 0, a.psi, a.couplings, a.source, a.x}},
@@ -92,37 +110,40 @@ class Multigrid {
     executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
   }
 
-  /// One V-cycle from this level down and back. The first finds out which levels are of use; the others carry over what
-  /// the one before has found.
-  void cycle(Board board, std::size_t depth, bool first) noexcept {
-    if (board.side <= kCoarsestSide) {
-      relax(board, arrays_[depth], kCoarsestSweeps);
-      return;
+  /// One V-cycle down and back. The first finds out which levels are of use; the others carry over what the one before
+  /// has found.
+  JAYWALK_ORDER void cycle(Board board, bool first) noexcept {
+    if (first) used_ = kMostLevels;
+    std::int32_t depth = 0;
+    for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
+      const Board blocks{board.side / 2};
+      go_down(board, depth, depth == 0 && !first);
+      if (first && depth >= kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
+      if (depth + 1 >= used_) break;
     }
-    const Board blocks{board.side / 2};
-    go_down(board, depth, depth == 0 && !first);
-    if (first && depth + 1 >= kFurtherSweeps.size() && !speaks_for_most(blocks, depth + 1)) levels_ = depth + 1;
-    if (depth + 1 < levels_) {
-      cycle(blocks, depth + 1, first);
+    relax(board, depth, board.side > kCoarsestSide ? further_sweeps(depth) : kCoarsestSweeps);
+    while (depth > 0) {
+      --depth, board.side *= 2;
       depth == 0 ? go_up<true>(board, depth) : go_up<false>(board, depth);
+      relax(board, depth, further_sweeps(depth));
     }
-    if (depth < kFurtherSweeps.size()) relax(board, arrays_[depth], kFurtherSweeps[depth]);
   }
 
-  static RowStep<RelaxColour> relax(Board board, std::int32_t colour, const Arrays& a) {
+  JAYWALK_ORDER static RowStep<RelaxColour> relax(Board board, std::int32_t colour, const LevelArrays& a) {
     return {board.half(), {board, colour, a.couplings, a.source, a.x}};
   }
 
   /// Two sweeps a round: what the first has fetched is at hand for the second.
-  void relax(Board board, const Arrays& a, std::int32_t sweeps) noexcept {
+  JAYWALK_ORDER void relax(Board board, std::int32_t depth, std::int32_t sweeps) noexcept {
+    const LevelArrays& a = levels_[depth];
     executor_.repeat(sweeps / 2, board.side, relax(board, 0, a), relax(board, 1, a), relax(board, 0, a),
                      relax(board, 1, a));
   }
 
   /// Builds the blocks, relaxes twice, and hands on what is lacking.
-  void go_down(Board board, std::size_t depth, bool rebase) noexcept {
-    const Arrays& a = arrays_[depth];
-    const Arrays& b = arrays_[depth + 1];
+  JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase) noexcept {
+    const LevelArrays& a = levels_[depth];
+    const LevelArrays& b = levels_[depth + 1];
     const Board blocks{board.side / 2};
     const Level level{board, a.couplings, a.psi, a.diagonal};
     const std::int32_t rebased = rebase ? board.half() : 0;
@@ -139,9 +160,9 @@ class Multigrid {
 
   /// Adds what the blocks have found, and relaxes twice.
   template <bool kFinest>
-  void go_up(Board board, std::size_t depth) noexcept {
-    const Arrays& a = arrays_[depth];
-    const Arrays& b = arrays_[depth + 1];
+  JAYWALK_ORDER void go_up(Board board, std::int32_t depth) noexcept {
+    const LevelArrays& a = levels_[depth];
+    const LevelArrays& b = levels_[depth + 1];
     const Board blocks{board.side / 2};
     const auto prolong = [&](std::int32_t colour) {
       return RowStep<ProlongToCell<kFinest>>{
@@ -155,36 +176,26 @@ class Multigrid {
 
   /// Whether this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie across
   /// walls, and what they find for one passage is wrong in the next. It and all above it are then left out.
-  bool speaks_for_most(Board board, std::size_t depth) noexcept {
-    const Counted spoken = count(board.side, SpokenOfRow{board.side, arrays_[depth - 1].rows.diagonal,
-                                                         arrays_[depth].rows.members, counted_, joined_});
+  JAYWALK_ORDER bool speaks_for_most(Board board, std::int32_t depth) noexcept {
+    executor_.for_each_cell(
+        1, board.side,
+        SpokenOfRow{board.side, levels_[depth - 1].rows.diagonal, levels_[depth].rows.members, counted_});
+    const Counted spoken = executor_.total(board.side, counted_);
     return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
   }
 
   /// Whether the last cycle has found hardly anything new.
-  bool is_settled(Board board) noexcept {
-    const Counted tilted = count(board.side, TiltedOfRow{board, kTilt, arrays_[0].x, counted_, joined_});
+  JAYWALK_ORDER bool is_settled(Board board) noexcept {
+    const std::int32_t cells = cells_of_row<Executor>(board.side), pieces = board.side / cells;
+    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, kTilt, levels_[0].x, counted_});
+    const Counted tilted = executor_.total(pieces * board.side, counted_);
     return kSettledShare * tilted.cells <= tilted.joined;
   }
 
-  struct Counted {
-    std::int32_t cells = 0, joined = 0;
-  };
-
-  /// The sums over rows of what a stage counts in each; none where the executor has failed.
-  template <class Stage>
-  Counted count(std::int32_t rows, const Stage& stage) noexcept {
-    executor_.for_each_cell(1, rows, stage);
-    Counted sum;
-    if (!executor_.wait()) return sum;
-    for (std::int32_t row = 0; row < rows; ++row) sum.cells += counted_[row], sum.joined += joined_[row];
-    return sum;
-  }
-
   Executor& executor_;
-  std::vector<Arrays> arrays_;       ///< finest first
-  std::size_t levels_ = 0;           ///< of these that are of use on this map
-  std::int32_t *counted_, *joined_;  ///< by the finest board's rows
+  const LevelArrays* levels_;  ///< finest first
+  Counted* counted_;
+  std::int32_t used_ = 0;  ///< levels that are of use on this map
 };
 
 }  // namespace jaywalk::field

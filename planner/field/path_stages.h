@@ -127,15 +127,68 @@ struct PullBand {
   }
 };
 
-/// Length of the polyline through `count` points, in cells.
-[[nodiscard]] inline double length_of(const cell::Point* points, std::int32_t count) noexcept {
-  double length = 0.0;
-  for (std::int32_t k = 1; k < count; ++k) {
-    const double x = static_cast<double>(points[k].x) - static_cast<double>(points[k - 1].x);
-    const double y = static_cast<double>(points[k].y) - static_cast<double>(points[k - 1].y);
-    length += std::sqrt(x * x + y * y);
+/// Cells within `radius` of (i, j).
+struct Disc {
+  std::int32_t i, j, radius;
+
+  /// The rows of a grid that it touches, none where the second is below the first.
+  [[nodiscard]] JAYWALK_CELL std::int32_t first_row() const { return j > radius ? j - radius : 0; }
+  [[nodiscard]] JAYWALK_CELL std::int32_t last_row(Grid grid) const {
+    return j + radius < grid.side ? j + radius : grid.side - 1;
   }
-  return length;
-}
+};
+
+/// How many cells of a disc are joined, a row at a time: visit k takes its k-th row.
+struct JoinedOfDisc {
+  Grid grid;
+  Disc disc;
+  const float* psi;
+  Counted* joined;
+
+  JAYWALK_CELL void operator()(std::int32_t k) const {
+    const std::int32_t j = disc.first_row() + k, dj = j - disc.j;
+    std::int32_t count = 0;
+    for (std::int32_t i = disc.i - disc.radius; i <= disc.i + disc.radius; ++i) {
+      const std::int32_t di = i - disc.i;
+      if (grid.holds(i, j) && di * di + dj * dj <= disc.radius * disc.radius) {
+        count += cell::is_joined(psi[grid.at(i, j)]) ? 1 : 0;
+      }
+    }
+    joined[k] = {count, count};
+  }
+};
+
+/// How long the way from each point to the next is, in cells.
+struct LengthOfSegment {
+  const cell::Point* points;
+  double* segments;
+
+  JAYWALK_CELL void operator()(std::int32_t k) const {
+    const double x = static_cast<double>(points[k + 1].x) - static_cast<double>(points[k].x);
+    const double y = static_cast<double>(points[k + 1].y) - static_cast<double>(points[k].y);
+    segments[k] = std::sqrt(x * x + y * y);
+  }
+};
+
+/// And all of them, from the first to the last: one visit, since the order tells in the last digits.
+struct LengthOfBand {
+  std::int32_t count;
+  const double* segments;
+  double* length;
+
+  JAYWALK_CELL void operator()(std::int32_t) const {
+    double sum = 0.0;
+    for (std::int32_t k = 0; k < count; ++k) sum += segments[k];
+    *length = sum;
+  }
+};
+
+/// One visit.
+struct IsLonger {
+  const double *length, *than;
+  Counted* answer;  ///< 1 or 0
+
+  JAYWALK_CELL void operator()(std::int32_t) const { answer->cells = *length > *than ? 1 : 0; }
+};
 
 }  // namespace jaywalk::field

@@ -3,6 +3,7 @@
 // solver has the same form, x_c = sum of a_n x_n + source_c, so one relaxation serves them all.
 #include "planner/cell/potential.h"
 #include "planner/field/board.h"
+#include "planner/field/executor.h"
 
 namespace jaywalk::field {
 
@@ -11,6 +12,13 @@ struct Fill {
   T* x;
   T value;
   JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
+};
+
+template <class T>
+struct Copy {
+  const T* from;
+  T* to;
+  JAYWALK_CELL void operator()(std::int32_t c) const { to[c] = from[c]; }
 };
 
 /// psi of a cell's four neighbours, infinity or NaN outside the grid.
@@ -138,19 +146,20 @@ struct RebaseCouplings {
   }
 };
 
-/// How many cells of a row a cycle has tilted: those whose v differs from their eastern or northern neighbour's by more
-/// than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
+/// How many cells of a piece of a row a cycle has tilted: those whose v differs from their eastern or northern
+/// neighbour's by more than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
 struct TiltedOfRow {
   Board board;
+  std::int32_t cells;  ///< of a piece, an even number; divides the side
   float tilt;
   const float* x;
-  std::int32_t *tilted, *joined;  ///< joined: cells with an equation
+  Counted* tilted;  ///< of each piece, row by row; joined: cells with an equation
 
-  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
+  JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t tilts = 0, joins = 0;
     for (std::int32_t colour = 0; colour < 2; ++colour) {
       const std::int32_t first = board.row(colour, j), last_east = (j + colour + 1) & 1;
-      for (std::int32_t h = 0; h < board.half(); ++h) {
+      for (std::int32_t h = piece * (cells / 2), end = h + cells / 2; h < end; ++h) {
         const Neighbours n = board.neighbours(colour, h, j);
         const float here = x[first + h], most = tilt * here;
         const float east = h < board.half() - 1 + last_east ? x[n.east] : 0.0F, north = x[n.north];
@@ -159,8 +168,7 @@ struct TiltedOfRow {
         tilts += ((here > 0.0F) & (from_east | from_north)) ? 1 : 0;
       }
     }
-    tilted[j] = tilts;
-    joined[j] = joins;
+    tilted[j * (board.side / cells) + piece] = {tilts, joins};
   }
 
  private:
@@ -219,14 +227,16 @@ struct LiftPitsOfRow {
   Grid grid;
   std::int32_t colour;
   std::int32_t goal;
-  std::int32_t lifts;        ///< since the pits were counted, this one included
-  const std::int32_t* pits;  ///< of each row, as the certificate counted them
-  float* psi;                ///< may be read beyond the border (take_rows)
+  std::int32_t lifts;   ///< since the pits were counted, this one included
+  std::int32_t cells;   ///< of a row that pits were counted in at a time
+  const Counted* pits;  ///< as the certificate counted them
+  float* psi;           ///< may be read beyond the border (take_rows)
 
   JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     const std::int32_t low = j - lifts > 0 ? j - lifts : 0, high = j + lifts < grid.side ? j + lifts + 1 : grid.side;
+    const std::int32_t pieces = grid.side / cells;
     std::int32_t near = 0;
-    for (std::int32_t row = low; row < high; ++row) near += pits[row];
+    for (std::int32_t k = low * pieces; k < high * pieces; ++k) near += pits[k].cells;
     for (std::int32_t h = 0; near > 0 && h < grid.side / 2; ++h) lift(2 * h + Board::first_column(colour, j), j);
   }
 
@@ -245,18 +255,18 @@ struct LiftPitsOfRow {
   }
 };
 
-/// The certificate, a row at a time: joined cells, the goal apart, that have no strictly lower one among
+/// The certificate, a piece of a row at a time: joined cells, the goal apart, that have no strictly lower one among
 /// their four neighbours. None anywhere: descent arrives from everywhere, and only then.
 struct PitsOfRow {
   Grid grid;
   std::int32_t goal;
-  const float* psi;  ///< may be read beyond the border (take_rows)
-  std::int32_t* pits;
-  std::int32_t* joined;  ///< joined cells of the row, the goal included
+  std::int32_t cells;  ///< of a piece; divides the side
+  const float* psi;    ///< may be read beyond the border (take_rows)
+  Counted* pits;       ///< of each piece, row by row; joined: its joined cells, the goal included
 
-  JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
+  JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t pit_count = 0, joined_count = 0;
-    for (std::int32_t i = 0; i < grid.side; ++i) {
+    for (std::int32_t i = piece * cells, end = i + cells; i < end; ++i) {
       const std::int32_t c = grid.at(i, j);
       const float here = psi[c];
       const BesideCell beside = beside_cell(grid, psi, i, j);
@@ -266,8 +276,7 @@ struct PitsOfRow {
       joined_count += joins ? 1 : 0;
       pit_count += (joins & !has_lower & (c != goal)) ? 1 : 0;
     }
-    pits[j] = pit_count;
-    joined[j] = joined_count;
+    pits[j * (grid.side / cells) + piece] = {pit_count, joined_count};
   }
 };
 

@@ -6,6 +6,7 @@
 
 #include "planner/cell/clearance.h"
 #include "planner/cell/step.h"
+#include "planner/field/executor.h"
 #include "planner/field/grid.h"
 
 namespace jaywalk::field {
@@ -60,19 +61,19 @@ struct SweepLine {
   std::int32_t across;  ///< index step from a line to the next
   const std::uint16_t* rate;
   std::uint32_t* cost;
-  std::uint32_t* changed;  ///< a line: whether it did
+  Counted* changed;  ///< a line: whether it did
 
   JAYWALK_CELL void operator()(std::int32_t line) const {
     const std::int32_t first = line * across;
     const std::int32_t last = first + (length - 1) * along;
-    std::uint32_t any = 0;
+    std::int32_t any = 0;
     for (std::int32_t c = first; c < last; c += along) any |= relax(c, c + along);
     for (std::int32_t c = last; c > first; c -= along) any |= relax(c, c - along);
-    changed[line] |= any;
+    changed[line].cells |= any;
   }
 
  private:
-  JAYWALK_CELL std::uint32_t relax(std::int32_t from, std::int32_t to) const {
+  JAYWALK_CELL std::int32_t relax(std::int32_t from, std::int32_t to) const {
     if (rate[from] == 0 || rate[to] == 0 || cost[from] >= kFarthest) return 0;
     const std::uint32_t through = cost[from] + cell::straight_step(rate[from], rate[to]);
     if (through >= cost[to]) return 0;
@@ -81,17 +82,27 @@ struct SweepLine {
   }
 };
 
-/// Diagonal steps into every other row, the even or the odd ones, from the rows on either side.
+/// Diagonal steps into every other row, the even or the odd ones, from the rows on either side; a piece of a row at a
+/// time.
 struct StepAcross {
   Grid grid;
   std::int32_t odd;
+  std::int32_t cells;  ///< of a piece; divides the side
   const std::uint16_t* rate;
   std::uint32_t* cost;
-  std::uint32_t* changed;  ///< a row: whether it did
+  Counted* changed;  ///< a piece, row by row: whether it did
 
-  JAYWALK_CELL void operator()(std::int32_t i, std::int32_t pair) const {
-    const std::int32_t j = 2 * pair + odd, c = grid.at(i, j);
-    if (rate[c] == 0) return;
+  JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t pair) const {
+    const std::int32_t j = 2 * pair + odd;
+    std::int32_t any = 0;
+    for (std::int32_t i = piece * cells, end = i + cells; i < end; ++i) any |= step_into(i, j);
+    changed[j * (grid.side / cells) + piece].cells |= any;
+  }
+
+ private:
+  JAYWALK_CELL std::int32_t step_into(std::int32_t i, std::int32_t j) const {
+    const std::int32_t c = grid.at(i, j);
+    if (rate[c] == 0) return 0;
     std::uint32_t best = cost[c];
     for (std::int32_t dj = -1; dj <= 1; dj += 2) {
       for (std::int32_t di = -1; di <= 1; di += 2) {
@@ -99,12 +110,10 @@ struct StepAcross {
           best = lower(best, through(grid.at(i + di, j + dj), c + di, grid.at(i, j + dj), c));
       }
     }
-    if (best == cost[c]) return;
+    if (best == cost[c]) return 0;
     cost[c] = best;
-    changed[j] = 1;
+    return 1;
   }
-
- private:
   JAYWALK_CELL static std::uint32_t lower(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }
   JAYWALK_CELL std::uint32_t through(std::int32_t from, std::int32_t a, std::int32_t b, std::int32_t to) const {
     if (rate[from] == 0 || rate[a] == 0 || rate[b] == 0 || cost[from] >= kFarthest) return kNoWay;

@@ -17,8 +17,7 @@ struct FieldRig {
   field::Grid grid;
   float* psi;
 
-  explicit FieldRig(std::int32_t side)
-      : pass(executor, side), grid{side}, psi(field::take_rows<float>(executor, side)) {}
+  explicit FieldRig(std::int32_t side) : pass(executor, side), grid{side}, psi(pass.take_psi()) {}
 
   [[nodiscard]] const field::FieldArrays& arrays() const { return pass.arrays(); }
 

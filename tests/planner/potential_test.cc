@@ -134,10 +134,10 @@ TEST_CASE("a row of blocks speaks for all cells but those behind a wall inside a
   // lies across a wall: of its three it speaks for those in the lower row, bits 0 and 1.
   const std::vector<float> diagonal{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 0.0F};
   const std::vector<std::int32_t> members{15, 3};
-  std::int32_t spoken = 0, joined = 0;
-  field::SpokenOfRow{2, diagonal.data(), members.data(), &spoken, &joined}(0, 0);
-  CHECK(spoken == 6);
-  CHECK(joined == 7);
+  field::Counted spoken;
+  field::SpokenOfRow{2, diagonal.data(), members.data(), &spoken}(0, 0);
+  CHECK(spoken.cells == 6);
+  CHECK(spoken.joined == 7);
 }
 
 TEST_CASE(
@@ -205,9 +205,9 @@ TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {
   rig.load(rooms(), 1.0F, goal);
   (void)rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
   rig.psi[rig.grid.at(10, 10)] -= 5.0F;
-  std::vector<std::int32_t> pits(64), joined(64);
-  rig.executor.for_each_cell(1, 64, field::PitsOfRow{rig.grid, goal, rig.psi, pits.data(), joined.data()});
-  CHECK(pits[10] == 1);
+  std::vector<field::Counted> pits(64);
+  rig.executor.for_each_cell(1, 64, field::PitsOfRow{rig.grid, goal, 64, rig.psi, pits.data()});
+  CHECK(pits[10].cells == 1);
   rig.executor.for_each_cell(64, 64, field::IndexOfEachCell{rig.grid, rig.psi, rig.arrays().index});
   std::vector<std::uint8_t> seen(64 * 64);
   const float reach = field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data());
@@ -225,9 +225,9 @@ TEST_CASE("what rounding has levelled is lifted until it descends again, and not
   const float lowest = std::min(std::min(rig.psi[c - 1], rig.psi[c + 1]), std::min(rig.psi[c - 64], rig.psi[c + 64]));
   rig.psi[c] = lowest;
   for (const std::int32_t colour : {0, 1}) {
-    std::vector<std::int32_t> pits(64, 0);
-    pits[10] = 1;
-    rig.executor.for_each_cell(1, 64, field::LiftPitsOfRow{rig.grid, colour, goal, 1, pits.data(), rig.psi});
+    std::vector<field::Counted> pits(64);
+    pits[10].cells = 1;
+    rig.executor.for_each_cell(1, 64, field::LiftPitsOfRow{rig.grid, colour, goal, 1, 64, pits.data(), rig.psi});
   }
   CHECK(rig.psi[c] > lowest);
   CHECK(rig.psi[c] == std::nextafter(lowest, 1e9F));

@@ -11,11 +11,26 @@ namespace jaywalk::test {
 class ShuffledExecutor {
  public:
   static constexpr bool kQueue = false;
+  static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 1;
+  static constexpr std::int32_t kCellsOfRow = 16;
 
   template <class T>
   T* take(std::size_t n) {
     return memory_.take<T>(n);
+  }
+  template <class T>
+  T* show(T* stages, std::size_t) {
+    return stages;
+  }
+  template <class T>
+  void fill(T* to, const T* from, std::size_t n) {
+    memory_.fill(to, from, n);
+  }
+  template <class Order>
+  bool run(const Order& order) {
+    order(*this);
+    return true;
   }
 
   template <class Stage>
@@ -40,7 +55,9 @@ class ShuffledExecutor {
     for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
   }
 
-  bool wait() noexcept { return true; }
+  static field::Counted total(std::int32_t n, const field::Counted* counted) {
+    return field::SerialExecutor::total(n, counted);
+  }
   [[nodiscard]] const char* name() const noexcept { return "shuffled"; }
 
  private:

@@ -1,0 +1,277 @@
+#pragma once
+// The order of stages, once for every executor: what is done to a window's arrays between two choices of the host. An
+// order is plain values and runs wherever its executor does, on a device too: it calls nothing of the host's, and
+// chooses by `total` alone.
+#include "planner/field/clearance_stages.h"
+#include "planner/field/field_arrays.h"
+#include "planner/field/multigrid.h"
+
+namespace jaywalk::field {
+
+/// Rounds of the band: enough for a corner to spread over its dozen neighbours.
+inline constexpr std::int32_t kBandRounds = 60;
+/// Rounds of tension alone between two looks at the band's length.
+inline constexpr std::int32_t kTautRounds = 4;
+/// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
+inline constexpr float kBandReach = 5.0F;
+/// Cycles from the start field: three, and on while the last has still found something, up to five; then 99.9 % of
+/// cells or more pick the exact field's best neighbour. (Six take longer than 100 plain sweeps where eight lanes are
+/// the most.) On windows of more than 256 cells a side four are the most, for the time they take. From the last
+/// submission's field one does where nothing has changed since, and a second where the first has found something
+/// (docs/algorithm.md).
+inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 5, kWarmCycles = 1, kMostWarmCycles = 2;
+[[nodiscard]] constexpr JAYWALK_ORDER std::int32_t most_cold_cycles(Grid grid) {
+  return grid.side > 256 ? 4 : kMostColdCycles;
+}
+
+/// Times that pits are lifted at most, and before the certificate is read again. A pit that rounding has made is a
+/// plateau a few cells wide; one that is deeper needs another solution.
+inline constexpr std::int32_t kLifts = 32, kLiftsAtOnce = 4;
+
+/// From the host's memory to the stages' or back, where these are two.
+template <class T, class Executor>
+JAYWALK_ORDER void copy(Executor& executor, std::int32_t n, const T* from, T* to) noexcept {
+  if (from != to) executor.for_each(n, Copy<T>{from, to});
+}
+
+/// Warps, predicts, marks. The host has written walls into `occupants`, and `movers`.
+struct MarkOrder {
+  FieldArrays a;
+  Grid grid;
+  Warping warping;
+  std::int32_t movers;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    copy(executor, grid.cells(), a.shown.occupants, a.occupants);
+    copy(executor, movers, a.shown.movers, a.movers);
+    executor.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, a.warp});
+    executor.for_each(movers, PredictEachMover{grid, warping, a.warp, a.movers, a.marks});
+    executor.for_each(grid.side, MarkRow{grid, warping, a.warp, a.movers, a.marks, movers, a.occupants});
+    copy(executor, grid.cells(), a.occupants, a.shown.occupants);
+    copy(executor, movers, a.marks, a.shown.marks);
+  }
+};
+
+/// Clearance from the occupants in `wanted`; only the lowest width x height cells count.
+struct ClearOrder {
+  FieldArrays a;
+  Grid grid;
+  std::int32_t width, height;
+  float inflation;
+  std::uint8_t wanted;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    copy(executor, grid.cells(), a.shown.occupants, a.occupants);
+    clear(executor);
+  }
+
+  /// The same where the stages have the occupants already.
+  template <class Executor>
+  JAYWALK_ORDER void clear(Executor& executor) const noexcept {
+    constexpr std::int32_t kColumns = Executor::kColumns;
+    executor.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a.occupants, wanted, a.rows_away});
+    executor.for_each(grid.side,
+                      ClearanceOfRow{grid, width, height, a.rows_away, inflation, a.envelope, a.stretch, a.clearance});
+    copy(executor, grid.cells(), a.clearance, a.shown.clearance);
+  }
+};
+
+struct MarkAndClearOrder {
+  MarkOrder mark;
+  ClearOrder clear;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    mark(executor);
+    clear.clear(executor);
+  }
+};
+
+/// The start field, in `cost` and `start_psi`, by sweeps.
+struct StartOrder {
+  FieldArrays a;
+  Grid grid;
+  std::int32_t goal;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    rate(executor);
+    executor.for_each(grid.cells(), FarFromGoal{goal, a.cost});
+    while (!sweep(executor)) {
+    }
+    carry_over(executor);
+  }
+
+  /// Its first and its last step, for a host that settles costs otherwise.
+  template <class Executor>
+  JAYWALK_ORDER void rate(Executor& executor) const noexcept {
+    executor.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a.clearance, a.table, a.rate});
+  }
+  template <class Executor>
+  JAYWALK_ORDER void carry_over(Executor& executor) const noexcept {
+    executor.for_each(grid.cells(), PsiOfCost{a.rate, a.cost, a.start_psi});
+  }
+
+ private:
+  /// Whether nothing has changed.
+  template <class Executor>
+  JAYWALK_ORDER bool sweep(Executor& executor) const noexcept {
+    const std::int32_t side = grid.side, cells = cells_of_row<Executor>(side), pieces = side / cells;
+    executor.for_each(side * pieces, Fill<Counted>{a.changed, {0, 0}});
+    executor.for_each(side, SweepLine{side, 1, side, a.rate, a.cost, a.changed});
+    executor.for_each(side, SweepLine{side, side, 1, a.rate, a.cost, a.changed});
+    executor.for_each_cell(pieces, side / 2, StepAcross{grid, 0, cells, a.rate, a.cost, a.changed});
+    executor.for_each_cell(pieces, side / 2, StepAcross{grid, 1, cells, a.rate, a.cost, a.changed});
+    return executor.total(side * pieces, a.changed).cells == 0;
+  }
+};
+
+/// From clearance or the start field to the potential and its index matrix. Whatever breaks the certificate is not
+/// used: a solution from the last gives way to one from the start field, that to one with twice the cycles, and that to
+/// the start field itself.
+struct SolveOrder {
+  StartOrder begin;
+  bool is_started;  ///< the start field is there already
+  MultigridArrays levels;
+  From from;
+  Disc robot;  ///< where the path is to begin
+  float *psi, *shown_psi;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    if (!is_started) begin(executor);
+    const FieldArrays& a = begin.a;
+    FieldQuality quality;
+    quality.done = true;
+    if (has_joined(executor)) solve(executor, quality);
+    executor.for_each(1, Fill<FieldQuality>{a.shown.quality, quality});
+  }
+
+ private:
+  struct Attempt {
+    From from;
+    bool anew;  ///< from the start field, not from what the attempt before came to
+    std::int32_t least_cycles, most_cycles, lifts;
+  };
+
+  /// Whether the goal can be reached from near the robot.
+  template <class Executor>
+  JAYWALK_ORDER bool has_joined(Executor& executor) const noexcept {
+    const std::int32_t first = robot.first_row(), last = robot.last_row(begin.grid);
+    const std::int32_t rows = last < first ? 0 : last - first + 1;
+    executor.for_each(rows, JoinedOfDisc{begin.grid, robot, begin.a.start_psi, begin.a.pits});
+    return executor.total(rows, begin.a.pits).cells > 0;
+  }
+
+  template <class Executor>
+  JAYWALK_ORDER void solve(Executor& executor, FieldQuality& quality) const noexcept {
+    const FieldArrays& a = begin.a;
+    const std::int32_t most = most_cold_cycles(begin.grid);
+    const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kMostWarmCycles, kLifts},
+                                {From::kNothing, true, kColdCycles, most, kLifts},
+                                {From::kNothing, false, most, most, kLifts},
+                                {From::kStartOnly, true, 0, 0, 2 * begin.grid.side}};
+    for (const Attempt& attempt : attempts) {
+      if (attempt.from < from || quality.certified) continue;
+      if (attempt.anew) executor.for_each(begin.grid.cells(), Fill<float>{a.correction, 0.0F});
+      quality.cycles += improve(executor, attempt);
+      lift(executor, attempt.lifts, quality);
+    }
+    copy(executor, begin.grid.cells(), a.index, a.shown.index);
+    copy(executor, begin.grid.cells(), psi, shown_psi);
+  }
+
+  template <class Executor>
+  JAYWALK_ORDER std::int32_t improve(Executor& executor, const Attempt& attempt) const noexcept {
+    const FieldArrays& a = begin.a;
+    const Grid grid = begin.grid;
+    const std::int32_t cells = cells_of_row<Executor>(grid.side);
+    return Multigrid<Executor>(executor, levels)
+        .improve(grid, begin.goal, psi, attempt.least_cycles, attempt.most_cycles,
+                 RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
+                 RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
+                 RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
+                 RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
+  }
+
+  /// Reads the certificate; where there are pits, lifts them up to `most` times over, and keeps what that came to.
+  template <class Executor>
+  JAYWALK_ORDER void lift(Executor& executor, std::int32_t most, FieldQuality& quality) const noexcept {
+    read_certificate(executor, quality);
+    if (quality.certified) return;
+    const FieldArrays& a = begin.a;
+    const Grid grid = begin.grid;
+    const std::int32_t goal = begin.goal, cells = cells_of_row<Executor>(grid.side);
+    for (std::int32_t lifts = 0; !quality.certified && lifts < most; lifts += kLiftsAtOnce) {
+      for (std::int32_t k = 1; k <= kLiftsAtOnce; ++k) {
+        executor.for_each_row(grid.side, RowStep{1, LiftPitsOfRow{grid, 0, goal, 2 * k - 1, cells, a.pits, psi}},
+                              RowStep{1, LiftPitsOfRow{grid, 1, goal, 2 * k, cells, a.pits, psi}});
+      }
+      executor.for_each_cell(grid.side / cells, grid.side, PitsOfRow{grid, goal, cells, psi, a.pits});
+      read_certificate(executor, quality);
+    }
+    executor.for_each_row(grid.side, RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
+                          RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
+  }
+
+  template <class Executor>
+  JAYWALK_ORDER void read_certificate(Executor& executor, FieldQuality& quality) const noexcept {
+    const std::int32_t side = begin.grid.side;
+    const Counted pits = executor.total(side * (side / cells_of_row<Executor>(side)), begin.a.pits);
+    quality.pits = pits.cells, quality.joined = pits.joined, quality.certified = pits.cells == 0;
+  }
+};
+
+/// Pulls the band's `count` points taut; those before `first` and the last stay. The band is no longer than the raw
+/// path: where what is near has made it so, tension alone draws it in, and where that takes too long, tension alone
+/// acts on the raw path. Tension never lengthens: a point goes towards the middle of its neighbours.
+struct PullOrder {
+  FieldArrays a;
+  Grid grid;
+  std::int32_t first, count;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+    copy(executor, count, a.shown.points, a.points);
+    executor.for_each(count, Copy<cell::Point>{a.points, a.raw_points});
+    measure(executor, a.lengths);
+    drag(executor, kBandReach, kBandRounds);
+    bool longer = is_longer(executor);
+    for (std::int32_t r = 0; r < kBandRounds && longer; r += kTautRounds) {
+      drag(executor, 0.0F, kTautRounds);
+      longer = is_longer(executor);
+    }
+    if (longer) {
+      executor.for_each(count, Copy<cell::Point>{a.raw_points, a.points});
+      drag(executor, 0.0F, kBandRounds);
+    }
+    copy(executor, count, a.points, a.shown.points);
+  }
+
+ private:
+  template <class Executor>
+  JAYWALK_ORDER void drag(Executor& executor, float reach, std::int32_t rounds) const noexcept {
+    for (std::int32_t third = 0; third < 3 * rounds; ++third) {
+      const std::int32_t from = first + third % 3;
+      executor.for_each((count - from + 1) / 3, PullBand{grid, from, count, a.clearance, reach, a.points});
+    }
+  }
+
+  template <class Executor>
+  JAYWALK_ORDER void measure(Executor& executor, double* length) const noexcept {
+    executor.for_each(count - 1, LengthOfSegment{a.points, a.segments});
+    executor.for_each(1, LengthOfBand{count - 1, a.segments, length});
+  }
+
+  /// Than the raw path.
+  template <class Executor>
+  JAYWALK_ORDER bool is_longer(Executor& executor) const noexcept {
+    measure(executor, a.lengths + 1);
+    executor.for_each(1, IsLonger{a.lengths + 1, a.lengths, a.found});
+    return executor.total(1, a.found).cells != 0;
+  }
+};
+
+}  // namespace jaywalk::field
