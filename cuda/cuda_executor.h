@@ -1,60 +1,50 @@
 #pragma once
-// An executor on a CUDA device: one kernel that calls a stage, in one and two dimensions. Memory is
-// managed, so that the host reads results and writes requests without copies (after wait()).
+// An executor on a CUDA device: an order is one kernel, whose threads are a crew (crew_kernel.h). Stages work in the
+// device's memory; what host and stages share lies in pinned host memory, and orders copy it at their begin and end.
 #include <cuda_runtime.h>
 
+#include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <stdexcept>
+#include <tuple>
 #include <vector>
 
-#include "planner/field/executor.h"
+#include "cuda/crew_kernel.h"
+#include "planner/field/order.h"
 
 namespace jaywalk {
 
-template <class Stage>
-__global__ void visit(std::int32_t n, Stage stage) {
-  const auto k = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
-  if (k < n) stage(k);
-}
-
-template <class Stage>
-__global__ void visit_cells(std::int32_t w, std::int32_t h, Stage stage) {
-  const auto i = static_cast<std::int32_t>(blockIdx.x * blockDim.x + threadIdx.x);
-  const auto j = static_cast<std::int32_t>(blockIdx.y * blockDim.y + threadIdx.y);
-  if (i < w && j < h) stage(i, j);
-}
-
-/// Threads of the one block that small boards get; registers are shared out among as many.
-inline constexpr int kBlockThreads = 1024;
-
-/// All visits of one step by the threads of one block; the next step sees what it has written.
-template <class Step>
-__device__ void visit_in_block(std::int32_t h, const Step& step) {
-  const std::int32_t visits = step.width * (h / step.every);
-  for (auto k = static_cast<std::int32_t>(threadIdx.x); k < visits; k += static_cast<std::int32_t>(blockDim.x)) {
-    step.stage(k % step.width, k / step.width);
-  }
-  __syncthreads();
-}
-
-/// The steps in order, `n` times over, in one block: for boards so small that launching takes longer than visiting.
-template <class... Steps>
-__global__ void __launch_bounds__(kBlockThreads) repeat_in_block(std::int32_t n, std::int32_t h, Steps... steps) {
-  for (std::int32_t k = 0; k < n; ++k) (visit_in_block(h, steps), ...);
-}
+/// How a kernel fits this device.
+template <class Order>
+struct Fit {
+  int cluster_blocks = 0;  ///< of the largest cluster; 0: none
+  int grid_blocks = 0;     ///< that run at a time
+};
 
 class CudaExecutor {
  public:
   static constexpr bool kQueue = false;
-  static constexpr bool kOneMemory = true;
-  static constexpr std::int32_t kColumns = 1;
-  static constexpr std::int32_t kCellsOfRow = 16;
+  static constexpr bool kOneMemory = false;
+  static constexpr std::int32_t kColumns = field::Crew<PlaceInGrid>::kColumns;
+  static constexpr std::int32_t kCellsOfRow = field::Crew<PlaceInGrid>::kCellsOfRow;
 
-  /// Throws std::runtime_error with the driver's own words.
-  CudaExecutor() { must(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking)); }
+  /// Throws std::runtime_error with the driver's own words, or why the device does not do.
+  CudaExecutor() {
+    int device = 0, cooperates = 0;
+    must(cudaGetDevice(&device));
+    must(cudaDeviceGetAttribute(&cooperates, cudaDevAttrCooperativeLaunch, device));
+    must(cudaDeviceGetAttribute(&processors_, cudaDevAttrMultiProcessorCount, device));
+    if (cooperates == 0) throw std::runtime_error("the blocks of a kernel cannot meet on it");
+    must(cudaStreamCreateWithFlags(&stream_, cudaStreamNonBlocking));
+    must(cudaEventCreate(&begin_)), must(cudaEventCreate(&end_));
+    std::apply([this](auto&... fit) { (look(fit), ...); }, fits_);
+    notes_ = {take<field::Counted>(field::CrewNotes::kRoom), take<field::Counted>(2)};
+  }
   ~CudaExecutor() {
     for (void* block : blocks_) cudaFree(block);
+    for (void* block : shown_) cudaFreeHost(block);
+    cudaEventDestroy(begin_), cudaEventDestroy(end_);
     cudaStreamDestroy(stream_);
   }
   CudaExecutor(const CudaExecutor&) = delete;
@@ -63,72 +53,119 @@ class CudaExecutor {
   template <class T>
   T* take(std::size_t n) {
     void* block = nullptr;
-    must(cudaMallocManaged(&block, n * sizeof(T)));
+    must(cudaMalloc(&block, n * sizeof(T)));
     blocks_.push_back(block);
     must(cudaMemset(block, 0, n * sizeof(T)));
     must(cudaDeviceSynchronize());
     return static_cast<T*>(block);
   }
+
+  /// Pinned, zeroed, and at the same address for the device.
   template <class T>
-  T* show(T* stages, std::size_t) {
-    return stages;
+  T* show(T*, std::size_t n) {
+    void* block = nullptr;
+    must(cudaHostAlloc(&block, n * sizeof(T), cudaHostAllocMapped | cudaHostAllocPortable));
+    shown_.push_back(block);
+    std::fill_n(static_cast<T*>(block), n, T{});
+    return static_cast<T*>(block);
   }
+
   template <class T>
   void fill(T* to, const T* from, std::size_t n) {
-    must(cudaMemcpy(to, from, n * sizeof(T), cudaMemcpyDefault));
+    must(cudaMemcpy(to, from, n * sizeof(T), cudaMemcpyHostToDevice));
   }
+
+  /// One launch. Waits for it.
   template <class Order>
   bool run(const Order& order) noexcept {
-    order(*this);
-    return wait();
-  }
-
-  template <class Stage>
-  void for_each(std::int32_t n, const Stage& stage) noexcept {
-    constexpr std::int32_t kThreads = 128;
-    if (n > 0) visit<<<blocks(n, kThreads), kThreads, 0, stream_>>>(n, stage);
-  }
-
-  template <class Stage>
-  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
-    const dim3 threads(32, 4);
-    const dim3 grid(blocks(w, 32), blocks(h, 4));
-    if (w > 0 && h > 0) visit_cells<<<grid, threads, 0, stream_>>>(w, h, stage);
-  }
-
-  template <class... Steps>
-  void for_each_row(std::int32_t h, const Steps&... steps) noexcept {
-    repeat(1, h, steps...);
-  }
-
-  template <class... Steps>
-  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) noexcept {
-    constexpr std::int32_t kMostInBlock = 8192;  ///< visits of a step: eight of each thread
-    if (((h * steps.width <= kMostInBlock) && ...)) {
-      if (n > 0) repeat_in_block<<<1, kBlockThreads, 0, stream_>>>(n, h, steps...);
-      return;
+    cudaEventRecord(begin_, stream_);
+    const cudaError_t launched = launch(order);
+    cudaEventRecord(end_, stream_);
+    float took_ms = 0.0F;
+    if (launched != cudaSuccess || cudaEventSynchronize(end_) != cudaSuccess || cudaGetLastError() != cudaSuccess ||
+        cudaEventElapsedTime(&took_ms, begin_, end_) != cudaSuccess) {
+      return false;
     }
-    for (std::int32_t k = 0; k < n; ++k) (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
+    took_ms_ += static_cast<double>(took_ms);
+    return true;
   }
 
-  /// None where the device has failed, so that the order comes to its end.
-  field::Counted total(std::int32_t n, const field::Counted* counted) noexcept {
-    return wait() ? field::SerialExecutor::total(n, counted) : field::Counted{};
-  }
-
+  /// What all orders together have taken on the device, by its own events.
+  [[nodiscard]] double took_ms() const noexcept { return took_ms_; }
   [[nodiscard]] const char* name() const noexcept { return "cuda"; }
 
  private:
-  bool wait() noexcept { return cudaStreamSynchronize(stream_) == cudaSuccess && cudaGetLastError() == cudaSuccess; }
-  static unsigned blocks(std::int32_t n, std::int32_t threads) {
-    return static_cast<unsigned>((n + threads - 1) / threads);
-  }
+  /// Cells that a cluster's sixteen processors get through sooner than all of the device's would meet: 256 x 256. By
+  /// reckoning, not measured.
+  static constexpr std::int32_t kMostInCluster = 65536;
+
   static void must(cudaError_t error) {
     if (error != cudaSuccess) throw std::runtime_error(cudaGetErrorString(error));
   }
 
+  /// A launch with the one attribute that lets its blocks meet.
+  struct Launch {
+    cudaLaunchAttribute meets{};
+    cudaLaunchConfig_t config{};
+
+    Launch(int blocks, cudaStream_t stream, bool in_cluster) {
+      config.gridDim = dim3(static_cast<unsigned>(blocks));
+      config.blockDim = dim3(kBlockThreads);
+      config.stream = stream;
+      config.attrs = &meets;
+      config.numAttrs = 1;
+      if (in_cluster) {
+        meets.id = cudaLaunchAttributeClusterDimension;
+        meets.val.clusterDim = {static_cast<unsigned>(blocks), 1, 1};
+      } else {
+        meets.id = cudaLaunchAttributeCooperative;
+        meets.val.cooperative = 1;
+      }
+    }
+    Launch(const Launch&) = delete;
+    Launch& operator=(const Launch&) = delete;
+  };
+
+  template <class Order>
+  void look(Fit<Order>& fit) {
+    int blocks_each = 0;
+    must(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks_each, run_order<PlaceInGrid, Order>, kBlockThreads, 0));
+    fit.grid_blocks = blocks_each * processors_;
+    if (fit.grid_blocks == 0) throw std::runtime_error("a block needs more registers than it has");
+    cudaFuncAttributes attributes{};
+    const auto kernel = run_order<PlaceInCluster, Order>;
+    must(cudaFuncGetAttributes(&attributes, kernel));
+    if (attributes.ptxVersion < 90) return;  // compiled for an older device, whose blocks meet in grids alone
+    const bool may_be_large =
+        cudaFuncSetAttribute(kernel, cudaFuncAttributeNonPortableClusterSizeAllowed, 1) == cudaSuccess;
+    for (int blocks = may_be_large ? 16 : 8; blocks >= 8 && fit.cluster_blocks == 0; blocks /= 2) {
+      const Launch launch(blocks, stream_, true);
+      int clusters = 0;
+      if (cudaOccupancyMaxActiveClusters(&clusters, kernel, &launch.config) == cudaSuccess && clusters > 0) {
+        fit.cluster_blocks = blocks;
+      }
+    }
+    (void)cudaGetLastError();  // a cluster that does not fit is no error
+  }
+
+  template <class Order>
+  cudaError_t launch(const Order& order) noexcept {
+    const Fit<Order>& fit = std::get<Fit<Order>>(fits_);
+    const int wanted = static_cast<int>((order.visits() + kBlockThreads - 1) / kBlockThreads);
+    const bool in_cluster = fit.cluster_blocks > 0 && wanted > 1 && order.visits() <= kMostInCluster;
+    const Launch with(in_cluster ? fit.cluster_blocks : std::min(wanted, fit.grid_blocks), stream_, in_cluster);
+    return in_cluster ? cudaLaunchKernelEx(&with.config, run_order<PlaceInCluster, Order>, order, notes_)
+                      : cudaLaunchKernelEx(&with.config, run_order<PlaceInGrid, Order>, order, notes_);
+  }
+
+  int processors_ = 0;
   cudaStream_t stream_ = nullptr;
-  std::vector<void*> blocks_;
+  cudaEvent_t begin_ = nullptr, end_ = nullptr;
+  std::tuple<Fit<field::MarkAndClearOrder>, Fit<field::ClearOrder>, Fit<field::SolveOrder>, Fit<field::PullOrder>>
+      fits_;
+  std::vector<void*> blocks_, shown_;
+  field::CrewNotes notes_{};
+  double took_ms_ = 0.0;
 };
 
 }  // namespace jaywalk

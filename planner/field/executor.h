@@ -26,6 +26,8 @@
 #include <memory>
 #include <vector>
 
+#include "planner/cell/cell.h"
+
 // Tells the compiler what holds for every stage: visits do not depend on one another, so they may go side by side.
 #if defined(__GNUC__) && !defined(__clang__)
 #define JAYWALK_INDEPENDENT_VISITS _Pragma("GCC ivdep")
@@ -35,8 +37,12 @@
 
 #define JAYWALK_INLINED [[gnu::always_inline]] inline
 
-/// Of functions that are an order or part of one: they run wherever their executor does.
+/// Of functions that are an order or part of one: they run where their executor visits.
+#ifdef __CUDACC__
+#define JAYWALK_ORDER __device__
+#else
 #define JAYWALK_ORDER
+#endif
 
 #if defined(__x86_64__) && !defined(__CUDACC__)
 #define JAYWALK_CHOOSES_LANES 1
@@ -84,7 +90,7 @@ inline constexpr std::int32_t kWholeRow = 1 << 30;
 
 /// Cells that a visit takes of a row of `side` cells, a power of two.
 template <class Executor>
-[[nodiscard]] constexpr JAYWALK_ORDER std::int32_t cells_of_row(std::int32_t side) {
+[[nodiscard]] JAYWALK_CELL constexpr std::int32_t cells_of_row(std::int32_t side) {
   return side < Executor::kCellsOfRow ? side : Executor::kCellsOfRow;
 }
 

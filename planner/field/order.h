@@ -1,7 +1,7 @@
 #pragma once
 // The order of stages, once for every executor: what is done to a window's arrays between two choices of the host. An
 // order is plain values and runs wherever its executor does, on a device too: it calls nothing of the host's, and
-// chooses by `total` alone.
+// chooses by `total` alone. `visits` is what its largest step takes, for whoever shares steps out.
 #include "planner/field/clearance_stages.h"
 #include "planner/field/field_arrays.h"
 #include "planner/field/multigrid.h"
@@ -61,6 +61,8 @@ struct ClearOrder {
   float inflation;
   std::uint8_t wanted;
 
+  [[nodiscard]] std::int32_t visits() const noexcept { return grid.cells(); }
+
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
     copy(executor, grid.cells(), a.shown.occupants, a.occupants);
@@ -81,6 +83,8 @@ struct ClearOrder {
 struct MarkAndClearOrder {
   MarkOrder mark;
   ClearOrder clear;
+
+  [[nodiscard]] std::int32_t visits() const noexcept { return mark.grid.cells(); }
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
@@ -138,6 +142,8 @@ struct SolveOrder {
   From from;
   Disc robot;  ///< where the path is to begin
   float *psi, *shown_psi;
+
+  [[nodiscard]] std::int32_t visits() const noexcept { return begin.grid.cells(); }
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
@@ -231,6 +237,8 @@ struct PullOrder {
   FieldArrays a;
   Grid grid;
   std::int32_t first, count;
+
+  [[nodiscard]] std::int32_t visits() const noexcept { return count; }
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {

@@ -37,7 +37,7 @@ class Pass {
   bool mark_and_clear(Grid grid, const Warping& warping, std::int32_t movers, float inflation,
                       std::uint8_t wanted) noexcept {
     const MarkOrder mark{a_, grid, warping, movers};
-    if (Executor::kQueue) return executor_.run(mark) && clear(grid, inflation, wanted);
+    if constexpr (Executor::kQueue) return executor_.run(mark) && clear(grid, inflation, wanted);
     started_ = kNoCell;
     return executor_.run(MarkAndClearOrder{mark, {a_, grid, grid.side, grid.side, inflation, wanted}});
   }
@@ -78,7 +78,7 @@ class Pass {
   /// From clearance to the potential, in memory of take_psi, and its index matrix, if there is a start for the path
   /// near the robot.
   FieldQuality solve(Grid grid, std::int32_t goal, From from, const Disc& robot, float* psi) noexcept {
-    if (Executor::kQueue) (void)start(grid, goal);
+    if constexpr (Executor::kQueue) (void)start(grid, goal);
     const bool is_started = started_ == goal;
     started_ = goal;
     float* solved = Executor::kOneMemory ? psi : psi_;

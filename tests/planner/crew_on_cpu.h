@@ -1,0 +1,107 @@
+#pragma once
+// A crew of threads of the CPU: the code that a device runs in one kernel, with other barriers. A thread sanitizer sees
+// a barrier that is missing.
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+#include "planner/field/crew.h"
+
+namespace jaywalk::test {
+
+/// Where `count` threads wait for one another, any number of times.
+class Meeting {
+ public:
+  explicit Meeting(std::int32_t count) : count_(count) {}
+  void meet() {
+    std::unique_lock lock(mutex_);
+    const std::int64_t round = rounds_;
+    if (++here_ < count_) {
+      all_here_.wait(lock, [&] { return rounds_ > round; });
+      return;
+    }
+    here_ = 0;
+    ++rounds_;
+    all_here_.notify_all();
+  }
+  [[nodiscard]] std::int64_t rounds() const { return rounds_; }
+
+ private:
+  std::mutex mutex_;
+  std::condition_variable all_here_;
+  std::int32_t count_, here_ = 0;
+  std::int64_t rounds_ = 0;
+};
+
+/// `kBlocks` blocks of `kThreads` threads; steps of at most `kAlone` visits are the first block's.
+template <std::int32_t kBlocks, std::int32_t kThreads, std::int32_t kAlone>
+class CrewOnCpu {
+ public:
+  static constexpr bool kQueue = false;
+  static constexpr bool kOneMemory = true;
+
+  class Place {
+   public:
+    Place(CrewOnCpu& crew, std::int32_t block, std::int32_t thread) : crew_(&crew), block_(block), thread_(thread) {}
+    [[nodiscard]] std::int32_t thread() const { return block_ * kThreads + thread_; }
+    [[nodiscard]] static std::int32_t threads() { return kBlocks * kThreads; }
+    [[nodiscard]] std::int32_t block_thread() const { return thread_; }
+    [[nodiscard]] static std::int32_t block_threads() { return kThreads; }
+    [[nodiscard]] bool in_first_block() const { return block_ == 0; }
+    [[nodiscard]] static std::int32_t most_alone() { return kAlone; }
+    [[nodiscard]] static std::int32_t log2_of(std::int32_t n) {
+      std::int32_t log2 = 0;
+      while ((1 << log2) < n) ++log2;
+      return log2;
+    }
+    void meet_crew() const { crew_->crew_meeting_.meet(); }
+    void meet_block() const { crew_->first_block_meeting_.meet(); }
+
+   private:
+    CrewOnCpu* crew_;
+    std::int32_t block_, thread_;
+  };
+
+  static constexpr std::int32_t kColumns = field::Crew<Place>::kColumns;
+  static constexpr std::int32_t kCellsOfRow = field::Crew<Place>::kCellsOfRow;
+
+  template <class T>
+  T* take(std::size_t n) {
+    return memory_.take<T>(n);
+  }
+  template <class T>
+  T* show(T* stages, std::size_t) {
+    return stages;
+  }
+  template <class T>
+  void fill(T* to, const T* from, std::size_t n) {
+    memory_.fill(to, from, n);
+  }
+
+  template <class Order>
+  bool run(const Order& order) {
+    std::vector<std::thread> threads;
+    for (std::int32_t k = 0; k < kBlocks * kThreads; ++k) {
+      threads.emplace_back([this, &order, k] {
+        field::Crew<Place> crew(Place(*this, k / kThreads, k % kThreads), notes_);
+        order(crew);
+      });
+    }
+    for (std::thread& thread : threads) thread.join();
+    return true;
+  }
+
+  [[nodiscard]] const char* name() const noexcept { return "crew"; }
+  /// Times that all threads, and those of the first block alone, have met.
+  [[nodiscard]] std::int64_t crew_meetings() const { return crew_meeting_.rounds(); }
+  [[nodiscard]] std::int64_t block_meetings() const { return first_block_meeting_.rounds(); }
+
+ private:
+  field::SerialExecutor memory_;
+  field::CrewNotes notes_{memory_.take<field::Counted>(field::CrewNotes::kRoom), memory_.take<field::Counted>(2)};
+  Meeting crew_meeting_{kBlocks * kThreads}, first_block_meeting_{kThreads};
+};
+
+}  // namespace jaywalk::test

@@ -1,0 +1,199 @@
+// Many threads that share every step give the bytes of one that takes them all: the order and the barriers that a
+// device runs in one kernel, on the CPU. Built with a thread sanitizer this is where a missing barrier shows.
+#include <cstdio>
+#include <cstring>
+#include <memory>
+
+#include "planner/field/grid_planner.h"
+#include "planner/field/map_field_on.h"
+#include "tests/planner/crew_on_cpu.h"
+#include "tests/planner/field_rig.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+template <class T>
+bool same(const T* a, const T* b, std::int32_t n) {
+  return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof(T)) == 0;
+}
+
+TestMap boxes(std::int32_t side, std::uint64_t seed) {
+  TestMap map("boxes", side);
+  Random random(seed);
+  for (std::int32_t k = 0; k < side / 5; ++k) {
+    const std::int32_t i = random.below(side - 4), j = random.below(side - 4);
+    map.box(i, j, i + 2 + random.below(8), j + 2 + random.below(8));
+  }
+  map.box(4, 4, 12, 12, 0), map.box(side - 14, side - 14, side - 4, side - 4, 0);
+  return map;
+}
+
+/// Cold and warm on one map after the other, against one thread.
+template <class Crew>
+void check_fields(std::int32_t side, int maps) {
+  FieldRig<> serial(side);
+  FieldRig<Crew> crew(side);
+  const std::int32_t goal = serial.grid.at(side - 9, side - 9), n = serial.grid.cells();
+  for (int seed = 1; seed <= maps; ++seed) {
+    const TestMap map = boxes(side, static_cast<std::uint64_t>(seed));
+    serial.load(map, 1.0F, goal);
+    crew.load(map, 1.0F, goal);
+    CHECK(same(serial.arrays().clearance, crew.arrays().clearance, n));
+    CHECK(same(serial.arrays().rate, crew.arrays().rate, n));
+    CHECK(same(serial.arrays().cost, crew.arrays().cost, n));
+    for (const field::From from : {field::From::kNothing, field::From::kLast, field::From::kStartOnly}) {
+      const field::FieldQuality a = serial.pass.solve(serial.grid, goal, from, serial.psi);
+      const field::FieldQuality b = crew.pass.solve(crew.grid, goal, from, crew.psi);
+      CHECK(a.joined > n / 4);
+      CHECK(a.joined == b.joined);
+      CHECK(a.pits == b.pits);
+      CHECK(a.cycles == b.cycles);
+      CHECK(same(serial.psi, crew.psi, n));
+      CHECK(same(serial.arrays().correction, crew.arrays().correction, n));
+      CHECK(same(serial.arrays().index, crew.arrays().index, n));
+    }
+  }
+}
+
+std::vector<Track> crowd() {
+  std::vector<Track> tracks;
+  Random random(17);
+  for (std::uint32_t k = 1; k <= 6; ++k) {
+    Track track;
+    track.id = k;
+    track.position_in_map = {6.4 * random.unit(), 6.4 * random.unit()};
+    track.velocity_in_map = {random.unit() - 0.5, random.unit() - 0.5};
+    track.covariance = {0.001, 0.0005, 0.01};
+    track.radius_m = 0.1;
+    tracks.push_back(track);
+  }
+  return tracks;
+}
+
+}  // namespace
+
+TEST_CASE("a crew of 1, 2, 3 or 7 threads solves to the bytes of one thread, whoever takes the small steps") {
+  check_fields<CrewOnCpu<1, 1, 8192>>(64, 1);
+  check_fields<CrewOnCpu<1, 2, 0>>(64, 1);        // every step is the whole crew's
+  check_fields<CrewOnCpu<3, 1, 500>>(64, 2);      // three blocks of one thread; the first takes small steps
+  check_fields<CrewOnCpu<1, 7, 1 << 20>>(64, 1);  // one block that takes all
+  check_fields<CrewOnCpu<2, 3, 300>>(64, 2);
+  check_fields<CrewOnCpu<2, 2, 8192>>(128, 1);  // as on a device: half a board of 128 is the first block's
+}
+
+TEST_CASE("a crew plans among movers to the bytes of one thread, plan by plan") {
+  using Crew = CrewOnCpu<2, 2, 1000>;
+  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
+    PlannerConfig config;
+    config.mode = mode;
+    config.side_cells = config.max_side_cells = 64;
+    config.inflation_m = 0.15;
+    config.mover_margin_m = 0.1;
+    field::GridPlanner<field::SerialExecutor> serial(config, std::make_unique<field::SerialExecutor>());
+    field::GridPlanner<Crew> crew(config, std::make_unique<Crew>());
+    const EvidenceMap map = evidence_of(boxes(64, 3));
+    std::vector<Track> tracks = crowd();
+    PlanRequest request;
+    request.map_from_robot = {0.83, 0.77, 0.6};
+    request.goal_in_map = {5.52, 5.53};
+    request.speed_mps = 0.6;
+    request.still = &map;
+    int planned = 0;
+    for (int tick = 0; tick < 5; ++tick) {
+      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
+      request.moving = tracks;
+      serial.submit(request);
+      crew.submit(request);
+      const Plan& a = serial.collect();
+      const Plan& b = crew.collect();
+      REQUIRE(a.status == b.status);
+      REQUIRE(a.path.size() == b.path.size());
+      CHECK(a.cycles == b.cycles);
+      CHECK(same(serial.arrays().marks, crew.arrays().marks, 6));
+      CHECK(same(serial.arrays().occupants, crew.arrays().occupants, 64 * 64));
+      CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
+      CHECK(same(serial.view_field().psi.data(), crew.view_field().psi.data(), 64 * 64));
+      if (a.status == PlanStatus::kOk) ++planned;
+    }
+    CHECK(planned > 0);
+  }
+}
+
+TEST_CASE("a crew solves maps that are empty, odd, one cell high, or all wall but for a cell, as one thread does") {
+  using Crew = CrewOnCpu<2, 2, 700>;
+  std::vector<field::CellMap> maps{{64, 64, std::vector<std::uint8_t>(64 * 64, 0)},
+                                   {1, 65, std::vector<std::uint8_t>(65, 0)},
+                                   {33, 47, std::vector<std::uint8_t>(33 * 47, 0)},
+                                   {9, 9, std::vector<std::uint8_t>(81, 1)}};
+  for (std::size_t i = 10; i < 33; ++i) maps[2].wall[20 * 33 + i] = 1;  // one wall
+  maps[3].wall[40] = 0;
+  for (const field::CellMap& map : maps) {
+    const auto serial = field::make_cpu_map_field(map);
+    field::MapFieldOn<Crew> crew(map, std::make_unique<Crew>());
+    CellIndex goal{0, 0};
+    REQUIRE(serial->nearest_free(goal, 100));
+    for (const bool cold : {true, false}) {
+      const field::MapQuality a = cold ? serial->solve_cold(goal) : serial->solve_warm(goal);
+      const field::MapQuality b = cold ? crew.solve_cold(goal) : crew.solve_warm(goal);
+      CHECK(a.joined == b.joined);
+      CHECK(a.certified == b.certified);
+      int differ = 0;
+      for (std::int32_t j = 0; j < map.height; ++j) {
+        for (std::int32_t i = 0; i < map.width; ++i) {
+          const float x = serial->psi(i, j), y = crew.psi(i, j);
+          differ += same(&x, &y, 1) ? 0 : 1;
+        }
+      }
+      CHECK(differ == 0);
+    }
+  }
+}
+
+TEST_CASE("a goal that cannot be reached from the robot's place is not solved, by a crew as by one thread") {
+  FieldRig<> serial(64);
+  FieldRig<CrewOnCpu<2, 2, 700>> crew(64);
+  TestMap map("closed", 64);
+  map.box(30, 0, 32, 64);
+  const std::int32_t goal = serial.grid.at(50, 12);
+  serial.load(map, 1.0F, goal);
+  crew.load(map, 1.0F, goal);
+  // Free cells on the goal's side begin at column 33: a disc of 4 round column 28 does not touch them, one of 5 does.
+  for (const field::Disc robot : {field::Disc{28, 12, 4}, field::Disc{-20, 12, 10}, field::Disc{28, 12, 5}}) {
+    const auto a = serial.pass.solve(serial.grid, goal, field::From::kNothing, robot, serial.psi);
+    const auto b = crew.pass.solve(crew.grid, goal, field::From::kNothing, robot, crew.psi);
+    CHECK(a.done);
+    CHECK(b.done);
+    CHECK(a.joined == b.joined);
+    CHECK((a.joined > 0) == (robot.radius == 5));
+  }
+}
+
+TEST_CASE("how often a crew meets in a solve of 256 cells a side: a device's time is mostly that") {
+  using Crew = CrewOnCpu<2, 1, 8192>;  // as on a device, half a board of 128 is the first block's
+  FieldRig<Crew> rig(256);
+  const std::int32_t goal = rig.grid.at(243, 243);
+  std::int64_t crew_met = 0, block_met = 0;
+  const auto tell = [&](const char* what) {
+    crew_met = rig.executor.crew_meetings() - crew_met, block_met = rig.executor.block_meetings() - block_met;
+    std::printf("  %s: the crew %lld times, its first block alone %lld\n", what, static_cast<long long>(crew_met),
+                static_cast<long long>(block_met));
+    const std::int64_t met = crew_met;
+    crew_met = rig.executor.crew_meetings(), block_met = rig.executor.block_meetings();
+    return met;
+  };
+  for (const TestMap& map : {open_room(), office(), serpentine(15)}) {
+    std::printf("%s\n", map.name.c_str());
+    for (std::size_t c = 0; c < map.wall.size(); ++c) rig.arrays().occupants[c] = map.wall[c];
+    (void)rig.pass.clear(rig.grid, 3.0F, field::kWall);
+    (void)tell("clearance");
+    (void)rig.pass.start(rig.grid, goal);
+    (void)tell("start field");
+    const std::int32_t cycles = rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).cycles;
+    CHECK(tell("cold") <= 40 * cycles + 20);
+    (void)rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
+    CHECK(tell("warm") <= 60);
+  }
+}
