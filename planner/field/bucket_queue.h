@@ -36,8 +36,8 @@ class BucketQueue {
   };
 
   void load(Grid grid, const std::uint16_t* rate) noexcept;
-  void relax(std::int32_t to, std::uint32_t through, std::uint32_t bucket) noexcept;
-  void push(std::int32_t n, std::uint32_t bucket) noexcept;
+  void relax(std::int32_t to, std::int32_t width, std::uint32_t through, std::uint32_t bucket) noexcept;
+  void push(std::int32_t n, std::int32_t width, std::uint32_t bucket) noexcept;
   void drain(std::int32_t width, std::uint32_t bucket) noexcept;
   void step_from(std::int32_t n, std::int32_t width, std::uint32_t bucket) noexcept;
 
