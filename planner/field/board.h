@@ -61,10 +61,24 @@ struct CouplingArrays {
   }
 };
 
+/// The sources of a level's equations. Rows outside [first, last] have none: they share a spare one of zeros, which
+/// stays in the nearest cache where a row of their own each would come from memory. Whatever a stage makes of it is 0
+/// again, so all may write there, one after the other.
+struct Sources {
+  float* values;
+  std::int32_t first, last;
+
+  /// Place of a row's first cell of that colour.
+  [[nodiscard]] JAYWALK_CELL std::int32_t row(const Board& board, std::int32_t colour, std::int32_t j) const {
+    const bool has_any = j >= first && j <= last;
+    return board.row(colour, has_any ? j : -1);
+  }
+};
+
 /// What a cell would relax to. Beyond the border the coupling is 0 and the value finite.
-JAYWALK_CELL float relaxed_at(const CouplingArrays& couplings, const float* source, const float* x, std::int32_t c,
+JAYWALK_CELL float relaxed_at(const CouplingArrays& couplings, float source, const float* x, std::int32_t c,
                               const Neighbours& n) {
-  return cell::relaxed(couplings.at(c), x[n.east], x[n.west], x[n.north], x[n.south], source[c]);
+  return cell::relaxed(couplings.at(c), x[n.east], x[n.west], x[n.north], x[n.south], source);
 }
 
 }  // namespace jaywalk::field

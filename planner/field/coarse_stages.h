@@ -6,7 +6,7 @@
 
 namespace jaywalk::field {
 
-/// One level. `diagonal` is what a cell's equation was divided by.
+/// One level. `diagonal` is what a block's equation was divided by; cells have none, theirs are not divided.
 struct Level {
   Board board;
   CouplingArrays couplings;
@@ -19,12 +19,16 @@ struct BlockRows {
   CouplingArrays couplings;
   float *psi, *diagonal;
   float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
-  float *open_east, *open_north;    ///< whether it is coupled to the next one there, 1 or 0
   float* lacking;                   ///< its right-hand side
-  std::int32_t* members;  ///< which of its cells it speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1)
+  /// Which of its cells it speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1); kOpenEast, kOpenNorth.
+  std::int32_t* ties;
 };
 
+/// Whether a block is coupled to the next one east or north of it.
+inline constexpr std::int32_t kOpenEast = 16, kOpenNorth = 32;
+
 /// Builds the equations of blocks from their four cells each.
+template <bool kFinest>
 struct CoarsenBlock {
   Level fine;
   std::int32_t side;  ///< blocks a row
@@ -64,9 +68,8 @@ struct CoarsenBlock {
     blocks.diagonal[block] = total;
     blocks.low_weight[block] = w00 * scale;
     blocks.high_weight[block] = w11 * scale;
-    blocks.members[block] = (m00 ? 1 : 0) | (m10 ? 2 : 0) | (m01 ? 4 : 0) | (m11 ? 8 : 0);
-    blocks.open_east[block] = a.east > 0.0F ? 1.0F : 0.0F;
-    blocks.open_north[block] = a.north > 0.0F ? 1.0F : 0.0F;
+    blocks.ties[block] = (m00 ? 1 : 0) | (m10 ? 2 : 0) | (m01 ? 4 : 0) | (m11 ? 8 : 0) |
+                         (a.east > 0.0F ? kOpenEast : 0) | (a.north > 0.0F ? kOpenNorth : 0);
   }
 
  private:
@@ -76,7 +79,12 @@ struct CoarsenBlock {
     return cell::sum(a) > 0.0F ? fine.psi[c] : cell::kLargest;
   }
   JAYWALK_CELL float weight(std::int32_t c, const cell::Couplings& a, float base, bool is_member) const {
-    return cell::block_weight((cell::sum(a) > 0.0F) & is_member, fine.diagonal[c], fine.psi[c], base);
+    const bool has_equation = (cell::sum(a) > 0.0F) & is_member;
+    if constexpr (kFinest) {
+      return cell::block_weight(has_equation, 1.0F, fine.psi[c], base);
+    } else {
+      return cell::block_weight(has_equation, fine.diagonal[c], fine.psi[c], base);
+    }
   }
 };
 
@@ -96,17 +104,17 @@ struct BlocksToBoard {
 
 /// For how many of the blocks below, those that have an equation, a row of blocks speaks. One visit a row.
 struct SpokenOfRow {
-  std::int32_t side;            ///< blocks a row
-  const float* diagonal;        ///< of those below, by rows
-  const std::int32_t* members;  ///< of these
-  Counted* spoken;              ///< joined: those below with an equation
+  std::int32_t side;         ///< blocks a row
+  const float* diagonal;     ///< of those below, by rows
+  const std::int32_t* ties;  ///< of these
+  Counted* spoken;           ///< joined: those below with an equation
 
   JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     std::int32_t speaks = 0, joins = 0;
     for (std::int32_t i = 0; i < 2 * side; ++i) {
       for (std::int32_t north = 0; north < 2; ++north) {
         const bool has_equation = diagonal[(2 * j + north) * 2 * side + i] > 0.0F;
-        const bool is_member = (members[j * side + i / 2] & (1 << (i % 2 + 2 * north))) != 0;
+        const bool is_member = (ties[j * side + i / 2] & (1 << (i % 2 + 2 * north))) != 0;
         joins += has_equation ? 1 : 0;
         speaks += (has_equation & is_member) ? 1 : 0;
       }
@@ -119,7 +127,8 @@ struct SpokenOfRow {
 /// last.
 struct RestrictToBlock {
   Level fine;
-  const float *fine_source, *fine_x;
+  Sources fine_sources;
+  const float* fine_x;
   std::int32_t side;  ///< blocks a row
   BlockRows blocks;
 
@@ -132,7 +141,8 @@ struct RestrictToBlock {
  private:
   JAYWALK_CELL float lacking(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = fine.board.row(0, j) + h;
-    return relaxed_at(fine.couplings, fine_source, fine_x, c, fine.board.neighbours(0, h, j)) - fine_x[c];
+    const float source = fine_sources.values[fine_sources.row(fine.board, 0, j) + h];
+    return relaxed_at(fine.couplings, source, fine_x, c, fine.board.neighbours(0, h, j)) - fine_x[c];
   }
 };
 
@@ -155,8 +165,7 @@ struct LackingToBoard {
 template <bool kFinest>
 struct ProlongToCell {
   std::int32_t block_side;
-  const std::int32_t* members;
-  const float *open_east, *open_north;
+  const std::int32_t* ties;
   const float* correction;
   Board board;  ///< the cells'
   std::int32_t colour;
@@ -168,18 +177,22 @@ struct ProlongToCell {
     const std::int32_t east = Board::first_column(colour, j), north = j & 1;  // 1: the block's eastern, northern half
     const std::int32_t beside = block + 2 * east - 1, step = (2 * north - 1) * block_side;
     const std::int32_t face = (north - 1) * block_side;  // of a block, to its own northern face or the one below
-    const float to_beside = open_east[block + east - 1];
-    const float to_above = open_north[block + face];
-    const float to_corner = to_beside * to_above * open_north[beside + face];
+    const float to_beside = is_open(block + east - 1, kOpenEast), to_above = is_open(block + face, kOpenNorth);
+    const float to_corner = to_beside * to_above * is_open(beside + face, kOpenNorth);
     const float value = 9.0F * correction[block] + 3.0F * (to_beside * correction[beside]) +
                         (3.0F * (to_above * correction[block + step]) + to_corner * correction[beside + step]);
     const float weight = 9.0F + 3.0F * (to_beside + to_above) + to_corner;
-    const float mean = (members[block] & (1 << (east + 2 * north))) != 0 ? value / weight : 0.0F;
+    const float mean = (ties[block] & (1 << (east + 2 * north))) != 0 ? value / weight : 0.0F;
     if constexpr (kFinest) {
       x[c] = cell::corrected(x[c], mean);
     } else {
       x[c] += mean;
     }
+  }
+
+ private:
+  JAYWALK_CELL float is_open(std::int32_t block, std::int32_t tie) const {
+    return (ties[block] & tie) != 0 ? 1.0F : 0.0F;
   }
 };
 

@@ -41,6 +41,7 @@ class Crew {
  public:
   static constexpr std::int32_t kColumns = 1;
   static constexpr std::int32_t kCellsOfRow = 16;
+  static constexpr bool kInTurn = false;
 
   JAYWALK_ORDER Crew(const Place& place, const CrewNotes& notes) : place_(place), notes_(notes) {}
 

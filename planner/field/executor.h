@@ -19,6 +19,7 @@
 //   kColumns                     columns that one visit should take where a stage goes down columns; divides 64
 //   kCellsOfRow                  cells that one visit should take where a stage goes along rows; divides 64, or is
 //                                kWholeRow
+//   kInTurn                      whether visits come one after the other, so that many may write to the same place
 // Every stage gives the same bits in any visiting order, so all executors agree to the last bit.
 #include <algorithm>
 #include <cstddef>
@@ -107,6 +108,7 @@ class SerialExecutor {
   static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 64;
   static constexpr std::int32_t kCellsOfRow = kWholeRow;
+  static constexpr bool kInTurn = true;
 
   /// With so many lanes, or as many as there are.
   explicit SerialExecutor(Lanes lanes = most_lanes()) : lanes_(std::min(lanes, most_lanes())) {}

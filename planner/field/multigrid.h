@@ -1,7 +1,6 @@
 #pragma once
 // Solves the rebased potential by V-cycles over blocks of 2 x 2. Order only; no formula lives here.
 #include <cstddef>
-#include <vector>
 
 #include "planner/field/coarse_stages.h"
 #include "planner/field/executor.h"
@@ -12,7 +11,7 @@ namespace jaywalk::field {
 inline constexpr std::int32_t kCoarsestSide = 4;
 inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
 
-/// A level's memory. The last two only blocks have a use for.
+/// A level's memory. `diagonal` and the last two only blocks have a use for.
 struct LevelArrays {
   CouplingArrays couplings;
   float *psi, *diagonal, *source, *x;
@@ -29,9 +28,10 @@ template <class Executor>
 [[nodiscard]] LevelArrays take_level(Executor& executor, std::int32_t side, bool finest) {
   const auto board = [&] { return executor.template take<float>(static_cast<std::size_t>(Board{side}.size())); };
   const auto rows = [&] { return take_rows<float>(executor, side); };
-  LevelArrays a{{board(), board(), board(), board()}, board(), board(), board(), board(), {}, nullptr};
+  LevelArrays a{{board(), board(), board(), board()}, board(), nullptr, board(), board(), {}, nullptr};
   if (finest) return a;
-  a.rows = {{rows(), rows(), rows(), rows()},       rows(), rows(), rows(), rows(), rows(), rows(), rows(),
+  a.diagonal = board();
+  a.rows = {{rows(), rows(), rows(), rows()},       rows(), rows(), rows(), rows(), rows(),
             take_rows<std::int32_t>(executor, side)};
   a.correction = rows();
   return a;
@@ -45,8 +45,6 @@ template <class Executor>
   for (std::int32_t side = max_side; side >= kCoarsestSide; side /= 2, ++depth) {
     a.levels[depth] = take_level(executor, side, depth == 0);
   }
-  const std::vector<float> ones(static_cast<std::size_t>(Board{max_side}.size()), 1.0F);
-  executor.fill(a.levels[0].diagonal, ones.data(), ones.size());
   a.counted = executor.template take<Counted>(pieces_of_grid<Executor>(max_side));
   return a;
 }
@@ -67,6 +65,7 @@ class Multigrid {
                                      const First& first, const Last&... last) noexcept {
     const Board board{grid.side};
     const LevelArrays& a = levels_[0];
+    goal_row_ = goal / board.side;
     set_up(board, goal, psi, first);
     std::int32_t cycles = 0;
     for (bool enough = least == 0; !enough;) {
@@ -101,10 +100,11 @@ class Multigrid {
   template <class First>
   JAYWALK_ORDER void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
     const LevelArrays& a = levels_[0];
+    const Sources sources = sources_of(0, board);
     const std::int32_t half = board.half();
     executor_.for_each_row(board.side, first, RowStep{half, ToBoard{board, psi, a.psi}},
-                           RowStep{half, CoupleAhead{board, 0, a.psi, a.couplings, a.source, a.x}},
-                           RowStep{half, CoupleAhead{board, 1, a.psi, a.couplings, a.source, a.x}},
+                           RowStep{half, CoupleAhead{board, 0, a.psi, a.couplings, sources, a.x}},
+                           RowStep{half, CoupleAhead{board, 1, a.psi, a.couplings, sources, a.x}},
                            RowStep{half, CoupleBack{board, 0, a.couplings}},
                            RowStep{half, CoupleBack{board, 1, a.couplings}});
     executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
@@ -117,7 +117,7 @@ class Multigrid {
     std::int32_t depth = 0;
     for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
       const Board blocks{board.side / 2};
-      go_down(board, depth, depth == 0 && !first);
+      depth == 0 ? go_down<true>(board, depth, !first) : go_down<false>(board, depth, false);
       if (first && depth >= kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
       if (depth + 1 >= used_) break;
     }
@@ -129,33 +129,41 @@ class Multigrid {
     }
   }
 
-  JAYWALK_ORDER static RowStep<RelaxColour> relax(Board board, std::int32_t colour, const LevelArrays& a) {
-    return {board.half(), {board, colour, a.couplings, a.source, a.x}};
+  /// Of cells, none but the goal and those beside it have a source.
+  [[nodiscard]] JAYWALK_ORDER Sources sources_of(std::int32_t depth, Board board) const {
+    if (Executor::kInTurn && depth == 0) return {levels_[0].source, goal_row_ - 1, goal_row_ + 1};
+    return {levels_[depth].source, 0, board.side - 1};
+  }
+
+  [[nodiscard]] JAYWALK_ORDER RowStep<RelaxColour> relaxed(Board board, std::int32_t depth, std::int32_t colour) const {
+    const LevelArrays& a = levels_[depth];
+    return {board.half(), {board, colour, a.couplings, sources_of(depth, board), a.x}};
   }
 
   /// Two sweeps a round: what the first has fetched is at hand for the second.
   JAYWALK_ORDER void relax(Board board, std::int32_t depth, std::int32_t sweeps) noexcept {
-    const LevelArrays& a = levels_[depth];
-    executor_.repeat(sweeps / 2, board.side, relax(board, 0, a), relax(board, 1, a), relax(board, 0, a),
-                     relax(board, 1, a));
+    executor_.repeat(sweeps / 2, board.side, relaxed(board, depth, 0), relaxed(board, depth, 1),
+                     relaxed(board, depth, 0), relaxed(board, depth, 1));
   }
 
   /// Builds the blocks, relaxes twice, and hands on what is lacking.
+  template <bool kFinest>
   JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase) noexcept {
     const LevelArrays& a = levels_[depth];
     const LevelArrays& b = levels_[depth + 1];
     const Board blocks{board.side / 2};
+    const Sources sources = sources_of(depth, board);
     const Level level{board, a.couplings, a.psi, a.diagonal};
     const std::int32_t rebased = rebase ? board.half() : 0;
-    executor_.for_each_row(board.side, RowStep{rebased, RebaseCouplings{board, 0, a.x, a.couplings, a.source}},
-                           RowStep{rebased, RebaseCouplings{board, 1, a.x, a.couplings, a.source}},
-                           RowStep{rebased, RebasePsi{board, 0, a.x, a.psi}},
-                           RowStep{rebased, RebasePsi{board, 1, a.x, a.psi}},
-                           RowStep{blocks.side, CoarsenBlock{level, blocks.side, b.rows}, 2},
-                           RowStep{blocks.half(), BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2},
-                           relax(board, 0, a), relax(board, 1, a), relax(board, 0, a), relax(board, 1, a),
-                           RowStep{blocks.side, RestrictToBlock{level, a.source, a.x, blocks.side, b.rows}, 2},
-                           RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
+    executor_.for_each_row(
+        board.side, RowStep{rebased, RebaseCouplings{board, 0, a.x, a.couplings, sources}},
+        RowStep{rebased, RebaseCouplings{board, 1, a.x, a.couplings, sources}},
+        RowStep{rebased, RebasePsi{board, 0, a.x, a.psi}}, RowStep{rebased, RebasePsi{board, 1, a.x, a.psi}},
+        RowStep{blocks.side, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
+        RowStep{blocks.half(), BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2},
+        relaxed(board, depth, 0), relaxed(board, depth, 1), relaxed(board, depth, 0), relaxed(board, depth, 1),
+        RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
+        RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
   }
 
   /// Adds what the blocks have found, and relaxes twice.
@@ -165,21 +173,19 @@ class Multigrid {
     const LevelArrays& b = levels_[depth + 1];
     const Board blocks{board.side / 2};
     const auto prolong = [&](std::int32_t colour) {
-      return RowStep<ProlongToCell<kFinest>>{
-          board.half(),
-          {blocks.side, b.rows.members, b.rows.open_east, b.rows.open_north, b.correction, board, colour, a.x}};
+      return RowStep<ProlongToCell<kFinest>>{board.half(),
+                                             {blocks.side, b.rows.ties, b.correction, board, colour, a.x}};
     };
     executor_.for_each_cell(blocks.half(), blocks.side, FromBoard{blocks, b.x, b.correction});
-    executor_.for_each_row(board.side, prolong(0), prolong(1), relax(board, 0, a), relax(board, 1, a),
-                           relax(board, 0, a), relax(board, 1, a));
+    executor_.for_each_row(board.side, prolong(0), prolong(1), relaxed(board, depth, 0), relaxed(board, depth, 1),
+                           relaxed(board, depth, 0), relaxed(board, depth, 1));
   }
 
   /// Whether this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie across
   /// walls, and what they find for one passage is wrong in the next. It and all above it are then left out.
   JAYWALK_ORDER bool speaks_for_most(Board board, std::int32_t depth) noexcept {
     executor_.for_each_cell(
-        1, board.side,
-        SpokenOfRow{board.side, levels_[depth - 1].rows.diagonal, levels_[depth].rows.members, counted_});
+        1, board.side, SpokenOfRow{board.side, levels_[depth - 1].rows.diagonal, levels_[depth].rows.ties, counted_});
     const Counted spoken = executor_.total(board.side, counted_);
     return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
   }
@@ -195,6 +201,7 @@ class Multigrid {
   Executor& executor_;
   const LevelArrays* levels_;  ///< finest first
   Counted* counted_;
+  std::int32_t goal_row_ = 0;
   std::int32_t used_ = 0;  ///< levels that are of use on this map
 };
 

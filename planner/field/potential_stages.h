@@ -59,7 +59,8 @@ struct CoupleAhead {
   std::int32_t colour;
   const float* psi;
   CouplingArrays couplings;
-  float *source, *x;
+  Sources sources;
+  float* x;
 
   JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = board.row(colour, j) + h;
@@ -67,7 +68,7 @@ struct CoupleAhead {
     const std::int32_t i = 2 * h + Board::first_column(colour, j);
     couplings.east[c] = cell::coupling(psi[c], psi[n.east], i < board.side - 1);
     couplings.north[c] = cell::coupling(psi[c], psi[n.north], j < board.side - 1);
-    source[c] = 0.0F;
+    sources.values[sources.row(board, colour, j) + h] = 0.0F;
     x[c] = cell::is_joined(psi[c]) ? 1.0F : 0.0F;
   }
 };
@@ -118,11 +119,12 @@ struct RelaxColour {
   Board board;
   std::int32_t colour;
   CouplingArrays couplings;
-  const float* source;
+  Sources sources;
   float* x;
 
   JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = board.row(colour, j) + h;
+    const float source = sources.values[sources.row(board, colour, j) + h];
     x[c] = relaxed_at(couplings, source, x, c, board.neighbours(colour, h, j));
   }
 };
@@ -133,7 +135,7 @@ struct RebaseCouplings {
   std::int32_t colour;
   const float* x;
   CouplingArrays couplings;
-  float* source;
+  Sources sources;
 
   JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
     const std::int32_t c = board.row(colour, j) + h;
@@ -142,7 +144,7 @@ struct RebaseCouplings {
     const cell::Couplings a = couplings.at(c);
     couplings.set(c, {a.east * (x[n.east] * scale), a.west * (x[n.west] * scale), a.north * (x[n.north] * scale),
                       a.south * (x[n.south] * scale)});
-    source[c] *= scale;
+    sources.values[sources.row(board, colour, j) + h] *= scale;
   }
 };
 

@@ -133,9 +133,9 @@ TEST_CASE("a row of blocks speaks for all cells but those behind a wall inside a
   // Two blocks over eight, of which seven have an equation. The first block speaks for all four of its own. The second
   // lies across a wall: of its three it speaks for those in the lower row, bits 0 and 1.
   const std::vector<float> diagonal{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 0.0F};
-  const std::vector<std::int32_t> members{15, 3};
+  const std::vector<std::int32_t> ties{15, 3};
   field::Counted spoken;
-  field::SpokenOfRow{2, diagonal.data(), members.data(), &spoken}(0, 0);
+  field::SpokenOfRow{2, diagonal.data(), ties.data(), &spoken}(0, 0);
   CHECK(spoken.cells == 6);
   CHECK(spoken.joined == 7);
 }

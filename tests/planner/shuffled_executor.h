@@ -14,6 +14,7 @@ class ShuffledExecutor {
   static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 1;
   static constexpr std::int32_t kCellsOfRow = 16;
+  static constexpr bool kInTurn = true;
 
   template <class T>
   T* take(std::size_t n) {
