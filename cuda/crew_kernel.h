@@ -12,13 +12,15 @@ namespace jaywalk {
 /// Threads of a block: what a processor needs to hide its memory's latency; more would leave a thread fewer registers
 /// than the stages want (docs/decisions/0012-a-crew-runs-the-order.md).
 inline constexpr int kBlockThreads = 512;
-/// Visits that the first block takes alone: sixteen of each thread take about as long as a crew to meet.
+/// Cells that the first block takes alone: sixteen of each thread take about as long as a crew to meet.
 inline constexpr std::int32_t kMostAlone = 8192;
 
-/// The blocks of a cooperative launch.
+/// The blocks of a cooperative launch. Warps are numbered round the blocks, so that a step of few visits, each of many
+/// cells, is spread over all processors, and neighbours in a warp stay neighbours.
 struct PlaceInGrid {
   static __device__ std::int32_t thread() {
-    return static_cast<std::int32_t>(blockIdx.x) * block_threads() + block_thread();
+    const unsigned warp = threadIdx.x / 32;
+    return static_cast<std::int32_t>((warp * gridDim.x + blockIdx.x) * 32 + threadIdx.x % 32);
   }
   static __device__ std::int32_t threads() { return static_cast<std::int32_t>(gridDim.x) * block_threads(); }
   static __device__ std::int32_t block_thread() { return static_cast<std::int32_t>(threadIdx.x); }

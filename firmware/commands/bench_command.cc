@@ -68,6 +68,18 @@ Timing time_plan(const BenchMap& map, Backend backend, int repeats) {
   });
 }
 
+/// The same work by the device's own events, as often as its quantiles want.
+template <class Work>
+Timing time_on_device(const char* what, int repeats, const field::MapField& field, const Work& work) {
+  Distribution took_ms;
+  for (int k = 0; k < repeats; ++k) {
+    const double before_ms = field.device_ms();
+    work();
+    took_ms.add(field.device_ms() - before_ms);
+  }
+  return {what, took_ms.quantile(0.5), took_ms.quantile(0.99), field.backend()};
+}
+
 class Bench {
  public:
   void measure(const BenchMap& map) {
@@ -95,6 +107,13 @@ class Bench {
                 static_cast<double>(field.reach(map.goal)), quality.cycles, best_neighbours(field, map.goal).c_str());
     own.push_back(
         time("warm solve", repeats, field.backend(), [&] { certified &= field.solve_warm(map.goal).certified; }));
+    if (backend == Backend::kCuda) {
+      constexpr int kEventRepeats = 1000;
+      own.push_back(time_on_device("cold, by events", kEventRepeats, field,
+                                   [&] { certified &= field.solve_cold(map.goal).certified; }));
+      own.push_back(time_on_device("warm, by events", kEventRepeats, field,
+                                   [&] { certified &= field.solve_warm(map.goal).certified; }));
+    }
     if (map.cells.width <= 1024) own.push_back(time_plan(map, backend, repeats));
     for (const Timing& timing : own) {
       for (const Timing& rival : rivals) add(map, timing, rival);

@@ -14,6 +14,8 @@ struct NearestInColumns {
   std::uint8_t wanted;  ///< the occupants that count
   std::int32_t* rows_away;
 
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return columns * grid.side; }
+
   JAYWALK_CELL void operator()(std::int32_t strip) const {
     const std::int32_t none = 2 * grid.side, last = grid.side - 1;
     for (std::int32_t j = 0; j <= last; ++j) {
@@ -41,6 +43,8 @@ struct ClearanceOfRow {
   std::int32_t* envelope;  ///< room for a row: columns whose obstacle is the nearest of some stretch
   std::int32_t* stretch;   ///< room for a row: where each of those stretches begins
   float* clearance;
+
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
 
   JAYWALK_CELL void operator()(std::int32_t j) const {
     const std::int32_t row = grid.at(0, j);

@@ -9,7 +9,7 @@
 //   thread(), threads()              its number in the crew, and how many there are
 //   block_thread(), block_threads()  the same in its block
 //   in_first_block()
-//   most_alone()                     visits of a step that the first block takes alone, the same for all
+//   most_alone()                     cells of a step that the first block takes alone, the same for all
 //   log2_of(n)                       of a power of two
 //   meet_crew(), meet_block()
 #include "planner/field/executor.h"
@@ -36,6 +36,16 @@ struct SumOf {
   }
 };
 
+/// Cells that a visit takes: what the stage says, else one.
+template <class Stage>
+[[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit(const Stage& stage) {
+  if constexpr (requires { stage.cells_of_visit(); }) {
+    return stage.cells_of_visit();
+  } else {
+    return 1;
+  }
+}
+
 template <class Place>
 class Crew {
  public:
@@ -47,13 +57,13 @@ class Crew {
 
   template <class Stage>
   JAYWALK_ORDER void for_each(std::int32_t n, const Stage& stage) noexcept {
-    step(n, stage);
+    step(n, cells_of_visit(stage), stage);
   }
 
   /// w is a power of two.
   template <class Stage>
   JAYWALK_ORDER void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) noexcept {
-    if (w > 0) step(w * h, OnCells<Stage>{w - 1, Place::log2_of(w), stage});
+    if (w > 0) step(w * h, cells_of_visit(stage), OnCells<Stage>{w - 1, Place::log2_of(w), stage});
   }
 
   template <class... Steps>
@@ -91,9 +101,9 @@ class Crew {
   };
 
   template <class Visit>
-  JAYWALK_ORDER void step(std::int32_t visits, const Visit& visit) noexcept {
+  JAYWALK_ORDER void step(std::int32_t visits, std::int32_t cells, const Visit& visit) noexcept {
     if (visits <= 0) return;
-    if (visits <= place_.most_alone()) {
+    if (visits * cells <= place_.most_alone()) {
       apart_ = true;
       if (!place_.in_first_block()) return;
       for (std::int32_t k = place_.block_thread(); k < visits; k += place_.block_threads()) visit(k);

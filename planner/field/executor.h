@@ -8,6 +8,7 @@
 //   run(order)                   order(executor); false: it failed. What was shown may then be read
 //   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
 //                                (start_field.h), looking whether anything has changed (pass.h)
+//   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
 // and to orders (order.h), which know no more of it:
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
@@ -137,6 +138,8 @@ class SerialExecutor {
     order(*this);
     return true;
   }
+
+  [[nodiscard]] static double took_ms() noexcept { return 0.0; }
 
   template <class Stage>
   void for_each(std::int32_t n, const Stage& stage) noexcept {

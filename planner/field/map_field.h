@@ -53,6 +53,8 @@ class MapField {
   /// -ln(1 - phi) of a cell of the map: NaN where not free, infinity where the goal cannot be reached.
   [[nodiscard]] virtual float psi(std::int32_t i, std::int32_t j) const noexcept = 0;
   [[nodiscard]] virtual const char* backend() const noexcept = 0;
+  /// What a device has taken for all of this, by its own clock, without submission and waiting; 0 on the CPU.
+  [[nodiscard]] virtual double device_ms() const noexcept = 0;
 };
 
 [[nodiscard]] std::unique_ptr<MapField> make_cpu_map_field(CellMap map);

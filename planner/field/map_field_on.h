@@ -73,6 +73,7 @@ class MapFieldOn final : public MapField {
 
   [[nodiscard]] float psi(std::int32_t i, std::int32_t j) const noexcept override { return psi_[grid_.at(i, j)]; }
   [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
+  [[nodiscard]] double device_ms() const noexcept override { return executor_->took_ms(); }
 
  private:
   MapQuality solve(CellIndex goal, From from) noexcept {

@@ -91,6 +91,8 @@ struct MarkRow {
   std::int32_t mover_count;
   std::uint8_t* occupants;
 
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
+
   JAYWALK_CELL void operator()(std::int32_t j) const {
     for (std::int32_t k = 0; k < mover_count; ++k) {
       const Mover& mover = movers[k];

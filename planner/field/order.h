@@ -123,11 +123,13 @@ struct StartOrder {
   template <class Executor>
   JAYWALK_ORDER bool sweep(Executor& executor) const noexcept {
     const std::int32_t side = grid.side, cells = cells_of_row<Executor>(side), pieces = side / cells;
-    executor.for_each(side * pieces, Fill<Counted>{a.changed, {0, 0}});
-    executor.for_each(side, SweepLine{side, 1, side, a.rate, a.cost, a.changed});
-    executor.for_each(side, SweepLine{side, side, 1, a.rate, a.cost, a.changed});
-    executor.for_each_cell(pieces, side / 2, StepAcross{grid, 0, cells, a.rate, a.cost, a.changed});
-    executor.for_each_cell(pieces, side / 2, StepAcross{grid, 1, cells, a.rate, a.cost, a.changed});
+    const Along directions[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
+    for (const Along along : directions) {
+      for (std::int32_t odd = 0; odd < 2; ++odd) {
+        executor.for_each_cell(side, (pieces + 1 - odd) / 2,
+                               SweepPiece{grid, along, odd, cells, a.rate, a.cost, a.changed});
+      }
+    }
     return executor.total(side * pieces, a.changed).cells == 0;
   }
 };

@@ -157,6 +157,8 @@ struct TiltedOfRow {
   const float* x;
   Counted* tilted;  ///< of each piece, row by row; joined: cells with an equation
 
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
+
   JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t tilts = 0, joins = 0;
     for (std::int32_t colour = 0; colour < 2; ++colour) {
@@ -234,6 +236,8 @@ struct LiftPitsOfRow {
   const Counted* pits;  ///< as the certificate counted them
   float* psi;           ///< may be read beyond the border (take_rows)
 
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
+
   JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     const std::int32_t low = j - lifts > 0 ? j - lifts : 0, high = j + lifts < grid.side ? j + lifts + 1 : grid.side;
     const std::int32_t pieces = grid.side / cells;
@@ -265,6 +269,8 @@ struct PitsOfRow {
   std::int32_t cells;  ///< of a piece; divides the side
   const float* psi;    ///< may be read beyond the border (take_rows)
   Counted* pits;       ///< of each piece, row by row; joined: its joined cells, the goal included
+
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
 
   JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t pit_count = 0, joined_count = 0;

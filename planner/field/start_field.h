@@ -53,71 +53,52 @@ struct FarFromGoal {
   JAYWALK_CELL void operator()(std::int32_t c) const { cost[c] = c == goal ? 0U : kNoWay; }
 };
 
-/// Relaxes one line of cells forth and back. Rows, columns and diagonals (StepAcross) in turn, until nothing changes,
-/// reach the unique fixed point cost[n] = min(cost[c] + step). A line is one thread's alone.
-struct SweepLine {
-  std::int32_t length;
-  std::int32_t along;   ///< index step from a cell to the next on its line, 1 or more
-  std::int32_t across;  ///< index step from a line to the next
-  const std::uint16_t* rate;
-  std::uint32_t* cost;
-  Counted* changed;  ///< a line: whether it did
-
-  JAYWALK_CELL void operator()(std::int32_t line) const {
-    const std::int32_t first = line * across;
-    const std::int32_t last = first + (length - 1) * along;
-    std::int32_t any = 0;
-    for (std::int32_t c = first; c < last; c += along) any |= relax(c, c + along);
-    for (std::int32_t c = last; c > first; c -= along) any |= relax(c, c - along);
-    changed[line].cells |= any;
-  }
-
- private:
-  JAYWALK_CELL std::int32_t relax(std::int32_t from, std::int32_t to) const {
-    if (rate[from] == 0 || rate[to] == 0 || cost[from] >= kFarthest) return 0;
-    const std::uint32_t through = cost[from] + cell::straight_step(rate[from], rate[to]);
-    if (through >= cost[to]) return 0;
-    cost[to] = through;
-    return 1;
-  }
+/// A direction of steps.
+struct Along {
+  std::int32_t di, dj;
 };
 
-/// Diagonal steps into every other row, the even or the odd ones, from the rows on either side; a piece of a row at a
-/// time.
-struct StepAcross {
+/// Relaxes a piece of a line of cells forth and back, and takes in what the cells before and after it have. Rows,
+/// columns and both diagonals in turn, of each the even and then the odd pieces, until nothing changes, reach the
+/// unique fixed point cost[n] = min(cost[c] + step). A line goes by rows, at position p in column p; all others go by
+/// columns, at position p in row p. A diagonal that leaves the grid at one side goes on at the other, without a step
+/// between.
+struct SweepPiece {
   Grid grid;
+  Along along;
   std::int32_t odd;
   std::int32_t cells;  ///< of a piece; divides the side
   const std::uint16_t* rate;
   std::uint32_t* cost;
-  Counted* changed;  ///< a piece, row by row: whether it did
+  Counted* changed;  ///< a piece, line by line: whether it did since the last sweep of rows, that included
 
-  JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t pair) const {
-    const std::int32_t j = 2 * pair + odd;
+  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
+
+  JAYWALK_CELL void operator()(std::int32_t line, std::int32_t pair) const {
+    const std::int32_t piece = 2 * pair + odd, first = piece * cells, last = first + cells - 1;
     std::int32_t any = 0;
-    for (std::int32_t i = piece * cells, end = i + cells; i < end; ++i) any |= step_into(i, j);
-    changed[j * (grid.side / cells) + piece].cells |= any;
+    for (std::int32_t p = first > 0 ? first - 1 : 0; p < last; ++p) any |= relax(line, p, 1);
+    for (std::int32_t p = last + 1 < grid.side ? last + 1 : last; p > first; --p) any |= relax(line, p, -1);
+    Counted& count = changed[line * (grid.side / cells) + piece];
+    count.cells = along.dj == 0 ? any : count.cells | any;
   }
 
  private:
-  JAYWALK_CELL std::int32_t step_into(std::int32_t i, std::int32_t j) const {
-    const std::int32_t c = grid.at(i, j);
-    if (rate[c] == 0) return 0;
-    std::uint32_t best = cost[c];
-    for (std::int32_t dj = -1; dj <= 1; dj += 2) {
-      for (std::int32_t di = -1; di <= 1; di += 2) {
-        if (grid.holds(i + di, j + dj))
-          best = lower(best, through(grid.at(i + di, j + dj), c + di, grid.at(i, j + dj), c));
-      }
-    }
-    if (best == cost[c]) return 0;
-    cost[c] = best;
+  /// The cell after position p of a line, or the one before it.
+  JAYWALK_CELL std::int32_t relax(std::int32_t line, std::int32_t p, std::int32_t way) const {
+    const std::int32_t i = along.dj == 0 ? p : (line + along.di * p) & (grid.side - 1);
+    const std::int32_t j = along.dj == 0 ? line : p;
+    const std::int32_t to_i = i + way * along.di, to_j = j + way * along.dj;
+    if (!grid.holds(to_i, to_j)) return 0;
+    const std::int32_t from = grid.at(i, j), to = grid.at(to_i, to_j);
+    const std::int32_t a = grid.at(to_i, j), b = grid.at(i, to_j);  // of a straight step its own two cells
+    if (rate[from] == 0 || rate[to] == 0 || rate[a] == 0 || rate[b] == 0 || cost[from] >= kFarthest) return 0;
+    const bool straight = along.di == 0 || along.dj == 0;
+    const std::uint32_t through = cost[from] + (straight ? cell::straight_step(rate[from], rate[to])
+                                                         : cell::diagonal_step(rate[from], rate[to], rate[a], rate[b]));
+    if (through >= cost[to]) return 0;
+    cost[to] = through;
     return 1;
-  }
-  JAYWALK_CELL static std::uint32_t lower(std::uint32_t a, std::uint32_t b) { return a < b ? a : b; }
-  JAYWALK_CELL std::uint32_t through(std::int32_t from, std::int32_t a, std::int32_t b, std::int32_t to) const {
-    if (rate[from] == 0 || rate[a] == 0 || rate[b] == 0 || cost[from] >= kFarthest) return kNoWay;
-    return cost[from] + cell::diagonal_step(rate[from], rate[to], rate[a], rate[b]);
   }
 };
 

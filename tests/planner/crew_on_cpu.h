@@ -35,7 +35,7 @@ class Meeting {
   std::int64_t rounds_ = 0;
 };
 
-/// `kBlocks` blocks of `kThreads` threads; steps of at most `kAlone` visits are the first block's.
+/// `kBlocks` blocks of `kThreads` threads; steps of at most `kAlone` cells are the first block's.
 template <std::int32_t kBlocks, std::int32_t kThreads, std::int32_t kAlone>
 class CrewOnCpu {
  public:
@@ -93,6 +93,7 @@ class CrewOnCpu {
     return true;
   }
 
+  [[nodiscard]] static double took_ms() noexcept { return 0.0; }
   [[nodiscard]] const char* name() const noexcept { return "crew"; }
   /// Times that all threads, and those of the first block alone, have met.
   [[nodiscard]] std::int64_t crew_meetings() const { return crew_meeting_.rounds(); }

@@ -171,10 +171,11 @@ TEST_CASE("a goal that cannot be reached from the robot's place is not solved, b
   }
 }
 
-TEST_CASE("how often a crew meets in a solve of 256 cells a side: a device's time is mostly that") {
+TEST_CASE("how often a crew meets in a solve of 256 cells a side, to the bytes of one thread") {
   using Crew = CrewOnCpu<2, 1, 8192>;  // as on a device, half a board of 128 is the first block's
+  FieldRig<> serial(256);
   FieldRig<Crew> rig(256);
-  const std::int32_t goal = rig.grid.at(243, 243);
+  const std::int32_t goal = rig.grid.at(243, 243), n = rig.grid.cells();
   std::int64_t crew_met = 0, block_met = 0;
   const auto tell = [&](const char* what) {
     crew_met = rig.executor.crew_meetings() - crew_met, block_met = rig.executor.block_meetings() - block_met;
@@ -195,5 +196,11 @@ TEST_CASE("how often a crew meets in a solve of 256 cells a side: a device's tim
     CHECK(tell("cold") <= 40 * cycles + 20);
     (void)rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
     CHECK(tell("warm") <= 60);
+    serial.load(map, 3.0F, goal);
+    (void)serial.pass.solve(serial.grid, goal, field::From::kNothing, serial.psi);
+    (void)serial.pass.solve(serial.grid, goal, field::From::kLast, serial.psi);
+    CHECK(same(serial.arrays().cost, rig.arrays().cost, n));
+    CHECK(same(serial.psi, rig.psi, n));
+    CHECK(same(serial.arrays().index, rig.arrays().index, n));
   }
 }

@@ -59,6 +59,7 @@ class ShuffledExecutor {
   static field::Counted total(std::int32_t n, const field::Counted* counted) {
     return field::SerialExecutor::total(n, counted);
   }
+  [[nodiscard]] static double took_ms() noexcept { return 0.0; }
   [[nodiscard]] const char* name() const noexcept { return "shuffled"; }
 
  private:
