@@ -1,5 +1,6 @@
 #include "planner/field/path.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 #include <vector>
@@ -30,19 +31,20 @@ const std::vector<float> kAllFree(64 * 64, 9.0F);
 TEST_CASE("the index matrix cuts no corner: a step is diagonal only between two free cells") {
   const field::Grid grid{4};
   // The goal is (2, 2), one is at (1, 1); (2, 1) is a wall, so the diagonal is closed and the way is by (1, 2).
-  std::vector<float> psi(16, 9.0F);
+  field::SerialExecutor executor;
+  auto* const psi = field::take_rows<float>(executor, 4);
+  std::fill_n(psi, 16, 9.0F);
   psi[10] = 0.0F;
   psi[9] = 1.0F;
   psi[5] = 2.0F;
   psi[6] = cell::kNotFree;
   std::vector<std::uint8_t> index(16);
-  field::SerialExecutor executor;
-  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi.data(), index.data()});
+  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi, index.data()});
   const field::Step step = field::step_of(index[5]);
   CHECK(step.di == 0);
   CHECK(step.dj == 1);
   psi[6] = 1.5F;
-  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi.data(), index.data()});
+  executor.for_each_cell(4, 4, field::IndexOfEachCell{grid, psi, index.data()});
   CHECK(field::step_of(index[5]).di == 1);
   CHECK(index[10] == field::kHere);
 }

@@ -48,8 +48,9 @@ double heading_towards(const Driven& driven, const Pose2& to) {
 void stamp_reading(WheelState& now, Time stamp, const WheelState& before) {
   now.stamp = stamp;
   ++now.sequence;
+  if (before.sequence == 0) return;
   const double dt = to_seconds(stamp - before.stamp);
-  if (before.sequence == 0 || !(dt > 0.0)) return;
+  if (!(dt > 0.0)) return;
   now.left_radps = (now.left_rad - before.left_rad) / dt;
   now.right_radps = (now.right_rad - before.right_rad) / dt;
 }
