@@ -32,7 +32,7 @@ constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 // Wheels that have earned trust may slip all the same. A match that leaves the prediction by three standard deviations,
 // or fits worse than matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits
 // better.
-constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.15, kBetterFit = 0.05;
+constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.2, kBetterFit = 0.1;
 constexpr double kFitGain = 0.1;  // of the running mean
 
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T with

@@ -31,7 +31,7 @@ class WheelTrust {
   /// The pose was moved by something else than scans: what has moved in this window tells nothing.
   void begin_anew() noexcept { begun_ = false; }
 
-  static constexpr double kLeastShare = 0.002;
+  static constexpr double kLeastShare = 0.0003;  ///< 0.9 mm and 0.035 degrees after a metre
 
  private:
   double share_ = 1.0;

@@ -92,12 +92,14 @@ TEST_CASE("wheels that the map never corrects are doubted half as much from wind
 TEST_CASE("trusted wheels are doubted again as soon as the map turns them by more than it may be wrong itself") {
   WheelTrust trust;
   trust.corrected({}, {});
-  for (int k = 0; k < 90; ++k) trust.drove({1.0, 0.0}), trust.corrected({}, {});
-  CHECK(trust.share() < 0.01);
-  trust.corrected({0.0, 0.0, 0.009}, {});  // half a degree
-  CHECK(trust.share() < 0.01);
-  trust.corrected({0.0, 0.0, 0.1}, {});  // (0.1^2 - 0.01^2) / 0.1^2
-  CHECK(trust.share() == Approx(0.99));
+  for (int k = 0; k < 120; ++k) trust.drove({1.0, 0.0}), trust.corrected({}, {});
+  CHECK(trust.share() == WheelTrust::kLeastShare);
+  trust.corrected({0.0, 0.0, 0.0045}, {});  // a quarter of a degree
+  CHECK(trust.share() == WheelTrust::kLeastShare);
+  trust.corrected({0.0, 0.0, 0.009}, {});  // (0.009^2 - 0.005^2) / 0.1^2
+  CHECK(trust.share() == Approx(0.0056));
+  trust.corrected({0.0, 0.0, 0.1}, {});  // (0.1^2 - 0.005^2) / 0.1^2
+  CHECK(trust.share() == Approx(0.9975));
   WheelTrust moved;
   moved.corrected({}, {});
   for (int k = 0; k < 90; ++k) moved.drove({1.0, 0.0}), moved.corrected({}, {});

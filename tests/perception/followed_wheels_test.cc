@@ -1,0 +1,63 @@
+// Recordings whose wheels were made from the poses that others corrected afterwards: how far the scans pull the robot
+// off them.
+#include <vector>
+
+#include "bench/tracking/relative_pose.h"
+#include "hal/sim/logs/log_replay.h"
+#include "planner/localization/localizer.h"
+#include "planner/perception/tracker.h"
+#include "tests/recording/recordings.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::bench;
+
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(20);
+
+/// A pair a scan, from a start that is `elsewhere` in the map: walls lie across other cells there.
+std::vector<PosePair> follow(const std::filesystem::path& carmen, const Pose2& elsewhere) {
+  sim::LogReplay replay(sim::load_carmen(carmen));
+  const std::vector<sim::OdometryPose>& corrected = replay.log().odometry;
+  REQUIRE(corrected.size() == replay.log().scans.size());
+  const Pose2 start = elsewhere * replay.start_pose();
+  Localizer localizer({.map_from_robot_at_start = start, .drive = replay.drive(), .robot_from_laser = {}});
+  Tracker tracker({.robot_from_laser = {}, .map_centre = start.position()});
+  std::vector<PosePair> drive;
+  const Hal hal = replay.hal();
+  std::uint32_t last = 0;
+  for (Time now = replay.start_time(); !replay.ended(); now += kTick) {
+    hal.clock.sleep_until(now);
+    const LaserScan& scan = hal.laser.latest();
+    static_cast<void>(localizer.update(hal.drive.latest(), scan, {}, tracker.still()));
+    if (scan.sequence == last) continue;
+    last = scan.sequence;
+    const Pose2& seen_from = localizer.map_from_robot_at_scan();
+    tracker.update(scan, seen_from, localizer.twist());
+    drive.push_back({seen_from, corrected[last - 1].pose});
+  }
+  return drive;
+}
+
+}  // namespace
+
+TEST_CASE("Freiburg: over 10 m scans pull the robot off wheels made from corrected poses by half a percent at most") {
+  const auto file = recording("carmen/freiburg-079-corrected.log.gz");
+  if (!file) return;
+  const RelativeError error = relative_error(follow(*file, {}), 10.0, 1.0);
+  CHECK(error.stretches > 300);
+  CHECK(error.translation_percent < 0.5);
+  CHECK(error.heading_deg < 0.6);  // the reference's own: docs/tracking.md
+}
+
+TEST_CASE("Intel: over 10 m scans pull the robot off wheels made from corrected poses by a quarter degree at most") {
+  const auto file = recording("carmen/intel-corrected.log.gz");
+  if (!file) return;
+  for (const Pose2& elsewhere : {Pose2{}, Pose2{0.04, 0.07, 0.5}}) {
+    const RelativeError error = relative_error(follow(*file, elsewhere), 10.0, 1.0);
+    CHECK(error.stretches > 300);
+    CHECK(error.translation_percent < 0.5);
+    CHECK(error.heading_deg < 0.25);
+  }
+}
