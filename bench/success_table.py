@@ -33,7 +33,7 @@ def run(job):
     options, map_number, movers, seed = job
     out = options.out / options.mode / f"map{map_number}_{movers:02d}" / str(seed)
     summary = out / "summary.json"
-    if not summary.exists():
+    if not summary.exists() or summary.stat().st_mtime < PROGRAM.stat().st_mtime:  # goes on where it was interrupted
         scenario = ROOT / f"hal/sim/scenarios/map{map_number}_{movers:02d}.toml"
         command = [PROGRAM, "sim", scenario, "--seed", str(seed), "--mode", options.mode, "--out", out]
         done = subprocess.run(command, capture_output=True, text=True)
