@@ -37,6 +37,7 @@ void print(const char* who, const TrackScore& score, double minutes) {
   row("missed", score.misses());
   row("false positives", score.false_positives());
   row("identity switches", score.switches());
+  row("of these of targets found a second before", score.quick_switches());
   row("MOTA", 100.0 * score.mota(), "%");
   row("MOTP, mean distance", score.motp_m(), "m");
   row("velocity RMSE of tracks older than 1 s", score.velocity_rmse_mps(), "m/s");

@@ -9,6 +9,7 @@ namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAwayS = 1.0;  // whoever is out of view this long comes into view again
+constexpr double kRoundOffS = 1e-6;
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? kNone : static_cast<double>(part) / static_cast<double>(whole);
@@ -45,8 +46,12 @@ void TrackScore::count(double t_s, const Target& target, const Hypothesis& track
   matches_ += 1;
   distance_sum_m_ += distance_m;
   const auto last = track_of_.find(target.id);
-  if (last != track_of_.end() && last->second != track.id) switches_ += 1;
+  if (last != track_of_.end() && last->second != track.id) {
+    switches_ += 1;
+    quick_switches_ += t_s - found_s_[target.id] <= rules_.kept_s + kRoundOffS ? 1U : 0U;
+  }
   track_of_[target.id] = track.id;
+  found_s_[target.id] = t_s;
   const double off = distance(track.velocity_in_map, target.velocity_in_map);
   if (std::isnan(off) || t_s - born_s_[track.id] < rules_.settled_after_s) return;
   compared_ += 1;

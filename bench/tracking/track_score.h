@@ -34,6 +34,7 @@ struct Hypothesis {
 struct ScoreRules {
   double match_m = 0.5;          ///< a hypothesis this near a target may be its
   double settled_after_s = 1.0;  ///< velocities are compared once a track is this old
+  double kept_s = 1.0;           ///< a name is to be kept through so long unfound
   double soon_s = 0.6;           ///< a target is found soon when found within this after it was first seen to move
   bool as_it_is = false;         ///< a track that stands may find only a target that stands
 };
@@ -52,6 +53,8 @@ class TrackScore {
   [[nodiscard]] std::size_t misses() const { return targets_ - matches_; }
   [[nodiscard]] std::size_t false_positives() const { return false_positives_; }
   [[nodiscard]] std::size_t switches() const { return switches_; }
+  /// Those of them that no long absence explains: the target had been found at most kept_s before.
+  [[nodiscard]] std::size_t quick_switches() const { return quick_switches_; }
   /// 1 - (misses + false positives + switches) / targets; NaN without targets.
   [[nodiscard]] double mota() const;
   /// Mean distance of matched pairs, m; NaN without any.
@@ -80,10 +83,11 @@ class TrackScore {
   ScoreRules rules_;
   std::vector<Pair> pairs_;
   std::map<std::uint32_t, std::uint32_t> track_of_;  ///< of each target, the track it was last found by
+  std::map<std::uint32_t, double> found_s_;          ///< of each target, when
   std::map<std::uint32_t, double> born_s_;           ///< of each track
   std::map<std::uint32_t, Stay> stays_;
   std::set<std::uint32_t> moved_, right_;  ///< tracks that moved; that were somebody's
-  std::size_t targets_ = 0, matches_ = 0, false_positives_ = 0, switches_ = 0;
+  std::size_t targets_ = 0, matches_ = 0, false_positives_ = 0, switches_ = 0, quick_switches_ = 0;
   std::size_t compared_ = 0, came_ = 0, soon_ = 0;
   double distance_sum_m_ = 0.0, velocity_error2_sum_ = 0.0;
 };

@@ -48,6 +48,17 @@ TEST_CASE("a pair stays a pair though another track comes nearer and a new name 
   CHECK(s.score.switches() == 1);
 }
 
+TEST_CASE("a new name is a quick switch where the target had been found a second before or less") {
+  Scored s;
+  s.frame(0.0, {target(1, 0.0)}, {track(7, 0.0)});
+  s.frame(1.0, {target(1, 0.0)}, {track(8, 0.0)});
+  CHECK(s.score.quick_switches() == 1);
+  s.frame(1.5, {target(1, 0.0)}, {});
+  s.frame(2.1, {target(1, 0.0)}, {track(9, 0.0)});  // 1.1 s after it was last found
+  CHECK(s.score.switches() == 2);
+  CHECK(s.score.quick_switches() == 1);
+}
+
 TEST_CASE("who is out of view is neither missed nor a false positive when found") {
   Scored s;
   s.frame(0.0, {target(1, 0.0, false)}, {track(7, 0.1)});
