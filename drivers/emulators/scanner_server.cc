@@ -93,6 +93,9 @@ void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
       message.resize(message.size() / 2);
       fault_ = ScannerFault::kNone;
       break;
+    case ScannerFault::kHalves:
+      message.resize(message.size() / 2);
+      break;
     case ScannerFault::kDamage:
       message[message.size() / 2] ^= 0x5AU;
       break;

@@ -17,6 +17,7 @@ enum class ScannerFault : std::uint8_t {
   kNone,
   kReset,         ///< tears the connection, once
   kHalfTelegram,  ///< sends the first half of the next message, once
+  kHalves,        ///< sends the first half of every message
   kDamage,        ///< changes a byte in the middle of every message
   kGarbage,       ///< sends noise instead of messages
   kSilence,       ///< neither scans nor answers

@@ -14,6 +14,7 @@ std::string order_scanner(std::istringstream& words, SimulatedRobot& robot) {
   ScannerFault fault = ScannerFault::kNone;
   if (what == "reset") fault = ScannerFault::kReset;
   if (what == "half") fault = ScannerFault::kHalfTelegram;
+  if (what == "halves") fault = ScannerFault::kHalves;
   if (what == "silence") fault = ScannerFault::kSilence;
   if (what == "garbage") fault = ScannerFault::kGarbage;
   if (what == "gone") fault = ScannerFault::kGone;

@@ -13,7 +13,7 @@ namespace jaywalk::rig {
 ///   lie left|right INDEX SUB     a CiA 402 drive acknowledges writes to an object (hexadecimal) and ignores them
 ///   lack left|right INDEX SUB    it has no such object
 ///   scanner reset|half           the connection is torn; half a telegram comes
-///   scanner silence|garbage|gone SECONDS
+///   scanner halves|silence|garbage|gone SECONDS
 ///
 /// Returns what is wrong with the order; empty where it was obeyed.
 [[nodiscard]] std::string obey(std::string_view order, SimulatedRobot& robot);
