@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "planner/field/crew.h"
+#include "tests/planner/one_memory.h"
 
 namespace jaywalk::test {
 
@@ -37,11 +38,8 @@ class Meeting {
 
 /// `kBlocks` blocks of `kThreads` threads; steps of at most `kAlone` cells are the first block's.
 template <std::int32_t kBlocks, std::int32_t kThreads, std::int32_t kAlone>
-class CrewOnCpu {
+class CrewOnCpu : public OneMemory {
  public:
-  static constexpr bool kQueue = false;
-  static constexpr bool kOneMemory = true;
-
   class Place {
    public:
     Place(CrewOnCpu& crew, std::int32_t block, std::int32_t thread) : crew_(&crew), block_(block), thread_(thread) {}
@@ -67,19 +65,6 @@ class CrewOnCpu {
   static constexpr std::int32_t kColumns = field::Crew<Place>::kColumns;
   static constexpr std::int32_t kCellsOfRow = field::Crew<Place>::kCellsOfRow;
 
-  template <class T>
-  T* take(std::size_t n) {
-    return memory_.take<T>(n);
-  }
-  template <class T>
-  T* show(T* stages, std::size_t) {
-    return stages;
-  }
-  template <class T>
-  void fill(T* to, const T* from, std::size_t n) {
-    memory_.fill(to, from, n);
-  }
-
   template <class Order>
   bool run(const Order& order) {
     std::vector<std::thread> threads;
@@ -93,15 +78,14 @@ class CrewOnCpu {
     return true;
   }
 
-  [[nodiscard]] static double took_ms() noexcept { return 0.0; }
   [[nodiscard]] const char* name() const noexcept { return "crew"; }
   /// Times that all threads, and those of the first block alone, have met.
   [[nodiscard]] std::int64_t crew_meetings() const { return crew_meeting_.rounds(); }
   [[nodiscard]] std::int64_t block_meetings() const { return first_block_meeting_.rounds(); }
 
  private:
-  field::SerialExecutor memory_;
-  field::CrewNotes notes_{memory_.take<field::Counted>(field::CrewNotes::kRoom), memory_.take<field::Counted>(2)};
+  field::CrewNotes notes_{this->template take<field::Counted>(field::CrewNotes::kRoom),
+                          this->template take<field::Counted>(2)};
   Meeting crew_meeting_{kBlocks * kThreads}, first_block_meeting_{kThreads};
 };
 

@@ -1,24 +1,18 @@
 // Many threads that share every step give the bytes of one that takes them all: the order and the barriers that a
 // device runs in one kernel, on the CPU. Built with a thread sanitizer this is where a missing barrier shows.
 #include <cstdio>
-#include <cstring>
 #include <memory>
 
-#include "planner/field/grid_planner.h"
 #include "planner/field/map_field_on.h"
 #include "tests/planner/crew_on_cpu.h"
 #include "tests/planner/field_rig.h"
+#include "tests/planner/same_bytes.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 using namespace jaywalk::test;
 
 namespace {
-
-template <class T>
-bool same(const T* a, const T* b, std::int32_t n) {
-  return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof(T)) == 0;
-}
 
 TestMap boxes(std::int32_t side, std::uint64_t seed) {
   TestMap map("boxes", side);
@@ -58,21 +52,6 @@ void check_fields(std::int32_t side, int maps) {
   }
 }
 
-std::vector<Track> crowd() {
-  std::vector<Track> tracks;
-  Random random(17);
-  for (std::uint32_t k = 1; k <= 6; ++k) {
-    Track track;
-    track.id = k;
-    track.position_in_map = {6.4 * random.unit(), 6.4 * random.unit()};
-    track.velocity_in_map = {random.unit() - 0.5, random.unit() - 0.5};
-    track.covariance = {0.001, 0.0005, 0.01};
-    track.radius_m = 0.1;
-    tracks.push_back(track);
-  }
-  return tracks;
-}
-
 }  // namespace
 
 TEST_CASE("a crew of 1, 2, 3 or 7 threads solves to the bytes of one thread, whoever takes the small steps") {
@@ -85,41 +64,7 @@ TEST_CASE("a crew of 1, 2, 3 or 7 threads solves to the bytes of one thread, who
 }
 
 TEST_CASE("a crew plans among movers to the bytes of one thread, plan by plan") {
-  using Crew = CrewOnCpu<2, 2, 1000>;
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    PlannerConfig config;
-    config.mode = mode;
-    config.side_cells = config.max_side_cells = 64;
-    config.inflation_m = 0.15;
-    config.mover_margin_m = 0.1;
-    field::GridPlanner<field::SerialExecutor> serial(config, std::make_unique<field::SerialExecutor>());
-    field::GridPlanner<Crew> crew(config, std::make_unique<Crew>());
-    const EvidenceMap map = evidence_of(boxes(64, 3));
-    std::vector<Track> tracks = crowd();
-    PlanRequest request;
-    request.map_from_robot = {0.83, 0.77, 0.6};
-    request.goal_in_map = {5.52, 5.53};
-    request.speed_mps = 0.6;
-    request.still = &map;
-    int planned = 0;
-    for (int tick = 0; tick < 5; ++tick) {
-      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
-      request.moving = tracks;
-      serial.submit(request);
-      crew.submit(request);
-      const Plan& a = serial.collect();
-      const Plan& b = crew.collect();
-      REQUIRE(a.status == b.status);
-      REQUIRE(a.path.size() == b.path.size());
-      CHECK(a.cycles == b.cycles);
-      CHECK(same(serial.arrays().marks, crew.arrays().marks, 6));
-      CHECK(same(serial.arrays().occupants, crew.arrays().occupants, 64 * 64));
-      CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
-      CHECK(same(serial.view_field().psi.data(), crew.view_field().psi.data(), 64 * 64));
-      if (a.status == PlanStatus::kOk) ++planned;
-    }
-    CHECK(planned > 0);
-  }
+  check_plans<CrewOnCpu<2, 2, 1000>>(boxes(64, 3), 5);
 }
 
 TEST_CASE("a crew solves maps that are empty, odd, one cell high, or all wall but for a cell, as one thread does") {

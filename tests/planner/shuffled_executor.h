@@ -4,30 +4,17 @@
 #include <utility>
 
 #include "planner/field/executor.h"
+#include "tests/planner/one_memory.h"
 #include "tests/planner/test_maps.h"
 
 namespace jaywalk::test {
 
-class ShuffledExecutor {
+class ShuffledExecutor : public OneMemory {
  public:
-  static constexpr bool kQueue = false;
-  static constexpr bool kOneMemory = true;
   static constexpr std::int32_t kColumns = 1;
   static constexpr std::int32_t kCellsOfRow = 16;
   static constexpr bool kInTurn = true;
 
-  template <class T>
-  T* take(std::size_t n) {
-    return memory_.take<T>(n);
-  }
-  template <class T>
-  T* show(T* stages, std::size_t) {
-    return stages;
-  }
-  template <class T>
-  void fill(T* to, const T* from, std::size_t n) {
-    memory_.fill(to, from, n);
-  }
   template <class Order>
   bool run(const Order& order) {
     order(*this);
@@ -59,7 +46,6 @@ class ShuffledExecutor {
   static field::Counted total(std::int32_t n, const field::Counted* counted) {
     return field::SerialExecutor::total(n, counted);
   }
-  [[nodiscard]] static double took_ms() noexcept { return 0.0; }
   [[nodiscard]] const char* name() const noexcept { return "shuffled"; }
 
  private:
@@ -71,7 +57,6 @@ class ShuffledExecutor {
     }
   }
 
-  field::SerialExecutor memory_;
   Random random_{99};
   std::vector<std::int32_t> order_;
 };

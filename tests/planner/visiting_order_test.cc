@@ -1,9 +1,8 @@
 // The same bits in any visiting order: serial against random, stage by stage and as whole plans.
-#include <cstring>
 #include <memory>
 
-#include "planner/field/grid_planner.h"
 #include "tests/planner/field_rig.h"
+#include "tests/planner/same_bytes.h"
 #include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 
@@ -11,11 +10,6 @@ using namespace jaywalk;
 using namespace jaywalk::test;
 
 namespace {
-
-template <class T>
-bool same(const T* a, const T* b, std::int32_t n) {
-  return std::memcmp(a, b, static_cast<std::size_t>(n) * sizeof(T)) == 0;
-}
 
 /// FNV-1a.
 struct Digest {
@@ -36,21 +30,6 @@ TestMap small_map(std::uint64_t seed) {
   }
   map.box(4, 4, 12, 12, 0), map.box(50, 50, 60, 60, 0);
   return map;
-}
-
-std::vector<Track> crowd() {
-  std::vector<Track> tracks;
-  Random random(17);
-  for (std::uint32_t k = 1; k <= 6; ++k) {
-    Track track;
-    track.id = k;
-    track.position_in_map = {6.4 * random.unit(), 6.4 * random.unit()};
-    track.velocity_in_map = {random.unit() - 0.5, random.unit() - 0.5};
-    track.covariance = {0.001, 0.0005, 0.01};
-    track.radius_m = 0.1;
-    tracks.push_back(track);
-  }
-  return tracks;
 }
 
 }  // namespace
@@ -79,59 +58,18 @@ TEST_CASE("clearance, start field, potential and index matrix do not depend on t
 }
 
 TEST_CASE("whole plans, marks and bands do not depend on the visiting order, in either mode") {
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    PlannerConfig config;
-    config.mode = mode;
-    config.side_cells = config.max_side_cells = 64;
-    config.inflation_m = 0.15;
-    config.mover_margin_m = 0.1;
-    field::GridPlanner<field::SerialExecutor> serial(config, std::make_unique<field::SerialExecutor>());
-    field::GridPlanner<ShuffledExecutor> shuffled(config, std::make_unique<ShuffledExecutor>());
-    const EvidenceMap map = evidence_of(small_map(3));
-    std::vector<Track> tracks = crowd();
-    PlanRequest request;
-    request.map_from_robot = {0.83, 0.77, 0.6};
-    request.goal_in_map = {5.52, 5.53};
-    request.speed_mps = 0.6;
-    request.still = &map;
-    int planned = 0;
-    for (int tick = 0; tick < 8; ++tick) {
-      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
-      request.moving = tracks;
-      serial.submit(request);
-      shuffled.submit(request);
-      const Plan& a = serial.collect();
-      const Plan& b = shuffled.collect();
-      REQUIRE(a.status == b.status);
-      REQUIRE(a.path.size() == b.path.size());
-      CHECK(same(serial.arrays().warp, shuffled.arrays().warp, 64 * 64));
-      CHECK(same(serial.arrays().marks, shuffled.arrays().marks, 6));
-      CHECK(same(serial.arrays().occupants, shuffled.arrays().occupants, 64 * 64));
-      CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
-      CHECK(same(serial.view_field().psi.data(), shuffled.view_field().psi.data(), 64 * 64));
-      if (a.status == PlanStatus::kOk) ++planned;
-    }
-    CHECK(planned > 0);
-  }
+  check_plans<ShuffledExecutor>(small_map(3), 8);
 }
 
 TEST_CASE("a plan has the same bytes with every compiler, optimisation level and processor, and by 4, 8 or 16 lanes") {
   // The digest is what g++ 12, g++ 11 (-O3 for x86-64-v3 without fused instructions), clang 14 and aarch64 give; it
   // changes with the algorithm. A processor without so many lanes takes what it has.
-  PlannerConfig config;
-  config.side_cells = config.max_side_cells = 64;
-  config.inflation_m = 0.15;
-  config.mover_margin_m = 0.1;
   const EvidenceMap map = evidence_of(small_map(3));
   const std::vector<Track> tracks = crowd();
-  PlanRequest request;
-  request.map_from_robot = {0.83, 0.77, 0.6};
-  request.goal_in_map = {5.52, 5.53};
-  request.speed_mps = 0.6;
-  request.still = &map;
+  PlanRequest request = across(map);
   request.moving = tracks;
   for (const field::Lanes lanes : {field::Lanes::kFour, field::Lanes::kEight, field::Lanes::kSixteen}) {
-    field::GridPlanner<field::SerialExecutor> planner(config, std::make_unique<field::SerialExecutor>(lanes));
+    field::GridPlanner<field::SerialExecutor> planner(small_window(), std::make_unique<field::SerialExecutor>(lanes));
     Digest digest;
     for (int tick = 0; tick < 4; ++tick) {
       planner.submit(request);
