@@ -1,5 +1,6 @@
 // Recordings whose wheels were made from the poses that others corrected afterwards: how far the scans pull the robot
 // off them.
+#include <cstdio>
 #include <vector>
 
 #include "bench/tracking/relative_pose.h"
@@ -40,13 +41,27 @@ std::vector<PosePair> follow(const std::filesystem::path& carmen, const Pose2& e
   return drive;
 }
 
+/// Means over eight starts, of which the first is the recording's own. Prints each.
+RelativeError mean_of_starts(const std::filesystem::path& carmen) {
+  constexpr int kStarts = 8;
+  RelativeError mean;
+  for (int k = 0; k < kStarts; ++k) {
+    const RelativeError one = relative_error(follow(carmen, {0.037 * k, 0.071 * k, 0.8 * k}), 10.0, 1.0);
+    CHECK(one.stretches > 300);
+    std::printf("start %d: %.2f %%, %.2f degrees\n", k, one.translation_percent, one.heading_deg);
+    mean.translation_percent += one.translation_percent / kStarts;
+    mean.heading_deg += one.heading_deg / kStarts;
+  }
+  std::printf("mean: %.2f %%, %.2f degrees\n", mean.translation_percent, mean.heading_deg);
+  return mean;
+}
+
 }  // namespace
 
 TEST_CASE("Freiburg: over 10 m scans pull the robot off wheels made from corrected poses by half a percent at most") {
   const auto file = recording("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;
-  const RelativeError error = relative_error(follow(*file, {}), 10.0, 1.0);
-  CHECK(error.stretches > 300);
+  const RelativeError error = mean_of_starts(*file);
   CHECK(error.translation_percent < 0.5);
   CHECK(error.heading_deg < 0.6);  // the reference's own: docs/tracking.md
 }
@@ -54,10 +69,7 @@ TEST_CASE("Freiburg: over 10 m scans pull the robot off wheels made from correct
 TEST_CASE("Intel: over 10 m scans pull the robot off wheels made from corrected poses by a quarter degree at most") {
   const auto file = recording("carmen/intel-corrected.log.gz");
   if (!file) return;
-  for (const Pose2& elsewhere : {Pose2{}, Pose2{0.04, 0.07, 0.5}}) {
-    const RelativeError error = relative_error(follow(*file, elsewhere), 10.0, 1.0);
-    CHECK(error.stretches > 300);
-    CHECK(error.translation_percent < 0.5);
-    CHECK(error.heading_deg < 0.25);
-  }
+  const RelativeError error = mean_of_starts(*file);
+  CHECK(error.translation_percent < 0.5);
+  CHECK(error.heading_deg < 0.25);
 }
