@@ -20,7 +20,9 @@ namespace jaywalk::field {
 struct CrewNotes {
   Counted* sums;  ///< kRoom
   Counted* told;  ///< two, in turn: one may still be read while the next is written
-  static constexpr std::size_t kRoom = 512 + 16;
+  /// Parts that a long sum is taken in, first and then: as many as a block has threads, and few enough for one.
+  static constexpr std::int32_t kMany = 512, kFew = 16;
+  static constexpr std::size_t kRoom = kMany + kFew;
 };
 
 /// Visit k adds up the k-th value, the one `stride` after it, and so on.
@@ -77,7 +79,7 @@ class Crew {
   }
 
   JAYWALK_ORDER Counted total(std::int32_t n, const Counted* counted) noexcept {
-    constexpr std::int32_t kMany = 512, kFew = 16;
+    constexpr std::int32_t kMany = CrewNotes::kMany, kFew = CrewNotes::kFew;
     const Counted* last = counted;
     if (n > kFew) {
       for_each(kMany, SumOf{n, kMany, counted, notes_.sums});
