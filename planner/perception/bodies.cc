@@ -25,6 +25,7 @@ Body born_at(Vec2 position, double std_m, double radius, Time now, std::uint32_t
   body.track.radius_m = radius;
   body.track.hits = 1;
   body.track.last_seen = now;
+  body.as_seen = body.track;
   body.models = MotionModels(body.track);
   body.anchor_in_map = position;
   body.path.add(now, position);

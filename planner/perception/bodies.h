@@ -12,6 +12,7 @@ namespace jaywalk {
 
 struct Body {
   Track track;
+  Track as_seen;  ///< the same when it was seen last
   MotionModels models;
   RecentPath path;
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
@@ -28,6 +29,7 @@ struct Body {
   Outline anchor_outline;         ///< points of it that were seen there, in the map
   Vec2 anchor_in_laser;           ///< the same, seen from where the laser was then
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
+  Time returned = kNever;         ///< when it came back as a hidden walker, until its own walk is proof; kNever: else
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
   Outline outline_in_map;         ///< points of it that were seen last
   std::uint32_t misses = 0;       ///< scans in a row that did not see it
@@ -37,6 +39,9 @@ struct Body {
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
 };
+
+/// Beams that all pass over so much of a body's place pass through it, and for so long: it is gone.
+inline constexpr double kEmptyWithinM = 0.1, kLookedThroughForS = 0.3;
 
 using Bodies = FixedVector<Body, kMaxTracks>;
 

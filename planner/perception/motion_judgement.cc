@@ -13,7 +13,8 @@ constexpr std::uint32_t kWalkedScans = 2;  // in a row: a hop is over by the nex
 // Who turns on the spot walks on. Less than the 5 s in which who stays is to be in the map.
 constexpr Duration kSlowFor = duration_from_seconds(4.3);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
-constexpr double kSettledM = 0.25;  // has not gone farther
+constexpr double kSettledM = 0.25;                             // has not gone farther
+constexpr Duration kProofWithin = duration_from_seconds(1.5);  // that he who came back is who he was taken for
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
 
 /// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
@@ -24,6 +25,11 @@ bool slow(const Body& body) {
   return goes_nowhere || norm(body.track.velocity_in_map) < kStoppedMps;
 }
 
+void call_still(Body& body, const Pose2& map_from_laser, Time now) {
+  body.track.moving = false;
+  anchor_here(body, map_from_laser, now);
+}
+
 void judge_mover(Body& body, const Pose2& map_from_laser, Time now) {
   if (!slow(body)) {
     body.slow_since = kNever;
@@ -31,9 +37,17 @@ void judge_mover(Body& body, const Pose2& map_from_laser, Time now) {
   }
   if (body.slow_since == kNever) body.slow_since = now;
   if (now - body.slow_since < kSlowFor) return;
-  body.track.moving = false;
-  anchor_here(body, map_from_laser, now);
+  call_still(body, map_from_laser, now);
   body.still_since = std::exchange(body.slow_since, kNever);  // it has stood here for as long as it was slow
+}
+
+/// Who came back should walk on: what does not was taken for him.
+void judge_returned(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) {
+  if (body.misses > 0) return;
+  const bool walks = departure(body, sight, map_from_laser) != Departure::kNone;
+  if (!walks && now - body.returned <= kProofWithin) return;
+  body.returned = kNever;
+  if (!walks) call_still(body, map_from_laser, now);
 }
 
 void note_departure(Body& body, Departure seen) {
@@ -61,7 +75,9 @@ void judge_stander(Body& body, const LineOfSight& sight, const Pose2& map_from_l
 
 void judge_motion(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) noexcept {
   if (body.given) return;
-  if (body.track.moving) {
+  if (body.returned != kNever) {
+    judge_returned(body, sight, map_from_laser, now);
+  } else if (body.track.moving) {
     judge_mover(body, map_from_laser, now);
   } else {
     judge_stander(body, sight, map_from_laser, now);

@@ -6,6 +6,7 @@
 
 #include "planner/perception/association.h"
 #include "planner/perception/bodies.h"
+#include "planner/perception/hidden_walkers.h"
 #include "planner/perception/kalman.h"
 #include "planner/perception/map_entry.h"
 #include "planner/perception/motion_judgement.h"
@@ -15,17 +16,15 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kGivenAccelStd = 0.5;      // the paper's movers keep their speed and seldom turn
-constexpr double kLongestStepS = 1.0;       // scans farther apart than this tell no velocity
-constexpr double kPathBreaksS = 0.4;        // unseen so long, a body may be another
-constexpr double kLookedThroughForS = 0.3;  // a body that beams pass through this long is gone
-constexpr double kUnseenForS = 2.0;         // a hidden one is believed in this long, and no longer than it was seen
+constexpr double kGivenAccelStd = 0.5;  // the paper's movers keep their speed and seldom turn
+constexpr double kLongestStepS = 1.0;   // scans farther apart than this tell no velocity
+constexpr double kPathBreaksS = 0.4;    // unseen so long, a body may be another
+constexpr double kUnseenForS = 2.0;     // a hidden one is believed in this long, and no longer than it was seen
 constexpr Duration kHiddenMovesFor = std::chrono::seconds(1);  // who is hidden longer may have turned or stopped
 constexpr double kGivenUnseenForS = 1.0;                       // one from outside, this long after its last report
 constexpr std::uint32_t kTentativeMisses = 2;                  // one not believed yet may be missed this often
 constexpr double kSkinM = 0.15;                                // points this near a mover's body are its own
-constexpr double kEmptyWithinM = 0.1;  // beams that all pass over so much of its place pass through it
-constexpr double kSeenGain = 0.15;     // of the running mean of how often a body was seen
+constexpr double kSeenGain = 0.15;                             // of the running mean of how often a body was seen
 constexpr double kFreeGain = 0.3;      // of the running mean of how free the ground under a body was
 constexpr double kNoiseGain = 0.075;   // a scan: a second teaches how noisy a body is
 constexpr double kMostNoise = 25.0;    // times the variance expected, or as small a part of it
@@ -39,6 +38,12 @@ bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(p
 void learn_noise(Body& body) {
   const double wanted = 0.5 * std::min(body.track.surprise, kMostSurprise) - 1.0;
   body.noise = std::clamp(body.noise * (1.0 + kNoiseGain * wanted), 1.0 / kMostNoise, kMostNoise);
+}
+
+void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
+  for (Cluster& c : clusters) {
+    if (c.track_id == from) c.track_id = to;
+  }
 }
 
 double step_seconds(Time from, Time to) {
@@ -78,6 +83,7 @@ struct Tracker::State {
   Pose2 map_from_laser;
 
   Bodies bodies;
+  HiddenWalkers hidden;
   std::uint32_t last_id = 0;
   bool movers_are_given = false;
   Time now = kNever;
@@ -143,6 +149,7 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
   body.free_share += std::max(kFreeGain, 1.0 / body.track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
+  body.as_seen = track;
 }
 
 void Tracker::State::associate_and_correct() noexcept {
@@ -176,8 +183,11 @@ void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
     Body& body = bodies[b];
     const bool empty = sight.at(body.track.position_in_map, kEmptyWithinM) == Sight::kThrough;
     if (body.misses > 0 && empty) body.looked_through_s += step_s;
-    if (gone(body)) bodies.swap_remove(b);
+    if (!gone(body)) continue;
+    if (body.track.moving && !body.given && body.looked_through_s <= kLookedThroughForS) hidden.remember(body);
+    bodies.swap_remove(b);
   }
+  hidden.wait(sight, now, step_s);
 }
 
 void Tracker::State::birth() noexcept {
@@ -189,6 +199,7 @@ void Tracker::State::birth() noexcept {
     body.outline_in_map = seen.outline_in_map;
     body.free_share = seen.in_free_space ? 1.0 : 0.0;
     anchor_here(body, map_from_laser, now);
+    if (hidden.return_as(body, now)) rename(clusters, last_id, body.track.id);
     admit(bodies, body, map_from_laser.position());
   }
 }

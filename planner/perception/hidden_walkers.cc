@@ -1,0 +1,63 @@
+#include "planner/perception/hidden_walkers.h"
+
+#include <algorithm>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kRememberedS = 8.0;
+constexpr double kLeastKnownS = 0.5;  // seen for less, its speed is not worth going by
+constexpr double kOffM = 0.5;         // from where he should be: half a step, and what is still hidden of him
+constexpr double kSpeedStd = 0.1;     // m/s an axis, of one who comes out where he should
+
+}  // namespace
+
+Vec2 HiddenWalkers::Walker::place_at(Time now) const {
+  return as_seen.position_in_map + as_seen.velocity_in_map * to_seconds(now - as_seen.last_seen);
+}
+
+void HiddenWalkers::remember(const Body& body) noexcept {
+  if (to_seconds(body.as_seen.last_seen - body.born) < kLeastKnownS) return;
+  if (walkers_.full()) {
+    const auto earlier = [](const Walker& a, const Walker& b) { return a.as_seen.last_seen < b.as_seen.last_seen; };
+    const Walker* first = std::min_element(walkers_.begin(), walkers_.end(), earlier);
+    walkers_.swap_remove(static_cast<std::size_t>(first - walkers_.begin()));
+  }
+  (void)walkers_.push_back({body.as_seen, body.arc_m, body.born});  // there is room now
+}
+
+void HiddenWalkers::wait(const LineOfSight& sight, Time now, double step_s) noexcept {
+  for (std::size_t k = walkers_.size(); k-- > 0;) {
+    Walker& walker = walkers_[k];
+    if (sight.at(walker.place_at(now), kEmptyWithinM) == Sight::kThrough) walker.looked_through_s += step_s;
+    const double away_s = to_seconds(now - walker.as_seen.last_seen);
+    if (away_s < 0.0 || away_s > kRememberedS || walker.looked_through_s > kLookedThroughForS) walkers_.swap_remove(k);
+  }
+}
+
+bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
+  std::size_t who = walkers_.size();
+  double nearest = kOffM;
+  for (std::size_t k = 0; k < walkers_.size(); ++k) {
+    const double off = distance(walkers_[k].place_at(now), newcomer.track.position_in_map);
+    if (off < nearest) nearest = off, who = k;
+  }
+  if (who == walkers_.size()) return false;
+  const Walker walker = walkers_[who];
+  walkers_.swap_remove(who);
+  Track& track = newcomer.track;
+  track.id = walker.as_seen.id;
+  track.velocity_in_map = walker.as_seen.velocity_in_map;
+  track.covariance.vv = kSpeedStd * kSpeedStd;
+  track.radius_m = walker.as_seen.radius_m;
+  track.hits += walker.as_seen.hits;
+  track.moving = true;
+  newcomer.as_seen = track;
+  newcomer.models = MotionModels(track);
+  newcomer.arc_m = walker.arc_m;
+  newcomer.born = walker.born;
+  newcomer.returned = now;
+  return true;
+}
+
+}  // namespace jaywalk
