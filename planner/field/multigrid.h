@@ -11,6 +11,13 @@ namespace jaywalk::field {
 inline constexpr std::int32_t kCoarsestSide = 4;
 inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
 
+/// Cells a side beyond which a board's cells come from memory in every pass, and not from a cache.
+inline constexpr std::int32_t kLargeSide = 512;
+
+struct Cycles {
+  std::int32_t least, most;  ///< on from the least, until one has found hardly anything new
+};
+
 /// A level's memory. `diagonal` and the last two only blocks have a use for.
 struct LevelArrays {
   CouplingArrays couplings;
@@ -61,16 +68,16 @@ class Multigrid {
   /// then visit the result. Returns how many. Blocks are weighted afresh each time: with the weights of the cycle
   /// before, the second makes things worse.
   template <class First, class... Last>
-  JAYWALK_ORDER std::int32_t improve(Grid grid, std::int32_t goal, float* psi, std::int32_t least, std::int32_t most,
-                                     const First& first, const Last&... last) noexcept {
+  JAYWALK_ORDER std::int32_t improve(Grid grid, std::int32_t goal, float* psi, Cycles wanted, const First& first,
+                                     const Last&... last) noexcept {
     const Board board{grid.side};
     const LevelArrays& a = levels_[0];
     goal_row_ = goal / board.side;
     set_up(board, goal, psi, first);
     std::int32_t cycles = 0;
-    for (bool enough = least == 0; !enough;) {
+    for (bool enough = wanted.least == 0; !enough;) {
       cycle(board, cycles == 0);
-      enough = ++cycles >= least && (cycles >= most || is_settled(board));
+      enough = ++cycles >= wanted.least && (cycles >= wanted.most || is_settled(board));
     }
     executor_.for_each_row(board.side, RowStep{board.half(), RebasePsi{board, 0, a.x, a.psi}},
                            RowStep{board.half(), RebasePsi{board, 1, a.x, a.psi}},
@@ -110,9 +117,11 @@ class Multigrid {
     executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
   }
 
-  /// One V-cycle down and back. The first finds out which levels are of use; the others carry over what the one before
-  /// has found.
+  /// Down and back. The first cycle finds out which levels are of use; the others carry over what the one before has
+  /// found. On a large board blocks of 2 cells go down and back once more before the cells do, where blocks larger than
+  /// 8 cells are of use: what is lacking there is smooth, and blocks are at hand where cells come from memory.
   JAYWALK_ORDER void cycle(Board board, bool first) noexcept {
+    const bool is_large = board.side > kLargeSide;
     if (first) used_ = kMostLevels;
     std::int32_t depth = 0;
     for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
@@ -121,8 +130,18 @@ class Multigrid {
       if (first && depth >= kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
       if (depth + 1 >= used_) break;
     }
+    const std::int32_t lowest = depth;
+    if (is_large && lowest > kBulkyDepth) {
+      climb(board, depth, 1);
+      for (; depth < lowest; ++depth, board.side /= 2) go_down<false>(board, depth, false, false);
+    }
+    climb(board, depth, 0);
+  }
+
+  /// Relaxes the lowest level of use, and each above it, up to `top`, once it is corrected.
+  JAYWALK_ORDER void climb(Board& board, std::int32_t& depth, std::int32_t top) noexcept {
     relax(board, depth, board.side > kCoarsestSide ? further_sweeps(depth) : kCoarsestSweeps);
-    while (depth > 0) {
+    while (depth > top) {
       --depth, board.side *= 2;
       depth == 0 ? go_up<true>(board, depth) : go_up<false>(board, depth);
       relax(board, depth, further_sweeps(depth));
@@ -146,22 +165,22 @@ class Multigrid {
                      relaxed(board, depth, 0), relaxed(board, depth, 1));
   }
 
-  /// Builds the blocks, relaxes twice, and hands on what is lacking.
+  /// Builds the blocks (unless they are there), relaxes twice, and hands on what is lacking.
   template <bool kFinest>
-  JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase) noexcept {
+  JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase, bool build = true) noexcept {
     const LevelArrays& a = levels_[depth];
     const LevelArrays& b = levels_[depth + 1];
     const Board blocks{board.side / 2};
     const Sources sources = sources_of(depth, board);
     const Level level{board, a.couplings, a.psi, a.diagonal};
-    const std::int32_t rebased = rebase ? board.half() : 0;
+    const std::int32_t rebased = rebase ? board.half() : 0, built = build ? blocks.half() : 0;
     executor_.for_each_row(
         board.side, RowStep{rebased, RebaseCouplings{board, 0, a.x, a.couplings, sources}},
         RowStep{rebased, RebaseCouplings{board, 1, a.x, a.couplings, sources}},
         RowStep{rebased, RebasePsi{board, 0, a.x, a.psi}}, RowStep{rebased, RebasePsi{board, 1, a.x, a.psi}},
-        RowStep{blocks.side, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
-        RowStep{blocks.half(), BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2},
-        relaxed(board, depth, 0), relaxed(board, depth, 1), relaxed(board, depth, 0), relaxed(board, depth, 1),
+        RowStep{2 * built, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
+        RowStep{built, BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2}, relaxed(board, depth, 0),
+        relaxed(board, depth, 1), relaxed(board, depth, 0), relaxed(board, depth, 1),
         RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
         RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
   }

@@ -14,15 +14,16 @@ inline constexpr std::int32_t kBandRounds = 60;
 inline constexpr std::int32_t kTautRounds = 4;
 /// Clearance (cells beyond inflation) below which things push the band: 0.5 m.
 inline constexpr float kBandReach = 5.0F;
-/// Cycles from the start field: three, and on while the last has still found something, up to five; then 99.9 % of
-/// cells or more pick the exact field's best neighbour. (Six take longer than 100 plain sweeps where eight lanes are
-/// the most.) On windows of more than 256 cells a side four are the most, for the time they take. From the last
-/// submission's field one does where nothing has changed since, and a second where the first has found something
-/// (docs/algorithm.md).
-inline constexpr std::int32_t kColdCycles = 3, kMostColdCycles = 5, kWarmCycles = 1, kMostWarmCycles = 2;
-[[nodiscard]] constexpr JAYWALK_ORDER std::int32_t most_cold_cycles(Grid grid) {
-  return grid.side > 256 ? 4 : kMostColdCycles;
+/// From the start field. Up to 256 cells a side 99.9 % of cells or more then pick the exact field's best neighbour.
+/// (Six take longer than 100 plain sweeps where eight lanes are the most.) On larger windows fewer do, for the time
+/// they take: what is lacking the submissions that follow find, each from the last one's field.
+[[nodiscard]] constexpr JAYWALK_ORDER Cycles cold_cycles(Grid grid) {
+  if (grid.side > kLargeSide) return {2, 2};
+  return grid.side > 256 ? Cycles{3, 4} : Cycles{3, 5};
 }
+/// From the last submission's field: one where nothing has changed since, a second where the first has found something
+/// (docs/algorithm.md).
+inline constexpr Cycles kWarmCycles{1, 2};
 
 /// Times that pits are lifted at most, and before the certificate is read again. A pit that rounding has made is a
 /// plateau a few cells wide; one that is deeper needs another solution.
@@ -161,7 +162,8 @@ struct SolveOrder {
   struct Attempt {
     From from;
     bool anew;  ///< from the start field, not from what the attempt before came to
-    std::int32_t least_cycles, most_cycles, lifts;
+    Cycles cycles;
+    std::int32_t lifts;
   };
 
   /// Whether the goal can be reached from near the robot.
@@ -176,11 +178,11 @@ struct SolveOrder {
   template <class Executor>
   JAYWALK_ORDER void solve(Executor& executor, FieldQuality& quality) const noexcept {
     const FieldArrays& a = begin.a;
-    const std::int32_t most = most_cold_cycles(begin.grid);
-    const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kMostWarmCycles, kLifts},
-                                {From::kNothing, true, kColdCycles, most, kLifts},
-                                {From::kNothing, false, most, most, kLifts},
-                                {From::kStartOnly, true, 0, 0, 2 * begin.grid.side}};
+    const Cycles cold = cold_cycles(begin.grid);
+    const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kLifts},
+                                {From::kNothing, true, cold, kLifts},
+                                {From::kNothing, false, {cold.most, cold.most}, kLifts},
+                                {From::kStartOnly, true, {0, 0}, 2 * begin.grid.side}};
     for (const Attempt& attempt : attempts) {
       if (attempt.from < from || quality.certified) continue;
       if (attempt.anew) executor.for_each(begin.grid.cells(), Fill<float>{a.correction, 0.0F});
@@ -197,7 +199,7 @@ struct SolveOrder {
     const Grid grid = begin.grid;
     const std::int32_t cells = cells_of_row<Executor>(grid.side);
     return Multigrid<Executor>(executor, levels)
-        .improve(grid, begin.goal, psi, attempt.least_cycles, attempt.most_cycles,
+        .improve(grid, begin.goal, psi, attempt.cycles,
                  RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
                  RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
                  RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},

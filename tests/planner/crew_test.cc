@@ -7,6 +7,7 @@
 #include "tests/planner/crew_on_cpu.h"
 #include "tests/planner/field_rig.h"
 #include "tests/planner/same_bytes.h"
+#include "tests/planner/shaped_maps.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -63,37 +64,21 @@ TEST_CASE("a crew of 1, 2, 3 or 7 threads solves to the bytes of one thread, who
   check_fields<CrewOnCpu<2, 2, 8192>>(128, 1);  // as on a device: half a board of 128 is the first block's
 }
 
+TEST_CASE("a crew solves a large window, whose blocks go down twice in a cycle, as one thread does") {
+  using Crew = CrewOnCpu<1, 2, 8192>;
+  field::MapFieldOn<Crew> crew(large_map(), std::make_unique<Crew>());
+  check_field(large_map(), crew);
+}
+
 TEST_CASE("a crew plans among movers to the bytes of one thread, plan by plan") {
   check_plans<CrewOnCpu<2, 2, 1000>>(boxes(64, 3), 5);
 }
 
-TEST_CASE("a crew solves maps that are empty, odd, one cell high, or all wall but for a cell, as one thread does") {
+TEST_CASE("a crew solves maps of every shape as one thread does") {
   using Crew = CrewOnCpu<2, 2, 700>;
-  std::vector<field::CellMap> maps{{64, 64, std::vector<std::uint8_t>(64 * 64, 0)},
-                                   {1, 65, std::vector<std::uint8_t>(65, 0)},
-                                   {33, 47, std::vector<std::uint8_t>(33 * 47, 0)},
-                                   {9, 9, std::vector<std::uint8_t>(81, 1)}};
-  for (std::size_t i = 10; i < 33; ++i) maps[2].wall[20 * 33 + i] = 1;  // one wall
-  maps[3].wall[40] = 0;
-  for (const field::CellMap& map : maps) {
-    const auto serial = field::make_cpu_map_field(map);
+  for (const field::CellMap& map : shaped_maps()) {
     field::MapFieldOn<Crew> crew(map, std::make_unique<Crew>());
-    CellIndex goal{0, 0};
-    REQUIRE(serial->nearest_free(goal, 100));
-    for (const bool cold : {true, false}) {
-      const field::MapQuality a = cold ? serial->solve_cold(goal) : serial->solve_warm(goal);
-      const field::MapQuality b = cold ? crew.solve_cold(goal) : crew.solve_warm(goal);
-      CHECK(a.joined == b.joined);
-      CHECK(a.certified == b.certified);
-      int differ = 0;
-      for (std::int32_t j = 0; j < map.height; ++j) {
-        for (std::int32_t i = 0; i < map.width; ++i) {
-          const float x = serial->psi(i, j), y = crew.psi(i, j);
-          differ += same(&x, &y, 1) ? 0 : 1;
-        }
-      }
-      CHECK(differ == 0);
-    }
+    check_field(map, crew);
   }
 }
 

@@ -1,8 +1,13 @@
 // The GPU gives the CPU's bytes. Runs where a device is.
 #include <cstdio>
 #include <cstring>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "planner/planner.h"
+#include "tests/planner/shaped_maps.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
@@ -14,21 +19,37 @@ using namespace jaywalk;
 
 namespace {
 
-std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
 #if JAYWALK_HAS_CUDA
-  std::string why_not;
-  auto planner = make_cuda_planner(config, why_not);
-  if (!planner) {
+/// What was made, or the line that says why not.
+template <class Made>
+Made or_skipped(Made made, const std::string& why_not) {
+  if (!made) {
     std::printf("skipped: no CUDA device (%s)\n", why_not.c_str());
     CHECK(why_not.substr(0, 6) == "cuda: ");
   }
-  return planner;
+  return made;
+}
+
+std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
+  std::string why_not;
+  auto planner = make_cuda_planner(config, why_not);
+  return or_skipped(std::move(planner), why_not);
+}
+std::unique_ptr<field::MapField> cuda_map_field(const field::CellMap& map) {
+  std::string why_not;
+  auto field = make_cuda_map_field(map, why_not);
+  return or_skipped(std::move(field), why_not);
+}
 #else
-  (void)config;
+std::unique_ptr<Planner> cuda_planner(const PlannerConfig&) {
   std::printf("skipped: no CUDA device (not in this build)\n");
   return nullptr;
-#endif
 }
+std::unique_ptr<field::MapField> cuda_map_field(const field::CellMap&) {
+  std::printf("skipped: no CUDA device (not in this build)\n");
+  return nullptr;
+}
+#endif
 
 }  // namespace
 
@@ -58,5 +79,16 @@ TEST_CASE("the CUDA planner gives the bytes of the CPU planner, plan by plan") {
       const auto psi_a = gpu->view_field().psi, psi_b = cpu->view_field().psi;
       CHECK(std::memcmp(psi_a.data(), psi_b.data(), psi_a.size_bytes()) == 0);
     }
+  }
+}
+
+TEST_CASE("the CUDA field of a map of any shape, and of the largest, has the bytes of the CPU's") {
+  std::vector<field::CellMap> maps = test::shaped_maps();
+  maps.push_back(test::large_map());
+  maps.push_back(test::filled_map(field::kMostMapCells, field::kMostMapCells));
+  for (const field::CellMap& map : maps) {
+    const auto gpu = cuda_map_field(map);
+    if (!gpu) return;
+    test::check_field(map, *gpu);
   }
 }

@@ -71,12 +71,12 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
     rig.load(map, 3.0F, goal);
     const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
     CHECK(cold.certified);
-    CHECK(cold.cycles >= field::kColdCycles);
-    CHECK(cold.cycles <= field::kMostColdCycles);
+    CHECK(cold.cycles >= field::cold_cycles(rig.grid).least);
+    CHECK(cold.cycles <= field::cold_cycles(rig.grid).most);
     CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
     const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
     CHECK(warm.certified);
-    CHECK(warm.cycles <= field::kMostWarmCycles);
+    CHECK(warm.cycles <= field::kWarmCycles.most);
   }
 }
 
@@ -154,7 +154,7 @@ TEST_CASE(
   for (int tick = 0; tick < 4; ++tick) {
     const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
     CHECK(warm.certified);
-    CHECK(warm.cycles <= field::kMostWarmCycles);
+    CHECK(warm.cycles <= field::kWarmCycles.most);
     CHECK(warm.joined > 400000);
   }
 }
