@@ -18,6 +18,11 @@ struct Observation {
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
 };
 
+/// Cuts segments where one known body ends and the next begins: whoever passes another so near that no jump parts them.
+/// A segment is cut that begins on one and ends on another, one of which moves at least, and that is about as wide as
+/// both. When the list is full, its rest counts as wall.
+void cut_between(const Bodies& bodies, const PointsInMap& in_map, Segments& segments) noexcept;
+
 /// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of
 /// bodies and clusters does not matter except between exact equals.
 void associate(const Bodies& bodies, Clusters& clusters) noexcept;

@@ -117,6 +117,7 @@ void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, co
     in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
   cut_at_jumps(points, static_cast<double>(scan.angle_step_rad), segments);
+  cut_between(bodies, in_map, segments);
   const std::uint32_t last_beam = std::max(scan.beam_count, 1U) - 1;
   find_clusters(points, in_map, segments, last_beam, map_from_laser.position(), clusters);
 }

@@ -1,7 +1,10 @@
 #include "planner/perception/tracker.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
+#include <span>
 
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
@@ -144,6 +147,27 @@ TEST_CASE("two that cross keep their names") {
   CHECK(far_id != 0);
   CHECK(id_at(near_at(79)) == near_id);  // the far one was hidden for a while in between
   CHECK(id_at(far_at(79)) == far_id);
+}
+
+TEST_CASE("two that walk all but touching are still two") {
+  Watch watch;
+  watch.look_round();
+  // 1 cm between them for a second, and the left one a little behind the right one's edge: no beam passes through
+  const auto aside = [](int k) { return 0.255 + 0.02 * std::max(0, std::abs(k - 37) - 7); };
+  std::uint32_t left_id = 0, right_id = 0;
+  for (int k = 0; k < 60; ++k) {
+    const Vec2 left{1.0 + 0.05 * k, 0.5 + aside(k)}, right{1.0 + 0.05 * k, 0.5 - aside(k)};
+    watch.see(with({{left, 0.25}, {right, 0.25}}));
+    const std::span<const Track> tracks = watch.tracker.moving();
+    if (k < 25) continue;
+    REQUIRE(tracks.size() == 2);
+    const std::size_t first = tracks[0].position_in_map.y > 0.5 ? 0 : 1;
+    if (k == 25) left_id = tracks[first].id, right_id = tracks[1 - first].id;
+    CHECK(tracks[first].id == left_id);
+    CHECK(tracks[1 - first].id == right_id);
+    CHECK(distance(tracks[first].position_in_map, left) < 0.05);
+    CHECK(distance(tracks[1 - first].position_in_map, right) < 0.05);
+  }
 }
 
 TEST_CASE("who is hidden for more than a second is not said to move and keeps its name for another") {
