@@ -11,7 +11,8 @@ namespace jaywalk::field {
 inline constexpr std::int32_t kCoarsestSide = 4;
 inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
 
-/// Cells a side beyond which a board's cells come from memory in every pass, and not from a cache.
+/// Cells a side beyond which a board's cells come from memory in every pass, and not from a cache of 32 MB: 512 x 512
+/// cells are solved in 17 MB, four times as many in 70 (docs/performance.md).
 inline constexpr std::int32_t kLargeSide = 512;
 
 struct Cycles {
@@ -133,7 +134,7 @@ class Multigrid {
     const std::int32_t lowest = depth;
     if (is_large && lowest > kBulkyDepth) {
       climb(board, depth, 1);
-      for (; depth < lowest; ++depth, board.side /= 2) go_down<false>(board, depth, false, false);
+      for (; depth < lowest; ++depth, board.side /= 2) go_down<false>(board, depth, /*rebase=*/false, /*build=*/false);
     }
     climb(board, depth, 0);
   }

@@ -25,7 +25,6 @@ constexpr double kArcStdM = 0.005, kArcStdPerSpacing = 0.25;
 constexpr double kHiddenStdPerM = 0.15;  // of what is hidden of a body whose width is known
 constexpr double kLeastShare = 1e-3;     // of a body's width that is seen: beams may be all one
 constexpr double kGateStdM = 0.12;       // whatever part of a body is seen
-constexpr double kOnBodyM = 0.15;        // points this near a body's outline may be its own
 constexpr double kWidthOfBoth = 0.75;    // of two bodies' widths: one alone is not as wide
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -44,7 +43,7 @@ double least_width_of_both(const Bodies& bodies) {
 /// The body of known width that a point lies on, or nearest to; null: none.
 const Body* body_under(const Bodies& bodies, Vec2 p_in_map) {
   const Body* best = nullptr;
-  double nearest = kOnBodyM;
+  double nearest = kSkinM;
   for (const Body& body : bodies) {
     if (!width_known(body)) continue;
     const double off = distance(body.track.position_in_map, p_in_map) - body.arc_m;

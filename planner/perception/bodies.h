@@ -42,6 +42,8 @@ struct Body {
 
 /// Beams that all pass over so much of a body's place pass through it, and for so long: it is gone.
 inline constexpr double kEmptyWithinM = 0.1, kLookedThroughForS = 0.3;
+/// Points this near a body's outline are its own.
+inline constexpr double kSkinM = 0.15;
 
 using Bodies = FixedVector<Body, kMaxTracks>;
 

@@ -23,7 +23,6 @@ constexpr double kUnseenForS = 2.0;     // a hidden one is believed in this long
 constexpr Duration kHiddenMovesFor = std::chrono::seconds(1);  // who is hidden longer may have turned or stopped
 constexpr double kGivenUnseenForS = 1.0;                       // one from outside, this long after its last report
 constexpr std::uint32_t kTentativeMisses = 2;                  // one not believed yet may be missed this often
-constexpr double kSkinM = 0.15;                                // points this near a mover's body are its own
 constexpr double kSeenGain = 0.15;                             // of the running mean of how often a body was seen
 constexpr double kFreeGain = 0.3;      // of the running mean of how free the ground under a body was
 constexpr double kNoiseGain = 0.075;   // a scan: a second teaches how noisy a body is
