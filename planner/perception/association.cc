@@ -21,11 +21,11 @@ constexpr double kMostRadiusM = 0.5;
 // an arc's ends lie somewhere between beams.
 constexpr double kOneLegStdM = 0.12;
 constexpr double kTwoLegsStdM = 0.08;
-constexpr double kArcStdM = 0.005, kArcStdPerSpacing = 0.25;
-constexpr double kHiddenStdPerM = 0.15;  // of what is hidden of a body whose width is known
-constexpr double kLeastShare = 1e-3;     // of a body's width that is seen: beams may be all one
-constexpr double kGateStdM = 0.12;       // whatever part of a body is seen
-constexpr double kWidthOfBoth = 0.75;    // of two bodies' widths: one alone is not as wide
+constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
+constexpr double kHiddenStdPerM = 0.1;  // of what is hidden of a body whose width is known
+constexpr double kLeastShare = 1e-3;    // of a body's width that is seen: beams may be all one
+constexpr double kGateStdM = 0.12;      // whatever part of a body is seen
+constexpr double kWidthOfBoth = 0.75;   // of two bodies' widths: one alone is not as wide
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -91,14 +91,14 @@ double arc_mean(double share) {
 /// seen. Hidden on both sides, it may be either way.
 void add_hidden_part(const Cluster& c, double arc_m, Observation& seen) {
   const double hidden = std::max(0.0, arc_m - c.radius_m);
-  if (c.low_hidden && c.high_hidden) {
+  if (c.low_hidden() && c.high_hidden()) {
     seen.std_m += hidden;
     return;
   }
   seen.std_m += kHiddenStdPerM * hidden;
   if (hidden == 0.0) return;
   const double deeper = arc_m * arc_mean(c.radius_m / arc_m) - c.radius_m * kArcMean;
-  seen.position_in_map = seen.position_in_map + c.high_side * (c.high_hidden ? hidden : -hidden) + c.along * deeper;
+  seen.position_in_map = seen.position_in_map + c.high_side * (c.high_hidden() ? hidden : -hidden) + c.along * deeper;
 }
 
 void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
@@ -117,10 +117,11 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .radius_m = std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM),
                    .in_free_space = c.in_free_space,
                    .outline_in_map = c.outline_in_map,
+                   .beams = c.beams,
                    .whole = c.whole(),
-                   .edge_m = c.emerges() ? c.spacing_m : 0.0};
+                   .edge_m = c.emerges() ? c.spacing_m : 0.0,
+                   .width_m = distance(c.outline_in_map[0], c.outline_in_map.back())};
   if (seen.whole) {
-    seen.width_m = distance(c.outline_in_map[0], c.outline_in_map.back());
     if (!c.leg()) seen.arc_m = c.radius_m;
   } else {
     add_hidden_part(c, arc_m > 0.0 ? arc_m : std::max(c.radius_m, kPersonRadiusM), seen);

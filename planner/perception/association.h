@@ -12,9 +12,10 @@ struct Observation {
   double radius_m = 0.0;
   bool in_free_space = false;
   Outline outline_in_map;  ///< of the nearest cluster
+  BeamRun beams{};         ///< of the same
   bool whole = false;      ///< nothing hid either side of that
   double edge_m = 0.0;     ///< Body::edge_m
-  double width_m = 0.0;    ///< of its visible side where it is whole; else 0
+  double width_m = 0.0;    ///< of what is seen of that
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
 };
 

@@ -41,6 +41,12 @@ void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept {
   body.still_since = now;
 }
 
+void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept {
+  body.path.clear();
+  body.walked = 0;
+  anchor_here(body, map_from_laser, now);
+}
+
 void admit(Bodies& bodies, const Body& newcomer, Vec2 robot) noexcept {
   if (bodies.full()) {
     const std::size_t k = farthest(bodies, robot);

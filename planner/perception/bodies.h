@@ -32,12 +32,19 @@ struct Body {
   Time returned = kNever;         ///< when it came back as a hidden walker, until its own walk is proof; kNever: else
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
   Outline outline_in_map;         ///< points of it that were seen last
+  BeamRun beams;                  ///< that ended on it then
   std::uint32_t misses = 0;       ///< scans in a row that did not see it
   std::uint32_t walked = 0;       ///< scans in a row that it seemed to walk in
   bool settled = false;           ///< stands for good: its points may become walls
 
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
+  /// As wide as people and robots are, and seen to stay where it should be as solid things do.
+  [[nodiscard]] bool solid() const { return arc_m > kNarrowM && arc_m < kWideM && noise < kSolidNoise; }
+
+  /// Half widths between which what is seen whole is a body: not a post, no panel.
+  static constexpr double kNarrowM = 0.18, kWideM = 0.4;
+  static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
 };
 
 /// Beams that all pass over so much of a body's place pass through it, and for so long: it is gone.
@@ -52,6 +59,9 @@ using Bodies = FixedVector<Body, kMaxTracks>;
 
 /// From now on the body is watched for going away from where it now is, and was just seen.
 void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept;
+
+/// What was seen of its way until now tells nothing.
+void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept;
 
 /// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, and that may be the
 /// newcomer.

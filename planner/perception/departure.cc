@@ -21,17 +21,17 @@ constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
 constexpr double kStrideM = 0.5;
 constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
 constexpr double kMayStand = 0.5;               // probability that it stands, at most
-constexpr double kNarrowM = 0.18,
-                 kWideM = 0.4;  // half widths between which what is seen whole is a body: not a post, no panel
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
-constexpr double kSolidNoise = 1.5;  // times what is expected: legs and corners that change places have more
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
 constexpr double kEdges = 1.5;                           // beam spacings: where its free side is, is known to one
-constexpr double kSameM = 0.08, kSamePerM = 0.015;       // about a point of the anchor, what ends there is still it
-constexpr double kChordM = 0.25, kAlong = 0.7;           // legs are narrower; 45 degrees
-constexpr double kSlant = 0.35;                          // 20 degrees off square to the beams
+constexpr double kPartM = 0.5;  // of a body: what is wider has its middle where more of it comes into view
+// Of a body that comes out on unknown ground. In no_people_left nothing did for more than 16.6 in two scans running.
+constexpr double kEmergesSigmas = 12.0, kEmergesExplained = 0.9;
+constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
+constexpr double kChordM = 0.25, kAlong = 0.7;      // legs are narrower; 45 degrees
+constexpr double kSlant = 0.35;                     // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
 constexpr double kRidesShare = 0.6;  // of its way in the map is all that it moved before the laser
 
@@ -56,19 +56,18 @@ Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
   for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
     const Vec2 place = outline[first_lags ? k : outline.size() - 1 - k];
     if (covers(body.outline_in_map, place, tolerance)) continue;
-    const Sight seen = sight.at(place, tolerance);
+    const Sight seen = sight.at(place, tolerance, body.beams);
     anchor.there += seen == Sight::kThere ? 1 : 0;
     anchor.through += seen == Sight::kThrough ? 1 : 0;
   }
   return anchor;
 }
 
-/// As wide as people and robots are, and seen to stay where it should be as solid things do.
-bool solid(const Body& body) { return body.arc_m > kNarrowM && body.arc_m < kWideM && body.noise < kSolidNoise; }
-
 /// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
 /// path is measured, and a surface that comes into view has that where it always was.
-bool emerges(const Body& body) { return body.edge_m > 0.0 && body.noise < kSolidNoise; }
+bool emerges(const Body& body, const StraightWalk& walk) {
+  return body.edge_m > 0.0 && body.noise < Body::kSolidNoise && walk.widest_m < kPartM;
+}
 
 bool came_straight(const Body& body, const StraightWalk& walk) {
   return came_to_free_space(body) && walk.explained > kExplained;
@@ -80,7 +79,7 @@ struct LeastWalk {
 };
 
 LeastWalk least_walk(const Body& body, const StraightWalk& walk) {
-  if (!solid(body) && !emerges(body)) return {kThingSigmas, kSteadyM};
+  if (!body.solid() && !emerges(body, walk)) return {kThingSigmas, kSteadyM};
   if (came_straight(body, walk)) return {kCameSigmas, kCameM};
   return {kSolidSigmas, kSteadyM};
 }
@@ -95,12 +94,17 @@ bool steady(const Body& body, const StraightWalk& walk) {
 
 /// Both its sides went along, and nothing hides either: no surface that comes into view does that.
 bool rigid(const Body& body, const StraightWalk& walk) {
-  return body.whole && solid(body) && steady(body, walk) && walk.width_change_m < kRigidShare * walk.length_m &&
+  return body.whole && body.solid() && steady(body, walk) && walk.width_change_m < kRigidShare * walk.length_m &&
          (came_straight(body, walk) || walk.sigmas > kRigidSigmas);
 }
 
 /// What its free side went says more, and sooner, than a filter that does not know yet how wide it is.
-bool edge_walks(const Body& body, const StraightWalk& walk) { return emerges(body) && steady(body, walk); }
+bool edge_walks(const Body& body, const StraightWalk& walk) { return emerges(body, walk) && steady(body, walk); }
+
+/// So straight that the ground need not tell.
+bool surely_emerges(const Body& body, const StraightWalk& walk) {
+  return edge_walks(body, walk) && walk.sigmas > kEmergesSigmas && walk.explained > kEmergesExplained;
+}
 
 /// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
 bool slides_along_itself(const Body& body, Vec2 laser) {
@@ -120,7 +124,7 @@ bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight,
   if (anchor.there > 0) return false;
   const bool came = came_to_free_space(body), left = anchor.through > 0;
   if (!left && !edge_walks(body, walk) && slides_along_itself(body, laser)) return false;
-  if (rigid(body, walk) || ((came || left) && steady(body, walk))) return true;
+  if (rigid(body, walk) || surely_emerges(body, walk) || ((came || left) && steady(body, walk))) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
   const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
   return (came || body.whole) && walk.explained > kExplained && walk.length_m - walk.width_change_m > far;

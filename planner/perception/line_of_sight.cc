@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/perception/scan_points.h"
-
 namespace jaywalk {
 namespace {
 
@@ -31,7 +29,7 @@ LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noex
   return {norm(in_laser), beam - turn * std::floor((beam + 0.5) / turn)};  // beam in [-1/2, turn - 1/2)
 }
 
-Sight LineOfSight::at(Vec2 place, double tolerance) const noexcept {
+Sight LineOfSight::at(Vec2 place, double tolerance, const BeamRun& but) const noexcept {
   if (scan_.angle_step_rad == 0.0F) return Sight::kUnseen;
   Bearing seen = bearing(place, 0.0);
   if (beam_s_ > 0.0 && seen.beam < beams_) seen = bearing(place, seen.beam * beam_s_);
@@ -42,13 +40,14 @@ Sight LineOfSight::at(Vec2 place, double tolerance) const noexcept {
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
   const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(beam - aside + 0.5)));
   const auto last = std::min(static_cast<std::size_t>(beams_) - 1, static_cast<std::size_t>(beam + aside + 0.5));
-  bool through = first <= last;
+  bool goes_on = false, ends = false;
   for (std::size_t b = first; b <= last; ++b) {
+    if (but.has(b)) continue;
     const double range = static_cast<double>(scan_.range_m[b]);
     if (scan_.is_hit(b) && std::fabs(range - away) < tolerance) return Sight::kThere;
-    through = through && scan_.is_hit(b) && range > away;
+    (scan_.is_hit(b) && range > away ? goes_on : ends) = true;
   }
-  return through ? Sight::kThrough : Sight::kUnseen;
+  return goes_on && !ends ? Sight::kThrough : Sight::kUnseen;
 }
 
 }  // namespace jaywalk

@@ -4,6 +4,7 @@
 
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
+#include "planner/perception/scan_points.h"
 
 namespace jaywalk {
 
@@ -20,8 +21,9 @@ class LineOfSight {
   LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser, const Twist2& twist);
 
   /// At the beams that come within `tolerance_m` of the place, as seen from the laser. One that ends within
-  /// `tolerance_m` of its distance shows that something is there; of the others all must go on beyond it.
-  [[nodiscard]] Sight at(Vec2 place_in_map, double tolerance_m) const noexcept;
+  /// `tolerance_m` of its distance shows that something is there; of the others all must go on beyond it. `but` are not
+  /// asked: beams that end on something beside the place that is known.
+  [[nodiscard]] Sight at(Vec2 place_in_map, double tolerance_m, const BeamRun& but = {}) const noexcept;
 
  private:
   /// A place as the laser sees it: how far off, and at which beam (a real number; beam_count and more: outside).

@@ -66,16 +66,16 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
   }
 }
 
-void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBeams>& points, const IsStill& still,
+void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBeams>& points, const Entries& entries,
                      std::size_t count, double step_s) noexcept {
   if (++scan_ == 0) {  // the count of scans ran over: old marks would look new
     std::fill(visited_in_.begin(), visited_in_.end(), std::uint16_t{0});
     scan_ = 1;
   }
   for (std::size_t k = 0; k < count; ++k) {
-    if (!still[k]) continue;
+    if (entries[k] == Becomes::kNothing) continue;
     const bool first = first_visit(map.cell_at(points[k]));
-    map.add_hit(points[k], first ? kHit : 0, first ? step_s : 0.0);
+    map.add_hit(points[k], first ? kHit : 0, first && entries[k] == Becomes::kWall ? step_s : 0.0);
   }
   for (std::size_t k = 0; k < count; ++k) free_along(map, laser, points[k]);
 }

@@ -9,8 +9,13 @@
 
 namespace jaywalk {
 
-/// Which of a scan's points may become walls.
-using IsStill = std::array<bool, kMaxBeams>;
+/// What a scan's point may become in the map.
+enum class Becomes : std::uint8_t {
+  kNothing,   ///< somebody moves there: only the way to it is free
+  kObstacle,  ///< and no wall yet, however long it is seen: somebody may stand there (EvidenceMap::stands)
+  kWall,      ///< an obstacle, and a wall in time
+};
+using Entries = std::array<Becomes, kMaxBeams>;
 
 /// Enters scans: a beam's cells up to just before its end are free, the cell it ends in is occupied. Each cell changes
 /// at most once a scan, and an end counts more than a passing beam. Memory: 2 bytes a cell, taken in the constructor.
@@ -18,10 +23,10 @@ class MapEntry {
  public:
   explicit MapEntry(const EvidenceMap& map);
 
-  /// `points_in_map[k]` and `still[k]` belong to point k of `count`; points that are not still free the cells
-  /// before them and add nothing where they end. `step_s`: since the scan before.
+  /// `points_in_map[k]` and `entries[k]` belong to point k of `count`; all free the cells before them. `step_s`: since
+  /// the scan before.
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
-             const IsStill& still, std::size_t count, double step_s = 0.0) noexcept;
+             const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 
  private:
   [[nodiscard]] bool first_visit(CellIndex cell) noexcept;

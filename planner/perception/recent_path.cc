@@ -19,16 +19,17 @@ double noise_variance(double left_m2, std::size_t n) {
 
 }  // namespace
 
-void RecentPath::add(Time when, Vec2 where, double width) noexcept {
+void RecentPath::add(Time when, Vec2 where, double width, bool whole) noexcept {
   if (count_ > 0 && when - at(count_ - 1).since < kApart) {
     Place& newest = places_[(count_ - 1) % kPlaces];
     newest.seen += 1;
     newest.when += (when - newest.when) / newest.seen;
     newest.where = newest.where + (where - newest.where) * (1.0 / newest.seen);
     newest.width_m = width;
+    newest.whole = whole;
     return;
   }
-  places_[count_ % kPlaces] = {when, when, where, width, 1};
+  places_[count_ % kPlaces] = {when, when, where, width, whole, 1};
   ++count_;
 }
 
@@ -43,13 +44,14 @@ double RecentPath::hop(std::size_t k) const noexcept {
   return distance(at(k - 1).where, at(k).where) - kWalkMps * walked_s;
 }
 
-double RecentPath::width_change(std::size_t begin) const noexcept {
+void RecentPath::note_widths(std::size_t begin, StraightWalk& walk) const noexcept {
   double widest = 0.0, narrowest = std::numeric_limits<double>::infinity();
   for (std::size_t k = begin; k < count_; ++k) {
     const double width = at(k).width_m;
-    if (width > 0.0) widest = std::max(widest, width), narrowest = std::min(narrowest, width);
+    walk.widest_m = std::max(walk.widest_m, width);
+    if (at(k).whole) widest = std::max(widest, width), narrowest = std::min(narrowest, width);
   }
-  return std::max(0.0, widest - narrowest);
+  walk.width_change_m = std::max(0.0, widest - narrowest);
 }
 
 StraightWalk RecentPath::fit() const noexcept {
@@ -82,7 +84,7 @@ StraightWalk RecentPath::fit() const noexcept {
   const double explained = dot(velocity, tp);
   walk.explained = explained / scatter;
   walk.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n));
-  walk.width_change_m = width_change(begin);
+  note_widths(begin, walk);
   return walk;
 }
 

@@ -15,7 +15,8 @@ struct StraightWalk {
   double duration_s = 0.0;      ///< from the oldest place to the newest
   double longest_hop_m = 0.0;   ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
   double sigmas = 0.0;          ///< length over its own standard deviation, by the places' scatter about the walk
-  double width_change_m = 0.0;  ///< widest less narrowest of the places whose width is known
+  double widest_m = 0.0;        ///< that was seen of it at any of the places
+  double width_change_m = 0.0;  ///< widest less narrowest of the places where it was seen whole
   double explained = 0.0;  ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
 };
 
@@ -24,8 +25,8 @@ struct StraightWalk {
 /// explains 75 %.
 class RecentPath {
  public:
-  /// `width_m`: of what was seen there; 0: not known, part of it was hidden.
-  void add(Time when, Vec2 where_in_map, double width_m = 0.0) noexcept;
+  /// `width_m`: of what was seen there, which was all of it or a part.
+  void add(Time when, Vec2 where_in_map, double width_m = 0.0, bool whole = false) noexcept;
   void clear() noexcept { count_ = 0; }
   /// Least squares over the remembered places, x and y against time.
   [[nodiscard]] StraightWalk fit() const noexcept;
@@ -38,6 +39,7 @@ class RecentPath {
     Time since = kNever, when = kNever;  ///< first of them, mean of them
     Vec2 where;
     double width_m = 0.0;
+    bool whole = false;
     int seen = 0;
   };
   static constexpr std::size_t kPlaces = kRemembers / kApart + 1;
@@ -45,7 +47,7 @@ class RecentPath {
   [[nodiscard]] const Place& at(std::size_t k) const { return places_[k % kPlaces]; }
   /// How much farther it is from the place before to place `k` than a walker comes in the time.
   [[nodiscard]] double hop(std::size_t k) const noexcept;
-  [[nodiscard]] double width_change(std::size_t begin) const noexcept;
+  void note_widths(std::size_t begin, StraightWalk& walk) const noexcept;
   /// The oldest place that is not forgotten.
   [[nodiscard]] std::size_t first() const noexcept;
 

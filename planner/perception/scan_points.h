@@ -14,6 +14,12 @@ struct ScanPoint {
   std::uint32_t beam = 0;
 };
 
+/// Beams [first, last] of a scan; none at first.
+struct BeamRun {
+  std::uint32_t first = 1, last = 0;
+  [[nodiscard]] constexpr bool has(std::size_t beam) const { return beam >= first && beam <= last; }
+};
+
 using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 
 /// From a beam of the scan to the next, s; 0 for a scan taken all at once, or by a robot that stands.

@@ -63,25 +63,28 @@ GroundShares shares_of(const Segment& segment, const PointsInMap& in_map) {
   return {wall / count, free / count};
 }
 
-/// Where something nearer stands beside the cluster, or the sweep ends, it may go on unseen.
-void note_hidden_sides(const ScanPoints& points, std::uint32_t last_beam, Cluster& cluster) {
-  const std::uint32_t first = cluster.segment.first, last = cluster.segment.last;
-  const auto nearer = [&](std::uint32_t end, std::uint32_t beside) {
-    const std::uint32_t apart =
-        std::max(points[end].beam, points[beside].beam) - std::min(points[end].beam, points[beside].beam);
-    return apart == 1 && points[beside].range_m <= points[end].range_m;
-  };
-  cluster.low_hidden = points[first].beam == 0 || (first > 0 && nearer(first, first - 1));
-  cluster.high_hidden = points[last].beam == last_beam || (last + 1 < points.size() && nearer(last, last + 1));
+/// `beside` is the point before `end` or after it; past either end of the list there is none.
+End end_at(const ScanPoints& points, std::size_t end, std::size_t beside) {
+  if (beside >= points.size()) return End::kUnknown;
+  const std::uint32_t low = std::min(points[end].beam, points[beside].beam);
+  if (std::max(points[end].beam, points[beside].beam) - low != 1) return End::kUnknown;
+  return points[beside].range_m <= points[end].range_m ? End::kHidden : End::kSeen;
 }
 
-/// What neighbouring segment `n` +- 1 hides the cluster that segment `n` is.
+void note_ends(const ScanPoints& points, std::uint32_t last_beam, Cluster& cluster) {
+  const std::size_t first = cluster.segment.first, last = cluster.segment.last;
+  cluster.beams = {points[first].beam, points[last].beam};
+  cluster.low_end = cluster.beams.first == 0 ? End::kHidden : end_at(points, first, first - 1);
+  cluster.high_end = cluster.beams.last == last_beam ? End::kHidden : end_at(points, last, last + 1);
+}
+
+/// Whether the neighbouring segment that hides the cluster, itself segment `n`, may hide more than a leg.
 void note_what_hides(const Segments& segments, std::size_t n, const PointsInMap& in_map, Cluster& cluster) {
-  const auto wide = [&](const Segment& s) {
-    return distance(in_map.position[s.first], in_map.position[s.last]) > kLegsM;
+  const auto wide = [&](std::size_t s) {
+    return s < segments.size() &&
+           distance(in_map.position[segments[s].first], in_map.position[segments[s].last]) > kLegsM;
   };
-  cluster.behind_more = (cluster.low_hidden && n > 0 && wide(segments[n - 1])) ||
-                        (cluster.high_hidden && n + 1 < segments.size() && wide(segments[n + 1]));
+  cluster.behind_more = (cluster.low_hidden() && wide(n - 1)) || (cluster.high_hidden() && wide(n + 1));
 }
 
 bool body_sized(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map) {
@@ -127,9 +130,9 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
     if (shares.wall > kMostWall) continue;
     Cluster cluster = cluster_of(segment, points, in_map, laser);
     cluster.in_free_space = shares.free > kMostFree;
-    note_hidden_sides(points, last_beam, cluster);
+    note_ends(points, last_beam, cluster);
     note_what_hides(segments, n, in_map, cluster);
-    if (!cluster.in_free_space && cluster.low_hidden && cluster.high_hidden) continue;
+    if (!cluster.in_free_space && cluster.low_hidden() && cluster.high_hidden()) continue;
     if (!out.push_back(cluster)) return;
   }
 }

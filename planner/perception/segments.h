@@ -21,24 +21,36 @@ using Outline = FixedVector<Vec2, 5>;
 inline constexpr std::size_t kMaxSegments = 512;
 using Segments = FixedVector<Segment, kMaxSegments>;
 
+/// What the beam beside a cluster says of that end of it.
+enum class End : std::uint8_t {
+  kUnknown,  ///< it returned nothing: what is seen at a slant may go on unseen
+  kSeen,     ///< it goes on beyond
+  kHidden,   ///< it ends on something nearer, or the sweep is over: the cluster may go on behind
+};
+
 /// A segment with no wall behind it that is small enough for a body: something may have come there.
 struct Cluster {
   Segment segment;
+  BeamRun beams{};         ///< that end on it, and those between
   Vec2 centre_in_map;      ///< of the body: behind the visible arc
   double radius_m = 0.0;   ///< half of the visible width
   double range_m = 0.0;    ///< from the laser
   double spacing_m = 0.0;  ///< from beam to beam, across them
   Outline outline_in_map;
-  Vec2 along;                                    ///< unit vector of the beams, away from the laser
-  Vec2 high_side;                                ///< unit vector across the beams, from the first to the last
-  bool low_hidden = false, high_hidden = false;  ///< at its first and last beam: it may go on behind something nearer
-  bool behind_more = false;                      ///< that is wider than legs
-  bool in_free_space = false;                    ///< most of it stands where nothing stood before
-  std::uint32_t track_id = 0;                    ///< of the body that it was given to; 0: none
+  Vec2 along;                                             ///< unit vector of the beams, away from the laser
+  Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last
+  End low_end = End::kUnknown, high_end = End::kUnknown;  ///< at its first and last beam
+  bool behind_more = false;                               ///< what hides it is wider than legs
+  bool in_free_space = false;                             ///< most of it stands where nothing stood before
+  std::uint32_t track_id = 0;                             ///< of the body that it was given to; 0: none
 
-  [[nodiscard]] bool whole() const { return !low_hidden && !high_hidden; }
-  /// Seen on one side of something wider than legs.
-  [[nodiscard]] bool emerges() const { return behind_more && low_hidden != high_hidden; }
+  [[nodiscard]] bool low_hidden() const { return low_end == End::kHidden; }
+  [[nodiscard]] bool high_hidden() const { return high_end == End::kHidden; }
+  [[nodiscard]] bool whole() const { return !low_hidden() && !high_hidden(); }
+  /// Seen on one side of something wider than legs, and to end on the other.
+  [[nodiscard]] bool emerges() const {
+    return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);
+  }
   /// Leg-sized: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
 };

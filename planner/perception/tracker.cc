@@ -6,6 +6,8 @@
 
 #include "planner/perception/association.h"
 #include "planner/perception/bodies.h"
+#include "planner/perception/entries.h"
+#include "planner/perception/first_scans.h"
 #include "planner/perception/hidden_walkers.h"
 #include "planner/perception/kalman.h"
 #include "planner/perception/map_entry.h"
@@ -24,11 +26,11 @@ constexpr Duration kHiddenMovesFor = std::chrono::seconds(1);  // who is hidden 
 constexpr double kGivenUnseenForS = 1.0;                       // one from outside, this long after its last report
 constexpr std::uint32_t kTentativeMisses = 2;                  // one not believed yet may be missed this often
 constexpr double kSeenGain = 0.15;                             // of the running mean of how often a body was seen
-constexpr double kFreeGain = 0.3;      // of the running mean of how free the ground under a body was
-constexpr double kNoiseGain = 0.075;   // a scan: a second teaches how noisy a body is
-constexpr double kMostNoise = 25.0;    // times the variance expected, or as small a part of it
-constexpr double kMostSurprise = 8.0;  // that one scan teaches: more is another's place
-constexpr double kRadiusGain = 0.2;    // of the running mean of a body's radius
+constexpr double kFreeGain = 0.3;       // of the running mean of how free the ground under a body was
+constexpr double kNoiseGain = 0.075;    // a scan: a second teaches how noisy a body is
+constexpr double kMostNoise = 25.0;     // times the variance expected, or as small a part of it
+constexpr double kMostSurprise = 16.0;  // that one scan teaches: more is another's place
+constexpr double kRadiusGain = 0.2;     // of the running mean of a body's radius
 
 bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading); }
 
@@ -61,11 +63,10 @@ struct Tracker::State {
   void drop_own_points() noexcept;
   void associate_and_correct() noexcept;
   void take(Body& body, const Observation& seen) noexcept;
-  void judge(const LineOfSight& sight) noexcept;
+  void judge(const LineOfSight& sight, const Twist2& twist) noexcept;
   void drop_unseen(const LineOfSight& sight) noexcept;
   [[nodiscard]] bool gone(const Body& body) const noexcept;
   void birth() noexcept;
-  [[nodiscard]] bool kept_out_of_map(const Cluster& cluster) const noexcept;
   void enter_still() noexcept;
   void publish() noexcept;
 
@@ -78,9 +79,10 @@ struct Tracker::State {
   PointsInMap in_map;
   Segments segments;
   Clusters clusters;
-  IsStill is_still{};
+  Entries entries{};
   Pose2 map_from_laser;
 
+  FirstScans first_scans;
   Bodies bodies;
   HiddenWalkers hidden;
   std::uint32_t last_id = 0;
@@ -142,8 +144,9 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   const bool after_a_gap = to_seconds(now - body.track.last_seen) > kPathBreaksS;
   if (after_a_gap) body.path.clear();
   track.last_seen = now;
-  body.path.add(now, seen.position_in_map, seen.width_m);
+  body.path.add(now, seen.position_in_map, seen.width_m, seen.whole);
   body.outline_in_map = seen.outline_in_map;
+  body.beams = seen.beams;
   body.whole = seen.whole;
   body.edge_m = seen.edge_m;
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
@@ -166,8 +169,12 @@ void Tracker::State::associate_and_correct() noexcept {
   }
 }
 
-void Tracker::State::judge(const LineOfSight& sight) noexcept {
-  for (Body& body : bodies) judge_motion(body, sight, map_from_laser, now);
+void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexcept {
+  const bool misled = first_scans.mislead(twist, now);
+  for (Body& body : bodies) {
+    if (misled && !body.given) forget_walk(body, map_from_laser, now);
+    judge_motion(body, sight, map_from_laser, now);
+  }
 }
 
 bool Tracker::State::gone(const Body& body) const noexcept {
@@ -204,29 +211,10 @@ void Tracker::State::birth() noexcept {
   }
 }
 
-bool Tracker::State::kept_out_of_map(const Cluster& cluster) const noexcept {
-  const auto body =
-      std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.track.id == cluster.track_id; });
-  if (body == bodies.end()) return false;
-  return body->track.moving || (cluster.in_free_space && body->confirmed() && !body->settled);
-}
-
 void Tracker::State::enter_still() noexcept {
-  std::fill(is_still.begin(), is_still.begin() + static_cast<std::ptrdiff_t>(points.size()), true);
-  for (const Cluster& c : clusters) {
-    if (!kept_out_of_map(c)) continue;
-    for (std::uint32_t k = c.segment.first; k <= c.segment.last; ++k) is_still[k] = false;
-  }
-  for (const Body& body : bodies) {
-    if (!body.track.moving) continue;
-    for (std::size_t k = 0; k < points.size(); ++k) {
-      const Vec2 p = in_map.position[k];
-      const bool near = distance(p, body.track.position_in_map) < body.track.radius_m + kSkinM;
-      if (near && !still.occupied(still.cell_at(p))) is_still[k] = false;
-    }
-  }
+  decide_entries(bodies, clusters, in_map, points.size(), still, now, entries);
   still.roll_to(map_from_laser.position());
-  entry.enter(still, map_from_laser.position(), in_map.position, is_still, points.size(), step_s);
+  entry.enter(still, map_from_laser.position(), in_map.position, entries, points.size(), step_s);
 }
 
 void Tracker::State::publish() noexcept {
@@ -251,7 +239,7 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   s.look(scan, map_from_robot, twist);
   s.associate_and_correct();
   const LineOfSight sight(scan, map_from_robot, s.config.robot_from_laser, twist);
-  s.judge(sight);
+  s.judge(sight, twist);
   s.drop_unseen(sight);
   s.birth();
   s.enter_still();

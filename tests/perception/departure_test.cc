@@ -46,7 +46,7 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
   CHECK(departure(body, sight, {}) == Departure::kCertain);
   body.path.clear();
   for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
-    body.path.add(time_from_seconds(0.1 * k), {3.0, 0.02 * k}, 0.2 + 0.04 * k);
+    body.path.add(time_from_seconds(0.1 * k), {3.0, 0.02 * k}, 0.2 + 0.04 * k, true);
   CHECK(departure(body, sight, {}) == Departure::kNone);
 }
 
@@ -62,6 +62,45 @@ TEST_CASE("who comes out from behind something has set out by the way of the sid
   CHECK(departure(body, sight, {}) == Departure::kLikely);
   body.edge_m = 0.15;  // so far apart are the beams: the way is not longer than one and a half of that
   CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
+TEST_CASE("on unknown ground who comes out must go straight, and what comes into view is no wider than half a body") {
+  // 0.2 m in a second, the ground beside it hidden by a wall: nothing is known of where it was.
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.whole = false;
+  body.edge_m = 0.03;
+  body.free_share = 0.0;
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
+  const LaserScan scan = scan_of(room, {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(departure(body, sight, {}) == Departure::kLikely);
+  Body swaying = body;
+  swaying.path.clear();
+  for (int k = 1; k <= 10; ++k)  // 2 cm to either side, whatever the walk explains is 76 %
+    swaying.path.add(time_from_seconds(0.1 * k), {3.0 + (k % 2 == 0 ? 0.02 : -0.02), 0.02 * k});
+  CHECK(departure(swaying, sight, {}) == Departure::kNone);
+  body.path.add(time_from_seconds(1.1), {3.0, 0.22}, 0.6);  // its middle goes where more of it comes into view
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
+TEST_CASE("beams that end on a body do not say that it still stands where it set out from") {
+  // Half a metre wide and 8 m off, it goes 0.15 m away and as far to the left. Its right side was at (8, -0.25), 0.21 m
+  // from where it is now: more than 0.20 m, within which anything there is the same. But the beams to that place, three
+  // to either side of -1.8 degrees, reach to -0.8, and its right side is at -0.7 degrees and 0.15 m farther off.
+  Body body = walker({8.0, 0.0}, {8.15, 0.15});
+  body.arc_m = 0.25;
+  for (std::size_t k = 0; k < 5; ++k) {
+    body.anchor_outline[k] = {8.0, -0.25 + 0.125 * static_cast<double>(k)};
+    body.outline_in_map[k] = body.anchor_outline[k] + Vec2{0.15, 0.15};
+  }
+  Room room = rectangle(24.0, 10.0);
+  room.walls.push_back({{8.15, -0.1}, {8.15, 0.4}});
+  const LaserScan scan = scan_of(room, {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+  body.beams = {403, 413};  // beam 405 is straight ahead: -0.67 to 2.67 degrees
+  CHECK(departure(body, sight, {}) == Departure::kCertain);
 }
 
 TEST_CASE("a body that came to free space is known by a shorter walk than one on unknown ground") {

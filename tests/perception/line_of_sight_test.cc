@@ -39,6 +39,16 @@ TEST_CASE("a place is passed over only where all beams near it go on") {
   CHECK(sight.at({2.5, 0.14}, 0.05) == Sight::kUnseen);
 }
 
+TEST_CASE("beams that are not asked say nothing") {
+  const LaserScan scan = scan_of(with_post(), {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  // Beam 405 is straight ahead, a third of a degree from the next. The post is seen by those within 2.87 degrees of it,
+  // 397 to 413; the place is 3.6 degrees aside, at beam 415.8, and three beams to either side of it are asked.
+  CHECK(sight.at({1.9, 0.12}, 0.1) == Sight::kThere);
+  CHECK(sight.at({1.9, 0.12}, 0.1, {397, 413}) == Sight::kThrough);
+  CHECK(sight.at({1.9, 0.12}, 0.1, {0, 810}) == Sight::kUnseen);
+}
+
 TEST_CASE("what returns nothing proves nothing") {
   LaserScan scan = scan_of(with_post(), {}, 1);
   for (float& r : scan.range_m) r = std::numeric_limits<float>::infinity();

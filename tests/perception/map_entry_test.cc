@@ -10,12 +10,13 @@ struct Entered {
   EvidenceMap map{64, 0.1, {0.0, 0.0}};
   MapEntry entry{map};
   std::array<Vec2, kMaxBeams> points{};
-  IsStill still{};
+  Entries entries{};
+  double step_s = 0.0;
 
-  void enter(std::initializer_list<Vec2> ends, bool are_still, int times) {
+  void enter(std::initializer_list<Vec2> ends, Becomes what, int times) {
     std::size_t n = 0;
-    for (const Vec2& p : ends) still[n] = are_still, points[n++] = p;
-    for (int k = 0; k < times; ++k) entry.enter(map, {0.05, 0.05}, points, still, n);
+    for (const Vec2& p : ends) entries[n] = what, points[n++] = p;
+    for (int k = 0; k < times; ++k) entry.enter(map, {0.05, 0.05}, points, entries, n, step_s);
   }
 };
 
@@ -23,10 +24,10 @@ struct Entered {
 
 TEST_CASE("two scans make an obstacle and three make free space before it") {
   Entered e;
-  e.enter({{1.05, 0.05}}, true, 2);
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 2);
   CHECK(e.map.occupied({10, 0}));
   CHECK_FALSE(e.map.seen_free({5, 0}));
-  e.enter({{1.05, 0.05}}, true, 1);
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 1);
   CHECK(e.map.seen_free({5, 0}));
   CHECK(e.map.seen_free({9, 0}));       // up to just before the hit
   CHECK(e.map.evidence({11, 0}) == 0);  // and nothing behind it
@@ -34,7 +35,7 @@ TEST_CASE("two scans make an obstacle and three make free space before it") {
 
 TEST_CASE("a beam frees every cell that it crosses, also on a slant") {
   Entered e;
-  e.enter({{0.35, 0.25}}, true, 3);
+  e.enter({{0.35, 0.25}}, Becomes::kWall, 3);
   // From (0.05, 0.05) with slope 2/3 the border x = 0.1 is crossed at y = 0.083, then y = 0.1 at x = 0.125,
   // x = 0.2 at y = 0.15, y = 0.2 at x = 0.275, x = 0.3 at y = 0.217: cells (0,0) (1,0) (1,1) (2,1) (2,2) (3,2).
   for (const CellIndex c : {CellIndex{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}}) CHECK(e.map.seen_free(c));
@@ -45,7 +46,7 @@ TEST_CASE("a beam frees every cell that it crosses, also on a slant") {
 
 TEST_CASE("a cell changes once a scan, and an end counts more than passing beams") {
   Entered e;
-  e.enter({{0.55, 0.05}, {1.05, 0.05}, {1.05, 0.06}}, true, 1);
+  e.enter({{0.55, 0.05}, {1.05, 0.05}, {1.05, 0.06}}, Becomes::kWall, 1);
   CHECK(e.map.evidence({5, 0}) > 0);  // beams to 1.05 pass through it
   CHECK(e.map.evidence({10, 0}) == e.map.evidence({5, 0}));
   CHECK(e.map.evidence({2, 0}) < 0);
@@ -53,22 +54,34 @@ TEST_CASE("a cell changes once a scan, and an end counts more than passing beams
 
 TEST_CASE("what moves frees the way to it and leaves no mark") {
   Entered e;
-  e.enter({{1.05, 0.05}}, false, 5);
+  e.enter({{1.05, 0.05}}, Becomes::kNothing, 5);
   CHECK(e.map.evidence({10, 0}) == 0);
   CHECK(e.map.seen_free({9, 0}));
 }
 
+TEST_CASE("where somebody may stand is an obstacle and no wall however long it is seen") {
+  Entered e;
+  e.step_s = 0.1;
+  e.enter({{1.05, 0.05}}, Becomes::kObstacle, 20);
+  CHECK(e.map.occupied({10, 0}));
+  CHECK_FALSE(e.map.stands({10, 0}));
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 10);  // 0.1 s counts as 6/64 s: 0.94 s
+  CHECK_FALSE(e.map.stands({10, 0}));
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 1);
+  CHECK(e.map.stands({10, 0}));
+}
+
 TEST_CASE("a ghost is gone within nine scans that look through it") {
   Entered e;
-  e.enter({{0.55, 0.05}}, true, 50);
+  e.enter({{0.55, 0.05}}, Becomes::kWall, 50);
   REQUIRE(e.map.evidence({5, 0}) == EvidenceMap::kMax);
-  e.enter({{1.05, 0.05}}, true, 9);  // 64 - 9 x 6 = 10
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 9);  // 64 - 9 x 6 = 10
   CHECK_FALSE(e.map.occupied({5, 0}));
 }
 
 TEST_CASE("a surface is remembered to a fraction of its cell") {
   Entered e;
-  for (int k = 0; k < 40; ++k) e.enter({{1.02, 0.07}}, true, 1);
+  for (int k = 0; k < 40; ++k) e.enter({{1.02, 0.07}}, Becomes::kWall, 1);
   CHECK(e.map.surface({10, 0}).x == Approx(1.02).margin(0.002));
   CHECK(e.map.surface({10, 0}).y == Approx(0.07).margin(0.002));
 }

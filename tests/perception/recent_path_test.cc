@@ -63,9 +63,11 @@ TEST_CASE("a walk is as many standard deviations long as its places scatter abou
   CHECK(path.fit().sigmas == Approx(0.40005 * 0.9083 / 0.0082756).epsilon(1e-3));
 }
 
-TEST_CASE("width changes by the widest less the narrowest of those known") {
+TEST_CASE("width changes by the widest less the narrowest of those seen whole") {
   RecentPath path;
-  const double widths[] = {0.5, 0.0, 0.42, 0.61, 0.0};  // 0: partly hidden
-  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0}, widths[k]);
+  const double widths[] = {0.5, 0.2, 0.42, 0.61, 0.7};
+  const bool whole[] = {true, false, true, true, false};
+  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0}, widths[k], whole[k]);
   CHECK(path.fit().width_change_m == Approx(0.19));
+  CHECK(path.fit().widest_m == Approx(0.7));
 }

@@ -110,19 +110,33 @@ TEST_CASE("in unknown space what goes on behind nearer things on both sides is n
 
 TEST_CASE("a body half behind something nearer knows which of its sides is hidden") {
   Room room;
-  room.walls = {{{1.0, 0.0}, {1.0, -0.8}}};  // hides what lies to the right of straight ahead
+  room.walls = {{{1.0, 0.0}, {1.0, -0.8}},
+                {{5.0, -4.0}, {5.0, 4.0}}};  // hides what lies to the right of straight ahead
   room.discs = {{{3.0, 0.0}, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
   const Cluster* half = nullptr;
   for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
   REQUIRE(half != nullptr);
-  CHECK(half->low_hidden);  // beams count from right to left
-  CHECK_FALSE(half->high_hidden);
+  CHECK(half->low_hidden());  // beams count from right to left
+  CHECK_FALSE(half->high_hidden());
   CHECK_FALSE(half->whole());
   CHECK(half->emerges());
   CHECK(half->radius_m == Approx(0.135).margin(0.02));
   CHECK(half->high_side.y > 0.99);
   CHECK(half->along.x > 0.99);
+}
+
+TEST_CASE("a side beside which beams return nothing is not seen to end") {
+  Room room;
+  room.walls = {{{1.0, 0.0}, {1.0, -0.8}}};  // hides one half, and behind the other there is nothing
+  room.discs = {{{3.0, 0.0}, 0.27}};
+  const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+  const Cluster* half = nullptr;
+  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  REQUIRE(half != nullptr);
+  CHECK(half->low_end == End::kHidden);
+  CHECK(half->high_end == End::kUnknown);
+  CHECK_FALSE(half->emerges());
 }
 
 TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding one another") {
@@ -132,17 +146,19 @@ TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding 
   const Cluster* half = nullptr;
   for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
   REQUIRE(half != nullptr);
-  CHECK(half->low_hidden);
+  CHECK(half->low_hidden());
   CHECK_FALSE(half->emerges());
 }
 
 TEST_CASE("what reaches the end of the sweep may go on outside it") {
-  Room room;
+  Room room = rectangle(10.0, 10.0);
   room.discs = {{direction(0.75 * kPi) * 3.0, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
   REQUIRE(cut->clusters.size() == 1);
-  CHECK(cut->clusters[0].high_hidden);
-  CHECK_FALSE(cut->clusters[0].low_hidden);
+  CHECK(cut->clusters[0].high_hidden());
+  CHECK_FALSE(cut->clusters[0].low_hidden());
+  CHECK_FALSE(cut->clusters[0].emerges());  // a glint on glass goes along with the robot there
+  CHECK(cut->clusters[0].beams.last == 810);
 }
 
 TEST_CASE("a scan in more pieces than fit is cut short and the rest counts as wall") {

@@ -89,6 +89,23 @@ TEST_CASE("a slow walker who was there from the first scan on is no wall that wa
   CHECK(scans <= 25);  // 15 cm takes 0.4 s, cells behind must be seen free
 }
 
+TEST_CASE("who stood when first seen is still the same one when he sets out") {
+  Watch watch;
+  for (int k = 0; k < 40; ++k) watch.see(with({{{3.0, -1.0}, 0.27}}));  // 2.7 s
+  REQUIRE(watch.tracker.tracks().size() == 1);
+  const std::uint32_t name = watch.tracker.tracks()[0].id;
+  const EvidenceMap& still = watch.tracker.still();
+  CHECK(still.occupied(still.cell_at({2.73, -1.0})));  // he is an obstacle all the same
+  int scans = 0;
+  while (watch.tracker.moving().empty() && scans < 60) {
+    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s
+    ++scans;
+  }
+  CHECK(scans <= 12);  // 0.8 s
+  REQUIRE(watch.tracker.moving().size() == 1);
+  CHECK(watch.tracker.moving()[0].id == name);
+}
+
 TEST_CASE("a robot that turns in a room sees nothing move") {
   Watch watch;
   Room room = with({{{2.0, 1.0}, 0.1}, {{-1.5, 2.0}, 0.25}, {{1.0, -2.0}, 0.05}});
