@@ -25,9 +25,10 @@ constexpr int kMostIterations = 10;
 constexpr double kNearM = 0.25;  // a wall's points about a scan's point
 constexpr double kThinWallM =
     0.06;  // standard deviation across: a wall seen with 5 cm of noise; thicker things have no direction
-constexpr double kPointStdM = 0.02;    // range noise and the map's own roughness
-constexpr double kDoubtM = 0.08;       // residuals beyond count less and less
-constexpr double kIndependent = 0.06;  // share of points whose errors are their own: neighbours share the map's
+constexpr double kPointStdM = 0.02;  // range noise and the map's own roughness
+constexpr double kDoubtM = 0.08;     // residuals beyond count less and less
+// Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking.md).
+constexpr double kIndependent = 0.06;
 
 /// One hit is enough to be matched against: at the start, and where walls come into view, there is no more.
 bool has_surface(const EvidenceMap& still, CellIndex cell) { return still.evidence(cell) > 0; }

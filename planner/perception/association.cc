@@ -18,7 +18,7 @@ constexpr double kLeastRadiusM = 0.2;  // whatever stands on legs is wider than 
 constexpr double kMostRadiusM = 0.5;
 
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle;
-// an arc's ends lie somewhere between beams.
+// an arc's ends lie somewhere between beams. An arc's are what simulated discs turned out to have (innovations of 2).
 constexpr double kOneLegStdM = 0.12;
 constexpr double kTwoLegsStdM = 0.08;
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
