@@ -52,10 +52,11 @@ const TickRecord& LoopRunner::tick_at(Time due) noexcept {
   return *record_;
 }
 
-void LoopRunner::report(const TrueState* truth) {
+void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
   RunSample sample{.record = *record_, .tracks = loop_.tracker().tracks(), .truth = truth, .tick_took = took_};
   if (loop_.plan().sequence != plan_reported_) sample.plan_ms = loop_.plan().duration_ms;
   plan_reported_ = loop_.plan().sequence;
+  if (own) sample.now = own(sample.now), sample.scanned = own(sample.scanned);
   report_.add(sample);
 }
 

@@ -31,8 +31,10 @@ class LoopRunner {
   const TickRecord& tick_at(Time due) noexcept;
   /// The thread that reports: writes out what has been recorded.
   void drain() { recorder_.drain(); }
-  /// Tells the report of the last step. `truth` may be null.
-  void report(const TrueState* truth);
+  /// What the tables are to say for a time of the loop's.
+  using OwnTime = std::function<Time(Time)>;
+  /// Tells the report of the last step. `truth` may be null; without `own` tables say the loop's times.
+  void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample) { report_.add(sample); }
   /// Closes recording, tables and summary; prints where they are. Call once.

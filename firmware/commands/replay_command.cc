@@ -66,9 +66,10 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   LoopRunner runner(setup, log.hal(), options.out, false);
   RunPicture picture;
   MountCheck mount;
+  const auto own_time = [&](Time t) { return log.log().own_time(t); };
   while (!log.ended()) {
     mount.add(runner.step().pose.map_from_robot);
-    runner.report(nullptr);
+    runner.report(nullptr, own_time);
     picture.consider(runner);
   }
   if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {

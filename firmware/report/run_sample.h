@@ -41,6 +41,8 @@ struct RunSample {
   const TrueState* truth = nullptr;    ///< null in a replay
   Duration tick_took{0};               ///< measured
   std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
+  Time now = record.now;  ///< as tables are to say it, here and below: a recording may have a clock of its own
+  Time scanned = record.scan.stamp;  ///< the scan's
 };
 
 /// How it ended and under which conditions.

@@ -29,7 +29,7 @@ void RunTables::add(const RunSample& sample) {
 
 void RunTables::add_robot(const RunSample& sample) {
   const TickRecord& r = sample.record;
-  robot_.seconds(r.now);
+  robot_.seconds(sample.now);
   add_pose(robot_, sample.truth ? sample.truth->map_from_robot : Pose2{kUnknown, kUnknown, kUnknown});
   const Twist2 twist = sample.truth ? sample.truth->twist : Twist2{kUnknown, kUnknown};
   robot_.number(twist.v_mps).number(twist.w_radps);
@@ -41,7 +41,7 @@ void RunTables::add_robot(const RunSample& sample) {
 
 void RunTables::add_movers(const RunSample& sample) {
   for (const TrueMover& mover : sample.truth->movers) {
-    movers_.seconds(sample.record.now).count(mover.id);
+    movers_.seconds(sample.now).count(mover.id);
     add_vector(movers_, mover.position_in_map);
     add_vector(movers_, mover.velocity_in_map);
     movers_.count(mover.forced ? 1 : 0).end_row();
@@ -50,7 +50,7 @@ void RunTables::add_movers(const RunSample& sample) {
 
 void RunTables::add_tracks(const RunSample& sample) {
   for (const Track& track : sample.tracks) {
-    tracks_.seconds(sample.record.scan.stamp).count(track.id);
+    tracks_.seconds(sample.scanned).count(track.id);
     add_vector(tracks_, track.position_in_map);
     add_vector(tracks_, track.velocity_in_map);
     tracks_.count(track.moving ? 1 : 0).number(std::sqrt(track.covariance.pp)).end_row();

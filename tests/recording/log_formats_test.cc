@@ -89,6 +89,38 @@ TEST_CASE("scans with motion increments carry their own odometry") {
   CHECK_THROWS_AS(load_scan_odom(scratch.path("log.txt"), scratch.write("odom.txt", "1 0 0 0 0 0\n")), StartupError);
 }
 
+TEST_CASE("scans that share their stamps while the robot drives are spaced evenly, and none is left out") {
+  // Six scans at 10 s, half a metre apart, and four a second apart: 9 steps over 4 s.
+  const Scratch scratch;
+  const std::string scan = " 0.5 0 0 3.14159265 30.0 2 1 1\n";
+  std::string lines;
+  for (const char* said : {"10", "10", "10", "10", "10", "10", "11", "12", "13", "14"}) lines += said + scan;
+  const RecordedLog log = load_scan_odom(scratch.write("log.txt", lines));
+  REQUIRE(log.scans.size() == 10);
+  CHECK(to_seconds(log.scans[3].stamp) == Approx(10.0 + 3 * 4.0 / 9));
+  CHECK(to_seconds(log.scans[9].stamp) == Approx(14.0));
+  CHECK(log.odometry[9].pose.x == Approx(4.5));
+  CHECK(log.refused.empty());
+  CHECK(log.complaint().find("drives in 5 lines though their time stands still") != std::string::npos);
+  CHECK(to_seconds(log.own_time(log.scans[3].stamp)) == Approx(10.0));
+  CHECK(to_seconds(log.own_time(log.scans[7].stamp)) == Approx(12.0));
+  const Time between = log.scans[7].stamp + (log.scans[8].stamp - log.scans[7].stamp) / 2;
+  CHECK(to_seconds(log.own_time(between)) == Approx(12.5));
+  CHECK(log.own_time(kNever) == log.own_stamps.front());
+  CHECK(log.own_time(Time::max()) == log.own_stamps.back());
+}
+
+TEST_CASE("five scans that share one stamp are a tenth of a second apart, and one scan where nothing moves") {
+  const Scratch scratch;
+  std::string driven, stood;
+  for (int k = 0; k < 6; ++k)
+    driven += "10 0.5 0 0 3.14159265 30.0 2 1 1\n", stood += "10 0 0 0 3.14159265 30.0 2 1 1\n";
+  const RecordedLog log = load_scan_odom(scratch.write("driven.txt", driven));
+  REQUIRE(log.scans.size() == 6);
+  CHECK(to_seconds(log.scans[5].stamp) == Approx(10.5));
+  CHECK(load_scan_odom(scratch.write("stood.txt", stood)).scans.size() == 1);
+}
+
 TEST_CASE("lines of a wrong length and lines back in time are left out, counted and told") {
   const Scratch scratch;
   const RecordedLog log = load_scan_odom(scratch.write("scan.txt",
@@ -242,7 +274,8 @@ TEST_CASE("the Intel logs load in both formats") {
   const auto motion = recording("intel/scans_odom.txt.gz");
   if (!motion) return;
   const RecordedLog log = load_scan_odom(*motion);
-  CHECK(log.scans.size() == 2726 - 241);  // 241 stamps stand still
+  CHECK(log.scans.size() == 2726);  // 241 stamps stand still, in 204 of them the robot drives
+  CHECK(log.complaint().find("drives in 204 lines") != std::string::npos);
   CHECK(log.scans[0].beams == 180);
   double way = 0.0;
   for (std::size_t i = 1; i < log.odometry.size(); ++i) {

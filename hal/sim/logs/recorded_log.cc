@@ -34,7 +34,18 @@ std::string RecordedLog::complaint() const {
     text += r.file + ": " + std::to_string(r.count) + (r.count == 1 ? " line" : " lines") +
             " left out, the first is line " + std::to_string(r.first_line) + ": " + r.cause + "\n";
   }
-  return text;
+  return remark.empty() ? text : text + remark + "\n";
+}
+
+Time RecordedLog::own_time(Time stamp) const {
+  if (own_stamps.empty()) return stamp;
+  if (stamp <= scans.front().stamp) return own_stamps.front();
+  const auto after = std::upper_bound(scans.begin(), scans.end(), stamp,
+                                      [](Time t, const RecordedScan& scan) { return t < scan.stamp; });
+  if (after == scans.end()) return own_stamps.back();
+  const auto k = static_cast<std::size_t>(after - scans.begin());
+  const double share = to_seconds(stamp - scans[k - 1].stamp) / to_seconds(after->stamp - scans[k - 1].stamp);
+  return own_stamps[k - 1] + duration_from_seconds(share * to_seconds(own_stamps[k] - own_stamps[k - 1]));
 }
 
 LaserModel RecordedLog::laser() const {

@@ -42,11 +42,15 @@ struct RecordedLog {
   std::vector<float> range_m;          ///< of all scans, one after the other
   std::vector<OdometryPose> odometry;  ///< empty where the recording has none
   std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
+  std::vector<Time> own_stamps;  ///< of the scans, as recorded, where theirs are even instead (LineClock); or empty
+  std::string remark;            ///< what else a person should know; or empty
 
   /// Counts a line that is left out; the first of its kind is remembered.
   void refuse(const std::string& file, std::size_t line, std::string_view cause);
-  /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason.
+  /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason, and the remark.
   [[nodiscard]] std::string complaint() const;
+  /// The recording's own time at `stamp`: `stamp` itself where its times could be taken as they are.
+  [[nodiscard]] Time own_time(Time stamp) const;
   /// The laser as the first scan shows it, at the median rate. Noise and drop-out are unknown: zero.
   [[nodiscard]] LaserModel laser() const;
   /// How long a sweep takes when the laser spins once a scan, and no slower than ten times a second: logs are thinned
@@ -61,8 +65,9 @@ struct RecordedLog {
 ///                                                  since the line before, in its frame then
 /// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the
 /// second form the beams spread over the aperture as CARMEN's do (load_carmen), and the motion of
-/// a line that is left out still counts. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a
-/// robot that turns sees the whole room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
+/// a line that is left out still counts; where their times cannot be the laser's, LineClock's even ones take their
+/// place. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a robot that turns sees the whole
+/// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
 ///
 /// Lines of a wrong length, and those whose time does not grow, are left out and counted. Throws
 /// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.

@@ -1,6 +1,7 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/sim/logs/line_clock.h"
 #include "hal/sim/logs/recorded_log.h"
 #include "hal/sim/logs/scan_lines.h"
 #include "hal/types/errors.h"
@@ -57,25 +58,51 @@ void read_plain(RecordedLog& log, const LineFile& file) {
   add_scan(log, file, scan, kPlainHead, kNoLimit);
 }
 
-void read_motion(RecordedLog& log, const LineFile& file, Pose2& odometry) {
-  RecordedScan scan;
-  scan.stamp = time_from_seconds(file.seconds(0));
-  if (!log.scans.empty()) odometry = sound_pose(file, odometry * pose_at(file, 1));
-  scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
-  const BeamFan fan = carmen_fan(scan.beams, file.number(4));
-  scan.first_angle_rad = fan.first_angle_rad;
-  scan.angle_step_rad = fan.angle_step_rad;
-  const double max_range_m = file.number(5);
-  scan.range_max_m = static_cast<float>(max_range_m);
-  check_scan(file, scan);
-  if (add_scan(log, file, scan, kMotionHead, max_range_m)) log.odometry.push_back({scan.stamp, odometry, std::nullopt});
-}
+/// Reads the lines that tell how the robot moved since the line before.
+class MotionLines {
+ public:
+  /// By the lines' own times, or evenly where `wrong` is given: what a reading by their own times has found.
+  explicit MotionLines(RecordedLog& log, const LineClock* wrong = nullptr) : log_(log), wrong_(wrong) {}
 
-/// Reads the scans; true when they carried their own odometry.
-bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
+  void read(const LineFile& file) {
+    const Time said = time_from_seconds(file.seconds(0));
+    const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // where the first begins, it is
+    odometry_ = sound_pose(file, odometry_ * moved);
+    RecordedScan scan = scan_of(file);
+    scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
+    clock_.see(said, moved);
+    ++lines_;
+    if (!add_scan(log_, file, scan, kMotionHead, file.number(5))) return;
+    log_.odometry.push_back({scan.stamp, odometry_, std::nullopt});
+    if (wrong_ != nullptr) log_.own_stamps.push_back(said);
+  }
+
+  [[nodiscard]] const LineClock& clock() const { return clock_; }
+  [[nodiscard]] bool any() const { return lines_ > 0; }
+
+ private:
+  static RecordedScan scan_of(const LineFile& file) {
+    RecordedScan scan;
+    scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
+    const BeamFan fan = carmen_fan(scan.beams, file.number(4));
+    scan.first_angle_rad = fan.first_angle_rad;
+    scan.angle_step_rad = fan.angle_step_rad;
+    scan.range_max_m = static_cast<float>(file.number(5));
+    check_scan(file, scan);
+    return scan;
+  }
+
+  RecordedLog& log_;
+  const LineClock* wrong_;
+  LineClock clock_;
+  Pose2 odometry_;
+  std::size_t lines_ = 0;
+};
+
+/// True when the scans carried their own odometry.
+bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines& motion) {
   LineFile file(path);
   Form form = Form::kUnknown;
-  Pose2 odometry;
   while (file.next()) {
     if (form == Form::kUnknown) form = form_of(file);
     if (form == Form::kUnknown || !fits(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
@@ -83,11 +110,28 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
     } else if (form == Form::kPlain) {
       read_plain(log, file);
     } else {
-      read_motion(log, file, odometry);
+      motion.read(file);
     }
   }
   require_scans(log, file, "lines 't angle_min angle_inc range_min range_max n r1..rn'");
-  return form == Form::kMotion;
+  return motion.any();
+}
+
+/// The scans of `path` by their own times, or evenly where those cannot be the laser's.
+bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
+  MotionLines motion(log);
+  if (!read_scans(log, path, motion)) return false;
+  if (!motion.clock().wrong()) return true;
+  const LineClock wrong = motion.clock();
+  const Pose2 mount = log.robot_from_laser;
+  log = RecordedLog();
+  log.robot_from_laser = mount;
+  MotionLines evenly(log, &wrong);
+  (void)read_scans(log, path, evenly);
+  log.remark = path.string() + ": the robot drives in " + std::to_string(wrong.stood()) +
+               " lines though their time stands still: these are not the laser's times; its scans are taken to be "
+               "evenly spaced over the whole";
+  return true;
 }
 
 void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
