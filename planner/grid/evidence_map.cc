@@ -12,15 +12,7 @@ std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
   return static_cast<std::int8_t>(std::clamp(std::floor(next + 0.5), -127.0, 127.0));
 }
 
-constexpr double kSeenUnitsPerS = 64.0;
 constexpr double kLongestStepS = 0.25;  // one hit after a gap is one hit
-
-/// Rounded down and held within kFarthest: a number that no integer holds becomes another one on each processor.
-std::int32_t whole_cells(double cells) {
-  constexpr double kFarthest = 5e8;  // the sum of two differences of such still is an integer
-  const double not_below = cells > -kFarthest ? cells : -kFarthest;
-  return static_cast<std::int32_t>(std::floor(not_below < kFarthest ? not_below : kFarthest));
-}
 
 }  // namespace
 
@@ -34,23 +26,7 @@ EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
 
-CellIndex EvidenceMap::cell_at(Vec2 p) const { return {whole_cells(p.x / cell_m_), whole_cells(p.y / cell_m_)}; }
-
 Vec2 EvidenceMap::centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
-
-bool EvidenceMap::contains(CellIndex cell) const {
-  return cell.i >= low_.i && cell.i < low_.i + side_ && cell.j >= low_.j && cell.j < low_.j + side_;
-}
-
-std::size_t EvidenceMap::slot(CellIndex cell) const {
-  const auto mask = static_cast<std::uint32_t>(side_ - 1);
-  return static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
-         (static_cast<std::uint32_t>(cell.i) & mask);
-}
-
-std::int8_t EvidenceMap::evidence(CellIndex cell) const {
-  return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
-}
 
 void EvidenceMap::add(CellIndex cell, int change) noexcept {
   if (!contains(cell)) return;
@@ -58,10 +34,6 @@ void EvidenceMap::add(CellIndex cell, int change) noexcept {
   std::int8_t& e = evidence_[k];
   e = static_cast<std::int8_t>(std::clamp(e + change, kMin, kMax));
   if (e <= 0) seen_for_[k] = 0;
-}
-
-bool EvidenceMap::stands(CellIndex cell) const {
-  return occupied(cell) && seen_for_[slot(cell)] >= kSeenUnitsPerS * kStandsAfterS;
 }
 
 void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {

@@ -31,16 +31,22 @@ class EvidenceMap {
   [[nodiscard]] std::int32_t side() const { return side_; }
   [[nodiscard]] double cell_m() const { return cell_m_; }
   /// Beyond 500 million cells from the origin the last one there; what is not a number is in the first.
-  [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const;
+  [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const {
+    return {whole_cells(p_in_map.x / cell_m_), whole_cells(p_in_map.y / cell_m_)};
+  }
   [[nodiscard]] Vec2 centre_of(CellIndex cell) const;
-  [[nodiscard]] bool contains(CellIndex cell) const;
+  [[nodiscard]] bool contains(CellIndex cell) const { return within(cell.i, low_.i) && within(cell.j, low_.j); }
 
   /// Evidence of a cell; 0 (unknown) outside the window.
-  [[nodiscard]] std::int8_t evidence(CellIndex cell) const;
+  [[nodiscard]] std::int8_t evidence(CellIndex cell) const {
+    return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
+  }
   [[nodiscard]] bool occupied(CellIndex cell) const { return evidence(cell) > kOccupied; }
   [[nodiscard]] bool seen_free(CellIndex cell) const { return evidence(cell) < kFree; }
   /// Occupied, and hits were seen for kStandsAfterS of scans: longer than a walker stays in a cell.
-  [[nodiscard]] bool stands(CellIndex cell) const;
+  [[nodiscard]] bool stands(CellIndex cell) const {
+    return occupied(cell) && seen_for_[slot(cell)] >= kSeenUnitsPerS * kStandsAfterS;
+  }
 
   /// Adds to a cell's evidence, saturating in [kMin, kMax]; nothing happens outside the window.
   void add(CellIndex cell, int change) noexcept;
@@ -61,7 +67,27 @@ class EvidenceMap {
   static constexpr double kStandsAfterS = 1.0;
 
  private:
-  [[nodiscard]] std::size_t slot(CellIndex cell) const;
+  static constexpr double kSeenUnitsPerS = 64.0;
+
+  /// Rounded down and held within kFarthest: a number that no integer holds becomes another one on each processor.
+  /// Not std::floor, which is a call where the compiler may not count on SSE 4.1: this is asked ten thousand times a
+  /// scan.
+  static std::int32_t whole_cells(double cells) {
+    constexpr double kFarthest = 5e8;  // the sum of two differences of such still is an integer
+    const double not_below = cells > -kFarthest ? cells : -kFarthest,
+                 held = not_below < kFarthest ? not_below : kFarthest;
+    const auto towards_zero = static_cast<std::int32_t>(held);
+    return held < towards_zero ? towards_zero - 1 : towards_zero;
+  }
+  /// Whether `at` lies in [low, low + side): in unsigned numbers what is below is far above.
+  [[nodiscard]] bool within(std::int32_t at, std::int32_t low) const {
+    return static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(low) < static_cast<std::uint32_t>(side_);
+  }
+  [[nodiscard]] std::size_t slot(CellIndex cell) const {
+    const auto mask = static_cast<std::uint32_t>(side_ - 1);
+    return static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
+           (static_cast<std::uint32_t>(cell.i) & mask);
+  }
 
   std::int32_t side_;
   double cell_m_;

@@ -96,6 +96,7 @@ struct Localizer::State {
   double usual_fit = 0.0;  ///< running mean of the matches'
 
   ScanMatcher matcher;
+  ScanProjection projection;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
   Time scan_stamp = kNever;
@@ -194,7 +195,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   bool matched = false;
   if (config.match_scans) {
-    project_scan(scan, config.robot_from_laser, twist, points);
+    projection.project(scan, config.robot_from_laser, twist, points);
     const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
     const MatchResult found = match(predicted, still);
     matched = found.matched && finite(found.belief.map_from_robot);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 
 namespace jaywalk {
 namespace {
@@ -23,10 +24,12 @@ void leave_out_movers(const Bodies& bodies, const PointsInMap& in_map, std::size
                       Entries& out) {
   for (const Body& body : bodies) {
     if (!body.track.moving) continue;
+    const Vec2 middle = body.track.position_in_map;
+    const double reach = body.track.radius_m + kSkinM;
     for (std::size_t k = 0; k < count; ++k) {
       const Vec2 p = in_map.position[k];
-      const bool near = distance(p, body.track.position_in_map) < body.track.radius_m + kSkinM;
-      if (near && !still.occupied(still.cell_at(p))) out[k] = Becomes::kNothing;
+      if (!(std::fabs(p.x - middle.x) < reach && distance(p, middle) < reach)) continue;  // most end at the first
+      if (!still.occupied(still.cell_at(p))) out[k] = Becomes::kNothing;
     }
   }
 }

@@ -28,16 +28,25 @@ Pose2 moved_by(const Twist2& twist, double after_s) noexcept {
   return {travel.x, travel.y, turn};
 }
 
-void project_scan(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept {
+void ScanProjection::look_along(const LaserScan& scan, std::size_t beams) noexcept {
+  if (scan.first_angle_rad != first_angle_rad_ || scan.angle_step_rad != angle_step_rad_) known_ = 0;
+  first_angle_rad_ = scan.first_angle_rad;
+  angle_step_rad_ = scan.angle_step_rad;
+  for (; known_ < beams; ++known_) direction_[known_] = direction(scan.angle_rad(known_));
+}
+
+void ScanProjection::project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
+                             ScanPoints& out) noexcept {
   out.clear();
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
   if (!(std::fabs(scan.first_angle_rad) < kMostRad && std::fabs(scan.angle_step_rad) < kMostRad)) return;  // NaN too
+  look_along(scan, beams);
   const double beam_s = beam_interval_s(scan, twist);
   const Transform2 at_stamp(robot_from_laser);
   for (std::size_t b = 0; b < beams; ++b) {
     const double range = static_cast<double>(scan.range_m[b]);
     if (!scan.is_hit(b) || range < kNearestM || range > kFarthestBelievedM) continue;
-    Vec2 p = at_stamp * (direction(scan.angle_rad(b)) * range);
+    Vec2 p = at_stamp * (direction_[b] * range);
     if (beam_s != 0.0) p = Transform2(moved_by(twist, beam_s * static_cast<double>(b))) * p;
     (void)out.push_back({p, range, static_cast<std::uint32_t>(b)});  // never full: one point a beam
   }

@@ -75,6 +75,7 @@ struct Tracker::State {
   MapEntry entry;
 
   SelfMask self_mask;
+  ScanProjection projection;
   ScanPoints points;
   PointsInMap in_map;
   Segments segments;
@@ -109,7 +110,7 @@ void Tracker::State::predict_to(Time stamp) noexcept {
 
 void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept {
   self_mask.learn(scan, map_from_robot.heading);
-  project_scan(scan, config.robot_from_laser, twist, points);
+  projection.project(scan, config.robot_from_laser, twist, points);
   drop_own_points();
   map_from_laser = map_from_robot * config.robot_from_laser;
   const Transform2 to_map(map_from_robot);

@@ -17,7 +17,7 @@ struct SideBySide {
   explicit SideBySide(const std::vector<Vec2>& places) {
     Room room;
     for (const Vec2 place : places) room.discs.push_back({place, 0.27});
-    project_scan(scan_of(room, {}, 1), {}, {}, points);
+    ScanProjection().project(scan_of(room, {}, 1), {}, {}, points);
     for (std::size_t k = 0; k < points.size(); ++k) in_map.position[k] = points[k].in_robot;
     cut_at_jumps(points, kStepRad, segments);
   }

@@ -24,7 +24,7 @@ LaserScan three_beams() {  // right, ahead, left
 
 TEST_CASE("points are taken from the laser to the robot") {
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(three_beams(), {0.5, 0.0, kPi / 2}, {}, *points);  // 0.5 m ahead of the axle, looking left
+  ScanProjection().project(three_beams(), {0.5, 0.0, kPi / 2}, {}, *points);  // 0.5 m ahead of the axle, looking left
   REQUIRE(points->size() == 3);
   CHECK((*points)[0].in_robot.x == Approx(1.5));  // the laser's right is the robot's ahead
   CHECK((*points)[0].in_robot.y == Approx(0.0).margin(1e-6));
@@ -33,15 +33,34 @@ TEST_CASE("points are taken from the laser to the robot") {
   CHECK((*points)[2].in_robot.x == Approx(-2.5));
 }
 
+TEST_CASE("beams that look elsewhere than the scan before, or are more, give points where they look") {
+  const auto points = std::make_unique<ScanPoints>();
+  ScanProjection projection;
+  LaserScan scan = three_beams();
+  scan.beam_count = 2;
+  projection.project(scan, {}, {}, *points);
+  CHECK((*points)[1].in_robot.x == Approx(2.0));
+  scan.beam_count = 3;
+  projection.project(scan, {}, {}, *points);
+  CHECK((*points)[2].in_robot.y == Approx(3.0));
+  scan.angle_step_rad = static_cast<float>(kPi);  // right, left, right
+  projection.project(scan, {}, {}, *points);
+  CHECK((*points)[1].in_robot.y == Approx(2.0));
+  CHECK((*points)[2].in_robot.y == Approx(-3.0));
+  scan.first_angle_rad = 0.0F;  // ahead, behind, ahead
+  projection.project(scan, {}, {}, *points);
+  CHECK((*points)[1].in_robot.x == Approx(-2.0));
+}
+
 TEST_CASE("beams without a return are left out") {
   LaserScan scan = three_beams();
   scan.range_m = {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 0.0F};
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(scan, {}, {}, *points);
+  ScanProjection().project(scan, {}, {}, *points);
   CHECK(points->empty());
   scan.range_max_m = std::numeric_limits<float>::infinity();
   scan.range_m[1] = 1e30F;  // no laser measures that far, whatever its limits claim
-  project_scan(scan, {}, {}, *points);
+  ScanProjection().project(scan, {}, {}, *points);
   CHECK(points->empty());
 }
 
@@ -49,11 +68,11 @@ TEST_CASE("angles that are no fan give no points") {
   const auto points = std::make_unique<ScanPoints>();
   LaserScan scan = three_beams();
   scan.first_angle_rad = 1e38F;
-  project_scan(scan, {}, {}, *points);
+  ScanProjection().project(scan, {}, {}, *points);
   CHECK(points->empty());
   scan = three_beams();
   scan.angle_step_rad = std::numeric_limits<float>::quiet_NaN();
-  project_scan(scan, {}, {}, *points);
+  ScanProjection().project(scan, {}, {}, *points);
   CHECK(points->empty());
 }
 
@@ -61,7 +80,7 @@ TEST_CASE("more beams than there is room for are cut off") {
   LaserScan scan = three_beams();
   scan.beam_count = 1000000;
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(scan, {}, {}, *points);
+  ScanProjection().project(scan, {}, {}, *points);
   CHECK(points->size() == 3);
 }
 
@@ -69,7 +88,7 @@ TEST_CASE("a sweep of a turning robot is put right") {
   LaserScan scan = three_beams();
   scan.sweep = duration_from_seconds(0.2);
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(scan, {}, {0.0, kPi / 2}, *points);  // 90 degrees a second
+  ScanProjection().project(scan, {}, {0.0, kPi / 2}, *points);  // 90 degrees a second
   // The last beam, 3 m to the left, was measured 0.2 s later: 18 degrees farther round.
   CHECK((*points)[0].in_robot.y == Approx(-1.0));
   CHECK((*points)[2].in_robot.x == Approx(3.0 * jaywalk::cos(108.0 * kPi / 180.0)));
@@ -80,7 +99,7 @@ TEST_CASE("a sweep of a driving robot is put right") {
   LaserScan scan = three_beams();
   scan.sweep = duration_from_seconds(0.2);
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(scan, {}, {1.0, 0.0}, *points);
+  ScanProjection().project(scan, {}, {1.0, 0.0}, *points);
   CHECK((*points)[1].in_robot.x == Approx(2.1));  // measured after 0.1 s, 0.1 m on
   CHECK((*points)[2].in_robot.x == Approx(0.2));
 }

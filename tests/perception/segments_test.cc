@@ -15,7 +15,7 @@ constexpr double kStepRad = 1.5 * kPi / 810;
 /// A scan from the origin, cut and judged against a map.
 struct Cut {
   explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {})) {
-    project_scan(scan_of(room, {}, 1), {}, {}, points);
+    ScanProjection().project(scan_of(room, {}, 1), {}, {}, points);
     for (std::size_t k = 0; k < points.size(); ++k) {
       in_map.position[k] = points[k].in_robot;
       in_map.ground[k] = ground_at(still, points[k].in_robot, points[k].range_m);
@@ -165,7 +165,7 @@ TEST_CASE("a scan in more pieces than fit is cut short and the rest counts as wa
   const auto scan = std::make_unique<LaserScan>(scan_of(rectangle(4.0, 4.0), {}, 1));
   for (std::size_t b = 0; b < scan->beam_count; b += 2) scan->range_m[b] = 1.0F;  // every second beam
   const auto points = std::make_unique<ScanPoints>();
-  project_scan(*scan, {}, {}, *points);
+  ScanProjection().project(*scan, {}, {}, *points);
   const auto segments = std::make_unique<Segments>();
   cut_at_jumps(*points, kStepRad, *segments);
   CHECK(segments->full());
