@@ -12,6 +12,7 @@ std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
   return static_cast<std::int8_t>(std::clamp(std::floor(next + 0.5), -127.0, 127.0));
 }
 
+constexpr double kUnit = 127.0;         // a length of 1 in eight bits
 constexpr double kLongestStepS = 0.25;  // one hit after a gap is one hit
 
 }  // namespace
@@ -21,7 +22,8 @@ EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_
       cell_m_(cell_m),
       evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
       seen_for_(evidence_.size(), 0),
-      surface_(evidence_.size()) {
+      surface_(evidence_.size()),
+      to_laser_(evidence_.size()) {
   const CellIndex centre = cell_at(centre_in_map);
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
@@ -36,7 +38,7 @@ void EvidenceMap::add(CellIndex cell, int change) noexcept {
   if (e <= 0) seen_for_[k] = 0;
 }
 
-void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
+void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) noexcept {
   const CellIndex cell = cell_at(p);
   if (!contains(cell)) return;
   const std::size_t k = slot(cell);
@@ -45,6 +47,8 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
   // What is certain stays where it was first seen: a wall that followed every scan would drift along with the pose.
   if (evidence_[k] < kMax)
     surface_[k] = {moved_offset(surface_[k].x, offset.x, fresh), moved_offset(surface_[k].y, offset.y, fresh)};
+  const Vec2 towards = to_laser * kUnit;
+  to_laser_[k] = {moved_offset(to_laser_[k].x, towards.x, fresh), moved_offset(to_laser_[k].y, towards.y, fresh)};
   add(cell, change);
   const int units =
       seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5));
@@ -54,6 +58,11 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s) noexcept {
 Vec2 EvidenceMap::surface(CellIndex cell) const {
   const Offset& offset = surface_[slot(cell)];
   return centre_of(cell) + Vec2{offset.x * 1.0, offset.y * 1.0} * (0.5 * cell_m_ / 128.0);
+}
+
+Vec2 EvidenceMap::to_laser(CellIndex cell) const {
+  const Offset& towards = to_laser_[slot(cell)];
+  return {towards.x / kUnit, towards.y / kUnit};
 }
 
 void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
@@ -69,6 +78,7 @@ void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
       evidence_[slot({i, j})] = 0;
       seen_for_[slot({i, j})] = 0;
       surface_[slot({i, j})] = {};
+      to_laser_[slot({i, j})] = {};
     }
   }
 }

@@ -20,9 +20,9 @@ struct CellIndex {
 /// Evidence is log odds in units of 1/16 nat: positive speaks for occupied, 0 is unknown, and
 /// both ends saturate so that the map can change its mind within a few scans. A cell that holds a
 /// surface also remembers where in it the laser's points fall, to 1/128 of half a cell: matching a
-/// scan needs better than a cell. And it remembers for how long the surface has been seen: something that walks
-/// slowly leaves a new surface in every cell, a wall an old one.
-/// Memory: 4 * side * side bytes, taken in the constructor. Not thread-safe.
+/// scan needs better than a cell. It remembers from where the surface was seen: a wall has two faces. And for how long:
+/// something that walks slowly leaves a new surface in every cell, a wall an old one.
+/// Memory: 6 * side * side bytes, taken in the constructor. Not thread-safe.
 class EvidenceMap {
  public:
   /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
@@ -52,11 +52,13 @@ class EvidenceMap {
   void add(CellIndex cell, int change) noexcept;
   /// A laser's point: adds `change` to its cell's evidence, and the point to the cell's surface point, a running
   /// mean of about eight points that starts anew where the cell was not held occupied. `seen_for_s` >= 0, of which at
-  /// most 0.25 s count: since the scan before.
-  void add_hit(Vec2 p_in_map, int change, double seen_for_s = 0.0) noexcept;
+  /// most 0.25 s count: since the scan before. `to_laser` has length 1, or 0 where nobody knows.
+  void add_hit(Vec2 p_in_map, int change, double seen_for_s = 0.0, Vec2 to_laser = {}) noexcept;
   /// Where the surface in an occupied cell lies (m, in the map): the mean of its recent points. The cell's centre
   /// where nothing but add() was called. Meaningless for cells that are not occupied.
   [[nodiscard]] Vec2 surface(CellIndex cell) const;
+  /// Which way the lasers were that saw it: a mean of unit vectors, 0 where nobody knows. Meaningless likewise.
+  [[nodiscard]] Vec2 to_laser(CellIndex cell) const;
   /// Rolls the window so that it is centred within a quarter side of `centre_in_map`; a no-op while
   /// that holds already. Cells that enter are unknown.
   void roll_to(Vec2 centre_in_map) noexcept;
@@ -93,12 +95,13 @@ class EvidenceMap {
   double cell_m_;
   CellIndex low_;  ///< lowest cell inside
   struct Offset {
-    std::int8_t x = 0, y = 0;  ///< from the cell's centre, in 1/128 of half a cell
+    std::int8_t x = 0, y = 0;
   };
 
   std::vector<std::int8_t> evidence_;
   std::vector<std::uint8_t> seen_for_;  ///< in 1/64 s, saturating; 0 where it is not held occupied
-  std::vector<Offset> surface_;
+  std::vector<Offset> surface_;         ///< from the cell's centre, in 1/128 of half a cell
+  std::vector<Offset> to_laser_;        ///< in 1/127
 };
 
 }  // namespace jaywalk

@@ -31,7 +31,8 @@ constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 
 // Wheels that have earned trust may slip all the same. A match that leaves the prediction by three standard deviations,
 // or fits worse than matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits
-// better. By trial (docs/tracking.md, "Wheels that were long right").
+// better. So is a scan that the map contradicts, but none that sees next to nothing the map knows: that is no slip. By
+// trial (docs/tracking.md, "Wheels that were long right").
 constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.2, kBetterFit = 0.1;
 constexpr double kFitGain = 0.1;  // of the running mean
 
@@ -92,8 +93,8 @@ struct Localizer::State {
 
   WheelTrust trust;
   SideDrift drift;
-  bool last_matched = false;
-  double usual_fit = 0.0;  ///< running mean of the matches'
+  bool contradicted = false;  ///< the last scan was
+  double usual_fit = 0.0;     ///< running mean of the matches'
 
   ScanMatcher matcher;
   ScanProjection projection;
@@ -162,18 +163,20 @@ void Localizer::State::forget_twist(Time stamp) noexcept {
 }
 
 bool Localizer::State::doubtful(const MatchResult& found, const Pose2& predicted) const noexcept {
-  if (!found.matched || found.fit < usual_fit - kDoubtfulFit) return true;
+  if (!found.matched) return found.contradicted;
+  if (found.fit < usual_fit - kDoubtfulFit) return true;
   const Pose2& p = found.belief.map_from_robot;
   const Row3 off{p.x - predicted.x, p.y - predicted.y, wrap_angle(p.heading - predicted.heading)};
   return inverse(covariance).quadratic(off) > kDoubtfulSigmas * kDoubtfulSigmas;
 }
 
 MatchResult Localizer::State::match(const Pose2& predicted, const EvidenceMap& still) noexcept {
-  const bool lost = !last_matched || trust.share() >= 1.0;
+  const bool lost = contradicted || trust.share() >= 1.0;
   const MatchResult found = matcher.match(points, still, {predicted, lost ? if_wheels_slipped : covariance});
   if (!odometry.has_wheels() || lost || !doubtful(found, predicted)) return found;
   const MatchResult wider = matcher.match(points, still, {predicted, if_wheels_slipped});
-  return wider.matched && (!found.matched || wider.fit > found.fit + kBetterFit) ? wider : found;
+  const double least_fit = found.matched ? found.fit + kBetterFit : usual_fit - kDoubtfulFit;
+  return wider.matched && wider.fit > least_fit ? wider : found;
 }
 
 void Localizer::State::take(const MatchResult& found, const Pose2& predicted) noexcept {
@@ -200,7 +203,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
     const MatchResult found = match(predicted, still);
     matched = found.matched && finite(found.belief.map_from_robot);
     if (matched) take(found, predicted);
-    last_matched = matched;
+    contradicted = found.contradicted;
   }
   if (wheels) return;
   if (matched) {

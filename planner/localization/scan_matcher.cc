@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/localization/wall_piece.h"
+
 namespace jaywalk {
 namespace {
 
@@ -13,72 +15,19 @@ constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then ha
 constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
 constexpr int kMostCells = 4;             // to each side; then half a cell
 constexpr double kMostWindowRad = 0.42;
-// What a point is worth, in EvidenceMap::kMax: in unknown space half (were it nothing, a robot that drives on would
-// seem to stay where its walls are known); on a wall that was hit once more than that, on a certain one all.
-constexpr int kUnknownWorth = 32, kWallWorth = 48;
+// What a point is worth, in EvidenceMap::kMax: on a certain wall all. In unknown space as much as on a wall that was
+// hit once: were it less, a robot that drives on would seem to stay where its walls are known, and one whose laser
+// reaches a few metres did.
+constexpr int kUnknownWorth = 48, kWallWorth = 48;
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
 constexpr std::uint32_t kFewestOnWalls = 25;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
-constexpr double kNearM = 0.25;  // a wall's points about a scan's point
-constexpr double kThinWallM =
-    0.06;  // standard deviation across: a wall seen with 5 cm of noise; thicker things have no direction
-constexpr double kPointStdM = 0.02;  // range noise and the map's own roughness
-constexpr double kDoubtM = 0.08;     // residuals beyond count less and less
+constexpr double kDoubtM = 0.08;  // residuals beyond count less and less
 // Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking.md).
 constexpr double kIndependent = 0.06;
-
-/// One hit is enough to be matched against: at the start, and where walls come into view, there is no more.
-bool has_surface(const EvidenceMap& still, CellIndex cell) { return still.evidence(cell) > 0; }
-
-/// A straight piece of wall: a point on it and its unit normal.
-struct WallPiece {
-  Vec2 point, normal;
-  double variance = 0.0;  ///< across
-};
-
-/// Fits a line to the surface points within kNearM of the one nearest to `p`; false where there is no such line.
-bool wall_near(const EvidenceMap& still, Vec2 p, WallPiece& out) {
-  const CellIndex cell = still.cell_at(p);
-  double nearest = kNearM;
-  Vec2 anchor;
-  bool any = false;
-  for (std::int32_t j = -1; j <= 1; ++j) {
-    for (std::int32_t i = -1; i <= 1; ++i) {
-      const CellIndex c{cell.i + i, cell.j + j};
-      if (!has_surface(still, c)) continue;
-      const Vec2 s = still.surface(c);
-      const double d = distance(s, p);
-      if (d < nearest) nearest = d, anchor = s, any = true;
-    }
-  }
-  if (!any) return false;
-  const CellIndex middle = still.cell_at(anchor);
-  double n = 0.0, sx = 0.0, sy = 0.0, sxx = 0.0, sxy = 0.0, syy = 0.0;
-  for (std::int32_t j = -3; j <= 3; ++j) {
-    for (std::int32_t i = -3; i <= 3; ++i) {
-      const CellIndex c{middle.i + i, middle.j + j};
-      if (!has_surface(still, c)) continue;
-      const Vec2 d = still.surface(c) - anchor;
-      if (dot(d, d) > kNearM * kNearM) continue;
-      n += 1.0, sx += d.x, sy += d.y, sxx += d.x * d.x, sxy += d.x * d.y, syy += d.y * d.y;
-    }
-  }
-  if (n < 2.0) return false;
-  const Vec2 mean{sx / n, sy / n};
-  const double cxx = sxx / n - mean.x * mean.x, cxy = sxy / n - mean.x * mean.y, cyy = syy / n - mean.y * mean.y;
-  const double half_spread = std::sqrt(0.25 * (cxx - cyy) * (cxx - cyy) + cxy * cxy);
-  const double across = std::max(0.0, 0.5 * (cxx + cyy) - half_spread), along = 0.5 * (cxx + cyy) + half_spread;
-  if (across > kThinWallM * kThinWallM || along < 4.0 * across) return false;
-  // The eigenvector of the smaller eigenvalue, from the longer of the matrix's two rows.
-  Vec2 normal = cxx < cyy ? Vec2{across - cyy, cxy} : Vec2{cxy, across - cxx};
-  const double length = norm(normal);
-  if (!(length > 0.0)) return false;
-  out = {anchor + mean, normal * (1.0 / length), across + kPointStdM * kPointStdM};
-  return true;
-}
 
 int worth_of(int evidence) {
   if (evidence == 0) return kUnknownWorth;
@@ -215,7 +164,7 @@ Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& 
   for (const Vec2& q : sample) {
     const Vec2 p = to_map * q;
     WallPiece wall;
-    if (!wall_near(still, p, wall)) {
+    if (!wall_near(still, p, pose.position(), wall)) {
       pull.in_the_open += still.seen_free(still.cell_at(p)) ? 1U : 0U;
       continue;
     }
@@ -233,9 +182,13 @@ Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& 
   return pull;
 }
 
-bool enough(const Pull& pull) {
-  const double known = pull.on_walls + pull.in_the_open;
-  return pull.on_walls >= kFewestOnWalls && pull.on_walls >= kLeastShare * known;
+/// Points of which the map knows what is there.
+std::uint32_t known(const Pull& pull) { return pull.on_walls + pull.in_the_open; }
+
+bool enough(const Pull& pull) { return pull.on_walls >= kFewestOnWalls && pull.on_walls >= kLeastShare * known(pull); }
+
+bool contradicted(const Pull& pull) {
+  return kLeastShare * known(pull) >= kFewestOnWalls && pull.on_walls < kLeastShare * known(pull);
 }
 
 }  // namespace
@@ -251,8 +204,9 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
   for (int k = 0; k < kMostIterations; ++k) {
     const Pull pull = pull_of_walls(sample_, still, pose);
     result.points_on_walls = pull.on_walls;
+    result.contradicted = contradicted(pull);
     if (!enough(pull)) return result;
-    result.fit = pull.fit / (pull.on_walls + pull.in_the_open);
+    result.fit = pull.fit / known(pull);
     const Row3 from_prior = prior * offset(predicted.map_from_robot, pose);
     posterior = inverse(prior + pull.information);
     const Row3 step = posterior * Row3{pull.gradient.x + from_prior.x, pull.gradient.y + from_prior.y,

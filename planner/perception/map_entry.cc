@@ -12,6 +12,8 @@ namespace {
 constexpr int kHit = 10;
 constexpr int kPass = -6;
 
+constexpr double kNearestM = 1e-6;  // nothing is hit nearer: no division by 0
+
 /// So near before its end a beam frees no cell that was hit: ranges scatter, and were the near half of a wall's hits
 /// wiped out by the beams of the far half, the map would hold walls farther off than they are and the robot run ahead
 /// of itself.
@@ -75,7 +77,9 @@ void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBe
   for (std::size_t k = 0; k < count; ++k) {
     if (entries[k] == Becomes::kNothing) continue;
     const bool first = first_visit(map.cell_at(points[k]));
-    map.add_hit(points[k], first ? kHit : 0, first && entries[k] == Becomes::kWall ? step_s : 0.0);
+    const Vec2 back = laser - points[k];
+    map.add_hit(points[k], first ? kHit : 0, first && entries[k] == Becomes::kWall ? step_s : 0.0,
+                back * (1.0 / std::max(norm(back), kNearestM)));
   }
   for (std::size_t k = 0; k < count; ++k) free_along(map, laser, points[k]);
 }
