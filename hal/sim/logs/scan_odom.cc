@@ -66,7 +66,7 @@ class MotionLines {
 
   void read(const LineFile& file) {
     const Time said = time_from_seconds(file.seconds(0));
-    const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // where the first begins, it is
+    const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
     odometry_ = sound_pose(file, odometry_ * moved);
     RecordedScan scan = scan_of(file);
     scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
