@@ -47,8 +47,8 @@ Symmetric3 carried(Symmetric3 p, double dx, double dy) {
   return p;
 }
 
-Symmetric3 of_wheels(const WheelDoubt& doubt, double share) {
-  return diagonal(share * doubt.position_var, share * doubt.position_var, share * doubt.heading_var);
+Symmetric3 of_wheels(const WheelDoubt& doubt, double metres, double turns) {
+  return diagonal(metres * doubt.position_var, metres * doubt.position_var, turns * doubt.heading_var);
 }
 
 bool finite(const Pose2& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading); }
@@ -121,8 +121,8 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   twist = odometry.twist();
   const double dx = after.x - before.x, dy = after.y - before.y;
   const WheelDoubt doubt = doubt_of_unknown_wheels(step);
-  covariance = carried(covariance, dx, dy) + of_wheels(doubt, trust.share());
-  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(doubt, 1.0);
+  covariance = carried(covariance, dx, dy) + of_wheels(doubt, trust.metres(), trust.turns());
+  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(doubt, 1.0, 1.0);
   trust.drove(step);
   drift.drove(step);
 }
@@ -171,7 +171,7 @@ bool Localizer::State::doubtful(const MatchResult& found, const Pose2& predicted
 }
 
 MatchResult Localizer::State::match(const Pose2& predicted, const EvidenceMap& still) noexcept {
-  const bool lost = contradicted || trust.share() >= 1.0;
+  const bool lost = contradicted || trust.nothing_known();
   const MatchResult found = matcher.match(points, still, {predicted, lost ? if_wheels_slipped : covariance});
   if (!odometry.has_wheels() || lost || !doubtful(found, predicted)) return found;
   const MatchResult wider = matcher.match(points, still, {predicted, if_wheels_slipped});
@@ -186,7 +186,7 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   if_wheels_slipped = covariance;
   usual_fit += kFitGain * (found.fit - usual_fit);
   if (!odometry.has_wheels()) return;
-  trust.corrected(map_from_odom, odom_from_robot_at_scan);
+  trust.corrected(predicted, placed);
   drift.corrected(wrap_angle(placed.heading - predicted.heading));
   odometry.set_side_drift(drift.turn_per_m());
 }

@@ -37,27 +37,40 @@ WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept {
           kHeadingVarPerM * metres + kHeadingVarPerRad * radians};
 }
 
+void WheelTrust::Share::moved(double explained_by) noexcept {
+  worst = std::max(worst, explained_by);
+  believed = std::clamp(std::max(believed, worst), kLeastShare, 1.0);
+}
+
+void WheelTrust::Share::end_window() noexcept {
+  believed = std::clamp(believed + kWindowGain * (worst - believed), kLeastShare, 1.0);
+}
+
+double WheelTrust::metres() const noexcept { return std::sqrt(metres_.believed * turns_.believed); }
+
 void WheelTrust::drove(const ArcStep& step) noexcept {
   const WheelDoubt more = doubt_of_unknown_wheels(step);
   window_.position_var += more.position_var;
   window_.heading_var += more.heading_var;
 }
 
-void WheelTrust::corrected(const Pose2& map_from_odom, const Pose2& odom_from_robot) noexcept {
-  if (begun_) {
-    const Pose2& start = map_from_odom_at_start_;
-    const double turned = wrap_angle(map_from_odom.heading - start.heading);
-    const double moved = distance(start * odom_from_robot.position(), map_from_odom * odom_from_robot.position());
-    worst_ = std::max({worst_, squared_beyond(turned, kMapHeading) / std::max(window_.heading_var, kWindowHeadingVar),
-                       0.5 * squared_beyond(moved, kMapM) / std::max(window_.position_var, kWindowPositionVar)});
-    share_ = std::clamp(std::max(share_, worst_), kLeastShare, 1.0);
-    if (window_.heading_var < kWindowHeadingVar) return;
-    share_ = std::clamp(share_ + kWindowGain * (worst_ - share_), kLeastShare, 1.0);
-  }
+void WheelTrust::corrected(const Pose2& predicted, const Pose2& placed) noexcept {
+  if (!begun_) return begin();
+  moved_in_map_ = moved_in_map_ + (placed.position() - predicted.position());
+  turned_ += wrap_angle(placed.heading - predicted.heading);
+  turns_.moved(squared_beyond(turned_, kMapHeading) / std::max(window_.heading_var, kWindowHeadingVar));
+  metres_.moved(0.5 * squared_beyond(norm(moved_in_map_), kMapM) / std::max(window_.position_var, kWindowPositionVar));
+  if (window_.heading_var < kWindowHeadingVar) return;
+  turns_.end_window();
+  metres_.end_window();
+  begin();
+}
+
+void WheelTrust::begin() noexcept {
   begun_ = true;
   window_ = {};
-  worst_ = 0.0;
-  map_from_odom_at_start_ = map_from_odom;
+  moved_in_map_ = {};
+  turned_ = metres_.worst = turns_.worst = 0.0;
 }
 
 void SideDrift::drove(const ArcStep& step) noexcept {

@@ -14,31 +14,44 @@ struct WheelDoubt {
 /// Of wheels that nothing is known of: a random walk, a generous one.
 [[nodiscard]] WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept;
 
-/// Watches map_from_odom, which stands still while the wheels are right. A window ends when unknown wheels would have
-/// turned wrong by 6 degrees: after 8 m straight on, or 2 rad. What moved in it at most, beyond what the map itself may
-/// be off by, is what these wheels do wrong; windows are averaged. Worse wheels are believed less at once, better ones
-/// more from window to window. A window, not a scan: how little single matches correct is no proof of good wheels,
-/// since a match that trusts them corrects little. Thread: the loop's.
+/// Adds up by how much matches move and turn the robot from where its wheels had taken it. A window ends when unknown
+/// wheels would have turned wrong by 6 degrees: after 8 m straight on, or 2 rad. What that came to in it at most,
+/// beyond what the map itself may be off by, is what these wheels do wrong; windows are averaged. Worse wheels are
+/// believed less at once, better ones more from window to window. Turns and metres are watched apart, since wheels that
+/// turn wrong may count metres right: a turn that was put right moves nobody. A window, not a scan: how little single
+/// matches correct is no proof of good wheels, since a match that trusts them corrects little. Thread: the loop's.
 class WheelTrust {
  public:
-  /// These wheels' doubt over that of unknown ones: at most 1, which is where it starts, and never less than
-  /// kLeastShare.
-  [[nodiscard]] double share() const { return share_; }
+  /// These wheels' doubt over that of unknown ones: at most 1, which is where they start, and never less than
+  /// kLeastShare. Of metres it is the geometric mean of what metres and turns alone would tell: what slips when it
+  /// turns slips on its way, too.
+  [[nodiscard]] double metres() const noexcept;
+  [[nodiscard]] double turns() const { return turns_.believed; }
+  [[nodiscard]] bool nothing_known() const { return metres_.believed >= 1.0 || turns_.believed >= 1.0; }
 
   void drove(const ArcStep& step) noexcept;
-  /// After each match.
-  void corrected(const Pose2& map_from_odom, const Pose2& odom_from_robot) noexcept;
+  /// After each match: where the wheels had taken the robot, and where the map has it.
+  void corrected(const Pose2& predicted, const Pose2& placed) noexcept;
   /// The pose was moved by something else than scans: what has moved in this window tells nothing.
   void begin_anew() noexcept { begun_ = false; }
 
   static constexpr double kLeastShare = 0.0003;  ///< 0.9 mm and 0.035 degrees after a metre
 
  private:
-  double share_ = 1.0;
+  struct Share {
+    double believed = 1.0;
+    double worst = 0.0;  ///< that would explain what moved in this window so far
+
+    void moved(double explained_by) noexcept;
+    void end_window() noexcept;
+  };
+  void begin() noexcept;
+
+  Share metres_, turns_;
   bool begun_ = false;
   WheelDoubt window_;
-  double worst_ = 0.0;  ///< share that would explain what moved in this window so far
-  Pose2 map_from_odom_at_start_;
+  Vec2 moved_in_map_;  ///< by matches, in this window
+  double turned_ = 0.0;
 };
 
 /// Wheels of unequal size turn the robot a little with every metre: learnt from the turns that matches put right.

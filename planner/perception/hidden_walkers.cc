@@ -8,7 +8,7 @@ namespace {
 // Numbers by trial on simulated seeds 1 to 6; longer or wider gains next to nothing (docs/tracking.md).
 constexpr double kRememberedS = 8.0;
 constexpr double kLeastKnownS = 0.5;  // seen for less, its speed is not worth going by
-constexpr double kOffM = 0.5;         // from where he should be: half a step, and what is still hidden of him
+constexpr double kOffM = 0.6;         // from where he should be: half a step, and what is still hidden of him
 constexpr double kSpeedStd = 0.1;     // m/s an axis, of one who comes out where he should
 
 }  // namespace

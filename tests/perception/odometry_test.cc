@@ -2,7 +2,6 @@
 
 #include <limits>
 
-#include "planner/localization/wheel_trust.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -70,54 +69,4 @@ TEST_CASE("wheels that are known to pull to the left are put right, and their sp
   CHECK(step.turn_rad == Approx(0.2));
   CHECK(odometry.odom_from_robot().heading == Approx(0.2));
   CHECK(odometry.twist().w_radps == Approx(0.05));  // 0.5 m/s
-}
-
-TEST_CASE("wheels that the map never corrects are doubted half as much from window to window, down to a bound") {
-  // Unknown wheels: (0.035 rad)^2 a metre, so that the ninth metre ends a window of (0.1 rad)^2.
-  WheelTrust trust;
-  trust.corrected({}, {});
-  const auto drive = [&trust](int metres) {
-    for (int k = 0; k < metres; ++k) trust.drove({1.0, 0.0}), trust.corrected({}, {});
-  };
-  drive(8);
-  CHECK(trust.share() == 1.0);
-  drive(1);
-  CHECK(trust.share() == Approx(0.5));
-  drive(9);
-  CHECK(trust.share() == Approx(0.25));
-  drive(900);
-  CHECK(trust.share() == WheelTrust::kLeastShare);
-}
-
-TEST_CASE("trusted wheels are doubted again as soon as the map turns them by more than it may be wrong itself") {
-  WheelTrust trust;
-  trust.corrected({}, {});
-  for (int k = 0; k < 120; ++k) trust.drove({1.0, 0.0}), trust.corrected({}, {});
-  CHECK(trust.share() == WheelTrust::kLeastShare);
-  trust.corrected({0.0, 0.0, 0.0045}, {});  // a quarter of a degree
-  CHECK(trust.share() == WheelTrust::kLeastShare);
-  trust.corrected({0.0, 0.0, 0.009}, {});  // (0.009^2 - 0.005^2) / 0.1^2
-  CHECK(trust.share() == Approx(0.0056));
-  trust.corrected({0.0, 0.0, 0.1}, {});  // (0.1^2 - 0.005^2) / 0.1^2
-  CHECK(trust.share() == Approx(0.9975));
-  WheelTrust moved;
-  moved.corrected({}, {});
-  for (int k = 0; k < 90; ++k) moved.drove({1.0, 0.0}), moved.corrected({}, {});
-  moved.corrected({0.2, 0.0, 0.0}, {});  // (0.2^2 - 0.03^2) / 2 / 0.14^2
-  CHECK(moved.share() == Approx(0.9974).epsilon(1e-3));
-}
-
-TEST_CASE("a pull to one side is learnt from what matches put right, and no more than is sensible") {
-  SideDrift drift;
-  for (int k = 0; k < 100; ++k) {  // 10 m; the robot turns right by 0.05 rad a metre where its wheels say straight on
-    drift.drove({0.1, 0.0});
-    drift.corrected(0.1 * (-0.05 - drift.turn_per_m()));
-  }
-  CHECK(drift.turn_per_m() == Approx(-0.05).margin(0.01));
-  for (int k = 0; k < 1000; ++k) drift.drove({0.1, 0.0}), drift.corrected(0.5);
-  CHECK(drift.turn_per_m() <= SideDrift::kMost);
-  const double before = drift.turn_per_m();
-  drift.drove({0.0, 1.0});  // on the spot: says nothing of metres
-  drift.corrected(0.5);
-  CHECK(drift.turn_per_m() == before);
 }
