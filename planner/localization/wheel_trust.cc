@@ -42,11 +42,13 @@ void WheelTrust::Share::moved(double explained_by) noexcept {
   believed = std::clamp(std::max(believed, worst), kLeastShare, 1.0);
 }
 
+double WheelTrust::Share::beside(const Share& other) const noexcept {
+  return std::sqrt(believed * std::max(believed, other.believed));
+}
+
 void WheelTrust::Share::end_window() noexcept {
   believed = std::clamp(believed + kWindowGain * (worst - believed), kLeastShare, 1.0);
 }
-
-double WheelTrust::metres() const noexcept { return std::sqrt(metres_.believed * turns_.believed); }
 
 void WheelTrust::drove(const ArcStep& step) noexcept {
   const WheelDoubt more = doubt_of_unknown_wheels(step);

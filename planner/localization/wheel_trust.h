@@ -23,10 +23,10 @@ struct WheelDoubt {
 class WheelTrust {
  public:
   /// These wheels' doubt over that of unknown ones: at most 1, which is where they start, and never less than
-  /// kLeastShare. Of metres it is the geometric mean of what metres and turns alone would tell: what slips when it
-  /// turns slips on its way, too.
-  [[nodiscard]] double metres() const noexcept;
-  [[nodiscard]] double turns() const { return turns_.believed; }
+  /// kLeastShare. The better of the two is taken for worse than it seems, the geometric mean of both: what slips on its
+  /// way slips when it turns, too.
+  [[nodiscard]] double metres() const { return metres_.beside(turns_); }
+  [[nodiscard]] double turns() const { return turns_.beside(metres_); }
   [[nodiscard]] bool nothing_known() const { return metres_.believed >= 1.0 || turns_.believed >= 1.0; }
 
   void drove(const ArcStep& step) noexcept;
@@ -42,6 +42,8 @@ class WheelTrust {
     double believed = 1.0;
     double worst = 0.0;  ///< that would explain what moved in this window so far
 
+    /// What may be believed of it where `other` is so bad.
+    [[nodiscard]] double beside(const Share& other) const noexcept;
     void moved(double explained_by) noexcept;
     void end_window() noexcept;
   };

@@ -156,6 +156,23 @@ TEST_CASE("wheels that were right for thirty metres are not followed when they s
   }
 }
 
+TEST_CASE("wheels that were long right are believed after a stretch of which the laser sees nothing") {
+  Drive drive({0.0, 0.0, 0.0});
+  Room corridor;
+  corridor.walls = {{{-100.0, -1.0}, {100.0, -1.0}}, {{-100.0, 1.0}, {100.0, 1.0}}};
+  double x_m = 0.0;
+  const auto drive_on = [&](int scans) {
+    for (int k = 0; k < scans; ++k, x_m += 0.05) drive.step(corridor, {x_m, 0.0, 0.0}, {x_m, 0.0, 0.0});
+  };
+  drive_on(800);
+  const double std_before_m = drive.estimate.position_std_m;
+  drive.reach_m = 0.5;
+  drive_on(20);
+  drive.reach_m = 20.0;
+  drive_on(2);
+  CHECK(drive.estimate.position_std_m < std_before_m + 0.002);  // of unknown wheels: 0.004 more
+}
+
 TEST_CASE("a laser that reaches three metres carries the robot round the end of a wall both faces of which it sees") {
   Room hall = rectangle(16.0, 9.0);
   for (const Wall& side :

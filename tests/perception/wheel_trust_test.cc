@@ -29,7 +29,7 @@ TEST_CASE("wheels that the map never corrects are doubted half as much from wind
   drive_right(trust, 9);
   CHECK(trust.turns() == Approx(0.25));
   drive_right(trust, 900);
-  CHECK(trust.turns() == WheelTrust::kLeastShare);
+  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
   CHECK(trust.metres() == Approx(WheelTrust::kLeastShare));
 }
 
@@ -38,23 +38,23 @@ TEST_CASE("trusted wheels are doubted again as soon as the map turns them by mor
   trust.corrected({}, {});
   drive_right(trust, 120);
   trust.corrected({}, {0.0, 0.0, 0.0045});  // a quarter of a degree
-  CHECK(trust.turns() == WheelTrust::kLeastShare);
+  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
   trust.corrected({}, {0.0, 0.0, 0.0045});  // with the one before (0.009^2 - 0.005^2) / 0.1^2
   CHECK(trust.turns() == Approx(0.0056));
   trust.corrected({}, {0.0, 0.0, 0.091});  // (0.1^2 - 0.005^2) / 0.1^2
   CHECK(trust.turns() == Approx(0.9975));
-  CHECK(trust.metres() == Approx(std::sqrt(0.9975 * WheelTrust::kLeastShare)));  // their metres were right
+  CHECK(trust.metres() == Approx(std::sqrt(0.9975 * WheelTrust::kLeastShare)));  // as metres, they were right
 }
 
-TEST_CASE("wheels that count metres wrong are doubted for it, and for their turns no more") {
+TEST_CASE("wheels that count metres wrong are doubted for it, and less for their turns") {
   WheelTrust trust;
   trust.corrected({}, {});
   drive_right(trust, 120);
   trust.corrected({3.0, 0.0, 0.0}, {3.1, 0.0, 0.0});
   trust.corrected({4.0, 0.0, 0.0}, {4.1, 0.0, 0.0});
   const double metres_alone = (0.2 * 0.2 - 0.03 * 0.03) / 2.0 / (0.14 * 0.14);
-  CHECK(trust.metres() == Approx(std::sqrt(metres_alone * WheelTrust::kLeastShare)));
-  CHECK(trust.turns() == WheelTrust::kLeastShare);
+  CHECK(trust.metres() == Approx(metres_alone));
+  CHECK(trust.turns() == Approx(std::sqrt(metres_alone * WheelTrust::kLeastShare)));
 }
 
 TEST_CASE("what a match puts right after the pose was moved by something else is not the wheels' fault") {
@@ -63,7 +63,7 @@ TEST_CASE("what a match puts right after the pose was moved by something else is
   drive_right(trust, 120);
   trust.begin_anew();
   trust.corrected({}, {0.2, 0.0, 0.1});
-  CHECK(trust.turns() == WheelTrust::kLeastShare);
+  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
   trust.corrected({}, {0.2, 0.0, 0.1});
   CHECK(trust.turns() > 0.9);
 }
