@@ -12,6 +12,7 @@ import concurrent.futures
 import json
 import pathlib
 import re
+import sys
 
 from varied_runs import BENCH, PROGRAM, call, off_the_truth
 
@@ -57,14 +58,19 @@ def run(job):
     movers = MOVERS.format(count=options.movers) if options.movers else ""
     (out / "scenario.toml").write_text(SCENARIO.format(world=world.resolve()) + movers)
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed, "--out", out, fine=(0, 1))
-    table = call(BENCH, out, "--nobody")
-    moving = float(re.search(r"\| false moving tracks a minute +\| +([-\d.]+)", table)[1])
+    moving = 0.0 if options.movers else moving_tracks_a_minute(out)
     return json.loads((out / "summary.json").read_text()), moving, off_the_truth(out)
+
+
+def moving_tracks_a_minute(out):
+    return float(re.search(r"\| false moving tracks a minute +\| +([-\d.]+)", call(BENCH, out, "--nobody"))[1])
 
 
 def main():
     options = arguments()
     worlds = sorted(options.worlds.glob("world_*.txt"))
+    if not worlds:
+        sys.exit(f"{options.worlds}: no world_*.txt in it: give the folder of BARN's worlds")
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(run, [(options, world) for world in worlds]))
     minutes = sum(r[0]["duration_s"] for r in results) / 60

@@ -76,6 +76,8 @@ def write_scenario(folder, number, section, values):
 
 
 def call(*command, fine=(0,)):
+    if not command[0].exists():
+        sys.exit(f"{command[0]}: not there: build the project first (README.md)")
     done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
     if done.returncode not in fine:
         sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}: {done.stderr.strip()}")

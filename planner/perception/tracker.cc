@@ -1,7 +1,6 @@
 #include "planner/perception/tracker.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 #include "planner/perception/association.h"

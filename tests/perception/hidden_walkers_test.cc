@@ -64,6 +64,9 @@ TEST_CASE("who comes out elsewhere is somebody else") {
   CHECK(body.track.id == 99);
   CHECK_FALSE(body.track.moving);
   CHECK(hidden->size() == 1);
+  Body beside = newcomer({2.65, 2.0}, 7.0), near = newcomer({2.55, 2.0}, 7.0);  // 0.6 m is the bound
+  CHECK_FALSE(hidden->return_as(beside, at_s(7.0)));
+  CHECK(hidden->return_as(near, at_s(7.0)));
 }
 
 TEST_CASE("who was seen for less than half a second is not remembered") {
