@@ -42,6 +42,7 @@ void print(const char* who, const TrackScore& score, double minutes) {
   row("MOTP, mean distance", score.motp_m(), "m");
   row("velocity RMSE of tracks older than 1 s", score.velocity_rmse_mps(), "m/s");
   row("found within 0.6 s of moving in view", 100.0 * score.found_soon(), "%");
+  row("the same, times hidden or standing counted", 100.0 * score.found_soon_by_clock(), "%");
   row("false moving tracks a minute", static_cast<double>(score.false_movers()) / minutes, "");
   std::printf("\n");
 }

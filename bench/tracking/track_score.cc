@@ -58,18 +58,27 @@ void TrackScore::count(double t_s, const Target& target, const Hypothesis& track
   velocity_error2_sum_ += off * off;
 }
 
+void TrackScore::InTime::note(bool found, bool over, bool& open) {
+  if (!open || !(found || over)) return;
+  open = false;
+  decided += 1;
+  in_time += found ? 1U : 0U;
+}
+
+double TrackScore::InTime::share() const { return bench::share(in_time, decided); }
+
 void TrackScore::note_stay(double t_s, const Target& target, bool found) {
   const auto known = stays_.find(target.id);
   const bool comes = known == stays_.end() || t_s - known->second.last_s > kAwayS;
   if (comes && target.stands()) return;  // nothing moves yet
   Stay& stay = stays_[target.id];
   if (comes) stay = {.since_s = t_s, .last_s = t_s};
+  const bool seen_before = stay.last_s == frame_before_s_;
+  if (seen_before && !target.stands()) stay.moved_s += t_s - stay.last_s;
   stay.last_s = t_s;
-  if (stay.found || stay.late) return;
-  stay.found = found;
-  stay.late = !found && t_s - stay.since_s > rules_.soon_s;
-  came_ += stay.found || stay.late ? 1U : 0U;  // who leaves before either happens tells nothing
-  soon_ += stay.found ? 1U : 0U;
+  const double most_s = rules_.soon_s + kRoundOffS;
+  soon_.note(found, stay.moved_s > most_s, stay.open);
+  soon_by_clock_.note(found, t_s - stay.since_s > most_s, stay.open_by_clock);
 }
 
 void TrackScore::add(double t_s, std::span<const Target> targets, std::span<const Hypothesis> tracks) {
@@ -90,6 +99,7 @@ void TrackScore::add(double t_s, std::span<const Target> targets, std::span<cons
     targets_ += 1;
     note_stay(t_s, targets[k], found[k]);
   }
+  frame_before_s_ = t_s;
 }
 
 double TrackScore::mota() const { return 1.0 - share(misses() + false_positives_ + switches_, targets_); }
@@ -97,7 +107,6 @@ double TrackScore::motp_m() const { return matches_ == 0 ? kNone : distance_sum_
 double TrackScore::velocity_rmse_mps() const {
   return compared_ == 0 ? kNone : std::sqrt(velocity_error2_sum_ / static_cast<double>(compared_));
 }
-double TrackScore::found_soon() const { return share(soon_, came_); }
 
 std::size_t TrackScore::false_movers() const {
   return static_cast<std::size_t>(

@@ -35,7 +35,7 @@ struct ScoreRules {
   double match_m = 0.5;          ///< a hypothesis this near a target may be its
   double settled_after_s = 1.0;  ///< velocities are compared once a track is this old
   double kept_s = 1.0;           ///< a name is to be kept through so long unfound
-  double soon_s = 0.6;           ///< a target is found soon when found within this after it was first seen to move
+  double soon_s = 0.6;           ///< a target is found soon when it has moved in view for no longer until then
   bool as_it_is = false;         ///< a track that stands may find only a target that stands
 };
 
@@ -63,18 +63,28 @@ class TrackScore {
   [[nodiscard]] double velocity_rmse_mps() const;
   /// Tracks that moved and never were anybody's.
   [[nodiscard]] std::size_t false_movers() const;
-  /// Share of the times a target moved in view, having come there, that it was found soon; NaN where none did.
-  [[nodiscard]] double found_soon() const;
+  /// Share of the times a target moved in view, having come there, that it was found soon; NaN where none did. While it
+  /// is hidden, or stands, no time counts.
+  [[nodiscard]] double found_soon() const { return soon_.share(); }
+  /// The same with all time counted from when it first moved in view.
+  [[nodiscard]] double found_soon_by_clock() const { return soon_by_clock_.share(); }
 
  private:
   struct Pair {
     std::size_t target = 0, track = 0;
     double distance_m = 0.0;
   };
+  /// How often something was in time, of all times that it was decided.
+  struct InTime {
+    std::size_t decided = 0, in_time = 0;
+    /// Decides `open` where `found`, or where the time is over; who leaves before either tells nothing.
+    void note(bool found, bool over, bool& open);
+    [[nodiscard]] double share() const;
+  };
   /// A stay in view.
   struct Stay {
-    double since_s = 0.0, last_s = 0.0;
-    bool found = false, late = false;
+    double since_s = 0.0, last_s = 0.0, moved_s = 0.0;
+    bool open = true, open_by_clock = true;
   };
   void pair_up(std::span<const Target> targets, std::span<const Hypothesis> tracks);
   void count(double t_s, const Target& target, const Hypothesis& track, double distance_m);
@@ -88,7 +98,9 @@ class TrackScore {
   std::map<std::uint32_t, Stay> stays_;
   std::set<std::uint32_t> moved_, right_;  ///< tracks that moved; that were somebody's
   std::size_t targets_ = 0, matches_ = 0, false_positives_ = 0, switches_ = 0, quick_switches_ = 0;
-  std::size_t compared_ = 0, came_ = 0, soon_ = 0;
+  std::size_t compared_ = 0;
+  InTime soon_, soon_by_clock_;
+  double frame_before_s_ = 0.0;
   double distance_sum_m_ = 0.0, velocity_error2_sum_ = 0.0;
 };
 

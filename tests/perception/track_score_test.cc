@@ -106,6 +106,30 @@ TEST_CASE("the time to be found begins when a target first moves in view") {
   CHECK(s.score.found_soon() == 1.0);
 }
 
+TEST_CASE("while a target is hidden or stands its time to be found stands still, and runs on by the clock") {
+  const Target walks{1, {0.0, 0.0}, {0.4, 0.0}, true}, hidden{1, {0.0, 0.0}, {0.4, 0.0}, false};
+  const Target stands{1, {0.0, 0.0}, {0.0, 0.0}, true};
+  for (const Target& meanwhile : {hidden, stands}) {
+    Scored s;
+    s.frame(0.0, {walks}, {});
+    s.frame(0.3, {walks}, {});
+    s.frame(0.6, {meanwhile}, {});
+    s.frame(0.9, {meanwhile}, {});
+    s.frame(1.0, {walks}, {});
+    s.frame(1.2, {walks}, {track(7, 0.0)});  // 0.5 s or 0.6 s of moving in view
+    CHECK(s.score.found_soon() == 1.0);
+    CHECK(s.score.found_soon_by_clock() == 0.0);
+  }
+  Scored late;
+  late.frame(0.0, {walks}, {});
+  late.frame(0.3, {walks}, {});
+  late.frame(0.5, {hidden}, {});
+  late.frame(0.9, {walks}, {});
+  late.frame(1.3, {walks}, {});  // 0.7 s of moving in view
+  late.frame(1.4, {walks}, {track(7, 0.0)});
+  CHECK(late.score.found_soon() == 0.0);
+}
+
 TEST_CASE("where each is to be taken as it is a standing track finds only who stands") {
   ScoreRules rules;
   rules.as_it_is = true;
