@@ -20,12 +20,13 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
 MAPS = (1, 2, 3, 4)
 KEYS = {
-    "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out")),
+    "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount")),
     "movers": ("[movers]", ("speed_mps", "radius_m", "count")),
 }
 VARIANTS = {
     "scanners": (
         (360, 1440, 10, 30, 0.01, 0.0),
+        (360, 1440, 10, 30, 0.01, 0.0, "[0.0, 0.0, 3.1416]"),
         (270, 1081, 40, 30, 0.01, 0.0),
         (180, 361, 25, 30, 0.01, 0.0),
         (360, 400, 8, 12, 0.02, 0.02),
@@ -106,8 +107,10 @@ def name(what, variant):
     if what == "movers":
         speed, radius, count = variant
         return f"{count} movers of {speed} m/s, {radius:.2f} m about their middle"
-    fov, beams, rate, reach, noise, lost = variant
-    return f"{fov} degrees, {beams} beams, {rate} Hz, {reach} m, noise {1000 * noise:.0f} mm" + (f", {100 * lost:.0f} % lost" if lost else "")
+    fov, beams, rate, reach, noise, lost, *mount = variant
+    turned = ", its turn begins straight ahead" if mount else ""
+    dropped = f", {100 * lost:.0f} % lost" if lost else ""
+    return f"{fov} degrees, {beams} beams, {rate} Hz, {reach} m, noise {1000 * noise:.0f} mm{dropped}{turned}"
 
 
 def row(what, variant, runs):

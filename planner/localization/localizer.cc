@@ -32,7 +32,7 @@ constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 // Wheels that have earned trust may slip all the same. A match that leaves the prediction by three standard deviations,
 // or fits worse than matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits
 // better. So is a scan that the map contradicts, but none that sees next to nothing the map knows: that is no slip. By
-// trial (docs/tracking.md, "Wheels that were long right").
+// trial (docs/tracking-findings.md, "Wheels that were long right").
 constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.2, kBetterFit = 0.1;
 constexpr double kFitGain = 0.1;  // of the running mean
 

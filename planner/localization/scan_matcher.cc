@@ -26,7 +26,7 @@ constexpr std::uint32_t kFewestOnWalls = 25;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
 constexpr double kDoubtM = 0.08;  // residuals beyond count less and less
-// Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking.md).
+// Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking-findings.md).
 constexpr double kIndependent = 0.06;
 
 int worth_of(int evidence) {

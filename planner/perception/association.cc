@@ -119,8 +119,10 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .outline_in_map = c.outline_in_map,
                    .beams = c.beams,
                    .whole = c.whole(),
+                   .on_wall = c.on_wall,
                    .edge_m = c.emerges() ? c.spacing_m : 0.0,
-                   .width_m = distance(c.outline_in_map[0], c.outline_in_map.back())};
+                   .width_m = distance(c.outline_in_map[0], c.outline_in_map.back()),
+                   .spacing_m = c.spacing_m};
   if (seen.whole) {
     if (!c.leg()) seen.arc_m = c.radius_m;
   } else {

@@ -1,7 +1,7 @@
 #pragma once
 // Which cluster is which body's, and where that says the body is.
 #include "planner/perception/bodies.h"
-#include "planner/perception/segments.h"
+#include "planner/perception/clusters.h"
 
 namespace jaywalk {
 
@@ -14,8 +14,10 @@ struct Observation {
   Outline outline_in_map;  ///< of the nearest cluster
   BeamRun beams{};         ///< of the same
   bool whole = false;      ///< nothing hid either side of that
+  bool on_wall = false;    ///< that stands where walls stand
   double edge_m = 0.0;     ///< Body::edge_m
   double width_m = 0.0;    ///< of what is seen of that
+  double spacing_m = 0.0;  ///< from beam to beam, across them
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
 };
 

@@ -5,13 +5,10 @@ namespace {
 
 constexpr double kFirstSpeedStd = 1.0;  // m/s an axis: people walk at 1.3 m/s
 
-std::size_t farthest(const Bodies& bodies, Vec2 robot) {
-  std::size_t worst = 0;
-  for (std::size_t k = 1; k < bodies.size(); ++k) {
-    const Vec2 p = bodies[k].track.position_in_map;
-    if (distance(p, robot) > distance(bodies[worst].track.position_in_map, robot)) worst = k;
-  }
-  return worst;
+/// Whether `a` is to go rather than `b` where there is no room for both.
+bool matters_less(const Body& a, const Body& b, Vec2 robot) {
+  if (a.on_wall != b.on_wall) return a.on_wall;
+  return distance(a.track.position_in_map, robot) > distance(b.track.position_in_map, robot);
 }
 
 }  // namespace
@@ -28,7 +25,7 @@ Body born_at(Vec2 position, double std_m, double radius, Time now, std::uint32_t
   body.as_seen = body.track;
   body.models = MotionModels(body.track);
   body.anchor_in_map = position;
-  body.path.add(now, position);
+  body.path.add(now, {position});
   body.born = now;
   body.still_since = now;
   return body;
@@ -49,10 +46,12 @@ void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept {
 
 void admit(Bodies& bodies, const Body& newcomer, Vec2 robot) noexcept {
   if (bodies.full()) {
-    const std::size_t k = farthest(bodies, robot);
-    const Vec2 p = bodies[k].track.position_in_map;
-    if (distance(newcomer.track.position_in_map, robot) >= distance(p, robot)) return;
-    bodies.swap_remove(k);
+    std::size_t least = 0;
+    for (std::size_t k = 1; k < bodies.size(); ++k) {
+      if (matters_less(bodies[k], bodies[least], robot)) least = k;
+    }
+    if (!matters_less(bodies[least], newcomer, robot)) return;
+    bodies.swap_remove(least);
   }
   (void)bodies.push_back(newcomer);  // there is room now
 }

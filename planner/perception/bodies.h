@@ -3,9 +3,9 @@
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
+#include "planner/perception/clusters.h"
 #include "planner/perception/motion_models.h"
 #include "planner/perception/recent_path.h"
-#include "planner/perception/segments.h"
 #include "planner/perception/track.h"
 
 namespace jaywalk {
@@ -18,6 +18,7 @@ struct Body {
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
   double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
+  bool on_wall = false;        ///< and it stood where walls stand
   double edge_m = 0.0;         ///< how well its free side was seen then, behind something wider than legs; 0: not so
   bool given = false;          ///< named by an outside system; the laser does not judge it
   std::uint32_t given_id = 0;  ///< that system's own name for it
@@ -39,11 +40,11 @@ struct Body {
 
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
-  /// As wide as people and robots are, and seen to stay where it should be as solid things do.
-  [[nodiscard]] bool solid() const { return arc_m > kNarrowM && arc_m < kWideM && noise < kSolidNoise; }
+  /// As wide as people and robots are.
+  [[nodiscard]] bool body_wide() const { return arc_m > kNarrowestBodyM && arc_m < kWidestBodyM; }
+  /// And seen to stay where it should be as solid things do.
+  [[nodiscard]] bool solid() const { return body_wide() && noise < kSolidNoise; }
 
-  /// Half widths between which what is seen whole is a body: not a post, no panel.
-  static constexpr double kNarrowM = 0.18, kWideM = 0.4;
   static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
 };
 
@@ -63,8 +64,8 @@ void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept;
 /// What was seen of its way until now tells nothing.
 void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept;
 
-/// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, and that may be the
-/// newcomer.
+/// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, of those that stand where
+/// walls stand if there are any; and that may be the newcomer.
 void admit(Bodies& bodies, const Body& newcomer, Vec2 robot_in_map) noexcept;
 
 }  // namespace jaywalk

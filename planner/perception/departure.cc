@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/perception/old_place.h"
+
 namespace jaywalk {
 namespace {
 
@@ -25,43 +27,18 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // o
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
-constexpr double kEdges = 1.5;                           // beam spacings: where its free side is, is known to one
+// Of one who stood: in no_people_left nothing that stood and was as wide came to more than 9.0 by its newest places.
+constexpr double kStoodS = 0.4, kSetsOutSigmas = 10.0, kNoiseSettingOut = 2.5;
+constexpr double kEdges = 1.5;  // beam spacings: where its free side is, is known to one
 constexpr double kPartM = 0.5;  // of a body: what is wider has its middle where more of it comes into view
 // Of a body that comes out on unknown ground. In no_people_left nothing did for more than 16.6 in two scans running.
 constexpr double kEmergesSigmas = 12.0, kEmergesExplained = 0.9;
-constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
-constexpr double kChordM = 0.25, kAlong = 0.7;      // legs are narrower; 45 degrees
-constexpr double kSlant = 0.35;                     // 20 degrees off square to the beams
+constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
+constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
 constexpr double kRidesShare = 0.6;  // of its way in the map is all that it moved before the laser
 
 bool came_to_free_space(const Body& body) { return body.free_share > kMostlyFree; }
-
-/// What became of the place that a body set out from: of the points that it was seen by there, the half that lies
-/// behind on its way and that it has left, how many still return a beam, and over how many beams pass.
-struct Anchor {
-  int there = 0, through = 0;
-};
-
-bool covers(const Outline& outline, Vec2 place, double within) {
-  return std::any_of(outline.begin(), outline.end(), [&](Vec2 p) { return distance(p, place) < within; });
-}
-
-Anchor look_back(const Body& body, const LineOfSight& sight, double tolerance) {
-  Anchor anchor;
-  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
-  const Outline& outline = body.anchor_outline;  // in the order of the beams, so that it has two ends
-  if (outline.empty()) return anchor;
-  const bool first_lags = dot(outline.back() - outline[0], way) > 0.0;
-  for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
-    const Vec2 place = outline[first_lags ? k : outline.size() - 1 - k];
-    if (covers(body.outline_in_map, place, tolerance)) continue;
-    const Sight seen = sight.at(place, tolerance, body.beams);
-    anchor.there += seen == Sight::kThere ? 1 : 0;
-    anchor.through += seen == Sight::kThrough ? 1 : 0;
-  }
-  return anchor;
-}
 
 /// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
 /// path is measured, and a surface that comes into view has that where it always was.
@@ -119,14 +96,13 @@ bool slides_along_itself(const Body& body, Vec2 laser) {
 /// other is seen, when the world agrees twice.
 bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight, Vec2 laser) {
   if (walk.longest_hop_m > kHopM) return false;
-  const double range = distance(laser, body.track.position_in_map);
-  const Anchor anchor = look_back(body, sight, kSameM + kSamePerM * range);
-  if (anchor.there > 0) return false;
-  const bool came = came_to_free_space(body), left = anchor.through > 0;
+  const OldPlace old = old_place(body, sight, laser);
+  if (old.taken) return false;
+  const bool came = came_to_free_space(body), left = old.through;
   if (!left && !edge_walks(body, walk) && slides_along_itself(body, laser)) return false;
   if (rigid(body, walk) || surely_emerges(body, walk) || ((came || left) && steady(body, walk))) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
-  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range);
+  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * distance(laser, body.track.position_in_map));
   return (came || body.whole) && walk.explained > kExplained && walk.length_m - walk.width_change_m > far;
 }
 
@@ -143,12 +119,20 @@ bool rides_along(const Body& body, Vec2 in_laser) {
   return norm(in_laser) < kRidesWithinM && distance(in_laser, body.anchor_in_laser) < kRidesShare * gone(body);
 }
 
+bool at_a_walk(const StraightWalk& walk) {
+  return walk.length_m > kMovingMps * walk.duration_s && walk.length_m < kFastMps * walk.duration_s;
+}
+
+/// The filter has it walk rather than stand.
+bool filter_walks(const Body& body) {
+  return norm(body.track.velocity_in_map) > kMovingMps && body.models.weight(MotionModels::kStands) <= kMayStand;
+}
+
 /// Fast against what the filter is unsure of, or steady.
 bool beyond_doubt(const Body& body, const StraightWalk& walk) {
-  const bool at_a_walk = walk.length_m > kMovingMps * walk.duration_s && walk.length_m < kFastMps * walk.duration_s;
-  if (edge_walks(body, walk) && at_a_walk) return true;
+  if (edge_walks(body, walk) && at_a_walk(walk)) return true;
+  if (!filter_walks(body)) return false;
   const double speed = norm(body.track.velocity_in_map);
-  if (speed < kMovingMps || body.models.weight(MotionModels::kStands) > kMayStand) return false;
   if (speed > kFastMps && walk.places < kPlacesWhenFast) return false;
   return steady(body, walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
 }
@@ -157,16 +141,35 @@ bool places_enough(const Body& body, const StraightWalk& walk) {
   return walk.places >= (steady(body, walk) ? kFewestSteady : kFewestPlaces);
 }
 
+Departure by_the_whole_path(const Body& body, const LineOfSight& sight, Vec2 laser) {
+  const StraightWalk walk = body.path.fit();
+  if (!places_enough(body, walk) || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
+  if (!walks(body, walk, sight, laser)) return Departure::kNone;
+  return rigid(body, walk) ? Departure::kCertain : Departure::kLikely;
+}
+
+/// Who stood has walked only since: his newest places alone, after others that he stood at. Both sides of a body must
+/// have gone along, its widths no farther apart than a beam explains. Its noise has just grown, since no filter
+/// foretold the first step.
+bool sets_out(const Body& body, const LineOfSight& sight, Vec2 laser) {
+  if (!body.whole || !body.body_wide() || body.noise > kNoiseSettingOut || !filter_walks(body)) return false;
+  const StraightWalk walk = body.path.latest_walk(kFewestPlaces);
+  if (body.path.fit().duration_s - walk.duration_s < kStoodS) return false;
+  const double grew_m = walk.width_change_m - walk.spacing_m;
+  if (walk.sigmas < kSetsOutSigmas || walk.length_m < kSteadyM || grew_m > kRigidShare * walk.length_m) return false;
+  if (!at_a_walk(walk) || walk.longest_hop_m > kHopM) return false;
+  const OldPlace old = old_place(body, sight, laser);
+  return !old.taken && (old.through || !slides_along_itself(body, laser));
+}
+
 }  // namespace
 
 Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
   if (body.seen_share <= kMostlySeen) return Departure::kNone;
-  const StraightWalk walk = body.path.fit();
-  if (!places_enough(body, walk) || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
+  if (rides_along(body, inverse(map_from_laser) * body.track.position_in_map)) return Departure::kNone;
   const Vec2 laser = map_from_laser.position();
-  const Vec2 in_laser = inverse(map_from_laser) * body.track.position_in_map;
-  if (rides_along(body, in_laser) || !walks(body, walk, sight, laser)) return Departure::kNone;
-  return rigid(body, walk) ? Departure::kCertain : Departure::kLikely;
+  if (sets_out(body, sight, laser)) return Departure::kCertain;  // what is taken for a wall must have stood
+  return body.on_wall ? Departure::kNone : by_the_whole_path(body, sight, laser);
 }
 
 }  // namespace jaywalk

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 namespace jaywalk {
 namespace {
@@ -17,7 +18,8 @@ LineOfSight::LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, con
       robot_from_laser_(robot_from_laser),
       twist_(twist),
       beam_s_(beam_interval_s(scan, twist)),
-      beams_(static_cast<double>(std::min<std::size_t>(scan.beam_count, kMaxBeams))),
+      sweep_(sweep_of(scan)),
+      beams_(static_cast<double>(sweep_.beams)),
       laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
 
 LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noexcept {
@@ -38,10 +40,12 @@ Sight LineOfSight::at(Vec2 place, double tolerance, const BeamRun& but) const no
   if (!(away > tolerance) || !in_sweep) return Sight::kUnseen;
   const double aside =
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
-  const auto first = static_cast<std::size_t>(std::max(0.0, std::floor(beam - aside + 0.5)));
-  const auto last = std::min(static_cast<std::size_t>(beams_) - 1, static_cast<std::size_t>(beam + aside + 0.5));
+  const auto first = static_cast<std::ptrdiff_t>(std::floor(beam - aside + 0.5));
+  const auto last = static_cast<std::ptrdiff_t>(std::floor(beam + aside + 0.5)), count = std::ptrdiff_t{sweep_.beams};
   bool goes_on = false, ends = false;
-  for (std::size_t b = first; b <= last; ++b) {
+  for (std::ptrdiff_t k = first; k <= last; ++k) {
+    if (!sweep_.all_round && (k < 0 || k >= count)) continue;
+    const auto b = static_cast<std::size_t>(((k % count) + count) % count);
     if (but.has(b)) continue;
     const double range = static_cast<double>(scan_.range_m[b]);
     if (scan_.is_hit(b) && std::fabs(range - away) < tolerance) return Sight::kThere;

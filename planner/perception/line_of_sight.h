@@ -36,6 +36,7 @@ class LineOfSight {
   Pose2 map_from_robot_, robot_from_laser_;
   Twist2 twist_;
   double beam_s_;
+  Sweep sweep_;
   double beams_;               ///< in use, whatever the scan claims
   Transform2 laser_from_map_;  ///< at the stamp
 };

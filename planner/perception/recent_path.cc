@@ -13,23 +13,76 @@ constexpr double kNoiseM = 0.01, kNoiseWeighs = 4.0;  // of a place an axis, as 
 constexpr double kRoundOffM2 = 1e-12;                 // scatter of places that are all the same, a micrometre's square
 
 /// Of `n` places an axis, from what a walk leaves of their scatter: 2 n numbers, of which 4 went into the walk.
-double noise_variance(double left_m2, std::size_t n) {
-  return (left_m2 + kNoiseWeighs * kNoiseM * kNoiseM) / (2.0 * static_cast<double>(n) - 4.0 + kNoiseWeighs);
+double noise_variance(double left_m2, double n) {
+  return (left_m2 + kNoiseWeighs * kNoiseM * kNoiseM) / (2.0 * n - 4.0 + kNoiseWeighs);
 }
 
 }  // namespace
 
-void RecentPath::add(Time when, Vec2 where, double width, bool whole) noexcept {
+/// Takes places from the newest on backwards, and fits a walk to those that it has.
+class RecentPath::Fit {
+ public:
+  explicit Fit(const Place& newest) : newest_(newest), last_(newest) {}
+  void add(const Place& older) noexcept;
+  [[nodiscard]] StraightWalk walk() const noexcept;
+
+ private:
+  /// How much farther it is from the place before to `place` than a walker comes in the time.
+  [[nodiscard]] static double hop(const Place& before, const Place& place) noexcept;
+
+  Place newest_, last_;  ///< last added: the oldest
+  StraightWalk walk_;    ///< what needs no fit
+  double narrowest_m_ = std::numeric_limits<double>::infinity(), widest_whole_m_ = 0.0;
+  double n_ = 0.0, t_ = 0.0, tt_ = 0.0, pp_ = 0.0;  ///< sums; times and places less the newest
+  Vec2 p_, tp_;
+};
+
+double RecentPath::Fit::hop(const Place& before, const Place& place) noexcept {
+  const double walked_s = std::min(to_seconds(place.when - before.when), kLongestStepS);
+  return distance(before.seen.where_in_map, place.seen.where_in_map) - kWalkMps * walked_s;
+}
+
+void RecentPath::Fit::add(const Place& place) noexcept {
+  const double t = to_seconds(place.when - newest_.when);
+  const Vec2 p = place.seen.where_in_map - newest_.seen.where_in_map;
+  n_ += 1.0, t_ += t, tt_ += t * t, pp_ += dot(p, p);
+  p_ = p_ + p, tp_ = tp_ + p * t;
+  if (walk_.places > 0) walk_.longest_hop_m = std::max(walk_.longest_hop_m, hop(place, last_));
+  walk_.places += 1;
+  walk_.duration_s = -t;
+  walk_.widest_m = std::max(walk_.widest_m, place.seen.width_m);
+  walk_.spacing_m = std::max(walk_.spacing_m, place.seen.spacing_m);
+  if (place.seen.whole) {
+    widest_whole_m_ = std::max(widest_whole_m_, place.seen.width_m);
+    narrowest_m_ = std::min(narrowest_m_, place.seen.width_m);
+  }
+  last_ = place;
+}
+
+StraightWalk RecentPath::Fit::walk() const noexcept {
+  StraightWalk walk = walk_;
+  const double tt = tt_ - t_ * t_ / n_, scatter = pp_ - dot(p_, p_) / n_;
+  if (walk.places < 3 || !(tt > 0.0) || scatter < kRoundOffM2) return walk;
+  const Vec2 tp = tp_ - p_ * (t_ / n_), velocity = tp * (1.0 / tt);
+  const double explained = dot(velocity, tp);
+  walk.length_m = norm(velocity) * walk.duration_s;
+  walk.explained = explained / scatter;
+  walk.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n_));
+  walk.width_change_m = std::max(0.0, widest_whole_m_ - narrowest_m_);
+  return walk;
+}
+
+void RecentPath::add(Time when, const Sighting& seen) noexcept {
   if (count_ > 0 && when - at(count_ - 1).since < kApart) {
     Place& newest = places_[(count_ - 1) % kPlaces];
-    newest.seen += 1;
-    newest.when += (when - newest.when) / newest.seen;
-    newest.where = newest.where + (where - newest.where) * (1.0 / newest.seen);
-    newest.width_m = width;
-    newest.whole = whole;
+    const Vec2 before = newest.seen.where_in_map;
+    newest.scans += 1;
+    newest.when += (when - newest.when) / newest.scans;
+    newest.seen = seen;
+    newest.seen.where_in_map = before + (seen.where_in_map - before) * (1.0 / newest.scans);
     return;
   }
-  places_[count_ % kPlaces] = {when, when, where, width, whole, 1};
+  places_[count_ % kPlaces] = {when, when, seen, 1};
   ++count_;
 }
 
@@ -39,53 +92,23 @@ std::size_t RecentPath::first() const noexcept {
   return k;
 }
 
-double RecentPath::hop(std::size_t k) const noexcept {
-  const double walked_s = std::min(to_seconds(at(k).when - at(k - 1).when), kLongestStepS);
-  return distance(at(k - 1).where, at(k).where) - kWalkMps * walked_s;
-}
-
-void RecentPath::note_widths(std::size_t begin, StraightWalk& walk) const noexcept {
-  double widest = 0.0, narrowest = std::numeric_limits<double>::infinity();
-  for (std::size_t k = begin; k < count_; ++k) {
-    const double width = at(k).width_m;
-    walk.widest_m = std::max(walk.widest_m, width);
-    if (at(k).whole) widest = std::max(widest, width), narrowest = std::min(narrowest, width);
-  }
-  walk.width_change_m = std::max(0.0, widest - narrowest);
-}
-
 StraightWalk RecentPath::fit() const noexcept {
-  const std::size_t begin = first(), n = count_ - begin;
-  StraightWalk walk;
-  walk.places = n;
-  if (n < 3) return walk;
-  const Time newest = at(count_ - 1).when;
-  const auto seconds = [&](std::size_t k) { return to_seconds(at(k).when - newest); };
-  double mean_t = 0.0;
-  Vec2 mean;
-  for (std::size_t k = begin; k < count_; ++k) {
-    mean_t += seconds(k) / static_cast<double>(n);
-    mean = mean + at(k).where * (1.0 / static_cast<double>(n));
-    if (k > begin) walk.longest_hop_m = std::max(walk.longest_hop_m, hop(k));
+  if (count_ == 0) return {};
+  Fit fit(at(count_ - 1));
+  for (std::size_t k = count_; k-- > first();) fit.add(at(k));
+  return fit.walk();
+}
+
+StraightWalk RecentPath::latest_walk(std::size_t fewest) const noexcept {
+  if (count_ == 0) return {};
+  StraightWalk best;
+  Fit fit(at(count_ - 1));
+  for (std::size_t k = count_; k-- > first();) {
+    fit.add(at(k));
+    const StraightWalk walk = fit.walk();
+    if (walk.places >= fewest && walk.sigmas > best.sigmas) best = walk;
   }
-  double tt = 0.0, scatter = 0.0;
-  Vec2 tp;
-  for (std::size_t k = begin; k < count_; ++k) {
-    const double t = seconds(k) - mean_t;
-    const Vec2 p = at(k).where - mean;
-    tt += t * t;
-    tp = tp + p * t;
-    scatter += dot(p, p);
-  }
-  if (!(tt > 0.0) || scatter < kRoundOffM2) return walk;
-  const Vec2 velocity = tp * (1.0 / tt);
-  walk.duration_s = -seconds(begin);
-  walk.length_m = norm(velocity) * walk.duration_s;
-  const double explained = dot(velocity, tp);
-  walk.explained = explained / scatter;
-  walk.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n));
-  note_widths(begin, walk);
-  return walk;
+  return best;
 }
 
 }  // namespace jaywalk

@@ -8,7 +8,7 @@
 
 namespace jaywalk {
 
-/// How well a body's last places lie on one straight walk of constant speed.
+/// How well some of a body's last places lie on one straight walk of constant speed.
 struct StraightWalk {
   std::size_t places = 0;
   double length_m = 0.0;        ///< of the fitted walk, from the oldest place to the newest
@@ -17,6 +17,7 @@ struct StraightWalk {
   double sigmas = 0.0;          ///< length over its own standard deviation, by the places' scatter about the walk
   double widest_m = 0.0;        ///< that was seen of it at any of the places
   double width_change_m = 0.0;  ///< widest less narrowest of the places where it was seen whole
+  double spacing_m = 0.0;       ///< from beam to beam, across them, at most: widths are known to that
   double explained = 0.0;  ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
 };
 
@@ -25,11 +26,21 @@ struct StraightWalk {
 /// explains 75 %.
 class RecentPath {
  public:
-  /// `width_m`: of what was seen there, which was all of it or a part.
-  void add(Time when, Vec2 where_in_map, double width_m = 0.0, bool whole = false) noexcept;
+  /// What a scan saw.
+  struct Sighting {
+    Vec2 where_in_map;
+    double width_m = 0.0;    ///< of what was seen
+    double spacing_m = 0.0;  ///< from beam to beam, across them
+    bool whole = false;      ///< that was all of it
+  };
+
+  void add(Time when, const Sighting& seen) noexcept;
   void clear() noexcept { count_ = 0; }
   /// Least squares over the remembered places, x and y against time.
   [[nodiscard]] StraightWalk fit() const noexcept;
+  /// The same over as many of the newest places, `fewest` at least, as make the walk longest in standard deviations:
+  /// who stood until just now has walked only since. Without so many places a walk of none.
+  [[nodiscard]] StraightWalk latest_walk(std::size_t fewest) const noexcept;
 
   static constexpr Duration kRemembers = std::chrono::milliseconds(1500);
   static constexpr Duration kApart = std::chrono::milliseconds(60);  ///< places nearer in time are one, their mean
@@ -37,17 +48,13 @@ class RecentPath {
  private:
   struct Place {
     Time since = kNever, when = kNever;  ///< first of them, mean of them
-    Vec2 where;
-    double width_m = 0.0;
-    bool whole = false;
-    int seen = 0;
+    Sighting seen;                       ///< mean of where, and the newest
+    int scans = 0;
   };
+  class Fit;
   static constexpr std::size_t kPlaces = kRemembers / kApart + 1;
 
   [[nodiscard]] const Place& at(std::size_t k) const { return places_[k % kPlaces]; }
-  /// How much farther it is from the place before to place `k` than a walker comes in the time.
-  [[nodiscard]] double hop(std::size_t k) const noexcept;
-  void note_widths(std::size_t begin, StraightWalk& walk) const noexcept;
   /// The oldest place that is not forgotten.
   [[nodiscard]] std::size_t first() const noexcept;
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/types/trig.h"
+
 namespace jaywalk {
 namespace {
 
@@ -16,6 +18,13 @@ constexpr float kMostRad = 100.0F;
 constexpr double kNearestM = 0.2;
 
 }  // namespace
+
+Sweep sweep_of(const LaserScan& scan) noexcept {
+  const auto beams = static_cast<std::uint32_t>(std::min<std::size_t>(scan.beam_count, kMaxBeams));
+  const double step = static_cast<double>(scan.angle_step_rad);
+  const double past_a_turn = std::fabs(step) * beams - 2.0 * kPi;  // a step: the first direction is looked along twice
+  return {beams, step, past_a_turn > -0.5 * std::fabs(step) && past_a_turn < 1.5 * std::fabs(step)};
+}
 
 double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept {
   if (scan.beam_count < 2 || twist == Twist2{}) return 0.0;

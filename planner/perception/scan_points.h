@@ -15,11 +15,30 @@ struct ScanPoint {
   std::uint32_t beam = 0;
 };
 
-/// Beams [first, last] of a scan; none at first.
+/// Beams `first` to `last` of a scan, which may run on from its last beam to its first; none at first.
 struct BeamRun {
   std::uint32_t first = 1, last = 0;
-  [[nodiscard]] constexpr bool has(std::size_t beam) const { return beam >= first && beam <= last; }
+  [[nodiscard]] constexpr bool has(std::size_t beam) const {
+    if (first > last + 1) return beam >= first || beam <= last;
+    return beam >= first && beam <= last;
+  }
 };
+
+/// How the beams of a scan lie.
+struct Sweep {
+  std::uint32_t beams = 0;
+  double angle_step_rad = 0.0;  ///< from a beam to the next
+  bool all_round = false;       ///< the last beam lies beside the first, or on it: there is no end
+
+  [[nodiscard]] bool begins_at(std::uint32_t beam) const { return !all_round && beam == 0; }
+  [[nodiscard]] bool ends_at(std::uint32_t beam) const { return !all_round && beam + 1 == beams; }
+  [[nodiscard]] bool neighbours(std::uint32_t a, std::uint32_t b) const {
+    const std::uint32_t apart = a < b ? b - a : a - b;
+    return apart == 1 || (all_round && apart + 1 == beams);
+  }
+};
+
+[[nodiscard]] Sweep sweep_of(const LaserScan& scan) noexcept;
 
 using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;
 

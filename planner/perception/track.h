@@ -7,7 +7,7 @@
 
 namespace jaywalk {
 
-/// Most tracks kept at once. When full, the newcomer or the farthest from the robot goes.
+/// Most tracks kept at once. When full, the newcomer or the farthest from the robot goes; what is wall as well, first.
 inline constexpr std::size_t kMaxTracks = 64;
 
 /// Covariance of (position, velocity) along either axis; x and y are alike and independent because

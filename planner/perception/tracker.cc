@@ -5,8 +5,10 @@
 
 #include "planner/perception/association.h"
 #include "planner/perception/bodies.h"
+#include "planner/perception/clusters.h"
 #include "planner/perception/entries.h"
 #include "planner/perception/first_scans.h"
+#include "planner/perception/ground.h"
 #include "planner/perception/hidden_walkers.h"
 #include "planner/perception/kalman.h"
 #include "planner/perception/map_entry.h"
@@ -111,16 +113,17 @@ void Tracker::State::look(const LaserScan& scan, const Pose2& map_from_robot, co
   self_mask.learn(scan, map_from_robot.heading);
   projection.project(scan, config.robot_from_laser, twist, points);
   drop_own_points();
+  const Sweep sweep = sweep_of(scan);
+  begin_at_a_jump(sweep, points);
   map_from_laser = map_from_robot * config.robot_from_laser;
   const Transform2 to_map(map_from_robot);
   for (std::size_t k = 0; k < points.size(); ++k) {
     in_map.position[k] = to_map * points[k].in_robot;
     in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
-  cut_at_jumps(points, static_cast<double>(scan.angle_step_rad), segments);
+  cut_at_jumps(points, sweep, segments);
   cut_between(bodies, in_map, segments);
-  const std::uint32_t last_beam = std::max(scan.beam_count, 1U) - 1;
-  find_clusters(points, in_map, segments, last_beam, map_from_laser.position(), clusters);
+  find_clusters(points, in_map, segments, sweep, map_from_laser.position(), clusters);
 }
 
 void Tracker::State::drop_own_points() noexcept {
@@ -144,10 +147,11 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   const bool after_a_gap = to_seconds(now - body.track.last_seen) > kPathBreaksS;
   if (after_a_gap) body.path.clear();
   track.last_seen = now;
-  body.path.add(now, seen.position_in_map, seen.width_m, seen.whole);
+  body.path.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});
   body.outline_in_map = seen.outline_in_map;
   body.beams = seen.beams;
   body.whole = seen.whole;
+  body.on_wall = seen.on_wall;
   body.edge_m = seen.edge_m;
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
   body.free_share += std::max(kFreeGain, 1.0 / body.track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
@@ -205,6 +209,7 @@ void Tracker::State::birth() noexcept {
     const Observation seen = observe_new(clusters, k, ++last_id);
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
     body.outline_in_map = seen.outline_in_map;
+    body.on_wall = seen.on_wall;
     body.free_share = seen.in_free_space ? 1.0 : 0.0;
     anchor_here(body, map_from_laser, now);
     if (hidden.return_as(body, now)) rename(clusters, last_id, body.track.id);

@@ -34,8 +34,9 @@ class Tracker {
   void update_given(const OutsideFix& fix) noexcept;
 
   [[nodiscard]] const EvidenceMap& still() const;
-  /// All tracks, moving or not. Who walks and has been hidden for more than a second is no track; who then comes out
-  /// where and when he should is the same one again (HiddenWalkers). Who stood is one for two seconds.
+  /// All tracks, moving or not; of walls, what is as wide as a body and stands alone: a pillar, somebody who stood
+  /// there for long. Who walks and has been hidden for more than a second is no track; who then comes out where and
+  /// when he should is the same one again (HiddenWalkers). Who stood is one for two seconds.
   [[nodiscard]] std::span<const Track> tracks() const;
   /// Those that move beyond reasonable doubt: what the planner warps.
   [[nodiscard]] std::span<const Track> moving() const;

@@ -10,16 +10,15 @@ using namespace jaywalk::test;
 
 namespace {
 
-constexpr double kStepRad = 1.5 * kPi / 810;
-
 /// Bodies 0.27 m in radius that were seen three times, each where a disc of the scan is; and the scan cut at jumps.
 struct SideBySide {
   explicit SideBySide(const std::vector<Vec2>& places) {
     Room room;
     for (const Vec2 place : places) room.discs.push_back({place, 0.27});
-    ScanProjection().project(scan_of(room, {}, 1), {}, {}, points);
+    const LaserScan scan = scan_of(room, {}, 1);
+    ScanProjection().project(scan, {}, {}, points);
     for (std::size_t k = 0; k < points.size(); ++k) in_map.position[k] = points[k].in_robot;
-    cut_at_jumps(points, kStepRad, segments);
+    cut_at_jumps(points, sweep_of(scan), segments);
   }
   void know(Vec2 place, bool moving = true) {
     Body body = born_at(place, 0.01, 0.27, time_from_seconds(0.0), static_cast<std::uint32_t>(bodies.size() + 1));

@@ -1,5 +1,6 @@
 #include "planner/perception/bodies.h"
 
+#include <algorithm>
 #include <memory>
 
 #include "tests/support/catch.h"
@@ -26,5 +27,29 @@ TEST_CASE("when the list is full the farthest from the robot goes") {
   admit(*bodies, born_at({200.0, 0.0}, 0.1, 0.25, time_from_seconds(2.0), 101), {0.0, 0.0});
   CHECK_FALSE(has(101));  // the newcomer was the farthest itself
   CHECK(has(63));
+  CHECK(bodies->size() == kMaxTracks);
+}
+
+TEST_CASE("when the list is full what stands where walls stand goes first, however near") {
+  const auto bodies = std::make_unique<Bodies>();
+  const auto at = [](double x, std::uint32_t id, bool on_wall) {
+    Body body = born_at({x, 0.0}, 0.1, 0.25, time_from_seconds(0.0), id);
+    body.on_wall = on_wall;
+    return body;
+  };
+  for (std::uint32_t k = 1; k <= kMaxTracks; ++k) admit(*bodies, at(k, k, k <= 2), {0.0, 0.0});
+  const auto has = [&](std::uint32_t id) {
+    return std::any_of(bodies->begin(), bodies->end(), [&](const Body& body) { return body.track.id == id; });
+  };
+  admit(*bodies, at(200.0, 100, false), {0.0, 0.0});
+  CHECK(has(100));
+  CHECK(has(64));
+  CHECK_FALSE(has(2));  // of the two pillars the one farther off
+  admit(*bodies, at(1.5, 101, true), {0.0, 0.0});
+  CHECK_FALSE(has(101));  // a pillar drives no pillar out that is nearer
+  admit(*bodies, at(201.0, 102, false), {0.0, 0.0});
+  CHECK_FALSE(has(1));
+  admit(*bodies, at(0.5, 103, true), {0.0, 0.0});
+  CHECK_FALSE(has(103));  // nor anybody else
   CHECK(bodies->size() == kMaxTracks);
 }

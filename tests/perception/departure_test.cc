@@ -1,5 +1,7 @@
 #include "planner/perception/departure.h"
 
+#include <algorithm>
+
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -13,7 +15,7 @@ Body walker(Vec2 from, Vec2 to) {
   Body body = born_at(from, 0.05, 0.1, time_from_seconds(0.0), 1);
   const Vec2 aside = Vec2{-(to - from).y, (to - from).x} * (0.1 / norm(to - from));
   for (int k = -2; k <= 2; ++k) (void)body.anchor_outline.push_back(from + aside * (0.5 * k));
-  for (int k = 1; k <= 10; ++k) body.path.add(time_from_seconds(0.1 * k), from + (to - from) * (0.1 * k));
+  for (int k = 1; k <= 10; ++k) body.path.add(time_from_seconds(0.1 * k), {from + (to - from) * (0.1 * k)});
   for (const Vec2& p : body.anchor_outline) (void)body.outline_in_map.push_back(p + to - from);
   body.track.position_in_map = to;
   body.track.velocity_in_map = to - from;
@@ -46,7 +48,8 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
   CHECK(departure(body, sight, {}) == Departure::kCertain);
   body.path.clear();
   for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
-    body.path.add(time_from_seconds(0.1 * k), {3.0, 0.02 * k}, 0.2 + 0.04 * k, true);
+    body.path.add(time_from_seconds(0.1 * k),
+                  {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true});
   CHECK(departure(body, sight, {}) == Departure::kNone);
 }
 
@@ -78,9 +81,9 @@ TEST_CASE("on unknown ground who comes out must go straight, and what comes into
   Body swaying = body;
   swaying.path.clear();
   for (int k = 1; k <= 10; ++k)  // 2 cm to either side, whatever the walk explains is 76 %
-    swaying.path.add(time_from_seconds(0.1 * k), {3.0 + (k % 2 == 0 ? 0.02 : -0.02), 0.02 * k});
+    swaying.path.add(time_from_seconds(0.1 * k), {{3.0 + (k % 2 == 0 ? 0.02 : -0.02), 0.02 * k}});
   CHECK(departure(swaying, sight, {}) == Departure::kNone);
-  body.path.add(time_from_seconds(1.1), {3.0, 0.22}, 0.6);  // its middle goes where more of it comes into view
+  body.path.add(time_from_seconds(1.1), {{3.0, 0.22}, 0.6});  // its middle goes where more of it comes into view
   CHECK(departure(body, sight, {}) == Departure::kNone);
 }
 
@@ -116,6 +119,50 @@ TEST_CASE("a body that came to free space is known by a shorter walk than one on
   CHECK(departure(body, sight, {}) == Departure::kNone);
 }
 
+TEST_CASE("who stood has set out by his newest places alone") {
+  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
+  const LineOfSight sight(scan, {}, {}, {});
+  Body body = walker({3.0, 0.0}, {3.0, 0.16});  // on ground of which nothing is known
+  body.arc_m = 0.25;
+  body.free_share = 0.0;
+  body.noise = 2.0;  // no filter foretold the first step
+  body.track.velocity_in_map = {0.0, 0.4};
+  body.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  body.models = MotionModels(body.track);
+  const auto stands_then_walks = [&](double grows_m) {
+    body.path.clear();
+    for (int k = 0; k < 20; ++k) {  // 4 cm a scan from the seventeenth on, of which every second scan sees a beam more
+      const double steps = std::max(0, k - 15);
+      body.path.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.04 * steps},
+                                                 .width_m = 0.5 + 0.06 * (k % 2) + grows_m * steps,
+                                                 .spacing_m = 0.06,
+                                                 .whole = true});
+    }
+    return departure(body, sight, {});
+  };
+  CHECK(stands_then_walks(0.0) == Departure::kCertain);
+  body.on_wall = true;  // for so long that he was taken for a wall
+  CHECK(stands_then_walks(0.0) == Departure::kCertain);
+  body.on_wall = false;
+  CHECK(stands_then_walks(0.02) == Departure::kNone);  // 8 cm wider at the end: half of its way
+  body.noise = 3.0;
+  CHECK(stands_then_walks(0.0) == Departure::kNone);
+  body.noise = 2.0;
+  body.arc_m = 0.1;
+  CHECK(stands_then_walks(0.0) == Departure::kNone);
+  body.arc_m = 0.25;
+  body.whole = false;
+  CHECK(stands_then_walks(0.0) == Departure::kNone);
+  body.whole = true;
+  body.path.clear();
+  for (int k = 0; k < 6; ++k) body.path.add(time_from_seconds(0.1 * k), {{3.0, 0.032 * k}});  // he never stood
+  CHECK(departure(body, sight, {}) == Departure::kLikely);
+  body.noise = 1.0;  // the filter foretold it
+  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  body.on_wall = true;  // and of a wall it is none
+  CHECK(departure(body, sight, {}) == Departure::kNone);
+}
+
 TEST_CASE("who most likely stands has not set out") {
   Room room = rectangle(12.0, 10.0);
   room.discs = {{{3.0, 0.5}, 0.1}};
@@ -141,7 +188,7 @@ TEST_CASE("who came the whole way in one hop has not set out") {
   room.discs = {{{3.0, 0.5}, 0.1}};
   Body body = walker({3.0, -0.5}, {3.0, 0.5});
   body.path.clear();
-  for (int k = 0; k < 10; ++k) body.path.add(time_from_seconds(0.1 * k), {3.0, k < 5 ? -0.5 : 0.5});
+  for (int k = 0; k < 10; ++k) body.path.add(time_from_seconds(0.1 * k), {{3.0, k < 5 ? -0.5 : 0.5}});
   CHECK_FALSE(sees_it_set_out(body, room));
 }
 

@@ -44,6 +44,8 @@ TEST_CASE("who may stand on unknown ground is no wall for three seconds") {
   const auto seen = std::make_unique<Seen>();
   CHECK(seen->at(2.9) == Pair{Becomes::kObstacle, Becomes::kWall});
   CHECK(seen->at(3.0) == Pair{Becomes::kWall, Becomes::kWall});
+  seen->clusters[0].on_wall = true;  // a pillar that comes into view again
+  CHECK(seen->at(1.0)[0] == Becomes::kWall);
 }
 
 TEST_CASE("posts and panels and what is seen in part are walls at once") {

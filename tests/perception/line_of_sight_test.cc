@@ -30,6 +30,16 @@ TEST_CASE("a place is seen taken, passed over or not at all") {
   CHECK(sight.at({-1.0, 0.0}, 0.05) == Sight::kUnseen);  // outside 270 degrees
 }
 
+TEST_CASE("beside the first beam of a scan all round lies the last") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{2.0, -0.06}, 0.05}};  // from 0.3 to 3.2 degrees right of ahead
+  const LaserScan scan = scan_of(room, {}, 1, 0.0, {.beams = 720, .first_rad = 0.0, .step_rad = kPi / 360.0});
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(sight.at({1.95, 0.02}, 0.08) == Sight::kThere);              // 2.35 degrees of tolerance, to the left of ahead
+  CHECK(sight.at({1.95, 0.02}, 0.08, {710, 1}) == Sight::kThrough);  // those that end on it are not asked
+  CHECK(sight.at({3.0, 0.02}, 0.08) == Sight::kUnseen);              // half behind it
+}
+
 TEST_CASE("a place is passed over only where all beams near it go on") {
   const LaserScan scan = scan_of(with_post(), {}, 1);
   const LineOfSight sight(scan, {}, {}, {});

@@ -6,7 +6,7 @@ using namespace jaywalk;
 
 TEST_CASE("a straight walk explains its places fully") {
   RecentPath path;
-  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {0.04 * k, 0.03 * k});
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{0.04 * k, 0.03 * k}});
   const StraightWalk walk = path.fit();
   CHECK(walk.places == 10);
   CHECK(walk.duration_s == Approx(0.9));
@@ -16,7 +16,7 @@ TEST_CASE("a straight walk explains its places fully") {
 
 TEST_CASE("of one hop in the middle a straight walk explains three quarters") {
   RecentPath path;
-  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {k < 5 ? 0.0 : 0.4, 0.0});
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{k < 5 ? 0.0 : 0.4, 0.0}});
   // x = -0.2 five times then +0.2; t = -4.5 .. 4.5. Sum t x = 2 x 0.2 x (0.5 + 1.5 + 2.5 + 3.5 + 4.5) = 5.0;
   // sum t^2 = 82.5; sum x^2 = 0.4; explained = 5.0^2 / (82.5 x 0.4) = 0.7576.
   CHECK(path.fit().explained == Approx(0.7576).margin(1e-4));
@@ -24,8 +24,8 @@ TEST_CASE("of one hop in the middle a straight walk explains three quarters") {
 
 TEST_CASE("only the last one and a half seconds count") {
   RecentPath path;
-  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {5.0 * (k % 2), 0.0});
-  for (int k = 5; k < 21; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0});
+  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {{5.0 * (k % 2), 0.0}});
+  for (int k = 5; k < 21; ++k) path.add(time_from_seconds(0.1 * k), {{0.1 * k, 0.0}});
   CHECK(path.fit().places == 16);  // from 0.5 s to 2.0 s
   CHECK(path.fit().explained == Approx(1.0));
   CHECK(path.fit().length_m == Approx(1.5));
@@ -33,7 +33,7 @@ TEST_CASE("only the last one and a half seconds count") {
 
 TEST_CASE("places nearer in time than a fast laser tells apart are one") {
   RecentPath path;
-  for (int k = 0; k < 80; ++k) path.add(time_from_seconds(0.025 * k), {0.01 * k, 0.0});  // 40 Hz, 0.4 m/s
+  for (int k = 0; k < 80; ++k) path.add(time_from_seconds(0.025 * k), {{0.01 * k, 0.0}});  // 40 Hz, 0.4 m/s
   // Three scans a place, 75 ms apart, and the last one (79 = 3 x 26 + 1) has two. Of those within 1.5 s of the newest,
   // at 1.9625 s, the oldest is at 0.475 s: 20 steps later, 0.0125 s short of 1.5 s. 0.4 m/s for 1.4875 s is 0.595 m.
   CHECK(path.fit().places == 21);
@@ -43,13 +43,13 @@ TEST_CASE("places nearer in time than a fast laser tells apart are one") {
 
 TEST_CASE("a hop is what a walker could not have walked") {
   RecentPath path;
-  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {0.05 * k + (k < 5 ? 0.0 : 0.4), 0.0});
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{0.05 * k + (k < 5 ? 0.0 : 0.4), 0.0}});
   CHECK(path.fit().longest_hop_m == Approx(0.3));  // 0.45 m in 0.1 s, of which a walker walks 0.15 m
 }
 
 TEST_CASE("standing exactly still is no walk") {
   RecentPath path;
-  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {1.0, 1.0});
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{1.0, 1.0}});
   CHECK(path.fit().explained == 0.0);
   CHECK(path.fit().length_m == 0.0);
 }
@@ -59,7 +59,7 @@ TEST_CASE("a walk is as many standard deviations long as its places scatter abou
   // slope sum(t y) / tt = 0.01 x (-0.5) / 0.825 and leaves 0.001 - (0.005)^2 / 0.825 = 0.00096970 m^2. The noise:
   // (0.00096970 + 4 x 0.0001) / (20 - 4 + 4) = 6.8485e-5 m^2; speed sqrt(0.4^2 + 0.00606^2) = 0.40005 m/s.
   RecentPath path;
-  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {0.04 * k, k % 2 == 0 ? 0.01 : -0.01});
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{0.04 * k, k % 2 == 0 ? 0.01 : -0.01}});
   CHECK(path.fit().sigmas == Approx(0.40005 * 0.9083 / 0.0082756).epsilon(1e-3));
 }
 
@@ -67,7 +67,35 @@ TEST_CASE("width changes by the widest less the narrowest of those seen whole") 
   RecentPath path;
   const double widths[] = {0.5, 0.2, 0.42, 0.61, 0.7};
   const bool whole[] = {true, false, true, true, false};
-  for (int k = 0; k < 5; ++k) path.add(time_from_seconds(0.1 * k), {0.1 * k, 0.0}, widths[k], whole[k]);
+  for (int k = 0; k < 5; ++k)
+    path.add(time_from_seconds(0.1 * k), {.where_in_map = {0.1 * k, 0.0}, .width_m = widths[k], .whole = whole[k]});
   CHECK(path.fit().width_change_m == Approx(0.19));
   CHECK(path.fit().widest_m == Approx(0.7));
+}
+
+TEST_CASE("who stood until just now has walked only since") {
+  RecentPath path;
+  for (int k = 0; k < 20; ++k) {  // a millimetre to and fro, then 3 cm a scan
+    const double gone_m = k < 12 ? 0.0 : 0.03 * (k - 11);
+    path.add(time_from_seconds(k / 15.0), {.where_in_map = {gone_m, k % 2 == 0 ? 0.001 : 0.0}, .spacing_m = 0.01 * k});
+  }
+  const StraightWalk all = path.fit(), since = path.latest_walk(5);
+  CHECK(all.places == 20);
+  CHECK(all.explained < 0.8);
+  CHECK(since.places >= 8);  // a place or two of standing cost little
+  CHECK(since.places <= 10);
+  CHECK(since.explained > 0.98);
+  CHECK(since.length_m == Approx(0.24).margin(0.03));
+  CHECK(since.sigmas > 1.5 * all.sigmas);
+  CHECK(since.spacing_m == Approx(0.19));
+  CHECK(path.latest_walk(20).places == 20);
+  CHECK(path.latest_walk(21).places == 0);
+}
+
+TEST_CASE("who walked all the time has walked since the first place") {
+  RecentPath path;
+  CHECK(path.latest_walk(0).places == 0);
+  for (int k = 0; k < 10; ++k) path.add(time_from_seconds(0.1 * k), {{0.04 * k, k % 2 == 0 ? 0.01 : -0.01}});
+  CHECK(path.latest_walk(5).places == 10);
+  CHECK(path.latest_walk(5).sigmas == path.fit().sigmas);
 }

@@ -35,13 +35,13 @@ Room rectangle(double width, double depth) {
   return {.walls = {{{-x, -y}, {x, -y}}, {{x, -y}, {x, y}}, {{x, y}, {-x, y}}, {{-x, y}, {-x, -y}}}, .discs = {}};
 }
 
-LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m) {
+LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m, const Fan& fan) {
   LaserScan scan;
   scan.stamp = time_from_seconds((k - 1) / 15.0);
   scan.sequence = k;
-  scan.beam_count = 811;
-  scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
-  scan.angle_step_rad = static_cast<float>(1.5 * kPi / 810);
+  scan.beam_count = fan.beams;
+  scan.first_angle_rad = static_cast<float>(fan.first_rad);
+  scan.angle_step_rad = static_cast<float>(fan.step_rad);
   scan.range_min_m = 0.05F;
   scan.range_max_m = 20.0F;
   for (std::uint32_t b = 0; b < scan.beam_count; ++b) {

@@ -24,8 +24,15 @@ struct Room {
 /// Four walls, `width` by `depth`, centred on the origin.
 [[nodiscard]] Room rectangle(double width, double depth);
 
-/// 811 beams over 270 degrees, 20 m, scan number `k` of a 15 Hz laser: stamped (k - 1)/15 s, sequence k. A beam that
-/// meets nothing returns nothing. `noise_m` is the half width of a deterministic ripple over the ranges.
-[[nodiscard]] LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m = 0.0);
+/// How the laser's beams lie.
+struct Fan {
+  std::uint32_t beams = 811;
+  double first_rad = -0.75 * kPi, step_rad = 1.5 * kPi / 810;
+};
+
+/// 811 beams over 270 degrees (or `fan`), 20 m, scan number `k` of a 15 Hz laser: stamped (k - 1)/15 s, sequence k. A
+/// beam that meets nothing returns nothing. `noise_m` is the half width of a deterministic ripple over the ranges.
+[[nodiscard]] LaserScan scan_of(const Room& room, const Pose2& map_from_laser, std::uint32_t k, double noise_m = 0.0,
+                                const Fan& fan = {});
 
 }  // namespace jaywalk::test

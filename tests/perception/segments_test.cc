@@ -2,6 +2,8 @@
 
 #include <memory>
 
+#include "planner/perception/clusters.h"
+#include "planner/perception/ground.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -10,18 +12,19 @@ using namespace jaywalk::test;
 
 namespace {
 
-constexpr double kStepRad = 1.5 * kPi / 810;
-
 /// A scan from the origin, cut and judged against a map.
 struct Cut {
-  explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {})) {
-    ScanProjection().project(scan_of(room, {}, 1), {}, {}, points);
+  explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {}), const Fan& fan = {}) {
+    const LaserScan scan = scan_of(room, {}, 1, 0.0, fan);
+    const Sweep sweep = sweep_of(scan);
+    ScanProjection().project(scan, {}, {}, points);
+    begin_at_a_jump(sweep, points);
     for (std::size_t k = 0; k < points.size(); ++k) {
       in_map.position[k] = points[k].in_robot;
       in_map.ground[k] = ground_at(still, points[k].in_robot, points[k].range_m);
     }
-    cut_at_jumps(points, kStepRad, segments);
-    find_clusters(points, in_map, segments, 810, {0.0, 0.0}, clusters);
+    cut_at_jumps(points, sweep, segments);
+    find_clusters(points, in_map, segments, sweep, {0.0, 0.0}, clusters);
   }
 
   ScanPoints points;
@@ -150,6 +153,42 @@ TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding 
   CHECK_FALSE(half->emerges());
 }
 
+TEST_CASE("a narrow piece hides more than a leg where something wide that is nearer hides it, well before") {
+  const auto emerges = [](double piece_x_m) {
+    Room room;  // a wall hides all but a hand's breadth of a piece beside it, and that one a body's right half
+    room.walls = {{{0.5, 0.0}, {0.5, -0.8}}, {{piece_x_m, -1.0}, {piece_x_m, 0.1}}, {{6.0, -4.0}, {6.0, 4.0}}};
+    room.discs = {{{3.0, 0.1 * 3.0 / piece_x_m}, 0.27}};
+    const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
+    for (const Cluster& c : cut->clusters) {
+      if (distance(c.centre_in_map, {3.0, 0.3}) < 0.35) return c.emerges();
+    }
+    return false;
+  };
+  CHECK(emerges(1.5));
+  CHECK_FALSE(emerges(2.5));  // a piece of the same heap
+}
+
+TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
+  EvidenceMap map = seen_free_all_over();
+  const auto stood = [&](const Room& room) {  // for two seconds
+    const LaserScan scan = scan_of(room, {}, 1);
+    for (std::size_t b = 0; b < scan.beam_count; ++b) {
+      if (!scan.is_hit(b)) continue;
+      for (int k = 0; k < 8; ++k)
+        map.add_hit(direction(scan.angle_rad(b)) * static_cast<double>(scan.range_m[b]), 10, 0.25);
+    }
+    return std::make_unique<Cut>(room, map);
+  };
+  Room room = rectangle(10.0, 8.0);
+  room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{2.0, 3.0}, 0.45}};
+  room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width, before the panel
+  const auto cut = stood(room);
+  REQUIRE(cut->clusters.size() == 1);
+  CHECK(distance(cut->clusters[0].centre_in_map, {3.0, 1.0}) < 0.04);
+  CHECK(cut->clusters[0].on_wall);
+  CHECK_FALSE(cut->clusters[0].in_free_space);
+}
+
 TEST_CASE("what reaches the end of the sweep may go on outside it") {
   Room room = rectangle(10.0, 10.0);
   room.discs = {{direction(0.75 * kPi) * 3.0, 0.27}};
@@ -161,13 +200,67 @@ TEST_CASE("what reaches the end of the sweep may go on outside it") {
   CHECK(cut->clusters[0].beams.last == 810);
 }
 
+TEST_CASE("who stands where a scanner that looks all round begins its turn is one body, whole") {
+  Room room = rectangle(10.0, 8.0);
+  room.discs = {{{3.0, 0.0}, 0.27}};
+  for (const double step_deg : {0.5, -0.5}) {         // from straight ahead on, either way round
+    for (const std::uint32_t beams : {720U, 721U}) {  // the last beam beside the first, or on it
+      const Fan fan{.beams = beams, .first_rad = 0.0, .step_rad = step_deg * kPi / 180.0};
+      const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
+      REQUIRE(cut->clusters.size() == 1);
+      const Cluster& cluster = cut->clusters[0];
+      CHECK(distance(cluster.centre_in_map, {3.0, 0.0}) < 0.04);
+      CHECK(cluster.low_end == End::kSeen);
+      CHECK(cluster.high_end == End::kSeen);
+      CHECK(cluster.radius_m == Approx(0.27).margin(0.03));
+      CHECK(cluster.beams.has(2));
+      CHECK(cluster.beams.has(718));
+      CHECK_FALSE(cluster.beams.has(360));
+    }
+  }
+}
+
+TEST_CASE("where a scan all round begins, sides and what hides them are told beyond its ends as well") {
+  Room room = rectangle(10.0, 8.0);
+  room.discs = {{{3.0, 0.0}, 0.27}};
+  room.walls.push_back({{1.5, -1.0}, {1.5, -0.005}});  // hides the right half, up to the last beam
+  const Fan fan{.beams = 720, .first_rad = 0.0, .step_rad = kPi / 360.0};
+  const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
+  REQUIRE(cut->clusters.size() == 2);  // the wall is as wide as a body may be
+  const Cluster& half = cut->clusters[0].centre_in_map.y > 0.0 ? cut->clusters[0] : cut->clusters[1];
+  CHECK(half.low_end == End::kHidden);
+  CHECK(half.high_end == End::kSeen);
+  CHECK(half.behind_more);
+  CHECK(half.emerges());
+}
+
+TEST_CASE("a circular room without a jump is one wall, and no body though its ends meet") {
+  Room room;
+  room.discs = {};
+  const auto scan = std::make_unique<LaserScan>(scan_of(room, {}, 1, 0.0, {.beams = 720, .step_rad = kPi / 360.0}));
+  for (std::size_t b = 0; b < scan->beam_count; ++b) scan->range_m[b] = 3.0F;
+  const auto points = std::make_unique<ScanPoints>();
+  ScanProjection().project(*scan, {}, {}, *points);
+  begin_at_a_jump(sweep_of(*scan), *points);
+  CHECK((*points)[0].beam == 0);
+  const auto segments = std::make_unique<Segments>();
+  cut_at_jumps(*points, sweep_of(*scan), *segments);
+  CHECK(segments->size() == 1);
+  const auto in_map = std::make_unique<PointsInMap>();
+  for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
+  in_map->ground.fill(Ground::kFree);
+  const auto clusters = std::make_unique<Clusters>();
+  find_clusters(*points, *in_map, *segments, sweep_of(*scan), {}, *clusters);
+  CHECK(clusters->empty());
+}
+
 TEST_CASE("a scan in more pieces than fit is cut short and the rest counts as wall") {
   const auto scan = std::make_unique<LaserScan>(scan_of(rectangle(4.0, 4.0), {}, 1));
   for (std::size_t b = 0; b < scan->beam_count; b += 2) scan->range_m[b] = 1.0F;  // every second beam
   const auto points = std::make_unique<ScanPoints>();
   ScanProjection().project(*scan, {}, {}, *points);
   const auto segments = std::make_unique<Segments>();
-  cut_at_jumps(*points, kStepRad, *segments);
+  cut_at_jumps(*points, sweep_of(*scan), *segments);
   CHECK(segments->full());
   CHECK(segments->back().last < points->size() - 1);
 }

@@ -21,8 +21,10 @@ struct Watch {
   std::uint32_t scan = 0;
   std::size_t most_moving = 0;
 
+  Fan fan{};
+
   void see(const Room& room, const Pose2& robot = {}) {
-    tracker.update(scan_of(room, robot, ++scan, kNoiseM), robot);
+    tracker.update(scan_of(room, robot, ++scan, kNoiseM, fan), robot);
     most_moving = std::max(most_moving, tracker.moving().size());
   }
   /// Looks at an empty 12 m x 10 m room for two seconds.
@@ -104,6 +106,43 @@ TEST_CASE("who stood when first seen is still the same one when he sets out") {
   CHECK(scans <= 12);  // 0.8 s
   REQUIRE(watch.tracker.moving().size() == 1);
   CHECK(watch.tracker.moving()[0].id == name);
+}
+
+TEST_CASE("who stood for so long that he is a wall is seen to set out all the same, under his name") {
+  Watch watch;
+  for (int k = 0; k < 300; ++k) watch.see(with({{{3.0, -1.0}, 0.27}}));  // 20 s
+  const EvidenceMap& still = watch.tracker.still();
+  CHECK(still.stands(still.cell_at({2.73, -1.0})));
+  REQUIRE(watch.tracker.tracks().size() == 1);
+  const std::uint32_t name = watch.tracker.tracks()[0].id;
+  int scans = 0;
+  while (watch.tracker.moving().empty() && scans < 60) {
+    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s
+    ++scans;
+  }
+  CHECK(scans <= 9);  // 0.6 s
+  REQUIRE(watch.tracker.moving().size() == 1);
+  CHECK(watch.tracker.moving()[0].id == name);
+}
+
+TEST_CASE("who walks past where a scanner that looks all round begins its turn is one and the same") {
+  for (const double step_deg : {0.5, -0.5}) {
+    Watch watch;
+    watch.fan = {.beams = 720, .first_rad = 0.0, .step_rad = step_deg * kPi / 180.0};
+    watch.look_round();
+    std::uint32_t name = 0;
+    for (int k = 0; k < 60; ++k) {
+      const double y = -1.5 + 0.05 * k;  // 0.75 m/s from right to left, straight ahead halfway
+      watch.see(with({{{2.0, y}, 0.27}}));
+      if (k < 15) continue;
+      REQUIRE(watch.tracker.moving().size() == 1);
+      const Track& track = watch.tracker.moving()[0];
+      name = name == 0 ? track.id : name;
+      CHECK(track.id == name);
+      CHECK(distance(track.position_in_map, {2.0, y}) < 0.1);
+      CHECK(watch.tracker.tracks().size() == 1);
+    }
+  }
 }
 
 TEST_CASE("a robot that turns in a room sees nothing move") {

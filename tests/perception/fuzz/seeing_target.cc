@@ -104,6 +104,8 @@ struct Eyes {
     aim(from, choice);
     if ((choice & kSameRanges) == 0) fill(from);
     if ((choice & kOddCount) != 0) scan.beam_count = from.take<std::uint16_t>();
+    const bool all_round = (choice & kOddGeometry) == 0 && scan.beam_count % 4 == 3;
+    if (all_round) scan.angle_step_rad = static_cast<float>(2.0 * kPi / scan.beam_count);
     if ((choice & (kWheels | kOddWheels)) != 0) turn_wheels(from, (choice & kOddWheels) != 0);
     if ((choice & kFix) != 0) fix_pose(from);
     judge(localizer.update(wheels, scan, fix, tracker.still()));

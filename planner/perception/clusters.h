@@ -1,0 +1,70 @@
+#pragma once
+// Those pieces of a scan that stand where nothing stood before, or as people do.
+#include <cstdint>
+
+#include "hal/types/fixed_vector.h"
+#include "planner/perception/ground.h"
+#include "planner/perception/segments.h"
+
+namespace jaywalk {
+
+/// Some of the points that something was seen by, spread over its width.
+using Outline = FixedVector<Vec2, 5>;
+
+/// Half widths between which what is seen whole is a body: not a post, no panel.
+inline constexpr double kNarrowestBodyM = 0.18, kWidestBodyM = 0.4;
+
+/// What the beam beside a cluster says of that end of it.
+enum class End : std::uint8_t {
+  kUnknown,  ///< it returned nothing: what is seen at a slant may go on unseen
+  kSeen,     ///< it goes on beyond
+  kHidden,   ///< it ends on something nearer, or the sweep is over: the cluster may go on behind
+};
+
+/// A segment that is small enough for a body, and no part of a wall: something may have come there.
+struct Cluster {
+  Segment segment;
+  BeamRun beams{};         ///< that end on it, and those between
+  Vec2 centre_in_map;      ///< of the body: behind the visible arc
+  double radius_m = 0.0;   ///< half of the visible width
+  double range_m = 0.0;    ///< from the laser
+  double spacing_m = 0.0;  ///< from beam to beam, across them
+  Outline outline_in_map;
+  Vec2 along;                                             ///< unit vector of the beams, away from the laser
+  Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last
+  End low_end = End::kUnknown, high_end = End::kUnknown;  ///< at its first and last beam
+  bool behind_more = false;                               ///< what hides it is wider than legs
+  bool in_free_space = false;                             ///< most of it stands where nothing stood before
+  bool on_wall = false;                                   ///< most of it stands where walls stand
+  std::uint32_t track_id = 0;                             ///< of the body that it was given to; 0: none
+
+  [[nodiscard]] bool low_hidden() const { return low_end == End::kHidden; }
+  [[nodiscard]] bool high_hidden() const { return high_end == End::kHidden; }
+  [[nodiscard]] bool whole() const { return !low_hidden() && !high_hidden(); }
+  /// Seen on one side of something wider than legs, and to end on the other.
+  [[nodiscard]] bool emerges() const {
+    return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);
+  }
+  /// As wide as a body, and seen to end on both sides.
+  [[nodiscard]] bool stands_alone() const {
+    return low_end == End::kSeen && high_end == End::kSeen && radius_m > kNarrowestBodyM && radius_m < kWidestBodyM;
+  }
+  /// Leg-sized: two such may be one person.
+  [[nodiscard]] bool leg() const { return radius_m < 0.15; }
+};
+
+/// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
+inline constexpr double kArcMean = kPi / 4.0;
+
+/// Most clusters followed in a scan; when full, later ones (in the order of the beams) are left for the next scans.
+inline constexpr std::size_t kMaxClusters = 128;
+using Clusters = FixedVector<Cluster, kMaxClusters>;
+
+/// The segments that are no walls and small enough for a body (at most 1.1 m across). What stands where walls stand
+/// counts only where it is as wide as a body and seen to end on both sides: who stood there for long may go on. In
+/// unknown space only those that stand out on one side at least count: what goes on behind something nearer on both is
+/// a wall seen through a gap. What reaches the end of the sweep may go on outside it.
+void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
+                   Vec2 laser_in_map, Clusters& out) noexcept;
+
+}  // namespace jaywalk

@@ -1,0 +1,28 @@
+#pragma once
+// What the map knows of the ground that a scan's points stand on.
+#include <array>
+#include <cstdint>
+
+#include "planner/grid/evidence_map.h"
+#include "planner/perception/scan_points.h"
+
+namespace jaywalk {
+
+/// What the map says of the place where a point lies.
+enum class Ground : std::uint8_t {
+  kWall,     ///< a surface that has stood there is as near as noise and pose explain
+  kUnknown,  ///< nothing, or a surface that came only now: a wall in view for the first time, or somebody
+  kFree,     ///< beams passed there, three or more in a row (EvidenceMap::seen_free)
+};
+
+/// The scan's points in the map, and the ground that each stands on.
+struct PointsInMap {
+  std::array<Vec2, kMaxBeams> position;
+  std::array<Ground, kMaxBeams> ground;
+};
+
+/// The ground under a point that was seen from `range_m` away. A wall's points scatter by noise and by errors of the
+/// pose: 0.10 m, and 0.012 m more a metre of range, about the surface that the map remembers are still its own.
+[[nodiscard]] Ground ground_at(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
+
+}  // namespace jaywalk

@@ -1,0 +1,33 @@
+#include "planner/perception/old_place.h"
+
+#include <algorithm>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
+
+bool covers(const Outline& outline, Vec2 place, double within) {
+  return std::any_of(outline.begin(), outline.end(), [&](Vec2 p) { return distance(p, place) < within; });
+}
+
+}  // namespace
+
+OldPlace old_place(const Body& body, const LineOfSight& sight, Vec2 laser) noexcept {
+  OldPlace old;
+  const double tolerance = kSameM + kSamePerM * distance(laser, body.track.position_in_map);
+  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
+  const Outline& outline = body.anchor_outline;  // in the order of the beams, so that it has two ends
+  if (outline.empty()) return old;
+  const bool first_lags = dot(outline.back() - outline[0], way) > 0.0;
+  for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
+    const Vec2 place = outline[first_lags ? k : outline.size() - 1 - k];
+    if (covers(body.outline_in_map, place, tolerance)) continue;
+    const Sight seen = sight.at(place, tolerance, body.beams);
+    old.taken = old.taken || seen == Sight::kThere;
+    old.through = old.through || seen == Sight::kThrough;
+  }
+  return old;
+}
+
+}  // namespace jaywalk
