@@ -40,10 +40,8 @@ struct Body {
 
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
-  /// As wide as people and robots are.
-  [[nodiscard]] bool body_wide() const { return arc_m > kNarrowestBodyM && arc_m < kWidestBodyM; }
-  /// And seen to stay where it should be as solid things do.
-  [[nodiscard]] bool solid() const { return body_wide() && noise < kSolidNoise; }
+  /// As wide as people and robots are, and seen to stay where it should be as solid things do.
+  [[nodiscard]] bool solid() const { return as_wide_as_a_body(arc_m) && noise < kSolidNoise; }
 
   static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
 };

@@ -11,8 +11,10 @@ namespace jaywalk {
 /// Some of the points that something was seen by, spread over its width.
 using Outline = FixedVector<Vec2, 5>;
 
-/// Half widths between which what is seen whole is a body: not a post, no panel.
-inline constexpr double kNarrowestBodyM = 0.18, kWidestBodyM = 0.4;
+/// As wide as people and robots are, by half the width of what is seen whole: no post, no panel.
+[[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) {
+  return half_width_m > 0.18 && half_width_m < 0.4;
+}
 
 /// What the beam beside a cluster says of that end of it.
 enum class End : std::uint8_t {
@@ -21,7 +23,7 @@ enum class End : std::uint8_t {
   kHidden,   ///< it ends on something nearer, or the sweep is over: the cluster may go on behind
 };
 
-/// A segment that is small enough for a body, and no part of a wall: something may have come there.
+/// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.
 struct Cluster {
   Segment segment;
   BeamRun beams{};         ///< that end on it, and those between
@@ -47,7 +49,7 @@ struct Cluster {
   }
   /// As wide as a body, and seen to end on both sides.
   [[nodiscard]] bool stands_alone() const {
-    return low_end == End::kSeen && high_end == End::kSeen && radius_m > kNarrowestBodyM && radius_m < kWidestBodyM;
+    return low_end == End::kSeen && high_end == End::kSeen && as_wide_as_a_body(radius_m);
   }
   /// Leg-sized: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }

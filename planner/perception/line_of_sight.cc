@@ -19,7 +19,6 @@ LineOfSight::LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, con
       twist_(twist),
       beam_s_(beam_interval_s(scan, twist)),
       sweep_(sweep_of(scan)),
-      beams_(static_cast<double>(sweep_.beams)),
       laser_from_map_(inverse(map_from_robot * robot_from_laser)) {}
 
 LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noexcept {
@@ -33,10 +32,11 @@ LineOfSight::Bearing LineOfSight::bearing(Vec2 place, double after_s) const noex
 
 Sight LineOfSight::at(Vec2 place, double tolerance, const BeamRun& but) const noexcept {
   if (scan_.angle_step_rad == 0.0F) return Sight::kUnseen;
+  const double beams = sweep_.beams;
   Bearing seen = bearing(place, 0.0);
-  if (beam_s_ > 0.0 && seen.beam < beams_) seen = bearing(place, seen.beam * beam_s_);
+  if (beam_s_ > 0.0 && seen.beam < beams) seen = bearing(place, seen.beam * beam_s_);
   const auto [away, beam] = seen;
-  const bool in_sweep = beams_ >= 1.0 && beam > -1.0 && beam < beams_;  // below: angles that a double cannot tell apart
+  const bool in_sweep = beams >= 1.0 && beam > -1.0 && beam < beams;  // below: angles that a double cannot tell apart
   if (!(away > tolerance) || !in_sweep) return Sight::kUnseen;
   const double aside =
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));

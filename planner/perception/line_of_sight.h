@@ -37,7 +37,6 @@ class LineOfSight {
   Twist2 twist_;
   double beam_s_;
   Sweep sweep_;
-  double beams_;               ///< in use, whatever the scan claims
   Transform2 laser_from_map_;  ///< at the stamp
 };
 

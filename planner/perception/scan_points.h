@@ -38,6 +38,7 @@ struct Sweep {
   }
 };
 
+/// Beams beyond kMaxBeams are left out.
 [[nodiscard]] Sweep sweep_of(const LaserScan& scan) noexcept;
 
 using ScanPoints = FixedVector<ScanPoint, kMaxBeams>;

@@ -20,7 +20,6 @@ struct Watch {
   Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
   std::uint32_t scan = 0;
   std::size_t most_moving = 0;
-
   Fan fan{};
 
   void see(const Room& room, const Pose2& robot = {}) {
@@ -37,6 +36,15 @@ Room with(std::initializer_list<Disc> discs) {
   Room room = rectangle(12.0, 10.0);
   room.discs = discs;
   return room;
+}
+
+/// A disc goes off at `velocity`, m/s: the scans until something is called moving, or 60.
+int scans_until_seen_to_move(Watch& watch, const Disc& disc, Vec2 velocity) {
+  int scans = 0;
+  for (; watch.tracker.moving().empty() && scans < 60; ++scans) {
+    watch.see(with({{disc.centre + velocity * (scans / 15.0), disc.radius_m}}));
+  }
+  return scans;
 }
 
 }  // namespace
@@ -73,22 +81,13 @@ TEST_CASE("a walking disc is tracked with its place, velocity and size and leave
 TEST_CASE("a walker is called moving within a second of setting out") {
   Watch watch;
   watch.look_round();
-  int scans = 0;
-  while (watch.tracker.moving().empty() && scans < 60) {
-    watch.see(with({{{3.0 - 0.05 * scans, -1.0}, 0.25}}));  // 0.75 m/s towards the robot
-    ++scans;
-  }
-  CHECK(scans <= 15);
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.25}, {-0.75, 0.0}) <= 15);  // towards the robot
 }
 
 TEST_CASE("a slow walker who was there from the first scan on is no wall that walks along") {
   Watch watch;
-  int scans = 0;
-  while (watch.tracker.moving().empty() && scans < 60) {
-    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s across
-    ++scans;
-  }
-  CHECK(scans <= 25);  // 15 cm takes 0.4 s, cells behind must be seen free
+  // 15 cm takes 0.4 s, cells behind must be seen free.
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.27}, {0.0, 0.4}) <= 25);
 }
 
 TEST_CASE("who stood when first seen is still the same one when he sets out") {
@@ -97,13 +96,8 @@ TEST_CASE("who stood when first seen is still the same one when he sets out") {
   REQUIRE(watch.tracker.tracks().size() == 1);
   const std::uint32_t name = watch.tracker.tracks()[0].id;
   const EvidenceMap& still = watch.tracker.still();
-  CHECK(still.occupied(still.cell_at({2.73, -1.0})));  // he is an obstacle all the same
-  int scans = 0;
-  while (watch.tracker.moving().empty() && scans < 60) {
-    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s
-    ++scans;
-  }
-  CHECK(scans <= 12);  // 0.8 s
+  CHECK(still.occupied(still.cell_at({2.73, -1.0})));                             // he is an obstacle all the same
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.27}, {0.0, 0.4}) <= 12);  // 0.8 s
   REQUIRE(watch.tracker.moving().size() == 1);
   CHECK(watch.tracker.moving()[0].id == name);
 }
@@ -115,12 +109,7 @@ TEST_CASE("who stood for so long that he is a wall is seen to set out all the sa
   CHECK(still.stands(still.cell_at({2.73, -1.0})));
   REQUIRE(watch.tracker.tracks().size() == 1);
   const std::uint32_t name = watch.tracker.tracks()[0].id;
-  int scans = 0;
-  while (watch.tracker.moving().empty() && scans < 60) {
-    watch.see(with({{{3.0, -1.0 + 0.4 / 15 * scans}, 0.27}}));  // 0.4 m/s
-    ++scans;
-  }
-  CHECK(scans <= 9);  // 0.6 s
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.27}, {0.0, 0.4}) <= 9);  // 0.6 s
   REQUIRE(watch.tracker.moving().size() == 1);
   CHECK(watch.tracker.moving()[0].id == name);
 }
