@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/perception/old_place.h"
+#include "planner/perception/places.h"
 
 namespace jaywalk {
 namespace {
@@ -26,15 +26,13 @@ constexpr double kMayStand = 0.5;               // probability that it stands, a
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0, kSteadyM = 0.10;  // of a steady walk
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
-constexpr double kRigidSigmas = 8.0, kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
 // Of one who stood: in no_people_left nothing that did came to more than 9.0 by its newest places, at 8.5 nine more of
 // 125 starts set something off. Who need not have stood: a thing in Freiburg does. The noise of who sets out came
 // to 2.0 in the simulation (docs/tracking-findings.md, "Setting out").
 constexpr double kStoodS = 0.4, kSetsOutSigmas = 10.0, kNoiseSettingOut = 2.5;
 constexpr double kEdges = 1.5;  // beam spacings: where its free side is, is known to one
 constexpr double kPartM = 0.5;  // of a body: what is wider has its middle where more of it comes into view
-// Of a body that comes out on unknown ground. In no_people_left nothing did for more than 16.6 in two scans running.
-constexpr double kEmergesSigmas = 12.0, kEmergesExplained = 0.9;
 constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
 constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
@@ -73,17 +71,11 @@ bool steady(const Body& body, const StraightWalk& walk) {
 
 /// Both its sides went along, and nothing hides either: no surface that comes into view does that.
 bool rigid(const Body& body, const StraightWalk& walk) {
-  return body.whole && body.solid() && steady(body, walk) && walk.width_change_m < kRigidShare * walk.length_m &&
-         (came_straight(body, walk) || walk.sigmas > kRigidSigmas);
+  return body.whole && body.solid() && steady(body, walk) && walk.width_change_m < kRigidShare * walk.length_m;
 }
 
 /// What its free side went says more, and sooner, than a filter that does not know yet how wide it is.
 bool edge_walks(const Body& body, const StraightWalk& walk) { return emerges(body, walk) && steady(body, walk); }
-
-/// So straight that the ground need not tell.
-bool surely_emerges(const Body& body, const StraightWalk& walk) {
-  return edge_walks(body, walk) && walk.sigmas > kEmergesSigmas && walk.explained > kEmergesExplained;
-}
 
 /// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
 bool slides_along_itself(const Body& body, Vec2 laser) {
@@ -94,17 +86,18 @@ bool slides_along_itself(const Body& body, Vec2 laser) {
   return may_be_wall && norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
 }
 
-/// A walk without hops, of a thing whose place is not still taken: straight, or longer and swaying, as one leg or the
-/// other is seen, when the world agrees twice.
-bool walks(const Body& body, const StraightWalk& walk, const LineOfSight& sight, Vec2 laser) {
+/// A walk without hops, of a thing whose place is not still taken: steady, where the ground says so as well, or longer
+/// and swaying, as one leg or the other is seen, when the world agrees twice.
+bool walks(const Body& body, const StraightWalk& walk, const Surroundings& around) {
   if (walk.longest_hop_m > kHopM) return false;
-  const OldPlace old = old_place(body, sight, laser);
+  const OldPlace old = old_place(body, around);
   if (old.taken) return false;
   const bool came = came_to_free_space(body), left = old.through;
-  if (!left && !edge_walks(body, walk) && slides_along_itself(body, laser)) return false;
-  if (rigid(body, walk) || surely_emerges(body, walk) || ((came || left) && steady(body, walk))) return true;
+  if (!left && !edge_walks(body, walk) && slides_along_itself(body, around.laser_in_map())) return false;
+  if (steady(body, walk) && (came || left || enters_free_ground(body, around.still))) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
-  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * distance(laser, body.track.position_in_map));
+  const double range_m = distance(around.laser_in_map(), body.track.position_in_map);
+  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range_m);
   return (came || body.whole) && walk.explained > kExplained && walk.length_m - walk.width_change_m > far;
 }
 
@@ -143,17 +136,17 @@ bool places_enough(const Body& body, const StraightWalk& walk) {
   return walk.places >= (steady(body, walk) ? kFewestSteady : kFewestPlaces);
 }
 
-Departure by_the_whole_path(const Body& body, const LineOfSight& sight, Vec2 laser) {
+Departure by_the_whole_path(const Body& body, const Surroundings& around) {
   const StraightWalk walk = body.path.fit();
   if (!places_enough(body, walk) || !far_from_anchor(body, walk) || !beyond_doubt(body, walk)) return Departure::kNone;
-  if (!walks(body, walk, sight, laser)) return Departure::kNone;
+  if (!walks(body, walk, around)) return Departure::kNone;
   return rigid(body, walk) ? Departure::kCertain : Departure::kLikely;
 }
 
 /// Who stood has walked only since: his newest places alone, after others that he stood at. Both sides of a body must
 /// have gone along, its widths no farther apart than a beam explains. Its noise has just grown, since no filter
 /// foretold the first step.
-bool sets_out(const Body& body, const LineOfSight& sight, Vec2 laser) {
+bool sets_out(const Body& body, const Surroundings& around) {
   if (!body.whole || !as_wide_as_a_body(body.arc_m) || body.noise > kNoiseSettingOut || !filter_walks(body))
     return false;
   const StraightWalk walk = body.path.latest_walk(kFewestPlaces);
@@ -161,18 +154,18 @@ bool sets_out(const Body& body, const LineOfSight& sight, Vec2 laser) {
   const double grew_m = walk.width_change_m - walk.spacing_m;
   if (walk.sigmas < kSetsOutSigmas || walk.length_m < kSteadyM || grew_m > kRigidShare * walk.length_m) return false;
   if (!at_a_walk(walk) || walk.longest_hop_m > kHopM) return false;
-  const OldPlace old = old_place(body, sight, laser);
-  return !old.taken && (old.through || !slides_along_itself(body, laser));
+  const OldPlace old = old_place(body, around);
+  if (old.taken || (!old.through && slides_along_itself(body, around.laser_in_map()))) return false;
+  return old.through || came_to_free_space(body) || enters_free_ground(body, around.still);
 }
 
 }  // namespace
 
-Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept {
+Departure departure(const Body& body, const Surroundings& around) noexcept {
   if (body.seen_share <= kMostlySeen) return Departure::kNone;
-  if (rides_along(body, inverse(map_from_laser) * body.track.position_in_map)) return Departure::kNone;
-  const Vec2 laser = map_from_laser.position();
-  if (sets_out(body, sight, laser)) return Departure::kCertain;  // what is taken for a wall must have stood
-  return body.on_wall ? Departure::kNone : by_the_whole_path(body, sight, laser);
+  if (rides_along(body, inverse(around.map_from_laser) * body.track.position_in_map)) return Departure::kNone;
+  if (sets_out(body, around)) return Departure::kCertain;  // what is taken for a wall must have stood
+  return body.on_wall ? Departure::kNone : by_the_whole_path(body, around);
 }
 
 }  // namespace jaywalk

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "planner/perception/bodies.h"
-#include "planner/perception/line_of_sight.h"
+#include "planner/perception/surroundings.h"
 
 namespace jaywalk {
 
@@ -23,6 +23,6 @@ enum class Departure : std::uint8_t {
 ///
 /// The thresholds are the smallest at which hardly anything set out in 27 passes over a minute of scans that were taken
 /// where nobody was (`no_people_left`, each from another scan on, with three sweep times): docs/tracking-findings.md.
-[[nodiscard]] Departure departure(const Body& body, const LineOfSight& sight, const Pose2& map_from_laser) noexcept;
+[[nodiscard]] Departure departure(const Body& body, const Surroundings& around) noexcept;
 
 }  // namespace jaywalk

@@ -30,24 +30,24 @@ void call_still(Body& body, const Pose2& map_from_laser, Time now) {
   anchor_here(body, map_from_laser, now);
 }
 
-void judge_mover(Body& body, const Pose2& map_from_laser, Time now) {
+void judge_mover(Body& body, const Surroundings& around, Time now) {
   if (!slow(body)) {
     body.slow_since = kNever;
     return;
   }
   if (body.slow_since == kNever) body.slow_since = now;
   if (now - body.slow_since < kSlowFor) return;
-  call_still(body, map_from_laser, now);
+  call_still(body, around.map_from_laser, now);
   body.still_since = std::exchange(body.slow_since, kNever);  // it has stood here for as long as it was slow
 }
 
 /// Who came back should walk on: what does not was taken for him.
-void judge_returned(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) {
+void judge_returned(Body& body, const Surroundings& around, Time now) {
   if (body.misses > 0) return;
-  const bool walks = departure(body, sight, map_from_laser) != Departure::kNone;
+  const bool walks = departure(body, around) != Departure::kNone;
   if (!walks && now - body.returned <= kProofWithin) return;
   body.returned = kNever;
-  if (!walks) call_still(body, map_from_laser, now);
+  if (!walks) call_still(body, around.map_from_laser, now);
 }
 
 void note_departure(Body& body, Departure seen) {
@@ -58,8 +58,8 @@ void note_departure(Body& body, Departure seen) {
   }
 }
 
-void judge_stander(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) {
-  if (body.misses == 0) note_departure(body, departure(body, sight, map_from_laser));
+void judge_stander(Body& body, const Surroundings& around, Time now) {
+  if (body.misses == 0) note_departure(body, departure(body, around));
   if (body.walked >= kWalkedScans) {
     body.walked = 0;
     body.track.moving = true;
@@ -68,19 +68,19 @@ void judge_stander(Body& body, const LineOfSight& sight, const Pose2& map_from_l
   }
   const Duration stood = now - body.still_since;
   if (stood > kSettleAfter && distance(body.track.position_in_map, body.anchor_in_map) < kSettledM) body.settled = true;
-  if (stood > kAnchorHolds) anchor_here(body, map_from_laser, now);  // creeping is not walking
+  if (stood > kAnchorHolds) anchor_here(body, around.map_from_laser, now);  // creeping is not walking
 }
 
 }  // namespace
 
-void judge_motion(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) noexcept {
+void judge_motion(Body& body, const Surroundings& around, Time now) noexcept {
   if (body.given) return;
   if (body.returned != kNever) {
-    judge_returned(body, sight, map_from_laser, now);
+    judge_returned(body, around, now);
   } else if (body.track.moving) {
-    judge_mover(body, map_from_laser, now);
+    judge_mover(body, around, now);
   } else {
-    judge_stander(body, sight, map_from_laser, now);
+    judge_stander(body, around, now);
   }
 }
 

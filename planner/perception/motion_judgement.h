@@ -1,6 +1,6 @@
 #pragma once
 #include "planner/perception/bodies.h"
-#include "planner/perception/line_of_sight.h"
+#include "planner/perception/surroundings.h"
 
 namespace jaywalk {
 
@@ -8,6 +8,6 @@ namespace jaywalk {
 /// (Body::settled). Two thresholds keep it from wavering: it must set out (departure.h) in two scans running, or
 /// certainly in one, to be called moving, and stays so until it has been slow for more than four seconds. One that came
 /// back as a hidden walker (Body::returned) moves from the start, and no longer when it has not set out within 1.5 s.
-void judge_motion(Body& body, const LineOfSight& sight, const Pose2& map_from_laser, Time now) noexcept;
+void judge_motion(Body& body, const Surroundings& around, Time now) noexcept;
 
 }  // namespace jaywalk

@@ -175,9 +175,10 @@ void Tracker::State::associate_and_correct() noexcept {
 
 void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexcept {
   const bool misled = first_scans.mislead(twist, now);
+  const Surroundings around{sight, still, map_from_laser};
   for (Body& body : bodies) {
     if (misled && !body.given) forget_walk(body, map_from_laser, now);
-    judge_motion(body, sight, map_from_laser, now);
+    judge_motion(body, around, now);
   }
 }
 

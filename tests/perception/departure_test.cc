@@ -26,10 +26,32 @@ Body walker(Vec2 from, Vec2 to) {
   return body;
 }
 
-bool sees_it_set_out(const Body& body, const Room& room) {
-  const LaserScan scan = scan_of(room, {}, 1);
-  return departure(body, LineOfSight(scan, {}, {}, {}), {}) != Departure::kNone;
+EvidenceMap nothing_known() { return EvidenceMap(256, 0.1, {}); }
+
+/// Nothing is known but that beams passed over the cell of `place`.
+EvidenceMap free_at(Vec2 place) {
+  EvidenceMap still = nothing_known();
+  still.add(still.cell_at(place), EvidenceMap::kMin);
+  return still;
 }
+
+/// Judges bodies by one scan of a room.
+struct Judge {
+  explicit Judge(const Room& room, const EvidenceMap& map = nothing_known()) : scan(scan_of(room, {}, 1)), still(map) {}
+  [[nodiscard]] Departure operator()(const Body& body) const { return departure(body, {sight, still, {}}); }
+
+  LaserScan scan;
+  EvidenceMap still;
+  LineOfSight sight{scan, {}, {}, {}};
+};
+
+/// As seen when it went aside to (3, 0.21): its right and its left side lie behind and ahead on its way.
+void show_sides(Body& body) {
+  body.outline_in_map.clear();
+  for (int k = 0; k < 5; ++k) (void)body.outline_in_map.push_back({3.0, 0.11 + 0.05 * k});
+}
+
+bool sees_it_set_out(const Body& body, const Room& room) { return Judge(room)(body) != Departure::kNone; }
 
 }  // namespace
 
@@ -43,14 +65,13 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
   // 0.2 m in a second, as straight as can be.
   Body body = walker({3.0, 0.0}, {3.0, 0.2});
   body.arc_m = 0.25;
-  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
-  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  const Judge judged(rectangle(12.0, 10.0));
+  CHECK(judged(body) == Departure::kCertain);
   body.path.clear();
   for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
     body.path.add(time_from_seconds(0.1 * k),
                   {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true});
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  CHECK(judged(body) == Departure::kNone);
 }
 
 TEST_CASE("who comes out from behind something has set out by the way of the side that is seen") {
@@ -58,33 +79,38 @@ TEST_CASE("who comes out from behind something has set out by the way of the sid
   Body body = walker({3.0, 0.0}, {3.0, 0.2});
   body.whole = false;
   body.track.velocity_in_map = {0.0, 0.05};
-  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  const Judge judged(rectangle(12.0, 10.0));
+  CHECK(judged(body) == Departure::kNone);
   body.edge_m = 0.03;
-  CHECK(departure(body, sight, {}) == Departure::kLikely);
+  CHECK(judged(body) == Departure::kLikely);
   body.edge_m = 0.15;  // so far apart are the beams: the way is not longer than one and a half of that
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  CHECK(judged(body) == Departure::kNone);
 }
 
-TEST_CASE("on unknown ground who comes out must go straight, and what comes into view is no wider than half a body") {
-  // 0.2 m in a second, the ground beside it hidden by a wall: nothing is known of where it was.
-  Body body = walker({3.0, 0.0}, {3.0, 0.2});
-  body.whole = false;
-  body.edge_m = 0.03;
-  body.free_share = 0.0;
+TEST_CASE("a steady walk counts where it comes to ground that beams passed before, and else only what is long") {
+  // 0.2 m in a second to the left, from a place that a wall hides: nothing tells whether it still stands there. A heap
+  // of posts that shows another side does as much.
   Room room = rectangle(12.0, 10.0);
   room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
-  const LaserScan scan = scan_of(room, {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
-  CHECK(departure(body, sight, {}) == Departure::kLikely);
-  Body swaying = body;
-  swaying.path.clear();
-  for (int k = 1; k <= 10; ++k)  // 2 cm to either side, whatever the walk explains is 76 %
-    swaying.path.add(time_from_seconds(0.1 * k), {{3.0 + (k % 2 == 0 ? 0.02 : -0.02), 0.02 * k}});
-  CHECK(departure(swaying, sight, {}) == Departure::kNone);
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.free_share = 0.0;
+  body.arc_m = 0.25;
+  show_sides(body);
+  const Vec2 ahead{3.0, 0.31}, behind{3.0, 0.11};
+  CHECK(Judge(room)(body) == Departure::kNone);
+  CHECK(Judge(room, free_at(ahead))(body) == Departure::kCertain);
+  CHECK(Judge(room, free_at(behind))(body) == Departure::kNone);
+  body.whole = false;  // it comes out from behind something
+  body.edge_m = 0.03;
+  CHECK(Judge(room)(body) == Departure::kNone);
+  CHECK(Judge(room, free_at(ahead))(body) == Departure::kLikely);
+  body.arc_m = 0.0;  // its width is not known yet
+  body.path.clear();
+  for (int k = 1; k <= 10; ++k)  // not as straight as a thing must go of which nothing is known
+    body.path.add(time_from_seconds(0.1 * k), {{3.0 + (k % 2 == 0 ? 0.022 : -0.022), 0.02 * k}});
+  CHECK(Judge(room, free_at(ahead))(body) == Departure::kLikely);
   body.path.add(time_from_seconds(1.1), {{3.0, 0.22}, 0.6});  // its middle goes where more of it comes into view
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  CHECK(Judge(room, free_at(ahead))(body) == Departure::kNone);
 }
 
 TEST_CASE("beams that end on a body do not say that it still stands where it set out from") {
@@ -99,29 +125,26 @@ TEST_CASE("beams that end on a body do not say that it still stands where it set
   }
   Room room = rectangle(24.0, 10.0);
   room.walls.push_back({{8.15, -0.1}, {8.15, 0.4}});
-  const LaserScan scan = scan_of(room, {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  const Judge judged(room);
+  CHECK(judged(body) == Departure::kNone);
   body.beams = {403, 413};  // beam 405 is straight ahead: -0.67 to 2.67 degrees
-  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  CHECK(judged(body) == Departure::kCertain);
 }
 
 TEST_CASE("a body that came to free space is known by a shorter walk than one on unknown ground") {
-  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
+  const Judge judged(rectangle(12.0, 10.0));
   Body body = walker({3.0, 0.0}, {3.0, 0.09});  // shorter than 0.10 m
   body.arc_m = 0.25;
   body.track.velocity_in_map = {0.0, 0.3};
   body.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
   body.models = MotionModels(body.track);
-  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  CHECK(judged(body) == Departure::kCertain);
   body.free_share = 0.0;
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  CHECK(judged(body) == Departure::kNone);
 }
 
 TEST_CASE("who stood has set out by his newest places alone") {
-  const LaserScan scan = scan_of(rectangle(12.0, 10.0), {}, 1);
-  const LineOfSight sight(scan, {}, {}, {});
+  const Judge judged(rectangle(12.0, 10.0));
   Body body = walker({3.0, 0.0}, {3.0, 0.16});  // on ground of which nothing is known
   body.arc_m = 0.25;
   body.free_share = 0.0;
@@ -138,7 +161,7 @@ TEST_CASE("who stood has set out by his newest places alone") {
                                                  .spacing_m = 0.06,
                                                  .whole = true});
     }
-    return departure(body, sight, {});
+    return judged(body);
   };
   CHECK(stands_then_walks(0.0) == Departure::kCertain);
   body.on_wall = true;  // for so long that he was taken for a wall
@@ -156,11 +179,27 @@ TEST_CASE("who stood has set out by his newest places alone") {
   body.whole = true;
   body.path.clear();
   for (int k = 0; k < 6; ++k) body.path.add(time_from_seconds(0.1 * k), {{3.0, 0.032 * k}});  // he never stood
-  CHECK(departure(body, sight, {}) == Departure::kLikely);
+  CHECK(judged(body) == Departure::kLikely);
   body.noise = 1.0;  // the filter foretold it
-  CHECK(departure(body, sight, {}) == Departure::kCertain);
+  CHECK(judged(body) == Departure::kCertain);
   body.on_wall = true;  // and of a wall it is none
-  CHECK(departure(body, sight, {}) == Departure::kNone);
+  CHECK(judged(body) == Departure::kNone);
+}
+
+TEST_CASE("who stood and was taken for a wall has set out where he left his place or came to free ground") {
+  Room room = rectangle(12.0, 10.0);
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.arc_m = 0.25;
+  body.free_share = 0.0;
+  body.on_wall = true;
+  show_sides(body);
+  body.path.clear();
+  for (int k = 0; k < 20; ++k)
+    body.path.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.04 * std::max(0, k - 14)}, .whole = true});
+  CHECK(Judge(room)(body) == Departure::kCertain);  // beams pass over where he stood
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
+  CHECK(Judge(room)(body) == Departure::kNone);
+  CHECK(Judge(room, free_at({3.0, 0.31}))(body) == Departure::kCertain);
 }
 
 TEST_CASE("who most likely stands has not set out") {
