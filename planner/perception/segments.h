@@ -20,7 +20,8 @@ using Segments = FixedVector<Segment, kMaxSegments>;
 /// where the scanner begins its turn.
 void begin_at_a_jump(const Sweep& sweep, ScanPoints& points) noexcept;
 
-/// Cuts the scan where neighbouring points are farther apart than a surface explains (adaptive in range).
+/// Cuts the scan where neighbouring points are farther apart than a surface explains: by the range, and by the steps
+/// beside theirs, since a wall seen at a slant goes on in long ones.
 void cut_at_jumps(const ScanPoints& points, const Sweep& sweep, Segments& out) noexcept;
 
 }  // namespace jaywalk

@@ -14,8 +14,9 @@ namespace {
 
 /// A scan from the origin, cut and judged against a map.
 struct Cut {
-  explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {}), const Fan& fan = {}) {
-    const LaserScan scan = scan_of(room, {}, 1, 0.0, fan);
+  explicit Cut(const Room& room, const EvidenceMap& still = EvidenceMap(256, 0.1, {}), const Fan& fan = {},
+               double noise_m = 0.0) {
+    const LaserScan scan = scan_of(room, {}, 1, noise_m, fan);
     const Sweep sweep = sweep_of(scan);
     ScanProjection().project(scan, {}, {}, points);
     begin_at_a_jump(sweep, points);
@@ -49,6 +50,17 @@ TEST_CASE("a disc before a wall is a segment of its own") {
   room.discs = {{{2.0, 0.0}, 0.25}};
   const auto cut = std::make_unique<Cut>(room);
   CHECK(cut->segments.size() == 3);  // wall, disc, wall
+}
+
+TEST_CASE("a wall at a slant is one thing, and a body before it another") {
+  Room room;
+  room.walls = {{{2.0, 1.0}, {12.0, 1.0}}};  // 27 to 5 degrees; its farthest points are 0.7 m apart
+  const auto wall = std::make_unique<Cut>(room, EvidenceMap(256, 0.1, {}), Fan{}, 0.01);
+  CHECK(wall->segments.back().first == 1);  // the first and farthest has no step beyond it
+  room.discs = {{{6.0, 0.5}, 0.27}};
+  const auto cut = std::make_unique<Cut>(room, EvidenceMap(256, 0.1, {}), Fan{}, 0.01);
+  REQUIRE(cut->clusters.size() == 1);
+  CHECK(distance(cut->clusters[0].centre_in_map, {6.0, 0.5}) < 0.05);
 }
 
 TEST_CASE("a body's centre lies behind its visible arc") {
