@@ -10,11 +10,11 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kGate2 = 11.8;     // chi-squared, two degrees of freedom, 99.7 %
-constexpr double kStrideM = 0.6;    // between a person's legs in mid-step
-constexpr double kBelongsM = 0.45;  // a cluster this near a body is part of it
-constexpr double kPersonRadiusM = 0.25;
-constexpr double kLeastRadiusM = 0.2;  // whatever stands on legs is wider than they are
+constexpr double kGate2 = 11.8;          // chi-squared, two degrees of freedom, 99.7 %
+constexpr double kStrideM = 0.6;         // between a person's legs in mid-step
+constexpr double kBelongsM = 0.45;       // a cluster this near a body is part of it
+constexpr double kPersonRadiusM = 0.25;  // of whoever was not seen whole yet
+constexpr double kLeastRadiusM = 0.2;    // whatever stands on legs is wider than they are
 constexpr double kMostRadiusM = 0.5;
 
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle;
@@ -82,23 +82,27 @@ std::int32_t fellow_leg(const Clusters& clusters, std::size_t lead, std::uint32_
 /// Of a half circle of radius 1 that is seen from one side up to `share` of its width: how far its mean lies before
 /// its centre. With the angle a that is seen, (a - sin a cos a) / (2 (1 - cos a)); all of it, kArcMean.
 double arc_mean(double share) {
-  share = std::max(share, kLeastShare);
+  share = std::clamp(share, kLeastShare, 1.0);
   const double c = 1.0 - 2.0 * share, s = std::sqrt(std::max(0.0, 1.0 - c * c));
   return (atan2(s, c) - s * c) / (4.0 * share);
 }
 
 /// Moves what was taken for the middle of the cluster to the middle of its body, which is `arc_m` from the side that is
-/// seen. Hidden on both sides, it may be either way.
-void add_hidden_part(const Cluster& c, double arc_m, Observation& seen) {
-  const double hidden = std::max(0.0, arc_m - c.radius_m);
-  if (c.low_hidden() && c.high_hidden()) {
-    seen.std_m += hidden;
-    return;
-  }
-  seen.std_m += kHiddenStdPerM * hidden;
-  if (hidden == 0.0) return;
+/// seen, and no farther, were more of it in view: what comes into view of who stands must not move him. Hidden on both
+/// sides, it may be either way.
+void be_told_by_a_side(const Cluster& c, double arc_m, Observation& seen) {
+  const double hidden = arc_m - c.radius_m;
+  seen.std_m += (c.hidden_side() == 0 ? 1.0 : kHiddenStdPerM) * std::max(0.0, hidden);
+  if (c.hidden_side() == 0) return;
   const double deeper = arc_m * arc_mean(c.radius_m / arc_m) - c.radius_m * kArcMean;
-  seen.position_in_map = seen.position_in_map + c.high_side * (c.high_hidden() ? hidden : -hidden) + c.along * deeper;
+  seen.position_in_map = seen.position_in_map + c.high_side * (c.hidden_side() * hidden) + c.along * deeper;
+  if (hidden < 0.0) seen.radius_m = std::min(seen.radius_m - hidden, kMostRadiusM);  // what is seen reaches so far
+}
+
+/// From where one side of `c` had its middle while its width was not known, to where both have it.
+Vec2 off_by_one_side(const Cluster& c, int hidden_side) {
+  if (hidden_side == 0) return {};
+  return (c.high_side * hidden_side + c.along * kArcMean) * (c.radius_m - kPersonRadiusM);
 }
 
 void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
@@ -119,14 +123,16 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .outline_in_map = c.outline_in_map,
                    .beams = c.beams,
                    .whole = c.whole(),
+                   .hidden_side = c.hidden_side(),
                    .on_wall = c.on_wall,
                    .edge_m = c.emerges() ? c.spacing_m : 0.0,
                    .width_m = distance(c.outline_in_map[0], c.outline_in_map.back()),
-                   .spacing_m = c.spacing_m};
+                   .spacing_m = c.spacing_m,
+                   .was_off = {}};
   if (seen.whole) {
     if (!c.leg()) seen.arc_m = c.radius_m;
   } else {
-    add_hidden_part(c, arc_m > 0.0 ? arc_m : std::max(c.radius_m, kPersonRadiusM), seen);
+    be_told_by_a_side(c, arc_m > 0.0 ? std::max(arc_m, c.radius_m) : kPersonRadiusM, seen);
   }
   const bool part_of_more = !seen.whole && arc_m > 0.0;
   if (c.leg() && !part_of_more && !c.behind_more) be_legs(clusters, lead, fellow, seen);
@@ -180,6 +186,7 @@ bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept {
   if (lead == clusters.size()) return false;
   const std::int32_t fellow = clusters[lead].leg() ? fellow_leg(clusters, lead, track.id) : -1;
   out = observation_of(clusters, lead, fellow, body.arc_m);
+  if (out.arc_m > 0.0 && body.arc_m == 0.0) out.was_off = off_by_one_side(clusters[lead], body.hidden_side);
   free_strangers(track, lead, fellow, clusters);
   return true;
 }

@@ -14,11 +14,13 @@ struct Observation {
   Outline outline_in_map;  ///< of the nearest cluster
   BeamRun beams{};         ///< of the same
   bool whole = false;      ///< nothing hid either side of that
+  int hidden_side = 0;     ///< Cluster::hidden_side of that
   bool on_wall = false;    ///< that stands where walls stand
   double edge_m = 0.0;     ///< Body::edge_m
   double width_m = 0.0;    ///< of what is seen of that
   double spacing_m = 0.0;  ///< from beam to beam, across them
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
+  Vec2 was_off;            ///< m: how far from there one side alone has had it until now that both are seen
 };
 
 /// Cuts segments where one known body ends and the next begins: whoever passes another so near that no jump parts them.

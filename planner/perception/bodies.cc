@@ -38,6 +38,13 @@ void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept {
   body.still_since = now;
 }
 
+void move_all(Body& body, Vec2 by_m) noexcept {
+  body.track.position_in_map = body.track.position_in_map + by_m;
+  body.anchor_in_map = body.anchor_in_map + by_m;
+  body.models.move(by_m);
+  body.path.move(by_m);
+}
+
 void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept {
   body.path.clear();
   body.walked = 0;

@@ -18,6 +18,7 @@ struct Body {
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
   double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
+  int hidden_side = 0;         ///< Cluster::hidden_side then
   bool on_wall = false;        ///< and it stood where walls stand
   double edge_m = 0.0;         ///< how well its free side was seen then, behind something wider than legs; 0: not so
   bool given = false;          ///< named by an outside system; the laser does not judge it
@@ -58,6 +59,9 @@ using Bodies = FixedVector<Body, kMaxTracks>;
 
 /// From now on the body is watched for going away from where it now is, and was just seen.
 void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept;
+
+/// It was `by_m` from where it was taken to be, all the time.
+void move_all(Body& body, Vec2 by_m) noexcept;
 
 /// What was seen of its way until now tells nothing.
 void forget_walk(Body& body, const Pose2& map_from_laser, Time now) noexcept;

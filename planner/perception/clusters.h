@@ -12,8 +12,9 @@ namespace jaywalk {
 using Outline = FixedVector<Vec2, 5>;
 
 /// As wide as people and robots are, by half the width of what is seen whole: no post, no panel.
+inline constexpr double kLeastHalfWidthM = 0.18, kMostHalfWidthM = 0.4;
 [[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) {
-  return half_width_m > 0.18 && half_width_m < 0.4;
+  return half_width_m > kLeastHalfWidthM && half_width_m < kMostHalfWidthM;
 }
 
 /// What the beam beside a cluster says of that end of it.
@@ -43,6 +44,8 @@ struct Cluster {
   [[nodiscard]] bool low_hidden() const { return low_end == End::kHidden; }
   [[nodiscard]] bool high_hidden() const { return high_end == End::kHidden; }
   [[nodiscard]] bool whole() const { return !low_hidden() && !high_hidden(); }
+  /// -1 where its low side alone is hidden, 1 where its high one is; else 0.
+  [[nodiscard]] int hidden_side() const { return (high_hidden() ? 1 : 0) - (low_hidden() ? 1 : 0); }
   /// Seen on one side of something wider than legs, and to end on the other.
   [[nodiscard]] bool emerges() const {
     return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);

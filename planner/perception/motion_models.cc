@@ -119,6 +119,10 @@ void MotionModels::correct(Track& track, Vec2 measured, double std_m) noexcept {
   report(track);
 }
 
+void MotionModels::move(Vec2 by_m) noexcept {
+  for (ModelState& s : models_) s.position = s.position + by_m;
+}
+
 void MotionModels::report(Track& track) const noexcept {
   std::array<double, kCount> weights{};
   for (std::size_t k = 0; k < kCount; ++k) weights[k] = models_[k].weight;

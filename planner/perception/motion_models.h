@@ -26,6 +26,8 @@ class MotionModels {
   void predict(Track& track, double dt_s) noexcept;
   /// Takes a measured position, `std_m` > 0 an axis, and weighs the models by it; `track` becomes their mean.
   void correct(Track& track, Vec2 measured_in_map, double std_m) noexcept;
+  /// Every model was `by_m` from where it took the body to be.
+  void move(Vec2 by_m) noexcept;
 
   [[nodiscard]] double weight(Model model) const { return models_[model].weight; }
 

@@ -86,6 +86,10 @@ void RecentPath::add(Time when, const Sighting& seen) noexcept {
   ++count_;
 }
 
+void RecentPath::move(Vec2 by_m) noexcept {
+  for (Place& place : places_) place.seen.where_in_map = place.seen.where_in_map + by_m;
+}
+
 std::size_t RecentPath::first() const noexcept {
   std::size_t k = count_ - std::min(count_, kPlaces);
   while (k + 1 < count_ && at(count_ - 1).when - at(k).when > kRemembers) ++k;

@@ -35,6 +35,8 @@ class RecentPath {
   };
 
   void add(Time when, const Sighting& seen) noexcept;
+  /// All places were `by_m` from where they were taken to be.
+  void move(Vec2 by_m) noexcept;
   void clear() noexcept { count_ = 0; }
   /// Least squares over the remembered places, x and y against time.
   [[nodiscard]] StraightWalk fit() const noexcept;

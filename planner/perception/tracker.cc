@@ -42,6 +42,16 @@ void learn_noise(Body& body) {
   body.noise = std::clamp(body.noise * (1.0 + kNoiseGain * wanted), 1.0 / kMostNoise, kMostNoise);
 }
 
+/// What is kept of how a body was seen last.
+void note_sight(Body& body, const Observation& seen) {
+  body.outline_in_map = seen.outline_in_map;
+  body.beams = seen.beams;
+  body.whole = seen.whole;
+  body.hidden_side = seen.hidden_side;
+  body.on_wall = seen.on_wall;
+  body.edge_m = seen.edge_m;
+}
+
 void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
   for (Cluster& c : clusters) {
     if (c.track_id == from) c.track_id = to;
@@ -136,6 +146,7 @@ void Tracker::State::drop_own_points() noexcept {
 
 void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   Track& track = body.track;
+  move_all(body, seen.was_off);
   const double std_m = seen.std_m * std::sqrt(body.noise);
   track.surprise = gate_distance2(track, seen.position_in_map, std_m);
   learn_noise(body);
@@ -148,11 +159,7 @@ void Tracker::State::take(Body& body, const Observation& seen) noexcept {
   if (after_a_gap) body.path.clear();
   track.last_seen = now;
   body.path.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});
-  body.outline_in_map = seen.outline_in_map;
-  body.beams = seen.beams;
-  body.whole = seen.whole;
-  body.on_wall = seen.on_wall;
-  body.edge_m = seen.edge_m;
+  note_sight(body, seen);
   if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
   body.free_share += std::max(kFreeGain, 1.0 / body.track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
   body.looked_through_s = 0.0;
@@ -209,8 +216,7 @@ void Tracker::State::birth() noexcept {
     if (clusters[k].track_id != 0) continue;
     const Observation seen = observe_new(clusters, k, ++last_id);
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
-    body.outline_in_map = seen.outline_in_map;
-    body.on_wall = seen.on_wall;
+    note_sight(body, seen);
     body.free_share = seen.in_free_space ? 1.0 : 0.0;
     anchor_here(body, map_from_laser, now);
     if (hidden.return_as(body, now)) rename(clusters, last_id, body.track.id);

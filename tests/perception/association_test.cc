@@ -38,6 +38,24 @@ struct SideBySide {
   Bodies bodies;
 };
 
+/// What is seen of a disc of 0.4 m about (4, 0), from the origin, behind a wall 2 m off that ends at `edge_y`.
+std::unique_ptr<Clusters> clusters_behind(double edge_y) {
+  Room room;
+  room.walls = {{{2.0, -3.0}, {2.0, edge_y}}};
+  room.discs = {{{4.0, 0.0}, 0.4}};
+  const LaserScan scan = scan_of(room, {}, 1);
+  const auto points = std::make_unique<ScanPoints>();
+  ScanProjection().project(scan, {}, {}, *points);
+  const auto in_map = std::make_unique<PointsInMap>();
+  in_map->ground.fill(Ground::kFree);
+  for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
+  const auto segments = std::make_unique<Segments>();
+  cut_at_jumps(*points, sweep_of(scan), *segments);
+  auto clusters = std::make_unique<Clusters>();
+  find_clusters(*points, *in_map, *segments, sweep_of(scan), {}, *clusters);
+  return clusters;
+}
+
 }  // namespace
 
 TEST_CASE("three known bodies a hand apart are three segments and unknown ones stay one") {
@@ -75,4 +93,31 @@ TEST_CASE("two of whom one moves are cut and two that stand are not") {
     cut_between(seen->bodies, seen->in_map, seen->segments);
     CHECK(seen->segments.size() == (moves ? 2 : 1));
   }
+}
+
+TEST_CASE("where a side has the middle of who comes out does not depend on how much of him is in view") {
+  Vec2 last;
+  for (const double edge_y : {0.12, 0.08, 0.0, -0.08, -0.15}) {  // at 4 m twice as far aside
+    const auto clusters = clusters_behind(edge_y);
+    REQUIRE(clusters->size() == 1);
+    const Observation seen = observe_new(*clusters, 0, 1);
+    CHECK(seen.hidden_side == -1);
+    CHECK(seen.position_in_map.y == Approx(0.15).margin(0.02));  // 0.25 m from the side that is seen, at 0.4
+    CHECK(seen.position_in_map.x == Approx(4.0).margin(0.2));
+    CHECK(seen.position_in_map.y - seen.radius_m < 2.0 * edge_y + 0.05);  // what is seen of him is his
+    CHECK(norm(seen.was_off) == 0.0);
+    last = seen.position_in_map;
+  }
+  const auto clusters = clusters_behind(-1.0);
+  REQUIRE(clusters->size() == 1);
+  Body body = born_at(last, 0.01, 0.25, time_from_seconds(0.0), 1);
+  body.hidden_side = -1;
+  (*clusters)[0].track_id = 1;
+  Observation whole;
+  REQUIRE(observe(body, *clusters, whole));
+  CHECK(distance(whole.position_in_map, {4.0, 0.0}) < 0.03);
+  CHECK(distance(whole.position_in_map - whole.was_off, last) < 0.05);
+  body.arc_m = 0.4;  // once his width is known, what has been said of him stands
+  REQUIRE(observe(body, *clusters, whole));
+  CHECK(norm(whole.was_off) == 0.0);
 }

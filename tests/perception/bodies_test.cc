@@ -53,3 +53,16 @@ TEST_CASE("when the list is full what stands where walls stand goes first, howev
   CHECK_FALSE(has(103));  // nor anybody else
   CHECK(bodies->size() == kMaxTracks);
 }
+
+TEST_CASE("a body that was elsewhere all the time has gone no farther by that") {
+  Body body = born_at({1.0, 0.0}, 0.01, 0.25, time_from_seconds(0.0), 1);
+  const Vec2 by{0.1, -0.2};
+  move_all(body, by);
+  CHECK(distance(body.track.position_in_map, {1.1, -0.2}) < 1e-12);
+  CHECK(distance(body.anchor_in_map, {1.1, -0.2}) < 1e-12);
+  body.models.predict(body.track, 0.0);  // the models say the same
+  CHECK(distance(body.track.position_in_map, {1.1, -0.2}) < 1e-12);
+  for (int k = 1; k < 5; ++k) body.path.add(time_from_seconds(0.1 * k), {Vec2{1.1 + 0.05 * k, -0.2}});
+  CHECK(body.path.fit().length_m == Approx(0.2));  // 4 steps of 5 cm, and no hop before them
+  CHECK(body.path.fit().explained == Approx(1.0));
+}

@@ -82,7 +82,18 @@ TEST_CASE("who comes out from behind something has set out by the way of the sid
   const Judge judged(rectangle(12.0, 10.0));
   CHECK(judged(body) == Departure::kNone);
   body.edge_m = 0.03;
+  const Body came_out = body;
   CHECK(judged(body) == Departure::kLikely);
+  body.hidden_side = 1;
+  CHECK(judged(body) == Departure::kLikely);
+  body.outline_in_map[0] =
+      body.anchor_outline[0];  // the other side stands where it stood: more of a thing came into view
+  CHECK(judged(body) == Departure::kNone);
+  body.hidden_side = -1;
+  CHECK(judged(body) == Departure::kLikely);
+  body.outline_in_map.back() = body.anchor_outline.back();
+  CHECK(judged(body) == Departure::kNone);
+  body = came_out;
   body.edge_m = 0.15;  // so far apart are the beams: the way is not longer than one and a half of that
   CHECK(judged(body) == Departure::kNone);
 }
@@ -109,8 +120,31 @@ TEST_CASE("a steady walk counts where it comes to ground that beams passed befor
   for (int k = 1; k <= 10; ++k)  // not as straight as a thing must go of which nothing is known
     body.path.add(time_from_seconds(0.1 * k), {{3.0 + (k % 2 == 0 ? 0.022 : -0.022), 0.02 * k}});
   CHECK(Judge(room, free_at(ahead))(body) == Departure::kLikely);
-  body.path.add(time_from_seconds(1.1), {{3.0, 0.22}, 0.6});  // its middle goes where more of it comes into view
+  body.path.add(time_from_seconds(1.1), {{3.0, 0.22}, 1.0});  // wider than a body
   CHECK(Judge(room, free_at(ahead))(body) == Departure::kNone);
+}
+
+TEST_CASE("a steady walk of which the ground says nothing counts where both sides went along for a quarter metre") {
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});  // hides the place that it came from
+  const Judge judged(room);
+  const auto seen = [](double length_m, double width_change_m) {
+    Body body = walker({3.0, 0.0}, {3.0, length_m});
+    body.free_share = 0.0;
+    body.arc_m = 0.25;
+    body.path.clear();
+    for (int k = 0; k <= 10; ++k)
+      body.path.add(
+          time_from_seconds(0.1 * k),
+          {.where_in_map = {3.0, 0.1 * k * length_m}, .width_m = 0.5 + 0.1 * k * width_change_m, .whole = true});
+    return body;
+  };
+  CHECK(judged(seen(0.3, 0.0)) == Departure::kCertain);
+  CHECK(judged(seen(0.2, 0.0)) == Departure::kNone);  // a heap of posts goes 0.16 m
+  CHECK(judged(seen(0.3, 0.12)) == Departure::kNone);
+  Body part = seen(0.3, 0.0);
+  part.whole = false;
+  CHECK(judged(part) == Departure::kNone);
 }
 
 TEST_CASE("beams that end on a body do not say that it still stands where it set out from") {

@@ -150,6 +150,35 @@ TEST_CASE("walls that come into view behind a corner do not move") {
   CHECK(watch.most_moving == 0);
 }
 
+/// A disc 0.4 m in radius behind the end of a wall, seen past it from (x, 0.5).
+void see_behind_a_wall(Watch& watch, double disc_y, double x) {
+  Room room = with({{{3.0, disc_y}, 0.4}});
+  room.walls.push_back({{1.5, -5.0}, {1.5, -0.2}});
+  watch.see(room, {x, 0.5, 0.0});
+}
+
+TEST_CASE("a wide one who comes out from behind a wall is known within 0.6 s and does not hop once seen whole") {
+  Watch watch;
+  for (int k = 0; k < 75; ++k) see_behind_a_wall(watch, -1.2, -3.0);
+  int seen = 0, known_after = 0;
+  for (int k = 0; k < 70; ++k) {
+    see_behind_a_wall(watch, -1.2 + k / 30.0, -3.0);  // 0.5 m/s to the left
+    seen += watch.tracker.tracks().empty() ? 0 : 1;
+    if (watch.tracker.moving().empty()) continue;
+    if (known_after == 0) known_after = seen;
+    CHECK(distance(watch.tracker.moving()[0].velocity_in_map, {0.0, 0.5}) < 0.8);  // a hop of 0.15 m: 1.7
+  }
+  CHECK(watch.tracker.moving().size() == 1);
+  CHECK(watch.tracker.tracks()[0].id == 1);
+  CHECK(known_after <= 9);
+}
+
+TEST_CASE("a wide thing that comes into view behind a wall as the robot drives does not move") {
+  Watch watch;
+  for (int k = 0; k < 200; ++k) see_behind_a_wall(watch, -1.2, -3.0 + 0.02 * k);  // 0.3 m/s
+  CHECK(watch.most_moving == 0);
+}
+
 TEST_CASE("posts that are seen in turns are not one who walks") {
   Watch watch;
   watch.look_round();

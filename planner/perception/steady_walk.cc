@@ -1,0 +1,66 @@
+#include "planner/perception/steady_walk.h"
+
+#include <algorithm>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMostlyFree = 0.7;  // of its places in free space
+constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
+// The same of bodies that came to free space: no false mover in no_people_left.
+constexpr double kCameSigmas = 4.5, kCameM = 0.06;
+constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kSideShare = 0.4;   // of its way is the least that its seen side went: 0.3 and 0.5 tell as much
+constexpr double kEdges = 1.5;       // beam spacings: where its seen side is, is known to one
+
+/// Comes out from behind something wider than legs, which no leg that takes its turn does, and is no wider than a body
+/// yet. Its free side is where its path is measured, and a surface that comes into view has that where it always was.
+bool emerges(const Body& body, const StraightWalk& walk) {
+  return body.edge_m > 0.0 && body.noise < Body::kSolidNoise && walk.widest_m < 2.0 * kMostHalfWidthM;
+}
+
+/// The least of a steady walk that is believed.
+struct LeastWalk {
+  double sigmas = 0.0, length_m = 0.0;
+};
+
+LeastWalk least_walk(const Body& body, const StraightWalk& walk) {
+  if (!body.solid() && !emerges(body, walk)) return {kThingSigmas, kSteadyM};
+  if (came_to_free_space(body) && walk.explained > kStraightExplains) return {kCameSigmas, kCameM};
+  return {kSolidSigmas, kSteadyM};
+}
+
+bool seen_side_went(const Body& body) {
+  if (body.hidden_side == 0 || body.anchor_outline.empty() || body.outline_in_map.empty()) return true;
+  const bool low = body.hidden_side > 0;
+  const Vec2 then = low ? body.anchor_outline[0] : body.anchor_outline.back();
+  const Vec2 now = low ? body.outline_in_map[0] : body.outline_in_map.back();
+  const Vec2 way = body.track.position_in_map - body.anchor_in_map;
+  return dot(now - then, way) > kSideShare * dot(way, way);
+}
+
+}  // namespace
+
+bool came_to_free_space(const Body& body) noexcept { return body.free_share > kMostlyFree; }
+
+bool steady(const Body& body, const StraightWalk& walk) noexcept {
+  const LeastWalk least = least_walk(body, walk);
+  return walk.sigmas > least.sigmas && seen_side_went(body) &&
+         walk.length_m > std::max({least.length_m, walk.width_change_m, kEdges * body.edge_m});
+}
+
+double least_steady_m(const Body& body, const StraightWalk& walk) noexcept { return least_walk(body, walk).length_m; }
+
+bool keeps_its_width(const StraightWalk& walk, double change_m) noexcept {
+  return change_m < kRigidShare * walk.length_m;
+}
+
+bool rigid(const Body& body, const StraightWalk& walk) noexcept {
+  return body.whole && body.solid() && steady(body, walk) && keeps_its_width(walk, walk.width_change_m);
+}
+
+bool edge_walks(const Body& body, const StraightWalk& walk) noexcept {
+  return emerges(body, walk) && steady(body, walk);
+}
+
+}  // namespace jaywalk
