@@ -11,8 +11,9 @@ namespace jaywalk {
 /// Some of the points that something was seen by, spread over its width.
 using Outline = FixedVector<Vec2, 5>;
 
-/// As wide as people and robots are, by half the width of what is seen whole: no post, no panel.
+/// Of people and robots, half.
 inline constexpr double kLeastHalfWidthM = 0.18, kMostHalfWidthM = 0.4;
+/// As wide as they are, by half the width of what is seen whole: no post, no panel.
 [[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) {
   return half_width_m > kLeastHalfWidthM && half_width_m < kMostHalfWidthM;
 }

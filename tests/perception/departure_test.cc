@@ -86,8 +86,7 @@ TEST_CASE("who comes out from behind something has set out by the way of the sid
   CHECK(judged(body) == Departure::kLikely);
   body.hidden_side = 1;
   CHECK(judged(body) == Departure::kLikely);
-  body.outline_in_map[0] =
-      body.anchor_outline[0];  // the other side stands where it stood: more of a thing came into view
+  body.outline_in_map[0] = body.anchor_outline[0];  // what is seen to end stands: more of a thing came into view
   CHECK(judged(body) == Departure::kNone);
   body.hidden_side = -1;
   CHECK(judged(body) == Departure::kLikely);
