@@ -32,7 +32,7 @@ Figures measure(std::uint32_t scans) {
   for (std::uint32_t k = 0; k < kSettled + scans; ++k) {
     crowd->at(k, *scan, wheels);
     const double begun = thread_ms();
-    (void)localizer.update(wheels, *scan, {}, tracker.still());
+    (void)localizer.update(wheels, *scan, {}, tracker.still(), tracker.moving());
     const double placed = thread_ms();
     tracker.update(*scan, localizer.map_from_robot_at_scan(), localizer.twist());
     const double seen = thread_ms();

@@ -5,6 +5,7 @@
 
 #include "planner/localization/odometry.h"
 #include "planner/localization/scan_matcher.h"
+#include "planner/localization/walkers.h"
 #include "planner/localization/wheel_trust.h"
 
 namespace jaywalk {
@@ -72,7 +73,7 @@ struct Localizer::State {
 
   void move_by_wheels(const WheelState& wheels) noexcept;
   void coast_to(Time stamp) noexcept;
-  void place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept;
+  void place_scan(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
   [[nodiscard]] MatchResult match(const Pose2& predicted, const EvidenceMap& still) noexcept;
   [[nodiscard]] bool doubtful(const MatchResult& found, const Pose2& predicted) const noexcept;
   void take(const MatchResult& found, const Pose2& predicted) noexcept;
@@ -191,7 +192,8 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   odometry.set_side_drift(drift.turn_per_m());
 }
 
-void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still) noexcept {
+void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still,
+                                  std::span<const Track> moving) noexcept {
   const bool wheels = odometry.has_wheels();
   if (!wheels) coast_to(scan.stamp);
   scan_stamp = scan.stamp;
@@ -200,6 +202,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   if (config.match_scans) {
     projection.project(scan, config.robot_from_laser, twist, points);
     const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
+    leave_out_walkers(moving, predicted, scan.stamp, points);
     const MatchResult found = match(predicted, still);
     matched = found.matched && finite(found.belief.map_from_robot);
     if (matched) take(found, predicted);
@@ -242,10 +245,10 @@ Localizer::Localizer(const LocalizationConfig& config) : state_(std::make_unique
 Localizer::~Localizer() = default;
 
 const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,
-                                      const EvidenceMap& still) noexcept {
+                                      const EvidenceMap& still, std::span<const Track> moving) noexcept {
   State& s = *state_;
   if (wheels.sequence != s.wheels_seen) s.move_by_wheels(wheels);
-  if (scan.sequence != s.scan_seen) s.place_scan(scan, still);
+  if (scan.sequence != s.scan_seen) s.place_scan(scan, still, moving);
   if (fix.sequence != s.fix_seen && fix.has_pose) s.blend(fix);
   s.wheels_seen = wheels.sequence;
   s.scan_seen = scan.sequence;

@@ -1,12 +1,14 @@
 #pragma once
 // Where the robot is: wheels, scans matched to the map, fixes from outside.
 #include <memory>
+#include <span>
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/perception/track.h"
 
 namespace jaywalk {
 
@@ -31,11 +33,11 @@ class Localizer {
   explicit Localizer(const LocalizationConfig& config);
   ~Localizer();
 
-  /// Moves the estimate on by the wheels' newest reading; a scan with a new sequence number is
-  /// matched against `still` (when it holds enough), a fix with a new one is blended by variance.
-  /// Without wheels (sequence 0 for ever) scans alone carry the pose.
+  /// Moves the estimate on by the wheels' newest reading; a scan with a new sequence number is matched against `still`
+  /// (when it holds enough), but for what lies on those who were `moving` when the scan before was seen; a fix with a
+  /// new one is blended by variance. Without wheels (sequence 0 for ever) scans alone carry the pose.
   [[nodiscard]] const PoseEstimate& update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,
-                                           const EvidenceMap& still) noexcept;
+                                           const EvidenceMap& still, std::span<const Track> moving) noexcept;
 
   /// The pose at the newest scan's stamp: what the tracker wants.
   [[nodiscard]] const Pose2& map_from_robot_at_scan() const noexcept;

@@ -22,7 +22,7 @@ constexpr int kUnknownWorth = 48, kWallWorth = 48;
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
-constexpr std::uint32_t kFewestOnWalls = 25;
+constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
 constexpr double kDoubtM = 0.08;  // residuals beyond count less and less

@@ -22,10 +22,10 @@ constexpr double kMostRadiusM = 0.5;
 constexpr double kOneLegStdM = 0.12;
 constexpr double kTwoLegsStdM = 0.08;
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
-constexpr double kHiddenStdPerM = 0.1;  // of what is hidden of a body whose width is known
-constexpr double kLeastShare = 1e-3;    // of a body's width that is seen: beams may be all one
-constexpr double kGateStdM = 0.12;      // whatever part of a body is seen
-constexpr double kWidthOfBoth = 0.75;   // of two bodies' widths: one alone is not as wide
+constexpr double kHiddenStdPerM = 0.05;  // of what is hidden of a body whose width is known
+constexpr double kLeastShare = 1e-3;     // of a body's width that is seen: beams may be all one
+constexpr double kGateStdM = 0.12;       // whatever part of a body is seen
+constexpr double kWidthOfBoth = 0.75;    // of two bodies' widths: one alone is not as wide
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
@@ -139,6 +139,11 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
   return seen;
 }
 
+/// For being unsure of one's place: who was seen once and may be anywhere by now has everything near him, and would
+/// take others' legs. Half of what the logarithm of a Gaussian has: with all of it people who sway lose theirs to
+/// things that stand (docs/tracking-findings.md, "Dark cloth").
+double price_of_doubt(const Track& track) { return log(track.covariance.pp + kGateStdM * kGateStdM); }
+
 void free_strangers(const Track& track, std::size_t lead, std::int32_t fellow, Clusters& clusters) {
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     Cluster& c = clusters[k];
@@ -166,11 +171,12 @@ void cut_between(const Bodies& bodies, const PointsInMap& in_map, Segments& segm
 
 void associate(const Bodies& bodies, Clusters& clusters) noexcept {
   for (Cluster& c : clusters) {
-    double best = kGate2;
+    double best = kInfinity;
     for (const Body& body : bodies) {
-      if (body.given) continue;
       const double d2 = gate_distance2(body.track, c.centre_in_map, kGateStdM);
-      if (d2 < best) best = d2, c.track_id = body.track.id;
+      if (body.given || d2 >= kGate2) continue;
+      const double unlikely = d2 + price_of_doubt(body.track);
+      if (unlikely < best) best = unlikely, c.track_id = body.track.id;
     }
   }
 }

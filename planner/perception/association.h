@@ -28,8 +28,8 @@ struct Observation {
 /// both. When the list is full, its rest counts as wall.
 void cut_between(const Bodies& bodies, const PointsInMap& in_map, Segments& segments) noexcept;
 
-/// Gives every cluster to the likeliest body within its gate (Cluster::track_id); several may share one. Order of
-/// bodies and clusters does not matter except between exact equals.
+/// Gives every cluster to the likeliest body within its gate (Cluster::track_id), of two as near by their own doubt to
+/// the surer one; several may share one. Order of bodies and clusters does not matter except between exact equals.
 void associate(const Bodies& bodies, Clusters& clusters) noexcept;
 
 /// What the clusters given to `body` say together. Its nearest cluster leads; when it is a leg, the nearest

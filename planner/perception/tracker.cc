@@ -19,19 +19,19 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kGivenAccelStd = 0.5;         // the paper's movers keep their speed and seldom turn
-constexpr double kLongestStepS = 1.0;          // scans farther apart than this tell no velocity
-constexpr double kPathBreaksS = 0.4;           // unseen so long, a body may be another
-constexpr double kUnseenForS = 2.0;            // a hidden one is believed in this long, and no longer than it was seen
-constexpr double kWalksUnseenForS = 1.0;       // who walks; after that he may have turned or stopped: HiddenWalkers
-constexpr double kGivenUnseenForS = 1.0;       // one from outside, this long after its last report
-constexpr std::uint32_t kTentativeMisses = 2;  // one not believed yet may be missed this often
-constexpr double kSeenGain = 0.15;             // of the running mean of how often a body was seen
-constexpr double kFreeGain = 0.3;              // of the running mean of how free the ground under a body was
-constexpr double kNoiseGain = 0.075;           // a scan: a second teaches how noisy a body is
-constexpr double kMostNoise = 25.0;            // times the variance expected, or as small a part of it
-constexpr double kMostSurprise = 16.0;         // that one scan teaches: more is another's place
-constexpr double kRadiusGain = 0.2;            // of the running mean of a body's radius
+constexpr double kGivenAccelStd = 0.5;        // the paper's movers keep their speed and seldom turn
+constexpr double kLongestStepS = 1.0;         // scans farther apart than this tell no velocity
+constexpr double kPathBreaksS = 0.4;          // unseen so long, a body may be another
+constexpr double kUnseenForS = 2.0;           // a hidden one is believed in this long, and no longer than it was seen
+constexpr double kWalksUnseenForS = 1.0;      // who walks; after that he may have turned or stopped: HiddenWalkers
+constexpr double kTentativeUnseenForS = 0.6;  // one not believed yet: dark cloth returns nothing for half a second
+constexpr double kGivenUnseenForS = 1.0;      // one from outside, this long after its last report
+constexpr double kSeenGain = 0.15;            // of the running mean of how often a body was seen
+constexpr double kFreeGain = 0.3;             // of the running mean of how free the ground under a body was
+constexpr double kNoiseGain = 0.075;          // a scan: a second teaches how noisy a body is
+constexpr double kMostNoise = 25.0;           // times the variance expected, or as small a part of it
+constexpr double kMostSurprise = 16.0;        // that one scan teaches: more is another's place
+constexpr double kRadiusGain = 0.2;           // of the running mean of a body's radius
 
 bool finite(const Pose2& pose) { return std::isfinite(pose.x) && std::isfinite(pose.y) && std::isfinite(pose.heading); }
 
@@ -192,10 +192,10 @@ void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexce
 bool Tracker::State::gone(const Body& body) const noexcept {
   const double unseen_s = to_seconds(now - body.track.last_seen);
   if (body.given) return unseen_s > kGivenUnseenForS;
-  if (!body.confirmed()) return body.misses > kTentativeMisses;
+  if (body.looked_through_s > kLookedThroughForS) return true;
+  if (!body.confirmed()) return unseen_s > kTentativeUnseenForS;
   const double known_s = to_seconds(body.track.last_seen - body.born);
-  const double most_s = body.track.moving ? kWalksUnseenForS : kUnseenForS;
-  return unseen_s > std::min(most_s, known_s) || body.looked_through_s > kLookedThroughForS;
+  return unseen_s > std::min(body.track.moving ? kWalksUnseenForS : kUnseenForS, known_s);
 }
 
 void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {

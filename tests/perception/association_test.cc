@@ -121,3 +121,13 @@ TEST_CASE("where a side has the middle of who comes out does not depend on how m
   REQUIRE(observe(body, *clusters, whole));
   CHECK(norm(whole.was_off) == 0.0);
 }
+
+TEST_CASE("a cluster between one who is surely near and one who may be anywhere is the former's") {
+  const auto clusters = std::make_unique<Clusters>();
+  REQUIRE(clusters->push_back({}));  // about the origin
+  const auto bodies = std::make_unique<Bodies>();
+  REQUIRE(bodies->push_back(born_at({0.0, 0.25}, 0.1, 0.27, time_from_seconds(0.0), 1)));  // 1.6 deviations off
+  REQUIRE(bodies->push_back(born_at({0.0, 0.25}, 0.7, 0.27, time_from_seconds(0.0), 2)));  // 0.4
+  associate(*bodies, *clusters);
+  CHECK((*clusters)[0].track_id == 1);
+}

@@ -32,7 +32,7 @@ struct Eyes {
 
   void see(LaserScan scan) {
     scan.sequence = ++scans;
-    (void)localizer.update({}, scan, {}, tracker.still());
+    (void)localizer.update({}, scan, {}, tracker.still(), tracker.moving());
     tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
   }
   /// A walker at 0.9 m/s, from -2 m to 2 m; scan `k` of a 15 Hz laser.

@@ -14,7 +14,7 @@ TEST_CASE("the crowd that seeing is timed in fills every track with a mover and 
   WheelState wheels;
   for (std::uint32_t k = 0; k <= 150; ++k) {
     crowd->at(k, *scan, wheels);
-    (void)localizer.update(wheels, *scan, {}, tracker.still());
+    (void)localizer.update(wheels, *scan, {}, tracker.still(), tracker.moving());
     tracker.update(*scan, localizer.map_from_robot_at_scan(), localizer.twist());
   }
   CHECK(scan->beam_count == 1081);

@@ -31,7 +31,7 @@ std::vector<PosePair> follow(const std::filesystem::path& carmen, const Pose2& e
   for (Time now = replay.start_time(); !replay.ended(); now += kTick) {
     hal.clock.sleep_until(now);
     const LaserScan& scan = hal.laser.latest();
-    static_cast<void>(localizer.update(hal.drive.latest(), scan, {}, tracker.still()));
+    static_cast<void>(localizer.update(hal.drive.latest(), scan, {}, tracker.still(), tracker.moving()));
     if (scan.sequence == last) continue;
     last = scan.sequence;
     const Pose2& seen_from = localizer.map_from_robot_at_scan();

@@ -35,7 +35,7 @@ struct Drive {
   void step_without_wheels(const Room& room, const Pose2& truth) { look(scan_of(room, truth, ++scan, 0.01)); }
 
   void look(const LaserScan& seen) {
-    estimate = localizer.update(wheels, seen, fix, tracker.still());
+    estimate = localizer.update(wheels, seen, fix, tracker.still(), tracker.moving());
     tracker.update(seen, localizer.map_from_robot_at_scan(), localizer.twist());
   }
 
@@ -66,10 +66,10 @@ TEST_CASE("without scans to match the pose is the wheels' and its doubt grows wi
   const EvidenceMap still(64, 0.1, {});
   const LaserScan none;
   WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  (void)localizer.update(wheels, none, {}, still);
-  const double std_at_start = localizer.update(wheels, none, {}, still).position_std_m;
+  (void)localizer.update(wheels, none, {}, still, {});
+  const double std_at_start = localizer.update(wheels, none, {}, still, {}).position_std_m;
   wheels = {.stamp = time_from_seconds(4.0), .sequence = 2, .left_rad = 20.0, .right_rad = 20.0};
-  const PoseEstimate& there = localizer.update(wheels, none, {}, still);
+  const PoseEstimate& there = localizer.update(wheels, none, {}, still, {});
   CHECK(there.stamp == time_from_seconds(4.0));
   CHECK(there.map_from_robot.x == Approx(1.0));
   CHECK(there.map_from_robot.y == Approx(4.0));  // 2 m on, facing +y
@@ -211,12 +211,27 @@ TEST_CASE("people who walk by do not pull the pose along") {
   CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);
 }
 
+TEST_CASE("the walls between walkers tell how the robot looks, few as they are") {
+  Drive drive({});
+  Pose2 by_wheels;
+  for (int k = 0; k < 120; ++k) {
+    Room room = furnished();
+    for (int w = 0; w < 9 && k >= 30; ++w) {  // round the robot at 0.5 m/s; two beams of three end on them
+      room.discs.push_back({direction(2.0 * kPi * w / 9 + 0.026 * k) * 1.3, 0.3});
+    }
+    drive.step(room, {}, by_wheels);
+    if (k > 75) by_wheels.heading += 0.004;
+  }
+  CHECK(drive.tracker.moving().size() >= 5);
+  CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);  // 0.18 by the wheels
+}
+
 TEST_CASE("an outside fix is blended by variance") {
   Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
   const EvidenceMap still(64, 0.1, {});
   const LaserScan none;
   WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
-  const double std_before = localizer.update(wheels, none, {}, still).position_std_m;  // 0.005
+  const double std_before = localizer.update(wheels, none, {}, still, {}).position_std_m;  // 0.005
   OutsideFix fix;
   fix.stamp = time_from_seconds(0.0);
   fix.sequence = 1;
@@ -224,7 +239,7 @@ TEST_CASE("an outside fix is blended by variance") {
   fix.map_from_robot = {0.1, -0.2, 0.0};
   fix.position_std_m = 2.0 * std_before;  // a quarter of the weight: a fifth of the way
   fix.heading_std_rad = 1.0;
-  const PoseEstimate& blended = localizer.update(wheels, none, fix, still);
+  const PoseEstimate& blended = localizer.update(wheels, none, fix, still, {});
   CHECK(blended.map_from_robot.x == Approx(0.02));
   CHECK(blended.map_from_robot.y == Approx(-0.04));
   CHECK(blended.position_std_m == Approx(std_before * std::sqrt(0.8)));
@@ -240,12 +255,12 @@ TEST_CASE("a fix is taken once and a fix without a finite pose not at all") {
   fix.has_pose = true;
   fix.map_from_robot = {1.0, 0.0, 0.0};
   fix.position_std_m = 0.005;
-  const double once = localizer.update({}, none, fix, still).map_from_robot.x;
+  const double once = localizer.update({}, none, fix, still, {}).map_from_robot.x;
   CHECK(once > 0.0);
-  CHECK(localizer.update({}, none, fix, still).map_from_robot.x == once);
+  CHECK(localizer.update({}, none, fix, still, {}).map_from_robot.x == once);
   fix.sequence = 2;
   fix.map_from_robot.x = std::numeric_limits<double>::quiet_NaN();
-  CHECK(localizer.update({}, none, fix, still).map_from_robot.x == once);
+  CHECK(localizer.update({}, none, fix, still, {}).map_from_robot.x == once);
 }
 
 TEST_CASE("a robot among walkers allocates nothing") {

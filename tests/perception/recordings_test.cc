@@ -36,9 +36,9 @@ Seen run(const Recording& recording, const Pose2& start, const Pose2& robot_from
   for (const LaserScan& scan : recording.scans) {
     while (row < recording.odometry.size() && recording.odometry[row].t_s <= to_seconds(scan.stamp)) {
       wheels = wheels_of.reading(recording.odometry[row++]);
-      (void)localizer.update(wheels, last, no_fix, tracker.still());
+      (void)localizer.update(wheels, last, no_fix, tracker.still(), tracker.moving());
     }
-    (void)localizer.update(wheels, scan, no_fix, tracker.still());
+    (void)localizer.update(wheels, scan, no_fix, tracker.still(), tracker.moving());
     tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
     last = scan;
     seen.poses.push_back(localizer.map_from_robot_at_scan());

@@ -49,3 +49,14 @@ TEST_CASE("a scan of which the map knows next to nothing is neither matched nor 
   CHECK_FALSE(result.matched);
   CHECK_FALSE(result.contradicted);
 }
+
+TEST_CASE("a piece of wall that fifteen beams meet is enough to be matched, one that ten meet is not") {
+  const auto tracker = known(rectangle(8.0, 6.0));
+  const auto piece = [](double width_m) {
+    return Room{.walls = {{{4.0, -0.5 * width_m}, {4.0, 0.5 * width_m}}}, .discs = {}};
+  };
+  const MatchResult enough = match(*tracker, piece(0.45));
+  CHECK(enough.points_used < 22);
+  CHECK(enough.matched);
+  CHECK_FALSE(match(*tracker, piece(0.25)).matched);
+}

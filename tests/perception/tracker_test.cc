@@ -26,6 +26,17 @@ struct Watch {
     tracker.update(scan_of(room, robot, ++scan, kNoiseM, fan), robot);
     most_moving = std::max(most_moving, tracker.moving().size());
   }
+  /// Somebody in the empty room who is dark all over: his beams return nothing.
+  void see_dark(const Disc& disc) {
+    Room room = rectangle(12.0, 10.0);
+    const LaserScan empty = scan_of(room, {}, ++scan, kNoiseM, fan);
+    room.discs = {disc};
+    LaserScan seen = scan_of(room, {}, scan, kNoiseM, fan);
+    for (std::size_t k = 0; k < seen.beam_count; ++k) {
+      if (seen.range_m[k] != empty.range_m[k]) seen.range_m[k] = std::numeric_limits<float>::quiet_NaN();
+    }
+    tracker.update(seen, {});
+  }
   /// Looks at an empty 12 m x 10 m room for two seconds.
   void look_round() {
     for (int k = 0; k < 30; ++k) see(rectangle(12.0, 10.0));
@@ -289,6 +300,22 @@ TEST_CASE("a track whose place is looked through dies within a second") {
   REQUIRE(watch.tracker.moving().size() == 1);
   for (int k = 0; k < 16; ++k) watch.see(with({}));
   CHECK(watch.tracker.tracks().empty());
+}
+
+TEST_CASE("what returns nothing in six scans of seven is one and the same, what is looked through meanwhile is not") {
+  const Disc somebody{{2.0, 0.5}, 0.1};
+  for (const bool is_there : {true, false}) {
+    Watch watch;
+    watch.look_round();
+    for (int k = 0; k < 15; ++k) {
+      if (k % 7 > 0 && is_there) {
+        watch.see_dark(somebody);
+      } else {
+        watch.see(k % 7 > 0 ? with({}) : with({somebody}));
+      }
+    }
+    CHECK(watch.tracker.tracks().size() == (is_there ? 1U : 0U));  // seen three times
+  }
 }
 
 TEST_CASE("scans without a single return change nothing") {

@@ -108,7 +108,7 @@ struct Eyes {
     if (all_round) scan.angle_step_rad = static_cast<float>(2.0 * kPi / scan.beam_count);
     if ((choice & (kWheels | kOddWheels)) != 0) turn_wheels(from, (choice & kOddWheels) != 0);
     if ((choice & kFix) != 0) fix_pose(from);
-    judge(localizer.update(wheels, scan, fix, tracker.still()));
+    judge(localizer.update(wheels, scan, fix, tracker.still(), tracker.moving()));
     tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
     for (const Track& track : tracker.tracks()) judge(track);
     require(tracker.tracks().size() <= kMaxTracks && tracker.moving().size() <= tracker.tracks().size());

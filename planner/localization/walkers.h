@@ -1,0 +1,16 @@
+#pragma once
+// Which of a scan's points tell nothing of walls: they lie on somebody who walks.
+#include <span>
+
+#include "planner/perception/scan_points.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk {
+
+/// Drops the points within a hand of where each of `moving` should be at `stamp`, as seen from `map_from_robot`. Ground
+/// that people walk on is free in the map: among many of them a scan would seem to contradict it, though the few walls
+/// in between say where the robot is.
+void leave_out_walkers(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
+                       ScanPoints& points) noexcept;
+
+}  // namespace jaywalk
