@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/localization/coasting.h"
 #include "planner/localization/odometry.h"
 #include "planner/localization/scan_matcher.h"
 #include "planner/localization/walkers.h"
@@ -10,14 +11,6 @@
 
 namespace jaywalk {
 namespace {
-
-// Without wheels the robot keeps its speed from scan to scan within what a wheelchair can accelerate by.
-constexpr double kAccelStd = 1.5;                         // m/s^2
-constexpr double kTurnAccelStd = 3.0;                     // rad/s^2
-constexpr double kLongestCoastS = 1.0;                    // after a longer gap it is taken to have stood
-constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match was wrong
-constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
-constexpr double kTwistGain = 0.7;                        // of the running mean of speeds between matches
 
 // Of a fix: beyond, it is a mistake, and what it would turn the robot by no number can hold.
 constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
@@ -77,8 +70,6 @@ struct Localizer::State {
   [[nodiscard]] MatchResult match(const Pose2& predicted, const EvidenceMap& still) noexcept;
   [[nodiscard]] bool doubtful(const MatchResult& found, const Pose2& predicted) const noexcept;
   void take(const MatchResult& found, const Pose2& predicted) noexcept;
-  void learn_twist(const Pose2& placed, Time stamp) noexcept;
-  void forget_twist(Time stamp) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
   void correct_to(const Pose2& map_from_robot, const Pose2& odom_from_robot) noexcept {
@@ -104,11 +95,7 @@ struct Localizer::State {
   Time scan_stamp = kNever;
   Pose2 odom_from_robot_at_scan;
 
-  // Without wheels:
-  Pose2 last_placed;
-  Time last_placed_stamp = kNever;
-  Vec2 velocity_in_robot;
-  double turn_radps = 0.0;
+  Coasting coasting;  ///< without wheels
   Twist2 twist;
 
   PoseEstimate estimate;
@@ -129,38 +116,11 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {
-  const bool gap = last_placed_stamp == kNever || stamp <= last_placed_stamp ||
-                   to_seconds(stamp - last_placed_stamp) > kLongestCoastS;
-  const double dt = gap ? 0.0 : to_seconds(stamp - last_placed_stamp);
-  odometry.coast({velocity_in_robot.x * dt, velocity_in_robot.y * dt, turn_radps * dt}, stamp);
-  const double metres = kAccelStd * dt * std::max(dt, 0.1), radians = kTurnAccelStd * dt * std::max(dt, 0.1);
-  covariance = covariance + diagonal(metres * metres, metres * metres, radians * radians);
+  const Coasting::Step step = coasting.since_last_scan(stamp);
+  odometry.coast(step.before_from_after, stamp);
+  const double position_var = step.metres_std * step.metres_std;
+  covariance = covariance + diagonal(position_var, position_var, step.radians_std * step.radians_std);
   if_wheels_slipped = covariance;
-}
-
-void Localizer::State::learn_twist(const Pose2& placed, Time stamp) noexcept {
-  const double dt = last_placed_stamp == kNever ? 0.0 : to_seconds(stamp - last_placed_stamp);
-  const Pose2 step = inverse(last_placed) * placed;
-  const bool believable = dt > 0.0 && dt < kLongestCoastS && norm(step.position()) < kFastestMps * dt &&
-                          std::fabs(step.heading) < kFastestRadps * dt;
-  if (believable) {
-    velocity_in_robot = velocity_in_robot + (step.position() * (1.0 / dt) - velocity_in_robot) * kTwistGain;
-    turn_radps += (step.heading / dt - turn_radps) * kTwistGain;
-  } else {
-    velocity_in_robot = {};
-    turn_radps = 0.0;
-  }
-  last_placed = placed;
-  last_placed_stamp = stamp;
-  twist = {velocity_in_robot.x, turn_radps};
-}
-
-void Localizer::State::forget_twist(Time stamp) noexcept {
-  velocity_in_robot = velocity_in_robot * kForget;
-  turn_radps *= kForget;
-  last_placed = map_from_odom * odom_from_robot_at_scan;
-  last_placed_stamp = stamp;
-  twist = {velocity_in_robot.x, turn_radps};
 }
 
 bool Localizer::State::doubtful(const MatchResult& found, const Pose2& predicted) const noexcept {
@@ -209,11 +169,13 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
     contradicted = found.contradicted;
   }
   if (wheels) return;
+  const Pose2 there = map_from_odom * odom_from_robot_at_scan;
   if (matched) {
-    learn_twist(map_from_odom * odom_from_robot_at_scan, scan.stamp);
+    coasting.placed(there, scan.stamp);
   } else {
-    forget_twist(scan.stamp);
+    coasting.not_placed(there, scan.stamp);
   }
+  twist = coasting.twist();
 }
 
 void Localizer::State::blend(const OutsideFix& fix) noexcept {

@@ -1,26 +1,11 @@
 #include "planner/localization/scan_matcher.h"
 
-#include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "planner/localization/wall_piece.h"
 
 namespace jaywalk {
 namespace {
-
-using Sample = ScanMatcher::Sample;
-
-constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then half of it
-constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
-constexpr int kMostCells = 4;             // to each side; then half a cell
-constexpr double kMostWindowRad = 0.42;
-// What a point is worth, in EvidenceMap::kMax: on a certain wall all. In unknown space as much as on a wall that was
-// hit once: were it less, a robot that drives on would seem to stay where its walls are known, and one whose laser
-// reaches a few metres did.
-constexpr int kUnknownWorth = 48, kWallWorth = 48;
-constexpr double kWindowSigmas = 3.0;
-constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
 constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
@@ -29,127 +14,19 @@ constexpr double kDoubtM = 0.08;  // residuals beyond count less and less
 // Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking-findings.md).
 constexpr double kIndependent = 0.06;
 
-int worth_of(int evidence) {
-  if (evidence == 0) return kUnknownWorth;
-  return evidence < 0 ? 0 : kWallWorth + evidence * (EvidenceMap::kMax - kWallWorth) / EvidenceMap::kMax;
-}
-
-/// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
-double share_on_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose) {
-  const Transform2 to_map(pose);
-  int sum = 0, count = 0;
-  for (std::size_t k = 0; k < sample.size(); ++k, ++count) {
-    sum += worth_of(still.evidence(still.cell_at(to_map * sample[k])));
-  }
-  return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
-}
-
 Row3 offset(const Pose2& from, const Pose2& to) {
   return {to.x - from.x, to.y - from.y, wrap_angle(to.heading - from.heading)};
-}
-
-Pose2 moved(const Pose2& pose, const Row3& by) {
-  return {pose.x + by.x, pose.y + by.y, wrap_angle(pose.heading + by.heading)};
 }
 
 }  // namespace
 
 void ScanMatcher::sample(const ScanPoints& scan) noexcept {
   sample_.clear();
-  const std::size_t stride = scan.size() / kMostPoints + 1;
+  const std::size_t stride = scan.size() / kMostMatchPoints + 1;
   for (std::size_t k = 0; k < scan.size(); k += stride) (void)sample_.push_back(scan[k].in_robot);
 }
 
 namespace {
-
-/// Poses on a lattice about the prediction.
-struct Window {
-  int cells = 0;     ///< to each side
-  int headings = 0;  ///< to each side
-  double cell_m = 0.0;
-};
-
-/// What the coarse lattice's poses of one heading are worth: whole cells apart, so that each point is turned and put
-/// into its cell once, and then looked up in the cells about it.
-class WorthOfShifts {
- public:
-  void add_up(const Sample& sample, const EvidenceMap& still, const Pose2& pose, int reach) {
-    sum_.fill(0);
-    count_ = 0;
-    const Transform2 to_map(pose);
-    for (std::size_t k = 0; k < sample.size(); k += kCoarseStride, ++count_)
-      add(still, still.cell_at(to_map * sample[k]), reach);
-  }
-  /// Of the pose moved by (x, y) cells: 0 to 1.
-  [[nodiscard]] double share(int x, int y) const {
-    return static_cast<double>(sum_[place(x, y)]) / (EvidenceMap::kMax * std::max(1, count_));
-  }
-
- private:
-  static constexpr int kSide = 2 * kMostCells + 1;
-  static std::size_t place(int x, int y) { return static_cast<std::size_t>((y + kMostCells) * kSide + x + kMostCells); }
-  void add(const EvidenceMap& still, CellIndex cell, int reach) {
-    for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) sum_[place(x, y)] += worth_of(still.evidence({cell.i + x, cell.j + y}));
-    }
-  }
-
-  std::array<int, static_cast<std::size_t>(kSide* kSide)> sum_{};
-  int count_ = 0;
-};
-
-double price(const Symmetric3& information, const Row3& by) {
-  return kThreeSigmaPrice / 9.0 * information.quadratic(by);
-}
-
-/// The best offset from the prediction, in steps of a cell and of kCoarseRad.
-Row3 best_cell(const Window& window, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
-               const Symmetric3& information) {
-  WorthOfShifts worth_of_shifts;
-  Row3 best;
-  double best_worth = -1e9;
-  for (int h = -window.headings; h <= window.headings; ++h) {
-    worth_of_shifts.add_up(sample, still, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
-    for (int y = -window.cells; y <= window.cells; ++y) {
-      for (int x = -window.cells; x <= window.cells; ++x) {
-        const Row3 by{x * window.cell_m, y * window.cell_m, h * kCoarseRad};
-        const double worth = worth_of_shifts.share(x, y) - price(information, by);
-        if (worth > best_worth) best_worth = worth, best = by;
-      }
-    }
-  }
-  return best;
-}
-
-/// The best of the offsets half a step to each side of `centre`.
-Row3 best_half_step(const Row3& centre, const Sample& sample, const EvidenceMap& still, const Pose2& predicted,
-                    const Symmetric3& information) {
-  Row3 best = centre;
-  double best_worth = -1e9;
-  const double half_m = 0.5 * still.cell_m(), half_rad = 0.5 * kCoarseRad;
-  for (int k = 0; k < 27; ++k) {
-    const Row3 by{centre.x + (k % 3 - 1) * half_m, centre.y + (k / 3 % 3 - 1) * half_m,
-                  centre.heading + (k / 9 - 1) * half_rad};
-    const double worth = share_on_walls(sample, still, moved(predicted, by)) - price(information, by);
-    if (worth > best_worth) best_worth = worth, best = by;
-  }
-  return best;
-}
-
-int steps(double variance, double most, double step) {
-  return static_cast<int>(std::ceil(std::min(kWindowSigmas * std::sqrt(variance), most) / step));
-}
-
-Pose2 search(const Sample& sample, const EvidenceMap& still, const PoseBelief& predicted,
-             const Symmetric3& information) {
-  const Symmetric3& p = predicted.covariance;
-  const double cell_m = still.cell_m();
-  const Window window{.cells = steps(std::max(p.xx, p.yy), kMostCells * cell_m, cell_m),
-                      .headings = steps(p.hh, kMostWindowRad, kCoarseRad),
-                      .cell_m = cell_m};
-  const Row3 valley = best_cell(window, sample, still, predicted.map_from_robot, information);
-  return moved(predicted.map_from_robot, best_half_step(valley, sample, still, predicted.map_from_robot, information));
-}
 
 struct Pull {
   Symmetric3 information;
@@ -158,7 +35,7 @@ struct Pull {
   double fit = 0.0;  ///< a point that lies on its wall adds one
 };
 
-Pull pull_of_walls(const Sample& sample, const EvidenceMap& still, const Pose2& pose) {
+Pull pull_of_walls(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
   Pull pull;
   const Transform2 to_map(pose);
   for (const Vec2& q : sample) {
@@ -199,7 +76,7 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
   result.points_used = static_cast<std::uint32_t>(sample_.size());
   if (sample_.size() < kFewestOnWalls) return result;
   const Symmetric3 prior = inverse(predicted.covariance);
-  Pose2 pose = search(sample_, still, predicted, prior);
+  Pose2 pose = search_about(predicted, prior, sample_, still);
   Symmetric3 posterior;
   for (int k = 0; k < kMostIterations; ++k) {
     const Pull pull = pull_of_walls(sample_, still, pose);

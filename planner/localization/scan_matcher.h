@@ -1,20 +1,16 @@
 #pragma once
 // Where the robot must stand for its scan to lie on the walls that the map holds.
 //
-// Two steps. A search over a small window of poses counts how much of the scan falls on occupied cells: it finds the
-// right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of wall nearest to it,
-// across the wall only, together with the prediction by its own covariance. What the walls do not tell, as where along
-// a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw nothing.
+// Two steps. A search over a small window of poses (pose_search.h) counts how much of the scan falls on occupied cells:
+// it finds the right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of wall
+// nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not tell,
+// as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
+// nothing.
 #include "planner/grid/evidence_map.h"
-#include "planner/localization/symmetric3.h"
+#include "planner/localization/pose_search.h"
 #include "planner/perception/scan_points.h"
 
 namespace jaywalk {
-
-struct PoseBelief {
-  Pose2 map_from_robot;
-  Symmetric3 covariance;  ///< of (x, y, heading), in the map
-};
 
 struct MatchResult {
   bool matched = false;       ///< false: too little of the scan lies on known walls; the belief is the prediction
@@ -31,13 +27,9 @@ class ScanMatcher {
   [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
                                   const PoseBelief& predicted) noexcept;
 
-  /// The points that are matched, in the robot's frame: every n-th of the scan's.
-  static constexpr std::size_t kMostPoints = 240;
-  using Sample = FixedVector<Vec2, kMostPoints>;
-
  private:
   void sample(const ScanPoints& scan) noexcept;
-  Sample sample_;
+  MatchSample sample_;
 };
 
 }  // namespace jaywalk

@@ -11,7 +11,8 @@ constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans
 void leave_out(Vec2 centre_in_robot, double radius_m, ScanPoints& points) {
   std::size_t kept = 0;
   for (std::size_t k = 0; k < points.size(); ++k) {
-    if (distance(points[k].in_robot, centre_in_robot) > radius_m) points[kept++] = points[k];
+    const Vec2 off = points[k].in_robot - centre_in_robot;
+    if (dot(off, off) > radius_m * radius_m) points[kept++] = points[k];
   }
   points.truncate(kept);
 }

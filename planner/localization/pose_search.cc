@@ -1,0 +1,131 @@
+#include "planner/localization/pose_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then half of it
+constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
+constexpr int kMostCells = 4;             // to each side; then half a cell
+constexpr double kMostWindowRad = 0.42;
+// What a point is worth, in EvidenceMap::kMax: on a certain wall all. In unknown space as much as on a wall that was
+// hit once: were it less, a robot that drives on would seem to stay where its walls are known, and one whose laser
+// reaches a few metres did.
+constexpr int kUnknownWorth = 48, kWallWorth = 48;
+constexpr double kWindowSigmas = 3.0;
+constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
+
+int worth_of(int evidence) {
+  if (evidence == 0) return kUnknownWorth;
+  return evidence < 0 ? 0 : kWallWorth + evidence * (EvidenceMap::kMax - kWallWorth) / EvidenceMap::kMax;
+}
+
+/// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
+double share_on_walls(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
+  const Transform2 to_map(pose);
+  int sum = 0, count = 0;
+  for (std::size_t k = 0; k < sample.size(); ++k, ++count) {
+    sum += worth_of(still.evidence(still.cell_at(to_map * sample[k])));
+  }
+  return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
+}
+
+/// Poses on a lattice about the prediction.
+struct Window {
+  int cells = 0;     ///< to each side
+  int headings = 0;  ///< to each side
+  double cell_m = 0.0;
+};
+
+/// What the coarse lattice's poses of one heading are worth: whole cells apart, so that each point is turned and put
+/// into its cell once, and then looked up in the cells about it.
+class WorthOfShifts {
+ public:
+  void add_up(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose, int reach) {
+    sum_.fill(0);
+    count_ = 0;
+    const Transform2 to_map(pose);
+    for (std::size_t k = 0; k < sample.size(); k += kCoarseStride, ++count_)
+      add(still, still.cell_at(to_map * sample[k]), reach);
+  }
+  /// Of the pose moved by (x, y) cells: 0 to 1.
+  [[nodiscard]] double share(int x, int y) const {
+    return static_cast<double>(sum_[place(x, y)]) / (EvidenceMap::kMax * std::max(1, count_));
+  }
+
+ private:
+  static constexpr int kSide = 2 * kMostCells + 1;
+  static std::size_t place(int x, int y) { return static_cast<std::size_t>((y + kMostCells) * kSide + x + kMostCells); }
+  void add(const EvidenceMap& still, CellIndex cell, int reach) {
+    for (int y = -reach; y <= reach; ++y) {
+      for (int x = -reach; x <= reach; ++x) sum_[place(x, y)] += worth_of(still.evidence({cell.i + x, cell.j + y}));
+    }
+  }
+
+  std::array<int, static_cast<std::size_t>(kSide* kSide)> sum_{};
+  int count_ = 0;
+};
+
+double price(const Symmetric3& information, const Row3& by) {
+  return kThreeSigmaPrice / 9.0 * information.quadratic(by);
+}
+
+/// The best offset from the prediction, in steps of a cell and of kCoarseRad.
+Row3 best_cell(const Window& window, const MatchSample& sample, const EvidenceMap& still, const Pose2& predicted,
+               const Symmetric3& information) {
+  WorthOfShifts worth_of_shifts;
+  Row3 best;
+  double best_worth = -1e9;
+  for (int h = -window.headings; h <= window.headings; ++h) {
+    worth_of_shifts.add_up(sample, still, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
+    for (int y = -window.cells; y <= window.cells; ++y) {
+      for (int x = -window.cells; x <= window.cells; ++x) {
+        const Row3 by{x * window.cell_m, y * window.cell_m, h * kCoarseRad};
+        const double worth = worth_of_shifts.share(x, y) - price(information, by);
+        if (worth > best_worth) best_worth = worth, best = by;
+      }
+    }
+  }
+  return best;
+}
+
+/// The best of the offsets half a step to each side of `centre`.
+Row3 best_half_step(const Row3& centre, const MatchSample& sample, const EvidenceMap& still, const Pose2& predicted,
+                    const Symmetric3& information) {
+  Row3 best = centre;
+  double best_worth = -1e9;
+  const double half_m = 0.5 * still.cell_m(), half_rad = 0.5 * kCoarseRad;
+  for (int k = 0; k < 27; ++k) {
+    const Row3 by{centre.x + (k % 3 - 1) * half_m, centre.y + (k / 3 % 3 - 1) * half_m,
+                  centre.heading + (k / 9 - 1) * half_rad};
+    const double worth = share_on_walls(sample, still, moved(predicted, by)) - price(information, by);
+    if (worth > best_worth) best_worth = worth, best = by;
+  }
+  return best;
+}
+
+int steps(double variance, double most, double step) {
+  return static_cast<int>(std::ceil(std::min(kWindowSigmas * std::sqrt(variance), most) / step));
+}
+
+}  // namespace
+
+Pose2 moved(const Pose2& pose, const Row3& by) noexcept {
+  return {pose.x + by.x, pose.y + by.y, wrap_angle(pose.heading + by.heading)};
+}
+
+Pose2 search_about(const PoseBelief& predicted, const Symmetric3& information, const MatchSample& sample,
+                   const EvidenceMap& still) noexcept {
+  const Symmetric3& p = predicted.covariance;
+  const double cell_m = still.cell_m();
+  const Window window{.cells = steps(std::max(p.xx, p.yy), kMostCells * cell_m, cell_m),
+                      .headings = steps(p.hh, kMostWindowRad, kCoarseRad),
+                      .cell_m = cell_m};
+  const Row3 valley = best_cell(window, sample, still, predicted.map_from_robot, information);
+  return moved(predicted.map_from_robot, best_half_step(valley, sample, still, predicted.map_from_robot, information));
+}
+
+}  // namespace jaywalk
