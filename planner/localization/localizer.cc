@@ -92,7 +92,6 @@ struct Localizer::State {
   ScanProjection projection;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
-  Time scan_stamp = kNever;
   Pose2 odom_from_robot_at_scan;
 
   Coasting coasting;  ///< without wheels
@@ -156,7 +155,6 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
                                   std::span<const Track> moving) noexcept {
   const bool wheels = odometry.has_wheels();
   if (!wheels) coast_to(scan.stamp);
-  scan_stamp = scan.stamp;
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   bool matched = false;
   if (config.match_scans) {
