@@ -22,10 +22,12 @@ constexpr double kMostRadiusM = 0.5;
 constexpr double kOneLegStdM = 0.12;
 constexpr double kTwoLegsStdM = 0.08;
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
-constexpr double kHiddenStdPerM = 0.05;  // of what is hidden of a body whose width is known
-constexpr double kLeastShare = 1e-3;     // of a body's width that is seen: beams may be all one
-constexpr double kGateStdM = 0.12;       // whatever part of a body is seen
-constexpr double kWidthOfBoth = 0.75;    // of two bodies' widths: one alone is not as wide
+// Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together
+// (docs/tracking-findings.md, "What is hidden of a body").
+constexpr double kHiddenStdPerM = 0.05;
+constexpr double kLeastShare = 1e-3;   // of a body's width that is seen: beams may be all one
+constexpr double kGateStdM = 0.12;     // whatever part of a body is seen
+constexpr double kWidthOfBoth = 0.75;  // of two bodies' widths: one alone is not as wide
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
