@@ -68,7 +68,7 @@ void RecordedMovers::load(const RecordedSpec& spec) {
   }
   for (auto& [id, samples] : by_id) {
     std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.t_s < b.t_s; });
-    const MoverTruth truth{.position = samples.front().position, .radius_m = spec.radius_m};
+    const MoverTruth truth{.position = samples.front().position, .radius_m = spec.radius_m, .on_legs = spec.legs};
     people_.push_back({std::move(samples), 1, &spec, begin, end - begin, truth});
   }
 }

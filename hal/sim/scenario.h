@@ -20,6 +20,7 @@ struct WanderSpec {
   double radius_m = 0.27;
   double turn_rate_radps = 1.0;
   double spontaneous_turns_hz = 0.0;
+  bool legs = false;
 };
 
 struct RecordedSpec {
@@ -28,6 +29,7 @@ struct RecordedSpec {
   Vec2 offset{};
   double start_at_s = 0.0;
   bool loop = false;
+  bool legs = false;
 };
 
 enum class FaultKind { kScanStale, kScanNan, kScanShort, kWheelsStale, kWheelSlip, kEmergencyStop };

@@ -79,6 +79,7 @@ WanderSpec read_wanderers(TomlTable& table) {
   spec.radius_m = table.number("radius_m", kRadius, spec.radius_m);
   spec.turn_rate_radps = table.number("turn_rate_radps", {0.01, 50.0}, spec.turn_rate_radps);
   spec.spontaneous_turns_hz = table.number("spontaneous_turns_hz", {0.0, 10.0}, spec.spontaneous_turns_hz);
+  spec.legs = table.boolean("legs", spec.legs);
   return spec;
 }
 
@@ -92,6 +93,7 @@ RecordedSpec read_recorded(TomlTable& table) {
   }
   spec.start_at_s = table.number("start_at_s", {-86400.0, 86400.0}, spec.start_at_s);
   spec.loop = table.boolean("loop", spec.loop);
+  spec.legs = table.boolean("legs", spec.legs);
   return spec;
 }
 

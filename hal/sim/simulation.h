@@ -18,7 +18,8 @@ struct MoverTruth {
   Vec2 velocity{};
   double heading = 0.0;
   double radius_m = 0.0;
-  bool forced = false;  ///< true from the moment the robot made it turn until it walks again
+  bool on_legs = false;  ///< what the laser sees of it (legs.h); all else takes it for round
+  bool forced = false;   ///< true from the moment the robot made it turn until it walks again
 };
 
 /// What is really so, for the report. The controller never sees it.

@@ -45,7 +45,8 @@ void Wanderers::place(const WanderSpec& spec, const Scenario& scenario, const Fr
     const double x = random.uniform(low.x, high.x), y = random.uniform(low.y, high.y);
     if (!has_room({x, y}, spec.radius_m, scenario, grid)) continue;
     const double heading = random.uniform(-kPi, kPi);
-    movers_.push_back({.id = id, .position = {x, y}, .heading = heading, .radius_m = spec.radius_m});
+    movers_.push_back(
+        {.id = id, .position = {x, y}, .heading = heading, .radius_m = spec.radius_m, .on_legs = spec.legs});
     minds_.push_back({.speed_mps = spec.speed_mps,
                       .turn_rate_radps = spec.turn_rate_radps,
                       .spontaneous_turns_hz = spec.spontaneous_turns_hz,

@@ -30,7 +30,8 @@ World::World(const Scenario& scenario, std::uint64_t seed)
       wanderers_(scenario, walls_, grid_, seed),
       recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())) {
   movers_.reserve(wanderers_.movers().size() + recorded_.capacity());
-  bodies_.reserve(movers_.capacity());
+  legs_.resize(movers_.capacity());
+  seen_.reserve(2 * movers_.capacity());
   truth_.now = Time{};
   move_movers();
   truth_.contacts = truth_.contacts_caused = 0;  // whoever was recorded where the robot starts is no contact of its
@@ -95,14 +96,26 @@ void World::move_movers() noexcept {
   if (steps_ > 0) wanderers_.step(to_seconds(kMoverStep), body(), recorded_.movers());
   movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
   movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
-  bodies_.clear();
-  for (const MoverTruth& m : movers_) bodies_.push_back({m.position, m.radius_m});
+  see_movers();
   if (wanderers_.bumped_robot()) touch(plant_.twist().v_mps);
   judge_gaps();
   truth_.movers = movers_;
   truth_.forced_movers = wanderers_.forced() + recorded_.forced();
   truth_.accel_mps2 = (plant_.rim_speed() - rim_speed_) / to_seconds(kMoverStep);
   rim_speed_ = plant_.rim_speed();
+}
+
+void World::see_movers() noexcept {
+  seen_.clear();  // room for all was taken at construction
+  for (const MoverTruth& m : movers_) {
+    if (!m.on_legs) {
+      seen_.push_back({m.position, m.radius_m});
+      continue;
+    }
+    Legs& legs = legs_[m.id - 1];
+    legs.walk(m, to_seconds(kMoverStep));
+    for (const Disc& leg : legs.of(m)) seen_.push_back(leg);
+  }
 }
 
 void World::judge_gaps() noexcept {

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "hal/sim/free_grid.h"
+#include "hal/sim/legs.h"
 #include "hal/sim/plant.h"
 #include "hal/sim/recorded_movers.h"
 #include "hal/sim/simulation.h"
@@ -30,8 +31,8 @@ class World {
   [[nodiscard]] Plant& plant() noexcept { return plant_; }
   [[nodiscard]] const Walls& walls() const noexcept { return walls_; }
   [[nodiscard]] const FreeGrid& free_grid() const noexcept { return grid_; }
-  /// Bodies of the movers that are there.
-  [[nodiscard]] std::span<const Disc> bodies() const noexcept { return bodies_; }
+  /// What a laser sees of the movers that are there.
+  [[nodiscard]] std::span<const Disc> movers_seen() const noexcept { return seen_; }
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
   [[nodiscard]] bool fault_active(FaultKind kind) const noexcept;
 
@@ -40,6 +41,7 @@ class World {
   [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept;
   void keep_out_of_solids(const Pose2& before) noexcept;
   void move_movers() noexcept;
+  void see_movers() noexcept;
   void judge_gaps() noexcept;
   void touch(double robot_speed_mps) noexcept;
   /// The scenario itself, once its start and goal are known to be free and on the map.
@@ -53,7 +55,8 @@ class World {
   Wanderers wanderers_;
   RecordedMovers recorded_;
   std::vector<MoverTruth> movers_;
-  std::vector<Disc> bodies_;
+  std::vector<Legs> legs_;  ///< by the movers' ids, which begin at 1
+  std::vector<Disc> seen_;
   Truth truth_;
   std::int64_t steps_ = 0;
   double slack_m_ = 0.0;  ///< nothing can touch the robot before its outline has moved this far

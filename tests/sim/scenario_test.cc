@@ -37,8 +37,8 @@ TEST_CASE("a scenario says everything that it says") {
       "[robot.laser]\nfov_deg = 180\nbeams = 361\nrate_hz = 20\nrange_m = 8\nnoise_m = 0.02\n"
       "drop_out = 0.1\n[robot.slip]\nmean = 0.05\nstd = 0.02\n[robot.pose_source]\nrate_hz = 4\nposition_std_m = 0.2\n"
       "[[movers]]\nkind = \"wander\"\ncount = 3\nspeed_mps = 0.7\nradius_m = 0.3\n"
-      "turn_rate_radps = 2\nspontaneous_turns_hz = 0.1\n"
-      "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\noffset = [1, 2]\nloop = true\n"
+      "turn_rate_radps = 2\nspontaneous_turns_hz = 0.1\nlegs = true\n"
+      "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\noffset = [1, 2]\nloop = true\nlegs = true\n"
       "start_at_s = 3\n[[faults]]\nkind = \"scan_stale\"\nat_s = 1\nfor_s = 0.5\n");
   CHECK(s.name == "all");
   CHECK(s.seed == 7);
@@ -62,9 +62,11 @@ TEST_CASE("a scenario says everything that it says") {
   REQUIRE(s.wanderers.size() == 1);
   CHECK(s.wanderers[0].count == 3);
   CHECK(s.wanderers[0].turn_rate_radps == 2.0);
+  CHECK(s.wanderers[0].legs);
   REQUIRE(s.recorded.size() == 1);
   CHECK(s.recorded[0].offset == Vec2{1, 2});
   CHECK(s.recorded[0].loop);
+  CHECK(s.recorded[0].legs);
   REQUIRE(s.faults.size() == 1);
   CHECK(s.faults[0].for_s == 0.5);
 }

@@ -69,7 +69,7 @@ void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
     const double angle = scanner_->shape().angle_rad(first_beam + k);
     const Vec2 beam = direction(map_from_laser.heading + angle);
     double range = world_.walls().cast(map_from_laser.position(), beam, laser_.range_max_m);
-    for (const sim::Disc& body : world_.bodies())
+    for (const sim::Disc& body : world_.movers_seen())
       range = std::min(range, hit_range(map_from_laser.position(), beam, body));
     range += laser_.noise_m * noise_.normal();
     range_m[k] = range >= laser_.range_min_m && range <= laser_.range_max_m ? static_cast<float>(range) : 0.0F;

@@ -1,0 +1,25 @@
+#pragma once
+#include <array>
+
+#include "hal/sim/shapes.h"
+#include "hal/sim/simulation.h"
+
+namespace jaywalk::sim {
+
+/// The two legs of somebody who walks, as a laser at the height of his shins sees them. Feet stand on the ground in
+/// turns, for a step each, and overtake each other at twice his speed; shins, a third of the way up to the hip, do two
+/// thirds of that about his middle. Steps are the longer the faster he walks: length over rate is 0.0065 m per step a
+/// minute whatever the speed (Sekiya and Nagasaki 1998). Who stops puts his feet side by side.
+class Legs {
+ public:
+  /// Goes on by `step_s` as the walker does.
+  void walk(const MoverTruth& walker, double step_s) noexcept;
+  /// In the map: left, right. Their middle is the walker's position.
+  [[nodiscard]] std::array<Disc, 2> of(const MoverTruth& walker) const noexcept;
+
+ private:
+  double steps_ = 0.0;   ///< taken
+  double step_m_ = 0.0;  ///< from foot to foot
+};
+
+}  // namespace jaywalk::sim
