@@ -21,7 +21,7 @@ PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/j
 MAPS = (1, 2, 3, 4)
 KEYS = {
     "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount")),
-    "movers": ("[movers]", ("speed_mps", "radius_m", "count")),
+    "movers": ("[movers]", ("speed_mps", "radius_m", "count", "legs")),
 }
 VARIANTS = {
     "scanners": (
@@ -40,6 +40,9 @@ VARIANTS = {
         (0.6, 0.15, 16),
         (0.5, 0.40, 16),
         (0.4, 0.27, 30),
+        (0.4, 0.27, 16, "true"),
+        (0.8, 0.27, 16, "true"),
+        (1.2, 0.27, 16, "true"),
     ),
 }
 FIGURES = {
@@ -105,8 +108,8 @@ def off_the_truth(out):
 
 def name(what, variant):
     if what == "movers":
-        speed, radius, count = variant
-        return f"{count} movers of {speed} m/s, {radius:.2f} m about their middle"
+        speed, radius, count, *legs = variant
+        return f"{count} {'people on two legs' if legs else 'movers'} of {speed} m/s, {radius:.2f} m about their middle"
     fov, beams, rate, reach, noise, lost, *mount = variant
     turned = ", its turn begins straight ahead" if mount else ""
     dropped = f", {100 * lost:.0f} % lost" if lost else ""

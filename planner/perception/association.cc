@@ -17,10 +17,12 @@ constexpr double kPersonRadiusM = 0.25;  // of whoever was not seen whole yet
 constexpr double kLeastRadiusM = 0.2;    // whatever stands on legs is wider than they are
 constexpr double kMostRadiusM = 0.5;
 
-// Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle;
-// an arc's ends lie somewhere between beams. An arc's are what simulated discs turned out to have (innovations of 2).
-constexpr double kOneLegStdM = 0.12;
-constexpr double kTwoLegsStdM = 0.08;
+// Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle,
+// and does so for several scans, for which it counts double; so far apart both kinds have innovations of 2 of real
+// people (docs/tracking-findings.md, "People have legs"). An arc's ends lie somewhere between beams; an arc's are what
+// simulated discs turned out to have.
+constexpr double kOneLegStdM = 0.25, kTwoLegsStdM = 0.07;
+constexpr double kDeeperM = 0.08;  // than a leg that hides the other one: half of what is from one to the other
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
 // Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together
 // (docs/tracking-findings.md, "What is hidden of a body").
@@ -108,11 +110,13 @@ Vec2 off_by_one_side(const Cluster& c, int hidden_side) {
 }
 
 void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
-  seen.std_m = fellow < 0 ? kOneLegStdM : kTwoLegsStdM;
+  const Cluster& c = clusters[lead];
+  const bool alone = fellow < 0 && c.one_leg();
+  seen.std_m = alone ? kOneLegStdM : kTwoLegsStdM;
   seen.radius_m = kPersonRadiusM;
+  if (alone && c.whole()) seen.position_in_map = c.centre_in_map + c.along * kDeeperM;
   if (fellow < 0) return;
-  seen.position_in_map =
-      (clusters[lead].centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+  seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
 }
 
 /// `arc_m`: Body::arc_m.
@@ -199,12 +203,13 @@ bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept {
   return true;
 }
 
-Observation observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id) noexcept {
+bool observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id, Observation& out) noexcept {
   const std::int32_t fellow = clusters[index].leg() ? fellow_leg(clusters, index, 0) : -1;
-  const Observation seen = observation_of(clusters, index, fellow, 0.0);
+  if (clusters[index].sparse && fellow < 0) return false;
+  out = observation_of(clusters, index, fellow, 0.0);
   clusters[index].track_id = becomes_track_id;
   if (fellow >= 0) clusters[static_cast<std::size_t>(fellow)].track_id = becomes_track_id;
-  return seen;
+  return true;
 }
 
 }  // namespace jaywalk

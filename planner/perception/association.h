@@ -38,7 +38,8 @@ void associate(const Bodies& bodies, Clusters& clusters) noexcept;
 bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept;
 
 /// A new body's observation from free cluster `index` and, for a leg, its nearest free fellow; both are given to
-/// the track that it becomes.
-[[nodiscard]] Observation observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id) noexcept;
+/// the track that it becomes. False, and nothing changes, when the cluster is sparse and has no fellow.
+[[nodiscard]] bool observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id,
+                               Observation& out) noexcept;
 
 }  // namespace jaywalk

@@ -11,7 +11,8 @@ constexpr double kWidestM = 1.1;     // wider things are walls
 constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
 constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
 constexpr double kMostFree = 0.6;    // of its points in free space: it came there
-constexpr std::uint32_t kFewestPoints = 3;
+constexpr std::uint32_t kFewestPoints = 3, kFewestOfLeg = 2;
+constexpr double kLegM = 0.1;         // across: where beams are farther apart than a third of it, legs have two points
 constexpr double kLegsM = 0.35;       // wider than a leg, or two side by side
 constexpr double kWellBeforeM = 1.0;  // farther than a person's other leg
 
@@ -38,6 +39,7 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
           .radius_m = radius,
           .range_m = points[segment.first].range_m,
           .spacing_m = spacing,
+          .sparse = segment.last - segment.first + 1 < kFewestPoints,
           .outline_in_map = outline_of(segment, in_map),
           .along = along,
           .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0)};
@@ -108,11 +110,16 @@ bool hides_more(const Pieces& pieces, std::size_t s, std::ptrdiff_t step) {
   return k != none && pieces.width(k) > kLegsM;
 }
 
+std::uint32_t fewest_points(const Pieces& pieces, std::size_t s) {
+  const double spacing_m = pieces.range(s) * std::fabs(pieces.sweep.angle_step_rad);
+  return kFewestPoints * spacing_m > kLegM ? kFewestOfLeg : kFewestPoints;
+}
+
 /// By its ends and its middle: the ends of a wall all round the laser may meet.
 bool body_sized(const Pieces& pieces, std::size_t s) {
   const auto& [first, last] = pieces.segments[s];
   const Vec2 middle = pieces.in_map.position[first + (last - first) / 2];
-  return last - first + 1 >= kFewestPoints && pieces.range(s) < kFarthestM && pieces.width(s) < kWidestM &&
+  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestM && pieces.width(s) < kWidestM &&
          distance(pieces.in_map.position[first], middle) < kWidestM;
 }
 
@@ -130,6 +137,7 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
     cluster.in_free_space = shares.free > kMostFree;
     note_ends(points, sweep, cluster);
     if (cluster.on_wall && !cluster.stands_alone()) continue;
+    if (cluster.sparse && !cluster.whole()) continue;
     if (!cluster.in_free_space && cluster.low_hidden() && cluster.high_hidden()) continue;
     cluster.behind_more =
         (cluster.low_hidden() && hides_more(pieces, s, -1)) || (cluster.high_hidden() && hides_more(pieces, s, 1));

@@ -33,6 +33,7 @@ struct Cluster {
   double radius_m = 0.0;   ///< half of the visible width
   double range_m = 0.0;    ///< from the laser
   double spacing_m = 0.0;  ///< from beam to beam, across them
+  bool sparse = false;     ///< two points, far off: a leg at most, and by itself nothing new
   Outline outline_in_map;
   Vec2 along;                                             ///< unit vector of the beams, away from the laser
   Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last
@@ -55,18 +56,22 @@ struct Cluster {
   [[nodiscard]] bool stands_alone() const {
     return low_end == End::kSeen && high_end == End::kSeen && as_wide_as_a_body(radius_m);
   }
-  /// Leg-sized: two such may be one person.
+  /// Leg-sized, or two legs side by side: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
+  [[nodiscard]] bool one_leg() const { return radius_m < 0.09; }
 };
 
 /// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
 inline constexpr double kArcMean = kPi / 4.0;
 
-/// Most clusters followed in a scan; when full, later ones (in the order of the beams) are left for the next scans.
-inline constexpr std::size_t kMaxClusters = 128;
+/// Most clusters followed in a scan, two legs of each of 64 people and as much besides; when full, later ones (in the
+/// order of the beams) are left for the next scans.
+inline constexpr std::size_t kMaxClusters = 256;
 using Clusters = FixedVector<Cluster, kMaxClusters>;
 
-/// The segments that are no walls and small enough for a body (at most 1.1 m across). What stands where walls stand
+/// The segments that are no walls and small enough for a body (at most 1.1 m across), of three points at least, or of
+/// two where beams are so far apart that a leg has no more, if nothing nearer hides either side: walls at a slant are
+/// seen in such pieces. What stands where walls stand
 /// counts only where it is as wide as a body and seen to end on both sides: who stood there for long may go on. In
 /// unknown space only those that stand out on one side at least count: what goes on behind something nearer on both is
 /// a wall seen through a gap. What reaches the end of the sweep may go on outside it.

@@ -53,12 +53,12 @@ bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
   track.covariance.vv = kSpeedStd * kSpeedStd;
   track.radius_m = walker.as_seen.radius_m;
   track.hits += walker.as_seen.hits;
-  track.moving = true;
+  track.moving = as_wide_as_a_body(walker.arc_m);
   newcomer.as_seen = track;
   newcomer.models = MotionModels(track);
   newcomer.arc_m = walker.arc_m;
   newcomer.born = walker.born;
-  newcomer.returned = now;
+  newcomer.returned = track.moving ? now : kNever;
   return true;
 }
 

@@ -20,8 +20,8 @@ class HiddenWalkers {
   void wait(const LineOfSight& sight, Time now, double step_s) noexcept;
 
   /// `newcomer`, seen for the first time, takes the name, the speed and the width of who should be where it is, and
-  /// moves (Body::returned). How noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing
-  /// changes, when there is nobody.
+  /// moves (Body::returned) if he is as wide as a body; who is known by his legs alone must show that it is he. How
+  /// noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing changes, when there is nobody.
   bool return_as(Body& newcomer, Time now) noexcept;
 
   [[nodiscard]] std::size_t size() const { return walkers_.size(); }

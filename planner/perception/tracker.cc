@@ -214,7 +214,9 @@ void Tracker::State::birth() noexcept {
   if (movers_are_given) return;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     if (clusters[k].track_id != 0) continue;
-    const Observation seen = observe_new(clusters, k, ++last_id);
+    Observation seen;
+    if (!observe_new(clusters, k, last_id + 1, seen)) continue;
+    last_id += 1;
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
     note_sight(body, seen);
     body.free_share = seen.in_free_space ? 1.0 : 0.0;

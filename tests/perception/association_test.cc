@@ -38,11 +38,8 @@ struct SideBySide {
   Bodies bodies;
 };
 
-/// What is seen of a disc of 0.4 m about (4, 0), from the origin, behind a wall 2 m off that ends at `edge_y`.
-std::unique_ptr<Clusters> clusters_behind(double edge_y) {
-  Room room;
-  room.walls = {{{2.0, -3.0}, {2.0, edge_y}}};
-  room.discs = {{{4.0, 0.0}, 0.4}};
+/// What is seen from the origin of discs on ground that was free.
+std::unique_ptr<Clusters> clusters_of(const Room& room) {
   const LaserScan scan = scan_of(room, {}, 1);
   const auto points = std::make_unique<ScanPoints>();
   ScanProjection().project(scan, {}, {}, *points);
@@ -54,6 +51,11 @@ std::unique_ptr<Clusters> clusters_behind(double edge_y) {
   auto clusters = std::make_unique<Clusters>();
   find_clusters(*points, *in_map, *segments, sweep_of(scan), {}, *clusters);
   return clusters;
+}
+
+/// What is seen of a disc of 0.4 m about (4, 0), from the origin, behind a wall 2 m off that ends at `edge_y`.
+std::unique_ptr<Clusters> clusters_behind(double edge_y) {
+  return clusters_of({.walls = {{{2.0, -3.0}, {2.0, edge_y}}}, .discs = {{{4.0, 0.0}, 0.4}}});
 }
 
 }  // namespace
@@ -100,7 +102,8 @@ TEST_CASE("where a side has the middle of who comes out does not depend on how m
   for (const double edge_y : {0.12, 0.08, 0.0, -0.08, -0.15}) {  // at 4 m twice as far aside
     const auto clusters = clusters_behind(edge_y);
     REQUIRE(clusters->size() == 1);
-    const Observation seen = observe_new(*clusters, 0, 1);
+    Observation seen;
+    REQUIRE(observe_new(*clusters, 0, 1, seen));
     CHECK(seen.hidden_side == -1);
     CHECK(seen.position_in_map.y == Approx(0.15).margin(0.02));  // 0.25 m from the side that is seen, at 0.4
     CHECK(seen.position_in_map.x == Approx(4.0).margin(0.2));
@@ -130,4 +133,51 @@ TEST_CASE("a cluster between one who is surely near and one who may be anywhere 
   REQUIRE(bodies->push_back(born_at({0.0, 0.25}, 0.7, 0.27, time_from_seconds(0.0), 2)));  // 0.4
   associate(*bodies, *clusters);
   CHECK((*clusters)[0].track_id == 1);
+}
+
+TEST_CASE("two legs have their middle between them and of one alone it is deeper and less sure") {
+  const auto both = clusters_of({.walls = {}, .discs = {{{4.0, 0.15}, 0.06}, {{4.0, -0.15}, 0.06}}});
+  REQUIRE(both->size() == 2);
+  Observation seen;
+  REQUIRE(observe_new(*both, 0, 1, seen));
+  CHECK(distance(seen.position_in_map, {4.0, 0.0}) < 0.02);
+  CHECK((*both)[1].track_id == 1);
+  const double sure_m = seen.std_m;
+
+  const auto one = clusters_of({.walls = {}, .discs = {{{4.0, 0.0}, 0.06}}});
+  REQUIRE(one->size() == 1);
+  REQUIRE(observe_new(*one, 0, 1, seen));
+  CHECK(distance(seen.position_in_map, {4.08, 0.0}) < 0.02);  // the other one stands behind it
+  CHECK(seen.std_m > 2.0 * sure_m);
+
+  const auto merged = clusters_of({.walls = {}, .discs = {{{4.0, 0.07}, 0.06}, {{4.0, -0.07}, 0.06}}});
+  REQUIRE(merged->size() == 1);  // 2 cm between them
+  REQUIRE(observe_new(*merged, 0, 1, seen));
+  CHECK(distance(seen.position_in_map, {4.0, 0.0}) < 0.1);
+  CHECK(seen.std_m == sure_m);
+}
+
+TEST_CASE("two points are a leg where legs have no more, and somebody new only with another one") {
+  CHECK(clusters_of({.walls = {}, .discs = {{{2.0, 0.0}, 0.009}}})->empty());  // at 2 m a leg has nine
+
+  const auto one = clusters_of({.walls = {}, .discs = {{{9.0, 0.026}, 0.06}}});
+  REQUIRE(one->size() == 1);
+  REQUIRE((*one)[0].sparse);
+  Observation seen;
+  CHECK_FALSE(observe_new(*one, 0, 1, seen));
+  CHECK((*one)[0].track_id == 0);
+  Body known = born_at({9.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
+  (*one)[0].track_id = 7;
+  CHECK(observe(known, *one, seen));
+
+  const auto two = clusters_of({.walls = {}, .discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}}});
+  REQUIRE(two->size() == 2);
+  CHECK(observe_new(*two, 0, 1, seen));
+  CHECK((*two)[1].track_id == 1);
+
+  const auto beside =
+      clusters_of({.walls = {}, .discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}, {{5.0, 0.155}, 0.06}}});
+  REQUIRE(beside->size() == 2);  // the post and the leg beside which nothing stands
+  CHECK((*beside)[0].sparse);
+  CHECK_FALSE((*beside)[1].sparse);
 }

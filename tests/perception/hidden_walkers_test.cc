@@ -46,6 +46,19 @@ TEST_CASE("who comes out where and when he should is the one who was hidden and 
   CHECK(hidden->size() == 0);
 }
 
+TEST_CASE("who is known by his legs alone comes back by name and must show that he walks") {
+  const auto hidden = std::make_unique<HiddenWalkers>();
+  Body legs = walker(7, 2.0, 0.0, 3.0);
+  legs.arc_m = 0.0;
+  hidden->remember(legs);
+  Body body = newcomer({2.1, 2.1}, 7.0);
+  REQUIRE(hidden->return_as(body, at_s(7.0)));
+  CHECK(body.track.id == 7);
+  CHECK(body.track.velocity_in_map == Vec2{0.0, 0.5});
+  CHECK_FALSE(body.track.moving);
+  CHECK(body.returned == kNever);
+}
+
 TEST_CASE("of two hidden walkers the nearer to where it should be returns") {
   const auto hidden = std::make_unique<HiddenWalkers>();
   hidden->remember(walker(7, 2.0, 0.0, 3.0));
