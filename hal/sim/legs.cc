@@ -8,6 +8,7 @@ namespace {
 
 constexpr double kWalkRatio = 0.0065 * 60.0;  // m s: a step's length over steps a second
 constexpr double kOfTheFoot = 2.0 / 3.0;      // what a shin goes to and fro
+// Chosen, not measured: shins in trousers, feet a hand apart, and less than a second from a stride to standing.
 constexpr double kLegRadiusM = 0.06;
 constexpr double kLegFromMiddleM = 0.1;  // to the side
 constexpr double kStepGrowsMps = 1.0;    // who sets out or stops comes to longer or shorter steps

@@ -114,9 +114,11 @@ void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Ob
   const bool alone = fellow < 0 && c.one_leg();
   seen.std_m = alone ? kOneLegStdM : kTwoLegsStdM;
   seen.radius_m = kPersonRadiusM;
-  if (alone && c.whole()) seen.position_in_map = c.centre_in_map + c.along * kDeeperM;
-  if (fellow < 0) return;
-  seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+  if (fellow >= 0) {
+    seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+  } else if (alone && c.whole()) {
+    seen.position_in_map = c.centre_in_map + c.along * kDeeperM;
+  }
 }
 
 /// `arc_m`: Body::arc_m.

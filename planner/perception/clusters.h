@@ -58,6 +58,7 @@ struct Cluster {
   }
   /// Leg-sized, or two legs side by side: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
+  /// Too narrow for two of 0.1 m across.
   [[nodiscard]] bool one_leg() const { return radius_m < 0.09; }
 };
 

@@ -38,7 +38,7 @@ struct SideBySide {
   Bodies bodies;
 };
 
-/// What is seen from the origin of discs on ground that was free.
+/// What is seen from the origin of a room whose ground was free.
 std::unique_ptr<Clusters> clusters_of(const Room& room) {
   const LaserScan scan = scan_of(room, {}, 1);
   const auto points = std::make_unique<ScanPoints>();

@@ -1,6 +1,7 @@
 #include "hal/sim/legs.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hal/sim/world.h"
 #include "tests/sim/made_worlds.h"
