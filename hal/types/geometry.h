@@ -54,6 +54,9 @@ class Transform2 {
   const Vec2 origin = a_from_b * b_from_c.position();
   return {origin.x, origin.y, wrap_angle(a_from_b.heading + b_from_c.heading)};
 }
+[[nodiscard]] inline bool finite(const Pose2& p) {
+  return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading);
+}
 /// b_from_a, given a_from_b.
 [[nodiscard]] inline Pose2 inverse(const Pose2& a_from_b) {
   const Vec2 u = direction(a_from_b.heading);

@@ -50,8 +50,7 @@ void check(const PlannerConfig& config) {
 }
 
 bool is_finite(const PlanRequest& request) noexcept {
-  return std::isfinite(request.map_from_robot.x) && std::isfinite(request.map_from_robot.y) &&
-         std::isfinite(request.map_from_robot.heading) && std::isfinite(request.goal_in_map.x) &&
+  return finite(request.map_from_robot) && std::isfinite(request.goal_in_map.x) &&
          std::isfinite(request.goal_in_map.y) && std::isfinite(request.speed_mps);
 }
 

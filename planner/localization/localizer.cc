@@ -1,34 +1,20 @@
 #include "planner/localization/localizer.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "planner/localization/coasting.h"
+#include "planner/localization/fix_blend.h"
 #include "planner/localization/odometry.h"
-#include "planner/localization/scan_matcher.h"
+#include "planner/localization/slip_watch.h"
 #include "planner/localization/walkers.h"
 #include "planner/localization/wheel_trust.h"
 
 namespace jaywalk {
 namespace {
 
-// Of a fix: beyond, it is a mistake, and what it would turn the robot by no number can hold.
-constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
-constexpr double kMostTurnedRad = 100.0;  // whole turns may be in it
-
-// No map of 10 cm cells places a robot better than this, and nobody puts it anywhere more exactly.
-constexpr double kLeastPositionVar = 0.005 * 0.005;
-constexpr double kLeastHeadingVar = 0.002 * 0.002;
 // Added after each match: the map's own errors are the same from scan to scan, so that many do not make a sure one.
 constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
-
-// Wheels that have earned trust may slip all the same. A match that leaves the prediction by three standard deviations,
-// or fits worse than matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits
-// better. So is a scan that the map contradicts, but none that sees next to nothing the map knows: that is no slip. By
-// trial (docs/tracking-findings.md, "Wheels that were long right").
-constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.2, kBetterFit = 0.1;
-constexpr double kFitGain = 0.1;  // of the running mean
 
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T with
 /// F = I + (-dy, dx) in the heading's column.
@@ -43,13 +29,6 @@ Symmetric3 carried(Symmetric3 p, double dx, double dy) {
 
 Symmetric3 of_wheels(const WheelDoubt& doubt, double metres, double turns) {
   return diagonal(metres * doubt.position_var, metres * doubt.position_var, turns * doubt.heading_var);
-}
-
-bool finite(const Pose2& p) { return std::isfinite(p.x) && std::isfinite(p.y) && std::isfinite(p.heading); }
-
-/// Whether a robot may be there; false for NaN.
-bool is_place(const Pose2& p) {
-  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && std::fabs(p.heading) <= kMostTurnedRad;
 }
 
 }  // namespace
@@ -67,8 +46,7 @@ struct Localizer::State {
   void move_by_wheels(const WheelState& wheels) noexcept;
   void coast_to(Time stamp) noexcept;
   void place_scan(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
-  [[nodiscard]] MatchResult match(const Pose2& predicted, const EvidenceMap& still) noexcept;
-  [[nodiscard]] bool doubtful(const MatchResult& found, const Pose2& predicted) const noexcept;
+  [[nodiscard]] bool match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
   void take(const MatchResult& found, const Pose2& predicted) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
@@ -85,10 +63,7 @@ struct Localizer::State {
 
   WheelTrust trust;
   SideDrift drift;
-  bool contradicted = false;  ///< the last scan was
-  double usual_fit = 0.0;     ///< running mean of the matches'
-
-  ScanMatcher matcher;
+  SlipWatch matcher;
   ScanProjection projection;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
@@ -122,33 +97,26 @@ void Localizer::State::coast_to(Time stamp) noexcept {
   if_wheels_slipped = covariance;
 }
 
-bool Localizer::State::doubtful(const MatchResult& found, const Pose2& predicted) const noexcept {
-  if (!found.matched) return found.contradicted;
-  if (found.fit < usual_fit - kDoubtfulFit) return true;
-  const Pose2& p = found.belief.map_from_robot;
-  const Row3 off{p.x - predicted.x, p.y - predicted.y, wrap_angle(p.heading - predicted.heading)};
-  return inverse(covariance).quadratic(off) > kDoubtfulSigmas * kDoubtfulSigmas;
-}
-
-MatchResult Localizer::State::match(const Pose2& predicted, const EvidenceMap& still) noexcept {
-  const bool lost = contradicted || trust.nothing_known();
-  const MatchResult found = matcher.match(points, still, {predicted, lost ? if_wheels_slipped : covariance});
-  if (!odometry.has_wheels() || lost || !doubtful(found, predicted)) return found;
-  const MatchResult wider = matcher.match(points, still, {predicted, if_wheels_slipped});
-  const double least_fit = found.matched ? found.fit + kBetterFit : usual_fit - kDoubtfulFit;
-  return wider.matched && wider.fit > least_fit ? wider : found;
-}
-
 void Localizer::State::take(const MatchResult& found, const Pose2& predicted) noexcept {
   const Pose2& placed = found.belief.map_from_robot;
   correct_to(placed, odom_from_robot_at_scan);
   covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
   if_wheels_slipped = covariance;
-  usual_fit += kFitGain * (found.fit - usual_fit);
   if (!odometry.has_wheels()) return;
   trust.corrected(predicted, placed);
   drift.corrected(wrap_angle(placed.heading - predicted.heading));
   odometry.set_side_drift(drift.turn_per_m());
+}
+
+bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept {
+  if (!config.match_scans) return false;
+  projection.project(scan, config.robot_from_laser, twist, points);
+  const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
+  leave_out_walkers(moving, predicted, scan.stamp, points);
+  const bool earned = odometry.has_wheels() && !trust.nothing_known();
+  const MatchResult found = matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned});
+  if (found.matched) take(found, predicted);
+  return found.matched;
 }
 
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still,
@@ -156,16 +124,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   const bool wheels = odometry.has_wheels();
   if (!wheels) coast_to(scan.stamp);
   odom_from_robot_at_scan = odometry.at(scan.stamp);
-  bool matched = false;
-  if (config.match_scans) {
-    projection.project(scan, config.robot_from_laser, twist, points);
-    const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
-    leave_out_walkers(moving, predicted, scan.stamp, points);
-    const MatchResult found = match(predicted, still);
-    matched = found.matched && finite(found.belief.map_from_robot);
-    if (matched) take(found, predicted);
-    contradicted = found.contradicted;
-  }
+  const bool matched = match(scan, still, moving);
   if (wheels) return;
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
   if (matched) {
@@ -179,18 +138,11 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
   if (!is_place(fix.map_from_robot)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
-  const Pose2 predicted = map_from_odom * odom_from_robot;
-  const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
-  const double heading_var = std::max(fix.heading_std_rad * fix.heading_std_rad, kLeastHeadingVar);
-  const Symmetric3 fix_information = diagonal(1.0 / position_var, 1.0 / position_var, 1.0 / heading_var);
-  covariance = inverse(inverse(covariance) + fix_information);
+  const PoseBelief now = blended({map_from_odom * odom_from_robot, covariance}, fix);
+  covariance = now.covariance;
   if_wheels_slipped = covariance;
   trust.begin_anew();
-  const Pose2& m = fix.map_from_robot;
-  const Row3 step = covariance * (fix_information * Row3{m.x - predicted.x, m.y - predicted.y,
-                                                         wrap_angle(m.heading - predicted.heading)});
-  correct_to({predicted.x + step.x, predicted.y + step.y, wrap_angle(predicted.heading + step.heading)},
-             odom_from_robot);
+  correct_to(now.map_from_robot, odom_from_robot);
 }
 
 void Localizer::State::publish() noexcept {

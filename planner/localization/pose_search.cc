@@ -117,6 +117,10 @@ Pose2 moved(const Pose2& pose, const Row3& by) noexcept {
   return {pose.x + by.x, pose.y + by.y, wrap_angle(pose.heading + by.heading)};
 }
 
+Row3 offset(const Pose2& from, const Pose2& to) noexcept {
+  return {to.x - from.x, to.y - from.y, wrap_angle(to.heading - from.heading)};
+}
+
 Pose2 search_about(const PoseBelief& predicted, const Symmetric3& information, const MatchSample& sample,
                    const EvidenceMap& still) noexcept {
   const Symmetric3& p = predicted.covariance;

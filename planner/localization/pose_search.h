@@ -19,6 +19,8 @@ using MatchSample = FixedVector<Vec2, kMostMatchPoints>;
 
 /// `by` in the map's directions, and turned.
 [[nodiscard]] Pose2 moved(const Pose2& pose, const Row3& by) noexcept;
+/// What to be moved by to get from one to the other; the turn in [-pi, pi).
+[[nodiscard]] Row3 offset(const Pose2& from, const Pose2& to) noexcept;
 
 /// The best pose of a lattice of cells and two degrees, then of one of half cells and one degree, three standard
 /// deviations about the prediction (0.4 m and 24 degrees at most). `information`: the inverse of its covariance, by

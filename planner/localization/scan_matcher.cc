@@ -16,10 +16,6 @@ constexpr double kDoubtM = 0.08;  // residuals beyond count less and less
 // Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking-findings.md).
 constexpr double kIndependent = 0.06;
 
-Row3 offset(const Pose2& from, const Pose2& to) {
-  return {to.x - from.x, to.y - from.y, wrap_angle(to.heading - from.heading)};
-}
-
 }  // namespace
 
 void ScanMatcher::sample(const ScanPoints& scan) noexcept {

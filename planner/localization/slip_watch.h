@@ -1,0 +1,31 @@
+#pragma once
+// Matching beside wheels that may slip, however long they were right.
+#include "planner/localization/scan_matcher.h"
+
+namespace jaywalk {
+
+/// Where the wheels put the robot at a scan, and how sure of it one is, with wheels as they have been and had nothing
+/// been known of them since the last match.
+struct WheelBelief {
+  Pose2 map_from_robot;
+  Symmetric3 covariance, if_slipped;
+  bool earned = false;  ///< what is believed of the wheels is learnt; else there is nothing to take back
+};
+
+/// Matches scans, and notices slip: a match that leaves the prediction by three standard deviations, or fits worse than
+/// matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits better. So is a scan
+/// that the map contradicts, but none that sees next to nothing the map knows: that is no slip. Thread: the loop's.
+class SlipWatch {
+ public:
+  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
+
+ private:
+  [[nodiscard]] MatchResult best(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
+  [[nodiscard]] bool doubtful(const MatchResult& found, const WheelBelief& wheels) const noexcept;
+
+  ScanMatcher matcher_;
+  bool contradicted_ = false;  ///< the last scan was
+  double usual_fit_ = 0.0;     ///< running mean of the matches'
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,43 @@
+#include "planner/perception/given_movers.h"
+
+#include <algorithm>
+
+#include "planner/perception/kalman.h"
+#include "planner/perception/prediction.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kLeastStdM = 1e-3;  // a filter that is told of no noise divides by none
+
+Body first_report(const ObservedMover& mover, double std_m, Time stamp, std::uint32_t id) {
+  Body body = born_at(mover.position_in_map, std_m, mover.radius_m, stamp, id);
+  body.given = true;
+  body.given_id = mover.id;
+  body.track.moving = true;
+  return body;
+}
+
+void report_again(Body& body, const ObservedMover& mover, double std_m, Time stamp) {
+  predict_to(body, stamp);
+  correct(body.track, mover.position_in_map, std_m);
+  body.track.hits += 1;
+  body.track.last_seen = stamp;
+}
+
+}  // namespace
+
+void take_given(const OutsideFix& fix, Vec2 robot_in_map, Bodies& bodies, std::uint32_t& last_id) noexcept {
+  const double std_m = std::max(fix.mover_std_m, kLeastStdM);
+  for (const ObservedMover& mover : fix.movers) {
+    const auto known =
+        std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.given && b.given_id == mover.id; });
+    if (known == bodies.end()) {
+      admit(bodies, first_report(mover, std_m, fix.stamp, ++last_id), robot_in_map);
+    } else {
+      report_again(*known, mover, std_m, fix.stamp);
+    }
+  }
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,30 @@
+#include "planner/perception/prediction.h"
+
+#include <algorithm>
+
+#include "planner/perception/kalman.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kGivenAccelStd = 0.5;  // m/s2: the paper's movers keep their speed and seldom turn
+constexpr double kLongestStepS = 1.0;
+
+}  // namespace
+
+double step_seconds(Time from, Time to) noexcept {
+  if (from == kNever || to <= from) return 0.0;
+  return std::min(to_seconds(to - from), kLongestStepS);
+}
+
+void predict_to(Body& body, Time stamp) noexcept {
+  const double dt = step_seconds(body.track.stamp, stamp);
+  if (body.given) {
+    predict(body.track, dt, kGivenAccelStd);
+  } else {
+    body.models.predict(body.track, dt);
+  }
+  body.track.stamp = std::max(body.track.stamp, stamp);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,34 @@
+#pragma once
+// One scan taken apart.
+#include "planner/perception/bodies.h"
+#include "planner/perception/clusters.h"
+#include "planner/perception/segments.h"
+#include "planner/perception/self_mask.h"
+
+namespace jaywalk {
+
+/// What the newest scan shows, in the robot's frame and in the map, and the memory that takes. Thread: the loop's.
+class Scene {
+ public:
+  explicit Scene(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
+
+  /// Points, cut where the scan jumps and where known `bodies` touch, and the pieces that may be bodies; points on the
+  /// robot itself are left out. `still` is the map from all scans before. The rest: as Tracker::update() has it.
+  void look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
+            const Bodies& bodies) noexcept;
+
+  Pose2 map_from_laser;
+  ScanPoints points;
+  PointsInMap in_map;  ///< of as many points
+  Clusters clusters;
+
+ private:
+  void drop_own_points() noexcept;
+
+  Pose2 robot_from_laser_;
+  SelfMask self_mask_;
+  ScanProjection projection_;
+  Segments segments_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,66 @@
+#include "planner/perception/sighting.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/perception/kalman.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kPathBreaksS = 0.4;    // unseen so long, a body may be another
+constexpr double kFreeGain = 0.3;       // of the running mean of how free the ground under a body was
+constexpr double kNoiseGain = 0.075;    // a scan: a second teaches how noisy a body is
+constexpr double kMostNoise = 25.0;     // times the variance expected, or as small a part of it
+constexpr double kMostSurprise = 16.0;  // that one scan teaches: more is another's place
+constexpr double kRadiusGain = 0.2;     // of the running mean of a body's radius
+
+/// Steers the measurement noise to where surprises are 2 on average, whatever the body is: a disc is seen to a
+/// centimetre, a pair of legs sways.
+void learn_noise(Body& body) {
+  const double wanted = 0.5 * std::min(body.track.surprise, kMostSurprise) - 1.0;
+  body.noise = std::clamp(body.noise * (1.0 + kNoiseGain * wanted), 1.0 / kMostNoise, kMostNoise);
+}
+
+void learn_size(Body& body, const Observation& seen) {
+  body.track.radius_m += kRadiusGain * (seen.radius_m - body.track.radius_m);
+  if (seen.arc_m > 0.0) body.arc_m += (body.arc_m > 0.0 ? kRadiusGain : 1.0) * (seen.arc_m - body.arc_m);
+}
+
+void correct_track(Body& body, const Observation& seen) {
+  move_all(body, seen.was_off);
+  const double std_m = seen.std_m * std::sqrt(body.noise);
+  body.track.surprise = gate_distance2(body.track, seen.position_in_map, std_m);
+  learn_noise(body);
+  body.models.correct(body.track, seen.position_in_map, std_m);
+}
+
+}  // namespace
+
+void note_sight(Body& body, const Observation& seen) noexcept {
+  body.outline_in_map = seen.outline_in_map;
+  body.beams = seen.beams;
+  body.whole = seen.whole;
+  body.hidden_side = seen.hidden_side;
+  body.on_wall = seen.on_wall;
+  body.edge_m = seen.edge_m;
+}
+
+void take_sight(Body& body, const Observation& seen, const Pose2& map_from_laser, Time now) noexcept {
+  Track& track = body.track;
+  correct_track(body, seen);
+  learn_size(body, seen);
+  track.hits += 1;
+  body.misses = 0;
+  const bool after_a_gap = to_seconds(now - track.last_seen) > kPathBreaksS;
+  if (after_a_gap) body.path.clear();
+  track.last_seen = now;
+  body.path.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});
+  note_sight(body, seen);
+  if (after_a_gap && !track.moving) anchor_here(body, map_from_laser, now);  // what stood elsewhere may be another
+  body.free_share += std::max(kFreeGain, 1.0 / track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - body.free_share);
+  body.looked_through_s = 0.0;
+  body.as_seen = track;
+}
+
+}  // namespace jaywalk
