@@ -1,0 +1,58 @@
+#include "planner/localization/slip_watch.h"
+
+#include <memory>
+
+#include "planner/perception/tracker.h"
+#include "tests/perception/room.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+const Symmetric3 kSure = diagonal(1e-6, 1e-6, 1e-6);  // a millimetre, 0.06 degrees
+const Symmetric3 kUnknown = diagonal(0.01, 0.01, 0.01);
+
+/// A room of 8 m by 6 m that was seen from its middle for two seconds; the robot is there, and its wheels say that it
+/// has come 0.15 m ahead and turned by 0.1 rad.
+struct SpunWheels {
+  SpunWheels() {
+    for (std::uint32_t k = 1; k <= 30; ++k) tracker.update(scan_of(room, {}, k), {});
+  }
+  MatchResult match(const Pose2& said, bool earned, std::uint32_t scan) {
+    ScanProjection().project(scan_of(room, {}, scan), {}, {}, points);
+    return watch.match(points, tracker.still(), {said, kSure, kUnknown, earned});
+  }
+
+  Room room = rectangle(8.0, 6.0);
+  Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
+  ScanPoints points;
+  SlipWatch watch;
+};
+
+double off(const MatchResult& found) { return norm(found.belief.map_from_robot.position()); }
+
+}  // namespace
+
+TEST_CASE("wheels that are believed to a millimetre are not followed away from walls that were matched before") {
+  const auto robot = std::make_unique<SpunWheels>();
+  for (std::uint32_t k = 31; k < 61; ++k) REQUIRE(off(robot->match({}, true, k)) < 0.01);
+  const MatchResult found = robot->match({0.15, 0.0, 0.1}, true, 61);
+  CHECK(found.matched);
+  CHECK(off(found) < 0.02);
+  CHECK(found.belief.map_from_robot.heading == Approx(0.0).margin(0.01));
+}
+
+TEST_CASE("without matches before nothing says that well-known wheels slipped, and unknown ones are not followed") {
+  const auto robot = std::make_unique<SpunWheels>();
+  CHECK(off(robot->match({0.15, 0.0, 0.1}, true, 31)) > 0.1);
+  CHECK(off(robot->match({0.15, 0.0, 0.1}, false, 31)) < 0.02);
+}
+
+TEST_CASE("a belief that no numbers can hold is no match") {
+  const auto robot = std::make_unique<SpunWheels>();
+  ScanProjection().project(scan_of(robot->room, {}, 31), {}, {}, robot->points);
+  const Symmetric3 none = diagonal(0.0, 0.0, 0.0);  // its inverse is infinite
+  CHECK_FALSE(robot->watch.match(robot->points, robot->tracker.still(), {{}, none, none, true}).matched);
+}
