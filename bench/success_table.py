@@ -10,6 +10,7 @@ import concurrent.futures
 import json
 import math
 import pathlib
+import re
 import subprocess
 import sys
 
@@ -24,18 +25,41 @@ def arguments():
     parser.add_argument("--maps", type=int, nargs="+", default=[1, 2, 3, 4])
     parser.add_argument("--movers", type=int, nargs="+", default=[0, 1, 4, 16])
     parser.add_argument("--mode", default="full", choices=["full", "paper"])
+    parser.add_argument("--legs", action="store_true", help="movers are people on two legs to the laser, not discs")
+    parser.add_argument("--speed", type=float, help="of the movers, m/s, instead of 0.4")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/success"))
     return parser.parse_args()
 
 
+def variant(options):
+    """What the runs' folder is called."""
+    return options.mode + options.legs * "_legs" + (f"_{options.speed}" if options.speed else "")
+
+
+def scenario_of(options, name, folder):
+    """The project's own, or one like it in `folder` with other movers."""
+    own = ROOT / f"hal/sim/scenarios/{name}.toml"
+    text = own.read_text()
+    if options.legs:
+        text = text.replace('kind = "wander"\n', 'kind = "wander"\nlegs = true\n')
+    if options.speed:
+        text = re.sub(r"\nspeed_mps = .*", f"\nspeed_mps = {options.speed}", text)
+    if text == own.read_text():
+        return own
+    folder.mkdir(parents=True, exist_ok=True)
+    made = folder / "other_movers.toml"
+    made.write_text(re.sub(r'yaml = "(.*)"', lambda m: f'yaml = "{(own.parent / m[1]).resolve()}"', text))
+    return made
+
+
 def run(job):
     options, map_number, movers, seed = job
-    out = options.out / options.mode / f"map{map_number}_{movers:02d}" / str(seed)
+    name = f"map{map_number}_{movers:02d}"
+    out = options.out / variant(options) / name / str(seed)
     summary = out / "summary.json"
     if not summary.exists() or summary.stat().st_mtime < PROGRAM.stat().st_mtime:  # goes on where it was interrupted
-        scenario = ROOT / f"hal/sim/scenarios/map{map_number}_{movers:02d}.toml"
-        command = [PROGRAM, "sim", scenario, "--seed", str(seed), "--mode", options.mode, "--out", out]
+        command = [PROGRAM, "sim", scenario_of(options, name, out), "--seed", str(seed), "--mode", options.mode, "--out", out]
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode not in (0, 1):
             sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}: {done.stderr.strip()}")

@@ -64,7 +64,7 @@ bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept {
   }
   if (lead == clusters.size()) return false;
   const std::int32_t fellow = clusters[lead].leg() ? fellow_leg(clusters, lead, track.id) : -1;
-  out = observation_of(clusters, lead, fellow, body.arc_m);
+  out = observation_of(clusters, lead, fellow, body.arc_m, body.on_legs());
   if (out.arc_m > 0.0 && body.arc_m == 0.0) out.was_off = off_by_one_side(clusters[lead], body.hidden_side);
   free_strangers(track, lead, fellow, clusters);
   return true;
@@ -73,7 +73,7 @@ bool observe(const Body& body, Clusters& clusters, Observation& out) noexcept {
 bool observe_new(Clusters& clusters, std::size_t index, std::uint32_t becomes_track_id, Observation& out) noexcept {
   const std::int32_t fellow = clusters[index].leg() ? fellow_leg(clusters, index, 0) : -1;
   if (clusters[index].sparse && fellow < 0) return false;
-  out = observation_of(clusters, index, fellow, 0.0);
+  out = observation_of(clusters, index, fellow, 0.0, false);
   clusters[index].track_id = becomes_track_id;
   if (fellow >= 0) clusters[static_cast<std::size_t>(fellow)].track_id = becomes_track_id;
   return true;

@@ -17,6 +17,7 @@ struct Body {
   RecentPath path;
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
   double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
+  double legs_share = 0.0;     ///< running mean: how many of the sights showed two legs apart
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
   int hidden_side = 0;         ///< Cluster::hidden_side then
   bool on_wall = false;        ///< and it stood where walls stand
@@ -41,10 +42,13 @@ struct Body {
 
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
+  /// Two legs that pass each other are as wide as a body now and then, and no arc of one.
+  [[nodiscard]] bool on_legs() const { return legs_share > kOnLegs; }
   /// As wide as people and robots are, and seen to stay where it should be as solid things do.
   [[nodiscard]] bool solid() const { return as_wide_as_a_body(arc_m) && noise < kSolidNoise; }
 
   static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
+  static constexpr double kOnLegs = 0.25;     ///< chosen: of who walks most sights do, of a disc none
 };
 
 /// Beams that all pass over so much of a body's place pass through it, and for so long: it is gone.

@@ -13,10 +13,10 @@ constexpr double kLeastRadiusM = 0.2;    // whatever stands on legs is wider tha
 constexpr double kMostRadiusM = 0.5;
 
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle,
-// and does so for several scans, for which it counts double; so far apart both kinds have innovations of 2 of real
-// people (docs/tracking-findings.md, "People have legs"). An arc's ends lie somewhere between beams; an arc's are what
-// simulated discs turned out to have.
-constexpr double kOneLegStdM = 0.25, kTwoLegsStdM = 0.07;
+// and does so for several scans, for which it counts double: by trial (docs/tracking-findings.md, "The foot that
+// stands"); two together have innovations of 2 of real people ("People have legs"). An arc's ends lie somewhere between
+// beams; an arc's are what simulated discs turned out to have.
+constexpr double kOneLegStdM = 0.21, kTwoLegsStdM = 0.07;
 constexpr double kDeeperM = 0.08;  // than a leg that hides the other one: half of what is from one to the other
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
 // Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together
@@ -47,9 +47,11 @@ void be_told_by_a_side(const Cluster& c, double arc_m, Observation& seen) {
 void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
   const Cluster& c = clusters[lead];
   const bool alone = fellow < 0 && c.one_leg();
+  seen.lone_leg = alone;
   seen.std_m = alone ? kOneLegStdM : kTwoLegsStdM;
   seen.radius_m = kPersonRadiusM;
   if (fellow >= 0) {
+    seen.two_legs = c.whole() && clusters[static_cast<std::size_t>(fellow)].whole();
     seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
   } else if (alone && c.whole()) {
     seen.position_in_map = c.centre_in_map + c.along * kDeeperM;
@@ -58,7 +60,8 @@ void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Ob
 
 }  // namespace
 
-Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow, double arc_m) noexcept {
+Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow, double arc_m,
+                           bool on_legs) noexcept {
   const Cluster& c = clusters[lead];
   Observation seen{.position_in_map = c.centre_in_map,
                    .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
@@ -74,12 +77,12 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .spacing_m = c.spacing_m,
                    .was_off = {}};
   if (seen.whole) {
-    if (!c.leg()) seen.arc_m = c.radius_m;
+    if (!c.leg() && !on_legs) seen.arc_m = c.radius_m;
   } else {
     be_told_by_a_side(c, arc_m > 0.0 ? std::max(arc_m, c.radius_m) : kPersonRadiusM, seen);
   }
   const bool part_of_more = !seen.whole && arc_m > 0.0;
-  if (c.leg() && !part_of_more && !c.behind_more) be_legs(clusters, lead, fellow, seen);
+  if ((c.leg() || on_legs) && !part_of_more && !c.behind_more) be_legs(clusters, lead, fellow, seen);
   return seen;
 }
 

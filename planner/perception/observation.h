@@ -19,12 +19,14 @@ struct Observation {
   double width_m = 0.0;    ///< of what is seen of that
   double spacing_m = 0.0;  ///< from beam to beam, across them
   double arc_m = 0.0;      ///< half its width across the beams where it is whole and no leg; else 0
+  bool two_legs = false;   ///< apart, with nothing before either
+  bool lone_leg = false;   ///< one leg alone
   Vec2 was_off;            ///< m: how far from there one side alone has had it until now that both are seen
 };
 
-/// `lead` alone, or it and another leg, `fellow`, -1 for none. `arc_m`: Body::arc_m.
-[[nodiscard]] Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow,
-                                         double arc_m) noexcept;
+/// `lead` alone, or it and another leg, `fellow`, -1 for none. `arc_m`, `on_legs`: Body's.
+[[nodiscard]] Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow, double arc_m,
+                                         bool on_legs) noexcept;
 
 /// From where one side of `c` had its middle while its width was not known (`hidden_side`: Body's), to where both have
 /// it.

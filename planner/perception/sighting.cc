@@ -14,6 +14,7 @@ constexpr double kNoiseGain = 0.075;    // a scan: a second teaches how noisy a 
 constexpr double kMostNoise = 25.0;     // times the variance expected, or as small a part of it
 constexpr double kMostSurprise = 16.0;  // that one scan teaches: more is another's place
 constexpr double kRadiusGain = 0.2;     // of the running mean of a body's radius
+constexpr double kLegsGain = 0.1;       // of the running mean of how often it showed two legs
 
 /// Steers the measurement noise to where surprises are 2 on average, whatever the body is: a disc is seen to a
 /// centimetre, a pair of legs sways.
@@ -24,12 +25,20 @@ void learn_noise(Body& body) {
 
 void learn_size(Body& body, const Observation& seen) {
   body.track.radius_m += kRadiusGain * (seen.radius_m - body.track.radius_m);
+  body.legs_share += kLegsGain * ((seen.two_legs ? 1.0 : 0.0) - body.legs_share);
+  if (body.on_legs()) body.arc_m = 0.0;
   if (seen.arc_m > 0.0) body.arc_m += (body.arc_m > 0.0 ? kRadiusGain : 1.0) * (seen.arc_m - body.arc_m);
+}
+
+/// Where both legs are seen their middle may be known to a centimetre. That says nothing of one leg alone: for a step
+/// it stands on the ground, and whoever believed it so well would have him stand.
+double noise_of(const Body& body, const Observation& seen) {
+  return seen.lone_leg ? std::max(body.noise, 1.0) : body.noise;
 }
 
 void correct_track(Body& body, const Observation& seen) {
   move_all(body, seen.was_off);
-  const double std_m = seen.std_m * std::sqrt(body.noise);
+  const double std_m = seen.std_m * std::sqrt(noise_of(body, seen));
   body.track.surprise = gate_distance2(body.track, seen.position_in_map, std_m);
   learn_noise(body);
   body.models.correct(body.track, seen.position_in_map, std_m);

@@ -109,6 +109,7 @@ void Tracker::State::birth() noexcept {
     Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
     note_sight(body, seen);
     body.free_share = seen.in_free_space ? 1.0 : 0.0;
+    body.legs_share = seen.two_legs ? 1.0 : 0.0;
     anchor_here(body, scene.map_from_laser, now);
     if (hidden.return_as(body, now)) rename(clusters, last_id, body.track.id);
     admit(bodies, body, scene.map_from_laser.position());

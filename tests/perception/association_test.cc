@@ -92,6 +92,34 @@ TEST_CASE("two legs have their middle between them and of one alone it is deeper
   CHECK(seen.std_m == sure_m);
 }
 
+TEST_CASE("who was seen on two legs is no arc when one hides the other or both are side by side") {
+  Body body = born_at({4.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
+  Observation seen;
+  const auto see = [&](const Room& room) {
+    const auto clusters = clusters_of(room);
+    for (Cluster& c : *clusters) c.track_id = 7;
+    CHECK(observe(body, *clusters, seen));
+  };
+  const Room side_by_side{.walls = {}, .discs = {{{4.0, 0.1}, 0.08}, {{4.0, -0.1}, 0.08}}};
+  see(side_by_side);
+  CHECK(seen.arc_m > 0.15);  // it might as well be a body
+  const double arc_m = seen.arc_m;
+  body.legs_share = 1.0;
+  see(side_by_side);
+  CHECK(seen.arc_m == 0.0);
+  CHECK(seen.std_m == Approx(0.07));
+
+  const Room half_a_leg{.walls = {{{2.0, 0.02}, {2.0, 0.1}}}, .discs = {{{4.0, 0.0}, 0.06}}};
+  body.legs_share = 0.0;
+  body.arc_m = arc_m;
+  see(half_a_leg);
+  CHECK(seen.std_m < 0.05);  // less of a known body is in view
+  body.legs_share = 1.0;
+  body.arc_m = 0.0;
+  see(half_a_leg);
+  CHECK(seen.std_m > 0.2);
+}
+
 TEST_CASE("two points are a leg where legs have no more, and somebody new only with another one") {
   CHECK(clusters_of({.walls = {}, .discs = {{{2.0, 0.0}, 0.009}}})->empty());  // at 2 m a leg has nine
 
