@@ -14,7 +14,7 @@ import pathlib
 import re
 import sys
 
-from varied_runs import BENCH, PROGRAM, call, off_the_truth
+from varied_runs import BENCH, LASER, PROGRAM, call, off_the_truth
 
 SCENARIO = """name = "posts"
 timeout_s = 120.0
@@ -25,12 +25,6 @@ start = [-2.25, 3.0, 1.5708]
 goal = [-2.25, 13.0]
 model = "p3dx"
 max_speed_mps = 0.6
-[robot.laser]
-fov_deg = 270.0
-beams = 811
-rate_hz = 15.0
-range_m = 25.0
-noise_m = 0.01
 """
 MOVERS = """[[movers]]
 kind = "wander"
@@ -56,7 +50,7 @@ def run(job):
     out = options.out / world.stem
     out.mkdir(parents=True, exist_ok=True)
     movers = MOVERS.format(count=options.movers) if options.movers else ""
-    (out / "scenario.toml").write_text(SCENARIO.format(world=world.resolve()) + movers)
+    (out / "scenario.toml").write_text(SCENARIO.format(world=world.resolve()) + LASER + movers)
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed, "--out", out, fine=(0, 1))
     moving = 0.0 if options.movers else moving_tracks_a_minute(out)
     return json.loads((out / "summary.json").read_text()), moving, off_the_truth(out)

@@ -13,7 +13,7 @@ import pathlib
 import re
 import sys
 
-from varied_runs import BENCH, PROGRAM, call
+from varied_runs import BENCH, LASER, PROGRAM, call
 
 HALL = """2D-Map
 LineMinPos: 0 0
@@ -34,13 +34,8 @@ start = [2.0, 1.5, 0.0]
 goal = [22.5, 1.5]
 model = "p3dx"
 max_speed_mps = 0.1
-[robot.laser]
-fov_deg = 270.0
-beams = 811
-rate_hz = 15.0
-range_m = 25.0
-noise_m = 0.01
-[[movers]]
+"""
+WALKERS = """[[movers]]
 kind = "recorded"
 file = "{ways}"
 offset = [{x:.2f}, {y:.2f}]
@@ -78,7 +73,8 @@ def run(job):
     out.mkdir(parents=True, exist_ok=True)
     (out / "hall.map").write_text(HALL)
     x, y = (wanted - there for wanted, there in zip(MIDDLE, middle(ways)))
-    (out / "scenario.toml").write_text(SCENARIO.format(ways=ways.resolve(), x=x, y=y, legs=str(legs).lower()))
+    walkers = WALKERS.format(ways=ways.resolve(), x=x, y=y, legs=str(legs).lower())
+    (out / "scenario.toml").write_text(SCENARIO + LASER + walkers)
     call(PROGRAM, "sim", out / "scenario.toml", "--out", out, fine=(0, 1))
     table = call(BENCH, out, "--radius", 0.25)
     return [float(re.findall(rf"\| {re.escape(row)} +\| +([-\d.]+|nan)", table)[which]) for row, which, _ in COLUMNS.values()]

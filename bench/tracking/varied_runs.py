@@ -19,6 +19,13 @@ import sys
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
 MAPS = (1, 2, 3, 4)
+LASER = """[robot.laser]
+fov_deg = 270.0
+beams = 811
+rate_hz = 15.0
+range_m = 25.0
+noise_m = 0.01
+"""  # the project's own maps', for scenarios that are made
 KEYS = {
     "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount")),
     "movers": ("[movers]", ("speed_mps", "radius_m", "count", "legs")),
