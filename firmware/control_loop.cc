@@ -106,7 +106,8 @@ void ControlLoop::look(const TickRecord& t) noexcept {
                          .map_from_robot = t.pose.map_from_robot,
                          .wanted = t.wanted,
                          .driven = driven_,
-                         .still = tracker_.still()};
+                         .still = tracker_.still(),
+                         .standing = tracker_.standing()};
   if (turns_at_goal()) {
     turn_->look(input);
     if (guide_) guide_->manoeuvre().stop();
@@ -122,6 +123,7 @@ PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
           .speed_mps = setup_.model.limits.max_speed_mps,
           .still = &tracker_.still(),
           .moving = tracker_.moving(),
+          .standing = tracker_.standing(),
           .body = setup_.guides_body() ? &setup_.model.footprint : nullptr};
 }
 

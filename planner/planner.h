@@ -11,6 +11,7 @@
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
 namespace jaywalk {
@@ -44,6 +45,7 @@ struct PlanRequest {
   double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
   const EvidenceMap* still = nullptr;  ///< walls; read during submit only
   std::span<const Track> moving;       ///< copied during submit
+  std::span<const Stander> standing;   ///< where nobody passes, as wide as they are; read during submit only
   /// Of a robot that cannot turn anywhere and does not see behind itself: what lies near it, was never seen and is not
   /// under it is no way while there is another. Null: what was never seen is free. Read during submit only.
   const Footprint* body = nullptr;

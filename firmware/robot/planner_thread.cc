@@ -32,8 +32,13 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
   for (const Track& track : request.moving) {
     if (!moving_.push_back(track)) break;
   }
+  standing_.clear();
+  for (const Stander& stander : request.standing) {
+    if (!standing_.push_back(stander)) break;
+  }
   request_.still = &still_;
   request_.moving = {moving_.begin(), moving_.size()};
+  request_.standing = {standing_.begin(), standing_.size()};
   busy_.store(true, std::memory_order_release);
   asked_.fetch_add(1, std::memory_order_release);
   asked_.notify_one();

@@ -32,6 +32,7 @@ class PlannerThread final : public Planner {
   PlanRequest request_;
   EvidenceMap still_;
   FixedVector<Track, kMaxTracks> moving_;
+  FixedVector<Stander, kMaxTracks> standing_;
   Mailbox<Plan> plans_;
   std::atomic<bool> busy_{false}, ending_{false};
   std::atomic<std::uint32_t> asked_{0};

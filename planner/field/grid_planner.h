@@ -94,8 +94,9 @@ class GridPlanner final : public Planner {
     const bool minds_unseen = request.body != nullptr && request.still != nullptr;
     PlanStatus status = plan_among(request, warping, movers, minds_unseen, result);
     if (status != PlanStatus::kOk && minds_unseen) status = plan_among(request, warping, movers, false, result);
-    if (status == PlanStatus::kNoPath && movers > 0 && config_.mode == PlanMode::kFull) {
-      // Movers may have left what they block by the time the robot comes there: beyond the horizon they do not count.
+    const bool may_leave = movers > 0 || !request.standing.empty();
+    if (status == PlanStatus::kNoPath && may_leave && config_.mode == PlanMode::kFull) {
+      // They may have left what they block by the time the robot comes there: beyond the horizon they do not count.
       warping.reach = warping.robot_speed * warping.cap_s;
       status = plan_among(request, warping, movers, false, result);
     }
@@ -112,6 +113,7 @@ class GridPlanner final : public Planner {
                         Result& result) noexcept {
     const Grid grid = window_.grid();
     fetch_walls(window_, request.still, pass_.shown().occupants);
+    fetch_standing(window_, request, warping.reach, pass_.shown().occupants);
     if (minds_unseen) fetch_unseen(window_, request, pass_.shown().occupants);
     if (!pass_.mark_and_clear(grid, warping, movers, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
     report_predictions(movers, result.plan);

@@ -10,6 +10,8 @@
 namespace jaywalk::field {
 namespace {
 
+constexpr double kFarthest_m = 1e6;  // m, m/s, and their squares: what single precision can hold
+
 bool is_side(std::int32_t side) { return side >= 64 && side <= 4096 && (side & (side - 1)) == 0; }
 
 cell::AxisState axis(double position, double velocity, const AxisCovariance& p, double cell_m) {
@@ -21,10 +23,14 @@ cell::AxisState axis(double position, double velocity, const AxisCovariance& p, 
 
 /// Whether single precision can hold a track: no NaN, nothing beyond a million.
 bool is_plausible(const Track& t) {
-  constexpr double kLimit = 1e6;
   const double values[] = {t.position_in_map.x, t.position_in_map.y, t.velocity_in_map.x, t.velocity_in_map.y,
                            t.covariance.pp,     t.covariance.pv,     t.covariance.vv,     t.radius_m};
-  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kLimit; });
+  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kFarthest_m; });
+}
+
+bool is_plausible(const Stander& s) {
+  return std::fabs(s.position_in_map.x) <= kFarthest_m && std::fabs(s.position_in_map.y) <= kFarthest_m &&
+         std::fabs(s.radius_m) <= kFarthest_m;
 }
 
 }  // namespace
@@ -94,6 +100,21 @@ void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* o
     for (std::int32_t i = 0; i < window.side; ++i) {
       const bool wall = still != nullptr && still->occupied({window.low.i + i, window.low.j + j});
       row[i] = wall ? std::uint8_t{kWall} : std::uint8_t{0};
+    }
+  }
+}
+
+void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept {
+  const Vec2 robot = request.map_from_robot.position();
+  for (const Stander& stander : request.standing) {
+    const Vec2 middle = stander.position_in_map, half{stander.radius_m, stander.radius_m};
+    if (!is_plausible(stander) || !(distance(robot, middle) <= window.cell_m * static_cast<double>(reach))) continue;
+    const CellIndex low = window.cell_at(middle - half), high = window.cell_at(middle + half);
+    for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+      for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
+        const bool his = distance(window.in_map({i + 0.5, j + 0.5}), middle) <= stander.radius_m;
+        if (his) occupants[window.grid().at(i, j)] |= kMover;
+      }
     }
   }
 }

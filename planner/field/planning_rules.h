@@ -41,6 +41,9 @@ void check(const PlannerConfig& config);
 /// Walls of the map as occupants; everything else empty.
 void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept;
 
+/// Adds as movers all that is of those who stand within `reach` cells of the robot; of numbers within reason.
+void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept;
+
 /// Adds as walls what was never seen within kUnseenRadius_m of the robot, but for what is under `body`.
 void fetch_unseen(const Window& window, const PlanRequest& request, std::uint8_t* occupants) noexcept;
 

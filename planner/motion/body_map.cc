@@ -6,7 +6,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kPitch_m = 0.1;  // between samples of the outline
+constexpr double kPitch_m = 0.1;  // between samples of an outline
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.
 void sample_edge(Vec2 a, Vec2 b, std::vector<Vec2>& points) {
@@ -28,7 +28,7 @@ BodyMap::BodyMap(const Footprint& footprint)
   for (std::size_t k = 0; k < corners.size(); ++k) sample_edge(corners[k], corners[(k + 1) % 4], outline_);
 }
 
-void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot) noexcept {
+void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing) noexcept {
   const Vec2 centre = map_from_robot.position();
   std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
   low_ = centre - Vec2{kReach_m, kReach_m};
@@ -47,6 +47,7 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot) noexce
       }
     }
   }
+  for (const Stander& stander : standing) stamp_round(stander);
   note_unseen(still, map_from_robot);
   for (float& d : distance_) d = std::sqrt(d);
 }
@@ -91,6 +92,13 @@ void BodyMap::stamp(Vec2 surface) noexcept {
       const float dx = static_cast<float>(i) - x;
       row[i] = std::min(row[i], (dx * dx + dy * dy) * kSquare);
     }
+  }
+}
+
+void BodyMap::stamp_round(const Stander& stander) noexcept {
+  const double points = std::ceil(2.0 * kPi * stander.radius_m / kPitch_m);
+  for (double k = 0.0; k < points; k += 1.0) {
+    stamp(stander.position_in_map + direction(2.0 * kPi * k / points) * stander.radius_m);
   }
 }
 

@@ -1,11 +1,13 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/perception/stander.h"
 
 namespace jaywalk {
 
@@ -18,8 +20,9 @@ class BodyMap {
  public:
   explicit BodyMap(const Footprint& footprint);
 
-  /// Draws what stands within kReach_m (each axis) of the robot. Costs about 100 ns a node near a surface.
-  void draw(const EvidenceMap& still, const Pose2& map_from_robot) noexcept;
+  /// Draws what stands within kReach_m (each axis) of the robot, and somebody as wide as he is.
+  /// Costs about 100 ns a node near a surface.
+  void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing = {}) noexcept;
 
   /// From the outline to the nearest surface (m): 0 when it lies on the outline, kFar_m at most, and that as well
   /// beyond the drawn square. The outline is sampled every 10 cm, corners included: a lone point between two
@@ -51,6 +54,7 @@ class BodyMap {
 
   void note_unseen(const EvidenceMap& still, const Pose2& map_from_robot) noexcept;
   void stamp(Vec2 surface_in_map) noexcept;
+  void stamp_round(const Stander& stander) noexcept;
 
   Footprint footprint_;
   std::vector<Vec2> outline_;  ///< in the robot's frame

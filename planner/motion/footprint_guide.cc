@@ -45,7 +45,7 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
     drive_.stop();
     return;
   }
-  map_.draw(input.still, input.map_from_robot);
+  map_.draw(input.still, input.map_from_robot, input.standing);
   if (refused) {
     back_off(input.map_from_robot);
     return;

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <span>
 
 #include "hal/types/robot_model.h"
 #include "planner/motion/body_map.h"
@@ -15,6 +16,7 @@ struct GuideInput {
   Pose2 map_from_robot;
   Twist2 wanted, driven;  ///< what the follower asked for this tick, and what the supervisor made of it
   const EvidenceMap& still;
+  std::span<const Stander> standing = {};  ///< PlanRequest's
 };
 
 /// For a body that is longer than wide: the path is one for the circle inside it, and says nothing about which way

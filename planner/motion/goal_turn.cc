@@ -83,7 +83,7 @@ void GoalTurn::look(const GuideInput& input) noexcept {
   for (int& looks : refused_for_) looks = std::max(looks - 1, 0);
   const bool refused = is_refused(input);
   if (settled_) return;
-  map_.draw(input.still, input.map_from_robot);
+  map_.draw(input.still, input.map_from_robot, input.standing);
   if (goes_on(input, refused)) return;
   if (refused && !drive_.active()) refused_for(to_go_rad_) = kLeftAloneLooks;
   if (refused) searches_ = 0;

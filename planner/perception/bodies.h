@@ -38,6 +38,7 @@ struct Body {
   BeamRun beams;                  ///< that ended on it then
   std::uint32_t misses = 0;       ///< scans in a row that did not see it
   std::uint32_t walked = 0;       ///< scans in a row that it seemed to walk in
+  bool somebody = false;          ///< for all that is known: it walked, or stood on two legs
   bool settled = false;           ///< stands for good: its points may become walls
 
   /// Seen often enough to be believed; others are kept to themselves.

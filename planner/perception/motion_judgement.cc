@@ -71,6 +71,8 @@ void judge_stander(Body& body, const Surroundings& around, Time now) {
   if (stood > kAnchorHolds) anchor_here(body, around.map_from_laser, now);  // creeping is not walking
 }
 
+bool may_be_somebody(const Body& body) { return body.track.moving || (body.confirmed() && body.on_legs()); }
+
 }  // namespace
 
 void judge_motion(Body& body, const Surroundings& around, Time now) noexcept {
@@ -82,6 +84,7 @@ void judge_motion(Body& body, const Surroundings& around, Time now) noexcept {
   } else {
     judge_stander(body, around, now);
   }
+  body.somebody = body.somebody || may_be_somebody(body);
 }
 
 }  // namespace jaywalk

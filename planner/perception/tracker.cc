@@ -11,6 +11,7 @@
 #include "planner/perception/prediction.h"
 #include "planner/perception/scene.h"
 #include "planner/perception/sighting.h"
+#include "planner/perception/standers.h"
 
 namespace jaywalk {
 namespace {
@@ -55,6 +56,7 @@ struct Tracker::State {
   double step_s = 0.0;
 
   FixedVector<Track, kMaxTracks> tracks, moving;
+  Standers standing;
 };
 
 void Tracker::State::predict_all_to(Time stamp) noexcept {
@@ -132,6 +134,7 @@ void Tracker::State::publish() noexcept {
     (void)tracks.push_back(body.track);  // as many places as bodies
     if (body.track.moving) (void)moving.push_back(body.track);
   }
+  note_standers(bodies, still, standing);
 }
 
 Tracker::Tracker(const PerceptionConfig& config) : state_(std::make_unique<State>(config)) {}
@@ -161,5 +164,6 @@ void Tracker::update_given(const OutsideFix& fix) noexcept {
 const EvidenceMap& Tracker::still() const { return state_->still; }
 std::span<const Track> Tracker::tracks() const { return {state_->tracks.data(), state_->tracks.size()}; }
 std::span<const Track> Tracker::moving() const { return {state_->moving.data(), state_->moving.size()}; }
+std::span<const Stander> Tracker::standing() const { return {state_->standing.data(), state_->standing.size()}; }
 
 }  // namespace jaywalk

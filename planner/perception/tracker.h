@@ -7,6 +7,7 @@
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
 namespace jaywalk {
@@ -40,6 +41,9 @@ class Tracker {
   [[nodiscard]] std::span<const Track> tracks() const;
   /// Those that move beyond reasonable doubt: what the planner warps.
   [[nodiscard]] std::span<const Track> moving() const;
+  /// Whoever stands, for as long as something stands there: wider than the map has him. Who walked, and whatever stands
+  /// on two legs, some furniture among it.
+  [[nodiscard]] std::span<const Stander> standing() const;
 
  private:
   struct State;

@@ -62,6 +62,17 @@ TEST_CASE("a body's clearance is that of its outline, ahead 0.75 m from the axle
   CHECK(map.clearance({-2.0, 0.0, 0.0}) == BodyMap::kFar_m);
 }
 
+TEST_CASE("somebody who stands is as wide to a body as he is") {
+  const Ground ground;
+  BodyMap map(kChair.footprint);
+  const std::array<Stander, 1> standing{{{{1.30, 0.0}, 0.25}}};
+  map.draw(ground.map(), {}, standing);
+  CHECK(map.clearance({0.0, 0.0, 0.0}) == Approx(0.30).margin(0.01));         // 1.30 - 0.25 - 0.75
+  CHECK(map.clearance({0.6, 0.0, kPi / 2.0}) == Approx(0.125).margin(0.01));  // 1.30 - 0.25 - 0.6 - 0.325
+  map.draw(ground.map(), {});
+  CHECK(map.clearance({0.0, 0.0, 0.0}) == BodyMap::kFar_m);
+}
+
 TEST_CASE("turned in a door of 0.90 m the body comes nearer than its half width has it") {
   BodyMap map(kChair.footprint);
   map.draw(door().map(), {1.0, 0.0, 0.0});

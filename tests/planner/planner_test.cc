@@ -189,7 +189,7 @@ TEST_CASE("a pose, goal or speed that is no number is a bad request, and the nex
   CHECK(plan_of(*planner, request_on(map, {2.0, 2.0}, {20.0, 20.0})).status == PlanStatus::kOk);
 }
 
-TEST_CASE("enormous but finite goals and tracks do no harm") {
+TEST_CASE("enormous but finite goals do no harm, nor do movers and standers that are no numbers or beyond reason") {
   const auto planner = make_cpu_planner(small_memory());
   const EvidenceMap map(256, 0.1, {0.0, 0.0});
   Track far = walker({1e200, -1e200}, {1e200, 0.0});
@@ -197,6 +197,10 @@ TEST_CASE("enormous but finite goals and tracks do no harm") {
   const std::vector<Track> tracks{far, broken};
   PlanRequest request = request_on(map, {0.0, 0.0}, {1e300, -1e300});
   request.moving = tracks;
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const std::vector<Stander> standing{
+      {{1e200, -1e200}, 0.25}, {{nan, 0.0}, 0.25}, {{0.0, 0.0}, nan}, {{3.0, 0.0}, 1e9}};
+  request.standing = standing;
   const Plan& plan = plan_of(*planner, request);
   CHECK(plan.status == PlanStatus::kOk);
   CHECK(plan.predictions.empty());
@@ -289,6 +293,44 @@ TEST_CASE("a far door that a walker blocks does not stop the robot, a near one d
   CHECK(planner->collect().predictions.size() == 1);
   request.map_from_robot.x = 11.0;
   CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
+}
+
+TEST_CASE("the path keeps clear of all that is of somebody who stands") {
+  const auto planner = make_cpu_planner(small_memory());
+  const EvidenceMap map(512, 0.1, {0.0, 0.0});
+  const std::vector<Stander> standing{{{5.0, 0.0}, 0.25}};
+  PlanRequest request = request_on(map, {0.0, 0.0}, {10.0, 0.0});
+  request.standing = standing;
+  const Plan& plan = plan_of(*planner, request);
+  REQUIRE(plan.status == PlanStatus::kOk);
+  double nearest = 1e9;
+  for (const Vec2& p : plan.path) nearest = std::min(nearest, distance(p, {5.0, 0.0}));
+  CHECK(nearest > 0.48);  // his 0.25, inflation 0.3, less half a cell and what rounding to cells takes
+}
+
+TEST_CASE("somebody who stands in a far door does not stop the robot, in a near one he does") {
+  TestMap map = open_room();
+  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
+  const EvidenceMap evidence = evidence_of(map);
+  const std::vector<Stander> standing{{{12.8, 12.8}, 0.25}};
+  const auto planner = make_cpu_planner(small_memory());
+  PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
+  request.standing = standing;
+  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
+  request.map_from_robot.x = 11.0;
+  CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
+}
+
+TEST_CASE("a goal that somebody stands on is approached") {
+  const auto planner = make_cpu_planner(small_memory());
+  const EvidenceMap map(512, 0.1, {0.0, 0.0});
+  const std::vector<Stander> standing{{{8.0, 0.0}, 0.25}};
+  PlanRequest request = request_on(map, {0.0, 0.0}, {8.0, 0.0});
+  request.standing = standing;
+  const Plan& plan = plan_of(*planner, request);
+  REQUIRE(plan.status == PlanStatus::kOk);
+  CHECK(distance(plan.path.back(), {8.0, 0.0}) < 0.8);
+  CHECK(distance(plan.path.back(), {8.0, 0.0}) > 0.45);
 }
 
 TEST_CASE("a goal that a mover stands on is approached") {

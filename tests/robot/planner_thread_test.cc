@@ -11,7 +11,7 @@ using namespace jaywalk;
 
 namespace {
 
-/// Answers with the request's goal as its path, when it is let.
+/// Answers with the request's goal as its path, a cell's evidence, and who stands, when it is let.
 class SlowPlanner final : public Planner {
  public:
   explicit SlowPlanner(std::atomic<bool>& may) : may_(may) {}
@@ -22,6 +22,7 @@ class SlowPlanner final : public Planner {
     draft_.path.clear();
     static_cast<void>(draft_.path.push_back(request.goal_in_map));
     static_cast<void>(draft_.path.push_back({static_cast<double>(request.still->evidence({0, 0})), 0.0}));
+    for (const Stander& stander : request.standing) static_cast<void>(draft_.path.push_back(stander.position_in_map));
   }
   [[nodiscard]] const Plan& collect() noexcept override { return plan_ = draft_; }
   [[nodiscard]] FieldView view_field() const override { return {}; }
@@ -63,6 +64,23 @@ TEST_CASE("a planner in its own thread keeps nobody waiting and plans with the m
   while (planner.is_busy()) std::this_thread::yield();
   CHECK(planner.collect().sequence == 2);
   CHECK(planner.collect().path[1].x == 27.0);
+}
+
+TEST_CASE("a planner in its own thread plans among those who stood when it was asked") {
+  std::atomic<bool> may{false};
+  const EvidenceMap map(64, 0.1, {});
+  PlannerThread planner(std::make_unique<SlowPlanner>(may), map);
+  std::array<Stander, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
+  PlanRequest request = request_for(map, 3.0);
+  request.standing = standing;
+  planner.submit(request);
+  standing = {};
+  may = true;
+  while (planner.is_busy()) std::this_thread::yield();
+  const Path& path = planner.collect().path;
+  REQUIRE(path.size() == 4);
+  CHECK(path[2] == Vec2{1.0, 2.0});
+  CHECK(path[3] == Vec2{3.0, 4.0});
 }
 
 TEST_CASE("a held planner shows each plan when the recording has it") {

@@ -1,0 +1,103 @@
+#!/usr/bin/env python3
+"""Drives past somebody who came and stands in a passage: a table in docs/tracking.md.
+
+Two rooms and a passage between them, 1.3 to 2.4 m wide. Somebody on two legs comes at 0.8 m/s from either room, stands in it 0.3 or
+0.5 m from one side, and stays. The robot has to get past him, or to wait where there is no room.
+
+    bench/tracking/passages.py --seed 302
+"""
+import argparse
+import concurrent.futures
+import json
+import math
+import pathlib
+import random
+
+from varied_runs import PROGRAM, call
+
+MODELS = ("p3dx", "wheelchair")
+WIDTHS = (1.3, 1.5, 1.8, 2.4)  # m
+ASIDE = (0.3, 0.5)  # m, of his middle from the passage's side
+DRIVES = 4  # of each kind
+MAP = """2D-Map
+LineMinPos: 0 0
+LineMaxPos: 12000 6000
+NumLines: 6
+LINES
+0 0 12000 0
+12000 0 12000 6000
+12000 6000 0 6000
+0 6000 0 0
+6000 0 6000 {low:.0f}
+6000 {high:.0f} 6000 6000
+"""
+SCENARIO = """name = "passage"
+timeout_s = 60.0
+[map]
+aria = "passage.map"
+[robot]
+start = [1.5, 3.0, 0.0]
+goal = [10.5, 3.0]
+model = "{model}"
+[[movers]]
+kind = "recorded"
+file = "walk.csv"
+radius_m = 0.27
+legs = true
+"""
+WALK = """t_s,id,x_m,y_m
+0.0,1,{from_x:.3f},{from_y:.3f}
+3.0,1,6.0,{y:.3f}
+900.0,1,6.0,{y:.3f}
+"""
+
+
+def arguments():
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("--seed", type=int, default=302)
+    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/passages"))
+    return parser.parse_args()
+
+
+def ways(seed):
+    """Where he stands, from one side of the passage, and which way he came (rad)."""
+    chance = random.Random(seed)
+    for k in range(DRIVES):
+        for aside in ASIDE:
+            yield aside, math.pi * (k % 2) + math.radians(chance.uniform(-40, 40))
+
+
+def run(job):
+    options, model, width, k, (aside, heading) = job
+    out = options.out / f"{model}_{width}_{k}"
+    out.mkdir(parents=True, exist_ok=True)
+    low, y = 3.0 - width / 2, 3.0 - width / 2 + aside
+    (out / "passage.map").write_text(MAP.format(low=1000 * low, high=1000 * (low + width)))
+    (out / "walk.csv").write_text(WALK.format(from_x=6.0 - 2.4 * math.cos(heading), from_y=y - 2.4 * math.sin(heading), y=y))
+    (out / "scenario.toml").write_text(SCENARIO.format(model=model))
+    call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed + k, "--out", out, fine=(0, 1))
+    return json.loads((out / "summary.json").read_text())
+
+
+def row(model, width, runs):
+    touched = sum(r["contacts"] > 0 for r in runs)
+    past = [r for r in runs if not r["contacts"] and r["outcome"] != "timeout"]
+    waited = sum(not r["contacts"] and r["outcome"] == "timeout" for r in runs)
+    nearest = f"{min(r['min_mover_clearance_m'] for r in past):.2f} m" if past else "-"
+    print(f"| {model}, {width} m | {len(past)} | {waited} | {touched} | {nearest} |")
+
+
+def main():
+    options = arguments()
+    kinds = [(model, width) for model in MODELS for width in WIDTHS]
+    jobs = [(options, *kind, k, way) for kind in kinds for k, way in enumerate(ways(options.seed))]
+    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
+        results = list(pool.map(run, jobs))
+    print("| robot, passage | got past | waited | touched him | nearest, of those that got past |\n|---|---|---|---|---|")
+    for kind in kinds:
+        row(*kind, [r for job, r in zip(jobs, results) if job[1:3] == kind])
+
+
+if __name__ == "__main__":
+    main()

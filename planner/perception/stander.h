@@ -1,0 +1,12 @@
+#pragma once
+#include "hal/types/geometry.h"
+
+namespace jaywalk {
+
+/// Somebody who stands, for all that is known: the disc is his, though a laser at the height of shins sees but those.
+struct Stander {
+  Vec2 position_in_map;
+  double radius_m = 0.0;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,17 @@
+#pragma once
+// Whoever stands: as wide as he is, though the map has no more of him than his shins.
+#include "hal/types/fixed_vector.h"
+#include "planner/grid/evidence_map.h"
+#include "planner/perception/bodies.h"
+#include "planner/perception/stander.h"
+
+namespace jaywalk {
+
+using Standers = FixedVector<Stander, kMaxTracks>;
+
+/// Who of the bodies may be somebody (Body::somebody) and does not move stands where he was seen last; who was noted
+/// before and is no body any more stands there for as long as the map has something as near to his middle as legs are.
+/// Bodies come first; of the others as many as there is room for.
+void note_standers(const Bodies& bodies, const EvidenceMap& still, Standers& standers) noexcept;
+
+}  // namespace jaywalk

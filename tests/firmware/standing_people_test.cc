@@ -1,0 +1,49 @@
+// Somebody on two legs who stands in a passage 1.5 m wide, which leaves 0.73 m beside him: simulated from start to
+// goal.
+#include <algorithm>
+
+#include "tests/firmware/simulated_drive.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// He stands there from the third second to the 33rd.
+struct Passing {
+  bool arrived = false;
+  double seconds = 0.0, nearest_m = 1e9;
+  std::uint32_t contacts = 0;
+};
+
+Passing pass(const RobotModel& model, std::uint64_t seed) {
+  SimulatedDrive drive("passage", seed, [&](sim::Scenario& s) { s.model = model; });
+  Passing passing;
+  passing.arrived = drive.drive(90.0, [&](const TickRecord& t) {
+    passing.seconds = to_seconds(t.now);
+    passing.nearest_m = std::min(passing.nearest_m, drive.truth().mover_clearance_m);
+    return drive.to_goal_m() < 0.3 || drive.truth().contacts > 0;
+  });
+  passing.contacts = drive.truth().contacts;
+  return passing;
+}
+
+}  // namespace
+
+TEST_CASE("a robot passes somebody who stands in a passage clear of him, not of his shins alone") {
+  const std::uint64_t seed = GENERATE(std::uint64_t{1}, std::uint64_t{2});
+  const Passing passing = pass(p3dx(), seed);
+  CHECK(passing.arrived);
+  CHECK(passing.contacts == 0);
+  CHECK(passing.seconds < 33.0);    // it does not wait: there is room beside him
+  CHECK(passing.nearest_m > 0.13);  // 0.09 to 0.10 m when it keeps clear of his shins
+}
+
+TEST_CASE("a wheelchair that has no room beside him waits until he goes on") {
+  const std::uint64_t seed = GENERATE(std::uint64_t{1}, std::uint64_t{2});
+  const Passing passing = pass(wheelchair(), seed);
+  CHECK(passing.arrived);
+  CHECK(passing.contacts == 0);
+  CHECK(passing.seconds > 33.0);
+  CHECK(passing.nearest_m > 0.5);
+}

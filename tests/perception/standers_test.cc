@@ -1,0 +1,129 @@
+// Whoever stands is as wide as he is, though a laser sees his shins.
+#include "planner/perception/standers.h"
+
+#include <memory>
+
+#include "tests/perception/watch.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+constexpr Vec2 kPlace{3.0, 1.0};
+constexpr double kShinM = 0.1, kWallM = 0.25;
+
+/// Two shins side by side.
+Room with_legs(Vec2 place) { return with({{{place.x, place.y + 0.1}, 0.06}, {{place.x, place.y - 0.1}, 0.06}}); }
+
+Bodies somebody_at(Vec2 place, bool moves = false) {
+  Bodies bodies;
+  Body body = born_at(place, 0.05, 0.25, time_from_seconds(0.0), 1);
+  body.somebody = true;
+  body.track.moving = moves;
+  (void)bodies.push_back(body);
+  return bodies;
+}
+
+/// One point, `beside_m` from kPlace: a shin, or what he leant on.
+EvidenceMap map_with(double beside_m) {
+  EvidenceMap map(64, 0.1, kPlace);
+  for (int k = 0; k < 6; ++k) map.add_hit(kPlace + Vec2{0.0, beside_m}, 10, 0.1);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("who stands on two legs is somebody, as wide as people, for as long as he stands, new there or not") {
+  Watch watch;
+  if (GENERATE(false, true)) watch.look_round();
+  for (int scan = 0; scan < 15 * 20; ++scan) {
+    watch.see(with_legs(kPlace));
+    if (scan < 15) continue;
+    REQUIRE(watch.tracker.standing().size() == 1);
+    CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
+    CHECK(watch.tracker.standing()[0].radius_m == Approx(0.25).margin(0.01));
+  }
+  CHECK(watch.tracker.tracks().empty());  // the map has his legs by now, and no more of him
+  watch.look_round();
+  CHECK(watch.tracker.standing().empty());
+}
+
+TEST_CASE("one post, and two farther apart than legs, are nobody") {
+  Watch watch;
+  for (int scan = 0; scan < 60; ++scan) {
+    watch.see(with({{{3.0, 0.0}, 0.06}, {{3.0, 0.8}, 0.06}, {{-2.0, 1.0}, 0.06}}));
+    CHECK(watch.tracker.standing().empty());
+  }
+}
+
+TEST_CASE("who walked and is no body any more stands while the map has something that near to his middle") {
+  Standers standers;
+  note_standers(somebody_at(kPlace), map_with(kWallM), standers);
+  REQUIRE(standers.size() == 1);
+  note_standers({}, map_with(kShinM), standers);
+  CHECK(standers.size() == 1);
+  CHECK(standers[0].radius_m == 0.25);
+  note_standers({}, map_with(kWallM), standers);
+  CHECK(standers.empty());
+}
+
+TEST_CASE("who is followed again is not there twice, and who goes on stands no more") {
+  Standers standers;
+  note_standers(somebody_at(kPlace), map_with(kShinM), standers);
+  note_standers(somebody_at(kPlace + Vec2{0.1, 0.0}), map_with(kShinM), standers);
+  REQUIRE(standers.size() == 1);
+  CHECK(standers[0].position_in_map == kPlace + Vec2{0.1, 0.0});
+  note_standers(somebody_at(kPlace + Vec2{0.2, 0.0}, true), map_with(kShinM), standers);
+  CHECK(standers.empty());
+}
+
+TEST_CASE("who moves or is placed from outside, and what is nobody, does not stand") {
+  Standers standers;
+  note_standers(somebody_at(kPlace, true), map_with(kShinM), standers);
+  Bodies given = somebody_at(kPlace), furniture = somebody_at(kPlace);
+  given[0].given = true;
+  furniture[0].somebody = false;
+  note_standers(given, map_with(kShinM), standers);
+  note_standers(furniture, map_with(kShinM), standers);
+  CHECK(standers.empty());
+}
+
+TEST_CASE("he is where he was seen last, wherever his track has gone meanwhile") {
+  Bodies bodies = somebody_at(kPlace);
+  bodies[0].track.position_in_map = kPlace + Vec2{0.5, 0.0};
+  Standers standers;
+  note_standers(bodies, map_with(kShinM), standers);
+  REQUIRE(standers.size() == 1);
+  CHECK(standers[0].position_in_map == kPlace);
+}
+
+TEST_CASE("when there is no room left those who are followed have it") {
+  Standers standers;
+  const EvidenceMap map = map_with(kShinM);
+  for (std::size_t k = 0; k < kMaxTracks; ++k) (void)standers.push_back({kPlace, 0.25});
+  note_standers(somebody_at(kPlace + Vec2{5.0, 0.0}), map, standers);
+  CHECK(standers.full());
+  CHECK(standers[0].position_in_map == kPlace + Vec2{5.0, 0.0});
+}
+
+TEST_CASE("a rider's feet are nobody beside the robot once it has turned") {
+  Watch watch;
+  for (int scan = 0; scan < 60; ++scan) {
+    const Pose2 robot{0.0, 0.0, scan < 15 ? 0.0 : 0.05 * (scan - 15)};
+    watch.see(with({{robot * Vec2{0.4, 0.12}, 0.06}, {robot * Vec2{0.4, -0.12}, 0.06}}), robot);
+    if (scan == 15) CHECK(watch.tracker.standing().size() == 1);  // for all that it can know
+  }
+  CHECK(watch.tracker.standing().empty());
+}
+
+TEST_CASE("who walked here stands when he has stopped, no legs of his having been seen") {
+  Watch watch;
+  watch.look_round();
+  for (int scan = 0; scan < 60; ++scan) watch.see(with({{{3.0, -2.0 + 0.05 * scan}, 0.27}}));
+  CHECK(watch.tracker.standing().empty());
+  for (int scan = 0; scan < 15 * 8; ++scan) watch.see(with({{{3.0, 1.0}, 0.27}}));
+  REQUIRE(watch.tracker.standing().size() == 1);
+  CHECK(distance(watch.tracker.standing()[0].position_in_map, {3.0, 1.0}) < 0.05);
+}
