@@ -1,10 +1,11 @@
 #!/usr/bin/env python3
 """Drives past somebody who came and stands in a passage: a table in docs/tracking.md.
 
-Two rooms and a passage between them, 1.3 to 2.4 m wide. Somebody on two legs comes at 0.8 m/s from either room, stands in it 0.3 or
-0.5 m from one side, and stays. The robot has to get past him, or to wait where there is no room.
+Two rooms and a passage between them, 1.3 to 2.4 m wide. Somebody on two legs comes at 0.8 m/s from either room, or is there from the
+start, stands in it 0.3 or 0.5 m from one side, and stays. The robot has to get past him, or to wait where there is no room.
 
     bench/tracking/passages.py --seed 302
+    bench/tracking/passages.py --seed 302 --from-the-start
 """
 import argparse
 import concurrent.futures
@@ -55,6 +56,7 @@ WALK = """t_s,id,x_m,y_m
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seed", type=int, default=302)
+    parser.add_argument("--from-the-start", action="store_true", help="he stands there before the robot looks")
     parser.add_argument("--jobs", type=int, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/passages"))
     return parser.parse_args()
@@ -70,11 +72,13 @@ def ways(seed):
 
 def run(job):
     options, model, width, k, (aside, heading) = job
-    out = options.out / f"{model}_{width}_{k}"
+    out = options.out / f"{model}_{width}_{k}{'_there' * options.from_the_start}"
     out.mkdir(parents=True, exist_ok=True)
     low, y = 3.0 - width / 2, 3.0 - width / 2 + aside
     (out / "passage.map").write_text(MAP.format(low=1000 * low, high=1000 * (low + width)))
-    (out / "walk.csv").write_text(WALK.format(from_x=6.0 - 2.4 * math.cos(heading), from_y=y - 2.4 * math.sin(heading), y=y))
+    comes_m = 0.01 if options.from_the_start else 2.4  # he faces where he goes
+    x_m, y_m = comes_m * math.cos(heading), comes_m * math.sin(heading)
+    (out / "walk.csv").write_text(WALK.format(from_x=6.0 - x_m, from_y=y - y_m, y=y))
     (out / "scenario.toml").write_text(SCENARIO.format(model=model))
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed + k, "--out", out, fine=(0, 1))
     return json.loads((out / "summary.json").read_text())

@@ -33,7 +33,7 @@ void note_standers(const Bodies& bodies, const EvidenceMap& still, Standers& sta
   const Standers before = standers;
   standers.clear();
   for (const Body& body : bodies) {
-    const bool stands = body.somebody && !body.track.moving && !body.given;
+    const bool stands = body.somebody && !body.track.moving;
     if (stands) (void)standers.push_back({body.as_seen.position_in_map, body.track.radius_m});  // as many as bodies
   }
   for (const Stander& stander : before) {
