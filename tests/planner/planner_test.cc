@@ -7,6 +7,7 @@
 
 #include "hal/types/errors.h"
 #include "planner/field/planning_rules.h"
+#include "tests/planner/one_plan.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
@@ -14,27 +15,6 @@ using namespace jaywalk;
 using namespace jaywalk::test;
 
 namespace {
-
-PlannerConfig small_memory() {
-  PlannerConfig config;
-  config.max_side_cells = 256;
-  return config;
-}
-
-PlanRequest request_on(const EvidenceMap& map, Vec2 from, Vec2 to) {
-  PlanRequest request;
-  request.stamp = time_from_seconds(1.0);
-  request.map_from_robot = {from.x, from.y, 0.0};
-  request.goal_in_map = to;
-  request.speed_mps = 0.6;
-  request.still = &map;
-  return request;
-}
-
-const Plan& plan_of(Planner& planner, const PlanRequest& request) {
-  planner.submit(request);
-  return planner.collect();
-}
 
 double length_of(const Path& path) {
   double sum = 0.0;
@@ -52,16 +32,6 @@ double nearest_wall(const Path& path, const TestMap& map) {
     }
   }
   return best;
-}
-
-Track walker(Vec2 at, Vec2 velocity) {
-  Track track;
-  track.id = 7;
-  track.position_in_map = at;
-  track.velocity_in_map = velocity;
-  track.covariance = {0.001, 0.0, 0.002};
-  track.radius_m = 0.27;
-  return track;
 }
 
 }  // namespace
@@ -254,95 +224,6 @@ TEST_CASE("a robot walled in with no way out keeps its window: a bigger one woul
     CHECK(plan_of(*planner, request_on(evidence, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
   }
   CHECK(planner->view_field().width == 256);
-}
-
-TEST_CASE("the path keeps clear of where a head-on walker will be, and reports it") {
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    PlannerConfig config = small_memory();
-    config.mode = mode;
-    const auto planner = make_cpu_planner(config);
-    const EvidenceMap map(512, 0.1, {0.0, 0.0});
-    // 5.7 m ahead at the robot's own speed: r = 3 m, 5 s, it is then 2.7 m ahead.
-    const std::vector<Track> tracks{walker({5.7, 0.0}, {-0.6, 0.0})};
-    PlanRequest request = request_on(map, {0.0, 0.0}, {10.0, 0.0});
-    request.moving = tracks;
-    const Plan& plan = plan_of(*planner, request);
-    REQUIRE(plan.status == PlanStatus::kOk);
-    REQUIRE(plan.predictions.size() == 1);
-    CHECK(plan.predictions[0].track_id == 7);
-    double nearest = 1e9;
-    const Vec2 meeting{mode == PlanMode::kPaper ? 2.7 : 2.85, 0.0};
-    for (const Vec2& p : plan.path) nearest = std::min(nearest, distance(p, meeting));
-    CHECK(nearest > 0.8);  // body 0.27, safety 0.3, inflation 0.3, less half a cell
-    if (mode == PlanMode::kPaper) {
-      CHECK(plan.predictions[0].position_in_map.x == Approx(2.7).epsilon(0.03));
-    }
-  }
-}
-
-TEST_CASE("a far door that a walker blocks does not stop the robot, a near one does") {
-  // One door, 1.2 m wide at x = 12.8, in a wall across the room; somebody stands in it. At 0.6 m/s the horizon is 3 m.
-  TestMap map = open_room();
-  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
-  const EvidenceMap evidence = evidence_of(map);
-  const std::vector<Track> tracks{walker({12.8, 12.8}, {0.0, 0.0})};
-  const auto planner = make_cpu_planner(small_memory());
-  PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
-  request.moving = tracks;
-  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
-  CHECK(planner->collect().predictions.size() == 1);
-  request.map_from_robot.x = 11.0;
-  CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
-}
-
-TEST_CASE("the path keeps clear of all that is of somebody who stands") {
-  const auto planner = make_cpu_planner(small_memory());
-  const EvidenceMap map(512, 0.1, {0.0, 0.0});
-  const std::vector<Stander> standing{{{5.0, 0.0}, 0.25}};
-  PlanRequest request = request_on(map, {0.0, 0.0}, {10.0, 0.0});
-  request.standing = standing;
-  const Plan& plan = plan_of(*planner, request);
-  REQUIRE(plan.status == PlanStatus::kOk);
-  double nearest = 1e9;
-  for (const Vec2& p : plan.path) nearest = std::min(nearest, distance(p, {5.0, 0.0}));
-  CHECK(nearest > 0.48);  // his 0.25, inflation 0.3, less half a cell and what rounding to cells takes
-}
-
-TEST_CASE("somebody who stands in a far door does not stop the robot, in a near one he does") {
-  TestMap map = open_room();
-  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
-  const EvidenceMap evidence = evidence_of(map);
-  const std::vector<Stander> standing{{{12.8, 12.8}, 0.25}};
-  const auto planner = make_cpu_planner(small_memory());
-  PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
-  request.standing = standing;
-  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
-  request.map_from_robot.x = 11.0;
-  CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
-}
-
-TEST_CASE("a goal that somebody stands on is approached") {
-  const auto planner = make_cpu_planner(small_memory());
-  const EvidenceMap map(512, 0.1, {0.0, 0.0});
-  const std::vector<Stander> standing{{{8.0, 0.0}, 0.25}};
-  PlanRequest request = request_on(map, {0.0, 0.0}, {8.0, 0.0});
-  request.standing = standing;
-  const Plan& plan = plan_of(*planner, request);
-  REQUIRE(plan.status == PlanStatus::kOk);
-  CHECK(distance(plan.path.back(), {8.0, 0.0}) < 0.8);
-  CHECK(distance(plan.path.back(), {8.0, 0.0}) > 0.45);
-}
-
-TEST_CASE("a goal that a mover stands on is approached") {
-  const auto planner = make_cpu_planner(small_memory());
-  const EvidenceMap map(512, 0.1, {0.0, 0.0});
-  const std::vector<Track> tracks{walker({8.0, 0.0}, {0.0, 0.0})};
-  PlanRequest request = request_on(map, {0.0, 0.0}, {8.0, 0.0});
-  request.moving = tracks;
-  const Plan& plan = plan_of(*planner, request);
-  REQUIRE(plan.status == PlanStatus::kOk);
-  CHECK(distance(plan.path.back(), {8.0, 0.0}) < 2.0);
-  CHECK(distance(plan.path.back(), {8.0, 0.0}) > 0.5);
 }
 
 TEST_CASE("configurations that make no sense are refused") {
