@@ -1,7 +1,5 @@
 #pragma once
 // A planner of little memory, asked for a plan.
-#include <memory>
-
 #include "planner/planner.h"
 
 namespace jaywalk::test {

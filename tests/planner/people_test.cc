@@ -1,5 +1,5 @@
 // Plans among people who walk, and who stand.
-#include <limits>
+#include <algorithm>
 #include <vector>
 
 #include "tests/planner/one_plan.h"
@@ -8,6 +8,25 @@
 
 using namespace jaywalk;
 using namespace jaywalk::test;
+
+namespace {
+
+constexpr Vec2 kDoor{12.8, 12.8};
+
+/// A wall across the room, and one door in it, 1.2 m wide.
+EvidenceMap room_with_door() {
+  TestMap map = open_room();
+  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
+  return evidence_of(map);
+}
+
+double nearest_to(Vec2 place, const Path& path) {
+  double nearest = 1e9;
+  for (const Vec2& p : path) nearest = std::min(nearest, distance(p, place));
+  return nearest;
+}
+
+}  // namespace
 
 TEST_CASE("the path keeps clear of where a head-on walker will be, and reports it") {
   for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
@@ -23,10 +42,8 @@ TEST_CASE("the path keeps clear of where a head-on walker will be, and reports i
     REQUIRE(plan.status == PlanStatus::kOk);
     REQUIRE(plan.predictions.size() == 1);
     CHECK(plan.predictions[0].track_id == 7);
-    double nearest = 1e9;
     const Vec2 meeting{mode == PlanMode::kPaper ? 2.7 : 2.85, 0.0};
-    for (const Vec2& p : plan.path) nearest = std::min(nearest, distance(p, meeting));
-    CHECK(nearest > 0.8);  // body 0.27, safety 0.3, inflation 0.3, less half a cell
+    CHECK(nearest_to(meeting, plan.path) > 0.8);  // body 0.27, safety 0.3, inflation 0.3, less half a cell
     if (mode == PlanMode::kPaper) {
       CHECK(plan.predictions[0].position_in_map.x == Approx(2.7).epsilon(0.03));
     }
@@ -34,11 +51,9 @@ TEST_CASE("the path keeps clear of where a head-on walker will be, and reports i
 }
 
 TEST_CASE("a far door that a walker blocks does not stop the robot, a near one does") {
-  // One door, 1.2 m wide at x = 12.8, in a wall across the room; somebody stands in it. At 0.6 m/s the horizon is 3 m.
-  TestMap map = open_room();
-  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
-  const EvidenceMap evidence = evidence_of(map);
-  const std::vector<Track> tracks{walker({12.8, 12.8}, {0.0, 0.0})};
+  // At 0.6 m/s the horizon is 3 m.
+  const EvidenceMap evidence = room_with_door();
+  const std::vector<Track> tracks{walker(kDoor, {0.0, 0.0})};
   const auto planner = make_cpu_planner(small_memory());
   PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
   request.moving = tracks;
@@ -56,16 +71,13 @@ TEST_CASE("the path keeps clear of all that is of somebody who stands") {
   request.standing = standing;
   const Plan& plan = plan_of(*planner, request);
   REQUIRE(plan.status == PlanStatus::kOk);
-  double nearest = 1e9;
-  for (const Vec2& p : plan.path) nearest = std::min(nearest, distance(p, {5.0, 0.0}));
-  CHECK(nearest > 0.48);  // his 0.25, inflation 0.3, less half a cell and what rounding to cells takes
+  CHECK(nearest_to({5.0, 0.0}, plan.path) >
+        0.48);  // his 0.25, inflation 0.3, less half a cell and what rounding to cells takes
 }
 
 TEST_CASE("somebody who stands in a far door does not stop the robot, in a near one he does") {
-  TestMap map = open_room();
-  map.box(127, 0, 129, 256), map.box(127, 122, 129, 134, 0);
-  const EvidenceMap evidence = evidence_of(map);
-  const std::vector<Stander> standing{{{12.8, 12.8}, 0.25}};
+  const EvidenceMap evidence = room_with_door();
+  const std::vector<Stander> standing{{kDoor, 0.25}};
   const auto planner = make_cpu_planner(small_memory());
   PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
   request.standing = standing;
