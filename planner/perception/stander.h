@@ -1,5 +1,6 @@
 #pragma once
 #include "hal/types/geometry.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
 
@@ -7,6 +8,7 @@ namespace jaywalk {
 struct Stander {
   Vec2 position_in_map;
   double radius_m = 0.0;
+  Time last_seen = kNever;  ///< he, or something that stood where he does
 };
 
 }  // namespace jaywalk

@@ -7,6 +7,7 @@ namespace {
 
 // Of the middle: shins reach 0.16 m (hal/sim/legs.cc), and what he leans on is farther.
 constexpr double kLegsWithinM = 0.2;
+constexpr double kHiddenForS = 8.0;  // as long as who walks is remembered (HiddenWalkers)
 
 /// Whether he is one of the bodies, standing or about to go on.
 bool is_followed(const Stander& stander, const Bodies& bodies) {
@@ -28,18 +29,37 @@ bool something_stands(const Stander& stander, const EvidenceMap& still) {
   return false;
 }
 
+/// No beam passes over his place, and it is not long since he was seen there.
+bool may_be_hidden(const Stander& stander, const LineOfSight& sight, Time now) {
+  const double unseen_s = to_seconds(now - stander.last_seen);
+  return unseen_s < kHiddenForS && sight.at(stander.position_in_map, kLegsWithinM) != Sight::kThrough;
+}
+
+/// When something was seen last where he stands: who comes into view again is born anew, and may show a leg alone.
+Time last_seen(const Stander& stander, const Bodies& bodies) {
+  Time last = stander.last_seen;
+  for (const Body& body : bodies) {
+    const Track& seen = body.as_seen;
+    if (distance(seen.position_in_map, stander.position_in_map) < kLegsWithinM) last = std::max(last, seen.last_seen);
+  }
+  return last;
+}
+
 }  // namespace
 
-void note_standers(const Bodies& bodies, const EvidenceMap& still, Standers& standers) noexcept {
+void note_standers(const Bodies& bodies, const EvidenceMap& still, const LineOfSight& sight, Time now,
+                   Standers& standers) noexcept {
   const Standers before = standers;
   standers.clear();
   for (const Body& body : bodies) {
-    const bool stands = body.somebody && !body.track.moving;
-    if (stands) (void)standers.push_back({body.as_seen.position_in_map, body.track.radius_m});  // as many as bodies
+    if (!body.somebody || body.track.moving) continue;
+    const Track& seen = body.as_seen;
+    (void)standers.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen});  // as many as bodies
   }
-  for (const Stander& stander : before) {
-    const bool stays = !is_followed(stander, bodies) && something_stands(stander, still);
-    if (stays && !standers.push_back(stander)) return;
+  for (Stander stander : before) {
+    stander.last_seen = last_seen(stander, bodies);
+    const bool stays = something_stands(stander, still) || may_be_hidden(stander, sight, now);
+    if (stays && !is_followed(stander, bodies) && !standers.push_back(stander)) return;
   }
 }
 

@@ -3,15 +3,18 @@
 #include "hal/types/fixed_vector.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/perception/bodies.h"
+#include "planner/perception/line_of_sight.h"
 #include "planner/perception/stander.h"
 
 namespace jaywalk {
 
 using Standers = FixedVector<Stander, kMaxTracks>;
 
-/// Who of the bodies may be somebody (Body::somebody) and does not move stands where he was seen last; who was noted
-/// before and is no body any more stands there for as long as the map has something as near to his middle as legs are.
-/// Bodies come first; of the others as many as there is room for.
-void note_standers(const Bodies& bodies, const EvidenceMap& still, Standers& standers) noexcept;
+/// Who of the bodies may be somebody (Body::somebody) and does not move stands where he was seen last. Who was noted
+/// before and is none of them any more stands there for as long as the map has something as near to his middle as legs
+/// are, or a body stands so near, however little of him it is; or while he may be hidden there, for 8 s. Bodies come
+/// first; of the others as many as there is room for, the latest first.
+void note_standers(const Bodies& bodies, const EvidenceMap& still, const LineOfSight& sight, Time now,
+                   Standers& standers) noexcept;
 
 }  // namespace jaywalk

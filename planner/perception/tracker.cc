@@ -134,7 +134,6 @@ void Tracker::State::publish() noexcept {
     (void)tracks.push_back(body.track);  // as many places as bodies
     if (body.track.moving) (void)moving.push_back(body.track);
   }
-  note_standers(bodies, still, standing);
 }
 
 Tracker::Tracker(const PerceptionConfig& config) : state_(std::make_unique<State>(config)) {}
@@ -152,6 +151,7 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   s.birth();
   s.enter_still();
   s.publish();
+  note_standers(s.bodies, s.still, sight, s.now, s.standing);
 }
 
 void Tracker::update_given(const OutsideFix& fix) noexcept {

@@ -33,6 +33,12 @@ EvidenceMap map_with(double beside_m) {
   return map;
 }
 
+/// Of a laser whose beams pass over every place.
+void note(const Bodies& bodies, const EvidenceMap& still, Standers& standers) {
+  const LaserScan empty = scan_of(rectangle(12.0, 10.0), {}, 1);
+  note_standers(bodies, still, LineOfSight(empty, {}, {}, {}), empty.stamp, standers);
+}
+
 }  // namespace
 
 TEST_CASE("who stands on two legs is somebody, as wide as people, for as long as he stands, new there or not") {
@@ -50,6 +56,30 @@ TEST_CASE("who stands on two legs is somebody, as wide as people, for as long as
   CHECK(watch.tracker.standing().empty());
 }
 
+TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no longer than his place is out of sight") {
+  Watch watch;
+  watch.look_round();
+  for (int scan = 0; scan < 15; ++scan) watch.see(with_legs(kPlace));
+  REQUIRE(watch.tracker.standing().size() == 1);
+  Room screened = with_legs(kPlace);
+  screened.walls.push_back({{2.0, 0.3}, {2.0, 1.2}});
+  for (int scan = 0; scan < 15 * 15 / 2; ++scan) watch.see(screened);
+  REQUIRE(watch.tracker.standing().size() == 1);
+  CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
+  SECTION("he is not seen again") {
+    for (int scan = 0; scan < 15; ++scan) watch.see(screened);
+    CHECK(watch.tracker.standing().empty());
+  }
+  SECTION("he has gone") {
+    watch.see(rectangle(12.0, 10.0));
+    CHECK(watch.tracker.standing().empty());
+  }
+  SECTION("one of his legs comes into view") {
+    for (int scan = 0; scan < 15 * 9; ++scan) watch.see(with({{{kPlace.x, kPlace.y + 0.1}, 0.06}}));
+    CHECK(watch.tracker.standing().size() == 1);
+  }
+}
+
 TEST_CASE("one post, and two farther apart than legs, are nobody") {
   Watch watch;
   for (int scan = 0; scan < 60; ++scan) {
@@ -60,31 +90,31 @@ TEST_CASE("one post, and two farther apart than legs, are nobody") {
 
 TEST_CASE("who walked and is no body any more stands while the map has something that near to his middle") {
   Standers standers;
-  note_standers(somebody_at(kPlace), map_with(kWallM), standers);
+  note(somebody_at(kPlace), map_with(kWallM), standers);
   REQUIRE(standers.size() == 1);
-  note_standers({}, map_with(kShinM), standers);
+  note({}, map_with(kShinM), standers);
   CHECK(standers.size() == 1);
   CHECK(standers[0].radius_m == 0.25);
-  note_standers({}, map_with(kWallM), standers);
+  note({}, map_with(kWallM), standers);
   CHECK(standers.empty());
 }
 
 TEST_CASE("who is followed again is not there twice, and who goes on stands no more") {
   Standers standers;
-  note_standers(somebody_at(kPlace), map_with(kShinM), standers);
-  note_standers(somebody_at(kPlace + Vec2{0.1, 0.0}), map_with(kShinM), standers);
+  note(somebody_at(kPlace), map_with(kShinM), standers);
+  note(somebody_at(kPlace + Vec2{0.1, 0.0}), map_with(kShinM), standers);
   REQUIRE(standers.size() == 1);
   CHECK(standers[0].position_in_map == kPlace + Vec2{0.1, 0.0});
-  note_standers(somebody_at(kPlace + Vec2{0.2, 0.0}, true), map_with(kShinM), standers);
+  note(somebody_at(kPlace + Vec2{0.2, 0.0}, true), map_with(kShinM), standers);
   CHECK(standers.empty());
 }
 
 TEST_CASE("who moves, and what is nobody, does not stand") {
   Standers standers;
-  note_standers(somebody_at(kPlace, true), map_with(kShinM), standers);
+  note(somebody_at(kPlace, true), map_with(kShinM), standers);
   Bodies furniture = somebody_at(kPlace);
   furniture[0].somebody = false;
-  note_standers(furniture, map_with(kShinM), standers);
+  note(furniture, map_with(kShinM), standers);
   CHECK(standers.empty());
 }
 
@@ -92,7 +122,7 @@ TEST_CASE("he is where he was seen last, wherever his track has gone meanwhile")
   Bodies bodies = somebody_at(kPlace);
   bodies[0].track.position_in_map = kPlace + Vec2{0.5, 0.0};
   Standers standers;
-  note_standers(bodies, map_with(kShinM), standers);
+  note(bodies, map_with(kShinM), standers);
   REQUIRE(standers.size() == 1);
   CHECK(standers[0].position_in_map == kPlace);
 }
@@ -101,7 +131,7 @@ TEST_CASE("when there is no room left those who are followed have it") {
   Standers standers;
   const EvidenceMap map = map_with(kShinM);
   for (std::size_t k = 0; k < kMaxTracks; ++k) (void)standers.push_back({kPlace, 0.25});
-  note_standers(somebody_at(kPlace + Vec2{5.0, 0.0}), map, standers);
+  note(somebody_at(kPlace + Vec2{5.0, 0.0}), map, standers);
   CHECK(standers.full());
   CHECK(standers[0].position_in_map == kPlace + Vec2{5.0, 0.0});
 }
