@@ -96,6 +96,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .goal_in_map = t.input.goal_in_map,
           .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
           .tracks = tracker_.tracks(),
+          .standing = tracker_.standing(),
           .permitted_before = driven_,
           .guide = guide_.get(),
           .turn = turn_.get()};

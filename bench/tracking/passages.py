@@ -9,6 +9,7 @@ start, stands in it 0.3 or 0.5 m from one side, and stays. The robot has to get 
 """
 import argparse
 import concurrent.futures
+import csv
 import json
 import math
 import pathlib
@@ -81,7 +82,14 @@ def run(job):
     (out / "walk.csv").write_text(WALK.format(from_x=6.0 - x_m, from_y=y - y_m, y=y))
     (out / "scenario.toml").write_text(SCENARIO.format(model=model))
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed + k, "--out", out, fine=(0, 1))
-    return json.loads((out / "summary.json").read_text())
+    return json.loads((out / "summary.json").read_text()) | {"speed_beside_mps": speed_beside(out, 6.0, y)}
+
+
+def speed_beside(out, x_m, y_m):
+    """Of the robot where it is nearest to the place."""
+    with (out / "robot.csv").open() as file:
+        nearest = min(csv.DictReader(file), key=lambda a: math.hypot(float(a["x_m"]) - x_m, float(a["y_m"]) - y_m))
+    return abs(float(nearest["v_mps"]))
 
 
 def row(model, width, runs):
@@ -89,7 +97,8 @@ def row(model, width, runs):
     past = [r for r in runs if not r["contacts"] and r["outcome"] != "timeout"]
     waited = sum(not r["contacts"] and r["outcome"] == "timeout" for r in runs)
     nearest = f"{min(r['min_mover_clearance_m'] for r in past):.2f} m" if past else "-"
-    print(f"| {model}, {width} m | {len(past)} | {waited} | {touched} | {nearest} |")
+    speed = f"{max(r['speed_beside_mps'] for r in past):.2f} m/s" if past else "-"
+    print(f"| {model}, {width} m | {len(past)} | {waited} | {touched} | {nearest} | {speed} |")
 
 
 def main():
@@ -98,7 +107,8 @@ def main():
     jobs = [(options, *kind, k, way) for kind in kinds for k, way in enumerate(ways(options.seed))]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(run, jobs))
-    print("| robot, passage | got past | waited | touched him | nearest, of those that got past |\n|---|---|---|---|---|")
+    print("| robot, passage | got past | waited | touched him | nearest, of those that got past | their speed there, at most |")
+    print("|---|---|---|---|---|---|")
     for kind in kinds:
         row(*kind, [r for job, r in zip(jobs, results) if job[1:3] == kind])
 

@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/motion/passing_speed.h"
+
 namespace jaywalk {
 namespace {
 
@@ -45,13 +47,19 @@ Twist2 Follower::at_goal(const FollowerInput& input) const noexcept {
   return drive.active() ? manoeuvre(input, drive) : input.turn->wish(input.map_from_robot);
 }
 
-/// Slower, or not at all, where somebody is about to come by.
+/// Slower, or not at all, where somebody is about to come by, or stands.
 Twist2 Follower::manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept {
   const Twist2 twist = drive.wish(input.map_from_robot);
-  const double among_movers = choose_speed(drive.places(), input.map_from_robot.position(),
-                                           std::fabs(input.permitted_before.v_mps), input.tracks, speed_choice_);
-  const double share = std::min(1.0, among_movers / config_.limits.max_speed_mps);
+  const double share = std::min(1.0, among_people(drive.places(), input) / config_.limits.max_speed_mps);
   return {twist.v_mps * share, twist.w_radps * share};
+}
+
+/// Lets those pass who walk, and goes slowly by those who stand.
+double Follower::among_people(const Path& path, const FollowerInput& input) const noexcept {
+  const Vec2 robot = input.map_from_robot.position();
+  const double v = std::fabs(input.permitted_before.v_mps);
+  return std::min(choose_speed(path, robot, v, input.tracks, speed_choice_),
+                  passing_speed(path, robot, input.standing, input.tracks, speed_choice_));
 }
 
 double Follower::speed_for(const FollowerInput& input, double curvature_per_m) const noexcept {
@@ -60,9 +68,7 @@ double Follower::speed_for(const FollowerInput& input, double curvature_per_m) c
   const double for_body = input.guide != nullptr ? input.guide->most_speed_mps() : in_curve;
   // v^2 = 2 a d with half the comfortable braking: the other half is the jerk's share.
   const double arrival_speed = std::sqrt(config_.limits.max_accel_mps2 * distance(robot, input.goal_in_map));
-  const double among_movers =
-      choose_speed(input.path, robot, input.permitted_before.v_mps, input.tracks, speed_choice_);
-  return std::min({config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_movers});
+  return std::min({config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_people(input.path, input)});
 }
 
 }  // namespace jaywalk

@@ -8,6 +8,7 @@
 #include "planner/motion/pursuit.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
+#include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 #include "planner/planner.h"
 
@@ -27,13 +28,14 @@ struct FollowerInput {
   Pose2 map_from_robot;
   Vec2 goal_in_map;
   bool has_goal = false;
-  std::span<const Track> tracks;    ///< all of them: see choose_speed
-  Twist2 permitted_before;          ///< what the supervisor made of the last wish
-  FootprintGuide* guide = nullptr;  ///< of a body that is longer than wide; null: the path fits everywhere
-  GoalTurn* turn = nullptr;         ///< to the heading wanted at the goal; null: none can be
+  std::span<const Track> tracks;           ///< all of them: see choose_speed
+  std::span<const Stander> standing = {};  ///< see passing_speed
+  Twist2 permitted_before;                 ///< what the supervisor made of the last wish
+  FootprintGuide* guide = nullptr;         ///< of a body that is longer than wide; null: the path fits everywhere
+  GoalTurn* turn = nullptr;                ///< to the heading wanted at the goal; null: none can be
 };
 
-/// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and movers
+/// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and people
 /// allow, ramped within the comfort limits. Thread: the loop's; never allocates.
 class Follower {
  public:
@@ -44,6 +46,7 @@ class Follower {
   [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
   [[nodiscard]] Twist2 at_goal(const FollowerInput& input) const noexcept;
   [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept;
+  [[nodiscard]] double among_people(const Path& path, const FollowerInput& input) const noexcept;
   [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
 
   FollowerConfig config_;
