@@ -12,6 +12,7 @@ constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a
 constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
 constexpr double kMostFree = 0.6;    // of its points in free space: it came there
 constexpr std::uint32_t kFewestPoints = 3, kFewestOfLeg = 2;
+constexpr double kBulge = 0.3;        // of half its width: 0.32 to 0.6 of discs from 0.7 m on, none of a flat thing
 constexpr double kLegM = 0.1;         // across: where beams are farther apart than a third of it, legs have two points
 constexpr double kLegsM = 0.35;       // wider than a leg, or two side by side
 constexpr double kWellBeforeM = 1.0;  // farther than a person's other leg
@@ -34,6 +35,7 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
   const double width = std::fabs(across);
   const double spacing = width / std::max(1U, segment.last - segment.first);  // the arc's ends lie between beams
   const double radius = 0.5 * (width + spacing);
+  const Vec2 chord_middle = (in_map.position[segment.first] + in_map.position[segment.last]) * 0.5;
   return {.segment = segment,
           .centre_in_map = mean + along * (kArcMean * radius),
           .radius_m = radius,
@@ -42,7 +44,8 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
           .sparse = segment.last - segment.first + 1 < kFewestPoints,
           .outline_in_map = outline_of(segment, in_map),
           .along = along,
-          .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0)};
+          .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0),
+          .bulges = dot(chord_middle - mean, along) > kBulge * radius};
 }
 
 struct GroundShares {

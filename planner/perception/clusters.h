@@ -38,6 +38,7 @@ struct Cluster {
   Vec2 along;                                             ///< unit vector of the beams, away from the laser
   Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last
   End low_end = End::kUnknown, high_end = End::kUnknown;  ///< at its first and last beam
+  bool bulges = false;                                    ///< towards the laser, as round things do and no wall does
   bool behind_more = false;                               ///< what hides it is wider than legs
   bool in_free_space = false;                             ///< most of it stands where nothing stood before
   bool on_wall = false;                                   ///< most of it stands where walls stand
@@ -52,9 +53,10 @@ struct Cluster {
   [[nodiscard]] bool emerges() const {
     return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);
   }
-  /// As wide as a body, and seen to end on both sides.
+  /// As wide as a body, and seen to end on both sides, or round and nothing hides either.
   [[nodiscard]] bool stands_alone() const {
-    return low_end == End::kSeen && high_end == End::kSeen && as_wide_as_a_body(radius_m);
+    const bool ends = low_end == End::kSeen && high_end == End::kSeen;
+    return (ends || (bulges && whole())) && as_wide_as_a_body(radius_m);
   }
   /// Leg-sized, or two legs side by side: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
@@ -72,10 +74,10 @@ using Clusters = FixedVector<Cluster, kMaxClusters>;
 
 /// The segments that are no walls and small enough for a body (at most 1.1 m across), of three points at least, or of
 /// two where beams are so far apart that a leg has no more, if nothing nearer hides either side: walls at a slant are
-/// seen in such pieces. What stands where walls stand
-/// counts only where it is as wide as a body and seen to end on both sides: who stood there for long may go on. In
-/// unknown space only those that stand out on one side at least count: what goes on behind something nearer on both is
-/// a wall seen through a gap. What reaches the end of the sweep may go on outside it.
+/// seen in such pieces. What stands where walls stand counts only where it is as wide as a body and seen to end on both
+/// sides, or round: who stood there for long may go on. In unknown space only those that stand out on one side at least
+/// count: what goes on behind something nearer on both is a wall seen through a gap. What reaches the end of the sweep
+/// may go on outside it.
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
                    Vec2 laser_in_map, Clusters& out) noexcept;
 

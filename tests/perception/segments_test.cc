@@ -180,17 +180,42 @@ TEST_CASE("a narrow piece hides more than a leg where something wide that is nea
   CHECK_FALSE(emerges(2.5));  // a piece of the same heap
 }
 
-TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
+/// Of what has stood there for two seconds.
+std::unique_ptr<Cut> stood(const Room& room) {
   EvidenceMap map = seen_free_all_over();
-  const auto stood = [&](const Room& room) {  // for two seconds
-    const LaserScan scan = scan_of(room, {}, 1);
-    for (std::size_t b = 0; b < scan.beam_count; ++b) {
-      if (!scan.is_hit(b)) continue;
-      for (int k = 0; k < 8; ++k)
-        map.add_hit(direction(scan.angle_rad(b)) * static_cast<double>(scan.range_m[b]), 10, 0.25);
-    }
-    return std::make_unique<Cut>(room, map);
-  };
+  const LaserScan scan = scan_of(room, {}, 1);
+  for (std::size_t b = 0; b < scan.beam_count; ++b) {
+    if (!scan.is_hit(b)) continue;
+    for (int k = 0; k < 8; ++k)
+      map.add_hit(direction(scan.angle_rad(b)) * static_cast<double>(scan.range_m[b]), 10, 0.25);
+  }
+  return std::make_unique<Cut>(room, map);
+}
+
+TEST_CASE("who stood for long is watched before open space as well, where no beam beside him returns anything") {
+  const double away_m = GENERATE(0.6, 1.0, 3.0, 7.0);
+  Room room;
+  room.discs = {{direction(0.5) * away_m, 0.27}};
+  for (const double slant : {-0.5, -0.25, 0.0, 0.25, 0.5}) {  // panels, half a metre wide, at up to 80 degrees
+    const Vec2 place = direction(-1.2 + slant) * 3.0, along = direction(-1.2 + slant + 2.8 * slant + kPi / 2);
+    room.walls.push_back({place + along * -0.25, place + along * 0.25});
+  }
+  const auto cut = stood(room);
+  REQUIRE(cut->clusters.size() == 1);
+  const Cluster& him = cut->clusters[0];
+  CHECK(distance(him.centre_in_map, room.discs[0].centre) < 0.1);
+  CHECK(him.low_end == End::kUnknown);
+  CHECK(him.on_wall);
+}
+
+TEST_CASE("what has stood there half hidden is not watched, round or not, nor where nothing is seen beside it") {
+  Room room;
+  room.discs = {{{3.0, 0.0}, 0.5}};  // half of it is as wide as a body
+  room.walls = {{{1.0, 0.0}, {1.0, -1.2}}};
+  CHECK(stood(room)->clusters.empty());
+}
+
+TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
   Room room = rectangle(10.0, 8.0);
   room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{2.0, 3.0}, 0.45}};
   room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width, before the panel
