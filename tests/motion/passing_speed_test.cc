@@ -21,7 +21,7 @@ Path straight_path() {
   return path;
 }
 
-/// The most at `x` on the path, past somebody at (3, 0) who leaves this gap.
+/// The most at `x` on the path, past somebody beside (3, 0) who leaves this gap there.
 double past(double x, double gap_m) {
   const std::array standing{Stander{{3.0, kRobotM + kPersonM + gap_m}, kPersonM}};
   return passing_speed(straight_path(), {x, 0.0}, standing, {}, kConfig);
