@@ -66,8 +66,7 @@ double Follower::speed_for(const FollowerInput& input, double curvature_per_m) c
   const Vec2 robot = input.map_from_robot.position();
   const double in_curve = curve_speed(curvature_per_m, config_.limits.max_turn_radps);
   const double for_body = input.guide != nullptr ? input.guide->most_speed_mps() : in_curve;
-  // v^2 = 2 a d with half the comfortable braking: the other half is the jerk's share.
-  const double arrival_speed = std::sqrt(config_.limits.max_accel_mps2 * distance(robot, input.goal_in_map));
+  const double arrival_speed = slowing_speed(0.0, distance(robot, input.goal_in_map), config_.limits.max_accel_mps2);
   return std::min({config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_people(input.path, input)});
 }
 

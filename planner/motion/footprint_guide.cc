@@ -110,10 +110,7 @@ ManoeuvreGoal FootprintGuide::goal_along(const GuideInput& input) noexcept {
   const Path& path = input.path;
   const Vec2 robot = input.map_from_robot.position();
   reach_.settle(map_, robot);
-  std::size_t nearest = 0;
-  for (std::size_t k = 1; k < path.size(); ++k) {
-    if (distance(path[k], robot) < distance(path[nearest], robot)) nearest = k;
-  }
+  const std::size_t nearest = nearest_point(path, robot);
   double gone = 0.0;
   std::size_t end = nearest;
   for (std::size_t k = nearest + 1; k < path.size() && gone < kAheadOnPath_m; ++k) {

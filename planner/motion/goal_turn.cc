@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/motion/straight_piece.h"
+#include "planner/motion/twist_ramp.h"
 
 namespace jaywalk {
 namespace {
@@ -73,9 +74,8 @@ Twist2 GoalTurn::wish(const Pose2& here) noexcept {
   const double error = std::fabs(input_.heading_error_rad(here));
   settled_ = error <= input_.goal_heading_tolerance_rad * (settled_ ? 1.0 : kSettled);
   if (settled_ || blocked_ || !chosen_ || std::fabs(driven_.v_mps) > kRest_mps) return {};
-  // w^2 = 2 a e with half of what the ramp can take back: the other half is the drives' share.
   const double angle = std::fabs(to_go_rad_);
-  const double most = std::min({limits_.max_turn_radps, std::sqrt(limits_.max_turn_accel_radps2 * angle)});
+  const double most = std::min(limits_.max_turn_radps, slowing_speed(0.0, angle, limits_.max_turn_accel_radps2));
   return {0.0, std::copysign(std::min(kTurnGain_per_s * angle, most), to_go_rad_)};
 }
 

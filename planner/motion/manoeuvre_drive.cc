@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/motion/twist_ramp.h"
+
 namespace jaywalk {
 namespace {
 
@@ -73,7 +75,7 @@ Twist2 ManoeuvreDrive::drive(const Pose2& here) noexcept {
   const double most = sign > 0.0 ? kForward_mps : kBackward_mps;
   double speed = std::clamp(kPerRoom_per_s * step.room_m, kCreep_mps, most);
   speed = std::min(speed, limits_.max_turn_radps / std::max(std::fabs(turn), 1e-6));
-  if (!leads_on) speed = std::min(speed, std::sqrt(limits_.max_accel_mps2 * std::max(to_end, 0.0)));
+  if (!leads_on) speed = std::min(speed, slowing_speed(0.0, std::max(to_end, 0.0), limits_.max_accel_mps2));
   if (to_end < kArrived_m) at_ = last + 1;
   return {sign * speed, steering_ == Steering::kHeld ? 0.0 : turn * speed};
 }

@@ -14,12 +14,16 @@ constexpr double kLateralAccel_mps2 = 0.5;     // comfort in curves, as ahead
 
 }  // namespace
 
-Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
+std::size_t nearest_point(const Path& path, Vec2 place) noexcept {
   std::size_t nearest = 0;
   for (std::size_t i = 1; i < path.size(); ++i) {
-    if (distance(path[i], robot) < distance(path[nearest], robot)) nearest = i;
+    if (distance(path[i], place) < distance(path[nearest], place)) nearest = i;
   }
-  for (std::size_t i = nearest; i + 1 < path.size(); ++i) {
+  return nearest;
+}
+
+Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
+  for (std::size_t i = nearest_point(path, robot); i + 1 < path.size(); ++i) {
     const double piece = distance(path[i], path[i + 1]);
     if (piece > ahead_m) return path[i] + (path[i + 1] - path[i]) * (ahead_m / piece);
     ahead_m -= piece;

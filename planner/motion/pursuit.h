@@ -4,6 +4,9 @@
 
 namespace jaywalk {
 
+/// Which point of the path is nearest to `place`, the first of equals. The path is not empty.
+[[nodiscard]] std::size_t nearest_point(const Path& path, Vec2 place) noexcept;
+
 /// The point of the path `ahead_m` of arc length beyond the point nearest to `robot`; the last one where the path ends
 /// before. The path is not empty.
 [[nodiscard]] Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept;

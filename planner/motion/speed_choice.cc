@@ -4,6 +4,8 @@
 #include <array>
 #include <cmath>
 
+#include "planner/motion/pursuit.h"
+
 namespace jaywalk {
 namespace {
 
@@ -12,12 +14,7 @@ constexpr double kStep_s = 0.2;  // 0.12 m of travel at 0.6 m/s: finer than a bo
 /// Walks along the path by arc length.
 class PathWalker {
  public:
-  PathWalker(const Path& path, Vec2 robot) : path_(path) {
-    for (std::size_t i = 1; i < path.size(); ++i) {
-      if (distance(path[i], robot) < distance(path[at_], robot)) at_ = i;
-    }
-    position_ = path[at_];
-  }
+  PathWalker(const Path& path, Vec2 robot) : path_(path), at_(nearest_point(path, robot)), position_(path[at_]) {}
   Vec2 advance(double length_m) {
     while (at_ + 1 < path_.size()) {
       const double to_next = distance(position_, path_[at_ + 1]);
@@ -33,7 +30,7 @@ class PathWalker {
 
  private:
   const Path& path_;
-  std::size_t at_ = 0;
+  std::size_t at_;
   Vec2 position_;
 };
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 
@@ -23,6 +25,12 @@ class Ramp {
   double velocity_ = 0.0;
   double accel_ = 0.0;
 };
+
+/// The most, `ahead` of a place, that half of `max_accel` slows to `there` by then: v^2 = there^2 + 2 (a / 2) ahead.
+/// The other half is the share of jerk and drives. All 0 or more: m and m/s, or rad and rad/s.
+[[nodiscard]] inline double slowing_speed(double there, double ahead, double max_accel) noexcept {
+  return std::sqrt(there * there + max_accel * ahead);
+}
 
 /// Forward speed with the comfort limits, turning with the turn acceleration limit.
 class TwistRamp {

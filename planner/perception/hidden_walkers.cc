@@ -5,9 +5,8 @@
 namespace jaywalk {
 namespace {
 
-// Numbers by trial on simulated seeds 1 to 6, kOffM on 1 to 4: longer gains next to nothing, 0.5 m loses four names,
-// 0.75 m makes others of some (docs/tracking-findings.md, "Out of view and back").
-constexpr double kRememberedS = 8.0;
+// Numbers by trial on simulated seeds 1 to 6, kOffM on 1 to 4: 0.5 m loses four names, 0.75 m makes others of some
+// (docs/tracking-findings.md, "Out of view and back").
 constexpr double kLeastKnownS = 0.5;  // seen for less, its speed is not worth going by
 constexpr double kOffM = 0.6;         // from where he should be: half a step, and what is still hidden of him
 constexpr double kSpeedStd = 0.1;     // m/s an axis, of one who comes out where he should

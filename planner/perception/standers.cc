@@ -2,12 +2,13 @@
 
 #include <algorithm>
 
+#include "planner/perception/hidden_walkers.h"
+
 namespace jaywalk {
 namespace {
 
 // Of the middle: shins reach 0.16 m (hal/sim/legs.cc), and what he leans on is farther.
 constexpr double kLegsWithinM = 0.2;
-constexpr double kHiddenForS = 8.0;  // as long as who walks is remembered (HiddenWalkers)
 
 /// Whether he is one of the bodies, standing or about to go on.
 bool is_followed(const Stander& stander, const Bodies& bodies) {
@@ -32,7 +33,7 @@ bool something_stands(const Stander& stander, const EvidenceMap& still) {
 /// No beam passes over his place, and it is not long since he was seen there.
 bool may_be_hidden(const Stander& stander, const LineOfSight& sight, Time now) {
   const double unseen_s = to_seconds(now - stander.last_seen);
-  return unseen_s < kHiddenForS && sight.at(stander.position_in_map, kLegsWithinM) != Sight::kThrough;
+  return unseen_s < kRememberedS && sight.at(stander.position_in_map, kLegsWithinM) != Sight::kThrough;
 }
 
 /// When something was seen last where he stands: who comes into view again is born anew, and may show a leg alone.

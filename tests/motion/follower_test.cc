@@ -66,6 +66,15 @@ TEST_CASE("without a path it comes to rest") {
   CHECK(settled({.limits = kLimits}, Path{}, {0, 0, 0}, {5, 0}).v_mps == 0.0);
 }
 
+TEST_CASE("of a path's points the nearest is told, of two as near the first") {
+  const Path path = line({0, 0}, {5, 0});  // 0.1 m apart
+  CHECK(nearest_point(path, {2.04, 0.7}) == 20);
+  CHECK(nearest_point(path, {9.0, 0.0}) == 50);
+  Path two;
+  REQUIRE((two.push_back({0.0, 1.0}) && two.push_back({0.0, -1.0})));
+  CHECK(nearest_point(two, {0.0, 0.0}) == 0);
+}
+
 TEST_CASE("looking ahead 0.5 m from beside the middle of a line finds the point 0.5 m on") {
   const Vec2 p = look_ahead(line({0, 0}, {5, 0}), {2.0, 0.4}, 0.5);
   CHECK(p.x == Approx(2.5));

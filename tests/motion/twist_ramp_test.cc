@@ -32,6 +32,12 @@ Extremes ramp_to(Ramp& ramp, double wish, double for_s) {
 
 }  // namespace
 
+TEST_CASE("half the acceleration slows in time: v^2 = there^2 + 2 (a / 2) ahead") {
+  CHECK(slowing_speed(0.0, 0.72, 0.5) == Approx(0.6));  // 0.36 = 0.5 * 0.72
+  CHECK(slowing_speed(0.2, 0.64, 0.5) == Approx(0.6));  // 0.36 = 0.04 + 0.32
+  CHECK(slowing_speed(0.2, 0.0, 0.5) == Approx(0.2));
+}
+
 TEST_CASE("0.6 m/s within 0.5 m/s2 and 2 m/s3 takes 1.45 s and overshoots by less than 0.2 mm/s") {
   // Trapezoid of acceleration: 0.6/0.5 + 0.5/2 = 1.45 s.
   Ramp ramp(0.5, 2.0);
