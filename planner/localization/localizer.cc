@@ -16,6 +16,10 @@ namespace {
 constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 
+// Share of the points: where so much lies on walkers the map holds those who have only come, or turn on the spot, and
+// wheels know better. By trial; half does not do (docs/tracking-findings.md, "Nobody but walkers in view").
+constexpr double kAmongWalkers = 0.2;
+
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T with
 /// F = I + (-dy, dx) in the heading's column.
 Symmetric3 carried(Symmetric3 p, double dx, double dy) {
@@ -112,11 +116,14 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
   if (!config.match_scans) return false;
   projection.project(scan, config.robot_from_laser, twist, points);
   const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
+  const auto seen = static_cast<double>(points.size());
   leave_out_walkers(moving, predicted, scan.stamp, points);
+  const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
   const bool earned = odometry.has_wheels() && !trust.nothing_known();
   const MatchResult found = matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned});
-  if (found.matched) take(found, predicted);
-  return found.matched;
+  if (!found.matched || (among_walkers && odometry.has_wheels() && !found.known_for_long)) return false;
+  take(found, predicted);
+  return true;
 }
 
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still,

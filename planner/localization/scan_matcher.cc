@@ -29,7 +29,7 @@ namespace {
 struct Pull {
   Symmetric3 information;
   Row3 gradient;
-  std::uint32_t on_walls = 0, in_the_open = 0;
+  std::uint32_t on_walls = 0, on_standing = 0, in_the_open = 0;
   double fit = 0.0;  ///< a point that lies on its wall adds one
 };
 
@@ -44,6 +44,7 @@ Pull pull_of_walls(const MatchSample& sample, const EvidenceMap& still, const Po
       continue;
     }
     pull.on_walls += 1;
+    pull.on_standing += wall.stands ? 1U : 0U;
     const double r = dot(wall.normal, p - wall.point);
     const Row3 jacobian{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
     const double doubt = 1.0 + r * r / (kDoubtM * kDoubtM);
@@ -79,6 +80,7 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
   for (int k = 0; k < kMostIterations; ++k) {
     const Pull pull = pull_of_walls(sample_, still, pose);
     result.points_on_walls = pull.on_walls;
+    result.known_for_long = pull.on_standing >= kFewestOnWalls;
     result.contradicted = contradicted(pull);
     if (!enough(pull)) return result;
     result.fit = pull.fit / known(pull);

@@ -24,8 +24,8 @@ struct Surface {
 };
 using Surfaces = FixedVector<Surface, (2 * kReach + 1) * (2 * kReach + 1)>;
 
-/// The surface point nearest to `p`; false where none is near.
-bool anchor_near(const EvidenceMap& still, Vec2 p, Vec2& anchor) {
+/// The cell of the surface point nearest to `p`; false where none is near.
+bool anchor_near(const EvidenceMap& still, Vec2 p, CellIndex& anchor) {
   const CellIndex cell = still.cell_at(p);
   double nearest = kNearM;
   bool any = false;
@@ -33,9 +33,8 @@ bool anchor_near(const EvidenceMap& still, Vec2 p, Vec2& anchor) {
     for (std::int32_t i = -1; i <= 1; ++i) {
       const CellIndex c{cell.i + i, cell.j + j};
       if (!has_surface(still, c)) continue;
-      const Vec2 s = still.surface(c);
-      const double d = distance(s, p);
-      if (d < nearest) nearest = d, anchor = s, any = true;
+      const double d = distance(still.surface(c), p);
+      if (d < nearest) nearest = d, anchor = c, any = true;
     }
   }
   return any;
@@ -93,8 +92,9 @@ bool drop_other_face(Surfaces& surfaces, Vec2 normal_to_viewer) {
 }  // namespace
 
 bool wall_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, WallPiece& out) noexcept {
-  Vec2 anchor;
-  if (!anchor_near(still, p, anchor)) return false;
+  CellIndex nearest;
+  if (!anchor_near(still, p, nearest)) return false;
+  const Vec2 anchor = still.surface(nearest);
   Surfaces surfaces;
   surfaces_about(still, anchor, surfaces);
   Line line;
@@ -102,7 +102,7 @@ bool wall_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, WallPiece& out) no
   const double side = dot(line.normal, viewer - anchor) < 0.0 ? -1.0 : 1.0;
   if (drop_other_face(surfaces, line.normal * side) && !line_through(surfaces, line)) return false;
   if (line.across > kThinWallM * kThinWallM || line.along < 4.0 * line.across) return false;
-  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM};
+  out = {anchor + line.mean, line.normal, line.across + kPointStdM * kPointStdM, still.stands(nearest)};
   return true;
 }
 

@@ -9,6 +9,7 @@ namespace jaywalk {
 struct WallPiece {
   Vec2 point, normal;
   double variance = 0.0;  ///< across, m^2: of its points, and of the laser's
+  bool stands = false;    ///< its surface nearest to the scan's point has been seen for a second (EvidenceMap::stands)
 };
 
 /// Fits a line to the surface points within 0.25 m of the one nearest to `p_in_map`, all of the side that is seen from

@@ -8,6 +8,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kMostBeamsAside = 3.0;
+constexpr double kSeesAll = 0.8;  // of its reach: scanners give that for what is bright. Chosen
 
 }  // namespace
 
@@ -42,16 +43,23 @@ Sight LineOfSight::at(Vec2 place, double tolerance, const BeamRun& but) const no
       std::min(kMostBeamsAside, tolerance / (away * std::fabs(static_cast<double>(scan_.angle_step_rad))));
   const auto first = static_cast<std::ptrdiff_t>(std::floor(beam - aside + 0.5));
   const auto last = static_cast<std::ptrdiff_t>(std::floor(beam + aside + 0.5)), count = std::ptrdiff_t{sweep_.beams};
-  bool goes_on = false, ends = false;
+  const bool in_reach = away < kSeesAll * static_cast<double>(scan_.range_max_m);
+  bool goes_on = false, nothing = false, ends = false;
   for (std::ptrdiff_t k = first; k <= last; ++k) {
     if (!sweep_.all_round && (k < 0 || k >= count)) continue;
     const auto b = static_cast<std::size_t>(((k % count) + count) % count);
     if (but.has(b)) continue;
     const double range = static_cast<double>(scan_.range_m[b]);
     if (scan_.is_hit(b) && std::fabs(range - away) < tolerance) return Sight::kThere;
-    (scan_.is_hit(b) && range > away ? goes_on : ends) = true;
+    if (in_reach && scan_.found_nothing(b)) {
+      nothing = true;
+    } else {
+      (scan_.is_hit(b) && range > away ? goes_on : ends) = true;
+    }
   }
-  return goes_on && !ends ? Sight::kThrough : Sight::kUnseen;
+  if (ends) return Sight::kUnseen;
+  if (nothing) return Sight::kEmpty;
+  return goes_on ? Sight::kThrough : Sight::kUnseen;
 }
 
 }  // namespace jaywalk

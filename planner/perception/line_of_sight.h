@@ -9,9 +9,10 @@
 namespace jaywalk {
 
 enum class Sight : std::uint8_t {
-  kUnseen,   ///< behind something, outside the sweep, or the beam there returned nothing
+  kUnseen,   ///< behind something, outside the sweep, or the beam there was not measured
   kThere,    ///< a beam ends there
   kThrough,  ///< beams pass over it
+  kEmpty,    ///< none ends there, and some find nothing in a reach that is well beyond it: most likely as kThrough
 };
 
 /// Looks at places in a scan of a robot that moves with `twist` while the sweep takes its time.
@@ -21,8 +22,8 @@ class LineOfSight {
   LineOfSight(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser, const Twist2& twist);
 
   /// At the beams that come within `tolerance_m` of the place, as seen from the laser. One that ends within
-  /// `tolerance_m` of its distance shows that something is there; of the others all must go on beyond it. `but` are not
-  /// asked: beams that end on something beside the place that is known.
+  /// `tolerance_m` of its distance shows that something is there; of the others all must go on beyond it, or find
+  /// nothing. `but` are not asked: beams that end on something beside the place that is known.
   [[nodiscard]] Sight at(Vec2 place_in_map, double tolerance_m, const BeamRun& but = {}) const noexcept;
 
  private:

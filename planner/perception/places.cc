@@ -25,7 +25,7 @@ OldPlace old_place(const Body& body, const Surroundings& around) noexcept {
     if (covers(body.outline_in_map, place, tolerance)) continue;
     const Sight seen = around.sight.at(place, tolerance, body.beams);
     old.taken = old.taken || seen == Sight::kThere;
-    old.through = old.through || seen == Sight::kThrough;
+    old.through = old.through || seen == Sight::kThrough || seen == Sight::kEmpty;
   }
   return old;
 }

@@ -7,7 +7,7 @@ namespace jaywalk {
 
 struct OldPlace {
   bool taken = false;    ///< beams still end there
-  bool through = false;  ///< beams pass over it
+  bool through = false;  ///< beams pass over it, or find nothing there
 };
 
 /// What became of the place that `body` set out from (Body::anchor_outline): of the points that it was seen by there,

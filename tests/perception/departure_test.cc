@@ -123,6 +123,19 @@ TEST_CASE("a steady walk counts where it comes to ground that beams passed befor
   CHECK(Judge(room, free_at(ahead))(body) == Departure::kNone);
 }
 
+TEST_CASE("who leaves a place where beams then find nothing has set out, and not where they were not measured") {
+  Room open;
+  open.discs = {{{3.0, 0.2}, 0.1}};
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.free_share = 0.0;
+  body.arc_m = 0.25;
+  show_sides(body);
+  Judge judged(open);
+  CHECK(judged(body) == Departure::kCertain);
+  for (float& range : judged.scan.range_m) range = range < 20.0F ? range : 0.0F;
+  CHECK(judged(body) == Departure::kNone);
+}
+
 TEST_CASE("a steady walk of which the ground says nothing counts where both sides went along for a quarter metre") {
   Room room = rectangle(12.0, 10.0);
   room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});  // hides the place that it came from

@@ -49,6 +49,22 @@ TEST_CASE("a place is passed over only where all beams near it go on") {
   CHECK(sight.at({2.5, 0.14}, 0.05) == Sight::kUnseen);
 }
 
+TEST_CASE("a place where beams find nothing in their reach is empty, one where they were not measured is unseen") {
+  Room room;
+  room.discs = {{{2.0, 0.0}, 0.1}};
+  LaserScan scan = scan_of(room, {}, 1);  // reaches 20 m
+  const LineOfSight sight(scan, {}, {}, {});
+  CHECK(sight.at({2.0, 1.0}, 0.05) == Sight::kEmpty);
+  CHECK(sight.at({0.0, 15.9}, 0.05) == Sight::kEmpty);
+  CHECK(sight.at({0.0, 16.1}, 0.05) == Sight::kUnseen);  // what is dark is not seen from so far
+  CHECK(sight.at({1.9, 0.0}, 0.05) == Sight::kThere);
+  CHECK(sight.at({2.5, 0.14}, 0.05) == Sight::kUnseen);  // half behind the post
+  for (const float none : {0.0F, std::numeric_limits<float>::quiet_NaN()}) {
+    for (float& range : scan.range_m) range = range < 20.0F ? range : none;
+    CHECK(sight.at({2.0, 1.0}, 0.05) == Sight::kUnseen);
+  }
+}
+
 TEST_CASE("beams that are not asked say nothing") {
   const LaserScan scan = scan_of(with_post(), {}, 1);
   const LineOfSight sight(scan, {}, {}, {});
@@ -59,9 +75,9 @@ TEST_CASE("beams that are not asked say nothing") {
   CHECK(sight.at({1.9, 0.12}, 0.1, {0, 810}) == Sight::kUnseen);
 }
 
-TEST_CASE("what returns nothing proves nothing") {
+TEST_CASE("what was not measured proves nothing") {
   LaserScan scan = scan_of(with_post(), {}, 1);
-  for (float& r : scan.range_m) r = std::numeric_limits<float>::infinity();
+  for (float& r : scan.range_m) r = std::numeric_limits<float>::quiet_NaN();
   CHECK(LineOfSight(scan, {}, {}, {}).at({1.5, 0.0}, 0.05) == Sight::kUnseen);
   scan.angle_step_rad = 0.0F;
   CHECK(LineOfSight(scan, {}, {}, {}).at({1.5, 0.0}, 0.05) == Sight::kUnseen);

@@ -226,6 +226,22 @@ TEST_CASE("the walls between walkers tell how the robot looks, few as they are")
   CHECK(heading_error(drive.estimate.map_from_robot, {}) < 0.01);  // 0.18 by the wheels
 }
 
+TEST_CASE("where nobody but walkers is in view those who only come do not pull the pose along") {
+  Drive drive({});
+  Pose2 before;
+  for (int k = 0; k < 90; ++k) {
+    Room people;
+    const double to_the_left = 0.5 * k / 15.0;  // m, at 0.5 m/s
+    people.discs = {{{3.0, to_the_left - 4.0}, 0.3}, {{-1.5, to_the_left - 4.0}, 0.3}};
+    if (k >= 45)
+      people.discs.push_back({{2.0, to_the_left - 1.5}, 0.3}), people.discs.push_back({{4.0, to_the_left}, 0.3});
+    drive.step(people, {}, {});
+    if (k == 44) before = drive.estimate.map_from_robot;
+  }
+  CHECK(distance(drive.estimate.map_from_robot.position(), before.position()) < 1e-9);
+  CHECK(heading_error(drive.estimate.map_from_robot, before) < 1e-9);
+}
+
 TEST_CASE("an outside fix is blended by variance") {
   Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
   const EvidenceMap still(64, 0.1, {});
