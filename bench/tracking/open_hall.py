@@ -11,17 +11,9 @@ import concurrent.futures
 import pathlib
 import re
 
-from varied_runs import BENCH, FIGURES, LASER, PROGRAM, call, off_the_truth
+from real_ways import HALL
+from varied_runs import FIGURES, LASER, PROGRAM, call, figures_of, means, off_the_truth
 
-HALL = """2D-Map
-NumLines: 4
-LINES
-0 0 24000 0
-24000 0 24000 24000
-24000 24000 0 24000
-0 24000 0 0
-DATA
-"""
 SCENARIO = """name = "open_hall"
 timeout_s = {timeout_s}
 [map]
@@ -61,16 +53,13 @@ def run(job):
     laser = re.sub(r"range_m = .*", f"range_m = {reach_m}", LASER)
     (out / "scenario.toml").write_text(SCENARIO.format(**drive, laser=laser, legs=str(legs).lower()))
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", seed, "--out", out, fine=(0, 1))
-    table = call(BENCH, out, "--radius", 0.27)
-    return [float(re.search(rf"\| {re.escape(f)} +\| +([-\d.]+|nan)", table)[1]) for f in FIGURES.values()], off_the_truth(out)
+    return figures_of(out, 0.27), off_the_truth(out)
 
 
 def row(variant, runs):
     (name, _, _), legs = variant
-    mota, false, switched, soon, rmse, innovations = (sum(r[0][k] for r in runs) / len(runs) for k in range(len(FIGURES)))
     off = [r[1] for r in runs]
-    figures = f"{mota:.1f} % | {false:.1f} | {switched:.1f} | {soon:.0f} % | {rmse:.2f} m/s | {innovations:.2f}"
-    return f"| {name}, {'two legs' if legs else 'discs'} | {figures} | {sum(off) / len(off):.2f}, {max(off):.2f} m |"
+    return f"| {name}, {'two legs' if legs else 'discs'} | {means([r[0] for r in runs])} | {sum(off) / len(off):.2f}, {max(off):.2f} m |"
 
 
 def main():

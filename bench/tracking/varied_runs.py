@@ -95,6 +95,17 @@ def call(*command, fine=(0,)):
     return done.stdout
 
 
+def figures_of(out, radius_m):
+    table = call(BENCH, out, "--radius", radius_m)
+    return [float(re.search(rf"\| {re.escape(f)} +\| +([-\d.]+|nan)", table)[1]) for f in FIGURES.values()]
+
+
+def means(figures):
+    """Columns of FIGURES: the means over runs."""
+    mota, false, switched, soon, rmse, innovations = (sum(column) / len(figures) for column in zip(*figures))
+    return f"{mota:.1f} % | {false:.1f} | {switched:.1f} | {soon:.0f} % | {rmse:.2f} m/s | {innovations:.2f}"
+
+
 def run(job):
     options, variant, number = job
     section, keys = KEYS[options.what]
@@ -102,9 +113,7 @@ def run(job):
     out = options.out / "_".join(map(str, variant)) / f"map{number}"
     write_scenario(out, number, section, values)
     call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed, "--out", out, fine=(0, 1))
-    table = call(BENCH, out, "--radius", values.get("radius_m", 0.27))
-    figures = [float(re.search(rf"\| {re.escape(f)} +\| +([-\d.]+|nan)", table)[1]) for f in FIGURES.values()]
-    return variant, figures, json.loads((out / "summary.json").read_text())["outcome"], off_the_truth(out)
+    return variant, figures_of(out, values.get("radius_m", 0.27)), json.loads((out / "summary.json").read_text())["outcome"], off_the_truth(out)
 
 
 def off_the_truth(out):
@@ -124,10 +133,8 @@ def name(what, variant):
 
 
 def row(what, variant, runs):
-    mota, false, switched, soon, rmse, innovations = (sum(r[1][k] for r in runs) / len(runs) for k in range(len(FIGURES)))
     reached = sum(r[2] in ("reached", "forced_mover") for r in runs)
-    figures = f"{mota:.1f} % | {false:.1f} | {switched:.1f} | {soon:.0f} % | {rmse:.2f} m/s | {innovations:.2f}"
-    return f"| {name(what, variant)} | {figures} | {max(r[3] for r in runs):.2f} m | {reached} of {len(runs)} |"
+    return f"| {name(what, variant)} | {means([r[1] for r in runs])} | {max(r[3] for r in runs):.2f} m | {reached} of {len(runs)} |"
 
 
 def main():
