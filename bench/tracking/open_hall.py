@@ -6,13 +6,9 @@ creeps in its middle, where a laser of 10 m sees nobody but them. Means over the
 
     bench/tracking/open_hall.py --seeds 301-306
 """
-import argparse
-import concurrent.futures
-import pathlib
 import re
 
-from real_ways import HALL
-from varied_runs import FIGURES, LASER, PROGRAM, call, figures_of, means, off_the_truth
+from drives import FIGURES, HALL, LASER, all_of, drive, figures_of, means, off_the_truth, parser, print_head
 
 SCENARIO = """name = "open_hall"
 timeout_s = {timeout_s}
@@ -37,22 +33,13 @@ PLACES = (("across, reach 25 m", ACROSS, 25.0), ("across, 10 m", ACROSS, 10.0), 
 VARIANTS = [(place, legs) for place in PLACES for legs in (False, True)]
 
 
-def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seeds", default="301-306", help="one, or first-last")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/open_hall"))
-    return parser.parse_args()
-
-
 def run(job):
-    options, ((name, drive, reach_m), legs), seed = job
+    options, ((name, way, reach_m), legs), seed = job
     out = options.out / f"{name}, {legs}, {seed}".replace(", ", "_").replace(" ", "_")
     out.mkdir(parents=True, exist_ok=True)
     (out / "hall.map").write_text(HALL)
     laser = re.sub(r"range_m = .*", f"range_m = {reach_m}", LASER)
-    (out / "scenario.toml").write_text(SCENARIO.format(**drive, laser=laser, legs=str(legs).lower()))
-    call(PROGRAM, "sim", out / "scenario.toml", "--seed", seed, "--out", out, fine=(0, 1))
+    drive(out, SCENARIO.format(**way, laser=laser, legs=str(legs).lower()), seed)
     return figures_of(out, 0.27), off_the_truth(out)
 
 
@@ -63,16 +50,11 @@ def row(variant, runs):
 
 
 def main():
-    options = arguments()
-    first, _, last = options.seeds.partition("-")
-    seeds = range(int(first), int(last or first) + 1)
-    jobs = [(options, variant, seed) for variant in VARIANTS for seed in seeds]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(run, jobs))
-    columns = ("drive", *FIGURES, "pose off at worst, mean and greatest")
-    print(f"| {' | '.join(columns)} |\n|{'---|' * len(columns)}")
+    options = parser(__doc__, "open_hall", "301-306").parse_args()
+    results = all_of(run, [(options, variant, seed) for variant in VARIANTS for seed in options.seeds], options.jobs)
+    print_head("drive", *FIGURES, "pose off at worst, mean and greatest")
     for k, variant in enumerate(VARIANTS):
-        print(row(variant, results[k * len(seeds) : (k + 1) * len(seeds)]))
+        print(row(variant, results[k * len(options.seeds) : (k + 1) * len(options.seeds)]))
 
 
 if __name__ == "__main__":

@@ -4,18 +4,14 @@
 Two rooms and a passage between them, 1.3 to 2.4 m wide. Somebody on two legs comes at 0.8 m/s from either room, or is there from the
 start, stands in it 0.3 or 0.5 m from one side, and stays. The robot has to get past him, or to wait where there is no room.
 
-    bench/tracking/passages.py --seed 302
-    bench/tracking/passages.py --seed 302 --from-the-start
+    bench/tracking/passages.py --seeds 302-303
+    bench/tracking/passages.py --seeds 302-303 --from-the-start
 """
-import argparse
-import concurrent.futures
 import csv
-import json
 import math
-import pathlib
 import random
 
-from varied_runs import PROGRAM, call
+from drives import all_of, drive, parser, print_head
 
 MODELS = ("p3dx", "wheelchair")
 WIDTHS = (1.3, 1.5, 1.8, 2.4)  # m
@@ -55,12 +51,9 @@ WALK = """t_s,id,x_m,y_m
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seed", type=int, default=302)
-    parser.add_argument("--from-the-start", action="store_true", help="he stands there before the robot looks")
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/passages"))
-    return parser.parse_args()
+    made = parser(__doc__, "passages", "302-303")
+    made.add_argument("--from-the-start", action="store_true", help="he stands there before the robot looks")
+    return made.parse_args()
 
 
 def ways(seed):
@@ -72,17 +65,15 @@ def ways(seed):
 
 
 def run(job):
-    options, model, width, k, (aside, heading) = job
-    out = options.out / f"{model}_{width}_{k}{'_there' * options.from_the_start}"
+    options, model, width, seed, (aside, heading) = job
+    out = options.out / f"{model}_{width}_{seed}_{aside}_{heading:.3f}{'_there' * options.from_the_start}"
     out.mkdir(parents=True, exist_ok=True)
     low, y = 3.0 - width / 2, 3.0 - width / 2 + aside
     (out / "passage.map").write_text(MAP.format(low=1000 * low, high=1000 * (low + width)))
     comes_m = 0.01 if options.from_the_start else 2.4  # he faces where he goes
     x_m, y_m = comes_m * math.cos(heading), comes_m * math.sin(heading)
     (out / "walk.csv").write_text(WALK.format(from_x=6.0 - x_m, from_y=y - y_m, y=y))
-    (out / "scenario.toml").write_text(SCENARIO.format(model=model))
-    call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed + k, "--out", out, fine=(0, 1))
-    return json.loads((out / "summary.json").read_text()) | {"speed_beside_mps": speed_beside(out, 6.0, y)}
+    return drive(out, SCENARIO.format(model=model), seed) | {"speed_beside_mps": speed_beside(out, 6.0, y)}
 
 
 def speed_beside(out, x_m, y_m):
@@ -104,11 +95,9 @@ def row(model, width, runs):
 def main():
     options = arguments()
     kinds = [(model, width) for model in MODELS for width in WIDTHS]
-    jobs = [(options, *kind, k, way) for kind in kinds for k, way in enumerate(ways(options.seed))]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(run, jobs))
-    print("| robot, passage | got past | waited | touched him | nearest, of those that got past | their speed there, at most |")
-    print("|---|---|---|---|---|---|")
+    jobs = [(options, *kind, seed + k, way) for kind in kinds for seed in options.seeds for k, way in enumerate(ways(seed))]
+    results = all_of(run, jobs, options.jobs)
+    print_head("robot, passage", "got past", "waited", "touched him", "nearest, of those that got past", "their speed there, at most")
     for kind in kinds:
         row(*kind, [r for job, r in zip(jobs, results) if job[1:3] == kind])
 

@@ -3,18 +3,15 @@
 
 Through every world of a folder (files of cylinders, lines `x y radius` in m). Where nobody is it counts tracks that move.
 
-    bench/tracking/posts.py ../shared/data/barn
-    bench/tracking/posts.py ../shared/data/barn --movers 4 --seed 302
+    bench/tracking/posts.py ../shared/data/barn --seeds 302-305
+    bench/tracking/posts.py ../shared/data/barn --movers 4 --seeds 302-303
 """
-import argparse
 import collections
-import concurrent.futures
-import json
 import pathlib
 import re
 import sys
 
-from varied_runs import BENCH, LASER, PROGRAM, call, off_the_truth
+from drives import BENCH, LASER, all_of, call, drive, off_the_truth, parser
 
 SCENARIO = """name = "posts"
 timeout_s = 120.0
@@ -35,25 +32,19 @@ radius_m = 0.27
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("worlds", type=pathlib.Path)
-    parser.add_argument("--movers", type=int, default=0)
-    parser.add_argument("--seed", type=int, default=1)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/posts"))
-    return parser.parse_args()
+    made = parser(__doc__, "posts", "302-305")
+    made.add_argument("worlds", type=pathlib.Path)
+    made.add_argument("--movers", type=int, default=0)
+    return made.parse_args()
 
 
 def run(job):
     """Summary, moving tracks a minute where nobody is, m off at worst."""
-    options, world = job
-    out = options.out / world.stem
-    out.mkdir(parents=True, exist_ok=True)
+    options, world, seed = job
+    out = options.out / f"{world.stem}_{options.movers}_{seed}"
     movers = MOVERS.format(count=options.movers) if options.movers else ""
-    (out / "scenario.toml").write_text(SCENARIO.format(world=world.resolve()) + LASER + movers)
-    call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed, "--out", out, fine=(0, 1))
-    moving = 0.0 if options.movers else moving_tracks_a_minute(out)
-    return json.loads((out / "summary.json").read_text()), moving, off_the_truth(out)
+    summary = drive(out, SCENARIO.format(world=world.resolve()) + LASER + movers, seed)
+    return summary, 0.0 if options.movers else moving_tracks_a_minute(out), off_the_truth(out)
 
 
 def moving_tracks_a_minute(out):
@@ -65,16 +56,15 @@ def main():
     worlds = sorted(options.worlds.glob("world_*.txt"))
     if not worlds:
         sys.exit(f"{options.worlds}: no world_*.txt in it: give the folder of BARN's worlds")
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(run, [(options, world) for world in worlds]))
+    results = all_of(run, [(options, world, seed) for world in worlds for seed in options.seeds], options.jobs)
     minutes = sum(r[0]["duration_s"] for r in results) / 60
     outcomes = collections.Counter(r[0]["outcome"] for r in results)
     off = sorted(r[2] for r in results)
-    print(f"{len(results)} worlds, {minutes:.1f} minutes: {', '.join(f'{n} {what}' for what, n in outcomes.most_common())}")
+    print(f"{len(results)} drives, {minutes:.1f} minutes: {', '.join(f'{n} {what}' for what, n in outcomes.most_common())}")
     print(f"poses off at worst by {off[len(off) // 2]:.2f} m (median), {off[-1]:.2f} m (greatest)")
     if options.movers == 0:
         tracks = sum(r[0]["duration_s"] / 60 * r[1] for r in results)
-        print(f"something moves in {sum(r[1] > 0 for r in results)} worlds: {tracks / minutes:.2f} tracks a minute")
+        print(f"something moves in {sum(r[1] > 0 for r in results)} drives: {tracks / minutes:.2f} tracks a minute")
 
 
 if __name__ == "__main__":

@@ -6,25 +6,13 @@ discs and by people on two legs, past a robot that creeps along a wall. Whose re
 
     bench/tracking/real_ways.py ../shared/data/people
 """
-import argparse
-import concurrent.futures
 import csv
 import pathlib
 import re
 import sys
 
-from varied_runs import BENCH, LASER, PROGRAM, call
+from drives import BENCH, HALL, LASER, all_of, call, drive, parser, print_head
 
-HALL = """2D-Map
-LineMinPos: 0 0
-LineMaxPos: 24000 24000
-NumLines: 4
-LINES
-0 0 24000 0
-24000 0 24000 24000
-24000 24000 0 24000
-0 24000 0 0
-"""
 SCENARIO = """name = "real_ways"
 timeout_s = 200.0
 [map]
@@ -54,11 +42,9 @@ MIDDLE = (12.0, 13.5)  # m, of their ways in the hall
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", type=pathlib.Path)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/real_ways"))
-    return parser.parse_args()
+    made = parser(__doc__, "real_ways", None)
+    made.add_argument("folder", type=pathlib.Path)
+    return made.parse_args()
 
 
 def middle(ways):
@@ -74,8 +60,7 @@ def run(job):
     (out / "hall.map").write_text(HALL)
     x, y = (wanted - there for wanted, there in zip(MIDDLE, middle(ways)))
     walkers = WALKERS.format(ways=ways.resolve(), x=x, y=y, legs=str(legs).lower())
-    (out / "scenario.toml").write_text(SCENARIO + LASER + walkers)
-    call(PROGRAM, "sim", out / "scenario.toml", "--out", out, fine=(0, 1))
+    drive(out, SCENARIO + LASER + walkers)
     table = call(BENCH, out, "--radius", 0.25)
     return [float(re.findall(rf"\| {re.escape(row)} +\| +([-\d.]+|nan)", table)[which]) for row, which, _ in COLUMNS.values()]
 
@@ -86,9 +71,8 @@ def main():
     if not files:
         sys.exit(f"{options.folder}: no .csv in it: give a folder of recorded ways")
     jobs = [(options, ways, legs) for ways in files for legs in (False, True)]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(run, jobs))
-    print(f"| ways | {' | '.join(COLUMNS)} |\n|{'---|' * (len(COLUMNS) + 1)}")
+    results = all_of(run, jobs, options.jobs)
+    print_head("ways", *COLUMNS)
     for (_, ways, legs), figures in zip(jobs, results):
         cells = [written.format(figure) for (_, _, written), figure in zip(COLUMNS.values(), figures)]
         print(f"| {ways.stem}, {'two legs' if legs else 'discs'} | {' | '.join(cells)} |")

@@ -2,30 +2,16 @@
 """Tracking and localisation with other laser scanners, and of other movers: the tables in docs/tracking.md.
 
 The project's four maps with 16 movers, driven with each scanner, or each kind of movers, below in place of theirs;
-means of the four runs.
+means over maps and seeds.
 
-    bench/tracking/varied_runs.py scanners --seed 302
-    bench/tracking/varied_runs.py movers --seed 302
+    bench/tracking/varied_runs.py scanners --seeds 301-304
+    bench/tracking/varied_runs.py movers --seeds 301-304
 """
-import argparse
-import concurrent.futures
-import json
-import math
-import pathlib
 import re
-import subprocess
-import sys
 
-ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
-PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
+from drives import FIGURES, ROOT, all_of, drive, figures_of, means, off_the_truth, parser, print_head
+
 MAPS = (1, 2, 3, 4)
-LASER = """[robot.laser]
-fov_deg = 270.0
-beams = 811
-rate_hz = 15.0
-range_m = 25.0
-noise_m = 0.01
-"""  # the project's own maps', for scenarios that are made
 KEYS = {
     "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount")),
     "movers": ("[movers]", ("speed_mps", "radius_m", "count", "legs")),
@@ -52,23 +38,12 @@ VARIANTS = {
         (1.2, 0.27, 16, "true"),
     ),
 }
-FIGURES = {
-    "MOTA": "MOTA",
-    "false places": "false positives",
-    "identity switches": "identity switches",
-    "known within 0.6 s": "found within 0.6 s of moving in view",
-    "velocity RMSE": "velocity RMSE of tracks older than 1 s",
-    "innovations": "normalised and squared, mean; 2 is right",
-}
 
 
 def arguments():
-    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("what", choices=VARIANTS)
-    parser.add_argument("--seed", type=int, default=302)
-    parser.add_argument("--jobs", type=int, default=2)
-    parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/varied"))
-    return parser.parse_args()
+    made = parser(__doc__, "varied", "301-304")
+    made.add_argument("what", choices=VARIANTS)
+    return made.parse_args()
 
 
 def with_values(text, section, values):
@@ -78,48 +53,19 @@ def with_values(text, section, values):
     return text.replace(head + lines, head + "".join(f"{key} = {value}\n" for key, value in kept.items()))
 
 
-def write_scenario(folder, number, section, values):
+def scenario(number, section, values):
     own = ROOT / f"hal/sim/scenarios/map{number}_16.toml"
     text = with_values(own.read_text(), section, values)
-    text = re.sub(r'yaml = "(.*)"', lambda m: f'yaml = "{(own.parent / m[1]).resolve()}"', text)
-    folder.mkdir(parents=True, exist_ok=True)
-    (folder / "scenario.toml").write_text(text)
-
-
-def call(*command, fine=(0,)):
-    if not command[0].exists():
-        sys.exit(f"{command[0]}: not there: build the project first (README.md)")
-    done = subprocess.run([str(c) for c in command], capture_output=True, text=True)
-    if done.returncode not in fine:
-        sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}: {done.stderr.strip()}")
-    return done.stdout
-
-
-def figures_of(out, radius_m):
-    table = call(BENCH, out, "--radius", radius_m)
-    return [float(re.search(rf"\| {re.escape(f)} +\| +([-\d.]+|nan)", table)[1]) for f in FIGURES.values()]
-
-
-def means(figures):
-    """Columns of FIGURES: the means over runs."""
-    mota, false, switched, soon, rmse, innovations = (sum(column) / len(figures) for column in zip(*figures))
-    return f"{mota:.1f} % | {false:.1f} | {switched:.1f} | {soon:.0f} % | {rmse:.2f} m/s | {innovations:.2f}"
+    return re.sub(r'yaml = "(.*)"', lambda m: f'yaml = "{(own.parent / m[1]).resolve()}"', text)
 
 
 def run(job):
-    options, variant, number = job
+    options, variant, number, seed = job
     section, keys = KEYS[options.what]
     values = dict(zip(keys, variant))
-    out = options.out / "_".join(map(str, variant)) / f"map{number}"
-    write_scenario(out, number, section, values)
-    call(PROGRAM, "sim", out / "scenario.toml", "--seed", options.seed, "--out", out, fine=(0, 1))
-    return variant, figures_of(out, values.get("radius_m", 0.27)), json.loads((out / "summary.json").read_text())["outcome"], off_the_truth(out)
-
-
-def off_the_truth(out):
-    """How far the pose was wrong at worst, m."""
-    rows = (line.split(",") for line in (out / "robot.csv").read_text().splitlines()[1:])
-    return max(math.hypot(float(r[1]) - float(r[6]), float(r[2]) - float(r[7])) for r in rows)
+    out = options.out / "_".join(map(str, variant)) / f"map{number}_{seed}"
+    outcome = drive(out, scenario(number, section, values), seed)["outcome"]
+    return figures_of(out, values.get("radius_m", 0.27)), outcome in ("reached", "forced_mover"), off_the_truth(out)
 
 
 def name(what, variant):
@@ -133,19 +79,18 @@ def name(what, variant):
 
 
 def row(what, variant, runs):
-    reached = sum(r[2] in ("reached", "forced_mover") for r in runs)
-    return f"| {name(what, variant)} | {means([r[1] for r in runs])} | {max(r[3] for r in runs):.2f} m | {reached} of {len(runs)} |"
+    figures, reached, off = zip(*runs)
+    poses = f"{sum(off) / len(off):.2f}, {max(off):.2f} m"
+    return f"| {name(what, variant)} | {means(figures)} | {poses} | {sum(reached)} of {len(runs)} |"
 
 
 def main():
     options = arguments()
-    jobs = [(options, v, m) for v in VARIANTS[options.what] for m in MAPS]
-    with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        results = list(pool.map(run, jobs))
-    columns = (options.what, *FIGURES, "pose off at worst", "goal reached")
-    print(f"| {' | '.join(columns)} |\n|{'---|' * len(columns)}")
-    for variant in VARIANTS[options.what]:
-        print(row(options.what, variant, [r for r in results if r[0] == variant]))
+    drives = [(m, s) for m in MAPS for s in options.seeds]
+    results = all_of(run, [(options, v, *d) for v in VARIANTS[options.what] for d in drives], options.jobs)
+    print_head(options.what, *FIGURES, "pose off at worst, mean and greatest", "goal reached")
+    for k, variant in enumerate(VARIANTS[options.what]):
+        print(row(options.what, variant, results[k * len(drives) : (k + 1) * len(drives)]))
 
 
 if __name__ == "__main__":
