@@ -6,9 +6,10 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 15> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 16> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
+                                                                   {Reason::kScanFrozen, "scan_frozen"},
                                                                    {Reason::kWheelsStale, "wheels_stale"},
                                                                    {Reason::kPlanStale, "plan_stale"},
                                                                    {Reason::kEmergencyStop, "emergency_stop"},

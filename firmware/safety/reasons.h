@@ -22,6 +22,7 @@ enum class Reason : std::uint32_t {
   kBus = 1U << 12,           ///< fault, latched: the drives' bus refuses frames or is unwell
   kDrive = 1U << 13,         ///< fault, latched: a drive is in trouble
   kTurnBlocked = 1U << 14,   ///< no room to turn to the heading wanted at the goal: the robot waits
+  kScanFrozen = 1U << 15,    ///< fault: the same scan again and again while the wheels drive
 };
 
 constexpr Reason operator|(Reason a, Reason b) {

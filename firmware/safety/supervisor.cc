@@ -34,7 +34,8 @@ Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, 
 
 }  // namespace
 
-Supervisor::Supervisor(const SupervisorConfig& config) : config_(config), stop_zone_(zone_config(config)) {}
+Supervisor::Supervisor(const SupervisorConfig& config)
+    : config_(config), stop_zone_(zone_config(config)), frozen_scan_(config.model.drive) {}
 
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
   Verdict verdict;
@@ -59,6 +60,7 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
   stale_scans_ = too_old ? stale_scans_ + 1 : 0;
   if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
   if (input.scan.sequence > 0 && !trustworthy(input.scan, config_.model.laser.beams)) reasons |= Reason::kScanInvalid;
+  if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
   if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
     reasons |= Reason::kWheelsStale;
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;

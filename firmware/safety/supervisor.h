@@ -1,4 +1,5 @@
 #pragma once
+#include "firmware/safety/frozen_scan.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/verdict.h"
 #include "hal/types/laser_scan.h"
@@ -54,6 +55,7 @@ class Supervisor {
 
   SupervisorConfig config_;
   StopZone stop_zone_;
+  FrozenScan frozen_scan_;
   Twist2 permitted_;     ///< last tick's
   int stale_scans_ = 0;  ///< ticks in a row with a scan too old
   int missed_ = 0;

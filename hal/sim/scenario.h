@@ -32,7 +32,7 @@ struct RecordedSpec {
   bool legs = false;
 };
 
-enum class FaultKind { kScanStale, kScanNan, kScanShort, kWheelsStale, kWheelSlip, kEmergencyStop };
+enum class FaultKind { kScanStale, kScanNan, kScanShort, kScanFrozen, kWheelsStale, kWheelSlip, kEmergencyStop };
 
 struct FaultSpec {
   double at_s = 0.0;

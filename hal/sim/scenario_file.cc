@@ -110,9 +110,10 @@ void read_movers(TomlTable& table, Scenario& scenario) {
 }
 
 FaultSpec read_fault(TomlTable& table) {
-  constexpr std::array<std::pair<const char*, FaultKind>, 6> kKinds{{{"scan_stale", FaultKind::kScanStale},
+  constexpr std::array<std::pair<const char*, FaultKind>, 7> kKinds{{{"scan_stale", FaultKind::kScanStale},
                                                                      {"scan_nan", FaultKind::kScanNan},
                                                                      {"scan_short", FaultKind::kScanShort},
+                                                                     {"scan_frozen", FaultKind::kScanFrozen},
                                                                      {"wheels_stale", FaultKind::kWheelsStale},
                                                                      {"wheel_slip", FaultKind::kWheelSlip},
                                                                      {"emergency_stop", FaultKind::kEmergencyStop}}};

@@ -29,8 +29,12 @@ void Sensors::sense(World& world) noexcept {
 
 void Sensors::sweep(const World& world) noexcept {
   const Truth& truth = world.truth();
-  laser_.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_);
   ++scan_.sequence;
+  if (world.fault_active(FaultKind::kScanFrozen)) {
+    scan_.stamp = truth.now;
+    return;
+  }
+  laser_.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_);
   if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
   if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
 }

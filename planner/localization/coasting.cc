@@ -8,7 +8,8 @@ namespace {
 
 constexpr double kAccelStd = 1.5;                         // m/s^2
 constexpr double kTurnAccelStd = 3.0;                     // rad/s^2
-constexpr double kLongestCoastS = 1.0;                    // after a longer gap it is taken to have stood
+constexpr double kLongestCoastS = 3.0;                    // by then it is 13 m off: as good as anywhere
+constexpr double kLongestStepS = 1.0;                     // that tells a speed
 constexpr double kLeastS = 0.1;                           // that its speed had to change in
 constexpr double kFastestMps = 2.5, kFastestRadps = 3.0;  // beyond, the match was wrong
 constexpr double kForget = 0.8;                           // of the speed, a scan that did not match
@@ -16,10 +17,11 @@ constexpr double kTwistGain = 0.7;                        // of the running mean
 
 }  // namespace
 
-Coasting::Step Coasting::since_last_scan(Time stamp) const noexcept {
-  const bool gap = last_stamp_ == kNever || stamp <= last_stamp_ || to_seconds(stamp - last_stamp_) > kLongestCoastS;
-  const double dt = gap ? 0.0 : to_seconds(stamp - last_stamp_);
-  return {.before_from_after = {velocity_in_robot_.x * dt, velocity_in_robot_.y * dt, turn_radps_ * dt},
+Coasting::Step Coasting::step(Time from, Time to) const noexcept {
+  if (from == kNever || to <= from) return {};
+  const double dt = std::min(to_seconds(to - from), kLongestCoastS);
+  const double drove_s = dt < kLongestCoastS ? dt : 0.0;
+  return {.before_from_after = {velocity_in_robot_.x * drove_s, velocity_in_robot_.y * drove_s, turn_radps_ * drove_s},
           .metres_std = kAccelStd * dt * std::max(dt, kLeastS),
           .radians_std = kTurnAccelStd * dt * std::max(dt, kLeastS)};
 }
@@ -27,7 +29,7 @@ Coasting::Step Coasting::since_last_scan(Time stamp) const noexcept {
 void Coasting::placed(const Pose2& map_from_robot, Time stamp) noexcept {
   const double dt = last_stamp_ == kNever ? 0.0 : to_seconds(stamp - last_stamp_);
   const Pose2 step = inverse(last_) * map_from_robot;
-  const bool believable = dt > 0.0 && dt < kLongestCoastS && norm(step.position()) < kFastestMps * dt &&
+  const bool believable = dt > 0.0 && dt < kLongestStepS && norm(step.position()) < kFastestMps * dt &&
                           std::fabs(step.heading) < kFastestRadps * dt;
   if (believable) {
     velocity_in_robot_ = velocity_in_robot_ + (step.position() * (1.0 / dt) - velocity_in_robot_) * kTwistGain;

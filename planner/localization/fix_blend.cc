@@ -8,17 +8,46 @@ namespace {
 
 constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
 constexpr double kMostTurnedRad = 100.0;  // whole turns may be in it
+constexpr double kMostSurprise = 16.3;    // chi-squared of three, 99.9 % (Bar-Shalom and others 2001, table 1.5.4-1)
+constexpr int kEnough = 3;
+
+/// Mahalanobis distance, squared.
+double surprise(const Pose2& from, const Pose2& to, const Symmetric3& covariance) {
+  return inverse(covariance).quadratic(offset(from, to));
+}
 
 }  // namespace
 
-bool is_place(const Pose2& p) noexcept {
-  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && std::fabs(p.heading) <= kMostTurnedRad;
+Symmetric3 doubt_of(const OutsideFix& fix) noexcept {
+  const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
+  return diagonal(position_var, position_var, std::max(fix.heading_std_rad * fix.heading_std_rad, kLeastHeadingVar));
+}
+
+bool is_usable(const OutsideFix& fix) noexcept {
+  const Pose2& p = fix.map_from_robot;
+  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && std::fabs(p.heading) <= kMostTurnedRad &&
+         fix.position_std_m >= 0.0 && fix.position_std_m <= kFarthestM && fix.heading_std_rad >= 0.0 &&
+         fix.heading_std_rad <= kMostTurnedRad;
+}
+
+FixGate::Verdict FixGate::judge(const PoseBelief& predicted, const OutsideFix& fix,
+                                const Pose2& odom_from_robot) noexcept {
+  const Symmetric3 doubt = doubt_of(fix);
+  if (surprise(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kMostSurprise) {
+    agreeing_ = 0;
+    return Verdict::kBlend;
+  }
+  const Pose2 as_the_last_has_it = map_from_odom_ * odom_from_robot;
+  const bool agrees = agreeing_ > 0 && surprise(as_the_last_has_it, fix.map_from_robot, doubt + doubt) < kMostSurprise;
+  agreeing_ = agrees ? agreeing_ + 1 : 1;
+  map_from_odom_ = fix.map_from_robot * inverse(odom_from_robot);
+  if (agreeing_ < kEnough) return Verdict::kPassOver;
+  agreeing_ = 0;
+  return Verdict::kTake;
 }
 
 PoseBelief blended(const PoseBelief& predicted, const OutsideFix& fix) noexcept {
-  const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
-  const double heading_var = std::max(fix.heading_std_rad * fix.heading_std_rad, kLeastHeadingVar);
-  const Symmetric3 information = diagonal(1.0 / position_var, 1.0 / position_var, 1.0 / heading_var);
+  const Symmetric3 information = inverse(doubt_of(fix));
   const Symmetric3 covariance = inverse(inverse(predicted.covariance) + information);
   const Row3 by = covariance * (information * offset(predicted.map_from_robot, fix.map_from_robot));
   return {moved(predicted.map_from_robot, by), covariance};

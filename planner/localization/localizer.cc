@@ -73,7 +73,8 @@ struct Localizer::State {
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
   Pose2 odom_from_robot_at_scan;
 
-  Coasting coasting;  ///< without wheels
+  Coasting coasting;  ///< while wheels say nothing
+  FixGate fix_gate;
   Twist2 twist;
 
   PoseEstimate estimate;
@@ -94,7 +95,7 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {
-  const Coasting::Step step = coasting.since_last_scan(stamp);
+  const Coasting::Step step = coasting.step(odometry.stamp(), stamp);
   odometry.coast(step.before_from_after, stamp);
   const double position_var = step.metres_std * step.metres_std;
   covariance = covariance + diagonal(position_var, position_var, step.radians_std * step.radians_std);
@@ -106,7 +107,7 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   correct_to(placed, odom_from_robot_at_scan);
   covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
   if_wheels_slipped = covariance;
-  if (!odometry.has_wheels()) return;
+  if (!odometry.by_wheels()) return;
   trust.corrected(predicted, placed);
   drift.corrected(wrap_angle(placed.heading - predicted.heading));
   odometry.set_side_drift(drift.turn_per_m());
@@ -119,33 +120,35 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
   const auto seen = static_cast<double>(points.size());
   leave_out_walkers(moving, predicted, scan.stamp, points);
   const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
-  const bool earned = odometry.has_wheels() && !trust.nothing_known();
+  const bool earned = odometry.by_wheels() && !trust.nothing_known();
   const MatchResult found = matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned});
-  if (!found.matched || (among_walkers && odometry.has_wheels() && !found.known_for_long)) return false;
+  if (!found.matched || (among_walkers && odometry.by_wheels() && !found.known_for_long)) return false;
   take(found, predicted);
   return true;
 }
 
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still,
                                   std::span<const Track> moving) noexcept {
-  const bool wheels = odometry.has_wheels();
-  if (!wheels) coast_to(scan.stamp);
+  if (odometry.wheels_silent(scan.stamp)) coast_to(scan.stamp);
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   const bool matched = match(scan, still, moving);
-  if (wheels) return;
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
   if (matched) {
     coasting.placed(there, scan.stamp);
   } else {
     coasting.not_placed(there, scan.stamp);
   }
-  twist = coasting.twist();
+  if (!odometry.by_wheels()) twist = coasting.twist();
 }
 
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
-  if (!is_place(fix.map_from_robot)) return;
+  if (!is_usable(fix) || !odometry.remembers(fix.stamp)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
-  const PoseBelief now = blended({map_from_odom * odom_from_robot, covariance}, fix);
+  const PoseBelief predicted{map_from_odom * odom_from_robot, covariance};
+  const FixGate::Verdict verdict = fix_gate.judge(predicted, fix, odom_from_robot);
+  if (verdict == FixGate::Verdict::kPassOver) return;
+  const bool lost = verdict == FixGate::Verdict::kTake;
+  const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, doubt_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
   if_wheels_slipped = covariance;
   trust.begin_anew();

@@ -6,8 +6,9 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kLongestExtrapolationS = 0.1;
-constexpr double kUnbelievable = 2.0;  // times the fastest that the motors can do
+constexpr double kSilentS = 0.25;                              // a wheelchair's speed changes by 0.25 m/s in it
+constexpr double kSilentPeriods = 2.5, kLongestPeriodS = 1.0;  // or so many of their own, where they are slower
+constexpr double kUnbelievable = 2.0;                          // times the fastest that the motors can do
 
 /// sin(x)/x; below 1e-3 its series is exact to 1e-14.
 double sinc(double x) { return std::fabs(x) < 1e-3 ? 1.0 - x * x / 6.0 : sin(x) / x; }
@@ -39,23 +40,44 @@ bool Odometry::believable(const ArcStep& step, double seconds) const noexcept {
   return wheel_m <= kUnbelievable * fastest_mps * std::max(seconds, 0.0) + drive_.wheel_radius_m;
 }
 
-ArcStep Odometry::take(const WheelState& wheels) noexcept {
-  ArcStep step;
-  if (has_wheels()) {
-    const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
-    const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
-    step = {0.5 * (left + right), (right - left) / drive_.track_width_m};
-    if (!believable(step, to_seconds(wheels.stamp - last_.stamp))) step = {};
-    step.turn_rad += side_drift_ * step.distance_m;
+ArcStep Odometry::since_last(const WheelState& wheels) const noexcept {
+  if (last_.sequence == 0) return {};
+  if (coasted_) {
+    const double seconds = std::clamp(to_seconds(wheels.stamp) - to_seconds(newest().stamp), 0.0, kSilentS);
+    const Twist2 now = twist_of(wheels, drive_);
+    return {now.v_mps * seconds, now.w_radps * seconds};
   }
+  const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
+  const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
+  const ArcStep step{0.5 * (left + right), (right - left) / drive_.track_width_m};
+  return believable(step, to_seconds(wheels.stamp - last_.stamp)) ? step : ArcStep{};
+}
+
+ArcStep Odometry::take(const WheelState& wheels) noexcept {
+  ArcStep step = since_last(wheels);
+  step.turn_rad += side_drift_ * step.distance_m;
+  if (last_.sequence != 0)
+    period_s_ = std::clamp(to_seconds(wheels.stamp) - to_seconds(last_.stamp), 0.0, kLongestPeriodS);
   last_ = wheels;
+  coasted_ = false;
   twist_ = twist_of(wheels, drive_);
   twist_.w_radps += side_drift_ * twist_.v_mps;
   remember({wheels.stamp, after_arc(odom_from_robot(), step)});
   return step;
 }
 
+bool Odometry::wheels_silent(Time stamp) const noexcept {
+  const double silent_s = std::max(kSilentS, kSilentPeriods * period_s_);
+  return !by_wheels() || to_seconds(stamp) - to_seconds(last_.stamp) > silent_s;
+}
+
+bool Odometry::remembers(Time stamp) const noexcept {
+  if (count_ == 0) return true;
+  return stamp >= entries_[oldest() % kRemembered].stamp && to_seconds(stamp) - to_seconds(newest().stamp) <= kSilentS;
+}
+
 void Odometry::coast(const Pose2& before_from_after, Time stamp) noexcept {
+  coasted_ = true;
   remember({stamp, odom_from_robot() * before_from_after});
 }
 
@@ -67,18 +89,17 @@ void Odometry::remember(const Entry& entry) noexcept {
 Pose2 Odometry::at(Time stamp) const noexcept {
   if (count_ == 0) return {};
   if (stamp >= newest().stamp) {
-    const double ahead = std::min(to_seconds(stamp - newest().stamp), kLongestExtrapolationS);
+    const double ahead = std::min(to_seconds(stamp - newest().stamp), kSilentS);
     return after_arc(odom_from_robot(), {twist_.v_mps * ahead, twist_.w_radps * ahead});
   }
-  const std::size_t oldest = count_ > kRemembered ? count_ - kRemembered : 0;
-  for (std::size_t k = count_ - 1; k > oldest; --k) {
+  for (std::size_t k = count_ - 1; k > oldest(); --k) {
     const Entry &after = entries_[k % kRemembered], &before = entries_[(k - 1) % kRemembered];
     if (before.stamp > stamp) continue;
     const double span = to_seconds(after.stamp - before.stamp);
     const double share = span > 0.0 ? to_seconds(stamp - before.stamp) / span : 0.0;
     return between(before.odom_from_robot, after.odom_from_robot, share);
   }
-  return entries_[oldest % kRemembered].odom_from_robot;
+  return entries_[oldest() % kRemembered].odom_from_robot;
 }
 
 }  // namespace jaywalk

@@ -24,21 +24,27 @@ class Odometry {
  public:
   explicit Odometry(const DriveModel& drive) : drive_(drive) {}
 
-  /// Takes a reading with a new sequence number: what the wheels did since the last. A step that is not finite, or
-  /// faster than twice what the motors can do (encoders that restarted), counts as standing.
+  /// Takes a reading with a new sequence number: what the wheels did since the last; after a silence in which the robot
+  /// coasted, what they do now. A step that is not finite, or faster than twice what the motors can do (encoders that
+  /// restarted), counts as standing.
   ArcStep take(const WheelState& wheels) noexcept;
   /// From now on the robot turns by so much more with every metre than its wheels say (rad / m, to the left).
   void set_side_drift(double turn_per_m) noexcept { side_drift_ = turn_per_m; }
-  /// Without wheels: moves by a pose in the robot's own frame.
+  /// While wheels are silent: moves by a pose in the robot's own frame.
   void coast(const Pose2& before_from_after, Time stamp) noexcept;
 
-  [[nodiscard]] bool has_wheels() const { return last_.sequence != 0; }
+  /// The newest pose is the wheels' own.
+  [[nodiscard]] bool by_wheels() const { return last_.sequence != 0 && !coasted_; }
+  /// They have not said anything for so long before `stamp` that the robot may be elsewhere, or never.
+  [[nodiscard]] bool wheels_silent(Time stamp) const noexcept;
   [[nodiscard]] const Twist2& twist() const { return twist_; }
   [[nodiscard]] Time stamp() const { return newest().stamp; }
   [[nodiscard]] const Pose2& odom_from_robot() const { return newest().odom_from_robot; }
   /// The pose at `stamp`: between remembered ones along a straight line, after the newest by its twist for up to
-  /// 0.1 s, before the oldest the oldest.
+  /// 0.25 s, before the oldest the oldest.
   [[nodiscard]] Pose2 at(Time stamp) const noexcept;
+  /// Whether at() knows it: not before the oldest, nor so long after the newest. Before the first pose anything goes.
+  [[nodiscard]] bool remembers(Time stamp) const noexcept;
 
  private:
   struct Entry {
@@ -47,12 +53,17 @@ class Odometry {
   };
   static constexpr std::size_t kRemembered = 128;  ///< 2.5 s at 50 Hz
 
+  [[nodiscard]] std::size_t oldest() const { return count_ > kRemembered ? count_ - kRemembered : 0; }
   [[nodiscard]] const Entry& newest() const { return entries_[count_ == 0 ? 0 : (count_ - 1) % kRemembered]; }
   void remember(const Entry& entry) noexcept;
   [[nodiscard]] bool believable(const ArcStep& step, double seconds) const noexcept;
 
   DriveModel drive_;
+  [[nodiscard]] ArcStep since_last(const WheelState& wheels) const noexcept;
+
   WheelState last_;
+  double period_s_ = 0.0;  ///< between the last two readings
+  bool coasted_ = false;   ///< since the last reading
   double side_drift_ = 0.0;
   Twist2 twist_;
   std::array<Entry, kRemembered> entries_{};

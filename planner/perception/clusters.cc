@@ -71,6 +71,7 @@ std::size_t beside(std::size_t k, std::ptrdiff_t step, std::size_t size, const S
 }
 
 End end_at(const ScanPoints& points, const Sweep& sweep, std::size_t end, std::ptrdiff_t step) {
+  if (step < 0 ? points[end].after_own : points[end].before_own) return End::kHidden;
   const std::size_t next = beside(end, step, points.size(), sweep);
   if (next == points.size() || !sweep.neighbours(points[end].beam, points[next].beam)) return End::kUnknown;
   return points[next].range_m <= points[end].range_m ? End::kHidden : End::kSeen;

@@ -22,7 +22,7 @@ inline constexpr double kLeastHalfWidthM = 0.18, kMostHalfWidthM = 0.4;
 enum class End : std::uint8_t {
   kUnknown,  ///< it returned nothing: what is seen at a slant may go on unseen
   kSeen,     ///< it goes on beyond
-  kHidden,   ///< it ends on something nearer, or the sweep is over: the cluster may go on behind
+  kHidden,   ///< it ends on something nearer, be it the robot's own, or the sweep is over: it may go on behind
 };
 
 /// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.
@@ -68,7 +68,7 @@ struct Cluster {
 inline constexpr double kArcMean = kPi / 4.0;
 
 /// Most clusters followed in a scan, two legs of each of 64 people and as much besides; when full, later ones (in the
-/// order of the beams) are left for the next scans.
+/// order of the beams) are not looked at.
 inline constexpr std::size_t kMaxClusters = 256;
 using Clusters = FixedVector<Cluster, kMaxClusters>;
 

@@ -75,8 +75,9 @@ void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBe
     scan_ = 1;
   }
   for (std::size_t k = 0; k < count; ++k) {
-    if (entries[k] == Becomes::kNothing) continue;
-    const bool first = first_visit(map.cell_at(points[k]));
+    const CellIndex cell = map.cell_at(points[k]);
+    if (entries[k] == Becomes::kNothing || !map.contains(cell)) continue;
+    const bool first = first_visit(cell);
     const Vec2 back = laser - points[k];
     map.add_hit(points[k], first ? kHit : 0, first && entries[k] == Becomes::kWall ? step_s : 0.0,
                 back * (1.0 / std::max(norm(back), kNearestM)));

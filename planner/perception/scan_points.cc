@@ -14,9 +14,6 @@ constexpr double kFarthestBelievedM = 1000.0;
 /// No scanner counts its turns as far: such angles are none.
 constexpr float kMostRad = 100.0F;
 
-/// Nearer than this a laser sees only its own robot: masts, cables, the rim of its own window.
-constexpr double kNearestM = 0.2;
-
 }  // namespace
 
 Sweep sweep_of(const LaserScan& scan) noexcept {
@@ -54,7 +51,7 @@ void ScanProjection::project(const LaserScan& scan, const Pose2& robot_from_lase
   const Transform2 at_stamp(robot_from_laser);
   for (std::size_t b = 0; b < beams; ++b) {
     const double range = static_cast<double>(scan.range_m[b]);
-    if (!scan.is_hit(b) || range < kNearestM || range > kFarthestBelievedM) continue;
+    if (!scan.is_hit(b) || range < kNearestSeenM || range > kFarthestBelievedM) continue;
     Vec2 p = at_stamp * (direction_[b] * range);
     if (beam_s != 0.0) p = Transform2(moved_by(twist, beam_s * static_cast<double>(b))) * p;
     (void)out.push_back({p, range, static_cast<std::uint32_t>(b)});  // never full: one point a beam

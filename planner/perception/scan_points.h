@@ -13,6 +13,7 @@ struct ScanPoint {
   Vec2 in_robot;         ///< m, in the robot's frame at the scan's stamp
   double range_m = 0.0;  ///< along the beam, from the laser
   std::uint32_t beam = 0;
+  bool after_own = false, before_own = false;  ///< the beam before it, or after it, ends on the robot itself
 };
 
 /// Beams `first` to `last` of a scan, which may run on from its last beam to its first; none at first.
@@ -36,7 +37,19 @@ struct Sweep {
     const std::uint32_t apart = a < b ? b - a : a - b;
     return apart == 1 || (all_round && apart + 1 == beams);
   }
+  /// The beam before, or after; `beams`: there is none.
+  [[nodiscard]] std::uint32_t before(std::uint32_t beam) const {
+    if (beam > 0) return beam - 1;
+    return all_round ? beams - 1 : beams;
+  }
+  [[nodiscard]] std::uint32_t after(std::uint32_t beam) const {
+    if (beam + 1 < beams) return beam + 1;
+    return all_round ? 0 : beams;
+  }
 };
+
+/// Nearer than this (m) a laser sees only its own robot: masts, cables, the rim of its own window.
+inline constexpr double kNearestSeenM = 0.2;
 
 /// Beams beyond kMaxBeams are left out.
 [[nodiscard]] Sweep sweep_of(const LaserScan& scan) noexcept;

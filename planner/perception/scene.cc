@@ -6,10 +6,10 @@ namespace jaywalk {
 
 void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
                  const Bodies& bodies) noexcept {
-  self_mask_.learn(scan, map_from_robot.heading);
+  self_mask_.learn(scan, map_from_robot);
   projection_.project(scan, robot_from_laser_, twist, points);
-  drop_own_points();
   const Sweep sweep = sweep_of(scan);
+  drop_own_points(scan, sweep);
   begin_at_a_jump(sweep, points);
   map_from_laser = map_from_robot * robot_from_laser_;
   const Transform2 to_map(map_from_robot);
@@ -22,10 +22,20 @@ void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist
   find_clusters(points, in_map, segments_, sweep, map_from_laser.position(), clusters);
 }
 
-void Scene::drop_own_points() noexcept {
+bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
+  if (beam >= kMaxBeams || !scan.is_hit(beam)) return false;
+  const auto range_m = static_cast<double>(scan.range_m[beam]);
+  return range_m < kNearestSeenM || self_mask_.on_robot(beam, range_m);
+}
+
+/// Who stands half behind a mast is told so.
+void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept {
   std::size_t kept = 0;
-  for (std::size_t k = 0; k < points.size(); ++k) {
-    if (!self_mask_.on_robot(points[k].beam)) points[kept++] = points[k];
+  for (ScanPoint point : points) {
+    if (ends_on_robot(scan, point.beam)) continue;
+    point.after_own = ends_on_robot(scan, sweep.before(point.beam));
+    point.before_own = ends_on_robot(scan, sweep.after(point.beam));
+    points[kept++] = point;
   }
   points.truncate(kept);
 }

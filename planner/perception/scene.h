@@ -10,7 +10,7 @@ namespace jaywalk {
 /// What the newest scan shows, in the robot's frame and in the map, and the memory that takes. Thread: the loop's.
 class Scene {
  public:
-  explicit Scene(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
+  explicit Scene(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser), self_mask_(robot_from_laser) {}
 
   /// Points, cut where the scan jumps and where known `bodies` touch, and the pieces that may be bodies; points on the
   /// robot itself are left out. `still` is the map from all scans before. The rest: as Tracker::update() has it.
@@ -23,7 +23,8 @@ class Scene {
   Clusters clusters;
 
  private:
-  void drop_own_points() noexcept;
+  void drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept;
+  [[nodiscard]] bool ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept;
 
   Pose2 robot_from_laser_;
   SelfMask self_mask_;

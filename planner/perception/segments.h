@@ -12,9 +12,7 @@ struct Segment {
   std::uint32_t first = 0, last = 0;
 };
 
-/// Most segments kept of a scan; when full, the rest of the scan counts as wall.
-inline constexpr std::size_t kMaxSegments = 512;
-using Segments = FixedVector<Segment, kMaxSegments>;
+using Segments = FixedVector<Segment, kMaxBeams>;  ///< never full: a segment has a point, and a beam one at most
 
 /// A scan all round has no end: its list of points is turned so that it begins at a jump, and nothing is cut in two
 /// where the scanner begins its turn.

@@ -9,19 +9,23 @@
 namespace jaywalk {
 
 /// Learns them: a range that stays the same under turn after turn of the robot is fixed to it. Only ranges below 1 m
-/// are asked; turns are asked for because a wall that the robot drives along stays as near as it was.
+/// are asked; turns are asked for because a wall that the robot drives along stays as near as it was. What lies near
+/// the middle of a turn is not asked: somebody whom the robot drives round stays as near, too.
 class SelfMask {
  public:
-  /// Takes a scan and the heading it was seen from.
-  void learn(const LaserScan& scan, double heading_rad) noexcept;
-  [[nodiscard]] bool on_robot(std::size_t beam) const { return agreed_[beam] >= kEnough; }
+  explicit SelfMask(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
+
+  /// Takes a scan and the pose that it was seen from.
+  void learn(const LaserScan& scan, const Pose2& map_from_robot) noexcept;
+  /// Whether what `beam` ends on at `range_m` is the robot's: not who stands before it, nor what is seen beyond it.
+  [[nodiscard]] bool on_robot(std::size_t beam, double range_m) const noexcept;
 
  private:
   static constexpr std::uint8_t kEnough = 4;
 
   std::array<float, kMaxBeams> range_m_{};
   std::array<std::uint8_t, kMaxBeams> agreed_{};  ///< headings that gave range_m_ again, less those that did not
-  double asked_at_rad_ = 0.0;
+  Pose2 robot_from_laser_, asked_at_;
 };
 
 }  // namespace jaywalk

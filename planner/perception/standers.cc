@@ -37,13 +37,13 @@ bool may_be_hidden(const Stander& stander, const LineOfSight& sight, Time now) {
 }
 
 /// When something was seen last where he stands: who comes into view again is born anew, and may show a leg alone.
-Time last_seen(const Stander& stander, const Bodies& bodies) {
+Time last_seen(const Stander& stander, const Bodies& bodies, Time now) {
   Time last = stander.last_seen;
   for (const Body& body : bodies) {
     const Track& seen = body.as_seen;
     if (distance(seen.position_in_map, stander.position_in_map) < kLegsWithinM) last = std::max(last, seen.last_seen);
   }
-  return last;
+  return std::min(last, now);  // a clock may be set back
 }
 
 }  // namespace
@@ -58,7 +58,7 @@ void note_standers(const Bodies& bodies, const EvidenceMap& still, const LineOfS
     (void)standers.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen});  // as many as bodies
   }
   for (Stander stander : before) {
-    stander.last_seen = last_seen(stander, bodies);
+    stander.last_seen = last_seen(stander, bodies, now);
     const bool stays = something_stands(stander, still) || may_be_hidden(stander, sight, now);
     if (stays && !is_followed(stander, bodies) && !standers.push_back(stander)) return;
   }

@@ -6,7 +6,7 @@ namespace jaywalk {
 
 /// Cuts segments where one known body ends and the next begins: whoever passes another so near that no jump parts them.
 /// A segment is cut that begins on one and ends on another, one of which moves at least, and that is about as wide as
-/// both. When the list is full, its rest counts as wall.
+/// both.
 void cut_between(const Bodies& bodies, const PointsInMap& in_map, Segments& segments) noexcept;
 
 }  // namespace jaywalk

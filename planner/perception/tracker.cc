@@ -16,7 +16,8 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kSeenGain = 0.15;  // of the running mean of how often a body was seen
+constexpr double kSeenGain = 0.15;      // of the running mean of how often a body was seen
+constexpr double kClockSetBackS = 1.0;  // by more: nothing that was seen is as old as it says
 
 void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
   for (Cluster& c : clusters) {
@@ -34,6 +35,7 @@ struct Tracker::State {
         scene(c.robot_from_laser) {}
 
   void predict_all_to(Time stamp) noexcept;
+  void forget_bodies() noexcept;
   void associate_and_correct() noexcept;
   void judge(const LineOfSight& sight, const Twist2& twist) noexcept;
   void drop_unseen(const LineOfSight& sight) noexcept;
@@ -59,7 +61,14 @@ struct Tracker::State {
   Standers standing;
 };
 
+void Tracker::State::forget_bodies() noexcept {
+  bodies.clear();
+  hidden = {};
+  first_scans = {};
+}
+
 void Tracker::State::predict_all_to(Time stamp) noexcept {
+  if (now != kNever && to_seconds(now) - to_seconds(stamp) > kClockSetBackS) forget_bodies();
   step_s = step_seconds(now, stamp);
   now = stamp;
   for (Body& body : bodies) predict_to(body, stamp);

@@ -36,6 +36,18 @@ TEST_CASE("scans that stop coming, come as no numbers or come cut short stop the
   check_stops_for(sim::FaultKind::kScanShort, Reason::kScanInvalid);
 }
 
+TEST_CASE("a scanner that shows one scan again and again stops the robot within half a second") {
+  SimulatedDrive drive = drive_with(sim::FaultKind::kScanFrozen);
+  drive.drive(5.0);
+  REQUIRE(speed(drive) > 0.3);
+  const bool named = drive.drive(0.5, [&](const TickRecord& t) { return has(t.verdict.reasons, Reason::kScanFrozen); });
+  CHECK(named);
+  drive.drive(1.5);
+  CHECK(speed(drive) < 0.01);
+  drive.drive(4.0);  // the fault is over
+  CHECK(speed(drive) > 0.1);
+}
+
 TEST_CASE("wheels that fall silent stop the robot") {
   check_stops_for(sim::FaultKind::kWheelsStale, Reason::kWheelsStale);
 }

@@ -159,6 +159,18 @@ TEST_CASE("time that goes back five seconds does not take the robot along") {
   CHECK(eyes->sees_walker());
 }
 
+TEST_CASE("who walked before a clock was set back by a minute is no ghost after it") {
+  const auto eyes = open_eyes();
+  eyes->see_walker(1000, 30);
+  REQUIRE(eyes->sees_walker());
+  Room behind_a_wall = room_with_walker(-0.2);
+  behind_a_wall.walls.push_back({{1.2, -1.0}, {1.2, 1.0}});
+  for (std::uint32_t k = 100; k < 145; ++k) eyes->see(scan_of(behind_a_wall, {}, k, 0.01));  // three seconds
+  CHECK(eyes->tracker.moving().empty());
+  eyes->see_walker(145, 40);
+  CHECK(eyes->sees_walker());
+}
+
 TEST_CASE("a frozen scanner shows nothing that moves") {
   const auto eyes = open_eyes();
   LaserScan frozen = scan_of(room_with_walker(0.0), {}, 31, 0.01);

@@ -21,7 +21,7 @@ Coasting driven(int scans) {
 
 TEST_CASE("who was placed goes on as he went") {
   const Coasting coasting = driven(12);
-  const Coasting::Step step = coasting.since_last_scan(time_from_seconds(1.2));
+  const Coasting::Step step = coasting.step(time_from_seconds(1.1), time_from_seconds(1.2));
   CHECK(step.before_from_after.x == Approx(0.05).epsilon(1e-3));  // a running mean, near its end
   CHECK(step.before_from_after.heading == Approx(0.02).epsilon(1e-3));
   CHECK(step.metres_std == Approx(0.015));  // 1.5 m/s^2 for 0.1 s
@@ -29,10 +29,17 @@ TEST_CASE("who was placed goes on as he went") {
 }
 
 TEST_CASE("before the first scan, after a long gap and where time goes backwards it stands") {
-  CHECK(Coasting().since_last_scan(time_from_seconds(5.0)).before_from_after == Pose2{});
-  for (const double stamp_s : {1.0, 2.2}) {  // the last was at 1.1 s
-    CHECK(driven(12).since_last_scan(time_from_seconds(stamp_s)).before_from_after == Pose2{});
+  CHECK(Coasting().step(kNever, time_from_seconds(5.0)).before_from_after == Pose2{});
+  for (const double stamp_s : {1.0, 4.2}) {  // the last was at 1.1 s
+    CHECK(driven(12).step(time_from_seconds(1.1), time_from_seconds(stamp_s)).before_from_after == Pose2{});
   }
+}
+
+TEST_CASE("the longer nobody looks the less is known of where it is") {
+  const Coasting::Step two_seconds = driven(12).step(time_from_seconds(1.1), time_from_seconds(3.1));
+  CHECK(two_seconds.before_from_after.x == Approx(1.0).epsilon(1e-3));  // 0.5 m/s
+  CHECK(two_seconds.metres_std == Approx(6.0));                         // 1.5 m/s^2 for 2 s, twice
+  CHECK(driven(12).step(time_from_seconds(1.1), time_from_seconds(11.1)).metres_std == Approx(13.5));
 }
 
 TEST_CASE("a step that no wheelchair drives tells no speed, and one that did not match a little less") {

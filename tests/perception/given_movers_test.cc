@@ -1,3 +1,5 @@
+#include <limits>
+
 #include "planner/perception/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
@@ -52,6 +54,22 @@ TEST_CASE("a given mover that is no longer reported dies after a second") {
   CHECK(tracker.moving().size() == 1);
   for (std::uint32_t k = 16; k <= 18; ++k) tracker.update(scan_of(room, {}, k), {});
   CHECK(tracker.tracks().empty());
+}
+
+TEST_CASE("movers whose place, size or noise is no number are passed over") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  Tracker tracker(small());
+  tracker.update_given(fix_with(1, 0.0,
+                                {{.id = 1, .position_in_map = {nan, 0.0}, .radius_m = 0.27},
+                                 {.id = 2, .position_in_map = {2.0, 1e300}, .radius_m = 0.27},
+                                 {.id = 3, .position_in_map = {2.0, 0.0}, .radius_m = nan},
+                                 {.id = 4, .position_in_map = {3.0, 0.0}, .radius_m = 0.27}}));
+  REQUIRE(tracker.tracks().size() == 1);
+  CHECK(tracker.tracks()[0].position_in_map.x == 3.0);
+  OutsideFix noisy = fix_with(2, 0.1, {{.id = 5, .position_in_map = {4.0, 0.0}, .radius_m = 0.27}});
+  noisy.mover_std_m = nan;
+  tracker.update_given(noisy);
+  CHECK(tracker.tracks().size() == 1);
 }
 
 TEST_CASE("beams that end on a given mover stay out of the map and make no track of their own") {

@@ -117,6 +117,37 @@ TEST_CASE("scans alone carry the pose round a curve") {
   CHECK(drive.localizer.twist().w_radps == Approx(0.225).margin(0.1));
 }
 
+TEST_CASE("scans alone carry the pose over two seconds without a scan, and say how little they know then") {
+  Drive drive({-4.0, -1.0, 0.0});
+  const Room room = furnished();
+  double x = -4.0;
+  for (int k = 0; k < 60; ++k, x += 0.03) drive.step_without_wheels(room, {x, -1.0, 0.0});  // 0.45 m/s
+  drive.scan += 29, x += 29 * 0.03;
+  drive.look(scan_of({}, {}, ++drive.scan));  // the first scan after it shows nothing
+  x += 0.03;
+  CHECK(drive.estimate.position_std_m > 1.0);
+  for (int k = 0; k < 30; ++k, x += 0.03) drive.step_without_wheels(room, {x, -1.0, 0.0});
+  CHECK(distance(drive.estimate.map_from_robot.position(), {x - 0.03, -1.0}) < 0.05);
+  CHECK(drive.tracker.moving().empty());
+}
+
+TEST_CASE("wheels that fall silent under way leave the pose to the scans, and take it up again") {
+  Drive drive({-4.0, -1.0, 0.0});
+  const Room room = furnished();
+  double x = -4.0, farthest_m = 0.0;
+  for (int k = 0; k < 225; ++k, x += 0.03) {  // 0.45 m/s
+    const bool silent = k >= 60 && k < 150;
+    if (silent) {
+      drive.step_without_wheels(room, {x, -1.0, 0.0});
+    } else {
+      drive.step(room, {x, -1.0, 0.0}, {x + 4.0, 0.0, 0.0});
+    }
+    farthest_m = std::max(farthest_m, distance(drive.estimate.map_from_robot.position(), {x, -1.0}));
+  }
+  CHECK(farthest_m < 0.1);
+  CHECK(drive.tracker.moving().empty());
+}
+
 TEST_CASE("along a bare corridor the wheels are believed and across it the walls") {
   Drive drive({0.0, 0.0, 0.0});
   Room corridor;
@@ -252,16 +283,16 @@ TEST_CASE("an outside fix is blended by variance") {
   fix.stamp = time_from_seconds(0.0);
   fix.sequence = 1;
   fix.has_pose = true;
-  fix.map_from_robot = {0.1, -0.2, 0.0};
+  fix.map_from_robot = {0.01, -0.02, 0.0};
   fix.position_std_m = 2.0 * std_before;  // a quarter of the weight: a fifth of the way
   fix.heading_std_rad = 1.0;
   const PoseEstimate& blended = localizer.update(wheels, none, fix, still, {});
-  CHECK(blended.map_from_robot.x == Approx(0.02));
-  CHECK(blended.map_from_robot.y == Approx(-0.04));
+  CHECK(blended.map_from_robot.x == Approx(0.002));
+  CHECK(blended.map_from_robot.y == Approx(-0.004));
   CHECK(blended.position_std_m == Approx(std_before * std::sqrt(0.8)));
 }
 
-TEST_CASE("a fix is taken once and a fix without a finite pose not at all") {
+TEST_CASE("a fix is taken once, and one that is no number or of another time not at all") {
   Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
   const EvidenceMap still(64, 0.1, {});
   const LaserScan none;
@@ -269,14 +300,54 @@ TEST_CASE("a fix is taken once and a fix without a finite pose not at all") {
   fix.stamp = time_from_seconds(0.0);
   fix.sequence = 1;
   fix.has_pose = true;
-  fix.map_from_robot = {1.0, 0.0, 0.0};
+  fix.map_from_robot = {0.01, 0.0, 0.0};
   fix.position_std_m = 0.005;
   const double once = localizer.update({}, none, fix, still, {}).map_from_robot.x;
   CHECK(once > 0.0);
   CHECK(localizer.update({}, none, fix, still, {}).map_from_robot.x == once);
-  fix.sequence = 2;
-  fix.map_from_robot.x = std::numeric_limits<double>::quiet_NaN();
-  CHECK(localizer.update({}, none, fix, still, {}).map_from_robot.x == once);
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  OutsideFix bad = fix;
+  bad.map_from_robot.x = nan;
+  OutsideFix doubtful = fix;
+  doubtful.position_std_m = nan;
+  OutsideFix turned = fix;
+  turned.heading_std_rad = -1.0;
+  OutsideFix old = fix, early = fix;
+  old.stamp = time_from_seconds(-5.0), early.stamp = time_from_seconds(5.0);
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  (void)localizer.update(wheels, none, fix, still, {});
+  for (const OutsideFix& useless : {bad, doubtful, turned, old, early}) {
+    OutsideFix next = useless;
+    next.sequence = ++fix.sequence;
+    CHECK(localizer.update(wheels, none, next, still, {}).map_from_robot.x == once);
+  }
+}
+
+TEST_CASE("one fix that is far off is a mistake, three that agree as the robot drives on are where it is") {
+  Localizer localizer({.map_from_robot_at_start = {}, .drive = kDrive, .robot_from_laser = {}, .match_scans = false});
+  const EvidenceMap still(64, 0.1, {});
+  const LaserScan none;
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  (void)localizer.update(wheels, none, {}, still, {});
+  OutsideFix fix;
+  fix.has_pose = true;
+  fix.position_std_m = fix.heading_std_rad = 0.05;
+  const auto fixed = [&](double x, double y) -> const PoseEstimate& {  // 0.2 s and 0.1 m on
+    wheels.stamp += std::chrono::milliseconds(200);
+    ++wheels.sequence, ++fix.sequence;
+    wheels.left_rad += 0.1 / kDrive.wheel_radius_m, wheels.right_rad += 0.1 / kDrive.wheel_radius_m;
+    fix.stamp = wheels.stamp;
+    fix.map_from_robot = {x, y, 0.0};
+    return localizer.update(wheels, none, fix, still, {});
+  };
+  CHECK(fixed(9.0, 9.0).map_from_robot.x == Approx(0.1));  // each says another place
+  CHECK(fixed(3.0, -2.0).map_from_robot.x == Approx(0.2));
+  CHECK(fixed(5.3, 1.0).map_from_robot.x == Approx(0.3));
+  CHECK(fixed(5.4, 1.0).map_from_robot.x == Approx(0.4));
+  const PoseEstimate& found = fixed(5.5, 1.0);
+  CHECK(found.map_from_robot.x == Approx(5.5));
+  CHECK(found.map_from_robot.y == Approx(1.0));
+  CHECK(found.position_std_m == Approx(0.05));
 }
 
 TEST_CASE("a robot among walkers allocates nothing") {

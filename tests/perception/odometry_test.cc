@@ -36,13 +36,47 @@ TEST_CASE("a scan between two readings is placed between them") {
   CHECK(odometry.at(time_from_seconds(-5.0)).x == Approx(0.0));
 }
 
-TEST_CASE("a scan after the last reading is placed by its speed, for a tenth of a second at most") {
+TEST_CASE("a scan after the last reading is placed by its speed, for a quarter of a second at most") {
   Odometry odometry(kDrive);
   WheelState wheels = reading(1, 0.0, 0.0, 0.0);
   wheels.left_radps = wheels.right_radps = 5.0;  // 0.5 m/s
   (void)odometry.take(wheels);
   CHECK(odometry.at(time_from_seconds(0.05)).x == Approx(0.025));
-  CHECK(odometry.at(time_from_seconds(10.0)).x == Approx(0.05));
+  CHECK(odometry.at(time_from_seconds(10.0)).x == Approx(0.125));
+}
+
+TEST_CASE("wheels are silent after a quarter of a second, or two and a half of their own periods") {
+  Odometry odometry(kDrive);
+  CHECK(odometry.wheels_silent(time_from_seconds(0.0)));
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  CHECK_FALSE(odometry.wheels_silent(time_from_seconds(0.24)));
+  CHECK(odometry.wheels_silent(time_from_seconds(0.26)));
+  (void)odometry.take(reading(2, 0.5, 0.0, 0.0));
+  CHECK_FALSE(odometry.wheels_silent(time_from_seconds(1.74)));
+  CHECK(odometry.wheels_silent(time_from_seconds(1.76)));
+}
+
+TEST_CASE("after a silence the robot is where it coasted to, and the first reading goes by its speed") {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
+  CHECK_FALSE(odometry.by_wheels());
+  WheelState back = reading(2, 1.1, 6.0, 6.0);  // 0.6 m in all, that the robot has gone already
+  back.left_radps = back.right_radps = 5.0;     // 0.5 m/s
+  CHECK(odometry.take(back).distance_m == Approx(0.05));
+  CHECK(odometry.by_wheels());
+  CHECK(odometry.odom_from_robot().x == Approx(0.65));
+  CHECK(odometry.take(reading(3, 1.2, 6.5, 6.5)).distance_m == Approx(0.05));
+}
+
+TEST_CASE("poses are known from the oldest remembered to a quarter of a second after the newest") {
+  Odometry odometry(kDrive);
+  CHECK(odometry.remembers(time_from_seconds(7.0)));  // nothing is known to be otherwise
+  for (std::uint32_t k = 1; k <= 200; ++k) (void)odometry.take(reading(k, 0.02 * k, 0.0, 0.0));
+  CHECK(odometry.remembers(time_from_seconds(1.5)));  // 128 poses: from 1.46 s on
+  CHECK_FALSE(odometry.remembers(time_from_seconds(1.4)));
+  CHECK(odometry.remembers(time_from_seconds(4.2)));
+  CHECK_FALSE(odometry.remembers(time_from_seconds(4.3)));
 }
 
 TEST_CASE("encoders that restart or report nonsense do not move the robot") {

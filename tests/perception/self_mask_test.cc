@@ -17,32 +17,63 @@ LaserScan one_beam(float range) {
   return scan;
 }
 
+/// After turns on the spot, number `first` to `last`, that all had this range.
+void turn(SelfMask& mask, int first, int last, float range) {
+  for (int k = first; k <= last; ++k) mask.learn(one_beam(range), {3.0, 1.0, 0.2 * k});
+}
+
+std::unique_ptr<SelfMask> after_turns(int count, float range) {
+  auto mask = std::make_unique<SelfMask>(Pose2{});
+  turn(*mask, 1, count, range);
+  return mask;
+}
+
 }  // namespace
 
-TEST_CASE("a range that stays under five turns is the robot's own") {
-  const auto mask = std::make_unique<SelfMask>();
-  for (int k = 1; k <= 4; ++k) mask->learn(one_beam(0.7F), 0.2 * k);
-  CHECK_FALSE(mask->on_robot(0));  // seen first, agreed three times
-  mask->learn(one_beam(0.71F), 1.0);
-  CHECK(mask->on_robot(0));
+TEST_CASE("a range that stays under five turns on the spot is the robot's own") {
+  const auto mask = after_turns(4, 0.7F);
+  CHECK_FALSE(mask->on_robot(0, 0.7));  // seen first, agreed three times
+  turn(*mask, 5, 5, 0.71F);
+  CHECK(mask->on_robot(0, 0.7));
+}
+
+TEST_CASE("who stands before the robot's own mast, or is seen beside it, is not the robot's own") {
+  const auto mask = after_turns(50, 0.7F);
+  CHECK(mask->on_robot(0, 0.74));
+  CHECK_FALSE(mask->on_robot(0, 0.6));
+  CHECK_FALSE(mask->on_robot(0, 3.0));
 }
 
 TEST_CASE("a wall driven along without turning is not the robot's own") {
-  const auto mask = std::make_unique<SelfMask>();
-  for (int k = 0; k < 1000; ++k) mask->learn(one_beam(0.7F), 0.0);
-  CHECK_FALSE(mask->on_robot(0));
+  const auto mask = std::make_unique<SelfMask>(Pose2{});
+  for (int k = 0; k < 1000; ++k) mask->learn(one_beam(0.7F), {0.1 * k, 0.0, 0.0});
+  CHECK_FALSE(mask->on_robot(0, 0.7));
+}
+
+/// After driving round the origin, to the left of its way and 0.8 m off, looking along `beam_rad`.
+std::unique_ptr<SelfMask> after_driving_round(double beam_rad, float range) {
+  auto mask = std::make_unique<SelfMask>(Pose2{});
+  LaserScan scan = one_beam(range);
+  scan.first_angle_rad = static_cast<float>(beam_rad);
+  for (int k = 0; k < 1000; ++k) {
+    const Vec2 from_middle = direction(0.02 * k - 0.5 * kPi) * 0.8;
+    mask->learn(scan, {from_middle.x, from_middle.y, wrap_angle(0.02 * k)});
+  }
+  return mask;
+}
+
+TEST_CASE("somebody whom the robot drives round is not its own, a mast on its other side is") {
+  CHECK_FALSE(after_driving_round(0.5 * kPi, 0.55F)->on_robot(0, 0.55));
+  CHECK(after_driving_round(-0.5 * kPi, 0.3F)->on_robot(0, 0.3));
 }
 
 TEST_CASE("what is farther than a metre is never the robot's own") {
-  const auto mask = std::make_unique<SelfMask>();
-  for (int k = 1; k < 100; ++k) mask->learn(one_beam(1.2F), 0.2 * k);
-  CHECK_FALSE(mask->on_robot(0));
+  CHECK_FALSE(after_turns(100, 1.2F)->on_robot(0, 1.2));
 }
 
 TEST_CASE("what was taken off the robot is forgotten") {
-  const auto mask = std::make_unique<SelfMask>();
-  for (int k = 1; k < 100; ++k) mask->learn(one_beam(0.7F), 0.2 * k);
-  REQUIRE(mask->on_robot(0));
-  for (int k = 100; k < 117; ++k) mask->learn(one_beam(3.0F), 0.2 * k);  // 20 - 17 = 3
-  CHECK_FALSE(mask->on_robot(0));
+  const auto mask = after_turns(99, 0.7F);
+  REQUIRE(mask->on_robot(0, 0.7));
+  turn(*mask, 100, 116, 3.0F);  // 20 - 17 = 3
+  CHECK_FALSE(mask->on_robot(0, 0.7));
 }

@@ -242,6 +242,17 @@ TEST_CASE("faults last as long as they are told") {
     drive(sim, 0.0, 0.0, 0.4);
     CHECK(sim.hal().laser.latest().beam_count == 811);
   }
+  SECTION("one scan again and again") {
+    Simulation sim(with_fault(FaultKind::kScanFrozen), 1);
+    drive(sim, 1.0, 1.0, 1.1);
+    const LaserScan frozen = sim.hal().laser.latest();
+    drive(sim, 1.0, 1.0, 0.3);
+    CHECK(sim.hal().laser.latest().range_m == frozen.range_m);
+    CHECK(sim.hal().laser.latest().sequence > frozen.sequence);
+    CHECK(sim.hal().laser.latest().stamp > frozen.stamp);
+    drive(sim, 1.0, 1.0, 0.2);
+    CHECK(sim.hal().laser.latest().range_m != frozen.range_m);
+  }
   SECTION("no encoder readings") {
     Simulation sim(with_fault(FaultKind::kWheelsStale), 1);
     drive(sim, 0.0, 0.0, 1.48);

@@ -77,7 +77,12 @@ struct Eyes {
     fix.stamp = scan.stamp;
     fix.has_pose = true;
     fix.map_from_robot = {from.take<float>(), from.take<float>(), from.take<float>()};
-    fix.position_std_m = fix.heading_std_rad = 0.01 * from.take<std::uint8_t>();
+    const auto doubt = from.take<std::uint8_t>();
+    const double std = doubt >= 0xF8 ? static_cast<double>(kOdd[doubt - 0xF8U]) : 0.01 * doubt;
+    fix.position_std_m = fix.heading_std_rad = fix.mover_std_m = std;
+    fix.movers.clear();
+    for (unsigned id = from.take<std::uint8_t>() % 4U; id > 0; --id)
+      (void)fix.movers.push_back({id, {from.take<float>(), from.take<float>()}, from.take<float>()});
   }
   void aim(Source& from, std::uint8_t choice) {
     scan.sequence += 1;
@@ -108,6 +113,7 @@ struct Eyes {
     if (all_round) scan.angle_step_rad = static_cast<float>(2.0 * kPi / scan.beam_count);
     if ((choice & (kWheels | kOddWheels)) != 0) turn_wheels(from, (choice & kOddWheels) != 0);
     if ((choice & kFix) != 0) fix_pose(from);
+    if (!fix.movers.empty()) tracker.update_given(fix);
     judge(localizer.update(wheels, scan, fix, tracker.still(), tracker.moving()));
     tracker.update(scan, localizer.map_from_robot_at_scan(), localizer.twist());
     for (const Track& track : tracker.tracks()) judge(track);
@@ -121,7 +127,7 @@ struct Eyes {
   static void judge(const Track& t) {
     require(std::isfinite(norm(t.position_in_map)) && std::isfinite(norm(t.velocity_in_map)));
     require(t.covariance.pp > 0.0 && t.covariance.vv > 0.0 && std::isfinite(t.covariance.pp + t.covariance.vv));
-    require(t.radius_m > 0.0 && t.radius_m < 1.0);
+    require(t.radius_m > 0.0 && t.radius_m <= 1.0);
   }
 };
 

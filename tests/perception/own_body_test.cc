@@ -1,0 +1,78 @@
+// What the robot sees of itself, a mast, a rider's feet, must not hide or invent anybody.
+#include <algorithm>
+#include <memory>
+
+#include "tests/perception/watch.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+/// A robot that carries things, by the discs that they are in its own frame.
+struct Carrier {
+  std::unique_ptr<Watch> watch = std::make_unique<Watch>();
+  std::vector<Disc> own;
+
+  void see(Room room, const Pose2& robot = {}) {
+    for (const Disc& d : own) room.discs.push_back({robot * d.centre, d.radius_m});
+    watch->see(room, robot);
+  }
+  /// Six turns round: it knows what it carries by then.
+  void turn_round() {
+    for (int k = 0; k <= 300; ++k) see(with({}), {0.0, 0.0, wrap_angle(6.0 * 2.0 * kPi * k / 300)});
+  }
+  [[nodiscard]] const Track* track_near(Vec2 place) const {
+    const auto tracks = watch->tracker.tracks();
+    const auto it = std::find_if(tracks.begin(), tracks.end(),
+                                 [&](const Track& t) { return distance(t.position_in_map, place) < 0.5; });
+    return it == tracks.end() ? nullptr : &*it;
+  }
+};
+
+}  // namespace
+
+TEST_CASE("who comes where a rider's feet were is seen, feet withdrawn or not") {
+  for (const bool withdrawn : {true, false}) {
+    Carrier robot;
+    robot.own = {{{0.5, -0.15}, 0.06}, {{0.5, 0.15}, 0.06}};
+    robot.turn_round();
+    if (withdrawn) robot.own.clear();
+    const Vec2 way = direction(withdrawn ? 0.29 : 0.0);  // over the left foot, or between both
+    for (int k = 0; k <= 60; ++k) robot.see(with({{way * (4.0 - 0.04 * k), 0.15}}));
+    const Track* const comes = robot.track_near(way * 1.6);
+    REQUIRE(comes != nullptr);
+    CHECK(comes->moving);
+  }
+}
+
+TEST_CASE("who stands in the middle of the robot's way round him is somebody all the time") {
+  Carrier robot;
+  for (int k = 0; k < 240; ++k) {
+    const double round = 0.03 * std::max(0, k - 30);  // rad; once round, from the third second on
+    const Vec2 place = direction(wrap_angle(round)) * 0.8;
+    robot.see(with({{{}, 0.25}}), {place.x, place.y, wrap_angle(round + kPi / 2)});
+  }
+  CHECK(robot.track_near({}) != nullptr);
+  CHECK(robot.watch->most_moving == 0);
+}
+
+TEST_CASE("who stands half behind the robot's mast is not whole, and stands while the robot sways") {
+  Carrier robot;
+  robot.own = {{{0.5, 0.0}, 0.03}};
+  robot.turn_round();
+  for (int k = 0; k < 20; ++k) robot.see(with({}));
+  const Vec2 place{2.5, 0.0};
+  double farthest_m = 0.0, fastest_mps = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    robot.see(with({{place, 0.27}}), {0.0, 0.0, 0.25 * direction(0.1 * k).y});
+    const Track* const track = robot.track_near(place);
+    if (k < 20 || track == nullptr) continue;
+    farthest_m = std::max(farthest_m, distance(track->position_in_map, place));
+    fastest_mps = std::max(fastest_mps, norm(track->velocity_in_map));
+  }
+  CHECK(robot.watch->most_moving == 0);
+  CHECK(farthest_m < 0.15);
+  CHECK(fastest_mps < 0.3);
+}
