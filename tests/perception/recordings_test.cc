@@ -80,8 +80,8 @@ TEST_CASE("nine in ten who walk round a standing robot are known to walk, where 
   }
   std::cout << "walkers found " << found << " of " << labels << ", names " << seen.moving_ids.size() << "\n";
   CHECK(labels >= 200);
-  CHECK(10 * found >= 9 * labels);     // 404 of 420 when this was written
-  CHECK(seen.moving_ids.size() < 30);  // 21
+  CHECK(10 * found >= 9 * labels);     // 400 of 420
+  CHECK(seen.moving_ids.size() < 30);  // 19
 }
 
 TEST_CASE("nothing moves where nobody is") {
@@ -139,13 +139,18 @@ TEST_CASE("people before a wheelchair are tracked where they were labelled") {
   const Recording recording = read_scan_odom(*scans, odometry);
   const Pose2 robot_from_laser{0.6, 0.2, 0.715};  // by eye, from the corridor's walls and the odometry
   const Seen seen = run(recording, recording.odometry.front().pose, robot_from_laser);
-  std::size_t found = 0, labels = 0;
+  std::size_t found = 0, walking = 0, labels = 0;
   for (const Label& label : read_labels(*people)) {
     const std::size_t k = scan_at(recording, label.t_s);
+    const Vec2 place = seen.poses[k] * robot_from_laser * label.in_laser;
     labels += 1;
-    found += near_track(seen.tracks[k], seen.poses[k] * robot_from_laser * label.in_laser, 0.75, false) ? 1U : 0U;
+    found += near_track(seen.tracks[k], place, 0.75, false) ? 1U : 0U;
+    walking += near_track(seen.tracks[k], place, 0.75, true) ? 1U : 0U;
   }
-  std::cout << "labels tracked " << found << " of " << labels << "\n";
+  std::cout << "labels tracked " << found << " of " << labels << ", known to walk " << walking
+            << ", names of who moves " << seen.moving_ids.size() << "\n";
   CHECK(labels > 50);
-  CHECK(3 * found > 2 * labels);  // 43 of 57
+  CHECK(found >= 42);                  // 45 of 57
+  CHECK(walking >= 7);                 // 8: why so few, docs/tracking.md
+  CHECK(seen.moving_ids.size() < 11);  // 7
 }
