@@ -3,12 +3,15 @@
 
     jaywalk bench --json bench.json && bench/performance_plot.py bench.json docs/performance.svg
 """
+import argparse
 import json
 import math
-import sys
+
+from command_line import reading, refuse
 
 COLOURS = {"cold solve": "#b03020", "warm solve": "#d08020", "plan, 8 movers": "#208050", "100 sweeps": "#555555",
            "dijkstra, heap": "#6060c0", "dijkstra, buckets": "#4090c0", "wavefront": "#90a0b0"}
+MAP = "office"  # the one that is drawn
 WIDTH, HEIGHT, LEFT, BOTTOM, RIGHT, TOP = 760, 460, 70, 50, 190, 40
 LEAST_MS, MOST_MS = 0.05, 5000.0
 
@@ -56,10 +59,19 @@ def table(found):
 
 
 def main():
-    found = medians(json.load(open(sys.argv[1], encoding="utf-8")))
-    with open(sys.argv[2], "w", encoding="utf-8") as out:
-        out.write(svg(found, "office"))
-    print(table(found))
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("measured", help="what jaywalk bench --json wrote")
+    parser.add_argument("plot", help="the SVG to write")
+    options = parser.parse_args()
+    with reading(options.measured, "what jaywalk bench --json wrote"):
+        with open(options.measured, encoding="utf-8") as measured:
+            found = medians(json.load(measured))
+        if not any(name == MAP for name, _ in found):
+            refuse(f"{options.measured}: nothing measured on the map {MAP}", "give what jaywalk bench --json wrote")
+        drawn, rows = svg(found, MAP), table(found)
+    with reading(options.plot, "a file that may be written"), open(options.plot, "w", encoding="utf-8") as out:
+        out.write(drawn)
+    print(rows)
 
 
 if __name__ == "__main__":

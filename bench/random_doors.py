@@ -13,6 +13,8 @@ import random
 import subprocess
 import sys
 
+from command_line import jobs_of, require_built, seeds_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/firmware/jaywalk"
 ROOM_M, CELL_M, BORDER_M = (9.0, 7.0), 0.02, 0.1
@@ -33,10 +35,10 @@ max_speed_mps = 0.6
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seeds", default="101-140", help="first-last")
+    parser.add_argument("--seeds", type=seeds_of, default="101-140", help="one, or first-last")
     parser.add_argument("--width", type=float, default=0.90, help="of the door, m")
     parser.add_argument("--angle", type=float, default=45.0, help="the wall turns by at most this, degrees")
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=jobs_of, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/doors"))
     return parser.parse_args()
 
@@ -70,17 +72,17 @@ def run(job):
     out = options.out / f"run_{seed}"
     done = subprocess.run([PROGRAM, "sim", scenario, "--out", out], capture_output=True, text=True)
     if done.returncode not in (0, 1):
-        return seed, door, None, done.stderr.strip().splitlines()[-1]
+        return seed, door, None, done.stderr.strip().rpartition("\n")[2] or f"exit {done.returncode}"
     return seed, door, json.loads((out / "summary.json").read_text()), ""
 
 
 def main():
     options = arguments()
+    require_built(PROGRAM)
     options.out.mkdir(parents=True, exist_ok=True)
-    first, last = map(int, options.seeds.split("-"))
     passed = doors = 0
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
-        for seed, door, summary, refused in pool.map(run, [(options, seed) for seed in range(first, last + 1)]):
+        for seed, door, summary, refused in pool.map(run, [(options, seed) for seed in options.seeds]):
             place = f"{seed}: {math.degrees(door['angle']):6.1f} degrees, wall {door['thickness']:.2f} m: "
             if summary is None:  # a goal in the slanting wall, say
                 print(f"{place}not counted: {refused}")

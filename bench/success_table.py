@@ -14,6 +14,8 @@ import re
 import subprocess
 import sys
 
+from command_line import jobs_of, refuse, require_built, seeds_of
+
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/firmware/jaywalk"
 OUTCOMES = ("reached", "forced_mover", "collision", "timeout", "fault")
@@ -21,29 +23,33 @@ OUTCOMES = ("reached", "forced_mover", "collision", "timeout", "fault")
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("--seeds", default="101-120", help="first-last")
-    parser.add_argument("--maps", type=int, nargs="+", default=[1, 2, 3, 4])
+    parser.add_argument("--seeds", type=seeds_of, default="101-120", help="one, or first-last")
+    parser.add_argument("--maps", type=int, nargs="+", default=[1, 2, 3, 4], choices=[1, 2, 3, 4])
     parser.add_argument("--movers", type=int, nargs="+", default=[0, 1, 4, 16])
     parser.add_argument("--mode", default="full", choices=["full", "paper"])
     parser.add_argument("--legs", action="store_true", help="movers are people on two legs to the laser, not discs")
     parser.add_argument("--speed", type=float, help="of the movers, m/s, instead of 0.4")
-    parser.add_argument("--jobs", type=int, default=2)
+    parser.add_argument("--jobs", type=jobs_of, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/success"))
     return parser.parse_args()
 
 
 def variant(options):
     """What the runs' folder is called."""
-    return options.mode + options.legs * "_legs" + (f"_{options.speed}" if options.speed else "")
+    return options.mode + options.legs * "_legs" + ("" if options.speed is None else f"_{options.speed}")
+
+
+def own_scenario(name):
+    return ROOT / f"hal/sim/scenarios/{name}.toml"
 
 
 def scenario_of(options, name, folder):
     """The project's own, or one like it in `folder` with other movers."""
-    own = ROOT / f"hal/sim/scenarios/{name}.toml"
+    own = own_scenario(name)
     text = own.read_text()
     if options.legs:
         text = text.replace('kind = "wander"\n', 'kind = "wander"\nlegs = true\n')
-    if options.speed:
+    if options.speed is not None:
         text = re.sub(r"\nspeed_mps = .*", f"\nspeed_mps = {options.speed}", text)
     if text == own.read_text():
         return own
@@ -85,8 +91,11 @@ def row(movers, runs):
 
 def main():
     options = arguments()
-    first, _, last = options.seeds.partition("-")
-    jobs = [(options, m, n, s) for n in options.movers for m in options.maps for s in range(int(first), int(last or first) + 1)]
+    require_built(PROGRAM)
+    for movers in options.movers:
+        if not own_scenario(f"map1_{movers:02d}").exists():
+            refuse(f"--movers: no scenario has {movers}", "give some of 0, 1, 4 and 16")
+    jobs = [(options, m, n, s) for n in options.movers for m in options.maps for s in options.seeds]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(run, jobs))
     print("| movers | success | share (95 %) | forced a mover | collision | timeout | fault | length over shortest, median |")

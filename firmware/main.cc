@@ -1,13 +1,15 @@
 #include <CLI/CLI.hpp>
+#include <charconv>
 #include <cstdio>
-#include <map>
 
 #include "firmware/backends.h"
 #include "firmware/commands/bench_command.h"
+#include "firmware/commands/choice_option.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace {
@@ -21,19 +23,26 @@ ReplayOptions replay_options;
 FieldOptions field_options;
 BenchOptions bench_options;
 
+/// The parser's own numbers stop at the greatest without a word.
+std::uint64_t seed_of(const std::string& word) {
+  std::uint64_t seed = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), seed);
+  if (error == std::errc() && end == word.data() + word.size()) return seed;
+  throw StartupError("--seed: " + shown(word) + " is no seed", "give a whole number from 0 to 18446744073709551615");
+}
+
 void add_sim(CLI::App& app) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
   sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/scenarios.md)")->required();
-  sim->add_option("--seed", sim_options.seed, "Seed of everything random, 0 or more (default: the scenario's)")
-      ->check(CLI::NonNegativeNumber);
-  sim->add_option("--mode", sim_options.mode, "full: laser only, stops for people; paper: movers given, never stops")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, PlanMode>{{"paper", PlanMode::kPaper}, {"full", PlanMode::kFull}}));
+  sim->add_option_function<std::string>(
+         "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
+         "Seed of everything random, 0 or more (default: the scenario's)")
+      ->type_name("N");
+  add_choice<PlanMode>(*sim, "--mode", sim_options.mode, {{"full", PlanMode::kFull}, {"paper", PlanMode::kPaper}},
+                       "full: laser only, stops for people; paper: movers given, never stops");
   sim->add_flag("--constant-speed", sim_options.constant_speed,
                 "One speed from start to goal, never stopping for a plan");
-  sim->add_option("--backend", sim_options.backend, "Who plans: auto, cpu or cuda")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  add_backend(*sim, sim_options.backend);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
 }
@@ -42,7 +51,9 @@ void add_sim(CLI::App& app) {
 double sound(const char* option, double value) {
   constexpr double kFarthest = 1e6;
   if (value >= -kFarthest && value <= kFarthest) return value;
-  throw StartupError(std::string(option) + ": " + std::to_string(value) + " is no place", "give metres and radians");
+  char text[32];
+  std::snprintf(text, sizeof text, "%g", value);
+  throw StartupError(std::string(option) + ": " + text + " is no place", "give metres and radians");
 }
 
 void add_replay(CLI::App& app) {
@@ -89,9 +100,7 @@ void add_field(CLI::App& app) {
       ->expected(2);
   field->add_option("--inflation_m", field_options.inflation_m, "Walls grow by this")->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
-  field->add_option("--backend", field_options.backend, "Who solves: auto, cpu or cuda")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  add_backend(*field, field_options.backend);
   field->add_flag("--start-field", field_options.start_only,
                   "The start field alone: shortest ways, no potential solved");
   field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();
@@ -106,16 +115,35 @@ void add_bench(CLI::App& app) {
       ->capture_default_str();
 }
 
+/// The parser would only say that one is missing.
+void require_command(const CLI::App& app, int argc, char** argv) {
+  std::string names;
+  for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
+    if (argc > 1 && (argv[1][0] == '-' || command->get_name() == argv[1])) return;
+    names += (names.empty() ? "" : ", ") + command->get_name();
+  }
+  throw StartupError(argc > 1 ? shown(argv[1]) + ": no such subcommand" : "a subcommand is required",
+                     "there are " + names);
+}
+
+std::string one_line(const CLI::App* app, const CLI::Error& error) {
+  const auto given = app->get_subcommands();
+  return std::string("jaywalk: ") + error.what() + "; see jaywalk " +
+         (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
+}
+
 int run(int argc, char** argv) {
   CLI::App app{"jaywalk: plans for where things will be. Not certified; a navigation laser is not a safety scanner."};
   app.set_version_flag("--version", std::string("jaywalk ") + JAYWALK_VERSION + ", backends: " + built_backends());
   app.require_subcommand(1);
+  app.failure_message(one_line);
   add_sim(app);
   add_replay(app);
   add_field(app);
   add_bench(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
+  require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
   } catch (const CLI::ParseError& error) {

@@ -9,6 +9,9 @@ import subprocess
 import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
+sys.path.append(str(ROOT / "bench"))
+from command_line import seeds_of
+
 PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
 LASER = """[robot.laser]
 fov_deg = 270.0
@@ -45,14 +48,6 @@ def parser(doc, out, seeds):
     made.add_argument("--jobs", type=int, default=2)
     made.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out") / out)
     return made
-
-
-def seeds_of(text):
-    first, _, last = text.partition("-")
-    seeds = range(int(first), int(last or first) + 1)
-    if not seeds:
-        raise argparse.ArgumentTypeError(f"{text}: the last seed is before the first")
-    return seeds
 
 
 def all_of(run, jobs, at_once):

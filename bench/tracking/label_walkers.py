@@ -15,21 +15,37 @@ are wider than one person (0.85 m) are written with walks = 0: to find them is n
 
 label_walkers.py SCAN.txt.gz > LABELS.csv
 """
+import argparse
 import gzip
 import math
+import pathlib
 import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from command_line import at_line, reading, refuse
 
 STEP_M, SHARE, BEFORE_M, FARTHEST_M, FEWEST = 0.1, 1 / 6, 0.25, 5.0, 3
 LEG_JUMP_M, STRIDE_M, LEG_RADIUS_M, WIDEST_M = 0.12, 0.55, 0.05, 0.85
 FOLLOW_M, UNSEEN_SCANS, HALF_S_SCANS, WALKED_M, EVERY = 0.35, 3, 5, 0.35, 5
 
 
+def scan_of(words):
+    t, first, step, low, high, beams, *ranges = map(float, words)
+    if beams != len(ranges):
+        raise ValueError
+    return t, first, step, [r if low <= r <= high else math.inf for r in ranges]
+
+
 def read_scans(path):
-    with (gzip.open if path.endswith(".gz") else open)(path, "rt") as lines:
-        for line in lines:
-            if line[0] != "#":
-                t, first, step, low, high, _, *ranges = map(float, line.split())
-                yield t, first, step, [r if low <= r <= high else math.inf for r in ranges]
+    scans = []
+    with reading(path, "lines 't angle_min angle_inc range_min range_max n r1..rn'"):
+        with (gzip.open if path.endswith(".gz") else open)(path, "rt") as lines:
+            for number, line in enumerate(lines, 1):
+                if line.strip() and line[0] != "#":
+                    scans.append(at_line(path, number, scan_of, line.split()))
+    if len({len(ranges) for _, _, _, ranges in scans}) != 1:
+        refuse(f"{path}: {'scans of several lengths' if scans else 'no scan in it'}", "give a recording of one laser")
+    return scans
 
 
 def background(scans):
@@ -113,7 +129,7 @@ def walks(named, k, name, width):
 
 
 def main(path):
-    scans = list(read_scans(path))
+    scans = read_scans(path)
     behind = background(scans)
     named = name_them([people(scan, behind) for scan in scans])
     print("t_bag,id,x,y,walks")
@@ -123,4 +139,6 @@ def main(path):
 
 
 if __name__ == "__main__":
-    main(sys.argv[1])
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scans", help="SCAN.txt or SCAN.txt.gz")
+    main(parser.parse_args().scans)

@@ -14,16 +14,17 @@ using Trails = std::map<std::uint32_t, std::map<double, Vec2>>;  ///< places of 
 
 Frames labels_in_map(const std::filesystem::path& file, const RunFolder& run, const LabelRule& rule) {
   const NumberTable labels(file);
-  const bool in_laser = labels.has("t_bag"), says_who_walks = labels.has("walks");
-  const auto &t = labels.column(in_laser ? "t_bag" : "t_s"), &id = labels.column("id"),
-             &x = labels.column(in_laser ? "x" : "x_m"), &y = labels.column(in_laser ? "y" : "y_m");
+  const bool in_laser = labels.has("t_bag");
+  const auto id = labels.names("id");
+  const auto t = labels.column(in_laser ? "t_bag" : "t_s"), x = labels.column(in_laser ? "x" : "x_m"),
+             y = labels.column(in_laser ? "y" : "y_m");
+  const auto walks = labels.has("walks") ? labels.column("walks") : std::vector<double>(labels.rows(), 1.0);
+  run.require_own_times(file.string(), t);
   Frames frames;
   for (std::size_t k = 0; k < labels.rows(); ++k) {
     const double when = t[k] - rule.late_s;
     const Pose2 map_from_labels = in_laser ? run.estimate_at(when) * rule.robot_from_laser : Pose2{};
-    const bool counts = !says_who_walks || labels.column("walks")[k] != 0.0;
-    frames[when].push_back(
-        {static_cast<std::uint32_t>(id[k]), map_from_labels * Vec2{x[k], y[k]}, {kUnknown, kUnknown}, counts});
+    frames[when].push_back({id[k], map_from_labels * Vec2{x[k], y[k]}, {kUnknown, kUnknown}, walks[k] != 0.0});
   }
   return frames;
 }

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "bench/command_line.h"
 #include "bench/tracking/innovations.h"
 #include "bench/tracking/reference_poses.h"
 #include "bench/tracking/run_folder.h"
@@ -78,8 +79,33 @@ void frames(const Options& o, const RunFolder& run, const FrameSink& frame) {
   }
 }
 
+/// NaN lies outside too.
+void require_within(const char* option, double value, double least, double most) {
+  if (value >= least && value <= most) return;
+  char text[96];
+  std::snprintf(text, sizeof text, "%s: %g is outside %g to %g", option, value, least, most);
+  throw StartupError(text, "see --help for what it is");
+}
+
+void check(const Options& o) {
+  if (o.nobody && !(o.labels.empty() && o.reference.empty())) {
+    throw StartupError(std::string(o.labels.empty() ? "--reference" : "--labels") + ": --nobody goes alone",
+                       "score one after the other");
+  }
+  require_within("--match", o.rules.match_m, 0.01, 10.0);
+  require_within("--range", o.view.range_m, 0.1, 1000.0);
+  require_within("--radius", o.view.radius_m, 0.01, 5.0);
+  require_within("--between", o.between_s, 0.0, 60.0);
+  require_within("--labels-late", o.late_s, 0.0, 10.0);
+  for (const double part : o.laser_mount) require_within("--laser-mount", part, -100.0, 100.0);
+}
+
 void score(const Options& o) {
+  check(o);
   const RunFolder run(o.folder);
+  if (o.simulated() && !run.has_truth()) {
+    throw StartupError(o.folder + ": nobody knows the truth here", "a replay needs --nobody, --labels or --reference");
+  }
   ScoreRules as_it_is = o.rules;
   as_it_is.as_it_is = true;
   TrackScore moving(o.rules), any(o.rules), right(as_it_is);
@@ -88,7 +114,7 @@ void score(const Options& o) {
     any.add(t_s, targets, run.tracks_at(t_s, false));
     right.add(t_s, targets, run.tracks_at(t_s, false));
   });
-  if (o.reference.empty() || o.nobody) print("tracks that move", moving, run.minutes());
+  if (o.reference.empty()) print("tracks that move", moving, run.minutes());
   if (any.targets() > 0) print("all tracks; standing ones are no error", any, run.minutes());
   if (o.simulated()) print("who walks by tracks that move, who stands by any", right, run.minutes());
   if (o.simulated()) print(innovations_of(std::filesystem::path(o.folder) / "recording.jwr"));
@@ -119,7 +145,7 @@ int main(int argc, char** argv) {
   app.add_option("--match", o.rules.match_m, "m: a track this near is the target's")->capture_default_str();
   app.add_option("--range", o.view.range_m, "m: simulated movers farther off are not in view")->capture_default_str();
   app.add_option("--radius", o.view.radius_m, "m: of simulated movers")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
   try {
     jaywalk::bench::score(o);
   } catch (const jaywalk::StartupError& error) {

@@ -1,6 +1,6 @@
 #include "bench/tracking/reference_poses.h"
 
-#include "hal/sim/logs/line_file.h"
+#include "hal/sim/logs/scan_lines.h"
 #include "hal/types/errors.h"
 #include "hal/types/laser_scan.h"
 
@@ -8,18 +8,21 @@ namespace jaywalk::bench {
 
 ReferencePoses reference_poses(const std::filesystem::path& log, const RunFolder& run) {
   ReferencePoses out;
+  std::vector<double> times;
   sim::LineFile file(log);
   while (file.next()) {
     if (file.words().front() != "FLASER") continue;
-    const std::size_t first = 2 + file.count(1, kMaxBeams);  // x y heading, the wheels' the same, t host t
+    // After the ranges: x y heading, the wheels' the same, t host t. The replay goes by the first of the times.
+    const std::size_t first = file.words().size() > 1 ? 2 + file.count(1, kMaxBeams) : 2;
     if (file.words().size() < first + 9) file.refuse("the line is too short", "end FLASER lines with poses and times");
-    const auto pose = [&](std::size_t k) { return Pose2{file.number(k), file.number(k + 1), file.number(k + 2)}; };
-    const Pose2 corrected = pose(first);
-    out.of_run.push_back({run.estimate_at(file.seconds(first + 8)), corrected});
-    out.of_wheels.push_back({pose(first + 3), corrected});
+    const Pose2 corrected = sim::pose_at(file, first);
+    times.push_back(file.seconds(first + 6));
+    out.of_run.push_back({run.estimate_at(times.back()), corrected});
+    out.of_wheels.push_back({sim::pose_at(file, first + 3), corrected});
   }
   if (out.of_run.empty())
     throw StartupError(log.string() + ": no FLASER lines", "give the CARMEN log that was replayed");
+  run.require_own_times(log.string(), times);
   return out;
 }
 

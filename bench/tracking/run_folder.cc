@@ -10,20 +10,22 @@ namespace jaywalk::bench {
 namespace {
 
 constexpr double kSameScanS = 0.03;  // stamps were rounded when they were written; scans are 25 ms apart or more
+constexpr double kNearRunS = 1.0;    // labels may be a little late
 
 }  // namespace
 
 RunFolder::RunFolder(const std::filesystem::path& folder) {
   const NumberTable tracks(folder / "tracks.csv");
-  const auto &t = tracks.column("t_s"), &id = tracks.column("id"), &x = tracks.column("x_m"), &y = tracks.column("y_m"),
-             &vx = tracks.column("vx_mps"), &vy = tracks.column("vy_mps"), &moving = tracks.column("moving");
+  const auto id = tracks.names("id");
+  const auto t = tracks.column("t_s"), x = tracks.column("x_m"), y = tracks.column("y_m"), vx = tracks.column("vx_mps"),
+             vy = tracks.column("vy_mps"), moving = tracks.column("moving");
   for (std::size_t k = 0; k < tracks.rows(); ++k) {
-    tracks_[t[k]].push_back({static_cast<std::uint32_t>(id[k]), {x[k], y[k]}, {vx[k], vy[k]}, moving[k] != 0.0});
+    tracks_[t[k]].push_back({id[k], {x[k], y[k]}, {vx[k], vy[k]}, moving[k] != 0.0});
   }
   const NumberTable robot(folder / "robot.csv");
-  const auto &rt = robot.column("t_s"), &tx = robot.column("x_m"), &ty = robot.column("y_m"),
-             &th = robot.column("heading_rad"), &ex = robot.column("est_x_m"), &ey = robot.column("est_y_m"),
-             &eh = robot.column("est_heading_rad");
+  const auto rt = robot.column("t_s"), ex = robot.column("est_x_m"), ey = robot.column("est_y_m"),
+             eh = robot.column("est_heading_rad"), tx = robot.column_where_known("x_m"),
+             ty = robot.column_where_known("y_m"), th = robot.column_where_known("heading_rad");
   for (std::size_t k = 0; k < robot.rows(); ++k) {
     ticks_.push_back({rt[k], {ex[k], ey[k], eh[k]}, {tx[k], ty[k], th[k]}});
   }
@@ -52,6 +54,15 @@ Pose2 RunFolder::estimate_at(double t_s) const { return tick_at(t_s).estimate; }
 
 std::optional<Pose2> RunFolder::truth_at(double t_s) const {
   return has_truth_ ? std::optional(tick_at(t_s).truth) : std::nullopt;
+}
+
+void RunFolder::require_own_times(const std::string& file, const std::vector<double>& times) const {
+  const double first = ticks_.front().t_s - kNearRunS, last = ticks_.back().t_s + kNearRunS;
+  const auto within = std::count_if(times.begin(), times.end(), [&](double t) { return t >= first && t <= last; });
+  if (!times.empty() && 2 * static_cast<std::size_t>(within) >= times.size()) return;
+  throw StartupError(
+      file + ": " + std::to_string(within) + " of its " + std::to_string(times.size()) + " times lie in the run",
+      "give the file that belongs to what was replayed");
 }
 
 double RunFolder::minutes() const { return (ticks_.back().t_s - ticks_.front().t_s) / 60.0; }

@@ -22,6 +22,10 @@ class RunFolder {
   [[nodiscard]] Pose2 estimate_at(double t_s) const;
   /// Where it really was at the end of that tick; nothing for a replay.
   [[nodiscard]] std::optional<Pose2> truth_at(double t_s) const;
+  [[nodiscard]] bool has_truth() const { return has_truth_; }  ///< false for a replay, and a run on a robot
+  /// Throws StartupError where most of the times that stand in `file` do not lie in the run, or there are none: another
+  /// recording's would be scored as if they belonged.
+  void require_own_times(const std::string& file, const std::vector<double>& times) const;
   [[nodiscard]] double minutes() const;
   /// Every time at which there are tracks, rising.
   [[nodiscard]] std::vector<double> track_times() const;

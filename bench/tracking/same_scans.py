@@ -13,13 +13,20 @@ import collections
 import csv
 import gzip
 import math
+import pathlib
+import sys
+
+sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
+from command_line import at_line, reading, refuse
 
 WAY_M, MOST_M = 10.0, 14.0  # common scans are metres apart: a stretch ends at the first one 10 m on
 
 
-def lines(path):
-    with (gzip.open if path.endswith(".gz") else open)(path, "rt") as file:
-        yield from (line.split() for line in file if line.strip() and line[0] != "#")
+def read_lines(path, expected, understand):
+    """What `understand` makes of each line's words."""
+    with reading(path, expected), (gzip.open if path.endswith(".gz") else open)(path, "rt") as file:
+        rows = [(k, line.split()) for k, line in enumerate(file, 1) if line.strip() and line[0] != "#"]
+    return [at_line(path, k, understand, words) for k, words in rows]
 
 
 def after(pose, step):
@@ -36,25 +43,36 @@ def seen_from(pose, other):
 def read_scans(path):
     """(stamp, pose by the wheels, ranges in cm) a scan."""
     pose = None
-    for w in lines(path):
-        step = tuple(float(x) for x in w[1:4])
+    rows = read_lines(path, "lines 't dx dy dphi aperture max_range n r1..rn'",
+                      lambda w: (float(w[0]), tuple(float(x) for x in w[1:4]), tuple(round(100 * float(r)) for r in w[7:])))
+    for stamp, step, shape in rows:
         pose = after(pose, step) if pose else (0.0, 0.0, 0.0)
-        yield float(w[0]), pose, tuple(round(100 * float(r)) for r in w[7:])
+        yield stamp, pose, shape
+
+
+def laser_line(w):
+    """(ranges in cm, pose) of a FLASER line, nothing of others."""
+    if w[0] != "FLASER":
+        return None
+    n = int(w[1])
+    x, y, heading = map(float, w[n + 2 : n + 5])
+    return tuple(round(100 * float(r)) for r in w[2 : 2 + n]), (x, y, heading)
 
 
 def read_log(path):
     """Corrected poses by their scans' ranges in cm."""
     poses = collections.defaultdict(list)
-    for w in lines(path):
-        if w[0] == "FLASER":
-            n = int(w[1])
-            poses[tuple(round(100 * float(r)) for r in w[2 : 2 + n])].append(tuple(float(x) for x in w[n + 2 : n + 5]))
+    for shape, pose in filter(None, read_lines(path, "a CARMEN log", laser_line)):
+        poses[shape].append(pose)
     return poses
 
 
 def read_run(folder):
-    with open(folder + "/robot.csv", newline="") as file:
+    path = folder + "/robot.csv"
+    with reading(path, "the folder of a replay"), open(path, newline="") as file:
         rows = [[float(r[c]) for c in ("t_s", "est_x_m", "est_y_m", "est_heading_rad")] for r in csv.DictReader(file)]
+    if not rows:
+        refuse(f"{path}: no rows", "give the folder of a replay")
     return [r[0] for r in rows], [tuple(r[1:]) for r in rows]
 
 
@@ -82,6 +100,8 @@ def main():
     same = [s for s in scans if stamps[s[0]] == 1 and shapes[s[2]] == 1 and len(corrected.get(s[2], ())) == 1]
     true = [corrected[s[2]][0] for s in same]
     placed = [poses[min(bisect.bisect_left(times, s[0] - 1e-6), len(poses) - 1)] for s in same]
+    if not any(errors(true, true)):
+        refuse(f"{args.log}: no stretch of {WAY_M:g} m between scans that {args.scans} has too", "give two recordings of one drive")
     print(f"{len(same)} scans that both have\n| over 10 m | stretches | median | nine tenths within |\n|---|---|---|---|")
     for name, measured in (("wheels alone", [s[1] for s in same]), ("replay", placed)):
         off, turned = (sorted(e[k] for e in errors(true, measured)) for k in (0, 1))

@@ -4,6 +4,7 @@
 #include <ctime>
 #include <memory>
 
+#include "bench/command_line.h"
 #include "bench/tracking/crowd.h"
 #include "firmware/report/distribution.h"
 
@@ -58,7 +59,7 @@ int main(int argc, char** argv) {
   std::uint32_t scans = 3000;
   CLI::App app("Times localisation and tracking among 64 walkers, 1,081 beams a scan", "jaywalk_seeing_time");
   app.add_option("--scans", scans, "how many to time")->check(CLI::Range(1, 1000000))->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
   const jaywalk::bench::Figures figures = jaywalk::bench::measure(scans);
   std::printf("| %-28s | %8s | %8s | %8s |\n|---|---|---|---|\n", "a scan", "p50", "p99", "max");
   jaywalk::bench::row("localisation, ms", figures.localizing_ms);

@@ -16,11 +16,12 @@ constexpr double kEndsOnM = 0.05;  // a beam that ends this far outside a body e
 /// The movers at each tick.
 std::map<double, std::vector<Target>> movers_by_time(const std::filesystem::path& file) {
   const NumberTable table(file);
-  const auto &t = table.column("t_s"), &id = table.column("id"), &x = table.column("x_m"), &y = table.column("y_m"),
-             &vx = table.column("vx_mps"), &vy = table.column("vy_mps");
+  const auto id = table.names("id");
+  const auto t = table.column("t_s"), x = table.column("x_m"), y = table.column("y_m"), vx = table.column("vx_mps"),
+             vy = table.column("vy_mps");
   std::map<double, std::vector<Target>> out;
   for (std::size_t k = 0; k < table.rows(); ++k) {
-    out[t[k]].push_back({static_cast<std::uint32_t>(id[k]), {x[k], y[k]}, {vx[k], vy[k]}});
+    out[t[k]].push_back({id[k], {x[k], y[k]}, {vx[k], vy[k]}});
   }
   return out;
 }

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "bench/command_line.h"
 #include "firmware/report/distribution.h"
 #include "firmware/robot/planner_thread.h"
 #include "hal/types/errors.h"
@@ -93,7 +94,7 @@ int main(int argc, char** argv) {
   app.add_option("--robot", options.robot, "The controller's side (docs/robot.md)")->capture_default_str();
   app.add_option("--seconds", options.seconds, "How long")->check(CLI::Range(1.0, 3600.0))->capture_default_str();
   app.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
-  CLI11_PARSE(app, argc, argv);
+  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
   try {
     const Figures figures = measure(options);
     std::printf("| %-52s | %8s | %8s | %8s |\n|---|---|---|---|\n", "ms", "p50", "p99", "max");

@@ -163,22 +163,37 @@ class Bench {
   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
 };
 
+std::vector<BenchMap> all_maps(const BenchOptions& options) {
+  std::vector<BenchMap> maps;
+  for (std::int32_t side = 256; side <= options.largest; side *= 2) {
+    for (BenchMap& map : bench_maps(side)) maps.push_back(std::move(map));
+    if (options.map) maps.push_back(scaled_map(*options.map, side));
+  }
+  return maps;
+}
+
+/// Before minutes of measuring, and without harm to what the file holds.
+void refuse_unwritable(const std::filesystem::path& file) {
+  if (!std::ofstream(file, std::ios::app))
+    throw StartupError(file.string() + ": cannot be written", "choose another --json");
+}
+
+void write_rows(const std::filesystem::path& file, const nlohmann::ordered_json& rows) {
+  std::ofstream out(file);
+  out << rows.dump(1) << '\n';
+  if (!out.flush()) throw StartupError(file.string() + ": the disk did not take all of it", "choose another --json");
+}
+
 }  // namespace
 
 int run_bench(const BenchOptions& options) {
-  std::ofstream out;
-  if (options.json) {
-    out.open(*options.json);
-    if (!out) throw StartupError(options.json->string() + ":0: cannot be written", "choose another --json");
-  }
+  const std::vector<BenchMap> maps = all_maps(options);
+  if (options.json) refuse_unwritable(*options.json);
   std::printf("%-18s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
               "ratio");
   Bench bench;
-  for (std::int32_t side = 256; side <= options.largest; side *= 2) {
-    for (const BenchMap& map : bench_maps(side)) bench.measure(map);
-    if (options.map) bench.measure(scaled_map(*options.map, side));
-  }
-  if (options.json) out << bench.rows().dump(1) << '\n';
+  for (const BenchMap& map : maps) bench.measure(map);
+  if (options.json) write_rows(*options.json, bench.rows());
   return 0;
 }
 

@@ -61,14 +61,16 @@ void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
 }
 
 void LoopRunner::finish(RunEnd end) {
-  if (!recorder_.close()) {
-    std::fprintf(stderr, "jaywalk: %s: the recording is incomplete; free some space on the disk\n", out_.c_str());
-  }
+  const bool recorded = recorder_.close();
   end.dropped_records = recorder_.dropped();
   end.backend = chosen_.planner->backend();
   end.mode = name_of(setup_.mode);
   end.version = JAYWALK_VERSION;
   report_.finish(end);
+  if (!recorded) {
+    throw StartupError((out_ / "recording.jwr").string() + ": the disk did not take all of it",
+                       "free some space and run again");
+  }
 }
 
 }  // namespace jaywalk

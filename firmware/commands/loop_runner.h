@@ -37,7 +37,8 @@ class LoopRunner {
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample) { report_.add(sample); }
-  /// Closes recording, tables and summary; prints where they are. Call once.
+  /// Closes recording, tables and summary. Call once, after the last step. Throws StartupError naming what the disk
+  /// did not take; tables and summary are written even where the recording could not be.
   void finish(RunEnd end);
 
   [[nodiscard]] const ControlLoop& loop() const { return loop_; }

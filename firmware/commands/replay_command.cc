@@ -59,7 +59,7 @@ ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goa
 int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::LogReplay log(load(options, format));
   if (const std::string complaint = log.log().complaint(); !complaint.empty()) {
-    std::fprintf(stderr, "jaywalk: %s\n", complaint.c_str());
+    std::fprintf(stderr, "jaywalk: %s", complaint.c_str());
   }
   const ControlSetup setup = setup_for(log, options.goal);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
@@ -67,11 +67,11 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   RunPicture picture;
   MountCheck mount;
   const auto own_time = [&](Time t) { return log.log().own_time(t); };
-  while (!log.ended()) {
+  do {  // a recording of a single scan ends where it begins
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
     picture.consider(runner);
-  }
+  } while (!log.ended());
   if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
     const Pose2 given = setup.model.laser.robot_from_laser;
     std::fprintf(
@@ -83,9 +83,27 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::string name = options.logs[0].filename().string();
   runner.finish({.outcome = "replayed", .success = true, .scenario = name});
   picture.save(options.out, name, runner, {});
-  std::printf("%s: %zu scans over %.1f s; see %s\n", name.c_str(), log.log().scans.size(),
+  const std::size_t scans = log.log().scans.size();
+  std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
               to_seconds(log.end_time() - log.start_time()), (options.out / "run.png").c_str());
   return 0;
+}
+
+/// What only goes with a log: a recording has its own.
+void warn_of_options_of_logs(const ReplayOptions& options) {
+  const char* const given = options.goal ? "--goal" : options.laser_mount ? "--laser-mount" : nullptr;
+  if (given == nullptr) return;
+  std::fprintf(stderr, "jaywalk: %s is left out of account: %s is a recording and has its own\n", given,
+               options.logs[0].c_str());
+}
+
+/// The tables of the run that is replayed know more than a replay can.
+void refuse_own_folder(const std::filesystem::path& file, const std::filesystem::path& out) {
+  std::error_code missing;
+  const std::filesystem::path folder = std::filesystem::canonical(file, missing).parent_path();
+  if (missing || !std::filesystem::equivalent(folder, out, missing)) return;
+  throw StartupError("--out " + out.string() + ": the recording's own folder, whose run would be overwritten",
+                     "choose another --out");
 }
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
@@ -96,16 +114,21 @@ int replay_recording(const ReplayOptions& options) {
   if (options.logs.size() > 1) {
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
   }
+  warn_of_options_of_logs(options);
+  refuse_own_folder(options.logs[0], options.out);
   RecordingReader reader(file);
   const ControlSetup setup = setup_from_text(reader.setup(), file);
   TickRecord recorded;
+  if (!reader.next(recorded)) {
+    throw StartupError(file + ": no whole tick in it", "take an undamaged copy of the recording");
+  }
   RecordedHal devices(recorded);
   LoopRunner runner(setup, devices.hal(), options.out, false, [&](std::unique_ptr<Planner> planner) {
     return std::make_unique<HeldPlanner>(std::move(planner), recorded);
   });
   RunPicture picture;
   std::uint64_t ticks = 0, lost = 0, different = 0;
-  while (reader.next(recorded)) {
+  do {
     ++ticks;
     lost += reader.lost_before();
     runner.step_at(recorded.now);
@@ -119,8 +142,7 @@ int replay_recording(const ReplayOptions& options) {
                    file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
                    now.left_radps, now.right_radps);
     }
-  }
-  if (ticks == 0) throw StartupError(file + ": no whole tick in it", "take an undamaged copy of the recording");
+  } while (reader.next(recorded));
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
   picture.save(options.out, "replay of " + file, runner, {});

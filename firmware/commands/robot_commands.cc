@@ -2,10 +2,10 @@
 
 #include <cstdio>
 #include <filesystem>
-#include <map>
 #include <string>
 #include <vector>
 
+#include "firmware/commands/choice_option.h"
 #include "firmware/commands/run_command.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
@@ -40,9 +40,7 @@ int say_goal() {
 void add_run(CLI::App& app, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
   run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
-  run->add_option("--backend", run_options.backend, "Who plans: auto, cpu or cuda")
-      ->transform(CLI::CheckedTransformer(
-          std::map<std::string, Backend>{{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}));
+  add_backend(*run, run_options.backend);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
   run->callback([&exit_code] { exit_code = run_robot(run_options); });

@@ -22,7 +22,7 @@ std::string csv_cell(double value) {
   return std::string(text == "-0.000000" ? text.substr(1) : text);
 }
 
-CsvFile::CsvFile(const std::string& file, std::string_view header) : stream_(file, std::ios::binary) {
+CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file), stream_(file, std::ios::binary) {
   if (!stream_)
     throw StartupError(file + ": cannot be written", "choose an --out folder that exists and may be written");
   rows_.reserve(kBlockBytes + 1024);
@@ -30,6 +30,12 @@ CsvFile::CsvFile(const std::string& file, std::string_view header) : stream_(fil
 }
 
 CsvFile::~CsvFile() { write_out(); }
+
+void CsvFile::close() {
+  write_out();
+  stream_.close();
+  if (!stream_) throw StartupError(file_ + ": the disk did not take all of it", "free some space and run again");
+}
 
 void CsvFile::write_out() {
   stream_.write(rows_.data(), static_cast<std::streamsize>(rows_.size()));

@@ -14,7 +14,6 @@ class CsvFile {
  public:
   /// Throws StartupError when the file cannot be written.
   CsvFile(const std::string& file, std::string_view header);
-  /// Writes out what is left.
   ~CsvFile();
   CsvFile(const CsvFile&) = delete;
   CsvFile& operator=(const CsvFile&) = delete;
@@ -24,11 +23,14 @@ class CsvFile {
   CsvFile& seconds(Time t);  ///< exact to the nanosecond before it is rounded to six decimals
   CsvFile& text(std::string_view value);
   void end_row();
+  /// Writes out what is left. Throws StartupError when the disk did not take all of it, now or before.
+  void close();
 
  private:
   void begin_cell();
   void write_out();
 
+  std::string file_;
   std::ofstream stream_;
   std::string rows_;
   bool row_begun_ = false;

@@ -17,6 +17,9 @@ std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder) {
   if (folder.empty()) return nullptr;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
+  for (const char* last_written : {"summary.json", "run.png"}) {
+    if (!error) std::filesystem::remove(folder / last_written, error);
+  }
   if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
   return std::make_unique<RunTables>(folder);
 }
@@ -82,7 +85,7 @@ void RunReport::add_tracks(const RunSample& sample) {
 }
 
 std::string RunReport::finish(const RunEnd& end) {
-  tables_.reset();
+  if (tables_) tables_->close();
   std::string text = summary(end);
   if (!folder_.empty()) {
     std::ofstream file(folder_ / "summary.json", std::ios::binary);

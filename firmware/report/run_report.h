@@ -20,13 +20,15 @@ namespace jaywalk {
 /// (summary.json says which: "measured_on"); what only a world can know is null without it.
 class RunReport {
  public:
-  /// `folder` is made when missing; an empty path keeps the figures and writes no files. Throws
+  /// `folder` is made when missing; an earlier run's summary.json and run.png in it are removed, so that they
+  /// cannot stand beside this run's tables. An empty path keeps the figures and writes no files. Throws
   /// StartupError when it cannot be written to.
   explicit RunReport(const std::filesystem::path& folder);
   ~RunReport();
 
   void add(const RunSample& sample);
-  /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick.
+  /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
+  /// where the disk did not take all; where there is a summary, the tables beside it are whole.
   std::string finish(const RunEnd& end);
 
   [[nodiscard]] double path_length_m() const { return shape_.length_m(); }

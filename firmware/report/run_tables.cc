@@ -27,6 +27,12 @@ void RunTables::add(const RunSample& sample) {
   scan_sequence_ = sample.record.scan.sequence;
 }
 
+void RunTables::close() {
+  robot_.close();
+  movers_.close();
+  tracks_.close();
+}
+
 void RunTables::add_robot(const RunSample& sample) {
   const TickRecord& r = sample.record;
   robot_.seconds(sample.now);

@@ -12,6 +12,8 @@ class RunTables {
   /// Throws StartupError when `folder` cannot be written to.
   explicit RunTables(const std::filesystem::path& folder);
   void add(const RunSample& sample);
+  /// Throws StartupError naming a table that the disk did not take whole.
+  void close();
 
  private:
   void add_robot(const RunSample& sample);

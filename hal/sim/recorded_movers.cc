@@ -7,6 +7,7 @@
 #include <sstream>
 #include <string>
 
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -29,7 +30,7 @@ Row parse_row(const std::filesystem::path& file, int number, std::string line) {
   const bool whole = static_cast<bool>(words >> row.t_s >> row.id >> row.x_m >> row.y_m) && !(words >> rest);
   const bool sound = whole && std::fabs(row.t_s) < 1e7 && std::fabs(row.x_m) < 1e6 && std::fabs(row.y_m) < 1e6 &&
                      row.id == std::floor(row.id) && std::fabs(row.id) < 1e15;
-  if (!sound) refuse(file, number, "\"" + line + "\" is not four numbers");
+  if (!sound) refuse(file, number, "\"" + shown(line) + "\" is not four numbers");
   return row;
 }
 

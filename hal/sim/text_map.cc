@@ -4,6 +4,7 @@
 #include <sstream>
 #include <string>
 
+#include "hal/shown_text.h"
 #include "hal/sim/wall_map.h"
 #include "hal/types/errors.h"
 
@@ -35,7 +36,7 @@ class LineReader {
     for (double value = 0.0; words >> value;) values.push_back(value);
     bool sound = words.eof() && values.size() == count;
     for (const double value : values) sound = sound && std::fabs(value) <= kFarthest / kMetresPerMillimetre;
-    if (!sound) refuse("\"" + line + "\" is not " + std::to_string(count) + " numbers");
+    if (!sound) refuse("\"" + shown(line) + "\" is not " + std::to_string(count) + " numbers");
     return values;
   }
   [[noreturn]] void refuse(const std::string& cause) const {

@@ -137,6 +137,28 @@ TEST_CASE("lines of a wrong length and lines back in time are left out, counted 
   CHECK(log.complaint().find("2 lines left out, the first is line 3: its time does not grow") != std::string::npos);
 }
 
+TEST_CASE("a line whose n does not count its ranges is left out wherever it stands") {
+  const Scratch scratch;
+  for (const char* n : {"-2", "x", "2.5", "0", "1e300"}) {
+    const std::string good = "1.0 0 0.1 0.1 9 2 5.5 6.5\n2.0 0 0.1 0.1 9 2 5.5 6.5\n";
+    const std::string bad = std::string("0.5 0 0.1 0.1 9 ") + n + " 5.5 6.5\n";
+    for (const std::string& text : {bad + good, good + bad}) {
+      const RecordedLog log = load_scan_odom(scratch.write("scan.txt", text));
+      CHECK(log.scans.size() == 2);
+      REQUIRE(log.refused.size() == 1);
+      CHECK(log.refused[0].cause == "its number of words does not fit");
+    }
+  }
+}
+
+TEST_CASE("what a message shows of a file is short, and nothing that a terminal obeys") {
+  const Scratch scratch;
+  const std::string line = "1.0 0 0.1 0.1 9 2 1 ";
+  CHECK(refusal(scratch.write("bad.txt", line + "\033[31m\n")).find("'?[31m' (word 8)") != std::string::npos);
+  CHECK(refusal(scratch.write("bad.txt", line + std::string(4000, 'x'))).find("'" + std::string(40, 'x') + "...'") !=
+        std::string::npos);
+}
+
 TEST_CASE("what is wrong in any other way is refused with file and line") {
   const Scratch scratch;
   const auto of = [&](const std::string& text) { return refusal(scratch.write("bad.txt", text)); };
@@ -209,7 +231,13 @@ TEST_CASE(
       text += "ODOM " + half + " " + before + " 0 0 0 0 " + std::to_string(k - 0.5) + " host 1\n";
       text += "FLASER 2 1 1 " + x + " " + y + " 0 " + x + " " + y + " 0 " + t + " host " + t + "\n";
     }
-    return load_carmen(scratch.write("beside.carmen", text)).odometry.size();
+    text += "ODOM 0 0 0 0 0 0 0.5 host 1\n";  // back in time
+    const RecordedLog log = load_carmen(scratch.write("beside.carmen", text));
+    const bool all_left_out = log.complaint().find("all ODOM lines are left out") != std::string::npos;
+    const bool one = log.complaint().find("1 line left out, the first is line 41: an ODOM line") != std::string::npos;
+    CHECK(all_left_out != one);
+    CHECK(all_left_out == (log.odometry.size() == 20));
+    return log.odometry.size();
   };
   CHECK(log_with(0.03, 18) == 20);  // three of 20 scans
   CHECK(log_with(0.03, 19) == 40);  // two: one in ten

@@ -139,6 +139,33 @@ TEST_CASE("the same run leaves the same bytes") {
   }
 }
 
+std::string refusal(const std::filesystem::path& folder) {
+  try {
+    drive(folder, true);
+  } catch (const StartupError& e) {
+    return e.what();
+  }
+  return "";
+}
+
+TEST_CASE("a table that the disk did not take whole ends the run with its name, and there is no summary") {
+  for (const std::string table : {"robot.csv", "movers.csv", "tracks.csv"}) {
+    const Scratch scratch;
+    std::filesystem::create_symlink("/dev/full", scratch.path(table));
+    CHECK(refusal(scratch.folder()).find(table + ": the disk did not take all of it; ") != std::string::npos);
+    CHECK_FALSE(std::filesystem::exists(scratch.path("summary.json")));
+  }
+}
+
+TEST_CASE("an earlier run's summary and picture do not outlive the beginning of another") {
+  const Scratch scratch;
+  scratch.write("summary.json", "{}");
+  scratch.write("run.png", "");
+  const RunReport report(scratch.folder());
+  CHECK_FALSE(std::filesystem::exists(scratch.path("summary.json")));
+  CHECK_FALSE(std::filesystem::exists(scratch.path("run.png")));
+}
+
 TEST_CASE("a folder that cannot be made is refused") {
   const Scratch scratch;
   scratch.write("file", "");

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
@@ -16,6 +17,9 @@ constexpr float kRangeMinM = 0.02F;
 constexpr std::size_t kLaserRanges = 2, kLaserTail = 9, kOdomPoseInTail = 3, kTimeInTail = 6;
 // ODOM x y theta tv rv accel t host t
 constexpr std::size_t kOdomWords = 10, kOdomTime = 7;
+
+constexpr const char* kOdomStands =
+    "an ODOM line whose time does not grow, as logs have that were corrected afterwards";
 
 // Where a log was corrected afterwards, a scan's pose lies beside where the ODOM lines led: by more than a wheeled
 // robot can have gone sideways, and not just once.
@@ -74,10 +78,18 @@ void read_odometry(RecordedLog& log, const LineFile& file) {
   }
   const Time stamp = time_from_seconds(file.seconds(kOdomTime));
   if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
-    log.refuse(file.name(), file.line(), kTimeStands);
+    log.refuse(file.name(), file.line(), kOdomStands);
     return;
   }
   log.odometry.push_back({stamp, pose_at(file, 1), std::nullopt});
+}
+
+/// Those whose time does not grow are no matter then.
+void leave_out_odometry(RecordedLog& log, LaserPoses& poses, const std::string& file) {
+  log.odometry = std::move(poses.poses);
+  std::erase_if(log.refused, [](const RefusedLines& r) { return r.cause == kOdomStands; });
+  log.remark =
+      file + ": its scans' poses lie beside its ODOM lines, as if corrected afterwards: all ODOM lines are left out";
 }
 
 }  // namespace
@@ -92,7 +104,7 @@ RecordedLog load_carmen(const std::filesystem::path& path, const Pose2& robot_fr
     if (file.words().front() == "ODOM") read_odometry(log, file);
   }
   require_scans(log, file, "CARMEN messages, FLASER among them");
-  if (poses.were_corrected()) log.odometry = std::move(poses.poses);
+  if (poses.were_corrected()) leave_out_odometry(log, poses, file.name());
   return log;
 }
 

@@ -1,23 +1,17 @@
 #pragma once
 // A text file, plain or gzip, a line of words at a time.
-#include <cstddef>
-#include <filesystem>
-#include <memory>
-#include <string>
 #include <string_view>
 #include <vector>
 
-namespace jaywalk::sim {
+#include "hal/sim/logs/text_lines.h"
 
-/// Longest line that is read; a scan of 2,048 beams takes about 16 kB.
-inline constexpr std::size_t kMaxLineBytes = 1U << 20U;
+namespace jaywalk::sim {
 
 /// Words are separated by spaces and tabs; lines that are empty or begin with '#' are skipped.
 class LineFile {
  public:
   /// Throws StartupError when the file cannot be read.
   explicit LineFile(const std::filesystem::path& file);
-  ~LineFile();
 
   /// Moves on to the next line with words in it; false at the end. Throws StartupError for a
   /// damaged or cut .gz and for a line that is too long.
@@ -31,21 +25,16 @@ class LineFile {
   /// Word `i` as seconds that fit the time line. Throws StartupError where it is not.
   [[nodiscard]] double seconds(std::size_t i) const;
 
-  [[nodiscard]] std::size_t line() const { return line_; }
-  [[nodiscard]] std::string name() const { return file_.string(); }
+  [[nodiscard]] std::size_t line() const { return lines_.line(); }
+  [[nodiscard]] std::string name() const { return lines_.name(); }
   /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
-  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const;
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const { lines_.refuse(cause, remedy); }
 
  private:
-  struct Stream;
-  [[nodiscard]] bool read_line();
   void split();
 
-  std::filesystem::path file_;
-  std::unique_ptr<Stream> stream_;
-  std::string text_;
+  TextLines lines_;
   std::vector<std::string_view> words_;
-  std::size_t line_ = 0;
 };
 
 }  // namespace jaywalk::sim

@@ -17,13 +17,8 @@ constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 enum class Form { kUnknown, kPlain, kMotion };
 
-/// True when the line's length is what its number of beams, the last word of the head, says.
-bool fits(const LineFile& file, std::size_t head) {
-  if (file.words().size() < head) return false;
-  return file.count(head - 1, std::numeric_limits<std::uint32_t>::max()) + head == file.words().size();
-}
-
-/// The number of beams may stand in one place only, so a head of text or reals settles nothing.
+/// True when the last word of the head is how many words follow it. That can be so in one place only: it tells the two
+/// forms apart.
 bool counts_beams(const LineFile& file, std::size_t head) {
   if (file.words().size() <= head) return false;
   return file.words()[head - 1] == std::to_string(file.words().size() - head);
@@ -105,7 +100,7 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines
   Form form = Form::kUnknown;
   while (file.next()) {
     if (form == Form::kUnknown) form = form_of(file);
-    if (form == Form::kUnknown || !fits(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
+    if (form == Form::kUnknown || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
       log.refuse(file.name(), file.line(), kWrongLength);
     } else if (form == Form::kPlain) {
       read_plain(log, file);

@@ -1,0 +1,22 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <optional>
+#include <string>
+
+namespace jaywalk::bench {
+
+/// Reads the command line. Where it is of no use says so in a line; where the program is to end, with which exit code:
+/// 2 then, 0 after --help.
+inline std::optional<int> ended_by_command_line(CLI::App& app, int argc, char** argv) {
+  app.failure_message([](const CLI::App* of, const CLI::Error& error) {
+    return of->get_name() + ": " + error.what() + "; see " + of->get_name() + " --help\n";
+  });
+  try {
+    app.parse(argc, argv);
+    return std::nullopt;
+  } catch (const CLI::ParseError& error) {
+    return app.exit(error) == 0 ? 0 : 2;
+  }
+}
+
+}  // namespace jaywalk::bench

@@ -1,0 +1,56 @@
+"""What the scripts here make of what they are given: where it is of no use, one line that says why, and exit code 2."""
+import argparse
+import contextlib
+import pathlib
+import re
+import sys
+import zlib
+
+
+def refuse(cause, remedy):
+    print(f"{pathlib.Path(sys.argv[0]).name}: {cause}; {remedy}", file=sys.stderr)
+    sys.exit(2)
+
+
+def seeds_of(text):
+    """A range of seeds: one, or first-last."""
+    given = re.fullmatch(r"(\d+)(?:-(\d+))?", text)
+    if not given:
+        raise argparse.ArgumentTypeError(f"{text}: no seeds; give one, or first-last")
+    seeds = range(int(given[1]), int(given[2] or given[1]) + 1)
+    if not seeds:
+        raise argparse.ArgumentTypeError(f"{text}: the last seed is before the first")
+    return seeds
+
+
+def jobs_of(text):
+    """How many runs at a time."""
+    if not re.fullmatch(r"[1-9]\d{0,3}", text):
+        raise argparse.ArgumentTypeError(f"{text}: no number of jobs; give one or more")
+    return int(text)
+
+
+def require_built(program):
+    if not program.exists():
+        refuse(f"{program}: not there", "build the project first (README.md)")
+
+
+@contextlib.contextmanager
+def reading(path, expected):
+    """Around what opens and understands a file; `expected` says what to give instead."""
+    try:
+        yield
+    except OSError as error:
+        refuse(f"{path}: {error.strerror or error}", f"give {expected}")
+    except (EOFError, zlib.error):
+        refuse(f"{path}: the compressed file is damaged or cut", "fetch it again")
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError):
+        refuse(f"{path}: not what was expected", f"give {expected}")
+
+
+def at_line(path, number, understand, words):
+    """What `understand` makes of a line's words."""
+    try:
+        return understand(words)
+    except (ValueError, IndexError, OverflowError):
+        refuse(f"{path}:{number}: a line that is none", "repair or delete it")

@@ -1,0 +1,43 @@
+#pragma once
+// Options whose value is one of a few words.
+#include <CLI/CLI.hpp>
+#include <algorithm>
+#include <string>
+#include <vector>
+
+#include "firmware/backends.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+
+template <class T>
+struct Choice {
+  std::string word;
+  T value;
+};
+
+/// `chosen` holds the default. Help and errors show the words, which the parser's own checks mix with the values behind
+/// them. Parsing throws StartupError for any other word.
+template <class T>
+void add_choice(CLI::App& command, const std::string& option, T& chosen, const std::vector<Choice<T>>& choices,
+                const std::string& about) {
+  std::string words, usual;
+  for (const Choice<T>& choice : choices) {
+    words += (words.empty() ? "" : "|") + choice.word;
+    if (choice.value == chosen) usual = choice.word;
+  }
+  const auto choose = [&chosen, option, choices, words](const std::string& word) {
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.word == word; });
+    if (found == choices.end()) throw StartupError(option + ": no such choice: " + shown(word), "give " + words);
+    chosen = found->value;
+  };
+  command.add_option_function<std::string>(option, choose, about)->type_name(words)->default_str(usual);
+}
+
+inline void add_backend(CLI::App& command, Backend& chosen) {
+  add_choice<Backend>(command, "--backend", chosen,
+                      {{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}, "Who plans");
+}
+
+}  // namespace jaywalk

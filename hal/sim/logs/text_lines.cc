@@ -1,0 +1,72 @@
+#include "hal/sim/logs/text_lines.h"
+
+#include <zlib.h>
+
+#include <array>
+#include <string_view>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+
+struct TextLines::Stream {
+  gzFile file = nullptr;
+  std::array<char, 1U << 16U> block{};
+  std::size_t used = 0, size = 0;
+
+  explicit Stream(const char* path) : file(gzopen(path, "rb")) {}
+  ~Stream() {
+    if (file != nullptr) gzclose(file);
+  }
+  Stream(const Stream&) = delete;
+  Stream& operator=(const Stream&) = delete;
+
+  /// Reads another block; false at the end. `broken` when zlib says so, or the .gz stops half way.
+  bool refill(bool& broken) {
+    const int got = gzread(file, block.data(), static_cast<unsigned>(block.size()));
+    used = 0;
+    size = got > 0 ? static_cast<std::size_t>(got) : 0;
+    int error = Z_OK;
+    gzerror(file, &error);
+    broken = got < 0 || (error != Z_OK && error != Z_STREAM_END);
+    return size > 0;
+  }
+};
+
+TextLines::TextLines(const std::filesystem::path& file, const std::string& expected) : file_(file) {
+  std::error_code unknown;
+  if (!std::filesystem::is_regular_file(file, unknown)) throw StartupError(name() + ": no such file", expected);
+  stream_ = std::make_unique<Stream>(file.c_str());
+  if (stream_->file == nullptr) throw StartupError(name() + ": cannot be read", "check its permissions");
+}
+
+TextLines::~TextLines() = default;
+
+void TextLines::refuse(const std::string& cause, const std::string& remedy) const {
+  throw StartupError(name() + ":" + std::to_string(line_) + ": " + cause, remedy);
+}
+
+bool TextLines::next() {
+  text_.clear();
+  ++line_;
+  for (bool ended = false; !ended;) {
+    if (stream_->used == stream_->size) {
+      bool broken = false;
+      const bool more = stream_->refill(broken);
+      if (broken) refuse("the compressed file is damaged or cut", "fetch it again");
+      if (!more && text_.empty()) return false;
+      if (!more) break;
+    }
+    const std::string_view rest(stream_->block.data() + stream_->used, stream_->size - stream_->used);
+    const std::size_t end = rest.find('\n');
+    ended = end != std::string_view::npos;
+    const std::size_t taken = ended ? end : rest.size();
+    if (text_.size() + taken > kMaxLineBytes) refuse("a line of over 1 MiB", "give a text file");
+    text_.append(rest.substr(0, taken));
+    stream_->used += taken + (ended ? 1 : 0);
+  }
+  if (!text_.empty() && text_.back() == '\r') text_.pop_back();
+  return true;
+}
+
+}  // namespace jaywalk::sim
