@@ -51,6 +51,8 @@ struct Localizer::State {
   void coast_to(Time stamp) noexcept;
   void place_scan(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
   [[nodiscard]] bool match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
+  /// Where it would be had it gone on as it went.
+  [[nodiscard]] PoseBelief coasted(Time stamp) const noexcept;
   void take(const MatchResult& found, const Pose2& predicted) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
@@ -72,6 +74,7 @@ struct Localizer::State {
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
   Pose2 odom_from_robot_at_scan;
+  Time scan_stamp = kNever;
 
   Coasting coasting;  ///< while wheels say nothing
   FixGate fix_gate;
@@ -113,6 +116,13 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   odometry.set_side_drift(drift.turn_per_m());
 }
 
+PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
+  const Coasting::Step step = coasting.step(scan_stamp, stamp);
+  const double position_var = step.metres_std * step.metres_std;
+  return {map_from_robot_at_scan * step.before_from_after,
+          covariance + diagonal(position_var, position_var, step.radians_std * step.radians_std)};
+}
+
 bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept {
   if (!config.match_scans) return false;
   projection.project(scan, config.robot_from_laser, twist, points);
@@ -121,7 +131,8 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
   leave_out_walkers(moving, predicted, scan.stamp, points);
   const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
   const bool earned = odometry.by_wheels() && !trust.nothing_known();
-  const MatchResult found = matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned});
+  const MatchResult found =
+      matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned, coasted(scan.stamp)});
   if (!found.matched || (among_walkers && odometry.by_wheels() && !found.known_for_long)) return false;
   take(found, predicted);
   return true;
@@ -138,6 +149,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   } else {
     coasting.not_placed(there, scan.stamp);
   }
+  scan_stamp = scan.stamp;
   if (!odometry.by_wheels()) twist = coasting.twist();
 }
 

@@ -10,17 +10,25 @@ struct WheelBelief {
   Pose2 map_from_robot;
   Symmetric3 covariance, if_slipped;
   bool earned = false;  ///< what is believed of the wheels is learnt; else there is nothing to take back
+  PoseBelief coasted;   ///< had it gone on as it went from scan to scan, whatever the wheels say
 };
 
 /// Matches scans, and notices slip: a match that leaves the prediction by three standard deviations, or fits worse than
 /// matches did lately, is tried again as if the wheels were unknown; that one is taken if it fits better. So is a scan
-/// that the map contradicts, but none that sees next to nothing the map knows: that is no slip. Thread: the loop's.
+/// that the map contradicts, but none that sees next to nothing the map knows: that is no slip. Where neither fits as
+/// matches did lately a third is tried, without the wheels, if the last scan is not long ago: one that spins in the air
+/// turns the robot by more than any doubt of what it says. Thread: the loop's.
 class SlipWatch {
  public:
   [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
 
  private:
   [[nodiscard]] MatchResult best(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
+  [[nodiscard]] MatchResult by_wheels(const ScanPoints& scan, const EvidenceMap& still,
+                                      const WheelBelief& wheels) noexcept;
+  /// `other` where it fits better `by` so much than what was found, or, where nothing was, nearly as matches did
+  /// lately.
+  [[nodiscard]] const MatchResult& better(const MatchResult& found, const MatchResult& other, double by) const noexcept;
   [[nodiscard]] bool doubtful(const MatchResult& found, const WheelBelief& wheels) const noexcept;
 
   ScanMatcher matcher_;

@@ -48,6 +48,17 @@ TEST_CASE("a scanner that shows one scan again and again stops the robot within 
   CHECK(speed(drive) > 0.1);
 }
 
+TEST_CASE("a wheel without grip for a second does not lose the robot its way") {
+  SimulatedDrive drive = drive_with(sim::FaultKind::kWheelSlip);
+  double farthest_m = 0.0;
+  (void)drive.drive(9.0, [&](const TickRecord& t) {
+    farthest_m =
+        std::max(farthest_m, distance(t.pose.map_from_robot.position(), drive.truth().map_from_robot.position()));
+    return false;
+  });
+  CHECK(farthest_m < 0.1);
+}
+
 TEST_CASE("wheels that fall silent stop the robot") {
   check_stops_for(sim::FaultKind::kWheelsStale, Reason::kWheelsStale);
 }

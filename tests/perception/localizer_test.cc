@@ -117,6 +117,22 @@ TEST_CASE("scans alone carry the pose round a curve") {
   CHECK(drive.localizer.twist().w_radps == Approx(0.225).margin(0.1));
 }
 
+TEST_CASE("a wheel that spins in the air turns the robot as fast as it may, and the scans notice") {
+  Drive drive({-4.0, -1.0, 0.0});
+  const Room room = furnished();
+  Pose2 truth{-4.0, -1.0, 0.0}, by_wheels;
+  double farthest_m = 0.0;
+  for (int k = 0; k < 120; ++k) {
+    drive.step(room, truth, by_wheels);
+    farthest_m = std::max(farthest_m, distance(drive.estimate.map_from_robot.position(), truth.position()));
+    const bool spins = k >= 60 && k < 75;  // a second
+    truth = truth * (spins ? Pose2{0.028, 0.0, 0.073} : Pose2{0.04, 0.0, 0.0});
+    by_wheels = by_wheels * Pose2{0.04, 0.0, 0.0};  // 0.6 m/s
+  }
+  CHECK(farthest_m < 0.05);
+  CHECK(heading_error(drive.localizer.map_from_robot_at_scan(), {0.0, 0.0, 15 * 0.073}) < 0.02);
+}
+
 TEST_CASE("scans alone carry the pose over two seconds without a scan, and say how little they know then") {
   Drive drive({-4.0, -1.0, 0.0});
   const Room room = furnished();

@@ -1,5 +1,6 @@
 #include "planner/localization/slip_watch.h"
 
+#include <cmath>
 #include <memory>
 
 #include "planner/perception/tracker.h"
@@ -22,13 +23,14 @@ struct SpunWheels {
   }
   MatchResult match(const Pose2& said, bool earned, std::uint32_t scan) {
     ScanProjection().project(scan_of(room, {}, scan), {}, {}, points);
-    return watch.match(points, tracker.still(), {said, kSure, kUnknown, earned});
+    return watch.match(points, tracker.still(), {said, kSure, kUnknown, earned, coasted});
   }
 
   Room room = rectangle(8.0, 6.0);
   Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
   ScanPoints points;
   SlipWatch watch;
+  PoseBelief coasted{{}, kSure};
 };
 
 double off(const MatchResult& found) { return norm(found.belief.map_from_robot.position()); }
@@ -50,9 +52,19 @@ TEST_CASE("without matches before nothing says that well-known wheels slipped, a
   CHECK(off(robot->match({0.15, 0.0, 0.1}, false, 31)) < 0.02);
 }
 
+TEST_CASE("where the wheels are off by more than they may slip the way it went before is tried") {
+  for (const bool went_on : {true, false}) {
+    const auto robot = std::make_unique<SpunWheels>();
+    for (std::uint32_t k = 31; k < 61; ++k) REQUIRE(off(robot->match({}, true, k)) < 0.01);
+    if (!went_on) robot->coasted.map_from_robot = {2.0, 1.0, 1.0};       // which is no better
+    const MatchResult found = robot->match({0.15, 0.0, 0.6}, true, 61);  // three standard deviations are 0.3 rad
+    CHECK((found.matched && off(found) < 0.02 && std::fabs(found.belief.map_from_robot.heading) < 0.01) == went_on);
+  }
+}
+
 TEST_CASE("a belief that no numbers can hold is no match") {
   const auto robot = std::make_unique<SpunWheels>();
   ScanProjection().project(scan_of(robot->room, {}, 31), {}, {}, robot->points);
   const Symmetric3 none = diagonal(0.0, 0.0, 0.0);  // its inverse is infinite
-  CHECK_FALSE(robot->watch.match(robot->points, robot->tracker.still(), {{}, none, none, true}).matched);
+  CHECK_FALSE(robot->watch.match(robot->points, robot->tracker.still(), {{}, none, none, true, {{}, none}}).matched);
 }
