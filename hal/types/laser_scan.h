@@ -2,7 +2,6 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 
 #include "hal/types/time.h"
 
@@ -13,13 +12,12 @@ inline constexpr std::size_t kMaxBeams = 2048;
 
 /// One sweep of a planar laser scanner, in the laser's frame (x ahead, angles counter-clockwise).
 ///
-/// A range is metres along its beam. Finite values in [range_min_m, range_max_m] are hits; 0, NaN,
+/// A range is metres along its beam. Finite values in [range_min_m, range_max_m) are hits; 0, NaN,
 /// infinity and everything outside those limits are "no return": the beam proves nothing, neither
-/// an obstacle nor free space (dark or mirror surfaces return nothing too). Infinity and whatever is beyond
-/// range_max_m still say more than 0 and NaN: the scanner measured, and found nothing in its reach (as REP 117 has it).
+/// an obstacle nor free space (dark or mirror surfaces return nothing too). Infinity and range_max_m itself, which
+/// many scanners say for nothing, still say more than 0 and NaN: the scanner measured, and found nothing in its reach
+/// (as REP 117 has it).
 struct LaserScan {
-  static constexpr float kInfinity = std::numeric_limits<float>::infinity();
-
   Time stamp = kNever;           ///< when the first beam was measured
   std::uint32_t sequence = 0;    ///< grows by one a sweep; 0: no scan yet
   std::uint32_t beam_count = 0;  ///< beams in use, at most kMaxBeams
@@ -33,11 +31,9 @@ struct LaserScan {
 
   [[nodiscard]] bool is_hit(std::size_t beam) const {
     const float r = range_m[beam];
-    return r >= range_min_m && r <= range_max_m && r > 0.0F && r < kInfinity;  // false for NaN
+    return r >= range_min_m && r < range_max_m && r > 0.0F;  // false for NaN
   }
-  [[nodiscard]] bool found_nothing(std::size_t beam) const {
-    return range_m[beam] > range_max_m || range_m[beam] == kInfinity;  // false for NaN
-  }
+  [[nodiscard]] bool found_nothing(std::size_t beam) const { return range_m[beam] >= range_max_m; }  // false for NaN
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return static_cast<double>(first_angle_rad) + static_cast<double>(beam) * static_cast<double>(angle_step_rad);
   }

@@ -35,20 +35,27 @@ TEST_CASE("a full vector refuses and keeps what it has") {
   CHECK(v.back() == 2);
 }
 
-TEST_CASE("zero, NaN, infinity and what lies beyond the limits are no hits") {
+TEST_CASE("zero, NaN, infinity, the greatest range and what lies beyond the limits are no hits") {
   LaserScan scan;
   scan.range_min_m = 0.1F;
   scan.range_max_m = 10.0F;
-  scan.beam_count = 6;
+  scan.beam_count = 7;
   scan.range_m = {};
   scan.range_m[0] = 0.0F;
   scan.range_m[1] = NAN;
   scan.range_m[2] = INFINITY;
   scan.range_m[3] = 0.05F;
   scan.range_m[4] = 10.5F;
-  scan.range_m[5] = 3.0F;
-  for (std::size_t beam = 0; beam < 5; ++beam) CHECK_FALSE(scan.is_hit(beam));
-  CHECK(scan.is_hit(5));
+  scan.range_m[5] = 10.0F;  // what many say for nothing
+  scan.range_m[6] = 3.0F;
+  for (std::size_t beam = 0; beam < 6; ++beam) CHECK_FALSE(scan.is_hit(beam));
+  CHECK(scan.is_hit(6));
+  for (const std::size_t beam : {2U, 4U, 5U}) CHECK(scan.found_nothing(beam));
+  for (const std::size_t beam : {0U, 1U, 3U, 6U}) CHECK_FALSE(scan.found_nothing(beam));
+  scan.range_max_m = INFINITY;  // a scanner that does not say how far it sees
+  CHECK(scan.is_hit(4));
+  CHECK_FALSE(scan.is_hit(2));
+  CHECK(scan.found_nothing(2));
 }
 
 TEST_CASE("the P3-DX fits a circle of 19 cm and is held by one of 30 cm") {
