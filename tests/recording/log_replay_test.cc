@@ -35,7 +35,7 @@ TEST_CASE("a replay shows the newest reading that is not younger than the clock"
   CHECK(hal.laser.latest().sequence == 2);
   CHECK(hal.laser.latest().beam_count == 3);
   CHECK(hal.laser.latest().period == Duration{200'000'000});
-  CHECK(hal.drive.latest().left_rad == Approx(10.0));  // a metre on wheels of 0.1 m
+  CHECK(hal.drive.latest().left_rad == Approx(15.0));  // half way from 2 m to 3 m, from 1 m, on wheels of 0.1 m
   CHECK_FALSE(replay.ended());
 
   hal.clock.sleep_until(time_from_seconds(10.0));  // has passed: time does not go back

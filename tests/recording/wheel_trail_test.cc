@@ -85,6 +85,22 @@ TEST_CASE("side slip leaves the heading exact and is made up for after a turn") 
   CHECK(pose.y == Approx(1.0));
 }
 
+TEST_CASE("between readings that are seldom the wheels turn evenly, and over a long gap nobody knows") {
+  const auto trail =
+      wheel_trail({at(0, {}), at(1, {1, 0, 0}), at(1.05, {1.05, 0, 0}), at(4, {2, 0, 0})}, nominal_drive());
+  const auto filled = filled_in(trail);
+  REQUIRE(filled.size() == 13);  // nine between the first two
+  CHECK(filled[3].stamp == time_from_seconds(0.3));
+  CHECK(filled[3].left_rad == Approx(3.0));
+  CHECK(filled[3].right_rad == Approx(3.0));
+  CHECK(filled[3].left_radps == Approx(10.0));
+  for (std::size_t k = 0; k < filled.size(); ++k) CHECK(filled[k].sequence == k + 1);
+  CHECK(filled[10].left_rad == trail[1].left_rad);
+  CHECK(filled[11].left_rad == trail[2].left_rad);
+  CHECK(filled[12].left_rad == trail[3].left_rad);
+  CHECK(filled_in({}).empty());
+}
+
 TEST_CASE("a robot that was seen seldom turned, drove and turned back") {
   // From (0, 0) heading east to (-1, 1) heading east in 3 s: an eighth of a turn to the right, 1.414 m backwards, and
   // back.

@@ -52,7 +52,7 @@ class ReplayLaser final : public LaserScanner {
 class ReplayDrive final : public DriveBase {
  public:
   ReplayDrive(const std::vector<OdometryPose>& odometry, Clock& clock)
-      : trail_(wheel_trail(odometry, nominal_drive())), clock_(clock) {}
+      : trail_(filled_in(wheel_trail(odometry, nominal_drive()))), clock_(clock) {}
   WheelState latest() noexcept override {
     const Time now = clock_.now();
     while (seen_ < trail_.size() && trail_[seen_].stamp <= now) ++seen_;

@@ -15,7 +15,13 @@ constexpr Duration kLongestGap =
 constexpr double kFarthestRange = 1000.0;  // m
 constexpr double kFarthestPlace = 1e6;     // m
 
+constexpr Duration kLeap = std::chrono::seconds(1);
+
 }  // namespace
+
+bool leapt(const std::optional<Time>& before, Time last, Time now) {
+  return last - now > kLeap && (!before || now > *before);
+}
 
 bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::size_t first_word,
               double nothing_from_m) {

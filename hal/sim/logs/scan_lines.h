@@ -6,7 +6,11 @@
 namespace jaywalk::sim {
 
 inline constexpr const char* kTimeStands = "its time does not grow";
+inline constexpr const char* kTimeLeapt = "the one before it is ahead of its time";
 inline constexpr const char* kWrongLength = "its number of words does not fit";
+
+/// Whether the last stamp stands alone, more than a second ahead of those before and after it.
+[[nodiscard]] bool leapt(const std::optional<Time>& before, Time last, Time now);
 
 /// Appends the ranges in words [first_word, first_word + scan.beams) and the scan itself, unless its
 /// time does not grow. Readings of `nothing_from_m`, or 1 km, and over become infinite. False when refused.

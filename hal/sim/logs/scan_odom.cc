@@ -12,7 +12,8 @@ namespace {
 /// Words before the ranges in the two forms; the last of them is the number of beams.
 constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
 constexpr float kTurn = static_cast<float>(2.0 * kPi);
-constexpr double kFastest = 1000.0;  // m/s, rad/s
+constexpr double kFastest = 1000.0;                     // m/s, rad/s
+constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 enum class Form { kUnknown, kPlain, kMotion };
@@ -41,6 +42,17 @@ void check_scan(const LineFile& file, const RecordedScan& scan) {
   }
 }
 
+/// The stamp of the one before the last, where there is one.
+template <class Stamped>
+std::optional<Time> before_last(const std::vector<Stamped>& list) {
+  return list.size() < 2 ? std::nullopt : std::optional(list[list.size() - 2].stamp);
+}
+
+template <class Stamped>
+bool last_leapt(const std::vector<Stamped>& list, Time now) {
+  return !list.empty() && leapt(before_last(list), list.back().stamp, now);
+}
+
 void read_plain(RecordedLog& log, const LineFile& file) {
   RecordedScan scan;
   scan.stamp = time_from_seconds(file.seconds(0));
@@ -50,6 +62,11 @@ void read_plain(RecordedLog& log, const LineFile& file) {
   scan.range_max_m = static_cast<float>(file.number(4));
   scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
   check_scan(file, scan);
+  if (last_leapt(log.scans, scan.stamp)) {
+    log.range_m.resize(log.scans.back().first_range);
+    log.scans.pop_back();
+    log.refuse(file.name(), file.line(), kTimeLeapt);
+  }
   add_scan(log, file, scan, kPlainHead, kNoLimit);
 }
 
@@ -129,22 +146,52 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
   return true;
 }
 
-void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
-  LineFile file(path);
-  while (file.next()) {
-    if (file.words().size() != 6) {
-      log.refuse(file.name(), file.line(), kWrongLength);
-      continue;
+/// Odometry that may begin anew on its way.
+class OdometryLines {
+ public:
+  explicit OdometryLines(RecordedLog& log) : log_(log) {}
+
+  void read(const LineFile& file) {
+    const OdometryPose said{time_from_seconds(file.seconds(0)), pose_at(file, 1), twist_of(file)};
+    if (last_leapt(log_.odometry, said.stamp)) {
+      log_.odometry.pop_back();
+      log_.refuse(file.name(), file.line(), kTimeLeapt);
     }
-    const Time stamp = time_from_seconds(file.seconds(0));
+    if (!log_.odometry.empty() && said.stamp <= log_.odometry.back().stamp) {
+      log_.refuse(file.name(), file.line(), kTimeStands);
+    } else if (!log_.odometry.empty() && jumps(log_.odometry.back(), said)) {
+      here_from_said_ = log_.odometry.back().pose * inverse(said.pose);
+      log_.refuse(file.name(), file.line(), "it jumps farther than robots drive: taken to begin anew there");
+    } else {
+      log_.odometry.push_back({said.stamp, here_from_said_ * said.pose, said.twist});
+    }
+  }
+
+ private:
+  static Twist2 twist_of(const LineFile& file) {
     const Twist2 twist{file.number(4), file.number(5)};
     if (!(std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)) {
       file.refuse("a speed that is none", "give m/s and rad/s, or delete the line");
     }
-    if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
-      log.refuse(file.name(), file.line(), kTimeStands);
+    return twist;
+  }
+  [[nodiscard]] bool jumps(const OdometryPose& last, const OdometryPose& said) const {
+    const double drives_m = kJumpM + kFastestDriveMps * to_seconds(said.stamp - last.stamp);
+    return distance((here_from_said_ * said.pose).position(), last.pose.position()) > drives_m;
+  }
+
+  RecordedLog& log_;
+  Pose2 here_from_said_;  ///< from the frame of the lines at hand to that of the first
+};
+
+void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
+  LineFile file(path);
+  OdometryLines lines(log);
+  while (file.next()) {
+    if (file.words().size() == 6) {
+      lines.read(file);
     } else {
-      log.odometry.push_back({stamp, pose_at(file, 1), twist});
+      log.refuse(file.name(), file.line(), kWrongLength);
     }
   }
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");

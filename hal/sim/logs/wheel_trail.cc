@@ -28,7 +28,8 @@ void drive_arc(Driven& driven, const Pose2& to, const DriveModel& drive) {
   driven.wheels.right_rad += (arc + apart) / drive.wheel_radius_m;
 }
 
-constexpr double kAsideM = 0.01;                              // an arc that ends this near is the way that was driven
+constexpr double kAsideM = 0.01;  // an arc that ends this near is the way that was driven
+constexpr Duration kOften = std::chrono::milliseconds(100), kLongestFilled = std::chrono::milliseconds(1500);
 constexpr Duration kSparse = std::chrono::milliseconds(150);  // in less a robot does not turn, drive and turn back
 
 /// What an arc to `to` would miss it by, sideways.
@@ -86,6 +87,27 @@ std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, cons
     trail.back().right_radps = (next.twist->v_mps + apart) / drive.wheel_radius_m;
   }
   return trail;
+}
+
+std::vector<WheelState> filled_in(const std::vector<WheelState>& trail) {
+  std::vector<WheelState> filled;
+  filled.reserve(2 * trail.size());
+  for (const WheelState& next : trail) {
+    const WheelState last = filled.empty() ? next : filled.back();
+    const Duration gap = next.stamp - last.stamp;
+    const std::int64_t steps = gap <= kLongestFilled ? (gap + kOften - Duration{1}) / kOften : 1;
+    for (std::int64_t k = 1; k < steps; ++k) {
+      const double share = static_cast<double>(k) / static_cast<double>(steps);
+      WheelState between = filled.back();
+      between.left_rad = last.left_rad + share * (next.left_rad - last.left_rad);
+      between.right_rad = last.right_rad + share * (next.right_rad - last.right_rad);
+      stamp_reading(between, last.stamp + gap * k / steps, filled.back());
+      filled.push_back(between);
+    }
+    filled.push_back(next);
+    filled.back().sequence = static_cast<std::uint32_t>(filled.size());
+  }
+  return filled;
 }
 
 }  // namespace jaywalk::sim

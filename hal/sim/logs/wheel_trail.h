@@ -33,4 +33,8 @@ struct OdometryPose {
 /// stamps.
 [[nodiscard]] std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive);
 
+/// The same with readings every 0.1 s at least, the wheels turning evenly, where two are up to 1.5 s apart: wheels that
+/// were recorded seldom turned all the same, and scans between ask where they were.
+[[nodiscard]] std::vector<WheelState> filled_in(const std::vector<WheelState>& trail);
+
 }  // namespace jaywalk::sim
