@@ -3,6 +3,8 @@
 namespace jaywalk {
 namespace {
 
+const LaserScan kNoScan;
+
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
           .drive = setup.model.drive,
@@ -60,9 +62,10 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
-  const bool new_scan = scans_.is_new(t.scan.sequence);
+  const bool new_scan = scans_.is_new(t.scan.sequence) && !scan_frozen_;
 
-  t.pose = localizer_.update(t.wheels, t.scan, t.fix, tracker_.still(), tracker_.moving());  // Estimate
+  t.pose = localizer_.update(t.wheels, scan_frozen_ ? kNoScan : t.scan, t.fix, tracker_.still(),
+                             tracker_.moving());  // Estimate
   if (setup_.mode == PlanMode::kPaper && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
   if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
 
@@ -73,6 +76,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
   t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
+  scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);

@@ -57,8 +57,9 @@ class ControlLoop {
   std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
   Supervisor supervisor_;
   DiffDrive diff_drive_;
-  const Plan* plan_;  ///< what collect() last answered, never null
-  Twist2 driven_;     ///< what the wheels were last asked for
+  const Plan* plan_;          ///< what collect() last answered, never null
+  Twist2 driven_;             ///< what the wheels were last asked for
+  bool scan_frozen_ = false;  ///< the supervisor said so of the tick before
   Fresh scans_, fixes_, plans_;
 };
 

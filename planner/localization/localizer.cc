@@ -182,10 +182,10 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
                                       const EvidenceMap& still, std::span<const Track> moving) noexcept {
   State& s = *state_;
   if (wheels.sequence != s.wheels_seen) s.move_by_wheels(wheels);
-  if (scan.sequence != s.scan_seen) s.place_scan(scan, still, moving);
+  if (scan.sequence != 0 && scan.sequence != s.scan_seen) s.place_scan(scan, still, moving);
   if (fix.sequence != s.fix_seen && fix.has_pose) s.blend(fix);
   s.wheels_seen = wheels.sequence;
-  s.scan_seen = scan.sequence;
+  if (scan.sequence != 0) s.scan_seen = scan.sequence;
   s.fix_seen = fix.sequence;
   s.publish();
   return s.estimate;

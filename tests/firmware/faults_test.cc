@@ -46,6 +46,8 @@ TEST_CASE("a scanner that shows one scan again and again stops the robot within 
   CHECK(speed(drive) < 0.01);
   drive.drive(4.0);  // the fault is over
   CHECK(speed(drive) > 0.1);
+  const Vec2 believed = drive.tick().pose.map_from_robot.position();
+  CHECK(distance(believed, drive.truth().map_from_robot.position()) < 0.05);
 }
 
 TEST_CASE("a wheel without grip for a second does not lose the robot its way") {
