@@ -11,6 +11,9 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
 constexpr double kSideShare = 0.4;   // of its way is the least that its seen side went: 0.3 and 0.5 tell as much
+// Of what it grew by, where nobody says that it came: a surface that comes into view on one side and goes out of it on
+// the other. 1.5 to 3 tell as much (docs/tracking-findings.md, "What grows as it goes").
+constexpr double kGrewUnfree = 2.0;
 constexpr double kEdges = 1.5;       // beam spacings: where its seen side is, is known to one
 
 /// Comes out from behind something wider than legs, which no leg that takes its turn does, and is no wider than a body
@@ -45,8 +48,9 @@ bool came_to_free_space(const Body& body) noexcept { return body.free_share > kM
 
 bool steady(const Body& body, const StraightWalk& walk) noexcept {
   const LeastWalk least = least_walk(body, walk);
+  const double grew_m = walk.width_change_m * (came_to_free_space(body) ? 1.0 : kGrewUnfree);
   return walk.sigmas > least.sigmas && seen_side_went(body) &&
-         walk.length_m > std::max({least.length_m, walk.width_change_m, kEdges * body.edge_m});
+         walk.length_m > std::max({least.length_m, grew_m, kEdges * body.edge_m});
 }
 
 double least_steady_m(const Body& body, const StraightWalk& walk) noexcept { return least_walk(body, walk).length_m; }
