@@ -3,7 +3,7 @@
 namespace jaywalk {
 namespace {
 
-const LaserScan kNoScan;
+constexpr LaserScan kNoScan{};
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
