@@ -14,7 +14,7 @@ constexpr double kSideShare = 0.4;   // of its way is the least that its seen si
 // Of what it grew by, where nobody says that it came: a surface that comes into view on one side and goes out of it on
 // the other. 1.5 to 3 tell as much (docs/tracking-findings.md, "What grows as it goes").
 constexpr double kGrewUnfree = 2.0;
-constexpr double kEdges = 1.5;       // beam spacings: where its seen side is, is known to one
+constexpr double kEdges = 1.5;  // beam spacings: where its seen side is, is known to one
 
 /// Comes out from behind something wider than legs, which no leg that takes its turn does, and is no wider than a body
 /// yet. Its free side is where its path is measured, and a surface that comes into view has that where it always was.
