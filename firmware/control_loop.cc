@@ -64,8 +64,8 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.fix = hal_.pose_source.latest();
   const bool new_scan = scans_.is_new(t.scan.sequence) && !scan_frozen_;
 
-  t.pose = localizer_.update(t.wheels, scan_frozen_ ? kNoScan : t.scan, t.fix, tracker_.still(),
-                             tracker_.moving());  // Estimate
+  const LaserScan& seen = scan_frozen_ ? kNoScan : t.scan;
+  t.pose = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());  // Estimate
   if (setup_.mode == PlanMode::kPaper && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
   if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "planner/perception/steady_walk.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 
@@ -72,6 +73,22 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
     body.path.add(time_from_seconds(0.1 * k),
                   {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true});
   CHECK(judged(body) == Departure::kNone);
+}
+
+TEST_CASE("who grows as he goes must go twice as far where nobody called the ground free") {
+  Body body = walker({3.0, 0.0}, {3.0, 0.2});
+  body.arc_m = 0.25;
+  const auto walks_growing = [&](double by_m, double free_share) {  // 0.18 m in the 0.9 s from first place to last
+    body.path.clear();
+    for (int k = 1; k <= 10; ++k)
+      body.path.add(time_from_seconds(0.1 * k),
+                    {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.4 + by_m / 9.0 * k, .whole = true});
+    body.free_share = free_share;
+    return steady(body, body.path.fit());
+  };
+  CHECK(walks_growing(0.08, 0.0));
+  CHECK_FALSE(walks_growing(0.1, 0.0));
+  CHECK(walks_growing(0.1, 1.0));
 }
 
 TEST_CASE("who comes out from behind something has set out by the way of the side that is seen") {
