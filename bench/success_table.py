@@ -91,10 +91,10 @@ def row(movers, runs):
 
 def main():
     options = arguments()
-    require_built(PROGRAM)
     for movers in options.movers:
         if not own_scenario(f"map1_{movers:02d}").exists():
             refuse(f"--movers: no scenario has {movers}", "give some of 0, 1, 4 and 16")
+    require_built(PROGRAM)
     jobs = [(options, m, n, s) for n in options.movers for m in options.maps for s in options.seeds]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:
         results = list(pool.map(run, jobs))

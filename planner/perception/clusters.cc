@@ -7,7 +7,8 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kWidestM = 1.1;     // wider things are walls
+constexpr double kPieceM = 1.1;      // wider things that may go on unseen are walls
+constexpr double kWidestM = 1.6;     // wider things are: a trolley and who pushes it, from the side
 constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
 constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
 constexpr double kMostFree = 0.6;    // of its points in free space: it came there
@@ -140,6 +141,7 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
     cluster.on_wall = shares.wall > kMostWall;
     cluster.in_free_space = shares.free > kMostFree;
     note_ends(points, sweep, cluster);
+    if (pieces.width(s) > kPieceM && !cluster.ends()) continue;
     if (cluster.on_wall && !cluster.stands_alone()) continue;
     if (cluster.sparse && !cluster.whole()) continue;
     if (!cluster.in_free_space && cluster.low_hidden() && cluster.high_hidden()) continue;

@@ -11,12 +11,8 @@ namespace jaywalk {
 /// Some of the points that something was seen by, spread over its width.
 using Outline = FixedVector<Vec2, 5>;
 
-/// Of people and robots, half.
-inline constexpr double kLeastHalfWidthM = 0.18, kMostHalfWidthM = 0.4;
-/// As wide as they are, by half the width of what is seen whole: no post, no panel.
-[[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) {
-  return half_width_m > kLeastHalfWidthM && half_width_m < kMostHalfWidthM;
-}
+/// As wide as people and robots are, by half the width of what is seen whole: no post. What is too wide is no cluster.
+[[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) { return half_width_m > 0.18; }
 
 /// What the beam beside a cluster says of that end of it.
 enum class End : std::uint8_t {
@@ -53,11 +49,10 @@ struct Cluster {
   [[nodiscard]] bool emerges() const {
     return behind_more && low_hidden() != high_hidden() && (low_end == End::kSeen || high_end == End::kSeen);
   }
+  /// Seen to end on both sides.
+  [[nodiscard]] bool ends() const { return low_end == End::kSeen && high_end == End::kSeen; }
   /// As wide as a body, and seen to end on both sides, or round and nothing hides either.
-  [[nodiscard]] bool stands_alone() const {
-    const bool ends = low_end == End::kSeen && high_end == End::kSeen;
-    return (ends || (bulges && whole())) && as_wide_as_a_body(radius_m);
-  }
+  [[nodiscard]] bool stands_alone() const { return (ends() || (bulges && whole())) && as_wide_as_a_body(radius_m); }
   /// Leg-sized, or two legs side by side: two such may be one person.
   [[nodiscard]] bool leg() const { return radius_m < 0.15; }
   /// Too narrow for two of 0.1 m across.
@@ -72,12 +67,12 @@ inline constexpr double kArcMean = kPi / 4.0;
 inline constexpr std::size_t kMaxClusters = 256;
 using Clusters = FixedVector<Cluster, kMaxClusters>;
 
-/// The segments that are no walls and small enough for a body (at most 1.1 m across), of three points at least, or of
-/// two where beams are so far apart that a leg has no more, if nothing nearer hides either side: walls at a slant are
-/// seen in such pieces. What stands where walls stand counts only where it is as wide as a body and seen to end on both
-/// sides, or round: who stood there for long may go on. In unknown space only those that stand out on one side at least
-/// count: what goes on behind something nearer on both is a wall seen through a gap. What reaches the end of the sweep
-/// may go on outside it.
+/// The segments that are no walls and small enough for a body (at most 1.1 m across, or 1.6 m where they are seen to
+/// end on both sides), of three points at least, or of two where beams are so far apart that a leg has no more, if
+/// nothing nearer hides either side: walls at a slant are seen in such pieces. What stands where walls stand counts
+/// only where it is as wide as a body and seen to end on both sides, or round: who stood there for long may go on. In
+/// unknown space only those that stand out on one side at least count: what goes on behind something nearer on both is
+/// a wall seen through a gap. What reaches the end of the sweep may go on outside it.
 void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
                    Vec2 laser_in_map, Clusters& out) noexcept;
 

@@ -50,9 +50,9 @@ void RecentPath::Fit::add(const Place& place) noexcept {
   if (walk_.places > 0) walk_.longest_hop_m = std::max(walk_.longest_hop_m, hop(place, last_));
   walk_.places += 1;
   walk_.duration_s = -t;
-  walk_.widest_m = std::max(walk_.widest_m, place.seen.width_m);
   walk_.spacing_m = std::max(walk_.spacing_m, place.seen.spacing_m);
   if (place.seen.whole) {
+    walk_.whole_places += 1;
     widest_whole_m_ = std::max(widest_whole_m_, place.seen.width_m);
     narrowest_m_ = std::min(narrowest_m_, place.seen.width_m);
   }

@@ -11,13 +11,13 @@ namespace jaywalk {
 /// How well some of a body's last places lie on one straight walk of constant speed.
 struct StraightWalk {
   std::size_t places = 0;
-  double length_m = 0.0;        ///< of the fitted walk, from the oldest place to the newest
-  double duration_s = 0.0;      ///< from the oldest place to the newest
-  double longest_hop_m = 0.0;   ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
-  double sigmas = 0.0;          ///< length over its own standard deviation, by the places' scatter about the walk
-  double widest_m = 0.0;        ///< that was seen of it at any of the places
-  double width_change_m = 0.0;  ///< widest less narrowest of the places where it was seen whole
-  double spacing_m = 0.0;       ///< from beam to beam, across them, at most: widths are known to that
+  std::size_t whole_places = 0;  ///< those at which it was seen whole
+  double length_m = 0.0;         ///< of the fitted walk, from the oldest place to the newest
+  double duration_s = 0.0;       ///< from the oldest place to the newest
+  double longest_hop_m = 0.0;    ///< of the steps from place to place, what is beyond a walker's at 1.5 m/s
+  double sigmas = 0.0;           ///< length over its own standard deviation, by the places' scatter about the walk
+  double width_change_m = 0.0;   ///< widest less narrowest of the places where it was seen whole
+  double spacing_m = 0.0;        ///< from beam to beam, across them, at most: widths are known to that
   double explained = 0.0;  ///< share of the places' scatter that the walk explains, in [0, 1]; 0: nothing to explain
 };
 

@@ -9,18 +9,17 @@ constexpr double kMostlyFree = 0.7;  // of its places in free space
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
-constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
-constexpr double kSideShare = 0.4;   // of its way is the least that its seen side went: 0.3 and 0.5 tell as much
+constexpr double kRigidShare = 0.3;        // of its walk is all that its width changes by
+constexpr std::size_t kBothSidesSeen = 4;  // places: seen whole once, what came into view on one side seems to go along
+constexpr double kSideShare = 0.4;         // of its way is the least that its seen side went: 0.3 and 0.5 tell as much
 // Of what it grew by, where nobody says that it came: a surface that comes into view on one side and goes out of it on
 // the other. 1.5 to 3 tell as much (docs/tracking-findings.md, "What grows as it goes").
 constexpr double kGrewUnfree = 2.0;
 constexpr double kEdges = 1.5;  // beam spacings: where its seen side is, is known to one
 
-/// Comes out from behind something wider than legs, which no leg that takes its turn does, and is no wider than a body
-/// yet. Its free side is where its path is measured, and a surface that comes into view has that where it always was.
-bool emerges(const Body& body, const StraightWalk& walk) {
-  return body.edge_m > 0.0 && body.noise < Body::kSolidNoise && walk.widest_m < 2.0 * kMostHalfWidthM;
-}
+/// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
+/// path is measured, and a surface that comes into view has that where it always was.
+bool emerges(const Body& body) { return body.edge_m > 0.0 && body.noise < Body::kSolidNoise; }
 
 /// The least of a steady walk that is believed.
 struct LeastWalk {
@@ -28,7 +27,7 @@ struct LeastWalk {
 };
 
 LeastWalk least_walk(const Body& body, const StraightWalk& walk) {
-  if (!body.solid() && !emerges(body, walk)) return {kThingSigmas, kSteadyM};
+  if (!body.solid() && !emerges(body)) return {kThingSigmas, kSteadyM};
   if (came_to_free_space(body) && walk.explained > kStraightExplains) return {kCameSigmas, kCameM};
   return {kSolidSigmas, kSteadyM};
 }
@@ -60,11 +59,10 @@ bool keeps_its_width(const StraightWalk& walk, double change_m) noexcept {
 }
 
 bool rigid(const Body& body, const StraightWalk& walk) noexcept {
-  return body.whole && body.solid() && steady(body, walk) && keeps_its_width(walk, walk.width_change_m);
+  const bool both_sides = body.whole && walk.whole_places >= kBothSidesSeen;
+  return both_sides && body.solid() && steady(body, walk) && keeps_its_width(walk, walk.width_change_m);
 }
 
-bool edge_walks(const Body& body, const StraightWalk& walk) noexcept {
-  return emerges(body, walk) && steady(body, walk);
-}
+bool edge_walks(const Body& body, const StraightWalk& walk) noexcept { return emerges(body) && steady(body, walk); }
 
 }  // namespace jaywalk

@@ -70,7 +70,7 @@ TEST_CASE("width changes by the widest less the narrowest of those seen whole") 
   for (int k = 0; k < 5; ++k)
     path.add(time_from_seconds(0.1 * k), {.where_in_map = {0.1 * k, 0.0}, .width_m = widths[k], .whole = whole[k]});
   CHECK(path.fit().width_change_m == Approx(0.19));
-  CHECK(path.fit().widest_m == Approx(0.7));
+  CHECK(path.fit().whole_places == 3);
 }
 
 TEST_CASE("who stood until just now has walked only since") {

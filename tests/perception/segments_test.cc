@@ -77,10 +77,21 @@ TEST_CASE("a body's centre lies behind its visible arc") {
 
 TEST_CASE("what is wider than a body is a wall wherever it stands") {
   Room room;
-  room.walls = {{{3.0, -0.6}, {3.0, 0.6}}};
+  room.walls = {{{3.0, -0.85}, {3.0, 0.85}}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
   CHECK(cut->segments.size() == 1);
   CHECK(cut->clusters.empty());
+}
+
+TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, and else is a wall") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.0}, 0.7}};
+  REQUIRE(std::make_unique<Cut>(room, seen_free_all_over())->clusters.size() == 1);
+  room.walls.push_back({{1.5, 0.29}, {1.5, 0.9}});                                 // hides a tenth of it
+  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->clusters.size() == 1);  // the little wall alone
+  room = {};
+  room.discs = {{{3.0, 0.0}, 0.7}};  // nothing is seen beside it
+  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->clusters.empty());
 }
 
 TEST_CASE("points within a wall's noise are the wall's") {
@@ -217,7 +228,7 @@ TEST_CASE("what has stood there half hidden is not watched, round or not, nor wh
 
 TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
   Room room = rectangle(10.0, 8.0);
-  room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{2.0, 3.0}, 0.45}};
+  room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{3.4, 2.9}, 0.9}};
   room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width, before the panel
   const auto cut = stood(room);
   REQUIRE(cut->clusters.size() == 1);

@@ -59,6 +59,13 @@ TEST_CASE("a walker is called moving within a second of setting out") {
   CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.25}, {-0.75, 0.0}) <= 15);  // towards the robot
 }
 
+TEST_CASE("a trolley of 1.4 m is known for a walker within 0.6 s of setting out, and for as wide as it is") {
+  Watch watch;
+  watch.look_round();
+  CHECK(scans_until_seen_to_move(watch, {{3.0, -1.0}, 0.7}, {0.0, 0.5}) <= 9);
+  CHECK(watch.tracker.moving()[0].radius_m == Approx(0.7).margin(0.06));
+}
+
 TEST_CASE("a slow walker who was there from the first scan on is no wall that walks along") {
   Watch watch;
   // 15 cm takes 0.4 s, cells behind must be seen free.
