@@ -12,7 +12,7 @@ import pathlib
 
 from drives import FIGURES, LASER, all_of, drive, figures_of, means, parser, print_head
 
-from command_line import reading  # found beside drives' own
+from command_line import reading  # drives puts its folder on the path
 
 HALL = """2D-Map
 LineMinPos: -14000 -14000
@@ -53,6 +53,12 @@ def lines_of(path):
         return [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
 
 
+def way_of(path):
+    """Places at times: t, x, y."""
+    with reading(path, "DynaBARN's folder"):
+        return [tuple(map(float, line.split())) for line in lines_of(path)]
+
+
 def place(way, t):
     """On the way there, and then back."""
     lasts = way[-1][0]
@@ -72,12 +78,13 @@ def write_movers(path, ways):
 
 def run(job):
     options, world = job
-    head, names = world.split(":")
-    index, _, radius = head.split()
+    with reading(options.folder, "DynaBARN's folder"):
+        head, names = world.split(":")
+        index, _, radius = head.split()
+        ways = [way_of(options.folder / "trajectories" / f"{name}.txt") for name in names.split()]
     out = options.out / index
     out.mkdir(parents=True, exist_ok=True)
     (out / "hall.map").write_text(HALL)
-    ways = [[tuple(map(float, line.split())) for line in lines_of(options.folder / "trajectories" / f"{name}.txt")] for name in names.split()]
     write_movers(out / "movers.csv", ways)
     outcome = drive(out, SCENARIO + LASER + MOVERS.format(radius=float(radius)))["outcome"]
     return outcome, figures_of(out, float(radius))

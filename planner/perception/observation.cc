@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kPersonRadiusM = 0.25;  // of whoever was not seen whole yet
 constexpr double kLeastRadiusM = 0.2;    // whatever stands on legs is wider than they are
-constexpr double kMostRadiusM = 0.8;
+constexpr double kMostRadiusM = 0.8;     // half of the widest cluster's (clusters.cc)
 
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle,
 // and does so for several scans, for which it counts double: by trial (docs/tracking-findings.md, "The foot that

@@ -77,7 +77,7 @@ TEST_CASE("a body that both sides of went along has set out for certain, and one
   CHECK(judged(body) == Departure::kNone);
 }
 
-TEST_CASE("what was seen whole once or twice alone may have come into view on one side") {
+TEST_CASE("what was seen whole at less than four places may have come into view on one side") {
   Body body = walker({3.0, 0.0}, {3.0, 0.3});
   body.arc_m = 0.25;
   body.free_share = 0.0;

@@ -81,6 +81,9 @@ TEST_CASE("what is wider than a body is a wall wherever it stands") {
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
   CHECK(cut->segments.size() == 1);
   CHECK(cut->clusters.empty());
+  Room closed = rectangle(12.0, 10.0);  // seen to end on both sides
+  closed.walls.push_back(room.walls[0]);
+  CHECK(std::make_unique<Cut>(closed, seen_free_all_over())->clusters.empty());
 }
 
 TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, and else is a wall") {
@@ -229,7 +232,7 @@ TEST_CASE("what has stood there half hidden is not watched, round or not, nor wh
 TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
   Room room = rectangle(10.0, 8.0);
   room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{3.4, 2.9}, 0.9}};
-  room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width, before the panel
+  room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width
   const auto cut = stood(room);
   REQUIRE(cut->clusters.size() == 1);
   CHECK(distance(cut->clusters[0].centre_in_map, {3.0, 1.0}) < 0.04);
