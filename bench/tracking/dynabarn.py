@@ -10,33 +10,24 @@ import collections
 import csv
 import pathlib
 
-from drives import FIGURES, LASER, all_of, drive, figures_of, means, parser, print_head
+from drives import FIGURES, HALL, LASER, all_of, drive, figures_of, means, parser, print_head
 
 from command_line import reading  # drives puts its folder on the path
 
-HALL = """2D-Map
-LineMinPos: -14000 -14000
-LineMaxPos: 14000 14000
-NumLines: 4
-LINES
--14000 -14000 14000 -14000
-14000 -14000 14000 14000
-14000 14000 -14000 14000
--14000 14000 -14000 -14000
-"""  # mm
 SCENARIO = """name = "dynabarn"
 timeout_s = 120.0
 [map]
 aria = "hall.map"
 [robot]
-start = [11.0, 0.0, 3.1416]
-goal = [-9.0, 0.0]
+start = [23.0, 12.0, 3.1416]
+goal = [3.0, 12.0]
 model = "p3dx"
 max_speed_mps = 0.6
 """
 MOVERS = """[[movers]]
 kind = "recorded"
 file = "movers.csv"
+offset = [12.0, 12.0]
 radius_m = {radius}
 """
 STEP_S, LASTS_S = 0.2, 120.0
