@@ -12,6 +12,7 @@
 #include "firmware/backends.h"
 #include "firmware/commands/bench_maps.h"
 #include "firmware/commands/bench_rivals.h"
+#include "firmware/commands/progress.h"
 #include "firmware/commands/timing.h"
 #include "hal/types/errors.h"
 #include "planner/planner.h"
@@ -82,7 +83,9 @@ Timing time_on_device(const char* what, int repeats, const field::MapField& fiel
 
 class Bench {
  public:
-  void measure(const BenchMap& map) {
+  /// `share`: of all maps, those measured before.
+  void measure(const BenchMap& map, double share) {
+    progress_.show(share, map.name + ", " + std::to_string(map.cells.width));
     const std::int32_t side = map.cells.width;
     const int repeats = side >= 2048 ? 3 : side >= 1024 ? 7 : side >= 512 ? 15 : 41;
     const std::vector<Timing> rivals = time_rivals(map, repeats);
@@ -103,6 +106,7 @@ class Bench {
       quality = field.solve_cold(map.goal);
       certified &= quality.certified;
     })};
+    progress_.make_way();
     std::printf("%s, %d: reach %.4f, %d cycles, best neighbours %s\n", map.name.c_str(), map.cells.width,
                 static_cast<double>(field.reach(map.goal)), quality.cycles, best_neighbours(field, map.goal).c_str());
     own.push_back(
@@ -156,10 +160,12 @@ class Bench {
                      {"p99_ms", own.p99_ms},
                      {"baseline", baseline.what},
                      {"ratio", ratio}});
+    progress_.make_way();
     std::printf("%-18s %-15s %5d  %-4s %9.3f %9.3f  %-18s %7.2f\n", own.what.c_str(), map.name.c_str(), side,
                 own.backend.c_str(), own.p50_ms, own.p99_ms, baseline.what.c_str(), ratio);
   }
 
+  Progress progress_;
   nlohmann::ordered_json rows_ = nlohmann::ordered_json::array();
 };
 
@@ -192,7 +198,9 @@ int run_bench(const BenchOptions& options) {
   std::printf("%-18s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
               "ratio");
   Bench bench;
-  for (const BenchMap& map : maps) bench.measure(map);
+  for (std::size_t k = 0; k < maps.size(); ++k) {
+    bench.measure(maps[k], static_cast<double>(k) / static_cast<double>(maps.size()));
+  }
   if (options.json) write_rows(*options.json, bench.rows());
   return 0;
 }

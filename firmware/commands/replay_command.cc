@@ -2,10 +2,12 @@
 
 #include <bit>
 #include <cctype>
+#include <cmath>
 #include <cstdio>
 
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
+#include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
@@ -66,12 +68,19 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   LoopRunner runner(setup, log.hal(), options.out, false);
   RunPicture picture;
   MountCheck mount;
+  Progress progress;
   const auto own_time = [&](Time t) { return log.log().own_time(t); };
   do {  // a recording of a single scan ends where it begins
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
     picture.consider(runner);
+    if (progress.is_due()) {
+      const double lived_s = to_seconds(runner.last().now - log.start_time());
+      const double whole_s = to_seconds(log.end_time() - log.start_time());
+      progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
+    }
   } while (!log.ended());
+  progress.make_way();
   if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
     const Pose2 given = setup.model.laser.robot_from_laser;
     std::fprintf(
@@ -127,6 +136,7 @@ int replay_recording(const ReplayOptions& options) {
     return std::make_unique<HeldPlanner>(std::move(planner), recorded);
   });
   RunPicture picture;
+  Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
   do {
     ++ticks;
@@ -137,12 +147,15 @@ int replay_recording(const ReplayOptions& options) {
     const WheelCommand& now = devices.commanded();
     const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
                       same_bits(now.right_radps, recorded.command.right_radps);
+    if (progress.is_due()) progress.show(reader.share_read(), std::to_string(ticks) + " ticks");
     if (!same && different++ == 0) {
+      progress.make_way();
       std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n",
                    file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
                    now.left_radps, now.right_radps);
     }
   } while (reader.next(recorded));
+  progress.make_way();
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
   picture.save(options.out, "replay of " + file, runner, {});

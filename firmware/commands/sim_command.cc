@@ -6,6 +6,7 @@
 #include <thread>
 
 #include "firmware/commands/loop_runner.h"
+#include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -84,6 +85,16 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
 }
 
+/// As the crow flies: the bar goes back where the way does.
+void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& truth) {
+  if (!progress.is_due()) return;
+  const double whole_m = distance(scenario.start.position(), scenario.goal);
+  const double left_m = distance(truth.map_from_robot.position(), scenario.goal);
+  char words[64];
+  std::snprintf(words, sizeof words, "%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
+  progress.show(1.0 - left_m / whole_m, words);
+}
+
 }  // namespace
 
 int run_sim(const SimOptions& options) {
@@ -92,6 +103,7 @@ int run_sim(const SimOptions& options) {
   sim::Simulation simulation(scenario, seed);
   LoopRunner runner(setup_for(scenario, options), simulation.hal(), options.out, true);
   RunPicture picture;
+  Progress progress;
   TruthForReport truth_for_report;
   std::string ended;
   const auto began = std::chrono::steady_clock::now();
@@ -99,9 +111,11 @@ int run_sim(const SimOptions& options) {
     const TickRecord& t = runner.step();
     runner.report(&truth_for_report.of(simulation.truth()));
     picture.consider(runner);
+    tell(progress, scenario, simulation.truth());
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
     if (options.realtime) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }
+  progress.make_way();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
   const OperatorInput& wanted = runner.last().input;
   std::optional<double> heading_error;

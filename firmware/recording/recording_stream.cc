@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstring>
+#include <filesystem>
 #include <span>
 
 #include "firmware/recording/byte_order.h"
@@ -102,8 +103,12 @@ bool RecordingWriter::close() noexcept {
 RecordingReader::RecordingReader(const std::string& file)
     : file_(file), stream_(file, std::ios::binary), entry_(kMaxEntryBytes) {
   if (!stream_) throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
+  std::error_code unknown;  // the size then reads as the greatest: a bar that does not move
+  bytes_ = std::filesystem::file_size(file, unknown);
   read_header();
 }
+
+double RecordingReader::share_read() const { return static_cast<double>(position_) / static_cast<double>(bytes_); }
 
 bool RecordingReader::read(unsigned char* to, std::size_t bytes) {
   stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes));

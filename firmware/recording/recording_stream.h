@@ -55,6 +55,8 @@ class RecordingReader {
   [[nodiscard]] const std::string& setup() const { return setup_; }
   /// False at the end, cut or proper. Throws StartupError with the place for a damaged entry.
   [[nodiscard]] bool next(TickRecord& record);
+  /// How much of the file has been read, 0 to 1.
+  [[nodiscard]] double share_read() const;
   /// Records that the recorder dropped between the last two that next() gave.
   [[nodiscard]] std::uint64_t lost_before() const { return lost_before_; }
   /// After next() returned false: where and how the file was cut; empty for a proper end.
@@ -69,6 +71,7 @@ class RecordingReader {
 
   std::string file_;
   std::ifstream stream_;
+  std::uint64_t bytes_ = 0;     ///< of the whole file
   std::uint64_t position_ = 0;  ///< byte that the entry at hand begins with
   std::string setup_;
   TickDecoder decoder_;

@@ -44,7 +44,9 @@ TEST_CASE("every field of every tick comes back bit for bit, NaN payloads too") 
     REQUIRE(reader.next(*read));
     CHECK(same_bits(*read, *made(n)));
     CHECK(reader.lost_before() == 0);
+    if (n == 49) CHECK(reader.share_read() == Approx(0.5).margin(0.02));
   }
+  CHECK(reader.share_read() == Approx(1.0).margin(0.01));
   CHECK_FALSE(reader.next(*read));
   CHECK(reader.warning().empty());
 }
