@@ -34,6 +34,8 @@ Body born_at(Vec2 position, double std_m, double radius, Time now, std::uint32_t
 void anchor_here(Body& body, const Pose2& map_from_laser, Time now) noexcept {
   body.anchor_in_map = body.track.position_in_map;
   body.anchor_outline = body.outline_in_map;
+  body.anchor_low_seen = body.low_seen();
+  body.anchor_high_seen = body.high_seen();
   body.anchor_in_laser = inverse(map_from_laser) * body.track.position_in_map;
   body.still_since = now;
 }

@@ -30,6 +30,8 @@ struct Body {
   Time still_since = kNever;      ///< since when it has stood near `anchor`
   Vec2 anchor_in_map;             ///< where it last stood, or was born
   Outline anchor_outline;         ///< points of it that were seen there, in the map
+  bool anchor_low_seen = false;   ///< nothing hid its first beams' side there
+  bool anchor_high_seen = false;  ///< nor its last beams'
   Vec2 anchor_in_laser;           ///< the same, seen from where the laser was then
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
   Time returned = kNever;         ///< when it came back as a hidden walker, until its own walk is proof; kNever: else
@@ -41,6 +43,10 @@ struct Body {
   bool somebody = false;          ///< for all that is known: it walked, or stood on two legs
   bool settled = false;           ///< stands for good: its points may become walls
 
+  /// When it was seen last, nothing hid its first beams' side.
+  [[nodiscard]] bool low_seen() const { return whole || hidden_side > 0; }
+  /// Nor its last beams'.
+  [[nodiscard]] bool high_seen() const { return whole || hidden_side < 0; }
   /// Seen often enough to be believed; others are kept to themselves.
   [[nodiscard]] bool confirmed() const { return given || track.hits >= 3; }
   /// Two legs that pass each other are as wide as a body now and then, and no arc of one.

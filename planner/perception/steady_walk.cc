@@ -11,7 +11,7 @@ constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
 constexpr double kRigidShare = 0.3;        // of its walk is all that its width changes by
 constexpr std::size_t kBothSidesSeen = 4;  // places: seen whole once, what came into view on one side seems to go along
-constexpr double kSideShare = 0.4;         // of its way is the least that its seen side went: 0.3 and 0.5 tell as much
+constexpr double kSideShare = 0.4;         // of its way is the least that a seen side went: 0.3 and 0.5 tell as much
 // Of what it grew by, where nobody says that it came: a surface that comes into view on one side and goes out of it on
 // the other. 1.5 to 3 tell as much (docs/tracking-findings.md, "What grows as it goes").
 constexpr double kGrewUnfree = 2.0;
@@ -32,13 +32,18 @@ LeastWalk least_walk(const Body& body, const StraightWalk& walk) {
   return {kSolidSigmas, kSteadyM};
 }
 
-bool seen_side_went(const Body& body) {
-  if (body.hidden_side == 0 || body.anchor_outline.empty() || body.outline_in_map.empty()) return true;
-  const bool low = body.hidden_side > 0;
-  const Vec2 then = low ? body.anchor_outline[0] : body.anchor_outline.back();
-  const Vec2 now = low ? body.outline_in_map[0] : body.outline_in_map.back();
+/// One side of the body went from `then` to `now`: along its way, or not.
+bool went_along(const Body& body, Vec2 then, Vec2 now) {
   const Vec2 way = body.track.position_in_map - body.anchor_in_map;
   return dot(now - then, way) > kSideShare * dot(way, way);
+}
+
+/// Each side that is seen and was seen where it set out went along.
+bool seen_sides_went(const Body& body) {
+  if (body.anchor_outline.empty() || body.outline_in_map.empty()) return true;
+  const bool low = body.low_seen() && body.anchor_low_seen, high = body.high_seen() && body.anchor_high_seen;
+  return (!low || went_along(body, body.anchor_outline[0], body.outline_in_map[0])) &&
+         (!high || went_along(body, body.anchor_outline.back(), body.outline_in_map.back()));
 }
 
 }  // namespace
@@ -48,7 +53,7 @@ bool came_to_free_space(const Body& body) noexcept { return body.free_share > kM
 bool steady(const Body& body, const StraightWalk& walk) noexcept {
   const LeastWalk least = least_walk(body, walk);
   const double grew_m = walk.width_change_m * (came_to_free_space(body) ? 1.0 : kGrewUnfree);
-  return walk.sigmas > least.sigmas && seen_side_went(body) &&
+  return walk.sigmas > least.sigmas && seen_sides_went(body) &&
          walk.length_m > std::max({least.length_m, grew_m, kEdges * body.edge_m});
 }
 

@@ -14,8 +14,9 @@ inline constexpr double kSteadyM = 0.10;
 [[nodiscard]] bool came_to_free_space(const Body& body) noexcept;
 
 /// Whether `walk`, of the places of `body`, is so many of its standard deviations long that it is one, and longer than
-/// growing or shrinking explains. The more the body and the ground tell, the shorter it may be. Of a body that is
-/// hidden on one side the other must have gone along: what comes into view of a thing that stands leaves it there.
+/// growing or shrinking explains. The more the body and the ground tell, the shorter it may be. A side that is seen,
+/// and was seen where the walk began, must have gone along: what comes into view of a thing that stands leaves it
+/// there.
 [[nodiscard]] bool steady(const Body& body, const StraightWalk& walk) noexcept;
 
 /// The shortest walk of `body` that is steady, m.
