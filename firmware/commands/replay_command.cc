@@ -4,6 +4,7 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <sstream>
 
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
@@ -60,9 +61,8 @@ ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goa
 
 int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::LogReplay log(load(options, format));
-  if (const std::string complaint = log.log().complaint(); !complaint.empty()) {
-    std::fprintf(stderr, "jaywalk: %s", complaint.c_str());
-  }
+  std::istringstream complaints(log.log().complaint());
+  for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
   const ControlSetup setup = setup_for(log, options.goal);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
