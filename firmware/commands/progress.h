@@ -6,11 +6,11 @@
 
 namespace jaywalk {
 
-/// A bar on a line of its own, drawn over at most ten times a second and gone at the end. Where `to` is no terminal
+/// A bar on a line of its own, drawn over at most once in `between` and gone at the end. Where `to` is no terminal
 /// nothing is written.
 class Progress {
  public:
-  explicit Progress(std::FILE* to = stderr);
+  explicit Progress(std::FILE* to = stderr, std::chrono::milliseconds between = std::chrono::milliseconds(100));
   ~Progress() { make_way(); }
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
@@ -24,6 +24,7 @@ class Progress {
 
  private:
   std::FILE* to_;
+  std::chrono::milliseconds between_;
   bool seen_;              ///< `to` is a terminal
   bool standing_ = false;  ///< a bar is on it
   std::chrono::steady_clock::time_point due_{};

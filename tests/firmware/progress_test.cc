@@ -61,15 +61,18 @@ TEST_CASE("a bar on a terminal shows the share and the words, and is gone when s
   CHECK(terminal.seen() == "\r" + std::string(76, ' ') + "\r");
 }
 
-TEST_CASE("a bar is drawn over no more than ten times a second") {
+TEST_CASE("a bar is drawn over no sooner than it is due again") {
   const Terminal terminal;
   if (terminal.program() == nullptr) return;
-  Progress progress(terminal.program());
+  Progress progress(terminal.program(), std::chrono::hours(1));
   CHECK(progress.is_due());
   progress.show(0.1, "first");
   CHECK_FALSE(progress.is_due());
   progress.show(0.2, "second");
   CHECK(terminal.seen().find("second") == std::string::npos);
+  Progress always(terminal.program(), std::chrono::milliseconds(0));
+  always.show(0.1, "first");
+  CHECK(always.is_due());
 }
 
 TEST_CASE("a bar holds any share and any words to its line") {
