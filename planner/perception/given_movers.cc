@@ -31,7 +31,8 @@ Body first_report(const ObservedMover& mover, double std_m, Time stamp, std::uin
 
 void report_again(Body& body, const ObservedMover& mover, double std_m, Time stamp) {
   predict_to(body, stamp);
-  correct(body.track, mover.position_in_map, std_m);
+  Track& track = body.track;
+  correct(track.position_in_map, track.velocity_in_map, track.covariance, mover.position_in_map, std_m * std_m);
   body.track.hits += 1;
   body.track.last_seen = stamp;
 }

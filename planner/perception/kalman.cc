@@ -1,8 +1,15 @@
 #include "planner/perception/kalman.h"
 
+#include <algorithm>
+
 #include "planner/cell/kalman.h"
 
 namespace jaywalk {
+namespace {
+
+constexpr double kLeastVariance = 1e-8;  // of a speed, m^2/s^2: what rounding leaves is none
+
+}  // namespace
 
 void predict(Track& track, double dt, double accel_std) noexcept {
   const double q = accel_std * accel_std;
@@ -14,17 +21,14 @@ void predict(Track& track, double dt, double accel_std) noexcept {
   p.vv += q * dt * dt;
 }
 
-void correct(Track& track, Vec2 measured, double std_m) noexcept {
-  AxisCovariance& p = track.covariance;
-  const double innovation_variance = p.pp + std_m * std_m;
-  const double gain_position = p.pp / innovation_variance;
-  const double gain_velocity = p.pv / innovation_variance;
-  const Vec2 innovation = measured - track.position_in_map;
-  track.position_in_map = track.position_in_map + innovation * gain_position;
-  track.velocity_in_map = track.velocity_in_map + innovation * gain_velocity;
-  p.vv -= gain_velocity * p.pv;
-  p.pv -= gain_position * p.pv;
-  p.pp -= gain_position * p.pp;
+void correct(Vec2& position, Vec2& velocity, AxisCovariance& p, Vec2 measured, double noise_m2) noexcept {
+  const double variance = p.pp + noise_m2, gain_velocity = p.pv / variance;
+  const Vec2 innovation = measured - position;
+  position = position + innovation * (p.pp / variance);
+  velocity = velocity + innovation * gain_velocity;
+  p.vv = std::max(p.vv - gain_velocity * p.pv, kLeastVariance);
+  p.pv *= noise_m2 / variance;  // 1 less the gain, which may be too near 1 to subtract
+  p.pp *= noise_m2 / variance;
 }
 
 double gate_distance2(const Track& track, Vec2 measured, double std_m) noexcept {

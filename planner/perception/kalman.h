@@ -11,8 +11,8 @@ namespace jaywalk {
 /// Eqs. 12 and 13: moves the track `dt_s` >= 0 seconds on. `accel_std_mps2`: what it may accelerate by, an axis.
 void predict(Track& track, double dt_s, double accel_std_mps2) noexcept;
 
-/// Eqs. 14 to 16: takes a measured position whose standard deviation an axis is `std_m` > 0.
-void correct(Track& track, Vec2 measured_in_map, double std_m) noexcept;
+/// Eqs. 14 to 16: takes a measured position, of variance `noise_m2` > 0 an axis. Rounding leaves no variance below 0.
+void correct(Vec2& position, Vec2& velocity, AxisCovariance& covariance, Vec2 measured, double noise_m2) noexcept;
 
 /// Squared Mahalanobis distance of a measured position from the track's: chi-squared with two degrees of freedom when
 /// the measurement is the track's.

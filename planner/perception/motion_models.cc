@@ -4,6 +4,7 @@
 
 #include "hal/types/trig.h"
 #include "planner/cell/kalman.h"
+#include "planner/perception/kalman.h"
 
 namespace jaywalk {
 namespace {
@@ -25,7 +26,6 @@ constexpr std::array<double, MotionModels::kCount> kAtFirst{0.4, 0.3, 0.3};
 constexpr double kShuffle = 0.0004;  // m^2/s: 2 cm a second that one who stands shifts
 constexpr double kStandsMps = 0.02;  // that may be left of its speed
 constexpr double kMostUnlikely = -50.0, kLeastWeight = 1e-6;
-constexpr double kLeastVariance = 1e-8;  // of a speed, m^2/s^2: what rounding leaves is none
 
 /// The states' mean by their weights, with what they differ by in its covariance: half of it an axis.
 ModelState mean_of(const std::array<ModelState, MotionModels::kCount>& states,
@@ -59,16 +59,10 @@ void walk_on(ModelState& s, double dt, double accel) {
   p.vv += accel * dt;
 }
 
-/// Blends a measured position in, and returns minus the logarithm of how likely it was, but for a constant: two axes.
-double take(ModelState& s, Vec2 measured, double noise_m2) {
-  AxisCovariance& p = s.covariance;
-  const double variance = p.pp + noise_m2, gain_velocity = p.pv / variance;
+/// Minus the logarithm of how likely a measured position is, but for a constant: two axes.
+double unlikeliness(const ModelState& s, Vec2 measured, double noise_m2) {
+  const double variance = s.covariance.pp + noise_m2;
   const Vec2 innovation = measured - s.position;
-  s.position = s.position + innovation * (p.pp / variance);
-  s.velocity = s.velocity + innovation * gain_velocity;
-  p.vv = std::max(p.vv - gain_velocity * p.pv, kLeastVariance);
-  p.pv *= noise_m2 / variance;  // 1 less the gain, which may be too near 1 to subtract
-  p.pp *= noise_m2 / variance;
   return 0.5 * dot(innovation, innovation) / variance + log(variance);
 }
 
@@ -108,7 +102,11 @@ void MotionModels::predict(Track& track, double dt) noexcept {
 
 void MotionModels::correct(Track& track, Vec2 measured, double std_m) noexcept {
   std::array<double, kCount> surprise{};
-  for (std::size_t k = 0; k < kCount; ++k) surprise[k] = take(models_[k], measured, std_m * std_m);
+  for (std::size_t k = 0; k < kCount; ++k) {
+    ModelState& s = models_[k];
+    surprise[k] = unlikeliness(s, measured, std_m * std_m);
+    jaywalk::correct(s.position, s.velocity, s.covariance, measured, std_m * std_m);
+  }
   const double least = *std::min_element(surprise.begin(), surprise.end());
   double sum = 0.0;
   for (std::size_t k = 0; k < kCount; ++k) {
