@@ -100,6 +100,12 @@ void check(const Options& o) {
   for (const double part : o.laser_mount) require_within("--laser-mount", part, -100.0, 100.0);
 }
 
+/// Beams end on the edges of wide movers, farther from their middles than narrower ones reach.
+void doubt_the_radius(double told_m) {
+  std::fprintf(stderr, "jaywalk_track_bench: no mover was ever in view; are they as wide as --radius %g says?\n",
+               told_m);
+}
+
 void score(const Options& o) {
   check(o);
   const RunFolder run(o.folder);
@@ -109,11 +115,14 @@ void score(const Options& o) {
   ScoreRules as_it_is = o.rules;
   as_it_is.as_it_is = true;
   TrackScore moving(o.rules), any(o.rules), right(as_it_is);
+  std::size_t there = 0;
   frames(o, run, [&](double t_s, const std::vector<Target>& targets) {
+    there += targets.size();
     moving.add(t_s, targets, run.tracks_at(t_s, true));
     any.add(t_s, targets, run.tracks_at(t_s, false));
     right.add(t_s, targets, run.tracks_at(t_s, false));
   });
+  if (o.simulated() && there > 0 && moving.targets() == 0) doubt_the_radius(o.view.radius_m);
   if (o.reference.empty()) print("tracks that move", moving, run.minutes());
   if (any.targets() > 0) print("all tracks; standing ones are no error", any, run.minutes());
   if (o.simulated()) print("who walks by tracks that move, who stands by any", right, run.minutes());

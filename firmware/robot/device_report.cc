@@ -7,12 +7,20 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk {
+namespace {
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) throw StartupError(path.string() + ": cannot be written", "free some space");
+}
+
+}  // namespace
 
 void write_arming(const std::filesystem::path& folder, const std::vector<std::string>& proof) {
-  std::ofstream file(folder / "arming.txt");
-  for (const std::string& line : proof) file << line << '\n';
-  file.flush();
-  if (!file) throw StartupError((folder / "arming.txt").string() + ": cannot be written", "free some space");
+  std::string text;
+  for (const std::string& line : proof) text += line + '\n';
+  write(folder / "arming.txt", text);
 }
 
 std::string in_short(const std::vector<std::string>& proof) {
@@ -43,7 +51,7 @@ void write_devices(const std::filesystem::path& folder, const RunStatus& last,
   json["missed_ticks"] = last.missed_ticks;
   json["stalls"] = last.stalls;
   json["not_permitted"] = not_permitted;
-  std::ofstream(folder / "devices.json") << json.dump(2) << '\n';
+  write(folder / "devices.json", json.dump(2) + '\n');
 }
 
 }  // namespace jaywalk

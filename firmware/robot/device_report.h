@@ -14,7 +14,7 @@ void write_arming(const std::filesystem::path& folder, const std::vector<std::st
 /// "66 settings proved", "64 settings proved, 2 NOT PROVED".
 [[nodiscard]] std::string in_short(const std::vector<std::string>& proof);
 
-/// devices.json: frames, scans, ticks that were lost or bad, and what the kernel did not permit.
+/// devices.json: frames, scans, ticks that were lost or bad, and what the kernel did not permit. Throws likewise.
 void write_devices(const std::filesystem::path& folder, const RunStatus& last,
                    const std::vector<std::string>& not_permitted);
 
