@@ -1,7 +1,10 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <cstdio>
 #include <optional>
 #include <string>
+
+#include "firmware/commands/command_words.h"
 
 namespace jaywalk::bench {
 
@@ -12,10 +15,14 @@ inline std::optional<int> ended_by_command_line(CLI::App& app, int argc, char** 
     return of->get_name() + ": " + error.what() + "; see " + of->get_name() + " --help\n";
   });
   try {
+    refuse_empty_words(argc, argv);
     app.parse(argc, argv);
     return std::nullopt;
   } catch (const CLI::ParseError& error) {
     return app.exit(error) == 0 ? 0 : 2;
+  } catch (const StartupError& error) {
+    std::fprintf(stderr, "%s: %s\n", app.get_name().c_str(), error.what());
+    return 2;
   }
 }
 

@@ -5,10 +5,12 @@
 #include "firmware/backends.h"
 #include "firmware/commands/bench_command.h"
 #include "firmware/commands/choice_option.h"
+#include "firmware/commands/command_words.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
+#include "firmware/commands/standard_streams.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -143,6 +145,7 @@ int run(int argc, char** argv) {
   add_bench(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
+  refuse_empty_words(argc, argv);
   require_command(app, argc, argv);
   try {
     app.parse(argc, argv);
@@ -158,8 +161,11 @@ int run(int argc, char** argv) {
 }  // namespace
 
 int main(int argc, char** argv) {
+  open_standard_streams();
   try {
-    return run(argc, argv);
+    const int code = run(argc, argv);
+    require_heard();
+    return code;
   } catch (const jaywalk::StartupError& error) {
     std::fprintf(stderr, "jaywalk: %s\n", error.what());
     return kBadInput;

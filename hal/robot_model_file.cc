@@ -8,6 +8,7 @@ namespace jaywalk {
 namespace {
 
 constexpr Range kBodyMetres{0.01, 5.0};
+constexpr double kFarthestMountM = 10.0;  // of a laser from the axle: robots are 5 m long at most
 constexpr double kRadPerDeg = kPi / 180.0;
 
 Footprint read_footprint(TomlTable table) {
@@ -50,6 +51,8 @@ void read_laser(TomlTable& table, LaserModel& laser) {
   if (table.has("mount")) {
     const auto mount = table.numbers("mount", 3);
     laser.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
+    if (norm(laser.robot_from_laser.position()) > kFarthestMountM)
+      table.refuse("mount", "lies beside any robot", "give x and y from the drive axle's middle, in metres");
   }
   if (!(laser.range_min_m < laser.range_max_m)) table.refuse("range_min_m", "is not below range_m", "lower it");
 }

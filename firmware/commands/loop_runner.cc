@@ -8,14 +8,6 @@
 namespace jaywalk {
 namespace {
 
-/// `out`, made when missing.
-const std::filesystem::path& made(const std::filesystem::path& out) {
-  std::error_code error;
-  std::filesystem::create_directories(out, error);
-  if (error) throw StartupError(out.string() + ": " + error.message(), "give --out a folder that can be written");
-  return out;
-}
-
 ChosenPlanner wrapped(ChosenPlanner chosen, const LoopRunner::Wrap& wrap) {
   if (wrap) chosen.planner = wrap(std::move(chosen.planner));
   return chosen;
@@ -27,9 +19,9 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
                        const Wrap& wrap)
     : setup_(setup),
       clock_(hal.clock),
-      out_(made(out)),
+      out_(out),
       chosen_(wrapped(make_planner(setup.planner(), setup.backend), wrap)),
-      recorder_({.file = record ? (out / "recording.jwr").string() : "", .setup = to_text(setup)}),
+      recorder_({.file = record ? out_.file("recording.jwr").string() : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       report_(out),
       due_(hal.clock.now()) {
@@ -68,7 +60,7 @@ void LoopRunner::finish(RunEnd end) {
   end.version = JAYWALK_VERSION;
   report_.finish(end);
   if (!recorded) {
-    throw StartupError((out_ / "recording.jwr").string() + ": the disk did not take all of it",
+    throw StartupError(out_.file("recording.jwr").string() + ": the disk did not take all of it",
                        "free some space and run again");
   }
 }

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "firmware/backends.h"
+#include "firmware/commands/out_folder.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/report/run_report.h"
@@ -54,7 +55,7 @@ class LoopRunner {
  private:
   ControlSetup setup_;
   Clock& clock_;
-  std::filesystem::path out_;
+  OutFolder out_;
   ChosenPlanner chosen_;
   Recorder recorder_;
   ControlLoop loop_;

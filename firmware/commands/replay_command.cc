@@ -60,6 +60,7 @@ ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goa
 }
 
 int replay_log(const ReplayOptions& options, const std::string& format) {
+  refuse_to_overwrite(options.logs, options.out);
   sim::LogReplay log(load(options, format));
   std::istringstream complaints(log.log().complaint());
   for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());

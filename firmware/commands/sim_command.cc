@@ -53,6 +53,12 @@ sim::Scenario scenario_for(const SimOptions& options) {
   return scenario;
 }
 
+std::vector<std::filesystem::path> files_of(const sim::Scenario& scenario, const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files{file, scenario.map_file};
+  for (const sim::RecordedSpec& movers : scenario.recorded) files.push_back(movers.file);
+  return files;
+}
+
 ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options) {
   return {.model = scenario.model,
           .mode = options.mode,
@@ -101,6 +107,7 @@ int run_sim(const SimOptions& options) {
   const sim::Scenario scenario = scenario_for(options);
   const std::uint64_t seed = options.seed.value_or(scenario.seed);
   sim::Simulation simulation(scenario, seed);
+  refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
   LoopRunner runner(setup_for(scenario, options), simulation.hal(), options.out, true);
   RunPicture picture;
   Progress progress;

@@ -57,9 +57,8 @@ EntryHead decode(std::span<const unsigned char> bytes) {
 
 bool is_recording(const std::string& file) {
   std::array<unsigned char, kMagic.size()> head{};
-  std::ifstream stream(file, std::ios::binary);
-  stream.read(reinterpret_cast<char*>(head.data()), static_cast<std::streamsize>(head.size()));
-  return stream && head == kMagic;
+  GzipFile stream(file.c_str());
+  return stream.is_open() && stream.read(head.data(), head.size()) == head.size() && head == kMagic;
 }
 
 RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
@@ -100,20 +99,17 @@ bool RecordingWriter::close() noexcept {
   return static_cast<bool>(stream_);
 }
 
-RecordingReader::RecordingReader(const std::string& file)
-    : file_(file), stream_(file, std::ios::binary), entry_(kMaxEntryBytes) {
-  if (!stream_) throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
+RecordingReader::RecordingReader(const std::string& file) : file_(file), stream_(file.c_str()), entry_(kMaxEntryBytes) {
+  if (!stream_.is_open())
+    throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
   std::error_code unknown;  // the size then reads as the greatest: a bar that does not move
   bytes_ = std::filesystem::file_size(file, unknown);
   read_header();
 }
 
-double RecordingReader::share_read() const { return static_cast<double>(position_) / static_cast<double>(bytes_); }
+double RecordingReader::share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
 
-bool RecordingReader::read(unsigned char* to, std::size_t bytes) {
-  stream_.read(reinterpret_cast<char*>(to), static_cast<std::streamsize>(bytes));
-  return static_cast<std::size_t>(stream_.gcount()) == bytes;
-}
+bool RecordingReader::read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
 
 void RecordingReader::damaged(const std::string& cause) const {
   throw StartupError(file_ + ": byte " + std::to_string(position_) + ": " + cause,
@@ -158,7 +154,8 @@ void RecordingReader::check_end(std::uint32_t entries) {
     damaged("the end mark counts " + std::to_string(entries) + " ticks, there are " + std::to_string(entries_));
   }
   position_ += kEntryHeadBytes;
-  if (stream_.peek() != std::ifstream::traits_type::eof()) damaged("something follows the end mark");
+  unsigned char beyond = 0;
+  if (read(&beyond, 1)) damaged("something follows the end mark");
   ended_ = true;
 }
 

@@ -15,12 +15,13 @@
 
 #include "firmware/recording/tick_entry.h"
 #include "firmware/recording/tick_record.h"
+#include "hal/gzip_file.h"
 
 namespace jaywalk {
 
 inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 
-/// Whether `file` begins as a recording of ours does; false where it cannot be read.
+/// Whether `file`, packed with gzip or not, begins as a recording of ours does; false where it cannot be read.
 [[nodiscard]] bool is_recording(const std::string& file);
 
 /// Writes a recording. Only the constructor allocates.
@@ -46,7 +47,7 @@ class RecordingWriter {
   std::uint32_t entries_ = 0;
 };
 
-/// Reads a recording, a record at a time.
+/// Reads a recording, packed with gzip or not, a record at a time. Bytes in messages are those of the unpacked one.
 class RecordingReader {
  public:
   /// Throws StartupError "FILE: byte N: cause" for what is no recording, another version's, or damaged.
@@ -70,7 +71,7 @@ class RecordingReader {
   [[noreturn]] void damaged(const std::string& cause) const;
 
   std::string file_;
-  std::ifstream stream_;
+  GzipFile stream_;
   std::uint64_t bytes_ = 0;     ///< of the whole file
   std::uint64_t position_ = 0;  ///< byte that the entry at hand begins with
   std::string setup_;

@@ -18,8 +18,11 @@ constexpr std::int64_t kMaxPixels = 64'000'000;
 }
 
 void check_size(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
-  if (width < 1 || height < 1 || width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
-    refuse(file, "a picture of " + std::to_string(width) + " x " + std::to_string(height) + " pixels");
+  if (width < 1 || height < 1) refuse(file, "no size stands in its first lines");
+  if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
+    throw StartupError(file.string() + ":0: " + std::to_string(width) + " x " + std::to_string(height) +
+                           " are more than 64 million pixels",
+                       "take larger ones");
   }
 }
 

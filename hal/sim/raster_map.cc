@@ -1,6 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <set>
 #include <string>
 
 #include "hal/sim/image_file.h"
@@ -30,6 +31,7 @@ class MapYaml {
       refuse(e.mark, e.msg);
     }
     if (!root_.IsMap()) refuse(root_.Mark(), "holds no keys");
+    refuse_repeated_keys();
   }
 
   template <class T>
@@ -56,6 +58,14 @@ class MapYaml {
   }
 
  private:
+  /// The library takes the first of them.
+  void refuse_repeated_keys() const {
+    std::set<std::string> known;
+    for (const auto& entry : root_) {
+      if (!known.insert(entry.first.Scalar()).second)
+        refuse(entry.first.Mark(), entry.first.Scalar() + " stands twice");
+    }
+  }
   [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& cause) const {
     throw StartupError(file_.string() + ":" + std::to_string(mark.line + 1) + ": " + cause,
                        "write it as map_server does");

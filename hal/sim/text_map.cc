@@ -50,12 +50,18 @@ class LineReader {
   int number_ = 0;
 };
 
+/// The number behind `name`, where the line has that.
+void read_count(const std::string& line, const std::string& name, std::size_t& count) {
+  if (line.rfind(name, 0) == 0) std::istringstream(line.substr(name.size())) >> count;
+}
+
 bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
 
 }  // namespace
 
 WallMap load_aria_map(const std::filesystem::path& file) {
   enum class Section { kHeader, kLines, kData };
+  std::size_t lines_told = 0, points_told = 0;
   LineReader reader(file, "give a map as MobileSim writes it");
   std::string line;
   if (!reader.next(line) || line.rfind("2D-Map", 0) != 0) reader.refuse("does not begin with 2D-Map");
@@ -72,8 +78,13 @@ WallMap load_aria_map(const std::filesystem::path& file) {
     } else if (section == Section::kData) {
       const auto v = reader.numbers(line, 2);
       points.push_back({Vec2{v[0], v[1]} * kMetresPerMillimetre, kDataPointRadius});
+    } else {
+      read_count(line, "NumLines:", lines_told);
+      read_count(line, "NumPoints:", points_told);
     }
   }
+  if (map.segments.size() < lines_told) reader.refuse("ends before its NumLines: it was cut");
+  if (points.size() < points_told) reader.refuse("ends before its NumPoints: it was cut");
   if (map.segments.empty()) map.discs = std::move(points);
   if (map.segments.empty() && map.discs.empty()) reader.refuse("has neither LINES nor DATA");
   return map;

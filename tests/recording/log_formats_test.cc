@@ -71,21 +71,6 @@ TEST_CASE("one stamp far ahead of its time is left out, and those after it are n
   CHECK(first.scans.front().stamp == time_from_seconds(100.2));
 }
 
-TEST_CASE("odometry that is set anew on its way goes on from where the robot is") {
-  const Scratch scratch;
-  const RecordedLog log = load_scan_odom(
-      scratch.write("scan.txt", kTwoScans),
-      scratch.write("odom.txt",
-                    "100.1 1 2 0 1 0\n100.2 1.1 2 0 1 0\n100.3 -30 7 1.5707963 1 0\n100.4 -30 7.1 1.5707963 1 0\n"
-                    "900.5 -30 7.2 1.5707963 1 0\n100.6 -30 7.3 1.5707963 1 0\n"));
-  REQUIRE(log.odometry.size() == 4);
-  CHECK(log.odometry[2].pose.x == Approx(1.2));
-  CHECK(log.odometry[3].pose.x == Approx(1.4));
-  CHECK(log.odometry[3].pose.y == Approx(2.0));
-  CHECK(log.odometry[3].pose.heading == Approx(0.0).margin(1e-6));
-  CHECK(log.complaint().find("odom.txt: 1 line left out, the first is line 3: it jumps") != std::string::npos);
-}
-
 TEST_CASE("a plain recording's laser spins once a scan, or ten times a second where scans are fewer") {
   const Scratch scratch;
   const std::string beams = " -0.1 0.1 0.03 11.0 3 1.0 1.0 1.0\n";

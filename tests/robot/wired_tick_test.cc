@@ -21,7 +21,8 @@ constexpr Duration kTick = 20ms;
 
 struct Bench {
   explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {})
-      : folder(std::filesystem::temp_directory_path() / ("jaywalk_wired_tick_" + robot_name)),
+      : folder(std::filesystem::temp_directory_path() /
+               ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
         robot(file(robot_name, panel), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
               folder) {
     clock.live = [this] {

@@ -26,6 +26,7 @@ TEST_CASE("bad maps are refused with file, line and cause") {
   scratch.write("odd.pgm", "P2 2 1 255 0 256");
   scratch.write("huge.pgm", "P2 100000 100000 255 0");
   scratch.write("deep.pgm", "P2 1 1 70000 0");
+  scratch.write("size.pgm", "P5 100");
   scratch.write("text.png", "hello");
   scratch.write("cut.png", "\x89PNG\r\n\x1a\n");
   const auto with_image = [](const std::string& image) {
@@ -47,7 +48,8 @@ TEST_CASE("bad maps are refused with file, line and cause") {
       {"a list", MapKind::kYaml, "- 1\n- 2\n", "bad:1: holds no keys"},
       {"cut pgm", MapKind::kYaml, with_image("cut.pgm"), "cut.pgm:0: damaged at pixel 3"},
       {"odd pgm", MapKind::kYaml, with_image("odd.pgm"), "odd.pgm:0: damaged at pixel 1"},
-      {"huge pgm", MapKind::kYaml, with_image("huge.pgm"), "huge.pgm:0: a picture of 100000 x 100000"},
+      {"huge pgm", MapKind::kYaml, with_image("huge.pgm"),
+       "huge.pgm:0: 100000 x 100000 are more than 64 million pixels"},
       {"deep pgm", MapKind::kYaml, with_image("deep.pgm"), "deep.pgm:0: a greatest grey value"},
       {"text as png", MapKind::kYaml, with_image("text.png"), "text.png:0: neither PNG nor PGM"},
       {"cut png", MapKind::kYaml, with_image("cut.png"), "cut.png:0: "},
@@ -56,6 +58,11 @@ TEST_CASE("bad maps are refused with file, line and cause") {
       {"three numbers", MapKind::kAria, "2D-Map\nLINES\n0 0 1\n", "bad:3: \"0 0 1\" is not 4 numbers"},
       {"words", MapKind::kAria, "2D-Map\nLINES\n0 0 1 x\n", "bad:3: "},
       {"no walls", MapKind::kAria, "2D-Map\nNumLines: 0\n", "bad:2: has neither LINES nor DATA"},
+      {"cut lines", MapKind::kAria, "2D-Map\nNumLines: 2\nLINES\n0 0 1 1\n", "bad:4: ends before its NumLines"},
+      {"cut points", MapKind::kAria, "2D-Map\nNumPoints: 2\nDATA\n0 0\n", "bad:4: ends before its NumPoints"},
+      {"key twice", MapKind::kYaml, kYaml + "resolution: 0.5\n", "bad:5: resolution stands twice"},
+      {"a picture's bytes", MapKind::kYaml, std::string("P5 \"\\\0", 6), "bad:1: "},
+      {"size cut", MapKind::kYaml, with_image("size.pgm"), "size.pgm:0: no size"},
       {"far point", MapKind::kAria, "2D-Map\nDATA\n1e30 0\n", "bad:3: "},
       {"two numbers", MapKind::kCylinders, "# x y r\n1 2\n", "bad:2: \"1 2\" is not 3 numbers"},
       {"negative radius", MapKind::kCylinders, "1 2 -0.1\n", "bad:1: a cylinder needs a radius above 0"},

@@ -124,6 +124,7 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
       {good + "max_speed_mps = 9\n", "s.toml:6: robot.max_speed_mps is 9"},
       {good + "goal_tolerance_m = 0\n", "s.toml:6: robot.goal_tolerance_m is 0"},
       {good + "[robot.laser]\nbeams = 5000\n", "s.toml:7: robot.laser.beams is 5000"},
+      {good + "[robot.laser]\nmount = [1e9, 0, 0]\n", "s.toml:7: robot.laser.mount lies beside any robot"},
       {good + "[robot.laser]\nfov_deg = 400\n", "s.toml:7: robot.laser.fov_deg is 400"},
       {good + "[robot.laser]\ncolour = 1\n", "s.toml:7: robot.laser.colour is not a known key"},
       {good + "[robot.laser]\nrange_min_m = 3\nrange_m = 2\n", "s.toml:7: robot.laser.range_min_m is not below"},

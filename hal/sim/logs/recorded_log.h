@@ -70,7 +70,8 @@ struct RecordedLog {
 /// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
 ///
 /// Lines of a wrong length, those whose time does not grow, and single ones far ahead of it, are left out and counted.
-/// Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
+/// Odometry none of which is of the scans' time is an error, and what it lacks of that is remarked upon from a second
+/// on. Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
 /// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
 [[nodiscard]] RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
                                          const std::optional<std::filesystem::path>& odom_file = std::nullopt,

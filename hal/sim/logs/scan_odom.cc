@@ -1,4 +1,6 @@
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <limits>
 
 #include "hal/sim/logs/line_clock.h"
@@ -14,6 +16,7 @@ constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
 constexpr float kTurn = static_cast<float>(2.0 * kPi);
 constexpr double kFastest = 1000.0;                     // m/s, rad/s
 constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
+constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
 constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 enum class Form { kUnknown, kPlain, kMotion };
@@ -197,6 +200,22 @@ void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");
 }
 
+/// Two clocks that were never set by one another give times that do not meet.
+void compare_times(RecordedLog& log, const std::string& odom_file) {
+  const Time begin = std::max(log.scans.front().stamp, log.odometry.front().stamp);
+  const Time end = std::min(log.scans.back().stamp, log.odometry.back().stamp);
+  if (end < begin) {
+    throw StartupError(odom_file + ": all of it lies before the scans or after them",
+                       "give both by one clock, or the scans alone");
+  }
+  const double all_s = to_seconds(log.scans.back().stamp - log.scans.front().stamp);
+  const double without_s = all_s - to_seconds(end - begin);
+  if (without_s < kMostWithoutS) return;
+  char text[80];
+  std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
+  log.remark = odom_file + text;
+}
+
 }  // namespace
 
 RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
@@ -208,7 +227,10 @@ RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
     throw StartupError(odom_file->string() + ": " + scan_file.string() + " carries its own odometry",
                        "give the scans alone");
   }
-  if (odom_file) read_odometry(log, *odom_file);
+  if (odom_file) {
+    read_odometry(log, *odom_file);
+    compare_times(log, odom_file->string());
+  }
   if (!own_odometry) log.sweep = log.spinning_sweep();
   return log;
 }

@@ -1,34 +1,24 @@
 #include "hal/sim/logs/text_lines.h"
 
-#include <zlib.h>
-
 #include <array>
 #include <string_view>
 
+#include "hal/gzip_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 
 struct TextLines::Stream {
-  gzFile file = nullptr;
+  GzipFile file;
   std::array<char, 1U << 16U> block{};
   std::size_t used = 0, size = 0;
 
-  explicit Stream(const char* path) : file(gzopen(path, "rb")) {}
-  ~Stream() {
-    if (file != nullptr) gzclose(file);
-  }
-  Stream(const Stream&) = delete;
-  Stream& operator=(const Stream&) = delete;
+  explicit Stream(const char* path) : file(path) {}
 
-  /// Reads another block; false at the end. `broken` when zlib says so, or the .gz stops half way.
-  bool refill(bool& broken) {
-    const int got = gzread(file, block.data(), static_cast<unsigned>(block.size()));
+  /// Reads another block; false at the end.
+  bool refill() {
     used = 0;
-    size = got > 0 ? static_cast<std::size_t>(got) : 0;
-    int error = Z_OK;
-    gzerror(file, &error);
-    broken = got < 0 || (error != Z_OK && error != Z_STREAM_END);
+    size = file.read(block.data(), block.size());
     return size > 0;
   }
 };
@@ -37,7 +27,7 @@ TextLines::TextLines(const std::filesystem::path& file, const std::string& expec
   std::error_code unknown;
   if (!std::filesystem::is_regular_file(file, unknown)) throw StartupError(name() + ": no such file", expected);
   stream_ = std::make_unique<Stream>(file.c_str());
-  if (stream_->file == nullptr) throw StartupError(name() + ": cannot be read", "check its permissions");
+  if (!stream_->file.is_open()) throw StartupError(name() + ": cannot be read", "check its permissions");
 }
 
 TextLines::~TextLines() = default;
@@ -51,9 +41,8 @@ bool TextLines::next() {
   ++line_;
   for (bool ended = false; !ended;) {
     if (stream_->used == stream_->size) {
-      bool broken = false;
-      const bool more = stream_->refill(broken);
-      if (broken) refuse("the compressed file is damaged or cut", "fetch it again");
+      const bool more = stream_->refill();
+      if (stream_->file.broken()) refuse("the compressed file is damaged or cut", "fetch it again");
       if (!more && text_.empty()) return false;
       if (!more) break;
     }

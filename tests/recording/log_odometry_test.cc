@@ -1,0 +1,43 @@
+#include <string>
+
+#include "hal/sim/logs/recorded_log.h"
+#include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk::sim {
+namespace {
+
+const std::string kRest = " -0.1 0.1 0.03 11.0 3 1.0 2.0 3.0\n";  // of a scan, behind its time
+
+}  // namespace
+
+TEST_CASE("odometry of another clock than the scans' is refused, and what is missing of it is told") {
+  const Scratch scratch;
+  const std::string scans = scratch.write("scan.txt", "100" + kRest + "100.5" + kRest + "103" + kRest);
+  const auto with = [&](const std::string& odometry) {
+    return load_scan_odom(scans, scratch.write("odom.txt", odometry));
+  };
+  CHECK_THROWS_AS(with("104 0 0 0 0 0\n105 0 0 0 0 0\n"), StartupError);
+  CHECK_THROWS_AS(with("98 0 0 0 0 0\n99 0 0 0 0 0\n"), StartupError);
+  CHECK(with("99 0 0 0 0 0\n102.1 0 0 0 0 0\n").complaint().empty());
+  const std::string told = with("99 0 0 0 0 0\n101 0 0 0 0 0\n").complaint();
+  CHECK(told.find("odom.txt: nothing of 2.0 of the 3.0 s of scans") != std::string::npos);
+}
+
+TEST_CASE("odometry that is set anew on its way goes on from where the robot is") {
+  const Scratch scratch;
+  const RecordedLog log = load_scan_odom(
+      scratch.write("scan.txt", "100.5" + kRest + "100.75" + kRest),
+      scratch.write("odom.txt",
+                    "100.1 1 2 0 1 0\n100.2 1.1 2 0 1 0\n100.3 -30 7 1.5707963 1 0\n100.4 -30 7.1 1.5707963 1 0\n"
+                    "900.5 -30 7.2 1.5707963 1 0\n100.6 -30 7.3 1.5707963 1 0\n"));
+  REQUIRE(log.odometry.size() == 4);
+  CHECK(log.odometry[2].pose.x == Approx(1.2));
+  CHECK(log.odometry[3].pose.x == Approx(1.4));
+  CHECK(log.odometry[3].pose.y == Approx(2.0));
+  CHECK(log.odometry[3].pose.heading == Approx(0.0).margin(1e-6));
+  CHECK(log.complaint().find("odom.txt: 1 line left out, the first is line 3: it jumps") != std::string::npos);
+}
+
+}  // namespace jaywalk::sim
