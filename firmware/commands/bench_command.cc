@@ -12,6 +12,7 @@
 #include "firmware/backends.h"
 #include "firmware/commands/bench_maps.h"
 #include "firmware/commands/bench_rivals.h"
+#include "firmware/commands/bench_tick.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/timing.h"
 #include "hal/types/errors.h"
@@ -23,6 +24,7 @@ namespace {
 /// The exact field of 256 x 256 cells takes less.
 constexpr double kMostMultiplications = 4e9;
 constexpr double kCell_m = 0.1;
+constexpr std::int32_t kTickCells = 256;  // what a loop sees around it
 
 /// Movers that walk about, so that no two submissions are alike.
 std::array<Track, 8> walkers(double side_m) {
@@ -119,6 +121,9 @@ class Bench {
                                    [&] { certified &= field.solve_warm(map.goal).certified; }));
     }
     if (map.cells.width <= 1024) own.push_back(time_plan(map, backend, repeats));
+    if (map.cells.width <= kTickCells) {
+      own.push_back(time_tick(map, kCell_m, walkers(map.cells.width * kCell_m), backend, repeats));
+    }
     for (const Timing& timing : own) {
       for (const Timing& rival : rivals) add(map, timing, rival);
     }
