@@ -7,6 +7,7 @@
 #include <fstream>
 #include <sstream>
 
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -67,9 +68,7 @@ void refuse_deep_nesting(const std::filesystem::path& file) {
 }
 
 toml::value parse(const std::filesystem::path& file) {
-  if (!std::filesystem::is_regular_file(file)) {
-    throw StartupError(file.string() + ":0: no such file", "give the path of a TOML file");
-  }
+  require_readable(file, file.string() + ":0: ", "give the path of a TOML file");
   refuse_deep_nesting(file);
   try {
     return toml::parse(file.string());

@@ -6,6 +6,7 @@
 
 #include "hal/sim/image_file.h"
 #include "hal/sim/walls.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -66,7 +67,7 @@ MapCells load_map_cells(const std::filesystem::path& file, std::optional<double>
   if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0)) {
     throw StartupError("--resolution: outside 0.001 to 10 m", "give metres a cell");
   }
-  if (!std::filesystem::is_regular_file(file)) throw StartupError(name + ":0: no such file", "give a map's path");
+  require_readable(file, name + ":0: ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
     if (cell_m) throw StartupError(name + ":0: says its resolution itself", "leave --resolution out");
     return cells_of(name, sim::load_raster_map(file).raster);

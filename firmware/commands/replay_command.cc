@@ -15,6 +15,7 @@
 #include "firmware/recording/recording_stream.h"
 #include "hal/sim/logs/line_file.h"
 #include "hal/sim/logs/log_replay.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -169,6 +170,9 @@ int replay_recording(const ReplayOptions& options) {
 }  // namespace
 
 int run_replay(const ReplayOptions& options) {
+  for (const std::filesystem::path& log : options.logs) {
+    require_readable(log, log.string() + ": ", "give a recording");
+  }
   const std::string format = format_of(options);
   return format == "jaywalk" ? replay_recording(options) : replay_log(options, format);
 }

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "hal/shown_text.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -42,6 +43,7 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
   while (std::getline(in, line)) {
     ++number;
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number == 1) drop_byte_order_mark(line);
     if (number == 1 && line == "t_s,id,x_m,y_m") continue;
     if (number == 1) refuse(file, 1, "does not begin with t_s,id,x_m,y_m");
     if (!line.empty()) rows.push_back(parse_row(file, number, line));

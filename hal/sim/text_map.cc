@@ -6,6 +6,7 @@
 
 #include "hal/shown_text.h"
 #include "hal/sim/wall_map.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -27,6 +28,7 @@ class LineReader {
     if (!std::getline(in_, line)) return false;
     ++number_;
     if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number_ == 1) drop_byte_order_mark(line);
     return true;
   }
   /// Exactly `count` numbers, and nothing else, from `line`.

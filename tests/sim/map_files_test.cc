@@ -76,6 +76,13 @@ TEST_CASE("bad maps are refused with file, line and cause") {
   }
 }
 
+TEST_CASE("a byte order mark is no part of a map") {
+  const Scratch scratch;
+  const std::string mark = "\xEF\xBB\xBF";
+  CHECK(load_aria_map(scratch.write("m.map", mark + "2D-Map\nLINES\n0 0 1 1\n")).segments.size() == 1);
+  CHECK(load_cylinder_map(scratch.write("c.txt", mark + "1 2 0.1\n")).discs.size() == 1);
+}
+
 TEST_CASE("a map that is not there is refused, whatever its kind") {
   for (const MapKind kind : {MapKind::kYaml, MapKind::kAria, MapKind::kCylinders}) {
     CHECK(says(refusal([&] { static_cast<void>(load_wall_map(kind, "/nowhere/at.all")); }), "/nowhere/at.all:0: "));

@@ -4,6 +4,7 @@
 #include <string_view>
 
 #include "hal/gzip_file.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -24,10 +25,8 @@ struct TextLines::Stream {
 };
 
 TextLines::TextLines(const std::filesystem::path& file, const std::string& expected) : file_(file) {
-  std::error_code unknown;
-  if (!std::filesystem::is_regular_file(file, unknown)) throw StartupError(name() + ": no such file", expected);
+  require_readable(file, name() + ": ", expected);
   stream_ = std::make_unique<Stream>(file.c_str());
-  if (!stream_->file.is_open()) throw StartupError(name() + ": cannot be read", "check its permissions");
 }
 
 TextLines::~TextLines() = default;
@@ -55,6 +54,7 @@ bool TextLines::next() {
     stream_->used += taken + (ended ? 1 : 0);
   }
   if (!text_.empty() && text_.back() == '\r') text_.pop_back();
+  if (line_ == 1) drop_byte_order_mark(text_);
   return true;
 }
 
