@@ -40,8 +40,30 @@ LaserWiring read_wiring(TomlTable& table) {
   return wiring;
 }
 
+struct Numbered {
+  const char* key;
+  std::uint16_t value;
+};
+
+/// Refuses the first that repeats one before it.
+void require_distinct(const TomlTable& table, std::initializer_list<Numbered> all) {
+  for (const Numbered& one : all) {
+    for (const Numbered* other = all.begin(); other != &one; ++other) {
+      if (one.value == other->value)
+        table.refuse(one.key, std::string("is ") + other->key + " too", "give each its own");
+    }
+  }
+}
+
 std::uint8_t read_node(TomlTable& table, const std::string& key, std::int64_t otherwise) {
   return static_cast<std::uint8_t>(table.integer(key, {1, 127}, otherwise));
+}
+
+/// Of the left drive and the right one.
+std::array<std::uint8_t, 2> read_nodes(TomlTable& table, std::int64_t left, std::int64_t right) {
+  const std::array nodes{read_node(table, "left_node", left), read_node(table, "right_node", right)};
+  require_distinct(table, {{"left_node", nodes[0]}, {"right_node", nodes[1]}});
+  return nodes;
 }
 
 /// Wheel acceleration (m/s2 at the rim) as counts/s2.
@@ -66,8 +88,10 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.allow_unproved = table.boolean("allow_unproved", false);
   const auto scales = read_scales(table, "counts_per_wheel_turn");
-  base.axes = {canopen::AxisSetup{read_node(table, "left_node", 2), scales[0]},
-               canopen::AxisSetup{read_node(table, "right_node", 3), scales[1]}};
+  const auto nodes = read_nodes(table, 2, 3);
+  require_distinct(table,
+                   {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
+  base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;
@@ -82,14 +106,14 @@ DriveWiring read_drive(TomlTable table, const RobotModel& model) {
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
     const auto scales = read_scales(table, "motor_turns_per_wheel_turn");
-    wiring.odrive.axes = {odrive::AxisSetup{read_node(table, "left_node", 1), scales[0]},
-                          odrive::AxisSetup{read_node(table, "right_node", 2), scales[1]}};
+    const auto nodes = read_nodes(table, 1, 2);
+    wiring.odrive.axes = {odrive::AxisSetup{nodes[0], scales[0]}, odrive::AxisSetup{nodes[1], scales[1]}};
     wiring.odrive.allow_unproved = table.boolean("allow_unproved", false);
   } else if (kind == "vesc") {
     wiring.kind = DriveKind::kVesc;
     const auto scales = read_scales(table, "electrical_turns_per_wheel_turn");
-    wiring.vesc.axes = {vesc::AxisSetup{read_node(table, "left_node", 1), scales[0]},
-                        vesc::AxisSetup{read_node(table, "right_node", 2), scales[1]}};
+    const auto nodes = read_nodes(table, 1, 2);
+    wiring.vesc.axes = {vesc::AxisSetup{nodes[0], scales[0]}, vesc::AxisSetup{nodes[1], scales[1]}};
     wiring.vesc.allow_unproved = table.boolean("allow_unproved", false);
   } else {
     table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
@@ -119,6 +143,9 @@ PanelWiring read_panel(TomlTable table) {
   joystick.stop = button("stop_button", joystick.stop);
   joystick.stop_opens = table.boolean("stop_opens", joystick.stop_opens);
   joystick.reset = button("reset_button", joystick.reset);
+  require_distinct(
+      table,
+      {{"dead_man_button", joystick.dead_man}, {"stop_button", joystick.stop}, {"reset_button", joystick.reset}});
   table.finish();
   return panel;
 }

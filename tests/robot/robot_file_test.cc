@@ -133,6 +133,15 @@ TEST_CASE("a joystick is read from the file with its buttons") {
   CHECK(refusal(kGood + panel + "throttle = 1\n").find("throttle") != std::string::npos);
 }
 
+TEST_CASE("two drives, or two buttons, are not one") {
+  const auto with_node = [](const std::string& line) { return with("can = \"can0\"", "can = \"can0\"\n" + line); };
+  CHECK(refusal(with_node("left_node = 3")).find("drive.right_node is left_node too; ") != std::string::npos);
+  CHECK(refusal(with_node("controller_node = 2")).rfind("13: drive.controller_node is left_node too; ", 0) == 0);
+  CHECK(load(with_node("left_node = 3\nright_node = 2")).drive.cia402.axes[1].node == 2);
+  const std::string panel = std::string(kGood) + "\n[panel]\njoystick = \"/dev/null\"\nstop_button = 0x136\n";
+  CHECK(refusal(panel).find("panel.stop_button is dead_man_button too; ") != std::string::npos);
+}
+
 TEST_CASE("what is wrong in a robot file is refused with its line") {
   CHECK(refusal(kGood) == "loaded");
   CHECK(refusal(with("start =", "begin =")).rfind("2: begin is not a known key; ", 0) == 0);
