@@ -110,7 +110,10 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   correct_to(placed, odom_from_robot_at_scan);
   covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
   if_wheels_slipped = covariance;
-  if (!odometry.by_wheels()) return;
+  if (!odometry.by_wheels()) {
+    drift.begin_anew();
+    return;
+  }
   trust.corrected(predicted, placed);
   drift.corrected(wrap_angle(placed.heading - predicted.heading));
   odometry.set_side_drift(drift.turn_per_m());
@@ -164,6 +167,7 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   covariance = now.covariance;
   if_wheels_slipped = covariance;
   trust.begin_anew();
+  drift.begin_anew();
   correct_to(now.map_from_robot, odom_from_robot);
 }
 

@@ -45,7 +45,8 @@ ArcStep Odometry::since_last(const WheelState& wheels) const noexcept {
   if (coasted_) {
     const double seconds = std::clamp(to_seconds(wheels.stamp) - to_seconds(newest().stamp), 0.0, kSilentS);
     const Twist2 now = twist_of(wheels, drive_);
-    return {now.v_mps * seconds, now.w_radps * seconds};
+    const ArcStep step{now.v_mps * seconds, now.w_radps * seconds};
+    return believable(step, seconds) ? step : ArcStep{};
   }
   const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
   const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
@@ -78,10 +79,12 @@ bool Odometry::remembers(Time stamp) const noexcept {
 
 void Odometry::coast(const Pose2& before_from_after, Time stamp) noexcept {
   coasted_ = true;
+  twist_ = {};  // of wheels that say nothing
   remember({stamp, odom_from_robot() * before_from_after});
 }
 
 void Odometry::remember(const Entry& entry) noexcept {
+  if (count_ > 0 && entry.stamp < newest().stamp) forgotten_ = count_;  // a clock set back: those were of other times
   entries_[count_ % kRemembered] = entry;
   ++count_;
 }

@@ -1,5 +1,6 @@
 #pragma once
 // Dead reckoning: from wheel angles, or without wheels from how the robot last moved.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 
@@ -53,7 +54,9 @@ class Odometry {
   };
   static constexpr std::size_t kRemembered = 128;  ///< 2.5 s at 50 Hz
 
-  [[nodiscard]] std::size_t oldest() const { return count_ > kRemembered ? count_ - kRemembered : 0; }
+  [[nodiscard]] std::size_t oldest() const {
+    return std::max(forgotten_, count_ > kRemembered ? count_ - kRemembered : 0);
+  }
   [[nodiscard]] const Entry& newest() const { return entries_[count_ == 0 ? 0 : (count_ - 1) % kRemembered]; }
   void remember(const Entry& entry) noexcept;
   [[nodiscard]] bool believable(const ArcStep& step, double seconds) const noexcept;
@@ -67,7 +70,8 @@ class Odometry {
   double side_drift_ = 0.0;
   Twist2 twist_;
   std::array<Entry, kRemembered> entries_{};
-  std::size_t count_ = 0;  ///< ever remembered
+  std::size_t count_ = 0;      ///< ever remembered
+  std::size_t forgotten_ = 0;  ///< so many of them, whatever their room
 };
 
 }  // namespace jaywalk

@@ -79,7 +79,6 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
   Symmetric3 posterior;
   for (int k = 0; k < kMostIterations; ++k) {
     const Pull pull = pull_of_walls(sample_, still, pose);
-    result.points_on_walls = pull.on_walls;
     result.known_for_long = pull.on_standing >= kFewestOnWalls;
     result.contradicted = contradicted(pull);
     if (!enough(pull)) return result;

@@ -19,7 +19,6 @@ struct MatchResult {
   PoseBelief belief;
   double fit = 0.0;  ///< in [0, 1]: how well the points that are not in unknown space lie on walls, on average
   std::uint32_t points_used = 0;
-  std::uint32_t points_on_walls = 0;
 };
 
 /// Thread: the loop's. No allocation after construction.

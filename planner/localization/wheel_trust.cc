@@ -23,7 +23,6 @@ constexpr double kMatchHeadingVar = 0.015 * 0.015;
 constexpr double kWheelHeadingVar = 0.03 * 0.03;     // a metre or radian
 constexpr double kDriftChangeVar = 0.0005 * 0.0005;  // a metre or radian: tyres wear, loads shift
 constexpr double kMostDriftVar = 0.06 * 0.06;
-constexpr double kMostSigmas = 3.0;  // of a surprise that are believed
 
 double squared_beyond(double value, double allowed) { return std::max(0.0, value * value - allowed * allowed); }
 
@@ -85,8 +84,9 @@ void SideDrift::corrected(double turn_rad) noexcept {
   since_ = {};
   variance_ = std::min(variance_ + kDriftChangeVar * driven, kMostDriftVar);
   const double surprise_var = kMatchHeadingVar + kWheelHeadingVar * driven + metres * metres * variance_;
-  const double most = kMostSigmas * std::sqrt(surprise_var), gain = variance_ * metres / surprise_var;
-  turn_per_m_ = std::clamp(turn_per_m_ + gain * std::clamp(turn_rad, -most, most), -kMost, kMost);
+  if (std::fabs(turn_rad) > kMost * std::fabs(metres) + std::sqrt(kMatchHeadingVar + kWheelHeadingVar * driven)) return;
+  const double gain = variance_ * metres / surprise_var;
+  turn_per_m_ = std::clamp(turn_per_m_ + gain * turn_rad, -kMost, kMost);
   variance_ -= gain * metres * variance_;
 }
 

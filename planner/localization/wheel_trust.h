@@ -65,8 +65,11 @@ class SideDrift {
   [[nodiscard]] double turn_per_m() const { return turn_per_m_; }
 
   void drove(const ArcStep& step) noexcept;
-  /// A match turned the robot by `turn_rad` after what it drove since the last.
+  /// A match turned the robot by `turn_rad` after what it drove since the last. What no drift explains, as of a wheel
+  /// that spins in the air, is none.
   void corrected(double turn_rad) noexcept;
+  /// The pose was moved by something else than wheels and scans: what was driven since the last match tells nothing.
+  void begin_anew() noexcept { since_ = {}; }
 
   static constexpr double kMost = 0.12;
 

@@ -30,10 +30,14 @@ bool SelfMask::on_robot(std::size_t beam, double range_m) const noexcept {
 }
 
 void SelfMask::learn(const LaserScan& scan, const Pose2& map_from_robot) noexcept {
-  if (std::fabs(wrap_angle(map_from_robot.heading - asked_at_.heading)) < kTurnRad) return;
-  const Vec2 middle = middle_of_turn(asked_at_, map_from_robot);
+  const auto as_then = [&](const Pose2& asked) {
+    return std::fabs(wrap_angle(map_from_robot.heading - asked.heading)) < kTurnRad;
+  };
+  if (std::any_of(asked_at_.begin(), asked_at_.end(), as_then)) return;
+  const Vec2 middle = middle_of_turn(asked_at_[last_asked_], map_from_robot);
+  last_asked_ = (last_asked_ + 1) % asked_at_.size();
+  asked_at_[last_asked_] = map_from_robot;
   const bool on_the_spot = norm(middle) < kOwnM;
-  asked_at_ = map_from_robot;
   const Transform2 robot_from_laser(robot_from_laser_);
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
   for (std::size_t b = 0; b < beams; ++b) {

@@ -9,8 +9,9 @@
 namespace jaywalk {
 
 /// Learns them: a range that stays the same under turn after turn of the robot is fixed to it. Only ranges below 1 m
-/// are asked; turns are asked for because a wall that the robot drives along stays as near as it was. What lies near
-/// the middle of a turn is not asked: somebody whom the robot drives round stays as near, too.
+/// are asked; turns are asked for because a wall that the robot drives along stays as near as it was, and other
+/// headings than the last few, because it is as near again when the robot sways. What lies near the middle of a turn is
+/// not asked: somebody whom the robot drives round stays as near, too.
 class SelfMask {
  public:
   explicit SelfMask(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
@@ -25,7 +26,9 @@ class SelfMask {
 
   std::array<float, kMaxBeams> range_m_{};
   std::array<std::uint8_t, kMaxBeams> agreed_{};  ///< headings that gave range_m_ again, less those that did not
-  Pose2 robot_from_laser_, asked_at_;
+  Pose2 robot_from_laser_;
+  std::array<Pose2, kEnough> asked_at_{};  ///< one after the other, round and round
+  std::size_t last_asked_ = 0;
 };
 
 }  // namespace jaywalk

@@ -104,3 +104,27 @@ TEST_CASE("wheels that are known to pull to the left are put right, and their sp
   CHECK(odometry.odom_from_robot().heading == Approx(0.2));
   CHECK(odometry.twist().w_radps == Approx(0.05));  // 0.5 m/s
 }
+
+TEST_CASE("a clock that is set back puts no scan where the robot was before") {
+  for (const double back_s : {0.3, 0.9, 5.0}) {
+    Odometry odometry(kDrive);
+    for (std::uint32_t k = 0; k <= 50; ++k) (void)odometry.take(reading(k + 1, 0.02 * k, 0.2 * k, 0.2 * k));  // 1 m/s
+    for (std::uint32_t k = 51; k <= 60; ++k) {
+      (void)odometry.take(reading(k + 1, 0.02 * k - back_s, 0.2 * k, 0.2 * k));
+      CHECK(odometry.at(time_from_seconds(0.02 * k - 0.003 - back_s)).x == Approx(0.02 * k).margin(0.02));
+    }
+    CHECK_FALSE(odometry.remembers(time_from_seconds(1.0 - back_s)));
+  }
+}
+
+TEST_CASE("a speed that no motor has moves nobody after a silence, and none is left while they say nothing") {
+  Odometry odometry(kDrive);
+  WheelState wheels = reading(1, 0.0, 0.0, 0.0);
+  wheels.left_radps = wheels.right_radps = 5.0;
+  (void)odometry.take(wheels);
+  odometry.coast({}, time_from_seconds(1.0));
+  CHECK(odometry.at(time_from_seconds(1.2)).x == 0.0);
+  wheels.stamp = time_from_seconds(1.2);
+  wheels.left_radps = wheels.right_radps = 1e6;
+  CHECK(odometry.take(wheels).distance_m == 0.0);
+}

@@ -77,3 +77,9 @@ TEST_CASE("what was taken off the robot is forgotten") {
   turn(*mask, 100, 116, 3.0F);  // 20 - 17 = 3
   CHECK_FALSE(mask->on_robot(0, 0.7));
 }
+
+TEST_CASE("what stands before a robot that sways is not its own: it is at the same two headings again and again") {
+  const auto mask = std::make_unique<SelfMask>(Pose2{});
+  for (int k = 0; k < 100; ++k) mask->learn(one_beam(0.7F), {3.0, 1.0, k % 2 == 0 ? 0.5 : 0.74});
+  CHECK_FALSE(mask->on_robot(0, 0.7));
+}
