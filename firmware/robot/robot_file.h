@@ -5,18 +5,14 @@
 #include <optional>
 #include <string>
 
-#include "drivers/canopen/drive_base.h"
 #include "drivers/laser/scanner_setup.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/control_setup.h"
+#include "firmware/robot/drive_wiring.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/operator_input.h"
 
 namespace jaywalk {
-
-enum class DriveKind { kCia402, kOdrive, kVesc };
 
 struct LaserWiring {
   ScannerKind kind = ScannerKind::kSickColaB;
@@ -25,14 +21,6 @@ struct LaserWiring {
   std::string device;
   std::uint32_t baud = 0;
   Duration first_scan_limit = std::chrono::seconds(10);  ///< at start; a scanner may still be waking up
-};
-
-struct DriveWiring {
-  DriveKind kind = DriveKind::kCia402;
-  std::string can;  ///< interface
-  canopen::DriveBaseSetup cia402;
-  odrive::BaseSetup odrive;
-  vesc::BaseSetup vesc;
 };
 
 struct PanelWiring {

@@ -1,0 +1,84 @@
+#include "firmware/robot/drive_wiring.h"
+
+#include <array>
+#include <cmath>
+
+#include "firmware/robot/distinct_keys.h"
+
+namespace jaywalk {
+namespace {
+
+/// The drives' own ramps lie above what the controller asks for, or they would lag behind it; the proof of 6084h and
+/// 6085h then covers limits.brake_mps2.
+constexpr double kRampOverBrake = 1.5;
+
+std::uint8_t read_node(TomlTable& table, const std::string& key, std::int64_t otherwise) {
+  return static_cast<std::uint8_t>(table.integer(key, {1, 127}, otherwise));
+}
+
+/// Of the left drive and the right one.
+std::array<std::uint8_t, 2> read_nodes(TomlTable& table, std::int64_t left, std::int64_t right) {
+  const std::array nodes{read_node(table, "left_node", left), read_node(table, "right_node", right)};
+  require_distinct(table, {{"left_node", nodes[0]}, {"right_node", nodes[1]}});
+  return nodes;
+}
+
+/// Wheel acceleration (m/s2 at the rim) as counts/s2.
+std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) {
+  constexpr double kMost = 4294967295.0;
+  return static_cast<std::uint32_t>(std::fmin(mps2 / model.wheel_radius_m * counts_per_rad + 0.5, kMost));
+}
+
+/// What a radian of a wheel is in the drive's own unit, `key` of them a turn; negative for a motor that is reversed.
+std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
+  const double per_rad = table.number(key, {1e-3, 1e9}) / (2.0 * kPi);
+  const bool left = table.boolean("left_reversed", false), right = table.boolean("right_reversed", false);
+  return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
+}
+
+canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
+  canopen::DriveBaseSetup base;
+  canopen::DriveSettings& settings = base.settings;
+  settings.controller_node = read_node(table, "controller_node", 1);
+  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
+  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
+  base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
+  base.allow_unproved = table.boolean("allow_unproved", false);
+  const auto scales = read_scales(table, "counts_per_wheel_turn");
+  const auto nodes = read_nodes(table, 2, 3);
+  require_distinct(table,
+                   {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
+  base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
+  settings.acceleration = settings.deceleration = settings.quick_stop =
+      ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
+  return base;
+}
+
+}  // namespace
+
+DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+  DriveWiring wiring;
+  const std::string kind = table.text("kind");
+  wiring.can = table.text("can");
+  if (kind == "cia402") {
+    wiring.cia402 = read_cia402(table, model);
+  } else if (kind == "odrive") {
+    wiring.kind = DriveKind::kOdrive;
+    const auto scales = read_scales(table, "motor_turns_per_wheel_turn");
+    const auto nodes = read_nodes(table, 1, 2);
+    wiring.odrive.axes = {odrive::AxisSetup{nodes[0], scales[0]}, odrive::AxisSetup{nodes[1], scales[1]}};
+    wiring.odrive.allow_unproved = table.boolean("allow_unproved", false);
+  } else if (kind == "vesc") {
+    wiring.kind = DriveKind::kVesc;
+    const auto scales = read_scales(table, "electrical_turns_per_wheel_turn");
+    const auto nodes = read_nodes(table, 1, 2);
+    wiring.vesc.axes = {vesc::AxisSetup{nodes[0], scales[0]}, vesc::AxisSetup{nodes[1], scales[1]}};
+    wiring.vesc.allow_unproved = table.boolean("allow_unproved", false);
+  } else {
+    table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
+  }
+  table.finish();
+  return wiring;
+}
+
+}  // namespace jaywalk
