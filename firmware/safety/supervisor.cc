@@ -15,13 +15,17 @@ StopZoneConfig zone_config(const SupervisorConfig& config) {
           .reaction_s = scan_s + config.control_and_drive_s};
 }
 
-/// Not the number of beams that this scanner has, or half of them or more without any number: one that is broken,
-/// covered or blinded.
+/// Not with another number of beams than this scanner has, nor with half of them or more without any number, nor where
+/// none measured anything, be it that nothing is in reach: one that is broken, covered or blinded.
 bool trustworthy(const LaserScan& scan, std::uint32_t beams) {
   if (scan.beam_count != beams || beams > kMaxBeams) return false;
   std::size_t not_numbers = 0;
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
-  return 2 * not_numbers < scan.beam_count;
+  bool measured = false;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
+    measured = measured || scan.is_hit(beam) || scan.found_nothing(beam);
+  }
+  return measured && 2 * not_numbers < scan.beam_count;
 }
 
 Reason reason_for(DriveTrouble trouble) {

@@ -69,7 +69,7 @@ class EvidenceMap {
   static constexpr double kStandsAfterS = 1.0;
 
  private:
-  static constexpr double kSeenUnitsPerS = 64.0;
+  static constexpr double kSeenUnitsPerS = 250.0;  ///< fits a byte; a scan at 40 Hz is 6 of them, not 6.25
 
   /// Rounded down and held within kFarthest: a number that no integer holds becomes another one on each processor.
   /// Not std::floor, which is a call where the compiler may not count on SSE 4.1: this is asked ten thousand times a
@@ -99,7 +99,7 @@ class EvidenceMap {
   };
 
   std::vector<std::int8_t> evidence_;
-  std::vector<std::uint8_t> seen_for_;  ///< in 1/64 s, saturating; 0 where it is not held occupied
+  std::vector<std::uint8_t> seen_for_;  ///< in 1/250 s, saturating; 0 where it is not held occupied
   std::vector<Offset> surface_;         ///< from the cell's centre, in 1/128 of half a cell
   std::vector<Offset> to_laser_;        ///< in 1/127
 };

@@ -20,7 +20,7 @@ constexpr double kIndependent = 0.06;
 
 void ScanMatcher::sample(const ScanPoints& scan) noexcept {
   sample_.clear();
-  const std::size_t stride = scan.size() / kMostMatchPoints + 1;
+  const std::size_t stride = (scan.size() + kMostMatchPoints - 1) / kMostMatchPoints;
   for (std::size_t k = 0; k < scan.size(); k += stride) (void)sample_.push_back(scan[k].in_robot);
 }
 

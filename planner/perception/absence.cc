@@ -5,10 +5,9 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kUnseenForS = 2.0;           // a hidden one is believed in this long, and no longer than it was seen
+constexpr double kUnseenForS = 2.0;           // a hidden one is believed in this long, or as long as it was seen
 constexpr double kWalksUnseenForS = 1.0;      // who walks; after that he may have turned or stopped: HiddenWalkers
-constexpr double kTentativeUnseenForS = 0.6;  // one not believed yet: dark cloth returns nothing for half a second
-constexpr double kGivenUnseenForS = 1.0;      // one from outside, this long after its last report
+constexpr double kTentativeUnseenForS = 0.6;  // anyone: dark cloth returns nothing for half a second
 
 }  // namespace
 
@@ -18,7 +17,8 @@ bool gone(const Body& body, Time now) noexcept {
   if (body.looked_through_s > kLookedThroughForS) return true;
   if (!body.confirmed()) return unseen_s > kTentativeUnseenForS;
   const double known_s = to_seconds(body.track.last_seen - body.born);
-  return unseen_s > std::min(body.track.moving ? kWalksUnseenForS : kUnseenForS, known_s);
+  const double longest_s = body.track.moving ? kWalksUnseenForS : kUnseenForS;
+  return unseen_s > std::clamp(known_s, kTentativeUnseenForS, longest_s);
 }
 
 }  // namespace jaywalk

@@ -32,7 +32,9 @@ Body first_report(const ObservedMover& mover, double std_m, Time stamp, std::uin
 void report_again(Body& body, const ObservedMover& mover, double std_m, Time stamp) {
   predict_to(body, stamp);
   Track& track = body.track;
-  correct(track.position_in_map, track.velocity_in_map, track.covariance, mover.position_in_map, std_m * std_m);
+  const double late_s = to_seconds(track.stamp - stamp);  // it has walked on since
+  const Vec2 place = mover.position_in_map + track.velocity_in_map * late_s;
+  correct(track.position_in_map, track.velocity_in_map, track.covariance, place, std_m * std_m);
   body.track.hits += 1;
   body.track.last_seen = stamp;
 }

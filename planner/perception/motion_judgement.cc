@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "planner/perception/departure.h"
+#include "planner/perception/steady_walk.h"
 
 namespace jaywalk {
 namespace {
@@ -15,6 +16,7 @@ constexpr Duration kSlowFor = duration_from_seconds(4.3);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
 constexpr double kSettledM = 0.25;                             // has not gone farther
 constexpr Duration kProofWithin = duration_from_seconds(1.5);  // that he who came back is who he was taken for
+constexpr double kAlongM = 0.5;                                // a body's own width
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
 
 /// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
@@ -71,7 +73,15 @@ void judge_stander(Body& body, const Surroundings& around, Time now) {
   if (stood > kAnchorHolds) anchor_here(body, around.map_from_laser, now);  // creeping is not walking
 }
 
-bool may_be_somebody(const Body& body) { return body.track.moving || (body.confirmed() && body.on_legs()); }
+/// Not called moving, and no wall: who goes along beside the robot.
+bool came_along(const Body& body) {
+  return body.solid() && body.whole && came_to_free_space(body) &&
+         distance(body.track.position_in_map, body.anchor_in_map) > kAlongM;
+}
+
+bool may_be_somebody(const Body& body) {
+  return body.track.moving || (body.confirmed() && (body.on_legs() || came_along(body)));
+}
 
 }  // namespace
 

@@ -63,9 +63,10 @@ void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Ob
 Observation observation_of(const Clusters& clusters, std::size_t lead, std::int32_t fellow, double arc_m,
                            bool on_legs) noexcept {
   const Cluster& c = clusters[lead];
+  const double half_m = c.whole() ? c.radius_m : std::max(c.radius_m, arc_m);  // what is hidden is there all the same
   Observation seen{.position_in_map = c.centre_in_map,
                    .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
-                   .radius_m = std::clamp(c.radius_m, kLeastRadiusM, kMostRadiusM),
+                   .radius_m = std::clamp(half_m, kLeastRadiusM, kMostRadiusM),
                    .in_free_space = c.in_free_space,
                    .outline_in_map = c.outline_in_map,
                    .beams = c.beams,

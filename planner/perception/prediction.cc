@@ -24,7 +24,9 @@ void predict_to(Body& body, Time stamp) noexcept {
   } else {
     body.models.predict(body.track, dt);
   }
-  body.track.stamp = std::max(body.track.stamp, stamp);
+  // A clock set back by less than a second goes on from there: filters that waited for it would take what they see as
+  // seen at once.
+  body.track.stamp = body.given ? std::max(body.track.stamp, stamp) : stamp;
 }
 
 }  // namespace jaywalk

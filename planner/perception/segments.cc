@@ -26,7 +26,8 @@ bool goes_on_as(Vec2 step, Vec2 jump) {
 bool joined(const ScanPoints& points, std::size_t k, const Sweep& sweep) {
   const std::size_t n = points.size();
   const Vec2 jump = step_from(points, k);
-  const double spacing_m = points[(k + 1) % n].range_m * std::fabs(sweep.angle_step_rad);
+  const double farther_m = std::max(points[k].range_m, points[(k + 1) % n].range_m);  // whichever way it turns
+  const double spacing_m = farther_m * std::fabs(sweep.angle_step_rad);
   if (norm(jump) <= std::max(kJumpM, kJumpSteps * spacing_m)) return true;
   const bool at_an_end = !sweep.all_round && (k == 0 || k + 2 >= n);
   return !at_an_end && goes_on_as(step_from(points, k + n - 1), jump) && goes_on_as(step_from(points, k + 1), jump);

@@ -30,6 +30,8 @@ bool SelfMask::on_robot(std::size_t beam, double range_m) const noexcept {
 }
 
 void SelfMask::learn(const LaserScan& scan, const Pose2& map_from_robot) noexcept {
+  const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
+  for (std::size_t b = 0; b < beams; ++b) measured_[b] = measured_[b] || scan.is_hit(b) || scan.found_nothing(b);
   const auto as_then = [&](const Pose2& asked) {
     return std::fabs(wrap_angle(map_from_robot.heading - asked.heading)) < kTurnRad;
   };
@@ -37,9 +39,9 @@ void SelfMask::learn(const LaserScan& scan, const Pose2& map_from_robot) noexcep
   const Vec2 middle = middle_of_turn(asked_at_[last_asked_], map_from_robot);
   last_asked_ = (last_asked_ + 1) % asked_at_.size();
   asked_at_[last_asked_] = map_from_robot;
+  asked_ = std::min(asked_ + 1, std::uint32_t{kEnough});
   const bool on_the_spot = norm(middle) < kOwnM;
   const Transform2 robot_from_laser(robot_from_laser_);
-  const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
   for (std::size_t b = 0; b < beams; ++b) {
     if (!scan.is_hit(b)) continue;  // proves nothing
     const float range = scan.range_m[b];

@@ -1,6 +1,7 @@
 #pragma once
 // Beams that end on the robot itself: masts, cables, a rider's feet.
 #include <array>
+#include <bitset>
 #include <cstdint>
 
 #include "hal/types/geometry.h"
@@ -20,15 +21,20 @@ class SelfMask {
   void learn(const LaserScan& scan, const Pose2& map_from_robot) noexcept;
   /// Whether what `beam` ends on at `range_m` is the robot's: not who stands before it, nor what is seen beyond it.
   [[nodiscard]] bool on_robot(std::size_t beam, double range_m) const noexcept;
+  /// Whether `beam` has never measured anything, be it that nothing is in reach, at so many headings: the robot, or the
+  /// scanner's own housing, is before it.
+  [[nodiscard]] bool blocked(std::size_t beam) const noexcept { return asked_ >= kEnough && !measured_[beam]; }
 
  private:
   static constexpr std::uint8_t kEnough = 4;
 
+  std::bitset<kMaxBeams> measured_;
   std::array<float, kMaxBeams> range_m_{};
   std::array<std::uint8_t, kMaxBeams> agreed_{};  ///< headings that gave range_m_ again, less those that did not
   Pose2 robot_from_laser_;
   std::array<Pose2, kEnough> asked_at_{};  ///< one after the other, round and round
   std::size_t last_asked_ = 0;
+  std::uint32_t asked_ = 0;  ///< headings so far, up to kEnough
 };
 
 }  // namespace jaywalk

@@ -42,7 +42,9 @@ std::uint32_t second_body(const Bodies& bodies, const PointsInMap& in_map, const
   if (width_m < kWidthOfBoth * 2.0 * (one->arc_m + other->arc_m)) return s.first;
   std::uint32_t k = s.first;
   while (body_under(bodies, in_map.position[k]) == one) ++k;  // its last point is the other's
-  return k;
+  std::uint32_t others = k;
+  while (body_under(bodies, in_map.position[others]) == nullptr) ++others;
+  return k + (others - k) / 2;  // half of what is nobody's
 }
 
 }  // namespace

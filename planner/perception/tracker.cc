@@ -1,5 +1,7 @@
 #include "planner/perception/tracker.h"
 
+#include <limits>
+
 #include "planner/perception/absence.h"
 #include "planner/perception/association.h"
 #include "planner/perception/entries.h"
@@ -53,7 +55,7 @@ struct Tracker::State {
   Bodies bodies;
   HiddenWalkers hidden;
   std::uint32_t last_id = 0;
-  bool movers_are_given = false;
+  double unreported_s = std::numeric_limits<double>::infinity();  ///< since an outside system last told of movers
   Time now = kNever;
   double step_s = 0.0;
 
@@ -70,6 +72,7 @@ void Tracker::State::forget_bodies() noexcept {
 void Tracker::State::predict_all_to(Time stamp) noexcept {
   if (now != kNever && to_seconds(now) - to_seconds(stamp) > kClockSetBackS) forget_bodies();
   step_s = step_seconds(now, stamp);
+  unreported_s += step_s;
   now = stamp;
   for (Body& body : bodies) predict_to(body, stamp);
 }
@@ -110,7 +113,7 @@ void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
 }
 
 void Tracker::State::birth() noexcept {
-  if (movers_are_given) return;
+  if (unreported_s < kGivenUnseenForS) return;  // it knows them all; where it falls silent the laser has to do
   Clusters& clusters = scene.clusters;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     if (clusters[k].track_id != 0) continue;
@@ -165,7 +168,7 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
 
 void Tracker::update_given(const OutsideFix& fix) noexcept {
   State& s = *state_;
-  s.movers_are_given = true;
+  s.unreported_s = 0.0;
   take_given(fix, s.scene.map_from_laser.position(), s.bodies, s.last_id);
   s.publish();
 }

@@ -60,6 +60,14 @@ TEST_CASE("where a side has the middle of who comes out does not depend on how m
   CHECK(norm(whole.was_off) == 0.0);
 }
 
+TEST_CASE("who goes behind something is as wide as he was") {
+  const auto clusters = clusters_behind(0.0);
+  REQUIRE(clusters->size() == 1);
+  const Observation unknown = observation_of(*clusters, 0, -1, 0.0, false);
+  CHECK(unknown.radius_m < 0.3);
+  CHECK(observation_of(*clusters, 0, -1, 0.4, false).radius_m == 0.4);
+}
+
 TEST_CASE("a cluster between one who is surely near and one who may be anywhere is the former's") {
   const auto clusters = std::make_unique<Clusters>();
   REQUIRE(clusters->push_back({}));  // about the origin

@@ -104,3 +104,28 @@ TEST_CASE("of more given movers than there are tracks the nearest are kept") {
   // 1, 3, 5 .. 127 m, then 0, 2, 4 .. 126 m: the 64 nearest of both lie at 0 to 63 m.
   for (const Track& track : tracker.tracks()) CHECK(track.position_in_map.x < 64.0);
 }
+
+TEST_CASE("a report that comes late is of where a given mover was, and not where it is") {
+  Tracker tracker(small());
+  const Room room = rectangle(12.0, 10.0);
+  for (std::uint32_t k = 1; k <= 60; ++k) {
+    tracker.update(scan_of(room, {}, k), {});
+    const double then_s = (k - 1) / 15.0 - 0.3;
+    if (k % 3 == 0)
+      tracker.update_given(fix_with(k, then_s, {{.id = 7, .position_in_map = {1.2 * then_s, 3.0}, .radius_m = 0.27}}));
+  }
+  REQUIRE(tracker.moving().size() == 1);
+  CHECK(tracker.moving()[0].position_in_map.x == Approx(1.2 * 59 / 15.0).margin(0.03));
+}
+
+TEST_CASE("a second after the outside system's last word the laser finds movers by itself") {
+  Tracker tracker(small());
+  Room room = rectangle(12.0, 10.0);
+  tracker.update_given(fix_with(1, 0.0, {}));
+  for (std::uint32_t k = 1; k <= 60; ++k) {
+    room.discs = {{{2.0, -2.0 + 0.06 * k}, 0.27}};
+    tracker.update(scan_of(room, {}, k), {});
+    if (k < 15) CHECK(tracker.tracks().empty());
+  }
+  CHECK(tracker.moving().size() == 1);
+}

@@ -65,7 +65,7 @@ TEST_CASE("where somebody may stand is an obstacle and no wall however long it i
   e.enter({{1.05, 0.05}}, Becomes::kObstacle, 20);
   CHECK(e.map.occupied({10, 0}));
   CHECK_FALSE(e.map.stands({10, 0}));
-  e.enter({{1.05, 0.05}}, Becomes::kWall, 10);  // 0.1 s counts as 6/64 s: 0.94 s
+  e.enter({{1.05, 0.05}}, Becomes::kWall, 9);
   CHECK_FALSE(e.map.stands({10, 0}));
   e.enter({{1.05, 0.05}}, Becomes::kWall, 1);
   CHECK(e.map.stands({10, 0}));

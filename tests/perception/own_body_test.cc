@@ -76,3 +76,19 @@ TEST_CASE("who stands half behind the robot's mast is not whole, and stands whil
   CHECK(farthest_m < 0.15);
   CHECK(fastest_mps < 0.3);
 }
+
+TEST_CASE("who goes behind beams that are blocked for good walks on there as behind anything else") {
+  Watch watch;
+  watch.fan = {.beams = 1081, .first_rad = -kPi, .step_rad = 2.0 * kPi / 1081};
+  const auto see = [&](const Room& room, const Pose2& robot) {
+    LaserScan scan = scan_of(room, robot, ++watch.scan, kNoiseM, watch.fan);
+    for (std::size_t b = 0; b < scan.beam_count; ++b)
+      if (scan.angle_rad(b) > 0.5 * kPi) scan.range_m[b] = 0.0F;  // the chair's back
+    watch.tracker.update(scan, robot);
+  };
+  for (int k = 0; k < 30; ++k) see(with({}), {0.0, 0.0, 0.05 * (k - 30)});
+  for (int k = 0; k < 46; ++k) see(with({{{3.0 - k / 15.0, 2.5}, 0.25}}), {});  // 1 m/s, half behind it
+  REQUIRE(watch.tracker.moving().size() == 1);
+  CHECK(distance(watch.tracker.moving()[0].position_in_map, {0.0, 2.5}) < 0.06);
+  CHECK(watch.tracker.moving()[0].velocity_in_map.x == Approx(-1.0).margin(0.15));
+}

@@ -1,6 +1,7 @@
 #include "planner/perception/segments.h"
 
 #include <memory>
+#include <utility>
 
 #include "planner/perception/clusters.h"
 #include "planner/perception/ground.h"
@@ -50,6 +51,19 @@ TEST_CASE("a disc before a wall is a segment of its own") {
   room.discs = {{{2.0, 0.0}, 0.25}};
   const auto cut = std::make_unique<Cut>(room);
   CHECK(cut->segments.size() == 3);  // wall, disc, wall
+}
+
+TEST_CASE("two points are one thing or two whichever way the scanner turns") {
+  const double step = 0.00873;
+  ScanPoints points;
+  (void)points.push_back({.in_robot = direction(0.0) * 10.0, .range_m = 10.0, .beam = 0});
+  (void)points.push_back({.in_robot = direction(step) * 10.25, .range_m = 10.25, .beam = 1});  // 0.265 m apart
+  Segments segments;
+  cut_at_jumps(points, {.beams = 2, .angle_step_rad = step}, segments);
+  CHECK(segments.size() == 1);  // three spacings there: 0.268 m; at the nearer one 0.262 m
+  std::swap(points[0], points[1]);
+  cut_at_jumps(points, {.beams = 2, .angle_step_rad = -step}, segments);
+  CHECK(segments.size() == 1);
 }
 
 TEST_CASE("a wall at a slant is one thing, and a body before it another") {
@@ -112,15 +126,20 @@ TEST_CASE("points within a wall's noise are the wall's") {
 
 TEST_CASE("a surface is no wall before it has stood for a second") {
   EvidenceMap map(64, 0.1, {});
-  for (int k = 0; k < 14; ++k) map.add_hit({2.05, 0.05}, 10, 1.0 / 15);  // 0.93 s: in units of 1/64 s, 4 a scan, 56
+  for (int k = 0; k < 14; ++k) map.add_hit({2.05, 0.05}, 10, 1.0 / 15);  // 0.93 s
   CHECK(map.occupied({20, 0}));
   CHECK(ground_at(map, {2.05, 0.05}, 1.0) == Ground::kUnknown);
-  for (int k = 0; k < 2; ++k) map.add_hit({2.05, 0.05}, 10, 1.0 / 15);  // 64 of 64
+  map.add_hit({2.05, 0.05}, 10, 1.0 / 15);
   CHECK(ground_at(map, {2.05, 0.05}, 1.0) == Ground::kWall);
   map.add({20, 0}, -64);  // looked through: whatever comes next is new
   map.add_hit({2.05, 0.05}, 40, 9.0);
   CHECK(map.occupied({20, 0}));
   CHECK_FALSE(map.stands({20, 0}));  // one hit after a gap is one hit
+  EvidenceMap often(64, 0.1, {});
+  for (int k = 0; k < 38; ++k) often.add_hit({2.05, 0.05}, 10, 1.0 / 40);
+  CHECK_FALSE(often.stands({20, 0}));
+  for (int k = 0; k < 4; ++k) often.add_hit({2.05, 0.05}, 10, 1.0 / 40);
+  CHECK(often.stands({20, 0}));
 }
 
 TEST_CASE("in unknown space what goes on behind nearer things on both sides is no body") {

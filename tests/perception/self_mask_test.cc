@@ -44,6 +44,18 @@ TEST_CASE("who stands before the robot's own mast, or is seen beside it, is not 
   CHECK_FALSE(mask->on_robot(0, 3.0));
 }
 
+TEST_CASE("a beam that has never measured anything at four headings is blocked, one that found nothing is not") {
+  const auto mask = std::make_unique<SelfMask>(Pose2{});
+  turn(*mask, 1, 3, 0.0F);
+  CHECK_FALSE(mask->blocked(0));
+  turn(*mask, 4, 4, 0.0F);
+  CHECK(mask->blocked(0));
+  turn(*mask, 5, 5, 20.0F);  // beyond its reach
+  CHECK_FALSE(mask->blocked(0));
+  turn(*mask, 6, 12, 0.0F);
+  CHECK_FALSE(mask->blocked(0));
+}
+
 TEST_CASE("a wall driven along without turning is not the robot's own") {
   const auto mask = std::make_unique<SelfMask>(Pose2{});
   for (int k = 0; k < 1000; ++k) mask->learn(one_beam(0.7F), {0.1 * k, 0.0, 0.0});

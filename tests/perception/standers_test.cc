@@ -155,3 +155,16 @@ TEST_CASE("who walked here stands when he has stopped, no legs of his having bee
   REQUIRE(watch.tracker.standing().size() == 1);
   CHECK(distance(watch.tracker.standing()[0].position_in_map, {3.0, 1.0}) < 0.05);
 }
+
+TEST_CASE("who goes along beside the robot, as nobody else, is somebody") {
+  Watch watch;
+  watch.look_round();
+  int unknown = 0;
+  for (int k = 0; k < 90; ++k) {
+    const Pose2 robot{-3.0 + 0.05 * k, 0.0, 0.0};
+    watch.see(with({{robot * Vec2{0.1, 0.75}, 0.22}}), robot);
+    const auto known = watch.tracker.moving().size() + watch.tracker.standing().size();
+    if (k > 30 && known == 0) ++unknown;
+  }
+  CHECK(unknown == 0);
+}

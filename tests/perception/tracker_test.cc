@@ -145,6 +145,28 @@ TEST_CASE("whoever stops becomes still and enters the map, and moves again when 
   CHECK(watch.tracker.moving().size() == 1);
 }
 
+TEST_CASE("a clock set back by less than a second loses nobody") {
+  for (const double back_s : {0.2, 0.5, 0.9}) {
+    Watch watch;
+    watch.look_round();
+    const auto see = [&](int k, double stamp_s) {
+      LaserScan scan = scan_of(with({{{3.0, -2.0 + 0.08 * k}, 0.27}}), {}, ++watch.scan, kNoiseM);  // 1.2 m/s
+      scan.stamp = time_from_seconds(stamp_s);
+      watch.tracker.update(scan, {});
+    };
+    for (int k = 0; k < 25; ++k) see(k, 2.0 + k / 15.0);
+    REQUIRE(watch.tracker.moving().size() == 1);
+    const std::uint32_t name = watch.tracker.moving()[0].id;
+    for (int k = 25; k < 45; ++k) {
+      see(k, 2.0 + k / 15.0 - back_s);
+      REQUIRE(watch.tracker.moving().size() == 1);
+      CHECK(watch.tracker.moving()[0].id == name);
+      CHECK(distance(watch.tracker.moving()[0].position_in_map, {3.0, -2.0 + 0.08 * k}) < 0.15);
+    }
+    CHECK(norm(watch.tracker.moving()[0].velocity_in_map - Vec2{0.0, 1.2}) < 0.2);
+  }
+}
+
 TEST_CASE("two that cross keep their names") {
   Watch watch;
   watch.look_round();

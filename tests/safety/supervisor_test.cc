@@ -1,6 +1,7 @@
 #include "firmware/safety/supervisor.h"
 
 #include <cmath>
+#include <limits>
 
 #include "tests/support/catch.h"
 
@@ -142,6 +143,17 @@ TEST_CASE("a blinded scanner is not trusted: half its beams no numbers") {
   Bench bench;
   for (std::size_t beam = 0; beam < 406; ++beam) bench.scan.range_m[beam] = NAN;
   CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+}
+
+TEST_CASE("a scanner of whose beams none measures anything is not trusted; one that finds nothing in reach is") {
+  Bench bench;
+  bench.scan.range_m.fill(0.0F);
+  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+  bench.scan.range_m.fill(std::numeric_limits<float>::infinity());
+  CHECK_FALSE(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+  bench.scan.range_m.fill(0.0F);
+  bench.scan.range_m[405] = 5.0F;
+  CHECK_FALSE(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
 }
 
 TEST_CASE("too fast is slowed along the same curve") {
