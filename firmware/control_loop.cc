@@ -88,10 +88,11 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   return t;
 }
 
-void ControlLoop::note_plan(TickRecord& t) const noexcept {
+void ControlLoop::note_plan(TickRecord& t) noexcept {
   t.plan_sequence = plan_->sequence;
   t.plan_status = plan_->status;
-  t.plan_stamp = plan_->status == PlanStatus::kOk ? plan_->stamp : kNever;
+  if (plan_->status == PlanStatus::kOk) good_plan_stamp_ = plan_->stamp;  // without a path the follower ramps down
+  t.plan_stamp = good_plan_stamp_;
 }
 
 FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
@@ -112,7 +113,9 @@ void ControlLoop::look(const TickRecord& t) noexcept {
                          .wanted = t.wanted,
                          .driven = driven_,
                          .still = tracker_.still(),
-                         .standing = tracker_.standing()};
+                         .standing = tracker_.standing(),
+                         .moving = tracker_.moving(),
+                         .goal_in_map = t.input.goal_in_map};
   if (turns_at_goal()) {
     turn_->look(input);
     if (guide_) guide_->manoeuvre().stop();

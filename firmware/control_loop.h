@@ -31,7 +31,7 @@ class ControlLoop {
   [[nodiscard]] bool turns_at_goal() const noexcept { return turn_ && turn_->active(); }
 
  private:
-  void note_plan(TickRecord& t) const noexcept;
+  void note_plan(TickRecord& t) noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
   /// With a new plan, and after the wheels have their command: is there room for the body?
   void look(const TickRecord& t) noexcept;
@@ -57,9 +57,10 @@ class ControlLoop {
   std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
   Supervisor supervisor_;
   DiffDrive diff_drive_;
-  const Plan* plan_;          ///< what collect() last answered, never null
-  Twist2 driven_;             ///< what the wheels were last asked for
-  bool scan_frozen_ = false;  ///< the supervisor said so of the tick before
+  const Plan* plan_;               ///< what collect() last answered, never null
+  Time good_plan_stamp_ = kNever;  ///< of the last that has a path
+  Twist2 driven_;                  ///< what the wheels were last asked for
+  bool scan_frozen_ = false;       ///< the supervisor said so of the tick before
   Fresh scans_, fixes_, plans_;
 };
 

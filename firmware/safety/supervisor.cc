@@ -34,6 +34,15 @@ Reason reason_for(DriveTrouble trouble) {
   return is_bus ? Reason::kBus : Reason::kDrive;
 }
 
+/// What share of a twist lies within `fresh` of the limits.
+double share_within(const Twist2& twist, const MotionLimits& limits, double fresh) {
+  const double v = fresh * limits.max_speed_mps, w = fresh * limits.max_turn_radps;
+  double share = 1.0;
+  if (std::fabs(twist.v_mps) > v + 1e-9) share = v / std::fabs(twist.v_mps);
+  if (std::fabs(twist.w_radps) > w + 1e-9) share = std::min(share, w / std::fabs(twist.w_radps));
+  return share;
+}
+
 Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
 
 }  // namespace
@@ -99,13 +108,11 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
     twist = scaled(twist, std::max(share, 0.0));
     verdict.reasons |= reason;
   };
-  if (std::fabs(twist.v_mps) > limits.max_speed_mps + 1e-9)
-    at_most(limits.max_speed_mps / std::fabs(twist.v_mps), Reason::kSpeedLimit);
-  if (std::fabs(twist.w_radps) > limits.max_turn_radps + 1e-9)
-    at_most(limits.max_turn_radps / std::fabs(twist.w_radps), Reason::kSpeedLimit);
-  if (!watched(input.scan, twist.v_mps) && std::fabs(twist.v_mps) > config_.unwatched_speed_mps)
-    at_most(config_.unwatched_speed_mps / std::fabs(twist.v_mps), Reason::kUnwatched);
-  at_most(plan_share(input.plan_stamp, input.now), Reason::kPlanStale);
+  at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
+  at_most(watched_share(input.scan, twist), Reason::kUnwatched);
+  const double fresh = plan_share(input.plan_stamp, input.now);  // of the limits: shares of what is wanted add up
+  if (fresh < 1.0) verdict.reasons |= Reason::kPlanStale;
+  at_most(share_within(twist, limits, fresh), Reason::kPlanStale);
   verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
   if (rim_speed > 0.0)
@@ -120,9 +127,18 @@ double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
   return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
 }
 
-bool Supervisor::watched(const LaserScan& scan, double v_mps) const noexcept {
-  // Watched when a beam looks that way: straight ahead (0) or straight back (pi), in the robot's frame.
-  const double way = v_mps >= 0.0 ? 0.0 : kPi;
+/// Slowly where nothing looks: the way it goes, and beside it, where its corners swing round.
+double Supervisor::watched_share(const LaserScan& scan, const Twist2& twist) const noexcept {
+  constexpr double kBesideRad = 2.0 * kPi / 3.0 - 0.01;  // scanners of 240 degrees see it, those of 180 do not
+  double blind_mps = 0.0;
+  if (!watched(scan, twist.v_mps >= 0.0 ? 0.0 : kPi)) blind_mps = std::fabs(twist.v_mps);
+  if (!watched(scan, kBesideRad) || !watched(scan, -kBesideRad))
+    blind_mps = std::max(blind_mps, std::fabs(twist.w_radps) * config_.model.footprint.circumscribed_radius_m());
+  return std::min(1.0, config_.unwatched_speed_mps / std::max(blind_mps, 1e-9));
+}
+
+/// Whether a beam looks that way, in the robot's frame: 0 is ahead.
+bool Supervisor::watched(const LaserScan& scan, double way) const noexcept {
   const double from_first = wrap_angle(way - config_.model.laser.robot_from_laser.heading - scan.angle_rad(0)) *
                             (scan.angle_step_rad < 0.0F ? -1.0 : 1.0);
   const double past_first = from_first < -1e-6 ? from_first + 2 * kPi : from_first;
@@ -137,7 +153,7 @@ Twist2 Supervisor::braked(const Twist2& target) const noexcept {
   if (!braking) return target;
   const double v = v_before > 0.0 ? std::max(v_before - fastest_drop, 0.0) : std::min(v_before + fastest_drop, 0.0);
   const double curvature = permitted_.w_radps / v_before;
-  return {v, target == Twist2{} ? curvature * v : target.w_radps};
+  return {v, curvature * v};  // the arc that the stop zone looked along
 }
 
 }  // namespace jaywalk

@@ -50,7 +50,8 @@ class Supervisor {
   void update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept;
   [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
-  [[nodiscard]] bool watched(const LaserScan& scan, double v_mps) const noexcept;
+  [[nodiscard]] double watched_share(const LaserScan& scan, const Twist2& twist) const noexcept;
+  [[nodiscard]] bool watched(const LaserScan& scan, double way) const noexcept;
   [[nodiscard]] Twist2 braked(const Twist2& target) const noexcept;
 
   SupervisorConfig config_;

@@ -7,6 +7,8 @@ namespace jaywalk {
 namespace {
 
 constexpr double kPitch_m = 0.1;  // between samples of an outline
+constexpr double kMayStop_mps =
+    0.3;  // who turns about, or comes to stand, is slower; by trial, as docs/decisions/0017 tells
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.
 void sample_edge(Vec2 a, Vec2 b, std::vector<Vec2>& points) {
@@ -28,7 +30,8 @@ BodyMap::BodyMap(const Footprint& footprint)
   for (std::size_t k = 0; k < corners.size(); ++k) sample_edge(corners[k], corners[(k + 1) % 4], outline_);
 }
 
-void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing) noexcept {
+void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing,
+                   std::span<const Track> moving) noexcept {
   const Vec2 centre = map_from_robot.position();
   std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
   low_ = centre - Vec2{kReach_m, kReach_m};
@@ -47,7 +50,10 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
       }
     }
   }
-  for (const Stander& stander : standing) stamp_round(stander);
+  for (const Stander& stander : standing) stamp_round(stander.position_in_map, stander.radius_m);
+  for (const Track& track : moving) {
+    if (norm(track.velocity_in_map) < kMayStop_mps) stamp_round(track.position_in_map, track.radius_m);
+  }
   note_unseen(still, map_from_robot);
   for (float& d : distance_) d = std::sqrt(d);
 }
@@ -95,10 +101,10 @@ void BodyMap::stamp(Vec2 surface) noexcept {
   }
 }
 
-void BodyMap::stamp_round(const Stander& stander) noexcept {
-  const double points = std::ceil(2.0 * kPi * stander.radius_m / kPitch_m);
+void BodyMap::stamp_round(Vec2 centre, double radius_m) noexcept {
+  const double points = std::ceil(2.0 * kPi * radius_m / kPitch_m);
   for (double k = 0.0; k < points; k += 1.0) {
-    stamp(stander.position_in_map + direction(2.0 * kPi * k / points) * stander.radius_m);
+    stamp(centre + direction(2.0 * kPi * k / points) * radius_m);
   }
 }
 

@@ -18,8 +18,11 @@ constexpr double kTightMargin_m = 0.075;
 constexpr double kLeastMargin_m = 0.05;
 constexpr double kNoNearer_m = 0.002;  // what is nearer from the start may be left, or passed alike
 constexpr int kRefusedLooks = 15;      // a second
-constexpr double kOff_m = 0.12;        // a manoeuvre left by more is given up
-constexpr double kAhead_m = 1.6;       // looked at along the path, whatever the speed
+constexpr int kPatientLooks = 75;      // five: whoever is before it may go on, and whoever is behind it steps aside
+constexpr double kNear_m = 2.5;        // of the axle: who is in the way, or of the rider's company
+constexpr double kOtherGoal_m = 0.2;
+constexpr double kOff_m = 0.12;   // a manoeuvre left by more is given up
+constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
 constexpr double kAhead_s = 8.0, kStep_s = 0.1;
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
@@ -34,19 +37,29 @@ Pose2 moved(const Pose2& pose, const Twist2& twist, double dt_s) {
           wrap_angle(pose.heading + twist.w_radps * dt_s)};
 }
 
+bool somebody_near(const GuideInput& input) {
+  const auto near = [&](const auto& one) {
+    return distance(one.position_in_map, input.map_from_robot.position()) < kNear_m;
+  };
+  return std::any_of(input.standing.begin(), input.standing.end(), near) ||
+         std::any_of(input.moving.begin(), input.moving.end(), near);
+}
+
 }  // namespace
 
 FootprintGuide::FootprintGuide(const Footprint& footprint, const MotionLimits& limits)
     : limits_(limits), map_(footprint), reach_(footprint.inscribed_radius_m()), search_(footprint), drive_(limits) {}
 
 void FootprintGuide::look(const GuideInput& input) noexcept {
+  note_goal(input.goal_in_map);
   const bool refused = is_refused(input);
   if (input.path.empty()) {
     drive_.stop();
     return;
   }
-  map_.draw(input.still, input.map_from_robot, input.standing);
-  if (refused) {
+  map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
+  if (refused && may_back_off(input.map_from_robot)) {
+    refused_looks_ = 0;
     back_off(input.map_from_robot);
     return;
   }
@@ -62,9 +75,15 @@ bool FootprintGuide::is_refused(const GuideInput& input) noexcept {
   const bool refused =
       input.wanted != Twist2{} && std::fabs(input.driven.v_mps) < 1e-3 && std::fabs(input.driven.w_radps) < 1e-3;
   refused_looks_ = refused ? refused_looks_ + 1 : 0;
-  if (refused_looks_ < kRefusedLooks) return false;
-  refused_looks_ = 0;
-  return true;
+  return refused_looks_ >= kRefusedLooks;
+}
+
+/// What was driven for another goal is not driven on.
+void FootprintGuide::note_goal(Vec2 goal_in_map) noexcept {
+  if (distance(goal_in_map, goal_in_map_) < kOtherGoal_m) return;
+  goal_in_map_ = goal_in_map;
+  drive_.stop();
+  unfit_looks_ = refused_looks_ = 0;
 }
 
 bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
@@ -144,8 +163,13 @@ void FootprintGuide::back_off(const Pose2& here) noexcept {
   if (back_.size() > 1) drive_.begin(back_, ManoeuvreDrive::Steering::kHeld);
 }
 
-bool FootprintGuide::unseen_behind(const Pose2& here) const noexcept {
-  return map_.goes_unseen(here * Vec2{-kBackOut_m, 0.0}, direction(here.heading));
+/// At once where it has seen what is behind it; else not before whoever is there had time.
+bool FootprintGuide::may_back_off(const Pose2& here) const noexcept {
+  return refused_looks_ >= kPatientLooks || !unseen_behind(here, kBackOff_m);
+}
+
+bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexcept {
+  return map_.goes_unseen(here * Vec2{-back_m, 0.0}, direction(here.heading));
 }
 
 void FootprintGuide::search(const GuideInput& input) noexcept {
@@ -155,7 +179,9 @@ void FootprintGuide::search(const GuideInput& input) noexcept {
   const double margin = unfit_looks_ % 4 != 0 ? kMargin_m : kTightMargin_m;
   const Manoeuvre& found = search_.find(map_, input.map_from_robot, goal, margin);
   if (found.size() < 2) {
-    if (unfit_looks_ >= kUnfitLooks && stands && unseen_behind(input.map_from_robot)) back_out(input.map_from_robot);
+    const int looks = somebody_near(input) ? kPatientLooks : kUnfitLooks;
+    if (unfit_looks_ >= looks && stands && unseen_behind(input.map_from_robot, kBackOut_m))
+      back_out(input.map_from_robot);
     return;
   }
   // A robot under way takes up only what goes on forward; for anything else it stops first, and looks again.

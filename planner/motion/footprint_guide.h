@@ -13,10 +13,12 @@ namespace jaywalk {
 /// What the guide looks at when a new path has come.
 struct GuideInput {
   const Path& path;
-  Pose2 map_from_robot;
-  Twist2 wanted, driven;  ///< what the follower asked for this tick, and what the supervisor made of it
+  Pose2 map_from_robot{};
+  Twist2 wanted{}, driven{};  ///< what the follower asked for this tick, and what the supervisor made of it
   const EvidenceMap& still;
   std::span<const Stander> standing = {};  ///< PlanRequest's
+  std::span<const Track> moving = {};      ///< the same
+  Vec2 goal_in_map{};
 };
 
 /// For a body that is longer than wide: the path is one for the circle inside it, and says nothing about which way
@@ -40,7 +42,9 @@ class FootprintGuide {
   [[nodiscard]] double speed_that_fits(const GuideInput& input) const noexcept;
   [[nodiscard]] bool fits_following(const GuideInput& input, double most_mps) const noexcept;
   [[nodiscard]] ManoeuvreGoal goal_along(const GuideInput& input) noexcept;
-  [[nodiscard]] bool unseen_behind(const Pose2& here) const noexcept;
+  void note_goal(Vec2 goal_in_map) noexcept;
+  [[nodiscard]] bool may_back_off(const Pose2& here) const noexcept;
+  [[nodiscard]] bool unseen_behind(const Pose2& here, double back_m) const noexcept;
   void back_out(const Pose2& here) noexcept;
   void back_off(const Pose2& here) noexcept;
   [[nodiscard]] bool keeps_manoeuvre(const GuideInput& input) const noexcept;
@@ -53,6 +57,7 @@ class FootprintGuide {
   ManoeuvreSearch search_;
   ManoeuvreDrive drive_;
   Manoeuvre back_;
+  Vec2 goal_in_map_;
   double most_speed_mps_ = std::numeric_limits<double>::infinity();
   int unfit_looks_ = 0;    ///< in a row, at which the path fitted at no speed
   int refused_looks_ = 0;  ///< in a row, at which the supervisor had refused to move

@@ -83,7 +83,7 @@ void GoalTurn::look(const GuideInput& input) noexcept {
   for (int& looks : refused_for_) looks = std::max(looks - 1, 0);
   const bool refused = is_refused(input);
   if (settled_) return;
-  map_.draw(input.still, input.map_from_robot, input.standing);
+  map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
   if (goes_on(input, refused)) return;
   if (refused && !drive_.active()) refused_for(to_go_rad_) = kLeftAloneLooks;
   if (refused) searches_ = 0;
@@ -107,8 +107,8 @@ void GoalTurn::seek(const Pose2& here) noexcept {
 void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
   if (refused) {
     off_m_ = -off_m_;
-    draw_straight(map_, here, off_m_, kMargins_m[1], straight_);
-    if (straight_.size() < 2) draw_straight(map_, here, -off_m_, kMargins_m[1], straight_);
+    draw_off(here, off_m_);
+    if (straight_.size() < 2) draw_off(here, -off_m_);
     if (straight_.size() > 1) {
       drive_.begin(straight_, ManoeuvreDrive::Steering::kHeld, ManoeuvreDrive::End::kAtRest);
       return;
@@ -116,6 +116,13 @@ void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
   }
   waits_ = search(here) ? 0 : waits_ + 1;
   away_ = waits_ < kGiveUpLooks;
+}
+
+/// Not back into what it has not seen.
+void GoalTurn::draw_off(const Pose2& here, double off_m) noexcept {
+  straight_.clear();
+  if (off_m < 0.0 && map_.goes_unseen(here * Vec2{off_m, 0.0}, direction(here.heading))) return;
+  draw_straight(map_, here, off_m, kMargins_m[1], straight_);
 }
 
 /// Whether what is under way is kept.

@@ -1,4 +1,5 @@
 // The body of a wheelchair, 0.75 m before its axle, 0.35 m behind and 0.325 m to either side, among walls.
+#include <array>
 #include <cmath>
 
 #include "planner/motion/body_map.h"
@@ -234,4 +235,49 @@ TEST_CASE("the guide lets the body follow in the open, slows or swings it at a d
   look(in_dead_end, dead_end(), line({0, 0}, {-3, 0}), {}, 10);
   REQUIRE(in_dead_end.manoeuvre().active());
   CHECK(in_dead_end.manoeuvre().wish({}).v_mps < 0.0);
+}
+
+TEST_CASE("who walks and has all but stopped is drawn where he is, who walks on is not") {
+  Track track;
+  track.position_in_map = {1.3, 0.0};
+  track.radius_m = 0.25;
+  BodyMap map(kChair.footprint);
+  for (const double speed : {0.1, 0.5}) {
+    track.velocity_in_map = {0.0, speed};
+    map.draw(Ground().map(), {}, {}, std::array{track});
+    CHECK(map.clearance({}) == Approx(speed < 0.3 ? 0.30 : BodyMap::kFar_m).margin(0.02));  // 1.3 - 0.25 - 0.75
+  }
+}
+
+TEST_CASE("a manoeuvre for one goal is not driven for another") {
+  const Ground ground = dead_end();
+  Path path;
+  for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({-3.0 * (k / 40.0), 0.0}));
+  FootprintGuide guide(kChair.footprint, kChair.limits);
+  const auto look = [&](Vec2 goal) { guide.look({.path = path, .still = ground.map(), .goal_in_map = goal}); };
+  for (int k = 0; k < 10; ++k) look({-3.0, 0.0});
+  REQUIRE(guide.manoeuvre().active());
+  look({-3.0, 0.1});
+  CHECK(guide.manoeuvre().active());
+  look({0.2, 0.0});
+  CHECK_FALSE(guide.manoeuvre().active());
+}
+
+TEST_CASE("refused, the guide backs off where it has seen what is behind, and waits for five seconds where not") {
+  EvidenceMap unseen(256, 0.1, {1.0, 1.0});
+  for (int j = -10; j < 10; ++j) {
+    for (int i = 0; i < 40; ++i) unseen.add({i, j}, -40);
+  }
+  Path path;
+  for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({0.05 * k, 0.0}));
+  const Ground ground;
+  const auto looks_until_off = [&](const EvidenceMap& still) {
+    FootprintGuide guide(kChair.footprint, kChair.limits);
+    int looks = 0;
+    for (; looks < 100 && !guide.manoeuvre().active(); ++looks)
+      guide.look({.path = path, .wanted = {0.3, 0.0}, .still = still, .goal_in_map = {2.0, 0.0}});
+    return looks;
+  };
+  CHECK(looks_until_off(ground.map()) == 15);
+  CHECK(looks_until_off(unseen) == 75);
 }

@@ -48,6 +48,12 @@ TEST_CASE("somebody not yet called moving counts when clearly under way, and not
   CHECK(choose_speed(straight_path(), {0, 0}, 0.6, std::array{crossing}, kConfig) == 0.6);
 }
 
+TEST_CASE("where every speed meets somebody at once the robot stands, and does not wait for who has stopped") {
+  for (const double away_m : {0.7, 1.0, 1.3})
+    CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({away_m, 0.0}, {-0.8, 0.0})}, kConfig) == 0.0);
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({0.5, 0.4}, {0.05, 0.0})}, kConfig) == 0.6);
+}
+
 TEST_CASE("somebody who walks away behind does not slow the robot") {
   const std::array leaving{walker({-1.2, 0.0}, {-0.4, 0.0})};
   CHECK(choose_speed(straight_path(), {0, 0}, 0.6, leaving, kConfig) == 0.6);

@@ -19,7 +19,8 @@ struct Bench {
   bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
   Supervisor supervisor;
 
-  explicit Bench(bool latches_all = false) : supervisor({.model = p3dx(), .latches_all = latches_all}) {
+  explicit Bench(bool latches_all = false, const RobotModel& model = p3dx())
+      : supervisor({.model = model, .latches_all = latches_all}) {
     scan.sequence = wheels.sequence = 1;
     scan.beam_count = 811;
     scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
@@ -119,6 +120,28 @@ TEST_CASE("an ageing plan slows the robot to a stop: half speed at 0.65 s, none 
   CHECK(bench.ticks(20, {0.6, 0.0}).permitted.v_mps == 0.0);
 }
 
+TEST_CASE("a plan that stays as old takes a share of the limits, and no more of it with every tick") {
+  Bench bench;
+  bench.plan_fresh = false;
+  double v_mps = 0.0;
+  for (int k = 0; k < 200; ++k) {
+    bench.plan_stamp = bench.now - std::chrono::milliseconds(630);  // 650 at the tick
+    v_mps =
+        bench.tick({std::min(v_mps + 0.01, 0.6), 0.0}).permitted.v_mps;  // a follower's ramp from what was permitted
+  }
+  CHECK(v_mps == Approx(0.6 * 0.35 / 0.7));
+}
+
+TEST_CASE("hard braking keeps to the arc that the stop zone looked along") {
+  Bench bench;
+  bench.ticks(5, {0.5, 0.4});
+  for (int k = 0; k < 10; ++k) {
+    const Twist2 twist = bench.tick({0.1, 0.0}).permitted;
+    CHECK(twist.v_mps < 0.5);
+    CHECK(twist.w_radps == Approx(0.8 * twist.v_mps));
+  }
+}
+
 TEST_CASE("a wall ahead lets the robot come near only as slowly as it can stop") {
   Bench bench;
   bench.scan.range_m.fill(INFINITY);
@@ -137,6 +160,21 @@ TEST_CASE("backwards with a scanner that looks ahead is at most 0.3 m/s") {
   const Verdict verdict = bench.ticks(2, {-0.5, 0.0});
   CHECK(verdict.permitted.v_mps == Approx(-0.3));
   CHECK(has(verdict.reasons, Reason::kUnwatched));
+}
+
+TEST_CASE("a long body swings its corners at 0.3 m/s at most where its scanner does not look beside it") {
+  RobotModel chair = wheelchair();
+  chair.laser.beams = 541;
+  const double corner_m = chair.footprint.circumscribed_radius_m();
+  for (const double fov : {kPi, 1.5 * kPi}) {
+    Bench bench(false, chair);
+    bench.scan.beam_count = 541;
+    bench.scan.first_angle_rad = static_cast<float>(-0.5 * fov);
+    bench.scan.angle_step_rad = static_cast<float>(fov / 540);
+    const Verdict verdict = bench.ticks(2, {0.0, 0.8});
+    CHECK(verdict.permitted.w_radps == Approx(fov < 4.0 ? 0.3 / corner_m : 0.8));
+    CHECK(has(verdict.reasons, Reason::kUnwatched) == (fov < 4.0));
+  }
 }
 
 TEST_CASE("a blinded scanner is not trusted: half its beams no numbers") {
