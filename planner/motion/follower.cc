@@ -15,6 +15,7 @@ constexpr double kStopWithin = 1.0 / 3.0;  // of the tolerance: close enough to 
 Follower::Follower(const FollowerConfig& config)
     : config_(config),
       speed_choice_{.robot_radius_m = config.robot_radius_m,
+                    .body = config.body,
                     .max_speed_mps = config.limits.max_speed_mps,
                     .max_accel_mps2 = config.limits.max_accel_mps2},
       ramp_(config.limits) {}
@@ -59,7 +60,7 @@ double Follower::among_people(const Path& path, const FollowerInput& input) cons
   const Vec2 robot = input.map_from_robot.position();
   const double v = std::fabs(input.permitted_before.v_mps);
   return std::min(choose_speed(path, robot, v, input.tracks, speed_choice_),
-                  passing_speed(path, robot, input.standing, input.tracks, speed_choice_));
+                  passing_speed(path, input.map_from_robot, input.standing, input.tracks, speed_choice_));
 }
 
 double Follower::speed_for(const FollowerInput& input, double curvature_per_m) const noexcept {

@@ -15,30 +15,37 @@ constexpr double kStopped_mps = 0.1;  // as who walks is too slow to be called s
 
 double beside(double gap_m) { return std::max(gap_m / kGapTakes_s, kLeast_mps); }
 
-/// The most with the robot there.
-double at(Vec2 robot, std::span<const Stander> standing, std::span<const Track> tracks,
-          const SpeedChoiceConfig& config) {
+/// The most beside whoever stands, by the gap that `gap` has to a place.
+template <typename Gap>
+double most_beside(std::span<const Stander> standing, std::span<const Track> tracks, const SpeedChoiceConfig& config,
+                   const Gap& gap) {
   double most = config.max_speed_mps;
-  const auto pass = [&](Vec2 him, double radius_m) {
-    most = std::min(most, beside(distance(robot, him) - config.robot_radius_m - radius_m));
-  };
-  for (const Stander& stander : standing) pass(stander.position_in_map, stander.radius_m);
+  for (const Stander& stander : standing)
+    most = std::min(most, beside(gap(stander.position_in_map) - stander.radius_m));
   for (const Track& track : tracks) {
-    if (track.moving && norm(track.velocity_in_map) < kStopped_mps) pass(track.position_in_map, track.radius_m);
+    if (track.moving && norm(track.velocity_in_map) < kStopped_mps)
+      most = std::min(most, beside(gap(track.position_in_map) - track.radius_m));
   }
   return most;
 }
 
 }  // namespace
 
-double passing_speed(const Path& path, Vec2 robot_in_map, std::span<const Stander> standing,
+double passing_speed(const Path& path, const Pose2& map_from_robot, std::span<const Stander> standing,
                      std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept {
   if (path.empty()) return config.max_speed_mps;
-  double most = at(robot_in_map, standing, tracks, config);
+  const auto at = [&](Vec2 robot) {
+    return most_beside(standing, tracks, config,
+                       [&](Vec2 him) { return distance(robot, him) - config.robot_radius_m; });
+  };
+  const Vec2 robot_in_map = map_from_robot.position();
+  const Transform2 robot_from_map(inverse(map_from_robot));
+  const auto to_outline = [&](Vec2 him) { return config.body.distance_to(robot_from_map * him); };
+  double most = std::min(at(robot_in_map), most_beside(standing, tracks, config, to_outline));
   for (std::size_t k = nearest_point(path, robot_in_map); k < path.size(); ++k) {
     const double ahead_m = distance(robot_in_map, path[k]);  // or farther, along the path
     if (slowing_speed(0.0, ahead_m, config.max_accel_mps2) >= most) break;
-    most = std::min(most, slowing_speed(at(path[k], standing, tracks, config), ahead_m, config.max_accel_mps2));
+    most = std::min(most, slowing_speed(at(path[k]), ahead_m, config.max_accel_mps2));
   }
   return most;
 }

@@ -2,6 +2,7 @@
 #include <span>
 
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 #include "planner/perception/track.h"
 #include "planner/planner.h"
 
@@ -10,6 +11,7 @@ namespace jaywalk {
 /// When to go and when to let pass: the rule that sets the speed along a path among movers.
 struct SpeedChoiceConfig {
   double robot_radius_m = 0.3;
+  Footprint body{};  ///< whose outline passing_speed() minds as well
   double max_speed_mps = 0.6;
   double max_accel_mps2 = 0.5;
   double body_margin_m = 0.15;  ///< between the bodies
