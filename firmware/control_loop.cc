@@ -21,6 +21,7 @@ FollowerConfig follower_config(const ControlSetup& setup) {
   return {.limits = setup.model.limits,
           .robot_radius_m = setup.mover_radius_m(),
           .body = setup.model.footprint,
+          .stands_at_worst = setup.guides_body(),
           .constant_speed = setup.keeps_speed(),
           .goal_tolerance_m = setup.goal_tolerance_m,
           .tick_s = to_seconds(setup.tick())};

@@ -16,6 +16,7 @@ Follower::Follower(const FollowerConfig& config)
     : config_(config),
       speed_choice_{.robot_radius_m = config.robot_radius_m,
                     .body = config.body,
+                    .stands_at_worst = config.stands_at_worst,
                     .max_speed_mps = config.limits.max_speed_mps,
                     .max_accel_mps2 = config.limits.max_accel_mps2},
       ramp_(config.limits) {}

@@ -17,8 +17,9 @@ namespace jaywalk {
 struct FollowerConfig {
   MotionLimits limits;
   double robot_radius_m = 0.3;
-  Footprint body{};             ///< SpeedChoiceConfig's
-  bool constant_speed = false;  ///< the paper's constraint: one speed from start to goal, never stopping
+  Footprint body{};              ///< SpeedChoiceConfig's
+  bool stands_at_worst = false;  ///< the same
+  bool constant_speed = false;   ///< the paper's constraint: one speed from start to goal, never stopping
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;
 };

@@ -46,7 +46,7 @@ constexpr double kStopped_mps = 0.1;  // slower, he stands: passing_speed has hi
 
 bool meets_anyone(Vec2 robot, double after_s, std::span<const Track> tracks, const SpeedChoiceConfig& config) {
   for (const Track& track : tracks) {
-    if (!may_walk(track) || norm(track.velocity_in_map) < kStopped_mps) continue;
+    if (!may_walk(track) || (config.stands_at_worst && norm(track.velocity_in_map) < kStopped_mps)) continue;
     const Vec2 there = track.position_in_map + track.velocity_in_map * after_s;
     if (in_conflict(robot, there, track.velocity_in_map, track.radius_m, config.spread_mps * after_s, config)) {
       return true;
@@ -94,7 +94,7 @@ double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps, s
   for (const double share : kShares) {
     const double speed = share * config.max_speed_mps;
     const double time = free_time(path, robot_in_map, speed_now_mps, speed, tracks, config);
-    const bool at_once = best_time <= kStep_s;  // at any speed: the slower the better
+    const bool at_once = config.stands_at_worst && best_time <= kStep_s;
     if (time > best_time || at_once) best_time = std::max(time, best_time), best_speed = speed;
   }
   return best_speed;

@@ -11,7 +11,8 @@ namespace jaywalk {
 /// When to go and when to let pass: the rule that sets the speed along a path among movers.
 struct SpeedChoiceConfig {
   double robot_radius_m = 0.3;
-  Footprint body{};  ///< whose outline passing_speed() minds as well
+  Footprint body{};              ///< whose outline passing_speed() minds as well
+  bool stands_at_worst = false;  ///< stands where every speed meets somebody at once; else goes on
   double max_speed_mps = 0.6;
   double max_accel_mps2 = 0.5;
   double body_margin_m = 0.15;  ///< between the bodies
@@ -21,7 +22,8 @@ struct SpeedChoiceConfig {
 };
 
 /// The speed (m/s, 0 to the maximum) at which the robot, following `path` from the point nearest to it, meets nobody
-/// for longest; the faster of equals. Tries 0, 1/4, 1/2, 3/4 and all of the maximum against constant-velocity
+/// for longest; the faster of equals, and none where all meet somebody at once and it is to stand then: who has all but
+/// stopped is passing_speed()'s alone. Tries 0, 1/4, 1/2, 3/4 and all of the maximum against constant-velocity
 /// predictions. An empty path gives 0. Source: our own rule; docs/algorithm.md section "speed".
 [[nodiscard]] double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps,
                                   std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;

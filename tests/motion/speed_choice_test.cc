@@ -49,9 +49,11 @@ TEST_CASE("somebody not yet called moving counts when clearly under way, and not
 }
 
 TEST_CASE("where every speed meets somebody at once the robot stands, and does not wait for who has stopped") {
+  SpeedChoiceConfig stands = kConfig;
+  stands.stands_at_worst = true;
   for (const double away_m : {0.7, 1.0, 1.3})
-    CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({away_m, 0.0}, {-0.8, 0.0})}, kConfig) == 0.0);
-  CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({0.5, 0.4}, {0.05, 0.0})}, kConfig) == 0.6);
+    CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({away_m, 0.0}, {-0.8, 0.0})}, stands) == 0.0);
+  CHECK(choose_speed(straight_path(), {0, 0}, 0.0, std::array{walker({0.5, 0.4}, {0.05, 0.0})}, stands) == 0.6);
 }
 
 TEST_CASE("somebody who walks away behind does not slow the robot") {
