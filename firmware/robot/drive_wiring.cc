@@ -54,6 +54,15 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
   return base;
 }
 
+/// Two motor controllers, one a wheel.
+template <typename Base>
+void read_axes(TomlTable& table, const std::string& key, Base& base) {
+  const auto scales = read_scales(table, key);
+  const auto nodes = read_nodes(table, 1, 2);
+  for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
+  base.allow_unproved = table.boolean("allow_unproved", false);
+}
+
 }  // namespace
 
 DriveWiring read_drive(TomlTable table, const RobotModel& model) {
@@ -64,16 +73,10 @@ DriveWiring read_drive(TomlTable table, const RobotModel& model) {
     wiring.cia402 = read_cia402(table, model);
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
-    const auto scales = read_scales(table, "motor_turns_per_wheel_turn");
-    const auto nodes = read_nodes(table, 1, 2);
-    wiring.odrive.axes = {odrive::AxisSetup{nodes[0], scales[0]}, odrive::AxisSetup{nodes[1], scales[1]}};
-    wiring.odrive.allow_unproved = table.boolean("allow_unproved", false);
+    read_axes(table, "motor_turns_per_wheel_turn", wiring.odrive);
   } else if (kind == "vesc") {
     wiring.kind = DriveKind::kVesc;
-    const auto scales = read_scales(table, "electrical_turns_per_wheel_turn");
-    const auto nodes = read_nodes(table, 1, 2);
-    wiring.vesc.axes = {vesc::AxisSetup{nodes[0], scales[0]}, vesc::AxisSetup{nodes[1], scales[1]}};
-    wiring.vesc.allow_unproved = table.boolean("allow_unproved", false);
+    read_axes(table, "electrical_turns_per_wheel_turn", wiring.vesc);
   } else {
     table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
   }

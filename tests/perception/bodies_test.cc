@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "planner/perception/absence.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -65,4 +66,16 @@ TEST_CASE("a body that was elsewhere all the time has gone no farther by that") 
   for (int k = 1; k < 5; ++k) body.path.add(time_from_seconds(0.1 * k), {Vec2{1.1 + 0.05 * k, -0.2}});
   CHECK(body.path.fit().length_m == Approx(0.2));  // 4 steps of 5 cm, and no hop before them
   CHECK(body.path.fit().explained == Approx(1.0));
+}
+
+TEST_CASE(
+    "who was known for a fifth of a second is kept unseen for as long as who is not believed yet, and no longer") {
+  Body body = born_at({2.0, 0.0}, 0.05, 0.25, time_from_seconds(0.0), 1);
+  body.track.hits = 3;
+  body.track.last_seen = time_from_seconds(0.2);
+  CHECK_FALSE(gone(body, time_from_seconds(0.75)));
+  CHECK(gone(body, time_from_seconds(0.85)));
+  body.track.last_seen = time_from_seconds(9.0);  // known for long: two seconds
+  CHECK_FALSE(gone(body, time_from_seconds(10.9)));
+  CHECK(gone(body, time_from_seconds(11.1)));
 }
