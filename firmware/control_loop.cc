@@ -93,7 +93,11 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 void ControlLoop::note_plan(TickRecord& t) noexcept {
   t.plan_sequence = plan_->sequence;
   t.plan_status = plan_->status;
-  if (plan_->status == PlanStatus::kOk) good_plan_stamp_ = plan_->stamp;  // without a path the follower ramps down
+  if (plan_->status == PlanStatus::kOk) {
+    good_plan_stamp_ = plan_->stamp;
+  } else if (setup_.keeps_speed()) {
+    good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
+  }
   t.plan_stamp = good_plan_stamp_;
 }
 
