@@ -12,13 +12,11 @@
 #include "drivers/can/link_facts.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/robot_devices.h"
+#include "firmware/robot/scanner_check.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-constexpr Duration kRateSpan = std::chrono::seconds(1);
-constexpr double kRateTolerance = 0.1;
 
 std::string first_line(const char* path) {
   std::string line;
@@ -86,22 +84,6 @@ std::string check_link(const std::string& can) {
   }
   const std::string rate = link.bitrate > 0 ? std::to_string(link.bitrate) + " bit/s" : "no bit rate of its own";
   return "up, " + (link.kind.empty() ? std::string("can") : link.kind) + ", " + rate;
-}
-
-std::string check_scanner(const RobotFile& file, Clock& clock) {
-  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock);
-  await_first_scan(*laser, file, clock);
-  const std::uint32_t before = laser->latest().sequence;
-  clock.sleep_until(clock.now() + kRateSpan);
-  const LaserScan& scan = laser->latest();
-  const double wanted_hz = file.setup.model.laser.rate_hz, rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
-  char said[100];
-  std::snprintf(said, sizeof said, ": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count), rate_hz);
-  // One more or fewer may fall into the span.
-  if (std::fabs(rate_hz - wanted_hz) > std::fmax(kRateTolerance * wanted_hz, 1.0)) {
-    throw StartupError(laser->name() + said, "correct [laser] rate_hz, or set the scanner's");
-  }
-  return laser->name() + said;
 }
 
 std::string check_joystick(const PanelWiring& panel, Clock& clock) {

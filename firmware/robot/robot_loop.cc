@@ -76,7 +76,7 @@ double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
 
 void RobotLoop::tell(const TickRecord& t) noexcept {
   constexpr Reason kLimits = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
-                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked;
+                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched;
   const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
@@ -93,6 +93,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.goal_heading_rad = t.input.goal_heading_rad;
   status_.turns_at_goal = runner_.loop().turns_at_goal();
   status_.reasons = t.verdict.reasons;
+  status_.plan = t.plan_status;
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
   if (!status_.latched) status_.latched_by = Reason::kNone;
   if (status_.latched && !was_latched) status_.latched_by = without(t.verdict.reasons, kLimits);

@@ -22,14 +22,15 @@ std::string describe(const RunStatus& status) {
       << "\nspeed_mps: " << status.speed_mps << "\nenabled: " << (status.enabled ? "yes" : "no") << "\ngoal: ";
   if (status.has_goal) out << status.goal_in_map.x << ' ' << status.goal_in_map.y;
   if (status.has_goal && !std::isnan(status.goal_heading_rad)) out << ' ' << status.goal_heading_rad;
-  out << "\nreasons: " << to_string(status.reasons) << "\nlatched_by: " << to_string(status.latched_by)
-      << "\ndrive: " << name(status.drive) << "\nlaser: " << name(status.laser.trouble)
-      << "\nlaser_last_trouble: " << name(status.laser.last_trouble) << "\nlaser_scans: " << status.laser.scans
-      << "\nlaser_malformed: " << status.laser.malformed << "\nlaser_lost: " << status.laser.protocol.lost
-      << "\nlaser_connections: " << status.laser.connections << "\nbus: " << name(status.bus.state)
-      << "\nbus_error_frames: " << status.bus.error_frames << "\nbus_lost: " << status.bus.frames_lost
-      << "\nbus_malformed: " << status.bus.malformed << "\nticks: " << status.ticks
-      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls << '\n';
+  out << "\nreasons: " << to_string(status.reasons) << "\nplan: " << name_of(status.plan)
+      << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
+      << "\nlaser: " << name(status.laser.trouble) << "\nlaser_last_trouble: " << name(status.laser.last_trouble)
+      << "\nlaser_scans: " << status.laser.scans << "\nlaser_malformed: " << status.laser.malformed
+      << "\nlaser_lost: " << status.laser.protocol.lost << "\nlaser_connections: " << status.laser.connections
+      << "\nbus: " << name(status.bus.state) << "\nbus_error_frames: " << status.bus.error_frames
+      << "\nbus_lost: " << status.bus.frames_lost << "\nbus_malformed: " << status.bus.malformed
+      << "\nticks: " << status.ticks << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls
+      << '\n';
   return out.str();
 }
 

@@ -7,6 +7,7 @@
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/wheels.h"
+#include "planner/planner.h"
 
 namespace jaywalk {
 
@@ -23,6 +24,7 @@ struct RunStatus {
   double goal_heading_rad = kAnyHeading;   ///< wanted at the goal; NaN: any
   double heading_error_rad = kAnyHeading;  ///< from the robot's heading to that, the short way; NaN where any will do
   Reason reasons = Reason::kNone;
+  PlanStatus plan = PlanStatus::kNone;  ///< how the last plan that came went
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset
   DriveTrouble drive = DriveTrouble::kNone;

@@ -6,7 +6,7 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 16> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 18> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kScanFrozen, "scan_frozen"},
@@ -21,7 +21,9 @@ std::string to_string(Reason reasons) {
                                                                    {Reason::kNoGoal, "no_goal"},
                                                                    {Reason::kBus, "bus"},
                                                                    {Reason::kDrive, "drive"},
-                                                                   {Reason::kTurnBlocked, "turn_blocked"}}};
+                                                                   {Reason::kTurnBlocked, "turn_blocked"},
+                                                                   {Reason::kTouched, "touched"},
+                                                                   {Reason::kWheelsInvalid, "wheels_invalid"}}};
   std::string words;
   for (const auto& [bit, name] : kNames) {
     if (!has(reasons, bit)) continue;

@@ -47,6 +47,17 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist) const noexcep
   return gap;
 }
 
+std::size_t StopZone::beams_on_body(const LaserScan& scan) const noexcept {
+  const Transform2 robot_from_laser(config_.robot_from_laser);
+  std::size_t count = 0;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    if (!scan.is_hit(beam)) continue;
+    const Vec2 hit = robot_from_laser * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+    count += config_.footprint.distance_to(hit) == 0.0 ? 1U : 0U;
+  }
+  return count;
+}
+
 double StopZone::way_to(Vec2 point, const Step& step, double margin_m, double most_m) const noexcept {
   const double clearance_now = config_.footprint.distance_to(point);
   double before = clearance_now;

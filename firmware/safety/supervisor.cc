@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/safety/trust.h"
+
 namespace jaywalk {
 namespace {
 
@@ -13,19 +15,6 @@ StopZoneConfig zone_config(const SupervisorConfig& config) {
           .robot_from_laser = config.model.laser.robot_from_laser,
           .brake_mps2 = config.model.limits.brake_mps2,
           .reaction_s = scan_s + config.control_and_drive_s};
-}
-
-/// Not with another number of beams than this scanner has, nor with half of them or more without any number, nor where
-/// none measured anything, be it that nothing is in reach: one that is broken, covered or blinded.
-bool trustworthy(const LaserScan& scan, std::uint32_t beams) {
-  if (scan.beam_count != beams || beams > kMaxBeams) return false;
-  std::size_t not_numbers = 0;
-  bool measured = false;
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-    not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
-    measured = measured || scan.is_hit(beam) || scan.found_nothing(beam);
-  }
-  return measured && 2 * not_numbers < scan.beam_count;
 }
 
 Reason reason_for(DriveTrouble trouble) {
@@ -65,22 +54,34 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 }
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
-  Reason reasons = Reason::kNone;
-  const Duration max_scan_age = duration_from_seconds(1.5 / config_.model.laser.rate_hz);
-  // A scan is as old as its last beam; the stop zone reckons with the first.
-  const Duration scan_age = age(input.scan.stamp, input.now);
-  const bool too_old = scan_age == Duration::max() || scan_age - input.scan.sweep > max_scan_age;
-  stale_scans_ = too_old ? stale_scans_ + 1 : 0;
-  if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
-  if (input.scan.sequence > 0 && !trustworthy(input.scan, config_.model.laser.beams)) reasons |= Reason::kScanInvalid;
-  if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
-  if (config_.needs_wheels && age(input.wheels.stamp, input.now) > config_.max_wheel_age)
-    reasons |= Reason::kWheelsStale;
+  Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
-  reasons |= reason_for(input.wheels.trouble);
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
   return reasons;
+}
+
+Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
+  Reason reasons = Reason::kNone;
+  // A scan is as old as its last beam; the stop zone reckons with the first.
+  const Duration limit = duration_from_seconds(1.5 / config_.model.laser.rate_hz) + sweep_of(input.scan);
+  stale_scans_ = is_older(input.scan.stamp, input.now, limit) ? stale_scans_ + 1 : 0;
+  if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
+  if (input.scan.sequence > 0 && !is_trustworthy(input.scan, config_.model.laser)) reasons |= Reason::kScanInvalid;
+  if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
+  return reasons;
+}
+
+Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
+  Reason reasons = reason_for(wheels.trouble);
+  if (config_.needs_wheels && is_older(wheels.stamp, now, config_.max_wheel_age)) reasons |= Reason::kWheelsStale;
+  if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
+  return reasons;
+}
+
+/// What a scan says it took, within reason: two turns.
+Duration Supervisor::sweep_of(const LaserScan& scan) const noexcept {
+  return std::clamp(scan.sweep, Duration{0}, duration_from_seconds(2.0 / config_.model.laser.rate_hz));
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {
@@ -116,14 +117,15 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
   if (rim_speed > 0.0)
-    at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, input.scan.sweep) / rim_speed, Reason::kStopZone);
+    at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, sweep_of(input.scan)) / rim_speed, Reason::kStopZone);
+  if (verdict.gap_m == 0.0 && stop_zone_.beams_on_body(input.scan) > 0) verdict.reasons |= Reason::kTouched;
   return twist;
 }
 
 double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
+  if (!is_older(plan_stamp, now, config_.slow_plan_age)) return 1.0;
+  if (is_older(plan_stamp, now, config_.max_plan_age)) return 0.0;
   const Duration old = age(plan_stamp, now);
-  if (old <= config_.slow_plan_age) return 1.0;
-  if (old >= config_.max_plan_age) return 0.0;
   return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
 }
 

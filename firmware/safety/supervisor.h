@@ -45,6 +45,9 @@ class Supervisor {
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
+  [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
+  [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
+  [[nodiscard]] Duration sweep_of(const LaserScan& scan) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;

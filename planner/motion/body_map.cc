@@ -10,6 +10,8 @@ constexpr double kPitch_m = 0.1;  // between samples of an outline
 constexpr double kMayStop_mps =
     0.3;  // who turns about, or comes to stand, is slower; by trial, as docs/decisions/0017 tells
 
+constexpr double kGraze_m = 0.05;  // surfaces are known to so much: less deep is on the outline
+
 /// Points from `a` towards `b`, evenly spaced, without `b`.
 void sample_edge(Vec2 a, Vec2 b, std::vector<Vec2>& points) {
   const double pieces = std::ceil(distance(a, b) / kPitch_m);
@@ -28,6 +30,11 @@ BodyMap::BodyMap(const Footprint& footprint)
                                      {-footprint.rear_m, footprint.half_width_m},
                                      {-footprint.rear_m, -footprint.half_width_m}}};
   for (std::size_t k = 0; k < corners.size(); ++k) sample_edge(corners[k], corners[(k + 1) % 4], outline_);
+  const double length = footprint.front_m + footprint.rear_m;
+  inside_m_ = std::min({footprint.half_width_m, 0.5 * length, kFar_m});
+  const double last = length - 2.0 * inside_m_, gaps = std::ceil(last / inside_m_);
+  for (double k = 0.0; k <= gaps; k += 1.0)
+    spine_.push_back(inside_m_ - footprint.rear_m + last * k / std::max(gaps, 1.0));
 }
 
 void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing,
@@ -125,6 +132,11 @@ double BodyMap::distance_at(Vec2 p) const noexcept {
 
 double BodyMap::clearance(Vec2 position, Vec2 ahead, double least_m) const noexcept {
   double nearest = kFar_m;
+  for (const double x : spine_) {
+    const double depth = inside_m_ - distance_at(position + ahead * x);
+    if (depth > kGraze_m) nearest = std::min(nearest, -depth);
+  }
+  if (nearest < least_m) return nearest;
   for (const Vec2 p : outline_) {
     const Vec2 sample = position + Vec2{ahead.x * p.x - ahead.y * p.y, ahead.y * p.x + ahead.x * p.y};
     nearest = std::min(nearest, distance_at(sample));

@@ -28,8 +28,8 @@ class BodyMap {
             std::span<const Track> moving = {}) noexcept;
 
   /// From the outline to the nearest surface (m): 0 when it lies on the outline, kFar_m at most, and that as well
-  /// beyond the drawn square. The outline is sampled every 10 cm, corners included: a lone point between two
-  /// samples may be nearer than said, by 1.3 cm at 0.1 m.
+  /// beyond the drawn square. Of a surface more than 5 cm inside minus its depth, corners apart. The outline is sampled
+  /// every 10 cm, corners included: a lone point between two samples may be nearer than said, by 1.3 cm at 0.1 m.
   [[nodiscard]] double clearance(const Pose2& map_from_robot) const noexcept {
     return clearance(map_from_robot.position(), direction(map_from_robot.heading));
   }
@@ -61,6 +61,8 @@ class BodyMap {
 
   Footprint footprint_;
   std::vector<Vec2> outline_;  ///< in the robot's frame
+  std::vector<double> spine_;  ///< along the robot's x axis: middles of circles, inside_m_ about, that fill the outline
+  double inside_m_ = 0.0;
   std::vector<float> distance_;
   std::vector<std::uint8_t> unseen_;  ///< patches of kPatch_m in the same square
   Vec2 low_;

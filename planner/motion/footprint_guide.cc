@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/motion/pursuit.h"
+#include "planner/motion/room.h"
 #include "planner/motion/straight_piece.h"
 
 namespace jaywalk {
@@ -16,10 +17,9 @@ constexpr double kMargin_m = 0.10;
 constexpr double kTightMargin_m = 0.075;
 /// A manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
 constexpr double kLeastMargin_m = 0.05;
-constexpr double kNoNearer_m = 0.002;  // what is nearer from the start may be left, or passed alike
-constexpr int kRefusedLooks = 15;      // a second
-constexpr int kPatientLooks = 75;      // five: whoever is before it may go on, and whoever is behind it steps aside
-constexpr double kNear_m = 2.5;        // of the axle: who is in the way, or of the rider's company
+constexpr int kRefusedLooks = 15;  // a second
+constexpr int kPatientLooks = 75;  // five: whoever is before it may go on, and whoever is behind it steps aside
+constexpr double kNear_m = 2.5;    // of the axle: who is in the way, or of the rider's company
 constexpr double kOtherGoal_m = 0.2;
 constexpr double kOff_m = 0.12;   // a manoeuvre left by more is given up
 constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
@@ -88,7 +88,7 @@ void FootprintGuide::note_goal(Vec2 goal_in_map) noexcept {
 
 bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
   return drive_.active() && drive_.off_by(input.map_from_robot) < kOff_m &&
-         drive_.clearance_left(map_) >= std::min(kLeastMargin_m, map_.clearance(input.map_from_robot) - 0.01);
+         drive_.clearance_left(map_) >= drive_.least_kept_m(kLeastMargin_m);
 }
 
 double FootprintGuide::speed_that_fits(const GuideInput& input) const noexcept {
@@ -102,7 +102,8 @@ double FootprintGuide::speed_that_fits(const GuideInput& input) const noexcept {
 bool FootprintGuide::fits_following(const GuideInput& input, double most_mps) const noexcept {
   Pose2 pose = input.map_from_robot;
   Twist2 twist{std::max(input.driven.v_mps, 0.0), input.driven.w_radps};
-  double room = map_.clearance(pose);
+  const double at_start = map_.clearance(pose);
+  double room = at_start;
   double gone = 0.0;
   for (double t = 0.0; t < kAhead_s && gone < kAhead_m; t += kStep_s) {
     const Steering steering = pursue(input.path, pose, twist.v_mps);
@@ -115,7 +116,7 @@ bool FootprintGuide::fits_following(const GuideInput& input, double most_mps) co
     twist.w_radps = toward(twist.w_radps, wish.w_radps, limits_.max_turn_accel_radps2 * kStep_s);
     pose = moved(pose, twist, kStep_s);
     gone += twist.v_mps * kStep_s;
-    const double least = std::min(kMargin_m, room - kNoNearer_m);
+    const double least = least_room_m(kMargin_m, at_start, room);
     room = map_.clearance(pose);
     if (room < least) return false;
     if (steering.turns_first() && map_.goes_unseen(pose.position(), direction(pose.heading))) return false;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/motion/room.h"
 #include "planner/motion/straight_piece.h"
 #include "planner/motion/twist_ramp.h"
 
@@ -13,10 +14,9 @@ namespace {
 constexpr std::array kMargins_m{0.10, 0.075};
 /// A way or a manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
 constexpr double kLeastMargin_m = 0.045;
-constexpr double kNoNearer_m = 0.002;  // what is nearer from the start may be left, or passed alike
-constexpr double kLeft_m = 0.12;       // a manoeuvre left by more is given up
-constexpr double kOff_m = 0.45;        // straight away from where the supervisor refuses
-constexpr double kLook_rad = 0.06;     // between two looks at the outline: 5 cm of a wheelchair's foremost corner
+constexpr double kLeft_m = 0.12;    // a manoeuvre left by more is given up
+constexpr double kOff_m = 0.45;     // straight away from where the supervisor refuses
+constexpr double kLook_rad = 0.06;  // between two looks at the outline: 5 cm of a wheelchair's foremost corner
 constexpr double kRest_mps = 0.01, kRest_radps = 0.02;
 constexpr double kTurnGain_per_s = 2.0;  // as Steering::turn_radps()
 constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close enough to stand still
@@ -130,8 +130,7 @@ bool GoalTurn::goes_on(const GuideInput& input, bool refused) const noexcept {
   if (refused) return false;
   const Pose2& here = input.map_from_robot;
   if (!drive_.active()) return chosen_ && fits(here, to_go_rad_, kLeastMargin_m);
-  return drive_.off_by(here) < kLeft_m &&
-         drive_.clearance_left(map_) >= std::min(kLeastMargin_m, map_.clearance(here) - 0.01);
+  return drive_.off_by(here) < kLeft_m && drive_.clearance_left(map_) >= drive_.least_kept_m(kLeastMargin_m);
 }
 
 /// Whether the supervisor has refused for a while, or as good as.
@@ -165,10 +164,11 @@ bool GoalTurn::has_room(const Pose2& here) const noexcept {
 /// Whether the outline keeps `margin_m` all the way round, or from what is nearer at the start comes no nearer.
 bool GoalTurn::fits(const Pose2& here, double turn_rad, double margin_m) const noexcept {
   const int looks = static_cast<int>(std::fabs(turn_rad) / kLook_rad) + 1;
-  double room = map_.clearance(here);
+  const double at_start = map_.clearance(here);
+  double room = at_start;
   for (int k = 1; k <= looks; ++k) {
     const Vec2 ahead = direction(here.heading + turn_rad * k / looks);
-    const double least = std::min(margin_m, room - kNoNearer_m);
+    const double least = least_room_m(margin_m, at_start, room);
     room = map_.clearance(here.position(), ahead, least);
     if (room < least || (!is_nearly_round_ && map_.goes_unseen(here.position(), ahead))) return false;
   }

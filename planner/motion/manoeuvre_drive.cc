@@ -88,6 +88,11 @@ double ManoeuvreDrive::off_by(const Pose2& here) const noexcept {
   return std::min(to_next, to_last);
 }
 
+double ManoeuvreDrive::least_kept_m(double margin_m) const noexcept {
+  constexpr double kDrift_m = 0.01;  // surfaces move by as much as scans come in
+  return active() ? std::min(margin_m, manoeuvre_[0].room_m - kDrift_m) : margin_m;
+}
+
 double ManoeuvreDrive::clearance_left(const BodyMap& map) const noexcept {
   double least = BodyMap::kFar_m;
   for (std::size_t k = at_; k < manoeuvre_.size(); ++k) {

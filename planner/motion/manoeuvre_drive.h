@@ -27,6 +27,8 @@ class ManoeuvreDrive {
   [[nodiscard]] double off_by(const Pose2& map_from_robot) const noexcept;
   /// Least clearance (m) of the poses that are left.
   [[nodiscard]] double clearance_left(const BodyMap& map) const noexcept;
+  /// What of it is enough to go on: `margin_m`, or a centimetre less than it had where it began.
+  [[nodiscard]] double least_kept_m(double margin_m) const noexcept;
 
  private:
   [[nodiscard]] std::size_t end_of_gear() const noexcept;

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "planner/motion/room.h"
+
 namespace jaywalk {
 namespace {
 
@@ -14,9 +16,8 @@ constexpr double kHalfStep_rad = 2.0 * kPi / kHalfSteps;
 constexpr double kCell_m = 0.05;
 constexpr std::int32_t kSide = 128, kHeadings = 48;
 constexpr std::size_t kMostNodes = 131072;
-constexpr int kMostLooks = 24000;      // poses whose outline is looked at
-constexpr double kNoNearer_m = 0.002;  // what stands too near from the start is left, or passed alike
-constexpr float kGreed = 2.0F;  // the way left counts double: not the cheapest manoeuvre, but found ten times sooner
+constexpr int kMostLooks = 24000;  // poses whose outline is looked at
+constexpr float kGreed = 2.0F;     // the way left counts double: not the cheapest manoeuvre, but found ten times sooner
 
 // What things cost, in metres driven forward.
 constexpr float kBackward = 2.0F;    // a metre backward
@@ -80,6 +81,7 @@ void ManoeuvreSearch::begin(const BodyMap& map, const Pose2& start, const Manoeu
   }
   way_.settle(map, goal.position_in_map);
   margin_m_ = margin_m;
+  at_start_m_ = map.clearance(start);
 }
 
 /// What is still to pay at least: the circle's way, and the turn to the heading wished for.
@@ -115,7 +117,7 @@ std::int32_t ManoeuvreSearch::state_of(const Node& node) const noexcept {
 bool ManoeuvreSearch::fits_on_the_way(Node& node) const noexcept {
   const Move& move = kMoves[node.move];
   const Node& from = nodes_[static_cast<std::size_t>(node.parent)];
-  const double least = std::min(margin_m_, static_cast<double>(from.clearance) - kNoNearer_m);
+  const double least = least_room_m(margin_m_, at_start_m_, static_cast<double>(from.clearance));
   double nearest = clearance(node.position, node.heading, least);
   if (nearest < least) return false;
   if (move.turn != 0 && move.gear != Gear::kTurn) {
@@ -181,7 +183,7 @@ const Manoeuvre& ManoeuvreSearch::find(const BodyMap& map, const Pose2& start, c
   begin(map, start, goal, margin_m);
   push({.position = start.position(),
         .cost = 0.0F,
-        .clearance = static_cast<float>(map.clearance(start)),
+        .clearance = static_cast<float>(at_start_m_),
         .parent = -1,
         .heading = 0,
         .move = kNoMove});

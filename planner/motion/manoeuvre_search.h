@@ -70,7 +70,7 @@ class ManoeuvreSearch {
   const BodyMap* map_ = nullptr;
   Pose2 start_;
   ManoeuvreGoal goal_;
-  double margin_m_ = 0.0;
+  double margin_m_ = 0.0, at_start_m_ = 0.0;
   std::vector<Vec2> axes_;  ///< unit vectors of all headings
   Manoeuvre found_;
 };

@@ -4,9 +4,13 @@
 
 #include "drivers/can/link_facts.h"
 #include "drivers/emulators/byte_server.h"
+#include "drivers/emulators/sick_server.h"
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/scanner_check.h"
 #include "firmware/robot/steady_clock.h"
+#include "hal/types/errors.h"
 #include "tests/support/catch.h"
+#include "tools/rig/plant/living_clock.h"
 
 using namespace jaywalk;
 
@@ -66,6 +70,28 @@ TEST_CASE("an interface that is no CAN bus is told from one") {
   const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
   REQUIRE(find(parts, "lo") != nullptr);
   CHECK(find(parts, "lo")->said.rfind("is no CAN interface", 0) == 0);
+}
+
+TEST_CASE("a scanner that sees the robot's own body is told, for the robot would never drive") {
+  const auto said_of = [](float nearest_m) {
+    auto port = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
+    RobotFile file = nothing_connected();
+    file.laser.port = port->port();
+    file.laser.first_scan_limit = std::chrono::seconds(20);
+    emulators::SickServer scanner(std::move(port), {}, [&](std::size_t first_beam, std::span<float> range_m) {
+      for (std::size_t k = 0; k < range_m.size(); ++k) range_m[k] = first_beam + k < 3 ? nearest_m : 4.0F;
+    });
+    rig::RealLivingClock clock;
+    clock.live = [&] { scanner.step(clock.now()); };
+    try {
+      return check_scanner(file, clock);
+    } catch (const StartupError& error) {
+      return std::string(error.what());
+    }
+  };
+  CHECK(said_of(0.10F).find("3 of the beams end within the robot's own outline; take away what is before it") !=
+        std::string::npos);
+  CHECK(said_of(0.60F).find("outline") == std::string::npos);
 }
 
 TEST_CASE("the devices of a robot that runs are left alone") {

@@ -109,6 +109,37 @@ TEST_CASE("old wheels, no wheels and a twist that is no number stop") {
   CHECK(verdict.permitted == Twist2{});
 }
 
+TEST_CASE("what is stamped ahead of now is as good as never seen, but for what a late loop may see") {
+  const Duration ahead = std::chrono::seconds(1);
+  Bench scans, wheels, plans, late;
+  scans.scan_fresh = wheels.wheels_fresh = plans.plan_fresh = late.wheels_fresh = false;
+  scans.scan.stamp += ahead, wheels.wheels.stamp += ahead, plans.plan_stamp += ahead;
+  late.wheels.stamp += std::chrono::milliseconds(60);
+  CHECK(has(scans.ticks(2, {0.5, 0.0}).reasons, Reason::kScanStale));
+  CHECK(has(wheels.tick({0.5, 0.0}).reasons, Reason::kWheelsStale));
+  CHECK(has(plans.tick({0.5, 0.0}).reasons, Reason::kPlanStale));
+  CHECK(late.tick({0.5, 0.0}).reasons == Reason::kNone);
+}
+
+TEST_CASE("angles that are no numbers stop, a scan's and the wheels'") {
+  const float nan = std::nanf("");
+  Bench first, step, wheel;
+  first.scan.first_angle_rad = step.scan.angle_step_rad = nan;
+  wheel.wheels.left_rad = std::nan("");
+  CHECK(has(first.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+  CHECK(has(step.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+  const Verdict verdict = wheel.tick({0.5, 0.0});
+  CHECK(has(verdict.reasons, Reason::kWheelsInvalid));
+  CHECK(verdict.permitted == Twist2{});
+}
+
+TEST_CASE("a scan that says it took minutes grows old all the same") {
+  Bench bench;
+  bench.scan_fresh = false;
+  bench.scan.sweep = std::chrono::minutes(5);
+  CHECK(has(bench.ticks(30, {0.5, 0.0}).reasons, Reason::kScanStale));
+}
+
 TEST_CASE("an ageing plan slows the robot to a stop: half speed at 0.65 s, none at 1 s") {
   Bench bench;
   bench.tick({0.6, 0.0});
@@ -192,6 +223,21 @@ TEST_CASE("a scanner of whose beams none measures anything is not trusted; one t
   bench.scan.range_m.fill(0.0F);
   bench.scan.range_m[405] = 5.0F;
   CHECK_FALSE(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));
+}
+
+TEST_CASE("a beam that ends on the body itself forbids every motion, and is told apart from what stands in the way") {
+  Bench bench;
+  bench.scan.range_m[405] = 0.15F;  // straight ahead; the P3-DX ends at 0.2275
+  for (const Twist2 wanted : {Twist2{0.1, 0.0}, Twist2{-0.1, 0.0}, Twist2{0.0, 0.3}}) {
+    const Verdict verdict = bench.tick(wanted);
+    CHECK(verdict.permitted == Twist2{});
+    CHECK(has(verdict.reasons, Reason::kStopZone));
+    CHECK(has(verdict.reasons, Reason::kTouched));
+  }
+  bench.scan.range_m[405] = 0.25F;  // before it
+  const Verdict verdict = bench.tick({0.1, 0.0});
+  CHECK(verdict.permitted == Twist2{});
+  CHECK_FALSE(has(verdict.reasons, Reason::kTouched));
 }
 
 TEST_CASE("too fast is slowed along the same curve") {

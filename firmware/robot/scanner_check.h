@@ -1,0 +1,14 @@
+#pragma once
+#include <string>
+
+#include "firmware/robot/robot_file.h"
+#include "hal/hal.h"
+
+namespace jaywalk {
+
+/// Connects to the scanner and listens for a second: what it is, how many beams and scans a second. Throws StartupError
+/// where none come, not as often as the file says, or where beams end on the robot's own outline, with which it would
+/// never drive. Before the loop.
+[[nodiscard]] std::string check_scanner(const RobotFile& file, Clock& clock);
+
+}  // namespace jaywalk
