@@ -19,8 +19,8 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
 
 FollowerConfig follower_config(const ControlSetup& setup) {
   return {.limits = setup.model.limits,
-          .robot_radius_m = setup.mover_radius_m(),
-          .body = setup.model.footprint,
+          .robot = setup.guides_body() ? RobotShape{.footprint = setup.model.footprint}
+                                       : RobotShape{.radius_m = setup.mover_radius_m()},
           .stands_at_worst = setup.guides_body(),
           .constant_speed = setup.keeps_speed(),
           .goal_tolerance_m = setup.goal_tolerance_m,

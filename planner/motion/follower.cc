@@ -14,8 +14,7 @@ constexpr double kStopWithin = 1.0 / 3.0;  // of the tolerance: close enough to 
 
 Follower::Follower(const FollowerConfig& config)
     : config_(config),
-      speed_choice_{.robot_radius_m = config.robot_radius_m,
-                    .body = config.body,
+      speed_choice_{.robot = config.robot,
                     .stands_at_worst = config.stands_at_worst,
                     .max_speed_mps = config.limits.max_speed_mps,
                     .max_accel_mps2 = config.limits.max_accel_mps2},
@@ -23,7 +22,16 @@ Follower::Follower(const FollowerConfig& config)
 
 Twist2 Follower::twist(const FollowerInput& input) noexcept {
   ramp_.follow(input.permitted_before);
+  if (input.guide != nullptr && input.guide->brakes_hard()) return braked_hard(input.permitted_before);
   return ramp_.toward(wish(input), config_.tick_s);
+}
+
+/// As hard as the drives were proved to, on the same arc; comfort is for who is not about to touch somebody.
+Twist2 Follower::braked_hard(const Twist2& before) const noexcept {
+  const double speed = std::fabs(before.v_mps);
+  if (speed < 1e-9) return {};
+  const double share = std::max(0.0, 1.0 - config_.limits.brake_mps2 * config_.tick_s / speed);
+  return {before.v_mps * share, before.w_radps * share};
 }
 
 Twist2 Follower::wish(const FollowerInput& input) noexcept {
@@ -52,16 +60,15 @@ Twist2 Follower::at_goal(const FollowerInput& input) const noexcept {
 /// Slower, or not at all, where somebody is about to come by, or stands.
 Twist2 Follower::manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept {
   const Twist2 twist = drive.wish(input.map_from_robot);
-  const double share = std::min(1.0, among_people(drive.places(), input) / config_.limits.max_speed_mps);
+  const double share = std::min(1.0, among_people(drive.way(), input) / config_.limits.max_speed_mps);
   return {twist.v_mps * share, twist.w_radps * share};
 }
 
 /// Lets those pass who walk, and goes slowly by those who stand.
-double Follower::among_people(const Path& path, const FollowerInput& input) const noexcept {
-  const Vec2 robot = input.map_from_robot.position();
+double Follower::among_people(const Way& way, const FollowerInput& input) const noexcept {
   const double v = std::fabs(input.permitted_before.v_mps);
-  return std::min(choose_speed(path, robot, v, input.tracks, speed_choice_),
-                  passing_speed(path, input.map_from_robot, input.standing, input.tracks, speed_choice_));
+  return std::min(choose_speed(way, input.map_from_robot, v, input.tracks, speed_choice_),
+                  passing_speed(way, input.map_from_robot, input.standing, input.tracks, speed_choice_));
 }
 
 double Follower::speed_for(const FollowerInput& input, double curvature_per_m) const noexcept {
@@ -69,7 +76,8 @@ double Follower::speed_for(const FollowerInput& input, double curvature_per_m) c
   const double in_curve = curve_speed(curvature_per_m, config_.limits.max_turn_radps);
   const double for_body = input.guide != nullptr ? input.guide->most_speed_mps() : in_curve;
   const double arrival_speed = slowing_speed(0.0, distance(robot, input.goal_in_map), config_.limits.max_accel_mps2);
-  return std::min({config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_people(input.path, input)});
+  return std::min(
+      {config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_people({.places = input.path}, input)});
 }
 
 }  // namespace jaywalk

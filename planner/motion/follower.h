@@ -16,10 +16,9 @@ namespace jaywalk {
 
 struct FollowerConfig {
   MotionLimits limits;
-  double robot_radius_m = 0.3;
-  Footprint body{};              ///< SpeedChoiceConfig's
-  bool stands_at_worst = false;  ///< the same
-  bool constant_speed = false;   ///< the paper's constraint: one speed from start to goal, never stopping
+  RobotShape robot{.radius_m = 0.3};  ///< SpeedChoiceConfig's
+  bool stands_at_worst = false;       ///< the same
+  bool constant_speed = false;        ///< the paper's constraint: one speed from start to goal, never stopping
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;
 };
@@ -46,9 +45,10 @@ class Follower {
 
  private:
   [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
+  [[nodiscard]] Twist2 braked_hard(const Twist2& before) const noexcept;
   [[nodiscard]] Twist2 at_goal(const FollowerInput& input) const noexcept;
   [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept;
-  [[nodiscard]] double among_people(const Path& path, const FollowerInput& input) const noexcept;
+  [[nodiscard]] double among_people(const Way& way, const FollowerInput& input) const noexcept;
   [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
 
   FollowerConfig config_;

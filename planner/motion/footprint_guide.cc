@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "planner/motion/pursuit.h"
 #include "planner/motion/room.h"
@@ -24,6 +25,9 @@ constexpr double kOtherGoal_m = 0.2;
 constexpr double kOff_m = 0.12;   // a manoeuvre left by more is given up
 constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
 constexpr double kAhead_s = 8.0, kStep_s = 0.1;
+constexpr double kTouch_m = 0.03;          // to what is known to a centimetre or two
+constexpr double kBeforeSlowing_s = 0.25;  // the drives' lag, a tick, and the half of it that jerk takes
+constexpr double kStopStep_s = 0.05, kRest_mps = 1e-3;
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
@@ -53,6 +57,7 @@ FootprintGuide::FootprintGuide(const Footprint& footprint, const MotionLimits& l
 void FootprintGuide::look(const GuideInput& input) noexcept {
   note_goal(input.goal_in_map);
   const bool refused = is_refused(input);
+  const bool braked_hard = std::exchange(brakes_hard_, false);
   if (input.path.empty()) {
     drive_.stop();
     return;
@@ -67,7 +72,11 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
   drive_.stop();
   most_speed_mps_ = speed_that_fits(input);
   unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
-  if (most_speed_mps_ == 0.0) search(input);
+  if (most_speed_mps_ == 0.0) {
+    const bool drives = std::fabs(input.driven.v_mps) > kRest_mps;  // to rest, once it has begun
+    brakes_hard_ = drives && (braked_hard || !stops_in_time(input.map_from_robot, input.driven));
+    search(input);
+  }
 }
 
 /// Whether the supervisor has refused for a while: the surfaces are nearer than the map has them.
@@ -121,6 +130,22 @@ bool FootprintGuide::fits_following(const GuideInput& input, double most_mps) co
     if (room < least) return false;
     if (steering.turns_first() && map_.goes_unseen(pose.position(), direction(pose.heading))) return false;
     if (distance(pose.position(), input.path.back()) < kMargin_m) return true;
+  }
+  return true;
+}
+
+/// Whether the outline of a robot that drives keeps clear on its arc, slowing down within comfort.
+bool FootprintGuide::stops_in_time(const Pose2& here, const Twist2& driven) const noexcept {
+  const double at_start = map_.clearance(here);
+  const double curvature = driven.w_radps / driven.v_mps;
+  Pose2 pose = here;
+  double v = driven.v_mps, room = at_start;
+  for (double t = 0.0; std::fabs(v) > kRest_mps; t += kStopStep_s) {
+    if (t >= kBeforeSlowing_s) v = toward(v, 0.0, limits_.max_accel_mps2 * kStopStep_s);
+    pose = moved(pose, {v, curvature * v}, kStopStep_s);
+    const double least = least_room_m(kTouch_m, at_start, room);
+    room = map_.clearance(pose);
+    if (room < least) return false;
   }
   return true;
 }

@@ -35,6 +35,8 @@ class FootprintGuide {
   void look(const GuideInput& input) noexcept;
   /// Fastest along the path (m/s); infinity where nothing is in the way of the body.
   [[nodiscard]] double most_speed_mps() const noexcept { return most_speed_mps_; }
+  /// Something has come so near that slowing down comfortably would touch it.
+  [[nodiscard]] bool brakes_hard() const noexcept { return brakes_hard_; }
   /// To be driven in place of the path while it is active.
   [[nodiscard]] ManoeuvreDrive& manoeuvre() noexcept { return drive_; }
 
@@ -42,6 +44,7 @@ class FootprintGuide {
   [[nodiscard]] double speed_that_fits(const GuideInput& input) const noexcept;
   [[nodiscard]] bool fits_following(const GuideInput& input, double most_mps) const noexcept;
   [[nodiscard]] ManoeuvreGoal goal_along(const GuideInput& input) noexcept;
+  [[nodiscard]] bool stops_in_time(const Pose2& here, const Twist2& driven) const noexcept;
   void note_goal(Vec2 goal_in_map) noexcept;
   [[nodiscard]] bool may_back_off(const Pose2& here) const noexcept;
   [[nodiscard]] bool unseen_behind(const Pose2& here, double back_m) const noexcept;
@@ -59,6 +62,7 @@ class FootprintGuide {
   Manoeuvre back_;
   Vec2 goal_in_map_;
   double most_speed_mps_ = std::numeric_limits<double>::infinity();
+  bool brakes_hard_ = false;
   int unfit_looks_ = 0;    ///< in a row, at which the path fitted at no speed
   int refused_looks_ = 0;  ///< in a row, at which the supervisor had refused to move
 };

@@ -27,7 +27,11 @@ void ManoeuvreDrive::begin(const Manoeuvre& manoeuvre, Steering steering, End en
   end_ = end;
   at_ = 1;
   places_.clear();
-  for (const ManoeuvreStep& step : manoeuvre_) (void)places_.push_back(step.map_from_robot.position());
+  looking_.clear();
+  for (const ManoeuvreStep& step : manoeuvre_) {
+    (void)places_.push_back(step.map_from_robot.position());
+    (void)looking_.push_back(direction(step.map_from_robot.heading));
+  }
 }
 
 std::size_t ManoeuvreDrive::end_of_gear() const noexcept {

@@ -2,7 +2,7 @@
 #include "hal/types/robot_model.h"
 #include "planner/motion/body_map.h"
 #include "planner/motion/manoeuvre.h"
-#include "planner/planner.h"
+#include "planner/motion/way.h"
 
 namespace jaywalk {
 
@@ -21,8 +21,8 @@ class ManoeuvreDrive {
 
   /// The twist that keeps to the manoeuvre from here, not ramped; zero when there is nothing left of it.
   [[nodiscard]] Twist2 wish(const Pose2& map_from_robot) noexcept;
-  /// Its places, for looking out for movers on the way.
-  [[nodiscard]] const Path& places() const noexcept { return places_; }
+  /// For looking out for movers on it.
+  [[nodiscard]] Way way() const noexcept { return {.places = places_, .looking = &looking_}; }
   /// How far (m) the robot is from where it should be.
   [[nodiscard]] double off_by(const Pose2& map_from_robot) const noexcept;
   /// Least clearance (m) of the poses that are left.
@@ -37,7 +37,7 @@ class ManoeuvreDrive {
 
   MotionLimits limits_;
   Manoeuvre manoeuvre_;
-  Path places_;
+  Path places_, looking_;
   Steering steering_ = Steering::kFree;
   End end_ = End::kOnward;
   std::size_t at_ = 0;  ///< the step on the way to which it is

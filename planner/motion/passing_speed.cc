@@ -10,8 +10,7 @@ namespace {
 
 // Somebody who sets out goes 0.4 m or so within a second: known to walk after half of it, braked for by the end.
 constexpr double kGapTakes_s = 1.0;
-constexpr double kLeast_mps = 0.2;    // braked to nothing within 2 to 4 cm; slower, a robot would never get by
-constexpr double kStopped_mps = 0.1;  // as who walks is too slow to be called so (perception/motion_judgement.cc)
+constexpr double kLeast_mps = 0.2;  // braked to nothing within 2 to 4 cm; slower, a robot would never get by
 
 double beside(double gap_m) { return std::max(gap_m / kGapTakes_s, kLeast_mps); }
 
@@ -23,7 +22,7 @@ double most_beside(std::span<const Stander> standing, std::span<const Track> tra
   for (const Stander& stander : standing)
     most = std::min(most, beside(gap(stander.position_in_map) - stander.radius_m));
   for (const Track& track : tracks) {
-    if (track.moving && norm(track.velocity_in_map) < kStopped_mps)
+    if (track.moving && norm(track.velocity_in_map) < kStoppedMps)
       most = std::min(most, beside(gap(track.position_in_map) - track.radius_m));
   }
   return most;
@@ -31,21 +30,20 @@ double most_beside(std::span<const Stander> standing, std::span<const Track> tra
 
 }  // namespace
 
-double passing_speed(const Path& path, const Pose2& map_from_robot, std::span<const Stander> standing,
+double passing_speed(const Way& way, const Pose2& map_from_robot, std::span<const Stander> standing,
                      std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept {
+  const Path& path = way.places;
   if (path.empty()) return config.max_speed_mps;
-  const auto at = [&](Vec2 robot) {
-    return most_beside(standing, tracks, config,
-                       [&](Vec2 him) { return distance(robot, him) - config.robot_radius_m; });
+  const auto at = [&](Vec2 place, Vec2 ahead) {
+    return most_beside(standing, tracks, config, [&](Vec2 him) { return config.robot.distance_to(him, place, ahead); });
   };
-  const Vec2 robot_in_map = map_from_robot.position();
-  const Transform2 robot_from_map(inverse(map_from_robot));
-  const auto to_outline = [&](Vec2 him) { return config.body.distance_to(robot_from_map * him); };
-  double most = std::min(at(robot_in_map), most_beside(standing, tracks, config, to_outline));
-  for (std::size_t k = nearest_point(path, robot_in_map); k < path.size(); ++k) {
-    const double ahead_m = distance(robot_in_map, path[k]);  // or farther, along the path
+  const Vec2 here = map_from_robot.position();
+  double most = at(here, direction(map_from_robot.heading));
+  for (std::size_t k = nearest_point(path, here); k < path.size(); ++k) {
+    const double ahead_m = distance(here, path[k]);  // or farther, along the path
     if (slowing_speed(0.0, ahead_m, config.max_accel_mps2) >= most) break;
-    most = std::min(most, slowing_speed(at(path[k]), ahead_m, config.max_accel_mps2));
+    const double there = at(path[k], way.looking_at(k, ahead_m, map_from_robot));
+    most = std::min(most, slowing_speed(there, ahead_m, config.max_accel_mps2));
   }
   return most;
 }

@@ -4,18 +4,15 @@
 #include "planner/motion/speed_choice.h"
 #include "planner/perception/stander.h"
 #include "planner/perception/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 
-/// The most (m/s, up to the maximum) at which the robot may go on along `path` (m, in the map; from the point nearest
-/// to the robot's place) past who stands there: `standing`, and of `tracks` those that walk and have stopped for now.
-/// Beside somebody it goes no faster than it would take a second for the gap between the two, 0.2 m/s at the least, so
-/// that it has all but stopped when he sets out; and it slows down in time for that. The gap is its circle's all along
-/// the path, and where it is now its outline's as well: a wheelchair's front lies far before its axle. An empty path
-/// slows nothing.
-/// Source: our own rule; docs/algorithm.md, "Speed". Thread: the loop's; never allocates.
-[[nodiscard]] double passing_speed(const Path& path, const Pose2& map_from_robot, std::span<const Stander> standing,
+/// The most (m/s, up to the maximum) at which the robot may go on along the way (from the place nearest to it) past who
+/// stands there: `standing`, and of `tracks` those that walk and have stopped for now. Beside somebody it goes no
+/// faster than it would take a second for the gap between the two, 0.2 m/s at the least, so that it has all but stopped
+/// when he sets out; and it slows down in time for that. An empty way slows nothing. Source: our own rule;
+/// docs/algorithm.md, "Speed". Thread: the loop's; never allocates.
+[[nodiscard]] double passing_speed(const Way& way, const Pose2& map_from_robot, std::span<const Stander> standing,
                                    std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;
 
 }  // namespace jaywalk

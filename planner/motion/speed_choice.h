@@ -2,16 +2,15 @@
 #include <span>
 
 #include "hal/types/geometry.h"
-#include "hal/types/robot_model.h"
+#include "planner/motion/robot_shape.h"
+#include "planner/motion/way.h"
 #include "planner/perception/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 
 /// When to go and when to let pass: the rule that sets the speed along a path among movers.
 struct SpeedChoiceConfig {
-  double robot_radius_m = 0.3;
-  Footprint body{};              ///< whose outline passing_speed() minds as well
+  RobotShape robot;
   bool stands_at_worst = false;  ///< stands where every speed meets somebody at once; else goes on
   double max_speed_mps = 0.6;
   double max_accel_mps2 = 0.5;
@@ -21,15 +20,16 @@ struct SpeedChoiceConfig {
   double horizon_s = 4.0;       ///< how far ahead conflicts count
 };
 
-/// The speed (m/s, 0 to the maximum) at which the robot, following `path` from the point nearest to it, meets nobody
-/// for longest; the faster of equals, and none where all meet somebody at once and it is to stand then: who has all but
+/// The speed (m/s, 0 to the maximum) at which the robot, going the way from the place nearest to it, meets nobody for
+/// longest; the faster of equals, and none where all meet somebody at once and it is to stand then: who has all but
 /// stopped is passing_speed()'s alone. Tries 0, 1/4, 1/2, 3/4 and all of the maximum against constant-velocity
-/// predictions. An empty path gives 0. Source: our own rule; docs/algorithm.md section "speed".
-[[nodiscard]] double choose_speed(const Path& path, Vec2 robot_in_map, double speed_now_mps,
+/// predictions. An empty way gives 0. Source: our own rule; docs/algorithm.md section "speed".
+[[nodiscard]] double choose_speed(const Way& way, const Pose2& map_from_robot, double speed_now_mps,
                                   std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;
 
-/// Whether a robot there would touch the mover or stand in the way that it is about to go.
-[[nodiscard]] bool in_conflict(Vec2 robot, Vec2 mover, Vec2 mover_velocity, double mover_radius_m, double spread_m,
-                               const SpeedChoiceConfig& config) noexcept;
+/// Whether a robot at `robot`, looking along `ahead` (a unit vector), would touch the mover or stand in the way that it
+/// is about to go.
+[[nodiscard]] bool in_conflict(Vec2 robot, Vec2 ahead, Vec2 mover, Vec2 mover_velocity, double mover_radius_m,
+                               double spread_m, const SpeedChoiceConfig& config) noexcept;
 
 }  // namespace jaywalk

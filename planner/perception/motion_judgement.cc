@@ -8,7 +8,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kStoppedMps = 0.10;
 constexpr std::size_t kFewestPlaces = 5;
 constexpr std::uint32_t kWalkedScans = 2;  // in a row: a hop is over by the next scan
 // Who turns on the spot walks on. Less than the 5 s in which who stays is to be in the map.

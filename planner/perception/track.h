@@ -10,6 +10,9 @@ namespace jaywalk {
 /// Most tracks kept at once. When full, the newcomer or the farthest from the robot goes; what is wall as well, first.
 inline constexpr std::size_t kMaxTracks = 64;
 
+/// Who walked and is slower stands, for now (m/s).
+inline constexpr double kStoppedMps = 0.10;
+
 /// Covariance of (position, velocity) along either axis; x and y are alike and independent because
 /// process and measurement noise are isotropic. Units m^2, m^2/s, m^2/s^2.
 struct AxisCovariance {

@@ -41,6 +41,7 @@ struct Tracker::State {
   void associate_and_correct() noexcept;
   void judge(const LineOfSight& sight, const Twist2& twist) noexcept;
   void drop_unseen(const LineOfSight& sight) noexcept;
+  void leave_hidden(const Body& body) noexcept;
   void birth() noexcept;
   void enter_still() noexcept;
   void publish() noexcept;
@@ -100,13 +101,21 @@ void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexce
   }
 }
 
+/// Walkers come out again, and who had stopped stands there (note_standers() sees to it, and to how long).
+void Tracker::State::leave_hidden(const Body& body) noexcept {
+  const Track& seen = body.as_seen;
+  hidden.remember(body);
+  if (norm(seen.velocity_in_map) < kStoppedMps)
+    (void)standing.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen});  // or has as many already
+}
+
 void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
   for (std::size_t b = bodies.size(); b-- > 0;) {
     Body& body = bodies[b];
     const bool empty = sight.at(body.track.position_in_map, kEmptyWithinM) == Sight::kThrough;
     if (body.misses > 0 && empty) body.looked_through_s += step_s;
     if (!gone(body, now)) continue;
-    if (body.track.moving && !body.given && body.looked_through_s <= kLookedThroughForS) hidden.remember(body);
+    if (body.track.moving && !body.given && body.looked_through_s <= kLookedThroughForS) leave_hidden(body);
     bodies.swap_remove(b);
   }
   hidden.wait(sight, now, step_s);

@@ -13,7 +13,8 @@ using namespace jaywalk;
 namespace {
 
 constexpr double kRobotM = 0.3, kPersonM = 0.25, kTop_mps = 0.6, kAccel_mps2 = 0.5;
-const SpeedChoiceConfig kConfig{.robot_radius_m = kRobotM, .max_speed_mps = kTop_mps, .max_accel_mps2 = kAccel_mps2};
+const SpeedChoiceConfig kConfig{
+    .robot = {.radius_m = kRobotM}, .max_speed_mps = kTop_mps, .max_accel_mps2 = kAccel_mps2};
 
 /// Straight ahead along +x from the origin, 10 m in steps of 0.1 m.
 Path straight_path() {
@@ -25,26 +26,25 @@ Path straight_path() {
 /// The most at `x` on the path, past somebody beside (3, 0) who leaves this gap there.
 double past(double x, double gap_m) {
   const std::array standing{Stander{{3.0, kRobotM + kPersonM + gap_m}, kPersonM}};
-  return passing_speed(straight_path(), {x, 0.0, 0}, standing, {}, kConfig);
+  return passing_speed({straight_path()}, {x, 0.0, 0}, standing, {}, kConfig);
 }
 
 }  // namespace
 
 TEST_CASE("nobody, or somebody far aside, slows nothing") {
-  CHECK(passing_speed(straight_path(), {0, 0, 0}, {}, {}, kConfig) == kTop_mps);
+  CHECK(passing_speed({straight_path()}, {0, 0, 0}, {}, {}, kConfig) == kTop_mps);
   CHECK(past(3.0, 0.7) == kTop_mps);
   const std::array standing{Stander{{0.0, 0.0}, kPersonM}};
-  CHECK(passing_speed(Path{}, {}, standing, {}, kConfig) == kTop_mps);
+  CHECK(passing_speed({Path{}}, {}, standing, {}, kConfig) == kTop_mps);
 }
 
 TEST_CASE("a long body minds whom its front passes, and not only whom its axle does") {
   SpeedChoiceConfig chair = kConfig;
-  chair.robot_radius_m = 0.475;
-  chair.body = {.front_m = 0.75, .rear_m = 0.35, .half_width_m = 0.325};
+  chair.robot = {.footprint = {.front_m = 0.75, .rear_m = 0.35, .half_width_m = 0.325}};
   const std::array standing{Stander{{0.9, -0.72}, kPersonM}};  // 0.42 m from its corner
-  CHECK(passing_speed(straight_path(), {}, standing, {}, chair) == Approx(0.2));
+  CHECK(passing_speed({straight_path()}, {}, standing, {}, chair) == Approx(0.2));
   const std::array abeam{Stander{{0.2, -1.0}, kPersonM}};
-  CHECK(passing_speed(straight_path(), {}, abeam, {}, chair) == Approx(std::hypot(0.2, 1.0) - 0.475 - 0.25));
+  CHECK(passing_speed({straight_path()}, {}, abeam, {}, chair) == Approx(1.0 - 0.325 - 0.25));
 }
 
 TEST_CASE("beside somebody the gap takes a second, and the robot creeps on where there is none") {
@@ -53,11 +53,11 @@ TEST_CASE("beside somebody the gap takes a second, and the robot creeps on where
   CHECK(past(3.0, 0.05) == Approx(0.2));
   CHECK(past(3.0, -0.1) == Approx(0.2));
   const std::array nearer{Stander{{3.0, 1.0}, kPersonM}};  // than from the path: 0.35 m, not 0.45
-  CHECK(passing_speed(straight_path(), {3.0, 0.1, 0}, nearer, {}, kConfig) == Approx(0.35));
+  CHECK(passing_speed({straight_path()}, {3.0, 0.1, 0}, nearer, {}, kConfig) == Approx(0.35));
   SpeedChoiceConfig slow = kConfig;
   slow.max_speed_mps = 0.1;
   const std::array standing{Stander{{3.0, 0.5}, kPersonM}};
-  CHECK(passing_speed(straight_path(), {3.0, 0.0, 0}, standing, {}, slow) == 0.1);
+  CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, standing, {}, slow) == 0.1);
 }
 
 TEST_CASE("it slows in time, with half the comfortable braking, beside the path or on it") {
@@ -79,12 +79,12 @@ TEST_CASE("who walks and has stopped for now counts as well, and who goes on doe
   walker.position_in_map = {3.0, 0.75};
   walker.radius_m = kPersonM;
   walker.moving = true;
-  CHECK(passing_speed(straight_path(), {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == Approx(0.2));
+  CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == Approx(0.2));
   walker.velocity_in_map = {0.0, 0.4};
-  CHECK(passing_speed(straight_path(), {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
+  CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
   walker.velocity_in_map = {};
   walker.moving = false;  // a pillar: who is known to be somebody is in the other list
-  CHECK(passing_speed(straight_path(), {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
+  CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
 }
 
 TEST_CASE("the follower goes by at that speed") {
@@ -94,7 +94,7 @@ TEST_CASE("the follower goes by at that speed") {
                             .max_turn_accel_radps2 = 3.0,
                             .max_jerk_mps3 = 2.0,
                             .brake_mps2 = 1.0};
-  Follower follower({.limits = limits, .robot_radius_m = kRobotM});
+  Follower follower({.limits = limits, .robot = {.radius_m = kRobotM}});
   const Path path = straight_path();
   const std::array standing{Stander{{3.0, 0.8}, kPersonM}};
   Twist2 twist;

@@ -80,6 +80,22 @@ TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no lon
   }
 }
 
+TEST_CASE("who walked, stops, and goes out of what the laser looks at stands there for eight seconds yet") {
+  Watch watch;
+  watch.look_round();
+  for (int scan = 0; scan < 60; ++scan) watch.see(with({{{2.0, -2.0 + 0.05 * scan}, 0.27}}));
+  for (int scan = 0; scan < 8; ++scan) watch.see(with({{{2.0, 1.0}, 0.27}}));  // half a second: he is no stander yet
+  REQUIRE(watch.tracker.moving().size() == 1);
+  const Room still_there = with({{{2.0, 1.0}, 0.27}});
+  const Pose2 turned{0.0, 0.0, -2.5};  // behind the robot 90 degrees are not looked at
+  for (int scan = 0; scan < 15 * 7; ++scan) watch.see(still_there, turned);
+  CHECK(watch.tracker.tracks().empty());
+  REQUIRE(watch.tracker.standing().size() == 1);
+  CHECK(distance(watch.tracker.standing()[0].position_in_map, {2.0, 1.0}) < 0.05);
+  for (int scan = 0; scan < 15 * 2; ++scan) watch.see(still_there, turned);
+  CHECK(watch.tracker.standing().empty());
+}
+
 TEST_CASE("one post, and two farther apart than legs, are nobody") {
   Watch watch;
   for (int scan = 0; scan < 60; ++scan) {
