@@ -5,8 +5,8 @@
 #include <cmath>
 #include <utility>
 
+#include "planner/motion/body_ahead.h"
 #include "planner/motion/pursuit.h"
-#include "planner/motion/room.h"
 #include "planner/motion/straight_piece.h"
 
 namespace jaywalk {
@@ -20,26 +20,12 @@ constexpr double kTightMargin_m = 0.075;
 constexpr double kLeastMargin_m = 0.05;
 constexpr int kRefusedLooks = 15;  // a second
 constexpr int kPatientLooks = 75;  // five: whoever is before it may go on, and whoever is behind it steps aside
-constexpr double kNear_m = 2.5;    // of the axle: who is in the way, or of the rider's company
 constexpr double kOtherGoal_m = 0.2;
-constexpr double kOff_m = 0.12;   // a manoeuvre left by more is given up
-constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
-constexpr double kAhead_s = 8.0, kStep_s = 0.1;
-constexpr double kTouch_m = 0.03;          // to what is known to a centimetre or two
-constexpr double kBeforeSlowing_s = 0.25;  // the drives' lag, a tick, and the half of it that jerk takes
-constexpr double kStopStep_s = 0.05, kRest_mps = 1e-3;
+constexpr double kOff_m = 0.12;  // a manoeuvre left by more is given up
+constexpr double kRest_mps = 1e-3;
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
-
-double toward(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
-
-/// Half a step before, for the middle of an arc.
-Pose2 moved(const Pose2& pose, const Twist2& twist, double dt_s) {
-  const Vec2 ahead = direction(pose.heading + 0.5 * twist.w_radps * dt_s);
-  return {pose.x + ahead.x * twist.v_mps * dt_s, pose.y + ahead.y * twist.v_mps * dt_s,
-          wrap_angle(pose.heading + twist.w_radps * dt_s)};
-}
 
 bool somebody_near(const GuideInput& input) {
   const auto near = [&](const auto& one) {
@@ -63,7 +49,7 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
     return;
   }
   map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
-  if (refused && may_back_off(input.map_from_robot)) {
+  if (refused && may_back_off(input)) {
     refused_looks_ = 0;
     back_off(input.map_from_robot);
     return;
@@ -74,7 +60,8 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
   unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
   if (most_speed_mps_ == 0.0) {
     const bool drives = std::fabs(input.driven.v_mps) > kRest_mps;  // to rest, once it has begun
-    brakes_hard_ = drives && (braked_hard || !stops_in_time(input.map_from_robot, input.driven));
+    const BodyAhead ahead{map_, limits_, input.map_from_robot, input.driven};
+    brakes_hard_ = drives && (braked_hard || !ahead.stops_in_time());
     search(input);
   }
 }
@@ -101,53 +88,13 @@ bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
 }
 
 double FootprintGuide::speed_that_fits(const GuideInput& input) const noexcept {
+  const BodyAhead ahead{map_, limits_, input.map_from_robot, input.driven};
   for (const double share : std::array{1.0, 0.5, 0.25}) {
     const double speed = share * limits_.max_speed_mps;
-    if (fits_following(input, speed)) return share == 1.0 ? std::numeric_limits<double>::infinity() : speed;
+    if (ahead.follows(input.path, speed, kMargin_m))
+      return share == 1.0 ? std::numeric_limits<double>::infinity() : speed;
   }
   return 0.0;
-}
-
-bool FootprintGuide::fits_following(const GuideInput& input, double most_mps) const noexcept {
-  Pose2 pose = input.map_from_robot;
-  Twist2 twist{std::max(input.driven.v_mps, 0.0), input.driven.w_radps};
-  const double at_start = map_.clearance(pose);
-  double room = at_start;
-  double gone = 0.0;
-  for (double t = 0.0; t < kAhead_s && gone < kAhead_m; t += kStep_s) {
-    const Steering steering = pursue(input.path, pose, twist.v_mps);
-    Twist2 wish{0.0, steering.turn_radps(limits_.max_turn_radps)};
-    if (!steering.turns_first()) {
-      wish.v_mps = std::min(most_mps, curve_speed(steering.curvature_per_m, limits_.max_turn_radps));
-      wish.w_radps = steering.circle_radps(std::max(wish.v_mps, twist.v_mps), limits_.max_turn_radps);
-    }
-    twist.v_mps = toward(twist.v_mps, wish.v_mps, limits_.max_accel_mps2 * kStep_s);
-    twist.w_radps = toward(twist.w_radps, wish.w_radps, limits_.max_turn_accel_radps2 * kStep_s);
-    pose = moved(pose, twist, kStep_s);
-    gone += twist.v_mps * kStep_s;
-    const double least = least_room_m(kMargin_m, at_start, room);
-    room = map_.clearance(pose);
-    if (room < least) return false;
-    if (steering.turns_first() && map_.goes_unseen(pose.position(), direction(pose.heading))) return false;
-    if (distance(pose.position(), input.path.back()) < kMargin_m) return true;
-  }
-  return true;
-}
-
-/// Whether the outline of a robot that drives keeps clear on its arc, slowing down within comfort.
-bool FootprintGuide::stops_in_time(const Pose2& here, const Twist2& driven) const noexcept {
-  const double at_start = map_.clearance(here);
-  const double curvature = driven.w_radps / driven.v_mps;
-  Pose2 pose = here;
-  double v = driven.v_mps, room = at_start;
-  for (double t = 0.0; std::fabs(v) > kRest_mps; t += kStopStep_s) {
-    if (t >= kBeforeSlowing_s) v = toward(v, 0.0, limits_.max_accel_mps2 * kStopStep_s);
-    pose = moved(pose, {v, curvature * v}, kStopStep_s);
-    const double least = least_room_m(kTouch_m, at_start, room);
-    room = map_.clearance(pose);
-    if (room < least) return false;
-  }
-  return true;
 }
 
 /// The point of the path farthest along, within kAheadOnPath_m, that the circle inside the body can get to.
@@ -190,8 +137,8 @@ void FootprintGuide::back_off(const Pose2& here) noexcept {
 }
 
 /// At once where it has seen what is behind it; else not before whoever is there had time.
-bool FootprintGuide::may_back_off(const Pose2& here) const noexcept {
-  return refused_looks_ >= kPatientLooks || !unseen_behind(here, kBackOff_m);
+bool FootprintGuide::may_back_off(const GuideInput& input) const noexcept {
+  return refused_looks_ >= kPatientLooks || !(input.somebody_hidden || unseen_behind(input.map_from_robot, kBackOff_m));
 }
 
 bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexcept {
@@ -210,6 +157,9 @@ void FootprintGuide::search(const GuideInput& input) noexcept {
       back_out(input.map_from_robot);
     return;
   }
+  const bool backs =
+      std::any_of(found.begin(), found.end(), [](const auto& step) { return step.gear == Gear::kBackward; });
+  if (backs && input.somebody_hidden && unfit_looks_ < kPatientLooks) return;
   // A robot under way takes up only what goes on forward; for anything else it stops first, and looks again.
   if (!(stands && unfit_looks_ >= kUnfitLooks) && found[1].gear != Gear::kForward) return;
   drive_.begin(found);

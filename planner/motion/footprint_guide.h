@@ -19,7 +19,10 @@ struct GuideInput {
   std::span<const Stander> standing = {};  ///< PlanRequest's
   std::span<const Track> moving = {};      ///< the same
   Vec2 goal_in_map{};
+  bool somebody_hidden = false;  ///< went out of sight within kNear_m lately: nothing backs at once
 };
+
+inline constexpr double kNear_m = 2.5;  ///< of the axle: who is in the way, or of the rider's company
 
 /// For a body that is longer than wide: the path is one for the circle inside it, and says nothing about which way
 /// the body points. On each new path the guide drives it ahead in thought, with the follower's own steering, and looks
@@ -42,11 +45,9 @@ class FootprintGuide {
 
  private:
   [[nodiscard]] double speed_that_fits(const GuideInput& input) const noexcept;
-  [[nodiscard]] bool fits_following(const GuideInput& input, double most_mps) const noexcept;
   [[nodiscard]] ManoeuvreGoal goal_along(const GuideInput& input) noexcept;
-  [[nodiscard]] bool stops_in_time(const Pose2& here, const Twist2& driven) const noexcept;
   void note_goal(Vec2 goal_in_map) noexcept;
-  [[nodiscard]] bool may_back_off(const Pose2& here) const noexcept;
+  [[nodiscard]] bool may_back_off(const GuideInput& input) const noexcept;
   [[nodiscard]] bool unseen_behind(const Pose2& here, double back_m) const noexcept;
   void back_out(const Pose2& here) noexcept;
   void back_off(const Pose2& here) noexcept;

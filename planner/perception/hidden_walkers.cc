@@ -36,6 +36,11 @@ void HiddenWalkers::wait(const LineOfSight& sight, Time now, double step_s) noex
   }
 }
 
+bool HiddenWalkers::lost_near(Vec2 place, double within_m) const noexcept {
+  return std::any_of(walkers_.begin(), walkers_.end(),
+                     [&](const Walker& w) { return distance(w.as_seen.position_in_map, place) < within_m; });
+}
+
 bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
   std::size_t who = walkers_.size();
   double nearest = kOffM;

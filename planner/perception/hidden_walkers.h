@@ -27,6 +27,9 @@ class HiddenWalkers {
   /// noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing changes, when there is nobody.
   bool return_as(Body& newcomer, Time now) noexcept;
 
+  /// Whether one of them was within `within_m` of a place when he was seen last.
+  [[nodiscard]] bool lost_near(Vec2 place, double within_m) const noexcept;
+
   [[nodiscard]] std::size_t size() const { return walkers_.size(); }
 
  private:

@@ -1,5 +1,6 @@
 #include "planner/perception/tracker.h"
 
+#include <algorithm>
 #include <limits>
 
 #include "planner/perception/absence.h"
@@ -19,6 +20,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kSeenGain = 0.15;      // of the running mean of how often a body was seen
+constexpr double kOutOfSightS = 0.3;    // dark cloth is, for a scan or three
 constexpr double kClockSetBackS = 1.0;  // by more: nothing that was seen is as old as it says
 
 void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
@@ -186,5 +188,19 @@ const EvidenceMap& Tracker::still() const { return state_->still; }
 std::span<const Track> Tracker::tracks() const { return {state_->tracks.data(), state_->tracks.size()}; }
 std::span<const Track> Tracker::moving() const { return {state_->moving.data(), state_->moving.size()}; }
 std::span<const Stander> Tracker::standing() const { return {state_->standing.data(), state_->standing.size()}; }
+
+bool Tracker::hides_somebody(Vec2 place, double within_m) const noexcept {
+  const State& s = *state_;
+  const auto lost_near = [&](Vec2 seen_at, Time last_seen) {
+    return to_seconds(s.now - last_seen) > kOutOfSightS && distance(seen_at, place) < within_m;
+  };
+  return std::any_of(s.standing.begin(), s.standing.end(),
+                     [&](const Stander& him) { return lost_near(him.position_in_map, him.last_seen); }) ||
+         std::any_of(s.bodies.begin(), s.bodies.end(),
+                     [&](const Body& body) {
+                       return body.somebody && lost_near(body.as_seen.position_in_map, body.as_seen.last_seen);
+                     }) ||
+         s.hidden.lost_near(place, within_m);
+}
 
 }  // namespace jaywalk

@@ -45,6 +45,9 @@ class Tracker {
   /// Whoever stands, for as long as something stands there: wider than the map has him. Who walked, and whatever stands
   /// on two legs, some furniture among it.
   [[nodiscard]] std::span<const Stander> standing() const;
+  /// Whether somebody went out of sight within `within_m` of a place (in the map), and has not been seen since, for
+  /// eight seconds: he may stand there, or have come nearer.
+  [[nodiscard]] bool hides_somebody(Vec2 place, double within_m) const noexcept;
 
  private:
   struct State;

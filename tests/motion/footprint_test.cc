@@ -271,13 +271,30 @@ TEST_CASE("refused, the guide backs off where it has seen what is behind, and wa
   Path path;
   for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({0.05 * k, 0.0}));
   const Ground ground;
-  const auto looks_until_off = [&](const EvidenceMap& still) {
+  const auto looks_until_off = [&](const EvidenceMap& still, bool hidden) {
     FootprintGuide guide(kChair.footprint, kChair.limits);
     int looks = 0;
     for (; looks < 100 && !guide.manoeuvre().active(); ++looks)
-      guide.look({.path = path, .wanted = {0.3, 0.0}, .still = still, .goal_in_map = {2.0, 0.0}});
+      guide.look(
+          {.path = path, .wanted = {0.3, 0.0}, .still = still, .goal_in_map = {2.0, 0.0}, .somebody_hidden = hidden});
     return looks;
   };
-  CHECK(looks_until_off(ground.map()) == 15);
-  CHECK(looks_until_off(unseen) == 75);
+  CHECK(looks_until_off(ground.map(), false) == 15);
+  CHECK(looks_until_off(ground.map(), true) == 75);
+  CHECK(looks_until_off(unseen, false) == 75);
+}
+
+TEST_CASE("a manoeuvre that backs waits for five seconds while somebody near is out of sight") {
+  const Ground ground = dead_end();
+  Path path;
+  for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({-3.0 * (k / 40.0), 0.0}));
+  const auto looks_until_off = [&](bool hidden) {
+    FootprintGuide guide(kChair.footprint, kChair.limits);
+    int looks = 0;
+    for (; looks < 100 && !guide.manoeuvre().active(); ++looks)
+      guide.look({.path = path, .still = ground.map(), .somebody_hidden = hidden});
+    return looks;
+  };
+  CHECK(looks_until_off(false) == 8);
+  CHECK(looks_until_off(true) == 75);
 }

@@ -1,0 +1,24 @@
+#pragma once
+#include "hal/types/robot_model.h"
+#include "planner/motion/body_map.h"
+#include "planner/planner.h"
+
+namespace jaywalk {
+
+/// Drives a body ahead in thought, from a pose and what it is driven at, and looks whether its outline keeps clear of
+/// what a map has. Thread: the loop's.
+struct BodyAhead {
+  const BodyMap& map;
+  const MotionLimits& limits;
+  Pose2 map_from_robot;
+  Twist2 driven;
+
+  /// Along the path, which is not empty, with the follower's own steering and at most at `most_mps`: with `margin_m`
+  /// all the way, or where there is less from the start no less, for 1.6 m or 8 s. Does not turn on the spot into what
+  /// it has not seen.
+  [[nodiscard]] bool follows(const Path& path, double most_mps, double margin_m) const noexcept;
+  /// On the arc that it is on, slowing down within comfort, until it stands: 3 cm off everything.
+  [[nodiscard]] bool stops_in_time() const noexcept;
+};
+
+}  // namespace jaywalk
