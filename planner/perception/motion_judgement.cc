@@ -78,8 +78,11 @@ bool came_along(const Body& body) {
          distance(body.track.position_in_map, body.anchor_in_map) > kAlongM;
 }
 
+/// As thin as a leg, and stands where nothing stood: the other leg may be behind it.
+bool put_a_leg_down(const Body& body) { return body.whole && body.arc_m == 0.0 && came_to_free_space(body); }
+
 bool may_be_somebody(const Body& body) {
-  return body.track.moving || (body.confirmed() && (body.on_legs() || came_along(body)));
+  return body.track.moving || (body.confirmed() && (body.on_legs() || came_along(body) || put_a_leg_down(body)));
 }
 
 }  // namespace

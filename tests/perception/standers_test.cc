@@ -120,6 +120,14 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("one leg that stands where nothing stood is somebody's") {
+  Watch watch;
+  watch.look_round();
+  for (int scan = 0; scan < 15; ++scan) watch.see(with({{kPlace, 0.06}}));
+  REQUIRE(watch.tracker.standing().size() == 1);
+  CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.2);
+}
+
 TEST_CASE("one post, and two farther apart than legs, are nobody") {
   Watch watch;
   for (int scan = 0; scan < 60; ++scan) {
