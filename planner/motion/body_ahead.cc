@@ -11,10 +11,10 @@ namespace {
 
 constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
 constexpr double kAhead_s = 8.0, kStep_s = 0.1;
-constexpr double kTouch_m = 0.03;          // to what is known to a centimetre or two
+constexpr double kTouch_m = 0.05;          // who stands on two legs may be so much wider than he is taken for
 constexpr double kBeforeSlowing_s = 0.25;  // the drives' lag, a tick, and the half of it that jerk takes
 constexpr double kStopStep_s = 0.05;
-constexpr double kRest_mps = 1e-3;
+constexpr double kRest_mps = 1e-3, kRest_radps = 1e-2;
 
 double toward(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
 
@@ -32,7 +32,18 @@ Twist2 wish(const Steering& steering, double most_mps, double v_mps, const Motio
   return {v, steering.circle_radps(std::max(v, v_mps), limits.max_turn_radps)};
 }
 
+/// A step later: what drives on its arc, what turns on the spot.
+Twist2 slowed(const Twist2& twist, const MotionLimits& limits) {
+  const double v = toward(twist.v_mps, 0.0, limits.max_accel_mps2 * kStopStep_s);
+  if (v != 0.0) return {v, twist.w_radps / twist.v_mps * v};
+  return {0.0, toward(twist.w_radps, 0.0, limits.max_turn_accel_radps2 * kStopStep_s)};
+}
+
 }  // namespace
+
+bool at_rest(const Twist2& twist) noexcept {
+  return std::fabs(twist.v_mps) < kRest_mps && std::fabs(twist.w_radps) < kRest_radps;
+}
 
 bool BodyAhead::follows(const Path& path, double most_mps, double margin_m) const noexcept {
   Pose2 pose = map_from_robot;
@@ -58,10 +69,11 @@ bool BodyAhead::follows(const Path& path, double most_mps, double margin_m) cons
 bool BodyAhead::stops_in_time() const noexcept {
   const double at_start = map.clearance(map_from_robot);
   Pose2 pose = map_from_robot;
-  double v = driven.v_mps, room = at_start;
-  for (double t = 0.0; std::fabs(v) > kRest_mps; t += kStopStep_s) {
-    if (t >= kBeforeSlowing_s) v = toward(v, 0.0, limits.max_accel_mps2 * kStopStep_s);
-    pose = moved(pose, {v, driven.w_radps / driven.v_mps * v}, kStopStep_s);
+  Twist2 twist = driven;
+  double room = at_start;
+  for (double t = 0.0; !at_rest(twist); t += kStopStep_s) {
+    if (t >= kBeforeSlowing_s) twist = slowed(twist, limits);
+    pose = moved(pose, twist, kStopStep_s);
     const double least = least_room_m(kTouch_m, at_start, room);
     room = map.clearance(pose);
     if (room < least) return false;

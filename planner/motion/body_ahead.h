@@ -5,6 +5,9 @@
 
 namespace jaywalk {
 
+/// As good as not driven at all.
+[[nodiscard]] bool at_rest(const Twist2& twist) noexcept;
+
 /// Drives a body ahead in thought, from a pose and what it is driven at, and looks whether its outline keeps clear of
 /// what a map has. Thread: the loop's.
 struct BodyAhead {
@@ -17,7 +20,8 @@ struct BodyAhead {
   /// all the way, or where there is less from the start no less, for 1.6 m or 8 s. Does not turn on the spot into what
   /// it has not seen.
   [[nodiscard]] bool follows(const Path& path, double most_mps, double margin_m) const noexcept;
-  /// On the arc that it is on, slowing down within comfort, until it stands: 3 cm off everything.
+  /// On the arc that it is on, or turning on the spot, slowing down within comfort until it stands: 3 cm off
+  /// everything.
   [[nodiscard]] bool stops_in_time() const noexcept;
 };
 

@@ -28,7 +28,9 @@ Twist2 Follower::twist(const FollowerInput& input) noexcept {
 
 /// As hard as the drives were proved to, on the same arc; comfort is for who is not about to touch somebody.
 Twist2 Follower::braked_hard(const Twist2& before) const noexcept {
-  const double speed = std::fabs(before.v_mps);
+  // The wheels lie within the body's sides: turning on the spot they go no faster than those.
+  const double rim_mps = std::fabs(before.w_radps) * config_.robot.footprint.half_width_m;
+  const double speed = std::max(std::fabs(before.v_mps), rim_mps);
   if (speed < 1e-9) return {};
   const double share = std::max(0.0, 1.0 - config_.limits.brake_mps2 * config_.tick_s / speed);
   return {before.v_mps * share, before.w_radps * share};

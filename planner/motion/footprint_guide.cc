@@ -21,8 +21,7 @@ constexpr double kLeastMargin_m = 0.05;
 constexpr int kRefusedLooks = 15;  // a second
 constexpr int kPatientLooks = 75;  // five: whoever is before it may go on, and whoever is behind it steps aside
 constexpr double kOtherGoal_m = 0.2;
-constexpr double kOff_m = 0.12;  // a manoeuvre left by more is given up
-constexpr double kRest_mps = 1e-3;
+constexpr double kOff_m = 0.12;         // a manoeuvre left by more is given up
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
@@ -59,9 +58,8 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
   most_speed_mps_ = speed_that_fits(input);
   unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
   if (most_speed_mps_ == 0.0) {
-    const bool drives = std::fabs(input.driven.v_mps) > kRest_mps;  // to rest, once it has begun
     const BodyAhead ahead{map_, limits_, input.map_from_robot, input.driven};
-    brakes_hard_ = drives && (braked_hard || !ahead.stops_in_time());
+    brakes_hard_ = !at_rest(input.driven) && (braked_hard || !ahead.stops_in_time());  // to rest, once it has begun
     search(input);
   }
 }

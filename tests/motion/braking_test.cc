@@ -77,3 +77,26 @@ TEST_CASE("before somebody who stops farther off it slows down within comfort") 
   CHECK(stop.way_m < 0.9);
   CHECK(stop.hardest_mps <= kChair.limits.max_accel_mps2 * kTick_s + 1e-9);
 }
+
+TEST_CASE("turning on the spot towards somebody who stops there it brakes hard as well") {
+  const Ground ground;
+  Path path;
+  for (int k = 0; k <= 50; ++k) (void)path.push_back({0.0, -0.1 * k});
+  Track walker = stopped(0.0);
+  walker.position_in_map = {0.75, -0.68};  // 0.1 m from its right front corner
+  const std::array tracks{walker};
+  FootprintGuide guide(kChair.footprint, kChair.limits);
+  guide.look({.path = path, .wanted = {}, .driven = {0.0, -1.0}, .still = ground.map(), .moving = tracks});
+  CHECK(guide.most_speed_mps() == 0.0);
+  CHECK(guide.brakes_hard());
+  Follower follower({.limits = kChair.limits, .robot = {.footprint = kChair.footprint}, .stands_at_worst = true});
+  const Twist2 next = follower.twist({.path = path,
+                                      .map_from_robot = {},
+                                      .goal_in_map = {0.0, -5.0},
+                                      .has_goal = true,
+                                      .tracks = tracks,
+                                      .permitted_before = {0.0, -1.0},
+                                      .guide = &guide});
+  CHECK(next.v_mps == 0.0);
+  CHECK(next.w_radps == Approx(-1.0 + 0.02 / 0.325));  // 1 m/s2 at its sides
+}
