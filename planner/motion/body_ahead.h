@@ -20,7 +20,7 @@ struct BodyAhead {
   /// all the way, or where there is less from the start no less, for 1.6 m or 8 s. Does not turn on the spot into what
   /// it has not seen.
   [[nodiscard]] bool follows(const Path& path, double most_mps, double margin_m) const noexcept;
-  /// On the arc that it is on, or turning on the spot, slowing down within comfort until it stands: 3 cm off
+  /// On the arc that it is on, or turning on the spot, slowing down within comfort until it stands: 5 cm off
   /// everything.
   [[nodiscard]] bool stops_in_time() const noexcept;
 };
