@@ -8,6 +8,7 @@
 #include "planner/motion/body_ahead.h"
 #include "planner/motion/pursuit.h"
 #include "planner/motion/straight_piece.h"
+#include "planner/motion/turned_piece.h"
 
 namespace jaywalk {
 namespace {
@@ -18,8 +19,9 @@ constexpr double kMargin_m = 0.10;
 constexpr double kTightMargin_m = 0.075;
 /// A manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
 constexpr double kLeastMargin_m = 0.05;
-constexpr int kRefusedLooks = 15;  // a second
-constexpr int kPatientLooks = 75;  // five: whoever is before it may go on, and whoever is behind it steps aside
+constexpr int kRefusedLooks = 15;     // a second
+constexpr int kPatientLooks = 75;     // five: whoever is before it may go on, and whoever is behind it steps aside
+constexpr int kLookRoundLooks = 150;  // ten
 constexpr double kOtherGoal_m = 0.2;
 constexpr double kOff_m = 0.12;         // a manoeuvre left by more is given up
 constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
@@ -57,6 +59,7 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
   drive_.stop();
   most_speed_mps_ = speed_that_fits(input);
   unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
+  if (unfit_looks_ == 0) rounds_ = 0;
   if (most_speed_mps_ == 0.0) {
     const BodyAhead ahead{map_, limits_, input.map_from_robot, input.driven};
     brakes_hard_ = !at_rest(input.driven) && (braked_hard || !ahead.stops_in_time());  // to rest, once it has begun
@@ -77,7 +80,7 @@ void FootprintGuide::note_goal(Vec2 goal_in_map) noexcept {
   if (distance(goal_in_map, goal_in_map_) < kOtherGoal_m) return;
   goal_in_map_ = goal_in_map;
   drive_.stop();
-  unfit_looks_ = refused_looks_ = 0;
+  unfit_looks_ = refused_looks_ = rounds_ = 0;
 }
 
 bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
@@ -128,6 +131,13 @@ void FootprintGuide::back_out(const Pose2& here) noexcept {
   if (back_.size() > 1) drive_.begin(back_);
 }
 
+/// To the left, and the next time to the right: what is in the way where it does not look may have gone.
+void FootprintGuide::look_round(const Pose2& here) noexcept {
+  draw_turn(map_, here, rounds_ == 0 ? kLookRound_rad : -kLookRound_rad, kTightMargin_m, back_);
+  if (back_.size() > 1) drive_.begin(back_, ManoeuvreDrive::Steering::kFree, ManoeuvreDrive::End::kAtRest);
+  ++rounds_;
+}
+
 /// Straight back without steering: whatever is beside the body stays as far as it is.
 void FootprintGuide::back_off(const Pose2& here) noexcept {
   draw_straight(map_, here, -kBackOff_m, kTightMargin_m, back_);
@@ -153,6 +163,8 @@ void FootprintGuide::search(const GuideInput& input) noexcept {
     const int looks = somebody_near(input) ? kPatientLooks : kUnfitLooks;
     if (unfit_looks_ >= looks && stands && unseen_behind(input.map_from_robot, kBackOut_m))
       back_out(input.map_from_robot);
+    else if (rounds_ < 2 && unfit_looks_ >= (rounds_ + 1) * kLookRoundLooks && stands)
+      look_round(input.map_from_robot);
     return;
   }
   const bool backs =

@@ -51,6 +51,7 @@ class FootprintGuide {
   [[nodiscard]] bool unseen_behind(const Pose2& here, double back_m) const noexcept;
   void back_out(const Pose2& here) noexcept;
   void back_off(const Pose2& here) noexcept;
+  void look_round(const Pose2& here) noexcept;
   [[nodiscard]] bool keeps_manoeuvre(const GuideInput& input) const noexcept;
   [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
   void search(const GuideInput& input) noexcept;
@@ -64,6 +65,7 @@ class FootprintGuide {
   Vec2 goal_in_map_;
   double most_speed_mps_ = std::numeric_limits<double>::infinity();
   bool brakes_hard_ = false;
+  int rounds_ = 0;         ///< how often it has looked round since the path fitted last
   int unfit_looks_ = 0;    ///< in a row, at which the path fitted at no speed
   int refused_looks_ = 0;  ///< in a row, at which the supervisor had refused to move
 };

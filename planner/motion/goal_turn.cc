@@ -5,6 +5,7 @@
 
 #include "planner/motion/room.h"
 #include "planner/motion/straight_piece.h"
+#include "planner/motion/turned_piece.h"
 #include "planner/motion/twist_ramp.h"
 
 namespace jaywalk {
@@ -23,6 +24,7 @@ constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close en
 constexpr int kRefusedLooks = 15;        // a second
 constexpr int kLeftAloneLooks = 150;     // ten
 constexpr int kGiveUpLooks = 15;         // a second
+constexpr int kLookRoundLooks = 150;     // ten seconds
 constexpr int kSearchEveryLooks = 8;     // while it is blocked
 constexpr double kClosest_rad = 0.07;    // what a search's steps of headings can promise
 
@@ -99,7 +101,17 @@ void GoalTurn::look(const GuideInput& input) noexcept {
 void GoalTurn::seek(const Pose2& here) noexcept {
   chosen_ = choose_way(here);
   waits_ = chosen_ ? 0 : waits_ + 1;
-  blocked_ = !chosen_ && !(waits_ % kSearchEveryLooks == 1 && !has_room(here) && search(here));
+  blocked_ = !chosen_ && !(waits_ % kSearchEveryLooks == 1 && !has_room(here) && search(here)) && !look_round(here);
+}
+
+/// After ten seconds to the left, after twenty to the right, as far as it can: what is in the way where it does not
+/// look may have gone.
+bool GoalTurn::look_round(const Pose2& here) noexcept {
+  if (waits_ != kLookRoundLooks && waits_ != 2 * kLookRoundLooks) return false;
+  draw_turn(map_, here, waits_ == kLookRoundLooks ? kLookRound_rad : -kLookRound_rad, kMargins_m[1], straight_);
+  if (straight_.size() < 2) return false;
+  drive_.begin(straight_, ManoeuvreDrive::Steering::kFree, ManoeuvreDrive::End::kAtRest);
+  return true;
 }
 
 /// Out of a manoeuvre that could not be driven to its end: another from here, or else the path. Where the supervisor

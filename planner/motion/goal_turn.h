@@ -49,6 +49,7 @@ class GoalTurn {
   [[nodiscard]] int& refused_for(double turn_rad) noexcept { return refused_for_[turn_rad < 0.0 ? 1 : 0]; }
   [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
   void seek(const Pose2& here) noexcept;
+  bool look_round(const Pose2& here) noexcept;
   void draw_off(const Pose2& here, double off_m) noexcept;
   void seek_back(const Pose2& here, bool refused) noexcept;
   [[nodiscard]] bool search(const Pose2& here) noexcept;

@@ -197,6 +197,22 @@ TEST_CASE("where there is no way at all it waits, and says so") {
   CHECK_FALSE(bench.turn.blocked());
 }
 
+TEST_CASE("where there is no way it looks round after ten seconds to the left, after twenty to the right, and waits") {
+  Ground ground;
+  pillar(ground, {-0.6, 0.0});  // behind it, where a laser of 270 degrees does not look: who stood there may have gone
+  Bench bench(wheelchair(), ground, to_heading(kPi));
+  bench.run(8.5);  // of 16.7 looks a second
+  CHECK(bench.turned == 0.0);
+  bench.run(6.0);
+  CHECK(bench.turned > 1.5);
+  bench.run(15.0);
+  CHECK(std::fabs(bench.turned) < 0.3);
+  CHECK(bench.turn.blocked());
+  const Pose2 before = bench.pose;
+  bench.run(30.0);
+  CHECK(bench.pose == before);
+}
+
 TEST_CASE("a way that was refused for a second is left for the other, and both for ten seconds") {
   const Ground ground;
   Bench bench(p3dx(), ground, to_heading(2.0));

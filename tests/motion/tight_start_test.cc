@@ -1,11 +1,13 @@
 // A body that is nearer to something than it should be where it begins: it may leave it, or pass it alike, and drives
 // over nothing else.
 #include <cmath>
+#include <vector>
 
 #include "planner/motion/body_map.h"
 #include "planner/motion/footprint_guide.h"
 #include "planner/motion/manoeuvre_search.h"
 #include "planner/motion/room.h"
+#include "planner/motion/turned_piece.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"
 
@@ -88,4 +90,55 @@ TEST_CASE("a path that leads into a wall bit by bit is not followed from a start
   FootprintGuide guide(kChair.footprint, kChair.limits);
   guide.look({.path = path, .map_from_robot = {}, .wanted = {}, .driven = {}, .still = ground.map()});
   CHECK(guide.most_speed_mps() == 0.0);
+}
+
+TEST_CASE("a turn on the spot goes as far as there is room, and into nothing unseen") {
+  BodyMap map(kChair.footprint);
+  Manoeuvre turn;
+  const Ground open;
+  map.draw(open.map(), {});
+  draw_turn(map, {}, 1.75, 0.075, turn);
+  CHECK(turn.back().map_from_robot.heading == Approx(1.75).margin(kPi / 24.0));
+  draw_turn(map, {}, -1.75, 0.075, turn);
+  CHECK(turn.back().map_from_robot.heading == Approx(-1.75).margin(kPi / 24.0));
+  const Ground ground = Ground().wall({0.5, 0.65}, {0.5, 0.66});  // the left front corner passes it at 45 degrees or so
+  map.draw(ground.map(), {});
+  draw_turn(map, {}, 1.75, 0.075, turn);
+  CHECK(turn.size() > 1);
+  for (const ManoeuvreStep& step : turn) CHECK(map.clearance(step.map_from_robot) > 0.07);
+  CHECK(turn.back().map_from_robot.heading < 0.5);
+  EvidenceMap blank(256, 0.1, {0.0, 0.0});
+  map.draw(blank, {});
+  draw_turn(map, {}, 1.75, 0.075, turn);
+  CHECK(turn.size() < 5);
+}
+
+TEST_CASE("where nothing is to be done for ten seconds the guide looks round, once to either side") {
+  Ground box;
+  box.wall({-1.2, -1.2}, {1.2, -1.2})
+      .wall({1.2, -1.2}, {1.2, 1.2})
+      .wall({1.2, 1.2}, {-1.2, 1.2})
+      .wall({-1.2, 1.2}, {-1.2, -1.2});
+  Path out;
+  for (int k = 0; k <= 30; ++k) (void)out.push_back({-0.1 * k, 0.0});
+  FootprintGuide guide(kChair.footprint, kChair.limits);
+  Pose2 pose;
+  std::vector<double> turns;  // of the manoeuvres that do nothing else
+  for (int looks = 0; looks < 15 * 90; ++looks) {
+    guide.look({.path = out, .map_from_robot = pose, .still = box.map()});
+    const double before = pose.heading;
+    bool drives = false, turned = false;
+    while (guide.manoeuvre().active()) {
+      const Twist2 twist = guide.manoeuvre().wish(pose);
+      turned = true;
+      drives = drives || twist.v_mps != 0.0;
+      const Vec2 step = direction(pose.heading) * (0.02 * twist.v_mps);
+      pose = {pose.x + step.x, pose.y + step.y, pose.heading + 0.02 * twist.w_radps};
+    }
+    if (turned && !drives) turns.push_back(pose.heading - before);
+  }
+  CAPTURE(turns.size(), pose.x, pose.y, pose.heading);
+  REQUIRE(turns.size() == 2);
+  CHECK(turns[0] > 0.1);
+  CHECK(turns[1] < -0.1);
 }
