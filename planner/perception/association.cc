@@ -46,7 +46,7 @@ void associate(const Bodies& bodies, Clusters& clusters) noexcept {
   for (Cluster& c : clusters) {
     double best = kInfinity;
     for (const Body& body : bodies) {
-      const double d2 = gate_distance2(body.track, c.centre_in_map, kGateStdM);
+      const double d2 = gate_distance2(body.track, c.centre_in_map, kGateStdM, body.late_by(c.late_s));
       if (body.given || d2 >= kGate2) continue;
       const double unlikely = d2 + price_of_doubt(body.track);
       if (unlikely < best) best = unlikely, c.track_id = body.track.id;

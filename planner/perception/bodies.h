@@ -18,6 +18,7 @@ struct Body {
   double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
   double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
   double legs_share = 0.0;     ///< running mean: how many of the sights showed two legs apart
+  double late_s = 0.0;         ///< when it was seen last, after that scan's stamp
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
   int hidden_side = 0;         ///< Cluster::hidden_side then
   bool on_wall = false;        ///< and it stood where walls stand
@@ -43,6 +44,9 @@ struct Body {
   bool somebody = false;          ///< for all that is known: it walked, or stood on two legs
   bool settled = false;           ///< stands for good: its points may become walls
 
+  /// How long after its track's stamp what was measured `after_s` after the scan's was. Who moves is brought to the
+  /// scan's stamp; who is not known to move is where he is seen, whenever that is.
+  [[nodiscard]] double late_by(double after_s) const { return track.moving ? after_s : 0.0; }
   /// When it was seen last, nothing hid its first beams' side.
   [[nodiscard]] bool low_seen() const { return whole || hidden_side > 0; }
   /// Nor its last beams'.

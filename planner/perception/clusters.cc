@@ -85,6 +85,18 @@ void note_ends(const ScanPoints& points, const Sweep& sweep, Cluster& cluster) {
   cluster.high_end = sweep.ends_at(cluster.beams.last) ? End::kHidden : end_at(points, sweep, last, 1);
 }
 
+void note_times(const ScanPoints& points, const Sweep& sweep, Cluster& cluster) {
+  const auto& [first, last] = cluster.segment;
+  double sum = 0.0, sum2 = 0.0;
+  for (std::uint32_t k = first; k <= last; ++k) {
+    const double late_s = sweep.beam_s * points[k].beam;
+    sum += late_s, sum2 += late_s * late_s;
+  }
+  const double count = last - first + 1;
+  cluster.late_s = sum / count;
+  cluster.late_std_s = std::sqrt(std::max(0.0, sum2 / count - cluster.late_s * cluster.late_s));
+}
+
 /// What find_clusters() looks at.
 struct Pieces {
   const ScanPoints& points;
@@ -141,6 +153,7 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
     cluster.on_wall = shares.wall > kMostWall;
     cluster.in_free_space = shares.free > kMostFree;
     note_ends(points, sweep, cluster);
+    note_times(points, sweep, cluster);
     if (pieces.width(s) > kPieceM && !cluster.ends()) continue;
     if (cluster.on_wall && !cluster.stands_alone()) continue;
     if (cluster.sparse && !cluster.whole()) continue;

@@ -24,12 +24,14 @@ enum class End : std::uint8_t {
 /// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.
 struct Cluster {
   Segment segment;
-  BeamRun beams{};         ///< that end on it, and those between
-  Vec2 centre_in_map;      ///< of the body: behind the visible arc
-  double radius_m = 0.0;   ///< half of the visible width
-  double range_m = 0.0;    ///< from the laser
-  double spacing_m = 0.0;  ///< from beam to beam, across them
-  bool sparse = false;     ///< two points, far off: a leg at most, and by itself nothing new
+  BeamRun beams{};          ///< that end on it, and those between
+  Vec2 centre_in_map;       ///< of the body: behind the visible arc
+  double radius_m = 0.0;    ///< half of the visible width
+  double range_m = 0.0;     ///< from the laser
+  double spacing_m = 0.0;   ///< from beam to beam, across them
+  double late_s = 0.0;      ///< when they were measured, after the scan's stamp: their mean
+  double late_std_s = 0.0;  ///< and standard deviation: half a sweep where they are its first and its last
+  bool sparse = false;      ///< two points, far off: a leg at most, and by itself nothing new
   Outline outline_in_map;
   Vec2 along;                                             ///< unit vector of the beams, away from the laser
   Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last

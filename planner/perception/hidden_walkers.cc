@@ -58,6 +58,7 @@ bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
   track.radius_m = walker.as_seen.radius_m;
   track.hits += walker.as_seen.hits;
   track.moving = as_wide_as_a_body(walker.arc_m);
+  track.position_in_map = track.position_in_map - track.velocity_in_map * newcomer.late_by(newcomer.late_s);
   newcomer.as_seen = track;
   newcomer.models = MotionModels(track);
   newcomer.arc_m = walker.arc_m;

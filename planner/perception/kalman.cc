@@ -31,9 +31,10 @@ void correct(Vec2& position, Vec2& velocity, AxisCovariance& p, Vec2 measured, d
   p.pp *= noise_m2 / variance;
 }
 
-double gate_distance2(const Track& track, Vec2 measured, double std_m) noexcept {
-  const Vec2 innovation = measured - track.position_in_map;
-  return dot(innovation, innovation) / (track.covariance.pp + std_m * std_m);
+double gate_distance2(const Track& track, Vec2 measured, double std_m, double late_s) noexcept {
+  const AxisCovariance& p = track.covariance;
+  const Vec2 innovation = measured - (track.position_in_map + track.velocity_in_map * late_s);
+  return dot(innovation, innovation) / (p.pp + cell::covariance_growth(p.pv, p.vv, late_s).pp + std_m * std_m);
 }
 
 }  // namespace jaywalk

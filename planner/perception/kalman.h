@@ -14,8 +14,9 @@ void predict(Track& track, double dt_s, double accel_std_mps2) noexcept;
 /// Eqs. 14 to 16: takes a measured position, of variance `noise_m2` > 0 an axis. Rounding leaves no variance below 0.
 void correct(Vec2& position, Vec2& velocity, AxisCovariance& covariance, Vec2 measured, double noise_m2) noexcept;
 
-/// Squared Mahalanobis distance of a measured position from the track's: chi-squared with two degrees of freedom when
-/// the measurement is the track's.
-[[nodiscard]] double gate_distance2(const Track& track, Vec2 measured_in_map, double std_m) noexcept;
+/// Squared Mahalanobis distance of a position, measured `late_s` after the track's stamp, from the track's then:
+/// chi-squared with two degrees of freedom when the measurement is the track's.
+[[nodiscard]] double gate_distance2(const Track& track, Vec2 measured_in_map, double std_m,
+                                    double late_s = 0.0) noexcept;
 
 }  // namespace jaywalk

@@ -64,6 +64,7 @@ void judge_stander(Body& body, const Surroundings& around, Time now) {
   if (body.walked >= kWalkedScans) {
     body.walked = 0;
     body.track.moving = true;
+    body.models.date_back(body.track, body.late_s);
     body.settled = false;
     return;
   }

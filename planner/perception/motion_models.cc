@@ -59,6 +59,9 @@ void walk_on(ModelState& s, double dt, double accel) {
   p.vv += accel * dt;
 }
 
+/// On by part of a sweep, or back below 0, which undoes it: nobody turns within it.
+void glide(ModelState& s, double dt) { walk_on(s, dt, 0.0); }
+
 /// Minus the logarithm of how likely a measured position is, but for a constant: two axes.
 double unlikeliness(const ModelState& s, Vec2 measured, double noise_m2) {
   const double variance = s.covariance.pp + noise_m2;
@@ -100,12 +103,14 @@ void MotionModels::predict(Track& track, double dt) noexcept {
   report(track);
 }
 
-void MotionModels::correct(Track& track, Vec2 measured, double std_m) noexcept {
+void MotionModels::correct(Track& track, Vec2 measured, double std_m, double late_s) noexcept {
   std::array<double, kCount> surprise{};
   for (std::size_t k = 0; k < kCount; ++k) {
     ModelState& s = models_[k];
+    glide(s, late_s);
     surprise[k] = unlikeliness(s, measured, std_m * std_m);
     jaywalk::correct(s.position, s.velocity, s.covariance, measured, std_m * std_m);
+    glide(s, -late_s);
   }
   const double least = *std::min_element(surprise.begin(), surprise.end());
   double sum = 0.0;
@@ -114,6 +119,11 @@ void MotionModels::correct(Track& track, Vec2 measured, double std_m) noexcept {
     sum += models_[k].weight;
   }
   for (ModelState& s : models_) s.weight /= sum;
+  report(track);
+}
+
+void MotionModels::date_back(Track& track, double late_s) noexcept {
+  for (ModelState& s : models_) glide(s, -late_s);
   report(track);
 }
 

@@ -24,8 +24,11 @@ class MotionModels {
 
   /// Moves every model `dt_s` >= 0 seconds on, and `track` to their mean.
   void predict(Track& track, double dt_s) noexcept;
-  /// Takes a measured position, `std_m` > 0 an axis, and weighs the models by it; `track` becomes their mean.
-  void correct(Track& track, Vec2 measured_in_map, double std_m) noexcept;
+  /// Takes a position measured `late_s` after the track's stamp, `std_m` > 0 an axis, and weighs the models by it;
+  /// `track` becomes their mean, at its stamp.
+  void correct(Track& track, Vec2 measured_in_map, double std_m, double late_s = 0.0) noexcept;
+  /// What was taken for its stamp was `late_s` after it: back to where it was then, going straight.
+  void date_back(Track& track, double late_s) noexcept;
   /// Every model was `by_m` from where it took the body to be.
   void move(Vec2 by_m) noexcept;
 

@@ -53,6 +53,7 @@ void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Ob
   if (fellow >= 0) {
     seen.two_legs = c.whole() && clusters[static_cast<std::size_t>(fellow)].whole();
     seen.position_in_map = (c.centre_in_map + clusters[static_cast<std::size_t>(fellow)].centre_in_map) * 0.5;
+    seen.late_s = (c.late_s + clusters[static_cast<std::size_t>(fellow)].late_s) * 0.5;
   } else if (alone && c.whole()) {
     seen.position_in_map = c.centre_in_map + c.along * kDeeperM;
   }
@@ -65,6 +66,8 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
   const Cluster& c = clusters[lead];
   const double half_m = c.whole() ? c.radius_m : std::max(c.radius_m, arc_m);  // what is hidden is there all the same
   Observation seen{.position_in_map = c.centre_in_map,
+                   .late_s = c.late_s,
+                   .late_std_s = c.late_std_s,
                    .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
                    .radius_m = std::clamp(half_m, kLeastRadiusM, kMostRadiusM),
                    .in_free_space = c.in_free_space,

@@ -7,7 +7,8 @@ namespace jaywalk {
 /// What one scan says of a body: one cluster, or a person's two legs.
 struct Observation {
   Vec2 position_in_map;
-  double std_m = 0.0;  ///< an axis, as expected of its kind; Body::noise tells what comes of it
+  double late_s = 0.0, late_std_s = 0.0;  ///< Cluster's: when it was there
+  double std_m = 0.0;                     ///< an axis, as expected of its kind; Body::noise tells what comes of it
   double radius_m = 0.0;
   bool in_free_space = false;
   Outline outline_in_map;  ///< of the nearest cluster

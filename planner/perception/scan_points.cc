@@ -11,6 +11,9 @@ namespace {
 /// Ranges beyond are no laser's: whatever a scan claims, cell indices stay small.
 constexpr double kFarthestBelievedM = 1000.0;
 
+/// Nor does it take longer over one.
+constexpr double kLongestSweepS = 1.0;
+
 /// No scanner counts its turns as far: such angles are none.
 constexpr float kMostRad = 100.0F;
 
@@ -20,7 +23,9 @@ Sweep sweep_of(const LaserScan& scan) noexcept {
   const auto beams = static_cast<std::uint32_t>(std::min<std::size_t>(scan.beam_count, kMaxBeams));
   const double step = static_cast<double>(scan.angle_step_rad);
   const double past_a_turn = std::fabs(step) * beams - 2.0 * kPi;  // a step: the first direction is looked along twice
-  return {beams, step, past_a_turn > -0.5 * std::fabs(step) && past_a_turn < 1.5 * std::fabs(step)};
+  const bool all_round = past_a_turn > -0.5 * std::fabs(step) && past_a_turn < 1.5 * std::fabs(step);
+  const double sweep_s = std::clamp(to_seconds(scan.sweep), 0.0, kLongestSweepS);
+  return {beams, step, all_round, sweep_s / std::max(1.0, beams - 1.0)};
 }
 
 double beam_interval_s(const LaserScan& scan, const Twist2& twist) noexcept {

@@ -30,9 +30,12 @@ struct Sweep {
   std::uint32_t beams = 0;
   double angle_step_rad = 0.0;  ///< from a beam to the next
   bool all_round = false;       ///< the last beam lies beside the first, or on it: there is no end
+  double beam_s = 0.0;          ///< from a beam to the next, s; 0: taken all at once
 
-  [[nodiscard]] bool begins_at(std::uint32_t beam) const { return !all_round && beam == 0; }
-  [[nodiscard]] bool ends_at(std::uint32_t beam) const { return !all_round && beam + 1 == beams; }
+  /// All round the beam beside is there, but from a sweep before or after: who walks may not have been there yet.
+  [[nodiscard]] bool has_ends() const { return !all_round || beam_s > 0.0; }
+  [[nodiscard]] bool begins_at(std::uint32_t beam) const { return has_ends() && beam == 0; }
+  [[nodiscard]] bool ends_at(std::uint32_t beam) const { return has_ends() && beam + 1 == beams; }
   [[nodiscard]] bool neighbours(std::uint32_t a, std::uint32_t b) const {
     const std::uint32_t apart = a < b ? b - a : a - b;
     return apart == 1 || (all_round && apart + 1 == beams);

@@ -38,10 +38,12 @@ double noise_of(const Body& body, const Observation& seen) {
 
 void correct_track(Body& body, const Observation& seen) {
   move_all(body, seen.was_off);
-  const double std_m = seen.std_m * std::sqrt(noise_of(body, seen));
-  body.track.surprise = gate_distance2(body.track, seen.position_in_map, std_m);
+  const double late_s = body.late_by(seen.late_s);
+  const double smeared_m = norm(body.track.velocity_in_map) * body.late_by(seen.late_std_s);
+  const double std_m = seen.std_m * std::sqrt(noise_of(body, seen)) + smeared_m;
+  body.track.surprise = gate_distance2(body.track, seen.position_in_map, std_m, late_s);
   learn_noise(body);
-  body.models.correct(body.track, seen.position_in_map, std_m);
+  body.models.correct(body.track, seen.position_in_map, std_m, late_s);
 }
 
 }  // namespace
@@ -49,6 +51,7 @@ void correct_track(Body& body, const Observation& seen) {
 void note_sight(Body& body, const Observation& seen) noexcept {
   body.outline_in_map = seen.outline_in_map;
   body.beams = seen.beams;
+  body.late_s = seen.late_s;
   body.whole = seen.whole;
   body.hidden_side = seen.hidden_side;
   body.on_wall = seen.on_wall;

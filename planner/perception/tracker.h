@@ -27,8 +27,9 @@ class Tracker {
 
   /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
   /// pose at the scan's stamp. Ranges that are no returns change nothing; nor does a pose that is not
-  /// finite. `twist` puts right a sweep that takes time while the robot moves. A stamp more than a second before the
-  /// last one's is a clock's that was set: who was seen is forgotten, what stands is not.
+  /// finite. `twist` puts right a sweep that takes time while the robot moves. Who moves is dated to the scan's stamp,
+  /// whenever in its sweep he was met. A stamp more than a second before the last one's is a clock's that was set: who
+  /// was seen is forgotten, what stands is not.
   void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist = {}) noexcept;
 
   /// Mode paper: movers come from outside, named and noisy; a Kalman filter each. Beams that end

@@ -47,3 +47,11 @@ TEST_CASE("the gate counts squared standard deviations of the innovation") {
   // (0.3^2 + 0.4^2) / (0.03 + 0.1^2) = 0.25 / 0.04.
   CHECK(gate_distance2(track, {0.3, 0.4}, 0.1) == Approx(6.25));
 }
+
+TEST_CASE("the gate goes with a track to when a beam met it") {
+  Track track;
+  track.velocity_in_map = {1.0, 0.0};
+  track.covariance = {.pp = 0.01, .pv = 0.01, .vv = 0.04};
+  // Half a second on: at (0.5, 0), of variance 0.01 + 2 x 0.5 x 0.01 + 0.5^2 x 0.04 = 0.03; 0.25 / (0.03 + 0.1^2).
+  CHECK(gate_distance2(track, {0.8, 0.4}, 0.1, 0.5) == Approx(6.25));
+}

@@ -86,3 +86,15 @@ TEST_CASE("a second unseen makes a walker a good deal more doubtful and takes it
   CHECK(track.covariance.pp > 10.0 * seen.covariance.pp);
   CHECK(track.covariance.pp * track.covariance.vv > track.covariance.pv * track.covariance.pv);
 }
+
+TEST_CASE("who is met where he should be by then, late in a sweep, is where he should be at its beginning") {
+  Track track;
+  track.velocity_in_map = {1.2, 0.0};
+  track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  MotionModels models(track);
+  models.correct(track, {0.12, 0.0}, kStdM, 0.1);
+  CHECK(distance(track.position_in_map, {0.0, 0.0}) < 1e-9);
+  CHECK(distance(track.velocity_in_map, {1.2, 0.0}) < 1e-9);
+  models.date_back(track, 0.1);
+  CHECK(distance(track.position_in_map, {-0.12, 0.0}) < 1e-9);
+}
