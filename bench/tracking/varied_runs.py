@@ -13,7 +13,7 @@ from drives import FIGURES, ROOT, all_of, drive, figures_of, means, off_the_trut
 
 MAPS = (1, 2, 3, 4)
 KEYS = {
-    "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount")),
+    "scanners": ("robot.laser", ("fov_deg", "beams", "rate_hz", "range_m", "noise_m", "drop_out", "mount", "turns")),
     "movers": ("[movers]", ("speed_mps", "radius_m", "count", "legs")),
 }
 VARIANTS = {
@@ -24,6 +24,9 @@ VARIANTS = {
         (180, 361, 25, 30, 0.01, 0.0),
         (360, 400, 8, 12, 0.02, 0.02),
         (240, 683, 10, 5.6, 0.02, 0.0),
+        (360, 1440, 10, 30, 0.01, 0.0, "[0.0, 0.0, 0.0]", "true"),
+        (270, 1081, 40, 30, 0.01, 0.0, "[0.0, 0.0, 0.0]", "true"),
+        (360, 400, 8, 12, 0.02, 0.02, "[0.0, 0.0, 0.0]", "true"),
     ),
     "movers": (
         (0.2, 0.27, 16),
@@ -74,8 +77,8 @@ def name(what, variant):
     if what == "movers":
         speed, radius, count, *legs = variant
         return f"{count} {'people on two legs' if legs else 'movers'} of {speed} m/s, {radius:.2f} m about their middle"
-    fov, beams, rate, reach, noise, lost, *mount = variant
-    turned = ", its turn begins straight ahead" if mount else ""
+    fov, beams, rate, reach, noise, lost, mount, turns = (*variant, None, None)[:8]
+    turned = ", one beam after another" if turns else ", its turn begins straight ahead" if mount else ""
     dropped = f", {100 * lost:.0f} % lost" if lost else ""
     return f"{fov} degrees, {beams} beams, {rate} Hz, {reach} m, noise {1000 * noise:.0f} mm{dropped}{turned}"
 

@@ -66,7 +66,8 @@ struct Scenario {
   double goal_tolerance_m = 0.3;
   double goal_heading_rad = kAnyHeading;  ///< wanted at the goal, in the map; NaN: any
   double goal_heading_tolerance_rad = 0.1;
-  RobotModel model;  ///< with the scenario's own speed and laser already in it
+  RobotModel model;          ///< with the scenario's own speed and laser already in it
+  bool laser_turns = false;  ///< its beams are measured one after another; else all at once
   SlipSpec slip;
   PoseSourceSpec pose_source;
   std::vector<WanderSpec> wanderers;

@@ -43,13 +43,14 @@ SlipSpec read_slip(TomlTable table) {
   return spec;
 }
 
-RobotModel read_model(TomlTable& table) {
+RobotModel read_model(TomlTable& table, bool& laser_turns) {
   RobotModel model = table.has("model") ? read_model_choice(table, "model") : p3dx();
   const double fastest = model.drive.max_wheel_speed_radps * model.drive.wheel_radius_m;
   model.limits.max_speed_mps = table.number("max_speed_mps", {0.01, fastest}, model.limits.max_speed_mps);
   if (table.has("laser")) {
     TomlTable laser = table.table("laser");
     read_laser(laser, model.laser);
+    laser_turns = laser.boolean("turns", laser_turns);
     laser.finish();
   }
   return model;
@@ -66,7 +67,7 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.goal_tolerance_m = table.number("goal_tolerance_m", {0.01, 10.0}, scenario.goal_tolerance_m);
   scenario.goal_heading_tolerance_rad =
       table.number("goal_heading_tolerance_rad", {0.01, kPi}, scenario.goal_heading_tolerance_rad);
-  scenario.model = read_model(table);
+  scenario.model = read_model(table, scenario.laser_turns);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
   table.finish();

@@ -16,25 +16,48 @@ Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
       encoder_beat_(1.0 / to_seconds(kEncoderPeriod)),
       fix_beat_(scenario.pose_source.rate_hz),
       laser_(scenario.model.laser, seed),
+      laser_turns_(scenario.laser_turns),
       fix_noise_(seed, Purpose::kFix) {}
 
 void Sensors::sense(World& world) noexcept {
   const Time now = world.now();
-  if (laser_beat_.due(now) && !world.fault_active(FaultKind::kScanStale)) sweep(world);
+  const bool silent = world.fault_active(FaultKind::kScanStale);
+  turning_ = turning_ && !silent;
+  if (turning_) turn(world);
+  if (laser_beat_.due(now) && !silent) look(world);
   if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) {
     wheels_ = world.plant().read_encoders(now);
   }
   if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
 }
 
-void Sensors::sweep(const World& world) noexcept {
+void Sensors::look(const World& world) noexcept {
   const Truth& truth = world.truth();
-  ++scan_.sequence;
   if (world.fault_active(FaultKind::kScanFrozen)) {
+    ++scan_.sequence;
     scan_.stamp = truth.now;
     return;
   }
+  if (laser_turns_) {
+    laser_.begin_turn(truth.now);
+    turning_ = true;
+    turn(world);
+    return;
+  }
+  ++scan_.sequence;
   laser_.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_);
+  spoil(world);
+}
+
+void Sensors::turn(const World& world) noexcept {
+  const Truth& truth = world.truth();
+  if (!laser_.turn(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_)) return;
+  turning_ = false;
+  ++scan_.sequence;
+  spoil(world);
+}
+
+void Sensors::spoil(const World& world) noexcept {
   if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
   if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
 }

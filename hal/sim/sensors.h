@@ -32,12 +32,15 @@ class Sensors {
   [[nodiscard]] const OutsideFix& fix() const noexcept { return fix_; }
 
  private:
-  void sweep(const World& world) noexcept;
+  void look(const World& world) noexcept;
+  void turn(const World& world) noexcept;
+  void spoil(const World& world) noexcept;
   void locate(const Truth& truth) noexcept;
 
   PoseSourceSpec pose_source_;
   Metronome laser_beat_, encoder_beat_, fix_beat_;
   LaserSim laser_;
+  bool laser_turns_, turning_ = false;
   Random fix_noise_;
   LaserScan scan_;
   WheelState wheels_;

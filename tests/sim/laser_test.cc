@@ -49,6 +49,25 @@ TEST_CASE("beams run from right to left: 2 m to the right wall, 6 m ahead, 8 m t
   CHECK(scan->angle_rad(180) == Approx(kPi / 2).margin(1e-5));
 }
 
+TEST_CASE("a scanner that turns measures each beam from where the robot is then, and stamps the scan when it began") {
+  LaserSim laser(plain(), 1);  // 180 degrees at 10 Hz: 50 ms
+  const Walls walls = room();
+  LaserScan scan;
+  CHECK(laser.turn_takes() == std::chrono::milliseconds(50));
+  laser.begin_turn(time_from_seconds(2.0));
+  const auto at = [&](double seconds) {
+    return laser.turn(walls, {}, {4.0 + seconds, 2.0, 0.0}, time_from_seconds(2.0 + seconds), scan);  // at 1 m/s
+  };
+  CHECK_FALSE(at(0.0));
+  for (int ms = 2; ms < 50; ms += 2) CHECK_FALSE(at(0.001 * ms));
+  CHECK(at(0.05));
+  CHECK(scan.stamp == time_from_seconds(2.0));
+  CHECK(scan.sweep == std::chrono::milliseconds(50));
+  CHECK(scan.range_m[0] == Approx(2.0));
+  CHECK(scan.range_m[90] == Approx(6.0 - 0.026).margin(0.002));  // beam 90 is due after 25 ms
+  CHECK_FALSE(at(0.052));
+}
+
 TEST_CASE("a robot that looks up sees the upper wall ahead") {
   LaserSim laser(plain(), 1);
   CHECK(sweep(laser, room(), {4.0, 2.0, kPi / 2})->range_m[90] == Approx(8.0));
