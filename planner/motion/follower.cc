@@ -22,7 +22,8 @@ Follower::Follower(const FollowerConfig& config)
 
 Twist2 Follower::twist(const FollowerInput& input) noexcept {
   ramp_.follow(input.permitted_before);
-  if (input.guide != nullptr && input.guide->brakes_hard()) return braked_hard(input.permitted_before);
+  const bool turns = input.turn != nullptr && input.turn->active();  // then the guide does not look
+  if (!turns && input.guide != nullptr && input.guide->brakes_hard()) return braked_hard(input.permitted_before);
   return ramp_.toward(wish(input), config_.tick_s);
 }
 

@@ -100,3 +100,27 @@ TEST_CASE("turning on the spot towards somebody who stops there it brakes hard a
   CHECK(next.v_mps == 0.0);
   CHECK(next.w_radps == Approx(-1.0 + 0.02 / 0.325));  // 1 m/s2 at its sides
 }
+
+TEST_CASE("a turn at the goal that takes over from a guide which braked hard is not held up by it") {
+  const Ground ground;
+  const Path path = straight_path();
+  const std::array walker{stopped(0.22)};
+  FootprintGuide guide(kChair.footprint, kChair.limits);
+  guide.look({.path = path, .wanted = {0.5, 0.0}, .driven = {0.5, 0.0}, .still = ground.map(), .moving = walker});
+  REQUIRE(guide.brakes_hard());
+  GoalTurn turn(kChair.footprint, kChair.limits, false);
+  const OperatorInput input{.has_goal = true, .goal_in_map = {}, .goal_heading_rad = 1.0};
+  turn.aim(input, {}, {});
+  REQUIRE(turn.active());
+  turn.look({.path = path, .still = ground.map()});
+  Follower follower({.limits = kChair.limits, .robot = {.footprint = kChair.footprint}});
+  const Twist2 next = follower.twist({.path = path,
+                                      .map_from_robot = {},
+                                      .goal_in_map = {},
+                                      .has_goal = true,
+                                      .tracks = {},
+                                      .permitted_before = {},
+                                      .guide = &guide,
+                                      .turn = &turn});
+  CHECK(next.w_radps > 0.0);
+}
