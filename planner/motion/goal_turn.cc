@@ -24,6 +24,7 @@ constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close en
 constexpr int kRefusedLooks = 15;        // a second
 constexpr int kLeftAloneLooks = 150;     // ten
 constexpr int kGiveUpLooks = 15;         // a second
+constexpr int kPatientLooks = 75;        // five seconds, as the guide's
 constexpr int kLookRoundLooks = 150;     // ten seconds
 constexpr int kSearchEveryLooks = 8;     // while it is blocked
 constexpr double kClosest_rad = 0.07;    // what a search's steps of headings can promise
@@ -82,6 +83,7 @@ Twist2 GoalTurn::wish(const Pose2& here) noexcept {
 }
 
 void GoalTurn::look(const GuideInput& input) noexcept {
+  somebody_hidden_ = input.somebody_hidden;
   for (int& looks : refused_for_) looks = std::max(looks - 1, 0);
   const bool refused = is_refused(input);
   if (settled_) return;
@@ -101,7 +103,8 @@ void GoalTurn::look(const GuideInput& input) noexcept {
 void GoalTurn::seek(const Pose2& here) noexcept {
   chosen_ = choose_way(here);
   waits_ = chosen_ ? 0 : waits_ + 1;
-  blocked_ = !chosen_ && !(waits_ % kSearchEveryLooks == 1 && !has_room(here) && search(here)) && !look_round(here);
+  const bool searches = waits_ % kSearchEveryLooks == 1 && (!somebody_hidden_ || waits_ > kPatientLooks);
+  blocked_ = !chosen_ && !(searches && !has_room(here) && search(here)) && !look_round(here);
 }
 
 /// After ten seconds to the left, after twenty to the right, as far as it can: what is in the way where it does not
@@ -130,10 +133,11 @@ void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
   away_ = waits_ < kGiveUpLooks;
 }
 
-/// Not back into what it has not seen.
+/// Not back into what it has not seen, nor where somebody may be.
 void GoalTurn::draw_off(const Pose2& here, double off_m) noexcept {
   straight_.clear();
-  if (off_m < 0.0 && map_.goes_unseen(here * Vec2{off_m, 0.0}, direction(here.heading))) return;
+  const bool backs = off_m < 0.0;
+  if (backs && (somebody_hidden_ || map_.goes_unseen(here * Vec2{off_m, 0.0}, direction(here.heading)))) return;
   draw_straight(map_, here, off_m, kMargins_m[1], straight_);
 }
 

@@ -61,6 +61,7 @@ class GoalTurn {
   ManoeuvreDrive drive_;
   OperatorInput input_;
   Twist2 driven_;
+  bool somebody_hidden_ = false;  ///< GuideInput's
   bool active_ = false, settled_ = false, blocked_ = false;
   bool away_ = false;    ///< on a manoeuvre, which may lead out of the goal's tolerance
   bool chosen_ = false;  ///< to_go_rad_ leads along a way that was found free

@@ -192,7 +192,8 @@ std::span<const Stander> Tracker::standing() const { return {state_->standing.da
 bool Tracker::hides_somebody(Vec2 place, double within_m) const noexcept {
   const State& s = *state_;
   const auto lost_near = [&](Vec2 seen_at, Time last_seen) {
-    return to_seconds(s.now - last_seen) > kOutOfSightS && distance(seen_at, place) < within_m;
+    const double unseen_s = to_seconds(s.now - last_seen);  // of who is in the map by now nobody keeps count
+    return unseen_s > kOutOfSightS && unseen_s < kRememberedS && distance(seen_at, place) < within_m;
   };
   return std::any_of(s.standing.begin(), s.standing.end(),
                      [&](const Stander& him) { return lost_near(him.position_in_map, him.last_seen); }) ||

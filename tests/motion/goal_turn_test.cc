@@ -42,7 +42,12 @@ struct Bench {
     pose = {pose.x + ahead.x, pose.y + ahead.y, wrap_angle(pose.heading + driven.w_radps * 0.02)};
     turned += driven.w_radps * 0.02;
     if (ticks++ % 3 == 0 && turn.active()) {
-      turn.look({.path = path, .map_from_robot = pose, .wanted = wanted, .driven = driven, .still = still});
+      turn.look({.path = path,
+                 .map_from_robot = pose,
+                 .wanted = wanted,
+                 .driven = driven,
+                 .still = still,
+                 .somebody_hidden = hidden});
     }
   }
   void run(double seconds) {
@@ -57,6 +62,7 @@ struct Bench {
   Path path;
   Twist2 driven;
   double turned = 0.0;
+  bool hidden = false;  ///< somebody near is out of sight
   bool refuses_left = false, refuses_right = false;
   int ticks = 0;
 };
@@ -184,6 +190,17 @@ TEST_CASE("a wheelchair that can turn neither way drives a manoeuvre that ends a
   CHECK(least > 0.04);
   CHECK(bench.wanted_input.is_reached_at(bench.pose));
   CHECK(bench.driven == Twist2{});
+}
+
+TEST_CASE("with somebody near out of sight no manoeuvre begins at once, for it may back") {
+  const Ground ground = corridor(false);
+  Bench bench(wheelchair(), ground, to_heading(kPi, {-0.1, 0.0}), {-0.1, 0.0, 0.0});
+  bench.hidden = true;
+  bench.run(4.0);
+  CHECK(bench.driven == Twist2{});
+  CHECK(bench.pose == Pose2{-0.1, 0.0, 0.0});
+  bench.run(3.0);
+  CHECK(bench.turn.manoeuvre().active());
 }
 
 TEST_CASE("where there is no way at all it waits, and says so") {

@@ -52,6 +52,7 @@ TEST_CASE("who stands on two legs is somebody, as wide as people, for as long as
     CHECK(watch.tracker.standing()[0].radius_m == Approx(0.25).margin(0.01));
   }
   CHECK(watch.tracker.tracks().empty());  // the map has his legs by now, and no more of him
+  CHECK_FALSE(watch.tracker.hides_somebody({}, 5.0));
   watch.look_round();
   CHECK(watch.tracker.standing().empty());
 }
