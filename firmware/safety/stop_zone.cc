@@ -9,6 +9,11 @@ namespace {
 
 constexpr double kStep_m = 0.04;  // half a 70 mm cylinder and a bit: none slips between two steps
 
+/// Where a beam ends, in the laser's frame.
+Vec2 end_of(const LaserScan& scan, std::size_t beam) {
+  return direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]);
+}
+
 }  // namespace
 
 StopZone::StopZone(const StopZoneConfig& config)
@@ -41,7 +46,7 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist) const noexcep
   const double reach_m = rim_radius_m_ + config_.margin_m + config_.look_ahead_m;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     if (!scan.is_hit(beam)) continue;
-    const Vec2 hit = robot_from_laser * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+    const Vec2 hit = robot_from_laser * end_of(scan, beam);
     if (norm(hit) <= reach_m) gap = std::min(gap, way_to(hit, step, margin, std::min(gap, config_.look_ahead_m)));
   }
   return gap;
@@ -52,7 +57,7 @@ std::size_t StopZone::beams_on_body(const LaserScan& scan) const noexcept {
   std::size_t count = 0;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     if (!scan.is_hit(beam)) continue;
-    const Vec2 hit = robot_from_laser * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+    const Vec2 hit = robot_from_laser * end_of(scan, beam);
     count += config_.footprint.distance_to(hit) == 0.0 ? 1U : 0U;
   }
   return count;

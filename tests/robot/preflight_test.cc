@@ -91,7 +91,9 @@ TEST_CASE("a scanner that sees the robot's own body is told, for the robot would
   };
   CHECK(said_of(0.10F).find("3 of the beams end within the robot's own outline; take away what is before it") !=
         std::string::npos);
-  CHECK(said_of(0.60F).find("outline") == std::string::npos);
+  const std::string before_it = said_of(0.60F);
+  CHECK(before_it.find("811 beams") != std::string::npos);  // a scan was looked at
+  CHECK(before_it.find("outline") == std::string::npos);
 }
 
 TEST_CASE("the devices of a robot that runs are left alone") {
