@@ -14,12 +14,12 @@ import subprocess
 import sys
 
 from command_line import jobs_of, require_built, seeds_of
+from drawn_map import turned, write_map
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/firmware/jaywalk"
 ROOM_M, CELL_M, BORDER_M = (9.0, 7.0), 0.02, 0.1
 
-YAML = "image: {name}.pgm\nresolution: {cell}\norigin: [0.0, 0.0, 0.0]\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n"
 SCENARIO = """name = "{name}"
 seed = {seed}
 timeout_s = 120.0
@@ -47,20 +47,16 @@ def is_wall(x, y, door, width):
     """Whether there is a wall at x, y: the rooms' border, or the wall between them."""
     if min(x, y, ROOM_M[0] - x, ROOM_M[1] - y) < BORDER_M:
         return True
-    dx, dy, c, s = x - ROOM_M[0] / 2, y - door["y"], math.cos(door["angle"]), math.sin(door["angle"])
-    return abs(dx * c + dy * s) < door["thickness"] / 2 and abs(dy * c - dx * s) > width / 2
+    through, along = turned(x - ROOM_M[0] / 2, y - door["y"], door["angle"])
+    return abs(through) < door["thickness"] / 2 and abs(along) > width / 2
 
 
 def write(seed, options):
     """Map and scenario of a seed; returns the scenario's path and the door."""
     rng = random.Random(seed)
     door = {"thickness": rng.uniform(0.1, 0.3), "y": rng.uniform(1.6, 5.4), "angle": math.radians(rng.uniform(-1, 1) * options.angle)}
-    columns, rows = (round(side / CELL_M) for side in ROOM_M)
-    places = (((i + 0.5) * CELL_M, (rows - 0.5 - j) * CELL_M) for j in range(rows) for i in range(columns))
-    pixels = bytes(0 if is_wall(x, y, door, options.width) else 254 for x, y in places)
     name, folder = f"door_{seed}", options.out
-    (folder / f"{name}.pgm").write_bytes(b"P5\n%d %d\n255\n" % (columns, rows) + pixels)
-    (folder / f"{name}.yaml").write_text(YAML.format(name=name, cell=CELL_M))
+    write_map(folder, name, ROOM_M, CELL_M, lambda x, y: is_wall(x, y, door, options.width))
     where = {"start_y": rng.uniform(1.2, 5.8), "goal_y": rng.uniform(1.2, 5.8), "heading": rng.uniform(-math.pi, math.pi)}
     (folder / f"{name}.toml").write_text(SCENARIO.format(name=name, seed=seed, **where))
     return folder / f"{name}.toml", door
