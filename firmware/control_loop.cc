@@ -4,6 +4,7 @@ namespace jaywalk {
 namespace {
 
 constexpr LaserScan kNoScan{};
+constexpr Duration kNoWayFor = std::chrono::seconds(10);  // whoever is in the way has had his time
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
@@ -73,6 +74,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   plan_ = &planner_.collect();  // Plan: take what was asked for in an earlier tick.
   note_plan(t);
+  if (finds_no_way(t)) tracker_.forget_unseen();
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
@@ -99,6 +101,14 @@ void ControlLoop::note_plan(TickRecord& t) noexcept {
     good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
   }
   t.plan_stamp = good_plan_stamp_;
+}
+
+bool ControlLoop::finds_no_way(const TickRecord& t) noexcept {
+  const bool no_path = t.plan_status == PlanStatus::kNoPath || t.plan_status == PlanStatus::kRobotBlocked;
+  const bool waits = t.input.has_goal && no_path && driven_ == Twist2{};
+  if (waits && age(had_way_, t.now) < kNoWayFor) return false;
+  had_way_ = t.now;
+  return waits;
 }
 
 FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {

@@ -32,6 +32,8 @@ class ControlLoop {
 
  private:
   void note_plan(TickRecord& t) noexcept;
+  /// Whether it has stood for ten seconds with a goal and no path to it; then not for another ten.
+  [[nodiscard]] bool finds_no_way(const TickRecord& t) noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
   /// With a new plan, and after the wheels have their command: is there room for the body?
   void look(const TickRecord& t) noexcept;
@@ -59,6 +61,7 @@ class ControlLoop {
   DiffDrive diff_drive_;
   const Plan* plan_;               ///< what collect() last answered, never null
   Time good_plan_stamp_ = kNever;  ///< of the last that has a path
+  Time had_way_ = kNever;          ///< or moved, had no goal, or looked anew for one, last
   Twist2 driven_;                  ///< what the wheels were last asked for
   bool scan_frozen_ = false;       ///< the supervisor said so of the tick before
   Fresh scans_, fixes_, plans_;

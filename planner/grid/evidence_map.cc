@@ -65,6 +65,15 @@ Vec2 EvidenceMap::to_laser(CellIndex cell) const {
   return {towards.x / kUnit, towards.y / kUnit};
 }
 
+void EvidenceMap::forget(CellIndex cell) noexcept {
+  if (!contains(cell)) return;
+  const std::size_t k = slot(cell);
+  evidence_[k] = 0;
+  seen_for_[k] = 0;
+  surface_[k] = {};
+  to_laser_[k] = {};
+}
+
 void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
   const CellIndex centre = cell_at(centre_in_map);
   const CellIndex off{centre.i - (low_.i + side_ / 2), centre.j - (low_.j + side_ / 2)};
@@ -75,10 +84,7 @@ void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {
     const bool row_stays = j >= old.j && j < old.j + side_;
     for (std::int32_t i = low_.i; i < low_.i + side_; ++i) {
       if (row_stays && i >= old.i && i < old.i + side_) continue;
-      evidence_[slot({i, j})] = 0;
-      seen_for_[slot({i, j})] = 0;
-      surface_[slot({i, j})] = {};
-      to_laser_[slot({i, j})] = {};
+      forget({i, j});
     }
   }
 }

@@ -35,6 +35,8 @@ class EvidenceMap {
     return {whole_cells(p_in_map.x / cell_m_), whole_cells(p_in_map.y / cell_m_)};
   }
   [[nodiscard]] Vec2 centre_of(CellIndex cell) const;
+  /// The window's lowest cell.
+  [[nodiscard]] CellIndex low() const { return low_; }
   [[nodiscard]] bool contains(CellIndex cell) const { return within(cell.i, low_.i) && within(cell.j, low_.j); }
 
   /// Evidence of a cell; 0 (unknown) outside the window.
@@ -59,6 +61,8 @@ class EvidenceMap {
   [[nodiscard]] Vec2 surface(CellIndex cell) const;
   /// Which way the lasers were that saw it: a mean of unit vectors, 0 where nobody knows. Meaningless likewise.
   [[nodiscard]] Vec2 to_laser(CellIndex cell) const;
+  /// As if the cell had never been seen; nothing happens outside the window.
+  void forget(CellIndex cell) noexcept;
   /// Rolls the window so that it is centred within a quarter side of `centre_in_map`; a no-op while
   /// that holds already. Cells that enter are unknown.
   void roll_to(Vec2 centre_in_map) noexcept;
@@ -93,7 +97,7 @@ class EvidenceMap {
 
   std::int32_t side_;
   double cell_m_;
-  CellIndex low_;  ///< lowest cell inside
+  CellIndex low_;
   struct Offset {
     std::int8_t x = 0, y = 0;
   };

@@ -9,6 +9,7 @@
 #include "planner/perception/first_scans.h"
 #include "planner/perception/given_movers.h"
 #include "planner/perception/hidden_walkers.h"
+#include "planner/perception/loose_things.h"
 #include "planner/perception/map_entry.h"
 #include "planner/perception/motion_judgement.h"
 #include "planner/perception/prediction.h"
@@ -36,6 +37,7 @@ struct Tracker::State {
       : robot_from_laser(c.robot_from_laser),
         still(c.map_side_cells, c.cell_m, c.map_centre),
         entry(still),
+        loose(still),
         scene(c.robot_from_laser) {}
 
   void predict_all_to(Time stamp) noexcept;
@@ -51,6 +53,7 @@ struct Tracker::State {
   Pose2 robot_from_laser;
   EvidenceMap still;
   MapEntry entry;
+  LooseThings loose;
   Scene scene;
   Entries entries{};
 
@@ -182,6 +185,11 @@ void Tracker::update_given(const OutsideFix& fix) noexcept {
   s.unreported_s = 0.0;
   take_given(fix, s.scene.map_from_laser.position(), s.bodies, s.last_id);
   s.publish();
+}
+
+void Tracker::forget_unseen() noexcept {
+  State& s = *state_;
+  s.loose.forget_unseen(s.still, s.scene.in_map, s.scene.points.size());
 }
 
 const EvidenceMap& Tracker::still() const { return state_->still; }

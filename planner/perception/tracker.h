@@ -36,6 +36,10 @@ class Tracker {
   /// within a mover's radius of its given position are kept out of the map by the next update().
   void update_given(const OutsideFix& fix) noexcept;
 
+  /// For a robot that finds no way: what stands alone in the map, is no wider than bodies are and out of sight now may
+  /// have gone, and is unknown from now on (LooseThings).
+  void forget_unseen() noexcept;
+
   [[nodiscard]] const EvidenceMap& still() const;
   /// All tracks, moving or not; of walls, what is as wide as a body and stands alone: a pillar, somebody who stood
   /// there for long. Who walks and has been hidden for more than a second is no track; who then comes out where and

@@ -4,33 +4,13 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "hal/sim/simulation.h"
+#include "tests/firmware/failing_planner.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
+using jaywalk::test::FailingPlanner;
 
 namespace {
-
-/// Plans, and says that it found no path while `fails`.
-class FailingPlanner final : public Planner {
- public:
-  explicit FailingPlanner(const PlannerConfig& config) : planner_(make_cpu_planner(config)) {}
-  void submit(const PlanRequest& request) noexcept override { planner_->submit(request); }
-  [[nodiscard]] const Plan& collect() noexcept override {
-    const Plan& plan = planner_->collect();
-    if (!fails) return plan;
-    failed_.stamp = plan.stamp;
-    failed_.sequence = plan.sequence;
-    failed_.status = PlanStatus::kNoPath;
-    return failed_;
-  }
-  [[nodiscard]] FieldView view_field() const override { return planner_->view_field(); }
-  [[nodiscard]] const char* backend() const noexcept override { return planner_->backend(); }
-  bool fails = false;
-
- private:
-  std::unique_ptr<Planner> planner_;
-  Plan failed_;
-};
 
 struct Bench {
   explicit Bench(bool constant_speed) {

@@ -1,0 +1,76 @@
+#include "planner/perception/loose_things.h"
+
+#include <algorithm>
+#include <cstdlib>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kWidestM = 1.6;  // wider things are no bodies (find_clusters())
+
+/// Calls `each` with the cell and the eight about it, until it says no; whether it never did.
+template <class Each>
+bool all_about(CellIndex cell, const Each& each) {
+  for (std::int32_t j = cell.j - 1; j <= cell.j + 1; ++j) {
+    for (std::int32_t i = cell.i - 1; i <= cell.i + 1; ++i) {
+      if (!each(CellIndex{i, j})) return false;
+    }
+  }
+  return true;
+}
+
+}  // namespace
+
+LooseThings::LooseThings(const EvidenceMap& map)
+    : side_(map.side()), marks_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), kNew) {}
+
+std::uint8_t& LooseThings::mark(CellIndex cell) noexcept {
+  const auto mask = static_cast<std::uint32_t>(side_ - 1);
+  return marks_[static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
+                (static_cast<std::uint32_t>(cell.i) & mask)];
+}
+
+/// By their noise points lie a cell beside what they are of.
+void LooseThings::note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept {
+  for (std::size_t k = 0; k < count; ++k) {
+    (void)all_about(map.cell_at(in_map.position[k]), [&](CellIndex cell) {
+      if (map.contains(cell)) mark(cell) = kInView;
+      return true;
+    });
+  }
+}
+
+/// False where the cell is in view, of what stays, or farther from the first than bodies are wide.
+bool LooseThings::take(CellIndex cell, double cell_m) noexcept {
+  if (mark(cell) == kGathered) return true;
+  if (mark(cell) != kNew) return false;
+  if (!thing_.push_back(cell)) return false;
+  mark(cell) = kGathered;
+  const std::int32_t off = std::max(std::abs(cell.i - thing_[0].i), std::abs(cell.j - thing_[0].j));
+  return off * cell_m < kWidestM;
+}
+
+/// All that hangs together with `first`; false where that stays.
+bool LooseThings::gather(const EvidenceMap& map, CellIndex first) noexcept {
+  thing_.clear();
+  bool loose = take(first, map.cell_m());
+  for (std::size_t k = 0; loose && k < thing_.size(); ++k) {
+    loose = all_about(thing_[k], [&](CellIndex cell) { return !map.occupied(cell) || take(cell, map.cell_m()); });
+  }
+  for (const CellIndex cell : thing_) mark(cell) = kStays;
+  return loose;
+}
+
+void LooseThings::forget_unseen(EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept {
+  std::fill(marks_.begin(), marks_.end(), kNew);
+  note_in_view(map, in_map, count);
+  const CellIndex low = map.low();
+  for (std::int32_t j = low.j; j < low.j + side_; ++j) {
+    for (std::int32_t i = low.i; i < low.i + side_; ++i) {
+      if (!map.occupied({i, j}) || mark({i, j}) != kNew || !gather(map, {i, j})) continue;
+      for (const CellIndex cell : thing_) map.forget(cell);
+    }
+  }
+}
+
+}  // namespace jaywalk
