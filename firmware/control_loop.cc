@@ -62,6 +62,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   TickRecord& t = recorder_.begin(now);  // preallocated; all that crosses the HAL this tick
 
   t.scan = hal_.laser.latest();  // Sense: the newest of each; nothing waits.
+  blank(setup_.model.laser.blanked, t.scan);
   t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();

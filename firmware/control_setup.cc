@@ -1,7 +1,9 @@
 #include "firmware/control_setup.h"
 
 #include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "hal/types/errors.h"
 
@@ -53,11 +55,21 @@ PlannerConfig ControlSetup::planner() const {
 
 const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" : "full"; }
 
-std::string to_text(const ControlSetup& setup) { return nlohmann::json(setup).dump(); }
+std::string to_text(const ControlSetup& setup) {
+  nlohmann::json json(setup);
+  // Not one of the fields above: setups that were written before it was one say nothing of it.
+  for (const BlankedSector& sector : setup.model.laser.blanked)
+    json["blanked"].push_back({sector.from_rad, sector.to_rad});
+  return json.dump();
+}
 
 ControlSetup setup_from_text(const std::string& text, const std::string& place) {
   try {
-    return nlohmann::json::parse(text).get<ControlSetup>();
+    const nlohmann::json json = nlohmann::json::parse(text);
+    ControlSetup setup = json.get<ControlSetup>();
+    for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
+      (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
+    return setup;
   } catch (const nlohmann::json::exception& error) {
     throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
                        "give a recording that this program wrote");

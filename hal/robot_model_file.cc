@@ -27,6 +27,22 @@ DriveModel read_drive(TomlTable table) {
   return drive;
 }
 
+/// [[laser.blanked]], in degrees of the laser's own frame.
+Blanking read_blanked(TomlTable& laser) {
+  constexpr Range kDegrees{-360.0, 360.0};
+  Blanking sectors;
+  for (TomlTable table : laser.tables("blanked")) {
+    const BlankedSector sector{wrap_angle(table.number("from_deg", kDegrees) * kRadPerDeg),
+                               wrap_angle(table.number("to_deg", kDegrees) * kRadPerDeg)};
+    table.finish();
+    if (sector.width_rad() == 0.0)
+      table.refuse("to_deg", "is where the sector begins", "give the end, counter-clockwise from there");
+    if (!sectors.push_back(sector))
+      table.refuse("from_deg", "begins one sector more than " + std::to_string(Blanking::capacity()), "join some");
+  }
+  return sectors;
+}
+
 MotionLimits read_limits(TomlTable table) {
   const MotionLimits limits{.max_speed_mps = table.number("max_speed_mps", {0.01, 10.0}),
                             .max_turn_radps = table.number("max_turn_radps", {0.01, 10.0}),
@@ -54,6 +70,7 @@ void read_laser(TomlTable& table, LaserModel& laser) {
     if (norm(laser.robot_from_laser.position()) > kFarthestMountM)
       table.refuse("mount", "lies beside any robot", "give x and y from the drive axle's middle, in metres");
   }
+  if (table.has("blanked")) laser.blanked = read_blanked(table);
   if (!(laser.range_min_m < laser.range_max_m)) table.refuse("range_min_m", "is not below range_m", "lower it");
 }
 

@@ -14,8 +14,8 @@ namespace jaywalk {
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 
-/// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount) over `laser`;
-/// keys that are absent leave it as it is.
+/// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount, blanked) over
+/// `laser`; keys that are absent leave it as it is.
 void read_laser(TomlTable& table, LaserModel& laser);
 
 }  // namespace jaywalk

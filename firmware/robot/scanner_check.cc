@@ -1,5 +1,6 @@
 #include "firmware/robot/scanner_check.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
@@ -19,13 +20,32 @@ void require_rate(const std::string& said, double rate_hz, double wanted_hz) {
     throw StartupError(said, "correct [laser] rate_hz, or set the scanner's");
 }
 
+/// "[[laser.blanked]] from_deg = 10.5, to_deg = 14.0" and so on: the beams that end on the robot, and the next ones.
+std::string sectors_on_body(const StopZone& zone, const LaserScan& scan) {
+  constexpr double kDegPerRad = 180.0 / kPi;
+  const double step_deg = static_cast<double>(scan.angle_step_rad) * kDegPerRad;
+  std::string sectors;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    if (!zone.is_on_body(scan, beam)) continue;
+    const double first_deg = scan.angle_rad(beam) * kDegPerRad - step_deg;
+    while (beam + 1 < scan.beam_count && zone.is_on_body(scan, beam + 1)) ++beam;
+    const double last_deg = scan.angle_rad(beam) * kDegPerRad + step_deg;
+    char sector[80];
+    std::snprintf(sector, sizeof sector, " [[laser.blanked]] from_deg = %.1f, to_deg = %.1f",
+                  std::min(first_deg, last_deg), std::max(first_deg, last_deg));
+    sectors += sector;
+  }
+  return sectors;
+}
+
 void require_free_body(const std::string& said, const LaserScan& scan, const RobotModel& model) {
   const StopZone zone({.footprint = model.footprint, .robot_from_laser = model.laser.robot_from_laser});
   const std::size_t on_body = zone.beams_on_body(scan);
   if (on_body == 0) return;
   throw StartupError(said + ", " + std::to_string(on_body) + " of the beams end within the robot's own outline",
-                     "take away what is before it, or correct [laser] mount or the model's footprint; what belongs "
-                     "there needs a [laser] range_min_m above its distance");
+                     "take away what is before it, or correct [laser] mount or the model's footprint; for what belongs "
+                     "there write" +
+                         sectors_on_body(zone, scan));
 }
 
 }  // namespace
@@ -35,7 +55,8 @@ std::string check_scanner(const RobotFile& file, Clock& clock) {
   await_first_scan(*laser, file, clock);
   const std::uint32_t before = laser->latest().sequence;
   clock.sleep_until(clock.now() + kRateSpan);
-  const LaserScan& scan = laser->latest();
+  LaserScan scan = laser->latest();
+  blank(file.setup.model.laser.blanked, scan);
   const double rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
   char figures[100];
   std::snprintf(figures, sizeof figures, ": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count),

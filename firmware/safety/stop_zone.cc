@@ -52,14 +52,13 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist) const noexcep
   return gap;
 }
 
+bool StopZone::is_on_body(const LaserScan& scan, std::size_t beam) const noexcept {
+  return scan.is_hit(beam) && config_.footprint.distance_to(config_.robot_from_laser * end_of(scan, beam)) == 0.0;
+}
+
 std::size_t StopZone::beams_on_body(const LaserScan& scan) const noexcept {
-  const Transform2 robot_from_laser(config_.robot_from_laser);
   std::size_t count = 0;
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-    if (!scan.is_hit(beam)) continue;
-    const Vec2 hit = robot_from_laser * end_of(scan, beam);
-    count += config_.footprint.distance_to(hit) == 0.0 ? 1U : 0U;
-  }
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) count += is_on_body(scan, beam) ? 1U : 0U;
   return count;
 }
 

@@ -25,8 +25,10 @@ class StopZone {
 
   /// +infinity when nothing is met within the look-ahead. Cost: steps of 4 cm times beams within reach.
   [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
-  /// How many beams end within the footprint: on a part of the robot itself, or on somebody who touches it. Such a
+  /// Whether a beam ends within the footprint: on a part of the robot itself, or on somebody who touches it. Such a
   /// point forbids every motion that does not leave it.
+  [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;
+  /// How many do.
   [[nodiscard]] std::size_t beams_on_body(const LaserScan& scan) const noexcept;
   /// What is kept free round the footprint (m) at this speed of its rim.
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;

@@ -34,6 +34,22 @@ double share_within(const Twist2& twist, const MotionLimits& limits, double fres
 
 Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
 
+/// Whether the direction lies between the scan's first beam and its last, in the laser's frame.
+bool sweeps_over(const LaserScan& scan, double way) {
+  const double from_first = wrap_angle(way - scan.angle_rad(0)) * (scan.angle_step_rad < 0.0F ? -1.0 : 1.0);
+  const double past_first = from_first < -1e-6 ? from_first + 2 * kPi : from_first;
+  return past_first <= std::fabs(static_cast<double>(scan.angle_step_rad)) * scan.beam_count;
+}
+
+/// Whether a part of the robot's own that is wider than 3 degrees, half a shin at a metre, hides what comes from within
+/// 45 degrees of that way.
+bool hides_a_shin(const Blanking& blanked, double way) {
+  constexpr double kNarrow_rad = 3.0 * kPi / 180.0, kBeside_rad = 0.25 * kPi;
+  return std::any_of(blanked.begin(), blanked.end(), [way](const BlankedSector& sector) {
+    return sector.width_rad() > kNarrow_rad && sector.off_rad(way) < kBeside_rad;
+  });
+}
+
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
@@ -139,12 +155,11 @@ double Supervisor::watched_share(const LaserScan& scan, const Twist2& twist) con
   return std::min(1.0, config_.unwatched_speed_mps / std::max(blind_mps, 1e-9));
 }
 
-/// Whether a beam looks that way, in the robot's frame: 0 is ahead.
+/// Whether beams look that way, in the robot's frame: 0 is ahead.
 bool Supervisor::watched(const LaserScan& scan, double way) const noexcept {
-  const double from_first = wrap_angle(way - config_.model.laser.robot_from_laser.heading - scan.angle_rad(0)) *
-                            (scan.angle_step_rad < 0.0F ? -1.0 : 1.0);
-  const double past_first = from_first < -1e-6 ? from_first + 2 * kPi : from_first;
-  return past_first <= std::fabs(static_cast<double>(scan.angle_step_rad)) * scan.beam_count;
+  const LaserModel& laser = config_.model.laser;
+  const double in_laser = wrap_angle(way - laser.robot_from_laser.heading);
+  return sweeps_over(scan, in_laser) && !hides_a_shin(laser.blanked, in_laser);
 }
 
 Twist2 Supervisor::braked(const Twist2& target) const noexcept {

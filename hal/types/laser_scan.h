@@ -2,6 +2,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 
 #include "hal/types/time.h"
 
@@ -16,7 +17,8 @@ inline constexpr std::size_t kMaxBeams = 2048;
 /// infinity and everything outside those limits are "no return": the beam proves nothing, neither
 /// an obstacle nor free space (dark or mirror surfaces return nothing too). Infinity and range_max_m itself, which
 /// many scanners say for nothing, still say more than 0 and NaN: the scanner measured, and found nothing in its reach
-/// (as REP 117 has it).
+/// (as REP 117 has it), and minus infinity that something too near to be measured is before it: the robot itself
+/// (blank()).
 struct LaserScan {
   Time stamp = kNever;           ///< when the first beam was measured
   std::uint32_t sequence = 0;    ///< grows by one a sweep; 0: no scan yet
@@ -34,6 +36,7 @@ struct LaserScan {
     return r >= range_min_m && r < range_max_m && r > 0.0F;  // false for NaN
   }
   [[nodiscard]] bool found_nothing(std::size_t beam) const { return range_m[beam] >= range_max_m; }  // false for NaN
+  [[nodiscard]] bool too_near(std::size_t beam) const { return range_m[beam] < -std::numeric_limits<float>::max(); }
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return static_cast<double>(first_angle_rad) + static_cast<double>(beam) * static_cast<double>(angle_step_rad);
   }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
@@ -45,6 +46,7 @@ struct LaserModel {
   double range_max_m = 0.0;
   double noise_m = 0.0;   ///< standard deviation of a range
   double drop_out = 0.0;  ///< share of beams that return nothing, in [0, 1]
+  Blanking blanked{};     ///< where it sees the robot itself
 };
 
 struct RobotModel {

@@ -24,7 +24,7 @@ void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist
 
 bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
   if (beam >= scan.beam_count || beam >= kMaxBeams) return false;
-  if (self_mask_.blocked(beam)) return true;
+  if (self_mask_.blocked(beam) || scan.too_near(beam)) return true;
   if (!scan.is_hit(beam)) return false;
   const auto range_m = static_cast<double>(scan.range_m[beam]);
   return range_m < kNearestSeenM || self_mask_.on_robot(beam, range_m);

@@ -24,11 +24,11 @@ std::vector<std::uint64_t> command_bits(SimulatedDrive drive, int ticks) {
 }
 
 /// Records `seconds` of a drive, lives through the recording again and counts commands that differ in any bit.
-int different_commands(PlanMode mode, double seconds) {
+int different_commands(PlanMode mode, double seconds, const SimulatedDrive::Edit& edit = {}) {
   const std::string file =
       (std::filesystem::temp_directory_path() / ("jaywalk_" + std::to_string(int(mode)) + ".jwr")).string();
   {
-    SimulatedDrive drive("map1_16", 7, {}, mode, file);
+    SimulatedDrive drive("map1_16", 7, edit, mode, file);
     drive.drive(seconds);
     REQUIRE(drive.recorder().close());
   }
@@ -74,6 +74,16 @@ TEST_CASE("a wheelchair that searches its way out of a dead end asks nothing of 
 TEST_CASE("a recorded drive replays to the same commands, bit for bit") {
   CHECK(different_commands(PlanMode::kFull, 20.0) == 0);
   CHECK(different_commands(PlanMode::kPaper, 20.0) == 0);
+}
+
+TEST_CASE("blanked beams are the robot's own to whatever looks at a scan, and relived as such") {
+  const auto blank_left = [](sim::Scenario& scenario) { (void)scenario.model.laser.blanked.push_back({1.0, 1.2}); };
+  SimulatedDrive drive("map1_16", 7, blank_left);
+  drive.drive(1.0);
+  const LaserScan& scan = drive.tick().scan;
+  for (std::size_t k = 0; k < scan.beam_count; ++k)
+    CHECK(scan.too_near(k) == (scan.angle_rad(k) > 1.0 && scan.angle_rad(k) < 1.2));
+  CHECK(different_commands(PlanMode::kFull, 10.0, blank_left) == 0);
 }
 
 TEST_CASE("the same seed gives the same commands, another seed others") {

@@ -23,6 +23,16 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   CHECK_FALSE(back.wheels);
 }
 
+TEST_CASE("blanked sectors are part of a setup's text, and one without them has none") {
+  ControlSetup setup;
+  CHECK(setup_from_text(to_text(setup), "here").model.laser.blanked.empty());
+  (void)setup.model.laser.blanked.push_back({1.0 / 3.0, 0.5});
+  const Blanking back = setup_from_text(to_text(setup), "here").model.laser.blanked;
+  REQUIRE(back.size() == 1);
+  CHECK(back[0].from_rad == 1.0 / 3.0);
+  CHECK(back[0].to_rad == 0.5);
+}
+
 TEST_CASE("text that is no setup is refused with its place") {
   CHECK_THROWS_AS(setup_from_text("{}", "a.jwr"), StartupError);
   std::string refusal;

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <memory>
 
+#include "hal/types/blanking.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 
@@ -31,6 +32,22 @@ struct Carrier {
   }
 };
 
+/// A robot whose laser is told where it sees the robot itself.
+struct Blanked {
+  std::unique_ptr<Watch> watch = std::make_unique<Watch>();
+  Blanking own;
+
+  Blanked(std::initializer_list<BlankedSector> sectors) {
+    for (const BlankedSector& sector : sectors) (void)own.push_back(sector);
+  }
+  void see(const Room& room, const Pose2& robot) {
+    LaserScan scan = scan_of(room, robot, ++watch->scan, kNoiseM);
+    blank(own, scan);
+    watch->tracker.update(scan, robot, {0.6, -0.06});
+    watch->most_moving = std::max(watch->most_moving, watch->tracker.moving().size());
+  }
+};
+
 }  // namespace
 
 TEST_CASE("who comes where a rider's feet were is seen, feet withdrawn or not") {
@@ -45,6 +62,29 @@ TEST_CASE("who comes where a rider's feet were is seen, feet withdrawn or not") 
     REQUIRE(comes != nullptr);
     CHECK(comes->moving);
   }
+}
+
+TEST_CASE("who comes out from behind blanked beams is seen to move") {
+  Blanked robot({{0.35, 0.65}, {-0.65, -0.35}});
+  const auto walker = [](double k) { return Disc{{3.0, 2.5 - 0.05 * k}, 0.25}; };
+  for (int k = 0; k < 50; ++k) robot.see(with({walker(k)}), {});
+  const auto tracks = robot.watch->tracker.moving();
+  REQUIRE(tracks.size() == 1);
+  CHECK(distance(tracks[0].position_in_map, walker(49).centre) < 0.2);
+}
+
+TEST_CASE(
+    "what comes into view beside blanked beams may go on behind them: nothing moves, before the robot has turned, "
+    "too") {
+  Blanked robot({{0.57, 0.89}, {-0.8, -0.43}});
+  Room room = with({{{2.04, -2.42}, 0.38}, {{-2.39, 1.47}, 0.18}, {{3.6, -2.47}, 0.27}});
+  room.walls.push_back({{-1.7, 1.09}, {-2.08, 1.35}});
+  room.walls.push_back({{0.43, 2.63}, {0.69, 3.33}});
+  for (int k = 0; k < 150; ++k) {  // 0.6 m/s, and a quarter radian to the right in four seconds
+    const double heading = -0.0042 * k;
+    robot.see(room, {-4.0 + 0.04 * k, 0.3 * heading, heading});
+  }
+  CHECK(robot.watch->most_moving == 0);
 }
 
 TEST_CASE("who stands in the middle of the robot's way round him is somebody all the time") {

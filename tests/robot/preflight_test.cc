@@ -73,11 +73,12 @@ TEST_CASE("an interface that is no CAN bus is told from one") {
 }
 
 TEST_CASE("a scanner that sees the robot's own body is told, for the robot would never drive") {
-  const auto said_of = [](float nearest_m) {
+  const auto said_of = [](float nearest_m, const Blanking& blanked = {}) {
     auto port = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
     RobotFile file = nothing_connected();
     file.laser.port = port->port();
     file.laser.first_scan_limit = std::chrono::seconds(20);
+    file.setup.model.laser.blanked = blanked;
     emulators::SickServer scanner(std::move(port), {}, [&](std::size_t first_beam, std::span<float> range_m) {
       for (std::size_t k = 0; k < range_m.size(); ++k) range_m[k] = first_beam + k < 3 ? nearest_m : 4.0F;
     });
@@ -89,8 +90,13 @@ TEST_CASE("a scanner that sees the robot's own body is told, for the robot would
       return std::string(error.what());
     }
   };
-  CHECK(said_of(0.10F).find("3 of the beams end within the robot's own outline; take away what is before it") !=
+  const std::string on_it = said_of(0.10F);
+  CHECK(on_it.find("3 of the beams end within the robot's own outline; take away what is before it") !=
         std::string::npos);
+  CHECK(on_it.find("[[laser.blanked]] from_deg = -135.3, to_deg = -134.0") != std::string::npos);
+  Blanking as_told;
+  (void)as_told.push_back({-135.3 * kPi / 180.0, -134.0 * kPi / 180.0});
+  CHECK(said_of(0.10F, as_told).find("outline") == std::string::npos);
   const std::string before_it = said_of(0.60F);
   CHECK(before_it.find("811 beams") != std::string::npos);  // a scan was looked at
   CHECK(before_it.find("outline") == std::string::npos);

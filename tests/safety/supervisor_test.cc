@@ -208,6 +208,27 @@ TEST_CASE("a long body swings its corners at 0.3 m/s at most where its scanner d
   }
 }
 
+TEST_CASE("where the robot's own parts hide the way it is gone slowly") {
+  constexpr double kDeg = kPi / 180.0;
+  struct Part {
+    double from_rad, to_rad;
+    Twist2 wanted, permitted;
+  };
+  RobotModel chair = wheelchair();
+  const double turn_radps = 0.3 / chair.footprint.circumscribed_radius_m();
+  const auto [from_rad, to_rad, wanted, permitted] =
+      GENERATE_COPY(values<Part>({{20.0 * kDeg, 40.0 * kDeg, {0.5, 0.0}, {0.3, 0.0}},
+                                  {-1.0 * kDeg, 1.0 * kDeg, {0.5, 0.0}, {0.5, 0.0}},
+                                  {100.0 * kDeg, 110.0 * kDeg, {0.5, 0.0}, {0.5, 0.0}},
+                                  {100.0 * kDeg, 110.0 * kDeg, {0.0, 0.8}, {0.0, turn_radps}}}));
+  (void)chair.laser.blanked.push_back({from_rad, to_rad});
+  Bench bench(false, chair);
+  const Verdict verdict = bench.ticks(2, wanted);
+  CHECK(verdict.permitted.v_mps == Approx(permitted.v_mps));
+  CHECK(verdict.permitted.w_radps == Approx(permitted.w_radps));
+  CHECK(has(verdict.reasons, Reason::kUnwatched) == (wanted != permitted));
+}
+
 TEST_CASE("a blinded scanner is not trusted: half its beams no numbers") {
   Bench bench;
   for (std::size_t beam = 0; beam < 406; ++beam) bench.scan.range_m[beam] = NAN;

@@ -128,6 +128,11 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
       {good + "[robot.laser]\nfov_deg = 400\n", "s.toml:7: robot.laser.fov_deg is 400"},
       {good + "[robot.laser]\ncolour = 1\n", "s.toml:7: robot.laser.colour is not a known key"},
       {good + "[robot.laser]\nrange_min_m = 3\nrange_m = 2\n", "s.toml:7: robot.laser.range_min_m is not below"},
+      {good + "[[robot.laser.blanked]]\nfrom_deg = 10\n", "s.toml:6: robot.laser.blanked.to_deg is missing"},
+      {good + "[[robot.laser.blanked]]\nfrom_deg = 10\nto_deg = 370\n", "s.toml:8: robot.laser.blanked.to_deg is 370"},
+      {good + "[[robot.laser.blanked]]\nfrom_deg = -180\nto_deg = 180\n",
+       "s.toml:8: robot.laser.blanked.to_deg is where the sector begins"},
+      {good + "[[robot.laser.blanked]]\nfrom = 10\n", "robot.laser.blanked.from_deg is missing"},
       {good + "[robot.slip]\nmean = 0.6\n", "s.toml:7: robot.slip.mean"},
       {good + "[robot.pose_source]\nenabled = 1\n", "s.toml:7: robot.pose_source.enabled is not true or false"},
       {good + "[movers]\nkind = \"wander\"\n", "s.toml:6: movers is not a list of tables"},
@@ -150,6 +155,17 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
   CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml:0: no such file"));
 }
 
+TEST_CASE("sectors in which the laser sees the robot are read in degrees, sixteen at most") {
+  const std::string sector = "[[robot.laser.blanked]]\nfrom_deg = 170\nto_deg = -170\n";
+  std::string text = kMap + kRobot;
+  for (int k = 0; k < 16; ++k) text += sector;
+  const Blanking blanked = parsed(text).model.laser.blanked;
+  REQUIRE(blanked.size() == 16);
+  CHECK(blanked[3].width_rad() == Approx(20.0 * kPi / 180.0));
+  const std::string message = refusal([&] { static_cast<void>(parsed(text + sector)); });
+  CHECK(says(message, "robot.laser.blanked.from_deg begins one sector more than 16"));
+}
+
 TEST_CASE("a robot's own file gives body, drive, limits and laser") {
   folder().write("body.toml", kBody);
   const RobotModel model = parsed(kMap + kRobot + "model = \"body.toml\"\n").model;
@@ -159,6 +175,17 @@ TEST_CASE("a robot's own file gives body, drive, limits and laser") {
   CHECK(model.limits.brake_mps2 == 0.9);
   CHECK(model.laser.robot_from_laser == Pose2{0.1, 0.0, 3.0});
   CHECK(model.laser.drop_out == 0.0);
+}
+
+TEST_CASE("a robot's own blanked sectors hold where the scenario has none, else the scenario's do") {
+  const std::string own = "[[laser.blanked]]\nfrom_deg = 10\nto_deg = 20\n";
+  folder().write("posts.toml", kBody + own);
+  const std::string text = kMap + kRobot + "model = \"posts.toml\"\n";
+  CHECK(parsed(text).model.laser.blanked[0].to_rad == Approx(20.0 * kPi / 180.0));
+  const std::string others = "[[robot.laser.blanked]]\nfrom_deg = 30\nto_deg = 40\n";
+  const Blanking blanked = parsed(text + others).model.laser.blanked;
+  REQUIRE(blanked.size() == 1);
+  CHECK(blanked[0].to_rad == Approx(40.0 * kPi / 180.0));
 }
 
 TEST_CASE("a bad robot file is refused with its own name and line") {
