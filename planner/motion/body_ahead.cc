@@ -11,7 +11,7 @@ namespace {
 
 constexpr double kAhead_m = 1.6;  // looked at along the path, whatever the speed
 constexpr double kAhead_s = 8.0, kStep_s = 0.1;
-constexpr double kTouch_m = 0.05;          // who stands on two legs may be so much wider than he is taken for
+constexpr double kTouch_m = 0.05;          // kept of whatever it comes to rest before
 constexpr double kBeforeSlowing_s = 0.25;  // the drives' lag, a tick, and the half of it that jerk takes
 constexpr double kStopStep_s = 0.05;
 constexpr double kRest_mps = 1e-3, kRest_radps = 1e-2;

@@ -9,7 +9,7 @@ namespace {
 constexpr double kPitch_m = 0.1;  // between samples of an outline
 constexpr double kMayStop_mps =
     0.3;  // who turns about, or comes to stand, is slower; by trial, as docs/decisions/0017 tells
-
+constexpr double kCoat_m = 0.05;   // whoever stands may be so much wider than he is taken for
 constexpr double kGraze_m = 0.05;  // surfaces are known to so much: less deep is on the outline
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.
@@ -57,9 +57,9 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
       }
     }
   }
-  for (const Stander& stander : standing) stamp_round(stander.position_in_map, stander.radius_m);
+  for (const Stander& stander : standing) stamp_round(stander.position_in_map, stander.radius_m + kCoat_m);
   for (const Track& track : moving) {
-    if (norm(track.velocity_in_map) < kMayStop_mps) stamp_round(track.position_in_map, track.radius_m);
+    if (norm(track.velocity_in_map) < kMayStop_mps) stamp_round(track.position_in_map, track.radius_m + kCoat_m);
   }
   note_unseen(still, map_from_robot);
   for (float& d : distance_) d = std::sqrt(d);

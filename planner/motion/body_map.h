@@ -21,7 +21,8 @@ class BodyMap {
  public:
   explicit BodyMap(const Footprint& footprint);
 
-  /// Draws what stands within kReach_m (each axis) of the robot, and somebody as wide as he is; of those who walk too
+  /// Draws what stands within kReach_m (each axis) of the robot, and somebody 5 cm wider than he is taken for; of those
+  /// who walk too
   /// (`moving`) who has stopped for now or may well, slower than 0.3 m/s.
   /// Costs about 100 ns a node near a surface.
   void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing = {},

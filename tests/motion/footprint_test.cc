@@ -63,13 +63,13 @@ TEST_CASE("a body's clearance is that of its outline, ahead 0.75 m from the axle
   CHECK(map.clearance({-2.0, 0.0, 0.0}) == BodyMap::kFar_m);
 }
 
-TEST_CASE("somebody who stands is as wide to a body as he is") {
+TEST_CASE("somebody who stands is to a body as wide as he is, and 5 cm wider") {
   const Ground ground;
   BodyMap map(kChair.footprint);
   const std::array<Stander, 1> standing{{{{1.30, 0.0}, 0.25}}};
   map.draw(ground.map(), {}, standing);
-  CHECK(map.clearance({0.0, 0.0, 0.0}) == Approx(0.30).margin(0.01));         // 1.30 - 0.25 - 0.75
-  CHECK(map.clearance({0.6, 0.0, kPi / 2.0}) == Approx(0.125).margin(0.01));  // 1.30 - 0.25 - 0.6 - 0.325
+  CHECK(map.clearance({0.0, 0.0, 0.0}) == Approx(0.25).margin(0.01));         // 1.30 - 0.25 - 0.05 - 0.75
+  CHECK(map.clearance({0.6, 0.0, kPi / 2.0}) == Approx(0.075).margin(0.01));  // 1.30 - 0.30 - 0.6 - 0.325
   map.draw(ground.map(), {});
   CHECK(map.clearance({0.0, 0.0, 0.0}) == BodyMap::kFar_m);
 }
@@ -245,7 +245,7 @@ TEST_CASE("who walks and has all but stopped is drawn where he is, who walks on 
   for (const double speed : {0.1, 0.5}) {
     track.velocity_in_map = {0.0, speed};
     map.draw(Ground().map(), {}, {}, std::array{track});
-    CHECK(map.clearance({}) == Approx(speed < 0.3 ? 0.30 : BodyMap::kFar_m).margin(0.02));  // 1.3 - 0.25 - 0.75
+    CHECK(map.clearance({}) == Approx(speed < 0.3 ? 0.25 : BodyMap::kFar_m).margin(0.02));  // 1.3 - 0.30 - 0.75
   }
 }
 
