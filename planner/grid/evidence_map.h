@@ -39,6 +39,13 @@ class EvidenceMap {
   [[nodiscard]] CellIndex low() const { return low_; }
   [[nodiscard]] bool contains(CellIndex cell) const { return within(cell.i, low_.i) && within(cell.j, low_.j); }
 
+  /// Where a cell has its place on the torus, row by row, below side * side: for what others keep a cell.
+  [[nodiscard]] std::size_t slot(CellIndex cell) const {
+    const auto mask = static_cast<std::uint32_t>(side_ - 1);
+    return static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
+           (static_cast<std::uint32_t>(cell.i) & mask);
+  }
+
   /// Evidence of a cell; 0 (unknown) outside the window.
   [[nodiscard]] std::int8_t evidence(CellIndex cell) const {
     return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
@@ -89,12 +96,6 @@ class EvidenceMap {
   [[nodiscard]] bool within(std::int32_t at, std::int32_t low) const {
     return static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(low) < static_cast<std::uint32_t>(side_);
   }
-  [[nodiscard]] std::size_t slot(CellIndex cell) const {
-    const auto mask = static_cast<std::uint32_t>(side_ - 1);
-    return static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
-           (static_cast<std::uint32_t>(cell.i) & mask);
-  }
-
   std::int32_t side_;
   double cell_m_;
   CellIndex low_;

@@ -22,42 +22,36 @@ bool all_about(CellIndex cell, const Each& each) {
 }  // namespace
 
 LooseThings::LooseThings(const EvidenceMap& map)
-    : side_(map.side()), marks_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), kNew) {}
-
-std::uint8_t& LooseThings::mark(CellIndex cell) noexcept {
-  const auto mask = static_cast<std::uint32_t>(side_ - 1);
-  return marks_[static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
-                (static_cast<std::uint32_t>(cell.i) & mask)];
-}
+    : marks_(static_cast<std::size_t>(map.side()) * static_cast<std::size_t>(map.side()), kNew) {}
 
 /// By their noise points lie a cell beside what they are of.
 void LooseThings::note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept {
   for (std::size_t k = 0; k < count; ++k) {
     (void)all_about(map.cell_at(in_map.position[k]), [&](CellIndex cell) {
-      if (map.contains(cell)) mark(cell) = kInView;
+      if (map.contains(cell)) marks_[map.slot(cell)] = kInView;
       return true;
     });
   }
 }
 
 /// False where the cell is in view, of what stays, or farther from the first than bodies are wide.
-bool LooseThings::take(CellIndex cell, double cell_m) noexcept {
-  if (mark(cell) == kGathered) return true;
-  if (mark(cell) != kNew) return false;
-  if (!thing_.push_back(cell)) return false;
-  mark(cell) = kGathered;
+bool LooseThings::take(const EvidenceMap& map, CellIndex cell) noexcept {
+  std::uint8_t& mark = marks_[map.slot(cell)];
+  if (mark == kGathered) return true;
+  if (mark != kNew || !thing_.push_back(cell)) return false;
+  mark = kGathered;
   const std::int32_t off = std::max(std::abs(cell.i - thing_[0].i), std::abs(cell.j - thing_[0].j));
-  return off * cell_m < kWidestM;
+  return off * map.cell_m() < kWidestM;
 }
 
 /// All that hangs together with `first`; false where that stays.
 bool LooseThings::gather(const EvidenceMap& map, CellIndex first) noexcept {
   thing_.clear();
-  bool loose = take(first, map.cell_m());
+  bool loose = take(map, first);
   for (std::size_t k = 0; loose && k < thing_.size(); ++k) {
-    loose = all_about(thing_[k], [&](CellIndex cell) { return !map.occupied(cell) || take(cell, map.cell_m()); });
+    loose = all_about(thing_[k], [&](CellIndex cell) { return !map.occupied(cell) || take(map, cell); });
   }
-  for (const CellIndex cell : thing_) mark(cell) = kStays;
+  for (const CellIndex cell : thing_) marks_[map.slot(cell)] = kStays;
   return loose;
 }
 
@@ -65,9 +59,9 @@ void LooseThings::forget_unseen(EvidenceMap& map, const PointsInMap& in_map, std
   std::fill(marks_.begin(), marks_.end(), kNew);
   note_in_view(map, in_map, count);
   const CellIndex low = map.low();
-  for (std::int32_t j = low.j; j < low.j + side_; ++j) {
-    for (std::int32_t i = low.i; i < low.i + side_; ++i) {
-      if (!map.occupied({i, j}) || mark({i, j}) != kNew || !gather(map, {i, j})) continue;
+  for (std::int32_t j = low.j; j < low.j + map.side(); ++j) {
+    for (std::int32_t i = low.i; i < low.i + map.side(); ++i) {
+      if (!map.occupied({i, j}) || marks_[map.slot({i, j})] != kNew || !gather(map, {i, j})) continue;
       for (const CellIndex cell : thing_) map.forget(cell);
     }
   }

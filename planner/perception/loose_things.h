@@ -26,10 +26,8 @@ class LooseThings {
 
   void note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
   [[nodiscard]] bool gather(const EvidenceMap& map, CellIndex first) noexcept;
-  [[nodiscard]] bool take(CellIndex cell, double cell_m) noexcept;
-  [[nodiscard]] std::uint8_t& mark(CellIndex cell) noexcept;
+  [[nodiscard]] bool take(const EvidenceMap& map, CellIndex cell) noexcept;
 
-  std::int32_t side_;
   std::vector<std::uint8_t> marks_;     ///< on the map's own torus
   FixedVector<CellIndex, 1024> thing_;  ///< being gathered
 };

@@ -36,13 +36,9 @@ struct AxisWalk {
 }  // namespace
 
 MapEntry::MapEntry(const EvidenceMap& map)
-    : side_(map.side()), visited_in_(static_cast<std::size_t>(side_) * static_cast<std::size_t>(side_), 0) {}
+    : visited_in_(static_cast<std::size_t>(map.side()) * static_cast<std::size_t>(map.side()), 0) {}
 
-bool MapEntry::first_visit(CellIndex cell) noexcept {
-  const auto mask = static_cast<std::uint32_t>(side_ - 1);
-  const std::size_t slot =
-      static_cast<std::size_t>(static_cast<std::uint32_t>(cell.j) & mask) * static_cast<std::size_t>(side_) +
-      (static_cast<std::uint32_t>(cell.i) & mask);
+bool MapEntry::first_visit(std::size_t slot) noexcept {
   if (visited_in_[slot] == scan_) return false;
   visited_in_[slot] = scan_;
   return true;
@@ -57,7 +53,7 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
     if (!map.contains(cell))
       return;  // a straight line does not come back: a beam of a kilometre costs no more than the map
     const bool at_the_end = k + kNoiseCells >= cells;
-    if (!(at_the_end && map.evidence(cell) > 0) && first_visit(cell)) map.add(cell, kPass);
+    if (!(at_the_end && map.evidence(cell) > 0) && first_visit(map.slot(cell))) map.add(cell, kPass);
     if (x.next < y.next) {
       cell.i += x.step;
       x.next += x.each;
@@ -77,7 +73,7 @@ void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBe
   for (std::size_t k = 0; k < count; ++k) {
     const CellIndex cell = map.cell_at(points[k]);
     if (entries[k] == Becomes::kNothing || !map.contains(cell)) continue;
-    const bool first = first_visit(cell);
+    const bool first = first_visit(map.slot(cell));
     const Vec2 back = laser - points[k];
     map.add_hit(points[k], first ? kHit : 0, first && entries[k] == Becomes::kWall ? step_s : 0.0,
                 back * (1.0 / std::max(norm(back), kNearestM)));

@@ -29,10 +29,9 @@ class MapEntry {
              const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 
  private:
-  [[nodiscard]] bool first_visit(CellIndex cell) noexcept;
+  [[nodiscard]] bool first_visit(std::size_t slot) noexcept;
   void free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept;
 
-  std::int32_t side_;
   std::uint16_t scan_ = 0;
   std::vector<std::uint16_t> visited_in_;  ///< the scan that last touched the cell, on the map's own torus
 };
