@@ -23,6 +23,7 @@ struct Put {
   void operator()(const Time& value) { sink.number(static_cast<std::int64_t>(value.time_since_epoch().count())); }
   void operator()(const PlanStatus& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const DriveTrouble& value) { sink.number(static_cast<std::uint8_t>(value)); }
+  void operator()(const StopStage& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const Reason& value) { sink.number(static_cast<std::uint32_t>(value)); }
   std::uint32_t count(std::size_t size) {
     sink.number(static_cast<std::uint32_t>(size));
@@ -43,8 +44,11 @@ struct Get {
   void operator()(PlanStatus& value) {
     value = static_cast<PlanStatus>(up_to(static_cast<std::uint8_t>(PlanStatus::kBackendFailed)));
   }
+  void operator()(StopStage& value) {
+    value = static_cast<StopStage>(up_to(static_cast<std::uint8_t>(StopStage::kSilent)));
+  }
   void operator()(DriveTrouble& value) {
-    value = static_cast<DriveTrouble>(up_to(static_cast<std::uint8_t>(DriveTrouble::kLeftOperation)));
+    value = static_cast<DriveTrouble>(up_to(static_cast<std::uint8_t>(kLastDriveTrouble)));
   }
   void operator()(Reason& value) {
     std::uint32_t bits = 0;
@@ -119,6 +123,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
+  if (ar.version >= 4) ar(r.wheels.stop);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
   ar(r.input.goal_tolerance_m);
@@ -187,6 +192,7 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
 bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept {
   Get get{ByteSource(in), version_};
   record.input = {};  // what an older recording does not have
+  record.wheels = {};
   bool new_scan = false;
   bool new_fix = false;
   get(lost_before);

@@ -9,8 +9,8 @@
 
 namespace jaywalk {
 
-/// Version 2 had no heading at the goal, and is read as well: nobody wanted one then.
-inline constexpr std::uint32_t kRecordingVersion = 3, kOldestVersion = 2;
+/// Version 2 had no heading at the goal, version 3 no stage of a stop; both are read as well.
+inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 2;
 
 /// Most bytes that an encoded record takes: every beam and every mover in use, and room for the rest.
 inline constexpr std::size_t kMaxEntryBytes = 4 * kMaxBeams + 40 * kMaxObservedMovers + 1024;

@@ -6,7 +6,7 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 18> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 24> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kScanFrozen, "scan_frozen"},
@@ -23,7 +23,13 @@ std::string to_string(Reason reasons) {
                                                                    {Reason::kDrive, "drive"},
                                                                    {Reason::kTurnBlocked, "turn_blocked"},
                                                                    {Reason::kTouched, "touched"},
-                                                                   {Reason::kWheelsInvalid, "wheels_invalid"}}};
+                                                                   {Reason::kWheelsInvalid, "wheels_invalid"},
+                                                                   {Reason::kSightLost, "sight_lost"},
+                                                                   {Reason::kWheelsDisobey, "wheels_disobey"},
+                                                                   {Reason::kMotionMismatch, "motion_mismatch"},
+                                                                   {Reason::kStopUnconfirmed, "stop_unconfirmed"},
+                                                                   {Reason::kForeignMaster, "foreign_master"},
+                                                                   {Reason::kNotRecorded, "not_recorded"}}};
   std::string words;
   for (const auto& [bit, name] : kNames) {
     if (!has(reasons, bit)) continue;

@@ -19,6 +19,8 @@ StopZoneConfig zone_config(const SupervisorConfig& config) {
 
 Reason reason_for(DriveTrouble trouble) {
   if (trouble == DriveTrouble::kNone) return Reason::kNone;
+  if (trouble == DriveTrouble::kForeignMaster) return Reason::kForeignMaster;
+  if (trouble == DriveTrouble::kStopUnconfirmed) return Reason::kStopUnconfirmed;
   const bool is_bus = trouble == DriveTrouble::kBusRefused || trouble == DriveTrouble::kBusUnwell;
   return is_bus ? Reason::kBus : Reason::kDrive;
 }
@@ -109,7 +111,8 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
 }
 
 void Supervisor::update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
-  constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks;
+  constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
+                             Reason::kStopUnconfirmed | Reason::kForeignMaster;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;

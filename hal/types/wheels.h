@@ -9,17 +9,34 @@ namespace jaywalk {
 /// Why a drive base on wires stopped its wheels by itself; it stays so until a person's reset.
 enum class DriveTrouble : std::uint8_t {
   kNone,
-  kBusRefused,      ///< a frame was not taken
-  kBusUnwell,       ///< error passive, bus-off, interface down
-  kEmergency,       ///< a drive sent an emergency message
-  kDriveFault,      ///< a drive says that it is in fault
-  kDriveSilent,     ///< a drive says nothing
-  kDriveRestarted,  ///< a drive that was set up is so no more
-  kLeftOperation    ///< a drive that was enabled is so no more, unasked
+  kBusRefused,       ///< a frame was not taken
+  kBusUnwell,        ///< error passive, bus-off, interface down
+  kEmergency,        ///< a drive sent an emergency message
+  kDriveFault,       ///< a drive says that it is in fault
+  kDriveSilent,      ///< a drive says nothing
+  kDriveRestarted,   ///< a drive that was set up is so no more
+  kLeftOperation,    ///< a drive that was enabled is so no more, unasked
+  kNotOperational,   ///< a drive left the network state in which it takes setpoints
+  kForeignMaster,    ///< another program commands the drives, or speaks with the controller's number
+  kStopUnconfirmed,  ///< a stop that both wheels' feedback does not show in time
+  kNotProved         ///< a drive did not pass its arming proof again after a reset
 };
+/// The last of them, for checks of what is read.
+inline constexpr DriveTrouble kLastDriveTrouble = DriveTrouble::kNotProved;
 
 /// "drive silent".
 [[nodiscard]] std::string_view name(DriveTrouble trouble) noexcept;
+
+/// How far a stop has had to go because the wheels' feedback did not confirm it (SAFETY 14).
+enum class StopStage : std::uint8_t {
+  kNone,         ///< no stop is under way, or it is confirmed so far
+  kQuickStop,    ///< the drives are told to brake by themselves
+  kNetworkStop,  ///< NMT stop, or what else the drive has that ends its obedience
+  kSilent        ///< nothing is sent any more, no heartbeat either: the drives' own watchdogs act
+};
+
+/// "quick stop".
+[[nodiscard]] std::string_view name(StopStage stage) noexcept;
 
 /// What the wheel encoders say; the two wheels of a differential drive.
 struct WheelState {
@@ -30,6 +47,7 @@ struct WheelState {
   double left_radps = 0.0;
   double right_radps = 0.0;
   DriveTrouble trouble = DriveTrouble::kNone;
+  StopStage stop = StopStage::kNone;
 };
 
 /// What the wheels are asked to do.

@@ -1,0 +1,64 @@
+#include "drivers/stop_ladder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+
+StopStage StopLadder::update(Time now, bool stopping, bool trouble,
+                             const std::array<WheelFeedback, 2>& wheels) noexcept {
+  if (!stopping && stage_ == StopStage::kNone) {
+    under_way_ = ended_ = false;
+    return stage_;
+  }
+  const bool new_trouble = trouble && !trouble_;
+  if ((!under_way_ && !ended_) || new_trouble) begin(now, trouble, wheels);
+  if (!under_way_) return stage_;
+  if (!trouble_ && stage_ == StopStage::kNone && is_at_rest(now, wheels)) {
+    under_way_ = false;
+    ended_ = true;
+    return stage_;
+  }
+  if (now - ordered_ > limits_.response && !is_kept(now, wheels)) climb(now);
+  return stage_;
+}
+
+void StopLadder::reset() noexcept { *this = StopLadder(limits_); }
+
+void StopLadder::begin(Time now, bool trouble, const std::array<WheelFeedback, 2>& wheels) noexcept {
+  under_way_ = true;
+  ended_ = false;
+  trouble_ = trouble;
+  ordered_ = now;
+  for (std::size_t k = 0; k < wheels.size(); ++k) speed_at_order_[k] = std::fabs(wheels[k].speed_radps);
+  // The drives are told to quick-stop at once where there is trouble.
+  if (trouble) stage_ = std::max(stage_, StopStage::kQuickStop);
+}
+
+bool StopLadder::is_fresh(Time now, const WheelFeedback& wheel) const noexcept {
+  return age(wheel.stamp, now) <= limits_.fresh;
+}
+
+bool StopLadder::is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept {
+  const double braked = limits_.brake_radps2 * to_seconds(now - ordered_ - limits_.response);
+  for (std::size_t k = 0; k < wheels.size(); ++k) {
+    const double most = std::max(speed_at_order_[k] - braked, 0.0) + limits_.tolerance_radps;
+    // Written so that a speed that is no number is not kept.
+    if (!is_fresh(now, wheels[k]) || !(std::fabs(wheels[k].speed_radps) <= most)) return false;
+  }
+  return true;
+}
+
+bool StopLadder::is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept {
+  return std::all_of(wheels.begin(), wheels.end(), [&](const WheelFeedback& wheel) {
+    return is_fresh(now, wheel) && std::fabs(wheel.speed_radps) <= limits_.tolerance_radps;
+  });
+}
+
+void StopLadder::climb(Time now) noexcept {
+  if (stage_ == StopStage::kSilent || age(climbed_, now) < limits_.stage) return;
+  stage_ = static_cast<StopStage>(static_cast<int>(stage_) + 1);
+  climbed_ = now;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,61 @@
+#pragma once
+#include <array>
+
+#include "hal/types/wheels.h"
+
+namespace jaywalk {
+
+/// What a stop is held against. Speeds are the wheels', rad/s.
+struct StopLimits {
+  double brake_radps2 = 0.0;     ///< the ramp that a stop is owed; the drives were shown to be set to it or more
+  double tolerance_radps = 0.0;  ///< a wheel may be so much faster than its ramp; below it, it stands
+  Duration response = std::chrono::milliseconds(60);  ///< from the order until the ramp must show in the feedback
+  Duration stage = std::chrono::milliseconds(20);     ///< from one stage to the next
+  Duration fresh = std::chrono::milliseconds(60);     ///< older feedback confirms nothing
+};
+
+/// What one wheel's drive said last.
+struct WheelFeedback {
+  double speed_radps = 0.0;
+  Time stamp = kNever;
+};
+
+/// Follows a stop until both wheels' feedback confirms it, and says how far it must go where they do not (SAFETY 14).
+///
+/// From the order on each wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
+/// feedback. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage` after the
+/// other; so at the latest 100 ms and the ramp after the order both wheels stand or nothing is sent. A stage is never
+/// gone back on before reset().
+///
+/// A stop that was commanded (both speeds zero) ends when both wheels stand; one because of trouble is watched until
+/// reset(): a wheel that turns again while the drives are in trouble takes it further. Thread: the drive base's; never
+/// allocates.
+class StopLadder {
+ public:
+  explicit StopLadder(const StopLimits& limits) noexcept : limits_(limits) {}
+
+  /// Once a cycle, before what the drives are told. `stopping`: the command is zero for both wheels, or there is
+  /// trouble. `trouble`: the drives were told to quick-stop. Left, right.
+  [[nodiscard]] StopStage update(Time now, bool stopping, bool trouble,
+                                 const std::array<WheelFeedback, 2>& wheels) noexcept;
+  [[nodiscard]] StopStage stage() const noexcept { return stage_; }
+  /// A person's reset edge: the next stop begins anew.
+  void reset() noexcept;
+
+ private:
+  void begin(Time now, bool trouble, const std::array<WheelFeedback, 2>& wheels) noexcept;
+  /// Whether the feedback shows what the ramp allows now.
+  [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
+  [[nodiscard]] bool is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
+  [[nodiscard]] bool is_fresh(Time now, const WheelFeedback& wheel) const noexcept;
+  void climb(Time now) noexcept;
+
+  StopLimits limits_;
+  StopStage stage_ = StopStage::kNone;
+  bool under_way_ = false, ended_ = false;
+  bool trouble_ = false;
+  Time ordered_ = kNever, climbed_ = kNever;
+  std::array<double, 2> speed_at_order_{};
+};
+
+}  // namespace jaywalk
