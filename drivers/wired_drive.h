@@ -24,6 +24,8 @@ class WiredDrive : public DriveBase {
   virtual void reset() noexcept = 0;
   /// Both wheels follow commands.
   [[nodiscard]] virtual bool is_enabled() const noexcept = 0;
+  /// Both drives passed the whole proof since they last restarted, dropped out or changed state by themselves.
+  [[nodiscard]] virtual bool is_proved() const noexcept = 0;
   /// Takes the torque away, at rest: after the last command. To be called again and again until !is_enabled().
   virtual void disarm() noexcept = 0;
 };

@@ -51,6 +51,7 @@ class CanopenDriveBase final : public WiredDrive {
   /// A person's reset edge: forgets the trouble; the drives are enabled again at the next command of zero.
   void reset() noexcept override;
   [[nodiscard]] bool is_enabled() const noexcept override;
+  [[nodiscard]] bool is_proved() const noexcept override { return armed_; }
   void disarm() noexcept override;
 
  private:

@@ -1,5 +1,6 @@
 #include "firmware/robot/drive_wiring.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -54,18 +55,29 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
   return base;
 }
 
+/// What every stop is held against: the model's braking, at the wheels. Feedback lives two periods and a half, so that
+/// one late tick is no stop.
+StopLimits stop_limits(const RobotModel& model, Duration period) {
+  constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
+  const double radius_m = model.drive.wheel_radius_m;
+  StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
+  limits.fresh = std::max<Duration>(std::chrono::milliseconds(60), period * 5 / 2);
+  return limits;
+}
+
 /// Two motor controllers, one a wheel.
 template <typename Base>
-void read_axes(TomlTable& table, const std::string& key, Base& base) {
+void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop, Base& base) {
   const auto scales = read_scales(table, key);
   const auto nodes = read_nodes(table, 1, 2);
   for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
   base.allow_unproved = table.boolean("allow_unproved", false);
+  base.stop = stop;
 }
 
 }  // namespace
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period) {
   DriveWiring wiring;
   const std::string kind = table.text("kind");
   wiring.can = table.text("can");
@@ -73,10 +85,10 @@ DriveWiring read_drive(TomlTable table, const RobotModel& model) {
     wiring.cia402 = read_cia402(table, model);
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
-    read_axes(table, "motor_turns_per_wheel_turn", wiring.odrive);
+    read_axes(table, "motor_turns_per_wheel_turn", stop_limits(model, period), wiring.odrive);
   } else if (kind == "vesc") {
     wiring.kind = DriveKind::kVesc;
-    read_axes(table, "electrical_turns_per_wheel_turn", wiring.vesc);
+    read_axes(table, "electrical_turns_per_wheel_turn", stop_limits(model, period), wiring.vesc);
   } else {
     table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
   }

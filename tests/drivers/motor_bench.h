@@ -28,11 +28,30 @@ class MotorClock final : public Clock {
   Time now_{};
 };
 
+/// A controller's place on a bus that knows when it sent last.
+class WatchedPort final : public CanBus {
+ public:
+  WatchedPort(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
+  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+    sent = clock_.now();
+    ++frames;
+    return bus_.send(frame);
+  }
+  [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
+  [[nodiscard]] CanHealth health() const noexcept override { return bus_.health(); }
+  Time sent = kNever;
+  std::uint64_t frames = 0;
+
+ private:
+  CanBus& bus_;
+  Clock& clock_;
+};
+
 /// Two emulated motors and the drive base that drives them, on a bus in this process.
 template <class Base, class Setup, class Node>
 struct MotorBench {
   MotorBench(const Setup& setup, std::uint8_t left_id, std::uint8_t right_id)
-      : left(bus.port(1), left_id), right(bus.port(2), right_id), base(bus.port(0), clock, setup) {
+      : left(bus.port(1), left_id), right(bus.port(2), right_id), port(bus.port(0), clock), base(port, clock, setup) {
     clock.nodes = {&left, &right};
   }
   /// Ticks of 20 ms.
@@ -58,6 +77,7 @@ struct MotorBench {
   MotorClock<Node> clock;
   InProcessBus bus{clock, 1};
   Node left, right;
+  WatchedPort port;
   Base base;
   WheelState wheels;
   std::vector<std::string> report;
