@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/rig/plant/simulated_robot.h"
+#include "firmware/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
 

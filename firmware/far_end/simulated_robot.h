@@ -4,10 +4,10 @@
 #include <memory>
 #include <span>
 
+#include "firmware/far_end/far_scanner.h"
+#include "firmware/far_end/wheel_drive.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/world.h"
-#include "tools/rig/plant/far_scanner.h"
-#include "tools/rig/plant/wheel_drive.h"
 
 namespace jaywalk::rig {
 
