@@ -37,6 +37,7 @@ class MotorPair : public WiredDrive {
   void command(const WheelCommand& command) noexcept override;
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   void reset() noexcept override;
+  [[nodiscard]] bool is_proved() const noexcept override { return armed_; }
   [[nodiscard]] bool is_enabled() const noexcept override;
   void disarm() noexcept override;
 
