@@ -11,8 +11,10 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
     under_way_ = ended_ = false;
     return stage_;
   }
-  const bool new_trouble = trouble && !trouble_;
-  if ((!under_way_ && !ended_) || new_trouble) begin(now, trouble, wheels);
+  // A stop that this ladder itself made trouble of is under way already.
+  const bool new_trouble = trouble && !trouble_ && stage_ == StopStage::kNone;
+  trouble_ = trouble_ || trouble;
+  if ((!under_way_ && !ended_) || new_trouble) begin(now, wheels);
   if (!under_way_) return stage_;
   if (!trouble_ && stage_ == StopStage::kNone && is_at_rest(now, wheels)) {
     under_way_ = false;
@@ -25,14 +27,13 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
 
 void StopLadder::reset() noexcept { *this = StopLadder(limits_); }
 
-void StopLadder::begin(Time now, bool trouble, const std::array<WheelFeedback, 2>& wheels) noexcept {
+void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept {
   under_way_ = true;
   ended_ = false;
-  trouble_ = trouble;
   ordered_ = now;
   for (std::size_t k = 0; k < wheels.size(); ++k) speed_at_order_[k] = std::fabs(wheels[k].speed_radps);
   // The drives are told to quick-stop at once where there is trouble.
-  if (trouble) stage_ = std::max(stage_, StopStage::kQuickStop);
+  if (trouble_) stage_ = std::max(stage_, StopStage::kQuickStop);
 }
 
 bool StopLadder::is_fresh(Time now, const WheelFeedback& wheel) const noexcept {

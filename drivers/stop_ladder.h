@@ -43,7 +43,7 @@ class StopLadder {
   void reset() noexcept;
 
  private:
-  void begin(Time now, bool trouble, const std::array<WheelFeedback, 2>& wheels) noexcept;
+  void begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
   /// Whether the feedback shows what the ramp allows now.
   [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
   [[nodiscard]] bool is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;

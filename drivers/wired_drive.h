@@ -1,7 +1,9 @@
 #pragma once
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "drivers/can/can_frame.h"
 #include "hal/hal.h"
 
 namespace jaywalk {
@@ -20,12 +22,16 @@ class WiredDrive : public DriveBase {
   [[nodiscard]] virtual std::string inspect(std::size_t side) = 0;
   /// Also in latest().trouble.
   [[nodiscard]] virtual DriveTrouble trouble() const noexcept = 0;
-  /// A person's reset edge: forgets the trouble.
+  /// A person's reset edge, while the wheels stand: forgets the trouble. Where there was one, both drives are proved
+  /// anew, whole, before they get torque; that goes on with latest() and command() until is_proved() or the next
+  /// trouble.
   virtual void reset() noexcept = 0;
-  /// Both wheels follow commands.
-  [[nodiscard]] virtual bool is_enabled() const noexcept = 0;
   /// Both drives passed the whole proof since they last restarted, dropped out or changed state by themselves.
   [[nodiscard]] virtual bool is_proved() const noexcept = 0;
+  /// The frame of another master that is the trouble; nothing where there was none.
+  [[nodiscard]] virtual std::optional<CanFrame> foreign_frame() const noexcept { return std::nullopt; }
+  /// Both wheels follow commands.
+  [[nodiscard]] virtual bool is_enabled() const noexcept = 0;
   /// Takes the torque away, at rest: after the last command. To be called again and again until !is_enabled().
   virtual void disarm() noexcept = 0;
 };

@@ -6,6 +6,7 @@
 #include "firmware/commands/bench_command.h"
 #include "firmware/commands/choice_option.h"
 #include "firmware/commands/command_words.h"
+#include "firmware/commands/faults_command.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/robot_commands.h"
@@ -24,6 +25,7 @@ SimOptions sim_options;
 ReplayOptions replay_options;
 FieldOptions field_options;
 BenchOptions bench_options;
+FaultsOptions faults_options;
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
@@ -117,6 +119,12 @@ void add_bench(CLI::App& app) {
       ->capture_default_str();
 }
 
+void add_faults(CLI::App& app) {
+  CLI::App* faults =
+      app.add_subcommand("faults", "The fault matrix: every fault, drive and speed on the simulated robot");
+  faults->add_option("--out", faults_options.out, "Folder for faults.csv")->capture_default_str();
+}
+
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
   std::string names;
@@ -143,6 +151,7 @@ int run(int argc, char** argv) {
   add_replay(app);
   add_field(app);
   add_bench(app);
+  add_faults(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
   refuse_empty_words(argc, argv);
@@ -153,6 +162,7 @@ int run(int argc, char** argv) {
     return app.exit(error) == 0 ? 0 : kBadInput;
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
+  if (app.got_subcommand("faults")) return run_faults(faults_options);
   if (app.got_subcommand("field")) return run_field(field_options);
   if (app.got_subcommand("sim")) return run_sim(sim_options);
   return app.got_subcommand("replay") ? run_replay(replay_options) : exit_code;

@@ -5,11 +5,11 @@
 #include <filesystem>
 
 #include "bench/command_line.h"
+#include "firmware/far_end/in_process_robot.h"
+#include "firmware/far_end/living_clock.h"
 #include "firmware/report/distribution.h"
 #include "firmware/robot/planner_thread.h"
 #include "hal/types/errors.h"
-#include "tools/rig/plant/in_process_robot.h"
-#include "tools/rig/plant/living_clock.h"
 
 namespace jaywalk::bench {
 namespace {

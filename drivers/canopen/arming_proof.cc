@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
+#include <cstdlib>
 
 #include "drivers/canopen/sdo_abort.h"
 
@@ -23,18 +24,13 @@ ArmingProof::ArmingProof(CanBus& bus, std::uint8_t node, const Items& items, Dur
   for (const ProofItem& item : items) static_cast<void>(lines_.push_back({item, ProofVerdict::kOpen, 0}));
 }
 
-bool ArmingProof::proved() const noexcept {
-  return std::all_of(lines_.begin(), lines_.end(),
-                     [](const ProofLine& l) { return l.verdict == ProofVerdict::kProved; });
-}
-
 void ArmingProof::poll(Time now) noexcept {
   client_.poll(now);
   if (done() || client_.status() == SdoStatus::kBusy) return;
   const ProofItem& item = lines_[at_].item;
   switch (step_) {
     case Step::kStart: {
-      if (!item.write) return begin_read(now);
+      if (item.demand != ProofDemand::kWritten) return begin_read(now);
       std::array<std::uint8_t, 4> bytes{};
       wire::put_little_endian(item.wanted.value, bytes);
       step_ = Step::kWriting;
@@ -58,20 +54,34 @@ void ArmingProof::begin_read(Time now) noexcept {
 }
 
 void ArmingProof::conclude_read() noexcept {
-  const ObjectWrite& wanted = lines_[at_].item.wanted;
+  const std::uint8_t bytes = lines_[at_].item.wanted.bytes;
   std::array<std::uint8_t, 4> padded{};
   const auto value = client_.value();
   std::copy_n(value.begin(), std::min(value.size(), padded.size()), padded.begin());
-  const std::uint32_t said = cut(wire::little_endian<std::uint32_t>(padded), wanted.bytes);
-  const bool same = value.size() >= wanted.bytes && said == cut(wanted.value, wanted.bytes);
-  if (read_only_ && !same) return conclude(ProofVerdict::kRefused, kAbortReadOnly);
-  conclude(same ? ProofVerdict::kProved : ProofVerdict::kDiffers, said);
+  const std::uint32_t said = cut(wire::little_endian<std::uint32_t>(padded), bytes);
+  const ProofVerdict verdict = verdict_of(said, value.size() >= bytes);
+  if (read_only_ && verdict != ProofVerdict::kProved) return conclude(ProofVerdict::kRefused, kAbortReadOnly);
+  conclude(verdict, said);
+}
+
+ProofVerdict ArmingProof::verdict_of(std::uint32_t said, bool has_all) const noexcept {
+  const ProofItem& item = lines_[at_].item;
+  bool is_so = said == cut(item.wanted.value, item.wanted.bytes);
+  if (item.demand == ProofDemand::kAtMost) {
+    is_so = std::llabs(static_cast<std::int32_t>(said)) <= static_cast<std::int64_t>(item.wanted.value);
+  }
+  if (item.demand == ProofDemand::kKnown) is_so = true;
+  return has_all && is_so ? ProofVerdict::kProved : ProofVerdict::kDiffers;
 }
 
 bool ArmingProof::conclude_failure() noexcept {
   if (client_.status() == SdoStatus::kDone) return false;
   const bool refused = client_.status() == SdoStatus::kAbortedByDrive;
-  conclude(refused ? ProofVerdict::kRefused : ProofVerdict::kSilent, client_.abort_code());
+  const bool lacks = refused && lines_[at_].item.demand == ProofDemand::kKnown;
+  conclude(lacks     ? ProofVerdict::kLacks
+           : refused ? ProofVerdict::kRefused
+                     : ProofVerdict::kSilent,
+           client_.abort_code());
   return true;
 }
 
@@ -83,22 +93,42 @@ void ArmingProof::conclude(ProofVerdict verdict, std::uint32_t said) noexcept {
   read_only_ = false;
 }
 
+namespace {
+
+std::string hex(std::uint32_t number, int digits) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), "%0*Xh", digits, static_cast<unsigned>(number));
+  return text.data();
+}
+
+std::string name_of(const ProofItem& item) {
+  const ObjectAddress& address = item.wanted.address;
+  return hex(address.index, 4) + ":" + std::to_string(address.sub) + " " + item.what_for;
+}
+
+/// What was wanted of it.
+std::string demand_of(const ProofItem& item) {
+  const std::string value = hex(cut(item.wanted.value, item.wanted.bytes), 2 * item.wanted.bytes);
+  if (item.demand == ProofDemand::kKnown) return "";
+  return (item.demand == ProofDemand::kAtMost ? ": at most " : ": wanted ") + value;
+}
+
+}  // namespace
+
 std::string describe(const ProofLine& line) {
-  const ObjectWrite& wanted = line.item.wanted;
-  const auto hex = [](std::uint32_t number, int digits) {
-    std::array<char, 16> text{};
-    std::snprintf(text.data(), text.size(), "%0*Xh", digits, static_cast<unsigned>(number));
-    return std::string(text.data());
-  };
-  const std::string what = hex(wanted.address.index, 4) + ":" + std::to_string(wanted.address.sub) + " " +
-                           line.item.what_for + ": wanted " + hex(cut(wanted.value, wanted.bytes), 2 * wanted.bytes);
+  const std::string what = name_of(line.item) + demand_of(line.item);
+  const std::string said = hex(line.said, 2 * line.item.wanted.bytes);
   switch (line.verdict) {
     case ProofVerdict::kProved:
-      return what + ", reads the same";
+      return what + (line.item.demand == ProofDemand::kWritten || line.item.demand == ProofDemand::kHeld
+                         ? ", reads the same"
+                         : ", reads " + said);
     case ProofVerdict::kDiffers:
-      return what + ", reads " + hex(line.said, 2 * wanted.bytes) + ": NOT PROVED";
+      return what + ", reads " + said + ": NOT PROVED";
     case ProofVerdict::kRefused:
       return what + ", refused (" + std::string(abort_name(line.said)) + "): NOT PROVED";
+    case ProofVerdict::kLacks:
+      return what + ", none (" + std::string(abort_name(line.said)) + ")";
     case ProofVerdict::kSilent:
       return what + ", no answer: NOT PROVED";
     case ProofVerdict::kOpen:

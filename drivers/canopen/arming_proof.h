@@ -7,10 +7,18 @@
 
 namespace jaywalk::canopen {
 
+/// What an object is to show.
+enum class ProofDemand : std::uint8_t {
+  kWritten,  ///< the wanted value is written and read back
+  kHeld,     ///< the drive keeps it itself: it is read, and is the wanted value
+  kAtMost,   ///< it is read; a signed number of four bytes, within plus and minus the wanted value
+  kKnown     ///< it is read, to be remembered: any value, or that the drive has no such object
+};
+
 /// One setting that a drive must be shown to have before it may move.
 struct ProofItem {
   ObjectWrite wanted;
-  bool write = true;  ///< false: the drive keeps it itself, it is only read
+  ProofDemand demand = ProofDemand::kWritten;
   const char* what_for = "";
 };
 
@@ -19,6 +27,7 @@ enum class ProofVerdict : std::uint8_t {
   kProved,
   kDiffers,  ///< it took the value and reads another
   kRefused,  ///< it aborted; the code says why
+  kLacks,    ///< of what is to be known only: the drive has no such object
   kSilent    ///< no answer, or the bus took no frame
 };
 
@@ -43,7 +52,6 @@ class ArmingProof {
   void on_frame(const CanFrame& frame, Time now) noexcept { client_.on_frame(frame, now); }
   void poll(Time now) noexcept;
   [[nodiscard]] bool done() const noexcept { return at_ == lines_.size(); }
-  [[nodiscard]] bool proved() const noexcept;
   [[nodiscard]] const Lines& lines() const noexcept { return lines_; }
 
  private:
@@ -51,6 +59,7 @@ class ArmingProof {
 
   void begin_read(Time now) noexcept;
   void conclude_read() noexcept;
+  [[nodiscard]] ProofVerdict verdict_of(std::uint32_t said, bool has_all) const noexcept;
   void conclude(ProofVerdict verdict, std::uint32_t said) noexcept;
   /// True, and the item concluded, where the transfer failed.
   bool conclude_failure() noexcept;

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/canopen/services.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::canopen {
@@ -14,49 +13,60 @@ namespace {
 constexpr int kMostAtOnce = 512;
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
 
-std::int32_t to_counts(double speed_radps, double counts_per_rad) noexcept {
-  constexpr double kMost = 2147483647.0;
-  const double counts = std::clamp(speed_radps * counts_per_rad, -kMost, kMost);
-  return static_cast<std::int32_t>(counts < 0.0 ? counts - 0.5 : counts + 0.5);
+WheelAxis checked_axis(const DriveBaseSetup& setup, std::size_t side) {
+  const AxisSetup& axis = setup.axes[side];
+  const bool node_fits = axis.node >= 1 && axis.node <= 127 && axis.node != setup.settings.controller_node;
+  if (!node_fits || !std::isfinite(axis.counts_per_rad) || axis.counts_per_rad == 0.0) {
+    throw StartupError(std::string(side == 0 ? "left" : "right") + " drive: cannot be set up so",
+                       "give it a node from 1 to 127 other than the controller's, and its counts per radian");
+  }
+  return WheelAxis(axis);
+}
+
+DriveProof proof_for(CanBus& bus, const DriveBaseSetup& setup, std::size_t side) {
+  DriveProofSetup proof{setup.settings, setup.answer_timeout, setup.starting, setup.allow_unproved};
+  const double counts = setup.stop.tolerance_radps * std::fabs(setup.axes[side].counts_per_rad);
+  proof.settings.standstill = static_cast<std::uint32_t>(std::fmin(counts, 2147483647.0));
+  return {bus, setup.axes[side].node, proof};
 }
 
 }  // namespace
 
 CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup)
-    : bus_(bus), clock_(clock), setup_(setup) {
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const AxisSetup& axis = setup.axes[k];
-    const bool node_fits = axis.node >= 1 && axis.node <= 127 && axis.node != setup.settings.controller_node;
-    if (!node_fits || !std::isfinite(axis.counts_per_rad) || axis.counts_per_rad == 0.0) {
-      throw StartupError(std::string(k == 0 ? "left" : "right") + " drive: cannot be set up so",
-                         "give it a node from 1 to 127 other than the controller's, and its counts per radian");
-    }
-    axes_[k].setup = axis;
-    axes_[k].command_mapping = command_pdo(axis.node).mapping;
-    axes_[k].status_mapping = status_pdo(axis.node).mapping;
-    axes_[k].position_mapping = position_pdo(axis.node).mapping;
-  }
-  if (axes_[0].setup.node == axes_[1].setup.node) {
-    throw StartupError("drives: both have node " + std::to_string(axes_[0].setup.node), "give each a node of its own");
+    : bus_(bus),
+      clock_(clock),
+      setup_(setup),
+      axes_{checked_axis(setup, 0), checked_axis(setup, 1)},
+      proofs_{proof_for(bus, setup, 0), proof_for(bus, setup, 1)},
+      masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})),
+      ladder_(setup.stop) {
+  if (setup.axes[0].node == setup.axes[1].node) {
+    throw StartupError("drives: both have node " + std::to_string(setup.axes[0].node), "give each a node of its own");
   }
 }
 
 std::vector<std::string> CanopenDriveBase::arm() {
-  std::vector<std::string> report;
-  for (Axis& axis : axes_) {
-    send(nmt_frame(NmtCommand::kPreOperational, axis.setup.node));
-    prove(axis, report);
+  begin_proof();
+  while (is_proving()) {
+    clock_.sleep_until(now() + kArmingStep);
+    static_cast<void>(latest());
   }
-  for (Axis& axis : axes_) {
-    send(nmt_frame(NmtCommand::kStart, axis.setup.node));
-    axis.heard = clock_.now();
-  }
-  if (trouble_ != DriveTrouble::kNone) {
-    throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
-  }
-  settled_ = clock_.now() + setup_.settling;  // heartbeats from before the start still say "pre-operational"
-  armed_ = true;
+  if (trouble_ != DriveTrouble::kNone) refuse();
+  std::vector<std::string> report = proofs_[0].report();
+  for (std::string& line : proofs_[1].report()) report.push_back(std::move(line));
   return report;
+}
+
+void CanopenDriveBase::refuse() const {
+  if (foreign_) {
+    throw StartupError("CAN: " + std::string(name(trouble_)) + ": " + describe_foreign(*foreign_),
+                       "end the other program or machine, or give it a bus of its own");
+  }
+  for (const DriveProof& proof : proofs_) {
+    if (proof.state() != DriveProof::State::kFailed) continue;
+    throw StartupError(proof.failure(), "use a drive that can prove it, or allow_unproved at your own risk");
+  }
+  throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
 }
 
 void CanopenDriveBase::conduct(ArmingProof& proof) {
@@ -69,7 +79,7 @@ void CanopenDriveBase::conduct(ArmingProof& proof) {
 }
 
 std::string CanopenDriveBase::inspect(std::size_t side) {
-  const std::uint8_t node = axes_[side].setup.node;
+  const std::uint8_t node = axes_[side].setup().node;
   const std::string who = "node " + std::to_string(node);
   ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
   conduct(identity);
@@ -80,7 +90,7 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
     throw StartupError(who + ": is no CiA 402 drive with profile velocity, by its 1000h and 6502h", "use one that is");
   }
   ArmingProof::Items items = proof_items(node, setup_.settings);
-  for (ProofItem& item : items) item.write = false;
+  for (ProofItem& item : items) item.demand = ProofDemand::kHeld;
   ArmingProof settings(bus_, node, items, setup_.answer_timeout);
   conduct(settings);
   const std::size_t behaviours = behaviour_items(setup_.settings).size();  // the first of all
@@ -99,136 +109,163 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
          " settings stand as arming writes them" + (lacking.empty() ? "" : "; " + lacking);
 }
 
-void CanopenDriveBase::prove(Axis& axis, std::vector<std::string>& report) {
-  ArmingProof proof(bus_, axis.setup.node, proof_items(axis.setup.node, setup_.settings), setup_.answer_timeout);
-  conduct(proof);
-  const std::string who = "node " + std::to_string(axis.setup.node) + ": ";
-  for (const ProofLine& line : proof.lines()) report.push_back(who + describe(line));
-  if (proof.proved() || setup_.allow_unproved) return;
-  const auto* const open = std::find_if(proof.lines().begin(), proof.lines().end(),
-                                        [](const ProofLine& l) { return l.verdict != ProofVerdict::kProved; });
-  throw StartupError(who + describe(*open), "use a drive that can prove it, or allow_unproved at your own risk");
+void CanopenDriveBase::begin_proof() noexcept {
+  trouble_ = DriveTrouble::kNone;
+  foreign_.reset();
+  ladder_.reset();
+  awaits_zero_ = true;
+  phase_ = Phase::kListening;
+  began_ = now();
+}
+
+// A step at a time; of what comes next, another master's frames may still say no.
+void CanopenDriveBase::follow_proof() noexcept {
+  if (phase_ == Phase::kListening) {
+    if (now() - began_ < setup_.listening) return;
+    phase_ = Phase::kProving;
+    for (DriveProof& proof : proofs_) proof.begin(now());
+    return;
+  }
+  const auto count = [this](DriveProof::State state) {
+    return std::count_if(proofs_.begin(), proofs_.end(), [state](const DriveProof& p) { return p.state() == state; });
+  };
+  for (DriveProof& proof : proofs_) proof.poll(now());
+  const auto failed = count(DriveProof::State::kFailed);
+  // All that is wrong with both drives is to be known: the one waits for the other.
+  if (failed + count(DriveProof::State::kPassed) < 2) return;
+  if (failed > 0) return latch(DriveTrouble::kNotProved);
+  begin_operation();
+}
+
+void CanopenDriveBase::begin_operation() noexcept {
+  phase_ = Phase::kProved;
+  began_ = now();
+  bus_watch_.begin(bus_.health());
+  for (std::size_t k = 0; k < axes_.size(); ++k) axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling);
 }
 
 WheelState CanopenDriveBase::latest() noexcept {
   ReceivedFrame received;
   for (int taken = 0; taken < kMostAtOnce && bus_.receive(received); ++taken) take(received);
+  if (is_proving()) follow_proof();
   watch();
   wheels_.trouble = trouble_;
+  wheels_.stop = ladder_.stage();
   return wheels_;
 }
 
 void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
-  const auto heartbeat = decode_heartbeat(received.frame);
+  if (phase_ != Phase::kUnproved && !foreign_ && is_foreign(received)) {
+    foreign_ = received.frame;
+    latch(DriveTrouble::kForeignMaster);
+  }
   const auto emergency = decode_emergency(received.frame);
-  for (Axis& axis : axes_) {
-    const std::uint8_t node = axis.setup.node;
-    if (heartbeat && heartbeat->node == node) {
-      axis.heard = received.stamp;
-      if (heartbeat->state != NmtState::kOperational && received.stamp > settled_) latch(DriveTrouble::kDriveRestarted);
-    }
-    if (emergency && emergency->node == node && emergency->error_code != 0) latch(DriveTrouble::kEmergency);
-    if (received.frame.extended) continue;
-    if (received.frame.id == 0x180U + node) take_status(axis, received.frame);
-    if (received.frame.id == 0x280U + node) take_position(axis, received.frame);
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    axes_[k].take(received);
+    if (phase_ == Phase::kProving) proofs_[k].on_frame(received);
+    // Before that it tells of what was: that it missed the heartbeat.
+    const bool tells = phase_ == Phase::kProved && emergency && emergency->error_code != 0;
+    if (tells && emergency->node == axes_[k].setup().node) latch(DriveTrouble::kEmergency);
   }
   publish(received.stamp);
 }
 
-void CanopenDriveBase::take_status(Axis& axis, const CanFrame& frame) noexcept {
-  const auto values = unpack(axis.status_mapping, frame);
-  if (!values) return;
-  axis.state = state_of(static_cast<std::uint16_t>((*values)[0]));
-  axis.speed_radps = static_cast<double>(static_cast<std::int32_t>((*values)[1])) / axis.setup.counts_per_rad;
-  axis.fresh_status = true;
-}
-
-// The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
-void CanopenDriveBase::take_position(Axis& axis, const CanFrame& frame) noexcept {
-  const auto values = unpack(axis.position_mapping, frame);
-  if (!values) return;
-  const std::uint32_t raw = (*values)[0];
-  if (axis.has_position) axis.counts += static_cast<std::int32_t>(raw - axis.raw_position);
-  axis.raw_position = raw;
-  axis.has_position = true;
-  axis.fresh_position = true;
+bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept {
+  const CanFrame& frame = received.frame;
+  if (frame.extended || frame.remote) return false;
+  if (std::find(masters_.begin(), masters_.end(), frame.id) != masters_.end()) return true;
+  // An answer to an SDO request of another's. Ours may come as long as a transfer takes.
+  const bool asks = phase_ == Phase::kProving || trouble_ != DriveTrouble::kNone;
+  if (asks || received.stamp - began_ <= setup_.answer_timeout) return false;
+  return std::any_of(axes_.begin(), axes_.end(),
+                     [&](const WheelAxis& axis) { return frame.id == 0x580U + axis.setup().node; });
 }
 
 void CanopenDriveBase::publish(Time stamp) noexcept {
-  const auto complete = [](const Axis& axis) { return axis.fresh_status && axis.fresh_position; };
-  if (!std::all_of(axes_.begin(), axes_.end(), complete)) return;
-  const auto turned = [](const Axis& axis) { return static_cast<double>(axis.counts) / axis.setup.counts_per_rad; };
+  if (!axes_[0].is_complete() || !axes_[1].is_complete()) return;
   wheels_ = {.stamp = stamp,
              .sequence = wheels_.sequence + 1,
-             .left_rad = turned(axes_[0]),
-             .right_rad = turned(axes_[1]),
-             .left_radps = axes_[0].speed_radps,
-             .right_radps = axes_[1].speed_radps};
-  for (Axis& axis : axes_) axis.fresh_status = axis.fresh_position = false;
+             .left_rad = axes_[0].turned_rad(),
+             .right_rad = axes_[1].turned_rad(),
+             .left_radps = axes_[0].feedback().speed_radps,
+             .right_radps = axes_[1].feedback().speed_radps};
+  for (WheelAxis& axis : axes_) axis.used();
 }
 
 void CanopenDriveBase::watch() noexcept {
-  if (!armed_) return;
-  const Time now = clock_.now();
+  if (phase_ != Phase::kProved) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
-  for (Axis& axis : axes_) {
-    if (age(axis.heard, now) > setup_.silence_limit) latch(DriveTrouble::kDriveSilent);
-    const bool in_fault = axis.state == DriveState::kFault || axis.state == DriveState::kFaultReactionActive;
-    if (in_fault && now > settled_) latch(DriveTrouble::kDriveFault);
-    if (axis.state == DriveState::kOperationEnabled) {
-      axis.was_enabled = true;
-    } else if (axis.was_enabled) {
-      latch(DriveTrouble::kLeftOperation);
-    }
+  for (WheelAxis& axis : axes_) {
+    const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh});
+    if (trouble != DriveTrouble::kNone) latch(trouble);
   }
 }
 
-// The first trouble is the one worth knowing: the others follow from it.
+// The first trouble is the one worth knowing: the others follow from it. A proof that is under way is over.
 void CanopenDriveBase::latch(DriveTrouble trouble) noexcept {
   if (trouble_ == DriveTrouble::kNone) trouble_ = trouble;
+  if (is_proving()) phase_ = Phase::kUnproved;
 }
 
 void CanopenDriveBase::reset() noexcept {
-  trouble_ = DriveTrouble::kNone;
+  if (is_proving()) return;
+  if (!is_proved()) return begin_proof();
   awaits_zero_ = true;
-  reset_pulse_ = true;
-  settled_ = clock_.now() + setup_.settling;
-  for (Axis& axis : axes_) axis.was_enabled = false;
+  ladder_.reset();
 }
 
 bool CanopenDriveBase::is_enabled() const noexcept {
-  return std::all_of(axes_.begin(), axes_.end(),
-                     [](const Axis& axis) { return axis.state == DriveState::kOperationEnabled; });
+  return phase_ == Phase::kProved && axes_[0].is_enabled() && axes_[1].is_enabled();
 }
 
 void CanopenDriveBase::command(const WheelCommand& command) noexcept {
+  if (is_proving()) return follow_proof();
   const bool finite = std::isfinite(command.left_radps) && std::isfinite(command.right_radps);
-  if (command.left_radps == 0.0 && command.right_radps == 0.0) awaits_zero_ = false;
-  DriveGoal goal = awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled;
-  if (trouble_ != DriveTrouble::kNone) goal = DriveGoal::kQuickStop;
-  const bool moves = goal == DriveGoal::kEnabled && is_enabled() && finite;  // both wheels or none
-  send_cycle(goal, moves ? command.left_radps : 0.0, moves ? command.right_radps : 0.0);
+  const bool is_zero = command.left_radps == 0.0 && command.right_radps == 0.0;
+  if (is_zero && is_proved()) awaits_zero_ = false;
+  const bool moves = !awaits_zero_ && is_enabled() && finite;  // both wheels or none
+  cycle(awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled, is_zero || !finite, moves ? command.left_radps : 0.0,
+        moves ? command.right_radps : 0.0);
 }
 
 void CanopenDriveBase::disarm() noexcept {
   awaits_zero_ = true;
-  for (Axis& axis : axes_) axis.was_enabled = false;  // it leaves operation because it was asked to
-  send_cycle(DriveGoal::kOff, 0.0, 0.0);
+  if (is_proving()) phase_ = Phase::kUnproved;
+  cycle(are_at_rest() ? DriveGoal::kOff : DriveGoal::kQuickStop, true, 0.0, 0.0);
 }
 
-void CanopenDriveBase::send_cycle(DriveGoal goal, double left_radps, double right_radps) noexcept {
-  send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
-  send_target(axes_[0], goal, left_radps);
-  send_target(axes_[1], goal, right_radps);
+bool CanopenDriveBase::are_at_rest() const noexcept {
+  return std::all_of(axes_.begin(), axes_.end(), [this](const WheelAxis& axis) {
+    return std::fabs(axis.feedback().speed_radps) <= setup_.stop.tolerance_radps;
+  });
+}
+
+void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept {
+  if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone) return;  // nobody is there to be told
+  const bool in_trouble = trouble_ != DriveTrouble::kNone;
+  const StopStage stage =
+      ladder_.update(now(), stopping || in_trouble, in_trouble, {axes_[0].feedback(), axes_[1].feedback()});
+  if (stage != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
+  if (stage == StopStage::kSilent) return;
+  // A drive that was not proved is not fed, nor is one that did not obey a quick stop.
+  const bool feeds = phase_ == Phase::kProved && stage != StopStage::kNetworkStop;
+  if (feeds) send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
+  if (stage == StopStage::kNone) return send_targets(goal, left_radps, right_radps);
+  send_targets(DriveGoal::kQuickStop, 0.0, 0.0);
+  for (const WheelAxis& axis : axes_) {
+    if (stage == StopStage::kNetworkStop) {
+      send(nmt_frame(NmtCommand::kStop, axis.setup().node));
+    } else if (!axis.is_operational()) {
+      send(axis.quick_stop_request());
+    }
+  }
+}
+
+void CanopenDriveBase::send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept {
+  send(axes_[0].target(goal, left_radps));
+  send(axes_[1].target(goal, right_radps));
   send(sync_frame());
-  reset_pulse_ = false;
-}
-
-void CanopenDriveBase::send_target(Axis& axis, DriveGoal goal, double wanted_radps) noexcept {
-  const std::uint16_t controlword = controlword_towards(goal, axis.state, reset_pulse_);
-  const std::int32_t target = to_counts(wanted_radps, axis.setup.counts_per_rad);
-  const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
-  if (const auto frame = pack(axis.command_mapping, 0x200U + axis.setup.node, values)) send(*frame);
+  for (WheelAxis& axis : axes_) axis.note_sync(now());
 }
 
 void CanopenDriveBase::send(const CanFrame& frame) noexcept {

@@ -1,26 +1,25 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/canopen/cia402.h"
-#include "drivers/canopen/drive_settings.h"
+#include "drivers/canopen/drive_proof.h"
+#include "drivers/canopen/foreign_frames.h"
+#include "drivers/canopen/wheel_axis.h"
 #include "drivers/wired_drive.h"
 
 namespace jaywalk::canopen {
 
-/// One wheel's drive. Its velocity counts are counts a second, its position counts are counts.
-struct AxisSetup {
-  std::uint8_t node = 0;
-  double counts_per_rad = 0.0;  ///< of the wheel; negative where the motor is mounted the other way round
-};
-
 struct DriveBaseSetup {
   std::array<AxisSetup, 2> axes;  ///< left, right
   DriveSettings settings;
+  StopLimits stop;
+  Duration listening = std::chrono::milliseconds(300);       ///< for another master, before anything is sent
   Duration answer_timeout = std::chrono::milliseconds(100);  ///< of one transfer while arming
+  Duration starting = std::chrono::milliseconds(500);        ///< from NMT start until a drive says it is operational
   Duration silence_limit = std::chrono::milliseconds(150);   ///< a drive that says no heartbeat for so long is lost
   Duration settling = std::chrono::milliseconds(200);        ///< what a drive may take to leave a fault after a reset
   bool allow_unproved = false;  ///< arms although a drive did not prove that it stops by itself
@@ -30,15 +29,19 @@ struct DriveBaseSetup {
 ///
 /// `latest` takes in what came, `command` sends the controller's heartbeat, both targets and SYNC: so the heartbeat is
 /// the tick's, and a dead loop is a silent one, for which the drives were proved to stop by themselves. At any trouble
-/// both drives are quick-stopped; they move again only after reset() and a command of zero. That holds at start too.
-/// Thread: one.
+/// both drives are quick-stopped, and the stop is held against the wheels' feedback: where that does not confirm it,
+/// they are NMT-stopped, and then nothing is sent at all until reset(), so that their own watchdogs act (SAFETY 14).
+///
+/// The wheels turn only after the whole proof of both drives and a command of zero. arm() waits for that proof; after a
+/// trouble reset() begins it anew, and it goes on with every latest() and command(). Meanwhile the drives have no
+/// torque and no heartbeat, and there is no trouble. Thread: one.
 class CanopenDriveBase final : public WiredDrive {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSetup& setup);
 
-  /// Start-up only, waits up to some seconds: sets up and proves both drives, then starts their process data.
-  /// Throws StartupError that names the first thing not proved, unless allow_unproved.
+  /// Start-up only, waits up to some seconds: listens for another master, sets up and proves both drives, then starts
+  /// their process data. Throws StartupError that names the first thing not proved, unless allow_unproved.
   /// Returns what each drive said, one line a setting, for the record.
   std::vector<std::string> arm() override;
   [[nodiscard]] std::string inspect(std::size_t side) override;
@@ -48,50 +51,56 @@ class CanopenDriveBase final : public WiredDrive {
   void command(const WheelCommand& command) noexcept override;
 
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
-  /// A person's reset edge: forgets the trouble; the drives are enabled again at the next command of zero.
+  [[nodiscard]] bool is_proved() const noexcept override {
+    return phase_ == Phase::kProved && trouble_ == DriveTrouble::kNone;
+  }
+  [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
+  /// A person's reset edge: forgets the trouble and, where there was one, begins the proof of both drives; the drives
+  /// are enabled again at the next command of zero after it. A proof that is under way goes on.
   void reset() noexcept override;
   [[nodiscard]] bool is_enabled() const noexcept override;
-  [[nodiscard]] bool is_proved() const noexcept override { return armed_; }
+  /// Wheels that still turn are braked first.
   void disarm() noexcept override;
 
  private:
-  struct Axis {
-    AxisSetup setup;
-    PdoMapping command_mapping, status_mapping, position_mapping;
-    DriveState state = DriveState::kUnknown;
-    bool was_enabled = false;
-    double speed_radps = 0.0;
-    std::uint32_t raw_position = 0;
-    bool has_position = false;
-    std::int64_t counts = 0;  ///< since arming, unwrapped
-    bool fresh_status = false, fresh_position = false;
-    Time heard = kNever;
-  };
+  enum class Phase : std::uint8_t { kUnproved, kListening, kProving, kProved };
 
-  /// Lets a proof run to its end.
+  [[nodiscard]] Time now() noexcept { return clock_.now(); }
+  /// Lets a proof of the caller's run to its end.
   void conduct(ArmingProof& proof);
-  void prove(Axis& axis, std::vector<std::string>& report);
+  [[noreturn]] void refuse() const;
+
+  void begin_proof() noexcept;
+  void follow_proof() noexcept;
+  void begin_operation() noexcept;
+  [[nodiscard]] bool is_proving() const noexcept { return phase_ == Phase::kListening || phase_ == Phase::kProving; }
+
   void take(const ReceivedFrame& received) noexcept;
-  void take_status(Axis& axis, const CanFrame& frame) noexcept;
-  void take_position(Axis& axis, const CanFrame& frame) noexcept;
+  [[nodiscard]] bool is_foreign(const ReceivedFrame& received) const noexcept;
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
+
+  /// A cycle on the bus, as far as the stop has come.
+  void cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept;
+  void send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept;
   void send(const CanFrame& frame) noexcept;
-  void send_cycle(DriveGoal goal, double left_radps, double right_radps) noexcept;
-  void send_target(Axis& axis, DriveGoal goal, double wanted_radps) noexcept;
+  [[nodiscard]] bool are_at_rest() const noexcept;
 
   CanBus& bus_;
   Clock& clock_;
   DriveBaseSetup setup_;
-  std::array<Axis, 2> axes_;
+  std::array<WheelAxis, 2> axes_;
+  std::array<DriveProof, 2> proofs_;
+  Identifiers masters_;
+  StopLadder ladder_;
   WheelState wheels_;
   DriveTrouble trouble_ = DriveTrouble::kNone;
-  bool armed_ = false;
+  std::optional<CanFrame> foreign_;
+  Phase phase_ = Phase::kUnproved;
+  Time began_ = kNever;  ///< this phase
   bool awaits_zero_ = true;
-  bool reset_pulse_ = false;
   BusWatch bus_watch_;
-  Time settled_ = kNever;  ///< faults that a drive still shows before this are those being reset
 };
 
 }  // namespace jaywalk::canopen

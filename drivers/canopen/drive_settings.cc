@@ -1,5 +1,6 @@
 #include "drivers/canopen/drive_settings.h"
 
+#include <array>
 #include <cassert>
 #include <initializer_list>
 
@@ -36,7 +37,7 @@ PdoSetup command_pdo(std::uint8_t node) noexcept {
 }
 
 PdoSetup status_pdo(std::uint8_t node) noexcept {
-  return setup(0x1800, 0x1A00, 0x180U + node, {{kStatusword, 2}, {kVelocity, 4}});
+  return setup(0x1800, 0x1A00, 0x180U + node, {{kStatusword, 2}, {kVelocity, 4}, {kModeShown, 1}});
 }
 
 PdoSetup position_pdo(std::uint8_t node) noexcept { return setup(0x1801, 0x1A01, 0x280U + node, {{kPosition, 4}}); }
@@ -46,7 +47,7 @@ ArmingProof::Items behaviour_items(const DriveSettings& settings) noexcept {
   ArmingProof::Items items;
   bool fits = true;
   const auto need = [&](ObjectWrite wanted, const char* what_for) {
-    fits = fits && items.push_back({wanted, true, what_for});
+    fits = fits && items.push_back({wanted, ProofDemand::kWritten, what_for});
   };
   need({{0x1016, 1}, watch, 4}, "watches the controller's heartbeat");
   need({{0x1017, 0}, settings.heartbeat_ms, 2}, "says its own heartbeat");
@@ -60,7 +61,7 @@ ArmingProof::Items behaviour_items(const DriveSettings& settings) noexcept {
   need({kProfileDeceleration, settings.deceleration, 4}, "deceleration");
   need({kQuickStopDeceleration, settings.quick_stop, 4}, "quick stop deceleration");
   need({kModeWanted, kProfileVelocityMode, 1}, "profile velocity wanted");
-  fits = fits && items.push_back({{kModeShown, kProfileVelocityMode, 1}, false, "profile velocity shown"});
+  fits = fits && items.push_back({{kModeShown, kProfileVelocityMode, 1}, ProofDemand::kHeld, "profile velocity shown"});
   assert(fits);
   static_cast<void>(fits);
   return items;
@@ -71,7 +72,19 @@ ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings)
   ObjectWrites pdos;
   bool fits = append_setup(command_pdo(node), pdos) && append_setup(status_pdo(node), pdos) &&
               append_setup(position_pdo(node), pdos);
-  for (const ObjectWrite& write : pdos) fits = fits && items.push_back({write, true, "process data"});
+  for (const ObjectWrite& write : pdos) fits = fits && items.push_back({write, ProofDemand::kWritten, "process data"});
+  assert(fits);
+  static_cast<void>(fits);
+  return items;
+}
+
+ArmingProof::Items whole_proof(std::uint8_t node, const DriveSettings& settings) noexcept {
+  ArmingProof::Items items = proof_items(node, settings);
+  bool fits = items.push_back({{kVelocity, settings.standstill, 4}, ProofDemand::kAtMost, "stands"});
+  constexpr std::array kIdentity{"vendor", "product code", "revision", "serial number"};
+  for (std::uint8_t sub = 1; sub <= kIdentity.size(); ++sub) {
+    fits = fits && items.push_back({{{0x1018, sub}, 0, 4}, ProofDemand::kKnown, kIdentity[sub - 1U]});
+  }
   assert(fits);
   static_cast<void>(fits);
   return items;
@@ -80,8 +93,8 @@ ArmingProof::Items proof_items(std::uint8_t node, const DriveSettings& settings)
 // CiA 301: the low 16 bits of 1000h name the device's profile. CiA 402: bit 2 of 6502h is profile velocity.
 ArmingProof::Items identity_items() noexcept {
   ArmingProof::Items items;
-  static_cast<void>(items.push_back({{{0x1000, 0}, 402, 2}, false, "device type"}));
-  static_cast<void>(items.push_back({{{0x6502, 0}, kHasProfileVelocity, 4}, false, "modes"}));
+  static_cast<void>(items.push_back({{{0x1000, 0}, 402, 2}, ProofDemand::kHeld, "device type"}));
+  static_cast<void>(items.push_back({{{0x6502, 0}, kHasProfileVelocity, 4}, ProofDemand::kHeld, "modes"}));
   return items;
 }
 

@@ -7,11 +7,13 @@
 
 namespace jaywalk::emulators {
 
-/// A CANopen drive with a motor that follows its ramps exactly: SDO server, two PDOs each way at SYNC, heartbeat both
-/// ways, the CiA 402 state machine as a drive sees it. For tests and the bench; it shares no code with the master
+/// A CANopen drive with a motor that follows its ramps exactly: SDO server, PDOs at SYNC as they are mapped, heartbeat
+/// both ways, the CiA 402 state machine as a drive sees it. For tests and the bench; it shares no code with the master
 /// that it talks to, except how numbers stand in bytes.
 ///
-/// PDO 1 in: controlword and target velocity. PDO 1 out: statusword and velocity; PDO 2 out: position.
+/// Network states (CiA 301): after power-up it says boot-up and is Pre-operational. Outside Operational it takes and
+/// sends no PDO, Stopped it answers no SDO either, and in none of them does that by itself stop the motor, which goes
+/// on at the last target. What stops it is its watch over the controller's heartbeat (1016h, 6007h), in every state.
 class Cia402Node {
  public:
   /// `bus` outlives it; `node` is 1 to 127.
@@ -32,6 +34,14 @@ class Cia402Node {
 
   /// Something broke: it brakes, says so in an emergency message and waits in "fault".
   void raise_fault(std::uint16_t error_code) noexcept;
+  /// Power lost and back: forgets what was not stored, no torque; the motor rolls out.
+  void restart() noexcept;
+  /// From now on it goes Operational by itself after a restart (as 1F80h can have it).
+  void start_by_itself() noexcept { starts_by_itself_ = true; }
+  /// Its inner loop hangs: it goes on at its last target whatever it is told, but what watches the heartbeat works.
+  void hang() noexcept { hangs_ = true; }
+  /// It sends no process data any more, and all else works.
+  void lose_feedback() noexcept { reports_ = false; }
   /// No more frames out, as when its cable is pulled; frames in are lost too.
   void pull_cable() noexcept { connected_ = false; }
   void plug_cable() noexcept { connected_ = true; }
@@ -39,8 +49,17 @@ class Cia402Node {
  private:
   enum class State { kSwitchOnDisabled, kReady, kSwitchedOn, kOperationEnabled, kQuickStop, kFaultReaction, kFault };
 
+  /// Its network state (CiA 301), as its heartbeat says it.
+  enum class Network : std::uint8_t { kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
+
   void take(const CanFrame& frame, Time now) noexcept;
+  void take_network_command(std::uint8_t command) noexcept;
+  [[nodiscard]] bool take_request(const CanFrame& frame) noexcept;
+  void take_targets(const CanFrame& frame) noexcept;
+  void boot() noexcept;
   void on_sync() noexcept;
+  void show() noexcept;
+  void transmit(std::uint16_t communication, std::uint16_t mapping) noexcept;
   void obey(std::uint16_t controlword) noexcept;
   void watch_controller(Time now) noexcept;
   void lose_controller() noexcept;
@@ -54,7 +73,9 @@ class Cia402Node {
   std::uint8_t node_;
   DriveObjects objects_;
   State state_ = State::kSwitchOnDisabled;
-  bool operational_ = false;  ///< NMT: PDOs are on
+  Network network_ = Network::kPreOperational;
+  bool booted_ = false;  ///< and has said so
+  bool starts_by_itself_ = false, hangs_ = false, reports_ = true;
   bool connected_ = true;
   std::uint16_t pending_controlword_ = 0;  ///< of the last PDO, until SYNC
   std::int32_t pending_target_ = 0;

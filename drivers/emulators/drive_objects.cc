@@ -1,6 +1,7 @@
 #include "drivers/emulators/drive_objects.h"
 
 #include <algorithm>
+#include <array>
 #include <cassert>
 #include <initializer_list>
 
@@ -14,6 +15,9 @@ namespace {
 
 constexpr std::uint32_t kNoSuchObject = 0x06020000, kReadOnly = 0x06010002, kWrongLength = 0x06070010,
                         kUnknownCommand = 0x05040001;
+
+/// Vendor, product code, revision, serial number.
+constexpr std::array<std::uint32_t, 4> kIdentity{0x2F7, 0x402, 0x10001, 7};
 
 using Indices = std::initializer_list<std::uint16_t>;
 
@@ -32,8 +36,10 @@ CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t c
 DriveObjects::DriveObjects() noexcept {
   add({0x1000, 0}, 4, 0x00020192, false);  // a servo drive of CiA 402
   add({0x6502, 0}, 4, 1U << 2U, false);    // profile velocity, and nothing else
+  for (std::uint8_t sub = 1; sub <= 4; ++sub) add({0x1018, sub}, 4, kIdentity[sub - 1], false);
   add({0x1016, 1}, 4, 0, true);
   add({0x1017, 0}, 2, 0, true);
+  add({0x1029, 1}, 1, 0, true);  // a communication error takes it from Operational to Pre-operational
   for (const std::uint16_t communication : Indices{0x1400, 0x1401, 0x1800, 0x1801}) {
     add({communication, 1}, 4, 0x80000000, true);
     add({communication, 2}, 1, 255, true);
@@ -54,7 +60,7 @@ DriveObjects::DriveObjects() noexcept {
 }
 
 void DriveObjects::add(ObjectAddress address, std::uint8_t bytes, std::uint32_t value, bool writable) noexcept {
-  const bool fits = objects_.push_back({address, bytes, value, writable, false});
+  const bool fits = objects_.push_back({address, bytes, value, value, writable, false});
   assert(fits);
   static_cast<void>(fits);
 }
@@ -84,13 +90,23 @@ void DriveObjects::lack(ObjectAddress address) noexcept {
 
 void DriveObjects::fix(ObjectAddress address, std::uint32_t value) noexcept {
   if (Object* const object = find(address)) {
-    object->value = value;
+    object->value = object->stored = value;
     object->writable = false;
   }
 }
 
 void DriveObjects::lie_about(ObjectAddress address) noexcept {
   if (Object* const object = find(address)) object->lies = true;
+}
+
+void DriveObjects::store() noexcept {
+  for (Object& object : objects_) object.stored = object.value;
+}
+
+void DriveObjects::restore(bool all) noexcept {
+  for (Object& object : objects_) {
+    if (all || object.address.index < 0x2000) object.value = object.stored;
+  }
 }
 
 /// 0, or the abort code.

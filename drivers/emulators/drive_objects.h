@@ -28,11 +28,17 @@ class DriveObjects {
   /// From now on writes are acknowledged and change nothing.
   void lie_about(canopen::ObjectAddress address) noexcept;
 
+  /// What it holds now is what a restart brings back (1010h).
+  void store() noexcept;
+  /// Power lost, or NMT reset: what was not stored is forgotten; of communication (1000h to 1FFFh) alone, or all.
+  void restore(bool all) noexcept;
+
  private:
   struct Object {
     canopen::ObjectAddress address;
     std::uint8_t bytes = 0;
     std::uint32_t value = 0;
+    std::uint32_t stored = 0;
     bool writable = true;
     bool lies = false;
   };

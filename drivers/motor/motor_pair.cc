@@ -106,11 +106,11 @@ void MotorPair::report_fault(DriveTrouble trouble) noexcept {
 }
 
 void MotorPair::reset() noexcept {
-  if (!armed_) return;
+  if (!armed_ || proving_) return;  // a proof that is under way goes on
   trouble_ = DriveTrouble::kNone;
+  foreign_.reset();
   stop_ = StopStage::kNone;
   awaits_zero_ = true;
-  proving_ = false;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     axes_[k].silenced = false;
     ladders_[k].reset();
@@ -163,12 +163,8 @@ void MotorPair::tell(std::size_t index, MotorOrder order, double speed_radps) no
 void MotorPair::follow_stop(bool moves) noexcept {
   if (!armed_ || (awaits_zero_ && trouble_ == DriveTrouble::kNone)) return;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    StopLadder& ladder = ladders_[k];
-    // The trouble that a ladder raised itself does not begin its stop anew.
-    const bool is_own = trouble_ == DriveTrouble::kStopUnconfirmed && ladder.stage() != StopStage::kNone;
-    const bool trouble = trouble_ != DriveTrouble::kNone && !is_own;
     const WheelFeedback felt{axes_[k].speed_radps, axes_[k].felt};
-    stop_ = std::max(stop_, ladder.update(clock_.now(), !moves, trouble, {felt, felt}));
+    stop_ = std::max(stop_, ladders_[k].update(clock_.now(), !moves, trouble_ != DriveTrouble::kNone, {felt, felt}));
   }
   if (stop_ != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
 }
@@ -179,6 +175,7 @@ bool MotorPair::stands(std::size_t index) const noexcept {
 }
 
 void MotorPair::disarm() noexcept {
+  if (armed_ && !awaits_zero_ && !(stands(0) && stands(1))) return command({clock_.now(), 0.0, 0.0});
   awaits_zero_ = true;
   proving_ = false;
   for (std::size_t k = 0; k < axes_.size(); ++k) tell(k, MotorOrder::kOff, 0.0);

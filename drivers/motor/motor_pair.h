@@ -43,6 +43,8 @@ class MotorPair : public WiredDrive {
   void reset() noexcept override;
   [[nodiscard]] bool is_enabled() const noexcept override;
   [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
+  [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
+  /// Wheels that still turn are braked first.
   void disarm() noexcept override;
 
  protected:

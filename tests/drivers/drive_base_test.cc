@@ -7,7 +7,7 @@
 
 #include "drivers/can/in_process_bus.h"
 #include "hal/types/errors.h"
-#include "tests/drivers/drive_plant.h"
+#include "tests/drivers/drive_bench.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
@@ -17,57 +17,20 @@
 using namespace jaywalk;
 using namespace jaywalk::canopen;
 using tests::two_axes;
+using Bench = tests::DriveBench;
 using namespace std::chrono_literals;
-
-namespace {
-
-struct Bench {
-  explicit Bench(const DriveBaseSetup& setup = two_axes()) : base(bus.port(0), clock, setup) {
-    clock.nodes = {&left, &right};
-  }
-  /// Ticks of 20 ms.
-  void drive(double left_radps, double right_radps, int ticks) {
-    for (int k = 0; k < ticks; ++k) {
-      wheels = base.latest();
-      base.command({clock.now(), left_radps, right_radps});
-      clock.sleep_until(clock.now() + 20ms);
-    }
-  }
-  void bring_to_two_radps() {
-    report = base.arm();
-    drive(0.0, 0.0, 10);
-    drive(2.0, 2.0, 50);
-    REQUIRE(left.velocity() == Approx(2000.0));
-    REQUIRE(right.velocity() == Approx(-2000.0));
-  }
-  std::string refusal() {
-    try {
-      report = base.arm();
-    } catch (const StartupError& error) {
-      return error.what();
-    }
-    return "armed";
-  }
-  [[nodiscard]] bool is_at_rest() const { return left.velocity() == 0.0 && right.velocity() == 0.0; }
-
-  tests::PlantClock clock;
-  InProcessBus bus{clock, 1};
-  emulators::Cia402Node left{bus.port(1), 5};
-  emulators::Cia402Node right{bus.port(2), 6};
-  CanopenDriveBase base;
-  WheelState wheels;
-  std::vector<std::string> report;
-};
-
-}  // namespace
 
 TEST_CASE("arming writes and reads back every setting of both drives") {
   Bench bench;
   CHECK(bench.refusal() == "armed");
-  // 13 settings, and 7 + 7 + 6 writes for the three PDOs, of two drives.
-  REQUIRE(bench.report.size() == 66);
+  // 13 settings, 7 + 8 + 6 writes for the three PDOs, standstill and 4 of identity, of two drives.
+  REQUIRE(bench.report.size() == 78);
   CHECK(bench.report[0] == "node 5: 1016h:1 watches the controller's heartbeat: wanted 00010064h, reads the same");
-  for (const std::string& line : bench.report) CHECK(line.ends_with(", reads the same"));
+  for (std::size_t k = 0; k < 34; ++k) CHECK(bench.report[k].ends_with(", reads the same"));
+  CHECK(bench.report[34] == "node 5: 606Ch:0 stands: at most 0000012Ch, reads 00000000h");  // 0.3 rad/s
+  CHECK(bench.report[38] == "node 5: 1018h:4 serial number, reads 00000007h");
+  CHECK(bench.report[39].starts_with("node 6: 1016h:1 watches"));
+  CHECK(bench.base.is_proved());
   CHECK(bench.right.objects().value({0x6007, 0}) == 3);
   CHECK(bench.right.objects().value({0x1800, 1}) == 0x186);
 }
@@ -153,7 +116,7 @@ TEST_CASE("a drive without the abort connection option arms only when that is al
   Bench lax(setup);
   lax.left.objects().lack({0x6007, 0});
   CHECK(lax.refusal() == "armed");
-  REQUIRE(lax.report.size() == 66);
+  REQUIRE(lax.report.size() == 78);
   CHECK(lax.report[2].ends_with("refused (no such object): NOT PROVED"));
 }
 
@@ -161,7 +124,7 @@ TEST_CASE("an option that a drive keeps as it is proves it where it is the wante
   Bench bench;
   bench.left.objects().fix({0x605E, 0}, 2);
   CHECK(bench.refusal() == "armed");
-  REQUIRE(bench.report.size() == 66);
+  REQUIRE(bench.report.size() == 78);
   Bench other;
   other.right.objects().fix({0x605E, 0}, 1);
   CHECK(other.refusal().find("node 6: 605Eh:0 brakes at a fault: wanted 0002h, refused (read only): NOT PROVED") == 0);
@@ -208,7 +171,8 @@ TEST_CASE("a fault of one drive stops both until a reset and a command of zero")
   bench.drive(2.0, 2.0, 20);
   CHECK(bench.is_at_rest());
   bench.base.reset();
-  bench.drive(2.0, 2.0, 20);  // nor does a reset alone
+  bench.drive(2.0, 2.0, 150);  // nor does a reset alone, and the proof that it begins
+  CHECK(bench.base.is_proved());
   CHECK(bench.is_at_rest());
   bench.drive(0.0, 0.0, 20);
   CHECK(bench.base.trouble() == DriveTrouble::kNone);
@@ -243,15 +207,6 @@ TEST_CASE("a bus that takes no frames stops the drives") {
   bench.drive(2.0, 2.0, 12);
   CHECK(bench.base.trouble() == DriveTrouble::kBusRefused);
   CHECK(bench.is_at_rest());
-}
-
-TEST_CASE("a drive that restarts under way is noticed") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  CHECK(bench.bus.port(3).send(tests::frame(0x000, {0x80, 0x05})) == SendResult::kQueued);  // somebody else's command
-  bench.drive(2.0, 2.0, 20);
-  CHECK(bench.base.trouble() == DriveTrouble::kDriveRestarted);
-  CHECK(bench.right.velocity() == 0.0);
 }
 
 TEST_CASE("a command that is no number turns no wheel") {
@@ -289,7 +244,7 @@ TEST_CASE("wheel angles go on where a drive's position wraps") {
   const auto say = [&](std::uint8_t low, std::uint8_t high) {
     const std::uint8_t mid = high == 0x7F ? 0xFF : 0x00;
     for (const std::uint32_t node : {5U, 6U}) {
-      CHECK(bus.port(1).send(tests::frame(0x180 + node, {0x50, 0x02, 0, 0, 0, 0})) == SendResult::kQueued);
+      CHECK(bus.port(1).send(tests::frame(0x180 + node, {0x50, 0x02, 0, 0, 0, 0, 3})) == SendResult::kQueued);
       CHECK(bus.port(1).send(tests::frame(0x280 + node, {low, mid, mid, high})) == SendResult::kQueued);
     }
     return base.latest();

@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <chrono>
+#include <functional>
 
 #include "drivers/canopen/drive_base.h"
 #include "drivers/emulators/cia402_node.h"
@@ -18,9 +19,11 @@ class PlantClock final : public Clock {
       for (auto* node : nodes) {
         if (node != nullptr) node->step(now_);
       }
+      if (meanwhile) meanwhile();
     }
   }
   std::array<emulators::Cia402Node*, 2> nodes{};
+  std::function<void()> meanwhile;  ///< after each step
 
  private:
   Time now_{};
@@ -35,6 +38,7 @@ inline canopen::DriveBaseSetup two_axes() {
                     .acceleration = 5000,
                     .deceleration = 5000,
                     .quick_stop = 20000};
+  setup.stop = {.brake_radps2 = 10.0 / 3.0, .tolerance_radps = 0.3};  // the drives' ramps are half as steep again
   return setup;
 }
 

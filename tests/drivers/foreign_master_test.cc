@@ -70,6 +70,7 @@ void latches_while_driving(const std::vector<CanFrame>& frames) {
     CHECK(bench.bus.port(3).send(frame) == SendResult::kQueued);
     bench.drive(2.0, 2.0, 1);
     CHECK(bench.wheels.trouble == DriveTrouble::kForeignMaster);
+    CHECK(bench.base.foreign_frame() == frame);
     bench.drive(2.0, 2.0, 150);
     CHECK(bench.is_at_rest());
     bench.base.reset();

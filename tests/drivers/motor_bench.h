@@ -7,6 +7,7 @@
 #include "drivers/can/in_process_bus.h"
 #include "hal/hal.h"
 #include "hal/types/errors.h"
+#include "tests/drivers/watched_port.h"
 #include "tests/support/allocation_guard.h"
 
 namespace jaywalk::tests {
@@ -26,25 +27,6 @@ class MotorClock final : public Clock {
 
  private:
   Time now_{};
-};
-
-/// A controller's place on a bus that knows when it sent last.
-class WatchedPort final : public CanBus {
- public:
-  WatchedPort(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
-  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
-    sent = clock_.now();
-    ++frames;
-    return bus_.send(frame);
-  }
-  [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
-  [[nodiscard]] CanHealth health() const noexcept override { return bus_.health(); }
-  Time sent = kNever;
-  std::uint64_t frames = 0;
-
- private:
-  CanBus& bus_;
-  Clock& clock_;
 };
 
 /// Two emulated motors and the drive base that drives them, on a bus in this process.

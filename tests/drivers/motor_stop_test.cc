@@ -22,7 +22,7 @@ void stops_or_falls_silent(Bench& bench, double commanded_radps, Duration limit)
   const bool rested = bench.is_at_rest();
   for (int k = 0; k < 25; ++k) {
     bench.drive(commanded_radps, commanded_radps, 1);
-    REQUIRE((bench.port.sent - order <= limit || (rested && bench.is_at_rest())));
+    REQUIRE((bench.port.last() - order <= limit || (rested && bench.is_at_rest())));
   }
   CHECK(bench.base.trouble() != DriveTrouble::kNone);
   CHECK(bench.wheels.stop == StopStage::kSilent);

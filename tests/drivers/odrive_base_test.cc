@@ -212,6 +212,20 @@ TEST_CASE("ODrives are disarmed at the end without that being trouble") {
   CHECK(bench.base.latest().trouble == DriveTrouble::kNone);
 }
 
+TEST_CASE("ODrives that are disarmed while they drive are braked first") {
+  tests::OdriveBench bench;
+  bench.bring_to_two_radps();
+  for (int k = 0; k < 60; ++k) {  // what is left below 0.5 rad/s rolls out
+    static_cast<void>(bench.base.latest());
+    bench.base.disarm();
+    bench.clock.sleep_until(bench.clock.now() + 20ms);
+  }
+  CHECK(bench.is_at_rest());
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  static_cast<void>(bench.base.latest());
+  CHECK_FALSE(bench.base.is_enabled());
+}
+
 TEST_CASE("a second way tells ODrives to stand still") {
   tests::OdriveBench bench;
   bench.bring_to_two_radps();

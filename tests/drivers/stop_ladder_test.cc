@@ -54,6 +54,17 @@ TEST_CASE("a wheel that keeps its speed takes a commanded stop to silence 120 ms
   CHECK(bench.tick(0.0, 0.0) == StopStage::kNone);
 }
 
+TEST_CASE("a stop that turned into trouble because it was not confirmed is not begun anew") {
+  Bench bench;
+  StopStage stage = StopStage::kNone;
+  Duration silent{0};
+  for (int ms = 0; ms <= 300 && silent == Duration{0}; ms += 20) {
+    stage = bench.tick(6.0, 6.0, true, stage != StopStage::kNone);
+    if (stage == StopStage::kSilent) silent = bench.now - Time{10s} - kTick;
+  }
+  CHECK(silent == 160ms);  // as without: 120 ms is the first tick beyond the ramp, and two stages more
+}
+
 TEST_CASE("with trouble a wheel whose feedback stops coming takes the stop to silence within 120 ms") {
   Bench bench;
   Duration silent{0};

@@ -5,12 +5,12 @@
 #include "drivers/can/link_facts.h"
 #include "drivers/emulators/byte_server.h"
 #include "drivers/emulators/sick_server.h"
+#include "firmware/far_end/living_clock.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/scanner_check.h"
 #include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
-#include "tools/rig/plant/living_clock.h"
 
 using namespace jaywalk;
 

@@ -4,10 +4,10 @@
 
 #include <filesystem>
 
+#include "firmware/far_end/in_process_robot.h"
+#include "firmware/far_end/living_clock.h"
 #include "firmware/robot/planner_thread.h"
 #include "tests/support/catch.h"
-#include "tools/rig/plant/in_process_robot.h"
-#include "tools/rig/plant/living_clock.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;

@@ -7,10 +7,10 @@
 #include <filesystem>
 #include <optional>
 
+#include "firmware/far_end/in_process_robot.h"
+#include "firmware/far_end/living_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
-#include "tools/rig/plant/in_process_robot.h"
-#include "tools/rig/plant/living_clock.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;

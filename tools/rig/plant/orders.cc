@@ -1,5 +1,6 @@
 #include "tools/rig/plant/orders.h"
 
+#include <cstdlib>
 #include <sstream>
 
 namespace jaywalk::rig {
@@ -23,6 +24,22 @@ std::string order_scanner(std::istringstream& words, SimulatedRobot& robot) {
   return "";
 }
 
+/// "701#05": a standard frame, or an extended one where the identifier has eight digits.
+std::string order_frame(std::istringstream& words, SimulatedRobot& robot) {
+  std::string text;
+  words >> text;
+  const std::size_t mark = text.find('#');
+  CanFrame frame;
+  frame.extended = mark == 8;
+  const bool fits = mark != std::string::npos && (text.size() - mark - 1) % 2 == 0 && text.size() - mark - 1 <= 16;
+  if (!fits) return "no frame: " + text;
+  frame.id = static_cast<std::uint32_t>(std::strtoul(text.substr(0, mark).c_str(), nullptr, 16));
+  for (std::size_t at = mark + 1; at < text.size(); at += 2)
+    frame.bytes[frame.size++] = static_cast<std::uint8_t>(std::strtoul(text.substr(at, 2).c_str(), nullptr, 16));
+  robot.say_as_stranger(frame);
+  return "";
+}
+
 }  // namespace
 
 std::string obey(std::string_view order, SimulatedRobot& robot) {
@@ -30,6 +47,7 @@ std::string obey(std::string_view order, SimulatedRobot& robot) {
   std::string what, side;
   words >> what;
   if (what == "scanner") return order_scanner(words, robot);
+  if (what == "say") return order_frame(words, robot);
   unsigned number = 0, sub = 0;
   words >> side >> std::hex >> number >> sub;
   if (side != "left" && side != "right") return "left or right? " + std::string(order);

@@ -2,7 +2,7 @@
 #include <string>
 #include <string_view>
 
-#include "tools/rig/plant/simulated_robot.h"
+#include "firmware/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
 
@@ -12,6 +12,7 @@ namespace jaywalk::rig {
 ///   unplug left|right            its cable is pulled; plug puts it back
 ///   lie left|right INDEX SUB     a CiA 402 drive acknowledges writes to an object (hexadecimal) and ignores them
 ///   lack left|right INDEX SUB    it has no such object
+///   say 701#05                   a frame as another program would send it; eight digits: an extended identifier
 ///   scanner reset|half           the connection is torn; half a telegram comes
 ///   scanner halves|silence|garbage|gone SECONDS
 ///

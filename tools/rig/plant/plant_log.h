@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "tools/rig/plant/simulated_robot.h"
+#include "firmware/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
 

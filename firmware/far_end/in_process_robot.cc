@@ -1,4 +1,4 @@
-#include "tools/rig/plant/in_process_robot.h"
+#include "firmware/far_end/in_process_robot.h"
 
 #include "firmware/robot/robot_devices.h"
 

@@ -7,10 +7,10 @@
 #include <vector>
 
 #include "drivers/can/in_process_bus.h"
+#include "firmware/far_end/simulated_robot.h"
 #include "firmware/robot/no_pose_source.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_loop.h"
-#include "tools/rig/plant/simulated_robot.h"
 
 namespace jaywalk::rig {
 
@@ -54,6 +54,8 @@ class InProcessRobot {
   [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
   [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
   [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
+  /// Port 0 is the controller's, 1 and 2 are the drives' (left, right); the others are free.
+  [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
   /// When the last byte of the scanner's message left, by message, from the first.
   [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
 

@@ -1,4 +1,4 @@
-#include "tools/rig/plant/wheel_drive.h"
+#include "firmware/far_end/wheel_drive.h"
 
 #include "drivers/emulators/cia402_node.h"
 #include "drivers/emulators/odrive_node.h"

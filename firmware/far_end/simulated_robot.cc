@@ -1,4 +1,4 @@
-#include "tools/rig/plant/simulated_robot.h"
+#include "firmware/far_end/simulated_robot.h"
 
 #include <algorithm>
 #include <cmath>

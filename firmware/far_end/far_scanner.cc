@@ -1,4 +1,4 @@
-#include "tools/rig/plant/far_scanner.h"
+#include "firmware/far_end/far_scanner.h"
 
 #include <utility>
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <span>
 
+#include "firmware/far_end/far_scanner.h"
+#include "firmware/far_end/wheel_drive.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/world.h"
-#include "tools/rig/plant/far_scanner.h"
-#include "tools/rig/plant/wheel_drive.h"
 
 namespace jaywalk::rig {
 
@@ -28,6 +28,11 @@ class SimulatedRobot {
   [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
   [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
   [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return *scanner_; }
+  /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
+  /// out at both, and the controller hears it twice.
+  void say_as_stranger(const CanFrame& frame) noexcept {
+    for (CanBus* const bus : buses_) static_cast<void>(bus->send(frame));
+  }
   /// m/s at the rim of the faster wheel, as the drives would have it.
   [[nodiscard]] double rim_speed() const noexcept;
   /// The worse of the two drives' places on the bus.

@@ -1,0 +1,116 @@
+#include "drivers/canopen/wheel_axis.h"
+
+#include <algorithm>
+#include <array>
+
+#include "drivers/canopen/drive_settings.h"
+
+namespace jaywalk::canopen {
+namespace {
+
+std::int32_t to_counts(double speed_radps, double counts_per_rad) noexcept {
+  constexpr double kMost = 2147483647.0;
+  const double counts = std::clamp(speed_radps * counts_per_rad, -kMost, kMost);
+  return static_cast<std::int32_t>(counts < 0.0 ? counts - 0.5 : counts + 0.5);
+}
+
+}  // namespace
+
+WheelAxis::WheelAxis(const AxisSetup& setup) noexcept
+    : setup_(setup),
+      command_mapping_(command_pdo(setup.node).mapping),
+      status_mapping_(status_pdo(setup.node).mapping),
+      position_mapping_(position_pdo(setup.node).mapping) {}
+
+void WheelAxis::take(const ReceivedFrame& received) noexcept {
+  const CanFrame& frame = received.frame;
+  if (frame.extended) return;
+  const auto heartbeat = decode_heartbeat(frame);
+  if (heartbeat && heartbeat->node == setup_.node) take_heartbeat(heartbeat->state, received.stamp);
+  if (frame.id == 0x180U + setup_.node) take_status(received);
+  if (frame.id == 0x280U + setup_.node) take_position(frame);
+}
+
+// A boot-up may be followed by "operational" at once, from a drive that starts itself: it is kept.
+void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
+  network_ = state;
+  heard_ = stamp;
+  if (state == NmtState::kOperational) return;
+  if (left_network_ != DriveTrouble::kDriveRestarted) {
+    left_network_ = state == NmtState::kBootUp ? DriveTrouble::kDriveRestarted : DriveTrouble::kNotOperational;
+  }
+}
+
+void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
+  const auto values = unpack(status_mapping_, received.frame);
+  if (!values) return;
+  state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
+  const auto counts = static_cast<double>(static_cast<std::int32_t>((*values)[1]));
+  feedback_ = {counts / setup_.counts_per_rad, received.stamp};
+  mode_ = static_cast<std::uint8_t>((*values)[2]);
+  fresh_status_ = true;
+  unanswered_since_ = kNever;
+}
+
+// The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
+void WheelAxis::take_position(const CanFrame& frame) noexcept {
+  const auto values = unpack(position_mapping_, frame);
+  if (!values) return;
+  const std::uint32_t raw = (*values)[0];
+  if (has_position_) counts_ += static_cast<std::int32_t>(raw - raw_position_);
+  raw_position_ = raw;
+  has_position_ = true;
+  fresh_position_ = true;
+}
+
+double WheelAxis::turned_rad() const noexcept { return static_cast<double>(counts_) / setup_.counts_per_rad; }
+
+// A drive that restarted counts from where it likes: its position goes on from the next that comes.
+void WheelAxis::begin(Time heard, Time settled) noexcept {
+  heard_ = heard;
+  settled_ = settled;
+  unanswered_since_ = kNever;
+  state_ = DriveState::kUnknown;
+  feedback_ = {};
+  has_position_ = fresh_status_ = fresh_position_ = was_enabled_ = false;
+  resets_fault_ = true;
+  left_network_ = DriveTrouble::kNone;
+}
+
+void WheelAxis::note_sync(Time now) noexcept {
+  if (unanswered_since_ == kNever) unanswered_since_ = now;
+}
+
+DriveTrouble WheelAxis::trouble(Time now, const AxisLimits& limits) noexcept {
+  if (left_network_ != DriveTrouble::kNone) return left_network_;
+  if (age(heard_, now) > limits.silence) return DriveTrouble::kDriveSilent;
+  if (unanswered_since_ != kNever && now - unanswered_since_ > limits.unanswered) return DriveTrouble::kDriveSilent;
+  const bool in_fault = state_ == DriveState::kFault || state_ == DriveState::kFaultReactionActive;
+  if (in_fault && now > settled_) return DriveTrouble::kDriveFault;
+  const bool was_enabled = was_enabled_ && goal_ == DriveGoal::kEnabled;  // it may leave operation where it is asked to
+  was_enabled_ = is_enabled();
+  if (!is_enabled()) return was_enabled ? DriveTrouble::kLeftOperation : DriveTrouble::kNone;
+  return mode_ == kProfileVelocityMode ? DriveTrouble::kNone : DriveTrouble::kDriveRestarted;
+}
+
+CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
+  const std::uint16_t controlword = controlword_towards(goal, state_, resets_fault_);
+  if (state_ != DriveState::kUnknown) resets_fault_ = false;
+  goal_ = goal;
+  const std::int32_t target = to_counts(wanted_radps, setup_.counts_per_rad);
+  const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
+  return pack(command_mapping_, 0x200U + setup_.node, values).value_or(CanFrame{});
+}
+
+CanFrame WheelAxis::quick_stop_request() const noexcept {
+  CanFrame frame;
+  frame.id = 0x600U + setup_.node;
+  frame.size = 8;
+  // An expedited write of two bytes to 6040h.
+  frame.bytes = {0x2B, 0x40, 0x60, 0x00};
+  frame.bytes[4] =
+      static_cast<std::uint8_t>(controlword_towards(DriveGoal::kQuickStop, DriveState::kOperationEnabled, false));
+  return frame;
+}
+
+}  // namespace jaywalk::canopen

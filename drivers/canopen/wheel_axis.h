@@ -1,0 +1,79 @@
+#pragma once
+#include <cstdint>
+
+#include "drivers/can/can_frame.h"
+#include "drivers/canopen/cia402.h"
+#include "drivers/canopen/pdo.h"
+#include "drivers/canopen/services.h"
+#include "drivers/stop_ladder.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk::canopen {
+
+/// One wheel's drive. Its velocity counts are counts a second, its position counts are counts.
+struct AxisSetup {
+  std::uint8_t node = 0;
+  double counts_per_rad = 0.0;  ///< of the wheel; negative where the motor is mounted the other way round
+};
+
+/// When a drive that was proved counts as lost.
+struct AxisLimits {
+  Duration silence{0};     ///< without a heartbeat
+  Duration unanswered{0};  ///< without process data, from the first SYNC that it did not answer
+};
+
+/// What one drive says of itself, frame by frame: network state, power state, mode, speed and position of its wheel;
+/// and the frame that commands it. Never allocates.
+class WheelAxis {
+ public:
+  WheelAxis() = default;
+  explicit WheelAxis(const AxisSetup& setup) noexcept;
+
+  /// Any frame of the bus; those that are not this drive's are passed over.
+  void take(const ReceivedFrame& received) noexcept;
+  /// The drive was proved: what it does from now on counts. `heard`: its heartbeat; faults that it shows until
+  /// `settled` are those being reset.
+  void begin(Time heard, Time settled) noexcept;
+  /// A SYNC was sent.
+  void note_sync(Time now) noexcept;
+  /// What is wrong with it by what it said since begin().
+  [[nodiscard]] DriveTrouble trouble(Time now, const AxisLimits& limits) noexcept;
+  /// Process data for one cycle. A fault that is there after begin() is reset once.
+  [[nodiscard]] CanFrame target(DriveGoal goal, double wanted_radps) noexcept;
+  /// The quick stop as an SDO request, which a drive takes that takes no process data (Pre-operational).
+  [[nodiscard]] CanFrame quick_stop_request() const noexcept;
+
+  [[nodiscard]] const AxisSetup& setup() const noexcept { return setup_; }
+  [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
+  /// By its last heartbeat.
+  [[nodiscard]] bool is_operational() const noexcept { return network_ == NmtState::kOperational; }
+  [[nodiscard]] const WheelFeedback& feedback() const noexcept { return feedback_; }
+  [[nodiscard]] double turned_rad() const noexcept;  ///< since start, unwrapped
+  /// Status and position both came since the last call of used().
+  [[nodiscard]] bool is_complete() const noexcept { return fresh_status_ && fresh_position_; }
+  void used() noexcept { fresh_status_ = fresh_position_ = false; }
+
+ private:
+  void take_heartbeat(NmtState state, Time stamp) noexcept;
+  void take_status(const ReceivedFrame& received) noexcept;
+  void take_position(const CanFrame& frame) noexcept;
+
+  AxisSetup setup_;
+  PdoMapping command_mapping_, status_mapping_, position_mapping_;
+  // What it says.
+  NmtState network_ = NmtState::kBootUp;
+  DriveState state_ = DriveState::kUnknown;
+  std::uint8_t mode_ = 0;
+  WheelFeedback feedback_;
+  std::uint32_t raw_position_ = 0;
+  bool has_position_ = false;
+  std::int64_t counts_ = 0;
+  bool fresh_status_ = false, fresh_position_ = false;
+  // What is held against it.
+  Time heard_ = kNever, settled_ = kNever, unanswered_since_ = kNever;
+  DriveGoal goal_ = DriveGoal::kOff;  ///< asked of it last
+  bool was_enabled_ = false, resets_fault_ = false;
+  DriveTrouble left_network_ = DriveTrouble::kNone;
+};
+
+}  // namespace jaywalk::canopen

@@ -1,0 +1,16 @@
+#pragma once
+#include <filesystem>
+#include <functional>
+
+#include "firmware/faults/fault_bench.h"
+
+namespace jaywalk::faults {
+
+/// Runs every fault on every kind of drive at 0.3, 0.6 and 1.2 m/s and tells each row as it comes. `folder` holds the
+/// files of the run under way. Returns how many rows are not ok. Throws StartupError.
+[[nodiscard]] int run_matrix(const std::filesystem::path& folder, const std::function<void(const FaultResult&)>& tell);
+
+/// How many rows that will be.
+[[nodiscard]] int matrix_rows() noexcept;
+
+}  // namespace jaywalk::faults

@@ -1,0 +1,19 @@
+#pragma once
+#include <filesystem>
+
+#include "firmware/robot/robot_file.h"
+#include "hal/sim/scenario.h"
+
+namespace jaywalk::faults {
+
+/// The robot file of the matrix for one kind of drive, written into `folder` and read back as a person's would be: a
+/// P3-DX whose fastest speed is `speed_mps`, with a SICK on a network. Throws StartupError.
+[[nodiscard]] RobotFile robot_file(DriveKind kind, double speed_mps, const std::filesystem::path& folder);
+
+/// The world: a hall of 44 m x 5 m, the robot at one end, looking along it. Its map is written into `folder`.
+[[nodiscard]] sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder);
+
+/// "cia402", "odrive", "vesc".
+[[nodiscard]] const char* name_of(DriveKind kind) noexcept;
+
+}  // namespace jaywalk::faults

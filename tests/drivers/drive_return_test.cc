@@ -1,0 +1,261 @@
+// What a CiA 402 drive must show again before it turns a wheel after it restarted, dropped out or was not obeyed.
+#include <chrono>
+
+#include "tests/drivers/drive_bench.h"
+#include "tests/support/allocation_guard.h"
+
+using namespace jaywalk;
+using namespace std::chrono_literals;
+using tests::frame;
+using Bench = tests::DriveBench;
+
+namespace {
+
+/// A reset, and ticks that want the wheels to turn, until the proof is over.
+void reset_and_await_proof(Bench& bench) {
+  bench.base.reset();
+  for (int k = 0; k < 250 && !bench.base.is_proved() && bench.base.trouble() == DriveTrouble::kNone; ++k) {
+    bench.drive(2.0, 2.0, 1);
+    REQUIRE(bench.is_at_rest());
+    REQUIRE_FALSE(bench.base.is_enabled());
+  }
+}
+
+void check_drives_again(Bench& bench) {
+  CHECK(bench.base.is_proved());
+  bench.drive(2.0, 2.0, 20);  // zero first
+  CHECK(bench.is_at_rest());
+  bench.drive(0.0, 0.0, 10);
+  bench.drive(2.0, 2.0, 50);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  CHECK(bench.left.velocity() == Approx(2000.0));
+  CHECK(bench.right.velocity() == Approx(-2000.0));
+}
+
+}  // namespace
+
+TEST_CASE("a self-starting drive that lost power is proved anew, whole, before it turns") {
+  Bench bench;
+  bench.left.start_by_itself();
+  bench.bring_to_two_radps();
+  bench.left.objects().set({0x1016, 1}, 0);
+  bench.left.objects().set({0x6007, 0}, 0);
+  bench.left.objects().store();  // what it comes back with: process data, and watching nobody
+  bench.drive(0.0, 0.0, 30);
+  bench.left.restart();
+  bench.drive(0.0, 0.0, 10);
+  CHECK(bench.base.trouble() == DriveTrouble::kDriveRestarted);
+  CHECK_FALSE(bench.base.is_proved());
+  reset_and_await_proof(bench);
+  CHECK(bench.left.objects().value({0x1016, 1}) == 0x00010064);
+  CHECK(bench.left.objects().value({0x6007, 0}) == 3);
+  check_drives_again(bench);
+  bench.clock.sleep_until(bench.clock.now() + 182ms);  // and when the controller dies, it stops
+  CHECK(bench.is_at_rest());
+}
+
+TEST_CASE("a drive that comes back with nothing of what it was told is proved anew") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.right.restart();
+  bench.drive(2.0, 2.0, 30);
+  CHECK(bench.base.trouble() == DriveTrouble::kDriveRestarted);
+  bench.clock.sleep_until(bench.clock.now() + 21s);  // 2000 counts/s at the 100 counts/s2 with which it rolls out
+  reset_and_await_proof(bench);
+  check_drives_again(bench);
+}
+
+TEST_CASE("a drive that lost its settings and now refuses them is not enabled") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.right.restart();
+  bench.right.objects().fix({0x6007, 0}, 0);
+  bench.drive(0.0, 0.0, 10);
+  for (int resets = 0; resets < 2; ++resets) {
+    reset_and_await_proof(bench);
+    CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
+    bench.drive(0.0, 0.0, 20);
+    bench.drive(2.0, 2.0, 20);
+    CHECK(bench.is_at_rest());
+    CHECK_FALSE(bench.left.is_enabled());
+    CHECK_FALSE(bench.right.is_enabled());
+    CHECK(bench.wheels.trouble == DriveTrouble::kNotProved);
+    CHECK(bench.wheels.stop == StopStage::kSilent);
+  }
+}
+
+TEST_CASE("what a drive could not prove at arming it need not prove later, and what it could it must") {
+  canopen::DriveBaseSetup setup = tests::two_axes();
+  setup.allow_unproved = true;
+  Bench bench(setup);
+  bench.left.objects().lack({0x605E, 0});
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.left.restart();
+  bench.drive(0.0, 0.0, 10);
+  reset_and_await_proof(bench);
+  check_drives_again(bench);
+  bench.drive(0.0, 0.0, 30);
+  bench.left.restart();
+  bench.left.objects().lie_about({0x1016, 1});
+  bench.drive(0.0, 0.0, 10);
+  reset_and_await_proof(bench);
+  CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
+}
+
+TEST_CASE("another drive in the place of one that was armed is refused") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.left.restart();
+  bench.left.objects().fix({0x1018, 4}, 8);
+  bench.drive(0.0, 0.0, 10);
+  reset_and_await_proof(bench);
+  CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
+  bench.drive(0.0, 0.0, 20);
+  CHECK_FALSE(bench.left.is_enabled());
+}
+
+TEST_CASE("a drive that restarts while it is proved again, or after, has to be proved once more") {
+  Bench bench;
+  bench.left.start_by_itself();
+  bench.bring_to_two_radps();
+  bench.left.objects().store();
+  bench.drive(0.0, 0.0, 30);
+  bench.right.pull_cable();
+  bench.drive(0.0, 0.0, 20);
+  bench.right.plug_cable();
+  bench.base.reset();
+  bench.drive(0.0, 0.0, 40);
+  bench.left.restart();
+  bench.drive(0.0, 0.0, 150);
+  const bool is_proved_with_watch = bench.base.is_proved() && bench.left.objects().value({0x1016, 1}) == 0x00010064;
+  CHECK((is_proved_with_watch || bench.base.trouble() != DriveTrouble::kNone));
+}
+
+TEST_CASE("a wheel that still turns is not proved") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.left.restart();  // no torque: it rolls out for seconds
+  bench.drive(2.0, 2.0, 10);
+  bench.base.reset();
+  bench.drive(2.0, 2.0, 100);
+  REQUIRE(bench.left.velocity() > 300.0);
+  CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
+}
+
+TEST_CASE("nothing feeds a drive while it is proved, and no drive has torque then") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.right.raise_fault(0x2310);
+  bench.drive(0.0, 0.0, 20);
+  bench.base.reset();
+  bench.drive(0.0, 0.0, 20);  // 300 ms of them it only listens
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  CHECK_FALSE(bench.base.is_proved());
+  CHECK(bench.left.heard_controller() == kNever);
+  CHECK_FALSE(bench.left.is_enabled());
+  bench.base.reset();  // once more does not begin it anew
+  bench.drive(0.0, 0.0, 100);
+  CHECK(bench.base.is_proved());
+  CHECK(bench.base.is_enabled());
+}
+
+TEST_CASE("a reset where the drives were in no trouble proves nothing anew") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.base.reset();
+  CHECK(bench.base.is_proved());
+  bench.drive(2.0, 2.0, 20);
+  CHECK(bench.is_at_rest());  // but it takes a command of zero
+  check_drives_again(bench);
+}
+
+TEST_CASE("a proof that goes on with the ticks asks nothing of the heap") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.right.raise_fault(0x2310);
+  bench.drive(0.0, 0.0, 20);
+  const AllocationGuard guard;
+  bench.base.reset();
+  bench.drive(0.0, 0.0, 150);
+  const auto calls = guard.calls();
+  CHECK(calls == 0);
+  CHECK(bench.base.is_enabled());
+}
+
+TEST_CASE("with any of a master's frames on the bus the drives are not armed, and the frame is named") {
+  struct Said {
+    CanFrame frame;
+    const char* named;
+  };
+  const std::array<Said, 7> cases{
+      {{frame(0x701, {5}), "heartbeat of node 1 (701h: 05)"},
+       {frame(0x000, {1, 0}), "NMT command (000h: 01 00)"},
+       {frame(0x080, {}), "SYNC (080h:)"},
+       {frame(0x206, {0x0F, 0, 1, 0, 0, 0}), "process data to node 6 (206h: 0F 00 01 00 00 00)"},
+       {frame(0x505, {0}), "process data to node 5 (505h: 00)"},
+       {frame(0x605, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}), "SDO request to node 5 (605h: 40 41 60 00 00 00 00 00)"},
+       {frame(0x586, {0x4B, 0x41, 0x60, 0, 0, 0, 0, 0}),
+        "SDO answer that was not asked for, of node 6 (586h: 4B 41 60 00 00 00 00 00)"}}};
+  for (const Said& said : cases) {
+    Bench bench;
+    bool spoke = false;
+    bench.clock.meanwhile = [&] {
+      if (!spoke && bench.clock.now() > Time{200ms}) bench.stranger_says(said.frame), spoke = true;
+    };
+    CHECK(bench.refusal() == "CAN: another master on the bus: " + std::string(said.named) +
+                                 "; end the other program or machine, or give it a bus of its own");
+    CHECK_FALSE(bench.left.is_enabled());
+  }
+}
+
+TEST_CASE("a foreign master's frame under way is a latched fault by the next tick, kept, and stops both wheels") {
+  const std::array<CanFrame, 5> frames{frame(0x701, {5}), frame(0x080, {}), frame(0x205, {0x0F, 0, 0, 0, 0, 0}),
+                                       frame(0x606, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}),
+                                       frame(0x585, {0x60, 0x41, 0x60, 0, 0, 0, 0, 0})};
+  for (const CanFrame& said : frames) {
+    Bench bench;
+    bench.bring_to_two_radps();
+    bench.stranger_says(said);
+    bench.drive(2.0, 2.0, 1);
+    CHECK(bench.base.trouble() == DriveTrouble::kForeignMaster);
+    REQUIRE(bench.base.foreign_frame());
+    CHECK(*bench.base.foreign_frame() == said);
+    bench.drive(2.0, 2.0, 10);
+    CHECK(bench.is_at_rest());
+    bench.drive(0.0, 0.0, 20);
+    reset_and_await_proof(bench);
+    check_drives_again(bench);
+    CHECK_FALSE(bench.base.foreign_frame());
+  }
+}
+
+TEST_CASE("a stranger that speaks while the drives are proved again ends the proof") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.drive(0.0, 0.0, 30);
+  bench.right.raise_fault(0x2310);
+  bench.drive(0.0, 0.0, 20);
+  bench.base.reset();
+  bench.drive(0.0, 0.0, 40);
+  bench.stranger_says(frame(0x701, {5}));
+  bench.drive(0.0, 0.0, 150);
+  CHECK(bench.base.trouble() == DriveTrouble::kForeignMaster);
+  CHECK_FALSE(bench.left.is_enabled());
+}
+
+TEST_CASE("other nodes of the bus are nobody's masters") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  for (const CanFrame& other : {frame(0x707, {5}), frame(0x087, {0, 0, 0, 0, 0, 0, 0, 0}), frame(0x207, {1}),
+                                frame(0x607, {0x40, 0, 0, 0, 0, 0, 0, 0}), frame(0x188, {1, 2})}) {
+    bench.stranger_says(other);
+  }
+  bench.drive(2.0, 2.0, 50);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+}
