@@ -79,7 +79,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
-  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
+  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, turns_at_goal()});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
@@ -116,7 +116,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
   return {.path = plan_->path,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
-          .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
+          .has_goal = t.input.has_goal && (supervisor_.takes_wishes() || !setup_.applies_verdict()),
           .tracks = tracker_.tracks(),
           .standing = tracker_.standing(),
           .permitted_before = driven_,

@@ -16,6 +16,7 @@ WheelState MotorPair::latest() noexcept {
   receive();
   watch();
   wheels_.trouble = trouble_;
+  wheels_.ready = trouble_ == DriveTrouble::kNone && armed_ && !awaits_zero_ && is_enabled();
   return wheels_;
 }
 

@@ -123,7 +123,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
-  if (ar.version >= 4) ar(r.wheels.stop);
+  if (ar.version >= 4) ar(r.wheels.stop), ar(r.wheels.ready);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
   ar(r.input.goal_tolerance_m);

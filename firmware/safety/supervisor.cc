@@ -55,15 +55,22 @@ bool hides_a_shin(const Blanking& blanked, double way) {
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
-    : config_(config), stop_zone_(zone_config(config)), frozen_scan_(config.model.drive) {}
+    : config_(config),
+      stop_zone_(zone_config(config)),
+      frozen_scan_(config.model.drive),
+      mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}
+
+bool Supervisor::takes_wishes() const noexcept {
+  return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
+}
 
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
   Verdict verdict;
   verdict.gap_m = std::numeric_limits<double>::infinity();
   verdict.reasons = faults(wanted, input);
-  update_latch(verdict.reasons, wanted, input);
-  if (latched_) verdict.reasons |= Reason::kLatched;
-  const bool stop = verdict.reasons != Reason::kNone;
+  update_mode(verdict.reasons, wanted, input);
+  if (mode_ == Mode::kLatched) verdict.reasons |= Reason::kLatched;
+  const bool stop = verdict.reasons != Reason::kNone || !takes_wishes();
   if (!input.input.has_goal) verdict.reasons |= Reason::kNoGoal;
   const Twist2 target = stop ? Twist2{} : limited(wanted, input, verdict);
   permitted_ = braked(target);
@@ -92,7 +99,8 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
 
 Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
   Reason reasons = reason_for(wheels.trouble);
-  if (config_.needs_wheels && is_older(wheels.stamp, now, config_.max_wheel_age)) reasons |= Reason::kWheelsStale;
+  // Drives that are being proved report nothing yet, and have no torque.
+  if (config_.needs_wheels && wheels.ready && is_older(wheels.stamp, now, config_.max_wheel_age)) reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
   return reasons;
 }
@@ -110,15 +118,22 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
   return missed_;
 }
 
-void Supervisor::update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
+void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
   constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
                              Reason::kStopUnconfirmed | Reason::kForeignMaster;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;
-  if (has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone)) latched_ = true;
-  // A fault that is still there latches again in the next tick.
-  if (latched_ && reset_edge && !input.input.emergency_stop && wanted == Twist2{}) latched_ = false;
+  mode_ =
+      next_mode(mode_, {.fault = faults != Reason::kNone,
+                        .latches = has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone),
+                        .stop_pressed = input.input.emergency_stop,
+                        .reset_edge = reset_edge,
+                        .wants_zero = wanted == Twist2{},
+                        .drives_ready = input.wheels.ready,
+                        .has_goal = input.input.has_goal,
+                        .at_goal = input.at_goal,
+                        .at_rest = permitted_ == Twist2{}});
 }
 
 Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 #include "firmware/safety/frozen_scan.h"
+#include "firmware/safety/modes.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/verdict.h"
 #include "hal/types/laser_scan.h"
@@ -28,6 +29,7 @@ struct SafetyInput {
   const OperatorInput& input;
   Time plan_stamp = kNever;
   Time now = kNever;
+  bool at_goal = false;  ///< only the heading is left to be reached
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
@@ -40,8 +42,9 @@ class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config);
   [[nodiscard]] Verdict judge(const Twist2& wanted, const SafetyInput& input) noexcept;
-  /// An earlier fault still waits for its reset: ask for nothing until then.
-  [[nodiscard]] bool latched() const noexcept { return latched_; }
+  [[nodiscard]] Mode mode() const noexcept { return mode_; }
+  /// False while an earlier fault waits for its reset, or the drives for their proof: ask for nothing until then.
+  [[nodiscard]] bool takes_wishes() const noexcept;
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
@@ -50,7 +53,7 @@ class Supervisor {
   [[nodiscard]] Duration sweep_of(const LaserScan& scan) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
-  void update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
+  void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept;
   [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
   [[nodiscard]] double watched_share(const LaserScan& scan, const Twist2& twist) const noexcept;
@@ -64,7 +67,7 @@ class Supervisor {
   int stale_scans_ = 0;  ///< ticks in a row with a scan too old
   int missed_ = 0;
   Time judged_ = kNever;
-  bool latched_ = false;
+  Mode mode_;
   bool reset_before_ = false;
 };
 
