@@ -41,6 +41,7 @@ void OdriveNode::step(Time now) noexcept {
 void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
   if (frame.extended || frame.id >> 5U != node_) return;
   fed_ = now;  // whatever is said to it feeds the watchdog
+  if (deaf_) return;
   const auto word = wire::little_endian<std::uint32_t>(frame.bytes);
   switch (frame.id & 0x1FU) {
     case 0x02:
@@ -53,7 +54,7 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
       control_mode_ = word;
       return;
     case 0x0D:
-      target_ = static_cast<double>(std::bit_cast<float>(word));
+      if (!stuck_) target_ = static_cast<double>(std::bit_cast<float>(word));
       return;
     case 0x18:
       errors_ = lasting_error_;
@@ -88,7 +89,10 @@ void OdriveNode::restart() noexcept {
   errors_ = lasting_error_;
   target_ = 0.0;
   control_mode_ = 3;
+  stuck_ = deaf_ = muted_ = false;
   fed_ = kNever;
+  position_ = 0.0;
+  encoder_zero_ = encoder_position_;
 }
 
 void OdriveNode::move(double seconds) noexcept {
@@ -102,7 +106,8 @@ void OdriveNode::move(double seconds) noexcept {
 void OdriveNode::say(Time now) noexcept {
   if (is_due(said_heartbeat_, heartbeat_period_, now)) send(0x01, errors_, state_);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
-  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_position_ : position_)),
+  const double position = has_encoder_ ? encoder_position_ - encoder_zero_ : position_;
+  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position)),
        std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_velocity_ : velocity_)));
 }
 
@@ -113,7 +118,7 @@ void OdriveNode::measure(double velocity, double position) noexcept {
 }
 
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {
-  if (!connected_) return;
+  if (!connected_ || muted_) return;
   CanFrame frame;
   frame.id = static_cast<std::uint32_t>(node_) << 5U | command;
   frame.size = 8;

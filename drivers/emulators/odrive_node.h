@@ -26,8 +26,14 @@ class OdriveNode {
   /// No more frames out, as when its cable is pulled; frames in are lost too.
   void pull_cable() noexcept { connected_ = false; }
   void plug_cable() noexcept { connected_ = true; }
-  /// It forgets everything but its settings, as after a loss of power.
+  /// No more frames out; it goes on hearing and obeying.
+  void mute() noexcept { muted_ = true; }
+  /// It forgets everything but its settings, as after a loss of power; its encoder counts from zero again.
   void restart() noexcept;
+  /// Goes on with the speed that it was told last; everything else is obeyed.
+  void stick() noexcept { stuck_ = true; }
+  /// Obeys nothing any more, but everything that it is told feeds its watchdog.
+  void go_deaf() noexcept { deaf_ = true; }
   /// It has no encoder messages, as it comes from the factory.
   void withhold_estimates() noexcept { estimates_ = false; }
 
@@ -54,7 +60,7 @@ class OdriveNode {
   std::uint8_t node_;
   Duration watchdog_{std::chrono::milliseconds(60)};
   Duration heartbeat_period_{std::chrono::milliseconds(10)};
-  bool lies_ = false, connected_ = true, estimates_ = true;
+  bool lies_ = false, connected_ = true, estimates_ = true, stuck_ = false, deaf_ = false, muted_ = false;
   std::uint32_t lasting_error_ = 0;
   std::uint32_t errors_ = 0;
   std::uint8_t state_ = 1;
@@ -63,7 +69,7 @@ class OdriveNode {
   double velocity_ = 0.0;
   double position_ = 0.0;
   bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, encoder_zero_ = 0.0;
   Time stepped_ = kNever, fed_ = kNever, said_heartbeat_ = kNever, said_estimates_ = kNever;
 };
 

@@ -52,19 +52,19 @@ void VescNode::step(Time now) {
 void VescNode::take(const CanFrame& frame, Time now) {
   if (!frame.extended || (frame.id & 0xFFU) != controller_) return;
   const auto word = static_cast<std::int32_t>(wire::big_endian<std::uint32_t>(frame.bytes));
+  const bool is_order = frame.id >> 8U <= 3;
+  if (is_order) fed_ = now;
+  if (is_order && (deaf_ || (stuck_ && frame.id >> 8U == 3))) return;
   switch (frame.id >> 8U) {
     case 1:
       mode_ = Mode::kCurrent;
-      fed_ = now;
       return;
     case 2:
       mode_ = Mode::kBrake;
-      fed_ = now;
       return;
     case 3:
       mode_ = Mode::kSpeed;
       target_erpm_ = word;
-      fed_ = now;
       return;
     case 8:
       return answer(frame.payload());
@@ -129,7 +129,8 @@ void VescNode::say(Time now) noexcept {
   wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)), bytes);
   send(9, controller_, bytes);
   if (!tells_travel_) return;
-  const auto sixths = static_cast<std::int64_t>(std::floor(6.0 * (has_encoder_ ? encoder_position_ : position_)));
+  const auto sixths =
+      static_cast<std::int64_t>(std::floor(6.0 * (has_encoder_ ? encoder_position_ - encoder_zero_ : position_)));
   wire::put_big_endian(static_cast<std::uint32_t>(sixths), bytes);
   wire::put_big_endian(std::uint16_t{240}, std::span(bytes).subspan(4));
   send(27, controller_, bytes);
@@ -139,6 +140,15 @@ void VescNode::measure(double velocity, double position) noexcept {
   has_encoder_ = true;
   encoder_velocity_ = velocity;
   encoder_position_ = position;
+}
+
+void VescNode::restart() noexcept {
+  mode_ = Mode::kCurrent;
+  target_erpm_ = 0.0;
+  stuck_ = deaf_ = muted_ = false;
+  fed_ = kNever;
+  position_ = 0.0;
+  encoder_zero_ = encoder_position_;
 }
 
 std::string_view VescNode::state_name() const noexcept {
@@ -155,7 +165,7 @@ std::string_view VescNode::state_name() const noexcept {
 }
 
 void VescNode::send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept {
-  if (!connected_) return;
+  if (!connected_ || muted_) return;
   CanFrame frame;
   frame.id = command << 8U | id;
   frame.extended = true;

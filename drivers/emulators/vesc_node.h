@@ -32,6 +32,14 @@ class VescNode {
   /// No more frames out, as when its cable is pulled; frames in are lost too.
   void pull_cable() noexcept { connected_ = false; }
   void plug_cable() noexcept { connected_ = true; }
+  /// No more frames out; it goes on hearing and obeying.
+  void mute() noexcept { muted_ = true; }
+  /// It forgets everything but its settings, as after a loss of power; its tachometer counts from zero again.
+  void restart() noexcept;
+  /// Goes on with the speed that it was told last; currents are obeyed.
+  void stick() noexcept { stuck_ = true; }
+  /// Obeys nothing any more, but speeds and currents hold off its timeout.
+  void go_deaf() noexcept { deaf_ = true; }
 
   [[nodiscard]] double erpm() const noexcept { return erpm_; }
   [[nodiscard]] double velocity() const noexcept { return erpm_ / 60.0; }  ///< electrical turns a second
@@ -58,14 +66,15 @@ class VescNode {
   std::uint8_t controller_;
   std::uint32_t timeout_ms_ = 90, told_ms_ = 90;
   float brake_current_a_ = 10.0F;
-  bool damaged_ = false, answers_ = true, tells_travel_ = true, connected_ = true;
+  bool damaged_ = false, answers_ = true, tells_travel_ = true, connected_ = true, stuck_ = false, deaf_ = false,
+       muted_ = false;
   std::uint8_t fault_ = 0;
   Mode mode_ = Mode::kCurrent;
   double target_erpm_ = 0.0;
   double erpm_ = 0.0;
   double position_ = 0.0;  ///< electrical turns
   bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, encoder_zero_ = 0.0;
   Time stepped_ = kNever, fed_ = kNever, said_ = kNever;
 };
 

@@ -10,13 +10,23 @@ namespace {
 /// Frames that one tick takes in: a bus at 1 Mbit/s brings some 9000 a second.
 constexpr int kMostAtOnce = 512;
 
+/// A position that differs by more from what the speed explains is that of a counter that began anew.
+constexpr double kJump_rad = 0.5;
+
 }  // namespace
+
+MotorPair::MotorPair(CanBus& bus, Clock& clock, const PairSetup& setup)
+    : bus_(bus), clock_(clock), setup_(setup), ladders_{StopLadder(setup.stop), StopLadder(setup.stop)} {
+  if (setup.stop.brake_radps2 > 0.0 && setup.stop.tolerance_radps > 0.0) return;
+  throw StartupError("drives: a stop without braking or tolerance", "give both in rad/s2 and rad/s");
+}
 
 WheelState MotorPair::latest() noexcept {
   receive();
   watch();
   wheels_.trouble = trouble_;
-  wheels_.ready = trouble_ == DriveTrouble::kNone && armed_ && !awaits_zero_ && is_enabled();
+  wheels_.stop = stop_;
+  wheels_.ready = proved_ && armed_ && !awaits_zero_ && trouble_ == DriveTrouble::kNone && is_enabled();
   return wheels_;
 }
 
@@ -40,40 +50,78 @@ void MotorPair::publish(Time stamp) noexcept {
   for (MotorAxis& a : axes_) a.fresh_position = a.fresh_speed = false;
 }
 
+void MotorPair::note_heard(std::size_t index, Time stamp) noexcept {
+  MotorAxis& a = axes_[index];
+  if (a.heard != kNever && stamp - a.heard > setup_.silence_limit) lose_proof(DriveTrouble::kDriveSilent);
+  a.heard = stamp;
+}
+
+void MotorPair::note_speed(std::size_t index, Time stamp, double speed_radps) noexcept {
+  axes_[index].speed_radps = speed_radps;
+  axes_[index].felt = stamp;
+  axes_[index].fresh_speed = true;
+}
+
+void MotorPair::note_turned(std::size_t index, Time stamp, double turned_rad) noexcept {
+  MotorAxis& a = axes_[index];
+  const bool continues = a.placed != kNever;
+  const double explained_rad = continues ? a.speed_radps * to_seconds(stamp - a.placed) : 0.0;
+  const bool jumps = continues && !(std::fabs(turned_rad - explained_rad) <= kJump_rad);
+  if (jumps) lose_proof(DriveTrouble::kDriveRestarted);
+  if (continues && !jumps) a.turned_rad += turned_rad;
+  a.placed = stamp;
+  a.fresh_position = true;
+}
+
+void MotorPair::note_foreign(const CanFrame& frame) noexcept {
+  if (!foreign_) foreign_ = frame;
+  if (armed_) latch(DriveTrouble::kForeignMaster);
+}
+
 void MotorPair::watch() noexcept {
   if (!armed_) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
+  const auto is_late = [&](Time stamp) { return stamp != kNever && age(stamp, clock_.now()) > setup_.silence_limit; };
   for (MotorAxis& a : axes_) {
-    if (!awaits_zero_ && age(a.heard, clock_.now()) > silence_limit_) latch(DriveTrouble::kDriveSilent);
-    if (a.was_enabled && !a.obeys) latch(DriveTrouble::kLeftOperation);
+    if (is_late(a.heard) || is_late(a.felt) || is_late(a.placed)) lose_proof(DriveTrouble::kDriveSilent);
+    if (a.was_enabled && !a.obeys) lose_proof(DriveTrouble::kLeftOperation);
     a.was_enabled = a.obeys && !awaits_zero_;
   }
 }
 
 // The first trouble is the one worth knowing: the others follow from it.
 void MotorPair::latch(DriveTrouble trouble) noexcept {
+  proved_ = proving_ = false;
   if (trouble_ == DriveTrouble::kNone) trouble_ = trouble;
+}
+
+/// A motor went its own way. Before the first command of zero it has no torque: then it is proved again, and no reset
+/// is owed.
+void MotorPair::lose_proof(DriveTrouble trouble) noexcept {
+  if (proving_ || (armed_ && !awaits_zero_)) return latch(trouble);
+  proved_ = false;
 }
 
 void MotorPair::report_fault(DriveTrouble trouble) noexcept {
   if (armed_ && !awaits_zero_ && clock_.now() > settled_) latch(trouble);
 }
 
-void MotorPair::begin_watch() noexcept {
-  armed_ = true;
-  bus_watch_.begin(bus_.health());
-}
-
 void MotorPair::reset() noexcept {
+  if (!armed_ || proving_) return;  // a proof that is under way goes on
   trouble_ = DriveTrouble::kNone;
+  foreign_.reset();
+  stop_ = StopStage::kNone;
   awaits_zero_ = true;
-  for (MotorAxis& a : axes_) a.was_enabled = false;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    axes_[k].silenced = false;
+    ladders_[k].reset();
+  }
 }
 
 // What a motor complains of while nobody commands it (its watchdog) is forgotten here; what remains is a fault.
 void MotorPair::begin_enabling() noexcept {
   awaits_zero_ = false;
-  settled_ = clock_.now() + settling_;
+  settled_ = clock_.now() + setup_.settling;
   for (std::size_t k = 0; k < axes_.size(); ++k) send_reset(k);
 }
 
@@ -82,37 +130,61 @@ bool MotorPair::is_enabled() const noexcept {
 }
 
 MotorOrder MotorPair::order_now() const noexcept {
-  if (trouble_ != DriveTrouble::kNone) return MotorOrder::kStop;
   if (!armed_ || awaits_zero_) return MotorOrder::kOff;
+  if (trouble_ != DriveTrouble::kNone) return MotorOrder::kStop;
   return is_enabled() ? MotorOrder::kRun : MotorOrder::kHold;  // both wheels or none
 }
 
 void MotorPair::command(const WheelCommand& command) noexcept {
+  if (armed_ && !proved_ && trouble_ == DriveTrouble::kNone) return prove();
   const bool zero = command.left_radps == 0.0 && command.right_radps == 0.0;
-  if (awaits_zero_ && zero && armed_ && trouble_ == DriveTrouble::kNone) begin_enabling();
-  const MotorOrder order = order_now();
+  if (awaits_zero_ && zero && proved_) begin_enabling();
   const bool finite = std::isfinite(command.left_radps) && std::isfinite(command.right_radps);
-  const bool moves = order == MotorOrder::kRun && finite;
-  send_order(0, order, moves ? command.left_radps : 0.0);
-  send_order(1, order, moves ? command.right_radps : 0.0);
+  const bool moves = order_now() == MotorOrder::kRun && finite && !zero;
+  follow_stop(moves);
+  const MotorOrder order = order_now();
+  const bool runs = moves && order == MotorOrder::kRun;
+  tell(0, order, runs ? command.left_radps : 0.0);
+  tell(1, order, runs ? command.right_radps : 0.0);
+}
+
+void MotorPair::tell(std::size_t index, MotorOrder order, double speed_radps) noexcept {
+  MotorAxis& a = axes_[index];
+  // Where one motor is told nothing more, the other one is told nothing more as soon as its wheel stands.
+  if (stop_ == StopStage::kSilent && (ladders_[index].stage() == StopStage::kSilent || stands(index))) {
+    a.silenced = true;
+  }
+  if (a.silenced) return;
+  if (order == MotorOrder::kOff) a.was_enabled = false;  // it leaves operation because it is asked to
+  const bool gives_up = ladders_[index].stage() == StopStage::kNetworkStop;
+  send_order(index, gives_up ? MotorOrder::kNetworkStop : order, speed_radps);
+}
+
+/// Holds the stop against each wheel's own feedback, so that one which obeys goes on being braked.
+void MotorPair::follow_stop(bool moves) noexcept {
+  if (!armed_ || (awaits_zero_ && trouble_ == DriveTrouble::kNone)) return;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const WheelFeedback felt{axes_[k].speed_radps, axes_[k].felt};
+    stop_ = std::max(stop_, ladders_[k].update(clock_.now(), !moves, trouble_ != DriveTrouble::kNone, {felt, felt}));
+  }
+  if (stop_ != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
+}
+
+bool MotorPair::stands(std::size_t index) const noexcept {
+  const MotorAxis& a = axes_[index];
+  return age(a.felt, clock_.now()) <= setup_.stop.fresh && std::fabs(a.speed_radps) <= setup_.stop.tolerance_radps;
 }
 
 void MotorPair::disarm() noexcept {
+  if (armed_ && !awaits_zero_ && !(stands(0) && stands(1))) return command({clock_.now(), 0.0, 0.0});
   awaits_zero_ = true;
-  for (std::size_t k = 0; k < axes_.size(); ++k) {
-    axes_[k].was_enabled = false;  // it leaves operation because it was asked to
-    send_order(k, MotorOrder::kOff, 0.0);
-  }
+  proving_ = false;
+  for (std::size_t k = 0; k < axes_.size(); ++k) tell(k, MotorOrder::kOff, 0.0);
   receive();
 }
 
 void MotorPair::send(const CanFrame& frame) noexcept {
   if (bus_.send(frame) != SendResult::kQueued) latch(DriveTrouble::kBusRefused);
-}
-
-void MotorPair::pass_time() {
-  clock_.sleep_until(clock_.now() + std::chrono::milliseconds(1));
-  receive();
 }
 
 }  // namespace jaywalk

@@ -1,85 +1,124 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/can/can_bus.h"
+#include "drivers/motor/motor_axis.h"
+#include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 
-/// What one motor is told in a cycle.
-enum class MotorOrder : std::uint8_t {
-  kOff,   ///< no torque
-  kHold,  ///< torque on, speed zero
-  kRun,   ///< follow the speed
-  kStop   ///< speed zero because of trouble; nothing else that changes its state
-};
-
-/// What is known of one motor, in the wheel's units.
-struct MotorAxis {
-  double turned_rad = 0.0;  ///< since start
-  double speed_radps = 0.0;
-  bool fresh_position = false, fresh_speed = false;
-  bool obeys = false;        ///< its torque is on and it follows speeds
-  bool was_enabled = false;  ///< and was asked to
-  Time heard = kNever;       ///< of the message that it always sends
+struct PairSetup {
+  Duration silence_limit{};  ///< a motor that says nothing for so long is lost
+  Duration settling{};       ///< what a motor may take to get over its fault when it is enabled
+  Duration answer_limit{};   ///< what a motor may take to show itself before its proof
+  StopLimits stop;
+  bool allow_unproved = false;
 };
 
 /// Two motors on one CAN bus that take speeds and watch over the time between commands themselves: what ODrive and VESC
-/// have in common. Commands are sent by the tick and by nothing else, so a dead loop is a silent one. At any trouble
-/// both are told to stand still, again with every command, until reset() and a command of zero. What motors do or say
-/// before they are enabled is no trouble: they have no torque then.
+/// have in common. Commands are sent by the tick and by nothing else, so a dead loop is a silent one.
+///
+/// Stops: at any trouble both are told to stand still, again with every command, until reset() and a command of zero.
+/// Each wheel's feedback is held against the stop (StopLadder); where it does not show it, that motor is told to give
+/// up obeying and then nothing more, and the other one is braked to rest and then told nothing more either.
+///
+/// Proof: arm() and every return run the same one, a step a cycle. Until both motors passed it nothing is sent but the
+/// proof's own frames, so no motor has torque that the proof did not give it. Trouble of any kind, a motor that is
+/// silent, restarts or leaves operation count as gone; a reset without any of these proves nothing anew.
+///
+/// One master: arm() listens before it sends; then and later a frame that only another master sends is trouble.
 class MotorPair : public WiredDrive {
  public:
+  std::vector<std::string> arm() override;
   [[nodiscard]] WheelState latest() noexcept override;
   /// A speed that is not finite counts as zero for both.
   void command(const WheelCommand& command) noexcept override;
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
   void reset() noexcept override;
-  [[nodiscard]] bool is_proved() const noexcept override { return armed_; }
   [[nodiscard]] bool is_enabled() const noexcept override;
+  [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
+  [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
+  /// Wheels that still turn are braked first.
   void disarm() noexcept override;
 
  protected:
-  /// `bus` and `clock` outlive it. A motor is silent after `silence_limit`; when it is enabled it has `settling` to get
-  /// over its fault.
-  MotorPair(CanBus& bus, Clock& clock, Duration silence_limit, Duration settling) noexcept
-      : bus_(bus), clock_(clock), silence_limit_(silence_limit), settling_(settling) {}
+  /// `bus` and `clock` outlive it. Throws StartupError where a stop has no ramp to be held against.
+  MotorPair(CanBus& bus, Clock& clock, const PairSetup& setup);
 
   /// Takes in one frame; keeps its axis up to date.
   virtual void take(const ReceivedFrame& received) noexcept = 0;
   virtual void send_order(std::size_t axis, MotorOrder order, double speed_radps) noexcept = 0;
   /// What makes the motor forget its fault.
   virtual void send_reset(std::size_t axis) noexcept = 0;
+  /// Begins the proof of one motor, which shows itself and stands by then.
+  virtual void begin_proof(std::size_t axis) noexcept = 0;
+  /// Carries it on by what is due; once a cycle.
+  virtual ProofResult continue_proof(std::size_t axis) noexcept = 0;
+  /// What the motor said in its proof, in a line. Start-up only, and so are these.
+  [[nodiscard]] virtual std::string proof_line(std::size_t axis) const = 0;
+  [[nodiscard]] virtual std::string proof_remedy() const = 0;
+  /// Why a motor does not show itself, and what to do.
+  [[nodiscard]] virtual StartupError absence(std::size_t axis) const = 0;
 
-  [[nodiscard]] MotorAxis& axis(std::size_t index) noexcept { return axes_[index]; }
+  [[nodiscard]] const MotorAxis& axis(std::size_t index) const noexcept { return axes_[index]; }
   [[nodiscard]] Clock& clock() noexcept { return clock_; }
   void send(const CanFrame& frame) noexcept;
-  /// Takes in what waits.
-  void receive() noexcept;
-  /// Arming: lets a millisecond pass and takes in what came.
+  /// Lets a millisecond pass and takes in what came. Start-up only.
   void pass_time();
-  /// Arming is done: from now on what goes wrong is trouble.
-  void begin_watch() noexcept;
-  /// A motor says that something is wrong; it counts once it had time to forget what was before it was enabled.
+  /// Waits until the motor shows itself. Start-up only; throws absence().
+  void await_motor(std::size_t index);
+
+  /// What take() found: the message that the motor always sends;
+  void note_heard(std::size_t index, Time stamp) noexcept;
+  void note_speed(std::size_t index, Time stamp, double speed_radps) noexcept;
+  /// how far the wheel turned since the message before: the first one after a return tells nothing;
+  void note_turned(std::size_t index, Time stamp, double turned_rad) noexcept;
+  /// that something is wrong, which counts once the motor had time to forget what was before it was enabled;
   void report_fault(DriveTrouble trouble) noexcept;
+  /// a frame that only another master sends.
+  void note_foreign(const CanFrame& frame) noexcept;
+  /// Whether its torque is on and it follows speeds.
+  void note_obeys(std::size_t index, bool obeys) noexcept { axes_[index].obeys = obeys; }
 
  private:
-  void begin_enabling() noexcept;
+  void receive() noexcept;
+  void listen();
+  [[nodiscard]] std::vector<std::string> judge_proofs() const;
+  [[nodiscard]] bool accepts(ProofResult result) const noexcept;
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
+  void lose_proof(DriveTrouble trouble) noexcept;
+  void prove() noexcept;
+  void begin_proofs() noexcept;
+  void continue_proofs() noexcept;
+  void finish_proof(ProofResult result) noexcept;
+  void begin_enabling() noexcept;
+  void follow_stop(bool moves) noexcept;
+  [[nodiscard]] bool stands(std::size_t index) const noexcept;
   [[nodiscard]] MotorOrder order_now() const noexcept;
+  void tell(std::size_t index, MotorOrder order, double speed_radps) noexcept;
 
   CanBus& bus_;
   Clock& clock_;
-  Duration silence_limit_, settling_;
+  PairSetup setup_;
   std::array<MotorAxis, 2> axes_;  ///< left, right
+  std::array<StopLadder, 2> ladders_;
   WheelState wheels_;
   DriveTrouble trouble_ = DriveTrouble::kNone;
-  bool armed_ = false;
-  bool awaits_zero_ = true;
+  StopStage stop_ = StopStage::kNone;
+  bool armed_ = false, awaits_zero_ = true;
+  bool proved_ = false, proving_ = false, both_shown_ = false;
+  std::size_t under_proof_ = 0;  ///< the axis that is
+  std::array<ProofResult, 2> results_{};
+  Time proofs_began_ = kNever;
+  std::optional<CanFrame> foreign_;  ///< the first one
   BusWatch bus_watch_;
   Time settled_ = kNever;
 };

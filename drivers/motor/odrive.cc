@@ -1,5 +1,7 @@
 #include "drivers/motor/odrive.h"
 
+#include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
 
@@ -9,8 +11,9 @@ namespace jaywalk::odrive {
 
 namespace {
 
-constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kGetError = 0x03, kSetAxisState = 0x07, kEstimates = 0x09,
-                        kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D, kClearErrors = 0x18;
+constexpr std::uint32_t kHeartbeat = 0x01, kEstop = 0x02, kGetError = 0x03, kWriteParameter = 0x04,
+                        kSetAxisState = 0x07, kEstimates = 0x09, kSetControllerMode = 0x0B, kSetInputVelocity = 0x0D,
+                        kReboot = 0x16, kClearErrors = 0x18, kUpdateMode = 0x1F;
 constexpr std::uint32_t kVelocityControl = 2, kPassThrough = 1, kVelocityRamp = 2;
 
 CanFrame command(std::uint8_t node, std::uint32_t number, std::uint8_t size, std::uint32_t first = 0,
@@ -47,6 +50,17 @@ CanFrame set_velocity(std::uint8_t node, float turns_per_s) noexcept {
 CanFrame emergency_stop(std::uint8_t node) noexcept { return command(node, kEstop, 0); }
 
 CanFrame clear_errors(std::uint8_t node) noexcept { return command(node, kClearErrors, 1); }
+
+// CANSimple's messages from the host (firmware 0.6, table of messages in its CAN guide): E-stop, parameter access, axis
+// state, controller mode, inputs and limits (0Bh to 13h), reboot, clear errors, position, gains, firmware update.
+bool is_order(const CanFrame& frame, std::uint8_t node) noexcept {
+  if (frame.extended || frame.id >> 5U != node) return false;
+  const std::uint32_t number = frame.id & 0x1FU;
+  const bool is_input = number >= 0x0B && number <= 0x13;
+  constexpr std::array<std::uint32_t, 9> kOthers{
+      kEstop, kWriteParameter, kSetAxisState, kReboot, kClearErrors, 0x19, 0x1A, 0x1B, kUpdateMode};
+  return frame.remote || is_input || std::find(kOthers.begin(), kOthers.end(), number) != kOthers.end();
+}
 
 std::optional<Message> decode(const CanFrame& frame) noexcept {
   if (frame.extended || frame.remote) return std::nullopt;

@@ -42,6 +42,10 @@ struct Message {
   std::variant<Heartbeat, EncoderEstimates, Errors> content;
 };
 
+/// Whether `frame` is one that only a controller sends to `node`: a command that sets something, or a request. Any of
+/// them feeds the axis' watchdog.
+[[nodiscard]] bool is_order(const CanFrame& frame, std::uint8_t node) noexcept;
+
 /// Nothing where `frame` is none of these, is too short, or holds a number that is not finite.
 [[nodiscard]] std::optional<Message> decode(const CanFrame& frame) noexcept;
 

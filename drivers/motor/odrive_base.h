@@ -2,10 +2,10 @@
 #include <array>
 #include <cstdint>
 #include <string>
-#include <vector>
 
 #include "drivers/motor/motor_pair.h"
 #include "drivers/motor/odrive.h"
+#include "drivers/motor/odrive_proof.h"
 
 namespace jaywalk::odrive {
 
@@ -22,41 +22,43 @@ struct BaseSetup {
   Duration watchdog_least = std::chrono::milliseconds(40);  ///< it must outlast two commands
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without a heartbeat
   Duration settling = std::chrono::milliseconds(300);
+  StopLimits stop;              ///< braking and tolerance must be given
   bool allow_unproved = false;  ///< arms although an axis did not show that it stops by itself
 };
 
 /// Two axes of ODrives of firmware 0.6 in velocity control, ramped by their own vel_ramp_rate.
 ///
-/// Arming proof: each axis holds speed zero under torque, is left without commands, and must say by itself that its
-/// watchdog expired and let go within the limit. An ODrive whose watchdog expires brakes nothing: its wheels roll out.
+/// Arming proof: WatchdogProof, of one axis after the other, before the first command and after every return. An ODrive
+/// whose watchdog expires brakes nothing, and so does one that is told to give up obeying: its wheel rolls out.
 class OdriveBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
-  std::vector<std::string> arm() override;
   [[nodiscard]] std::string inspect(std::size_t side) override;
 
  private:
   struct Seen {
     std::uint32_t errors = 0;
     std::uint8_t state = 0;  ///< AxisState where it is one of those
-    bool has_position = false;
+    Time expired = kNever;   ///< its watchdog, by its heartbeats
     float position_turns = 0.0F;
   };
 
   void take(const ReceivedFrame& received) noexcept override;
-  void take_estimates(std::size_t index, const EncoderEstimates& estimates) noexcept;
+  void take_heartbeat(std::size_t index, const Heartbeat& heartbeat, Time stamp) noexcept;
+  void take_estimates(std::size_t index, const EncoderEstimates& estimates, Time stamp) noexcept;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   void send_reset(std::size_t index) noexcept override;
-
-  void await_messages(std::size_t index);
-  /// The proof's line, and whether it was one.
-  [[nodiscard]] bool prove_watchdog(std::size_t index, std::string& line);
-  [[nodiscard]] bool hold_until(std::size_t index, std::uint8_t state);
+  void begin_proof(std::size_t index) noexcept override;
+  ProofResult continue_proof(std::size_t index) noexcept override;
+  [[nodiscard]] std::string proof_line(std::size_t index) const override;
+  [[nodiscard]] std::string proof_remedy() const override;
+  [[nodiscard]] StartupError absence(std::size_t index) const override;
   [[nodiscard]] std::string who(std::size_t index) const;
 
   BaseSetup setup_;
   std::array<Seen, 2> seen_;
+  std::array<WatchdogProof, 2> proofs_;
 };
 
 /// Tells two axes to stand still, over a place of its own on their bus.

@@ -97,6 +97,17 @@ std::uint16_t crc16(std::span<const std::uint8_t> bytes) noexcept {
   return static_cast<std::uint16_t>(crc);
 }
 
+// The firmware's numbers (CAN_PACKET_ID in its datatypes.h): 0 to 4 and 10 to 13 set, 5 to 8 carry messages, 17 pings,
+// 19 and 21 to 26 measure and limit, 28 to 31 poll, limit and shut down. Everything else below 32 it sends itself.
+bool is_order(const CanFrame& frame, std::uint8_t controller) noexcept {
+  constexpr std::uint32_t kAll = 255;
+  constexpr std::uint32_t kOrders = 0xF7EA3DFFU;  // a bit a number
+  const std::uint32_t whom = frame.id & 0xFFU;
+  const std::uint32_t number = frame.id >> 8U;
+  if (!frame.extended || (whom != controller && whom != kAll)) return false;
+  return number < 32 && ((kOrders >> number) & 1U) != 0;
+}
+
 std::optional<Message> decode(const CanFrame& frame) noexcept {
   if (!frame.extended || frame.remote) return std::nullopt;
   const auto controller = static_cast<std::uint8_t>(frame.id & 0xFFU);

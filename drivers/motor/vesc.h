@@ -65,6 +65,10 @@ struct Message {
   std::variant<Status, Temperatures, Travel, Piece, PiecesEnd, Fault> content;
 };
 
+/// Whether `frame` is one that only a controller sends to `controller` or to all (255): what sets something, a
+/// question, a ping, or a piece of a long message.
+[[nodiscard]] bool is_order(const CanFrame& frame, std::uint8_t controller) noexcept;
+
 /// Nothing where `frame` is none of these or is too short.
 [[nodiscard]] std::optional<Message> decode(const CanFrame& frame) noexcept;
 

@@ -11,6 +11,7 @@ namespace jaywalk::vesc {
 namespace {
 
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(500);
+constexpr double kMostBrake_a = 200.0;  ///< more than any VESC has
 
 std::int32_t to_erpm(double speed_radps, double electrical_turns_per_rad) noexcept {
   constexpr double kMost = 1e6;  // more than any motor has
@@ -21,7 +22,8 @@ std::int32_t to_erpm(double speed_radps, double electrical_turns_per_rad) noexce
 }  // namespace
 
 VescBase::VescBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
-    : MotorPair(bus, clock, setup.silence_limit, setup.settling), setup_(setup) {
+    : MotorPair(bus, clock, {setup.silence_limit, setup.settling, kAnswerLimit, setup.stop, setup.allow_unproved}),
+      setup_(setup) {
   for (std::size_t k = 0; k < setup.axes.size(); ++k) {
     const AxisSetup& axis = setup.axes[k];
     const double turns = axis.electrical_turns_per_rad;
@@ -40,124 +42,145 @@ std::string VescBase::who(std::size_t index) const {
   return "VESC " + std::to_string(setup_.axes[index].controller) + ": ";
 }
 
-std::vector<std::string> VescBase::arm() {
-  std::vector<std::string> report;
-  for (std::size_t k = 0; k < setup_.axes.size(); ++k) await_messages(k);
-  for (std::size_t k = 0; k < setup_.axes.size(); ++k) report.push_back(proof_of(k));
-  if (trouble() != DriveTrouble::kNone) {
-    throw StartupError("CAN: " + std::string(name(trouble())), "see that the bus is up and the drives are powered");
-  }
-  begin_watch();
-  return report;
-}
-
 std::string VescBase::inspect(std::size_t side) {
-  await_messages(side);
-  return proof_of(side);
+  await_motor(side);
+  begin_proof(side);
+  ProofResult result = ProofResult::kUnderWay;
+  while ((result = continue_proof(side)) == ProofResult::kUnderWay) pass_time();
+  if (result != ProofResult::kPassed && !setup_.allow_unproved) throw StartupError(proof_line(side), proof_remedy());
+  return proof_line(side);
 }
 
-std::string VescBase::proof_of(std::size_t index) {
-  std::string line;
-  const bool proved = prove_timeout(index, line);
-  line = who(index) + line;
-  if (proved || setup_.allow_unproved) return line;
-  throw StartupError(line,
-                     "set timeout and timeout brake current (App Settings, General) with VESC Tool, or "
-                     "allow_unproved at your own risk");
+StartupError VescBase::absence(std::size_t index) const {
+  return {who(index) + (axis(index).heard == kNever ? "no status message 1" : "no status message 5"),
+          "see that it has power, and switch on status messages 1 and 5 at 50 Hz or more with VESC Tool"};
 }
 
-void VescBase::await_messages(std::size_t index) {
-  const Time began = clock().now();
-  const auto complete = [&] { return axis(index).heard > began && seen_[index].has_travel; };
-  while (!complete() && clock().now() - began < kAnswerLimit) pass_time();
-  if (complete()) return;
-  throw StartupError(who(index) + (axis(index).heard > began ? "no status message 5" : "no status message 1"),
-                     "see that it has power, and switch on status messages 1 and 5 at 50 Hz or more with VESC Tool");
-}
-
-bool VescBase::prove_timeout(std::size_t index, std::string& line) {
+void VescBase::begin_proof(std::size_t index) noexcept {
   Seen& seen = seen_[index];
   reader_.begin();
-  seen.answered = false;
+  seen.settings.reset();
+  seen.answered = seen.torque_on = false;
+  seen.asked = clock().now();
   send(ask_settings(setup_.axes[index].controller, setup_.own));
-  for (const Time began = clock().now(); !seen.answered && clock().now() - began < kAnswerLimit;) pass_time();
+}
+
+ProofResult VescBase::continue_proof(std::size_t index) noexcept {
+  const Seen& seen = seen_[index];
+  if (!seen.answered && clock().now() - seen.asked < kAnswerLimit) return ProofResult::kUnderWay;
+  return seen.settings && is_proved_by(*seen.settings) ? ProofResult::kPassed : ProofResult::kUnproved;
+}
+
+bool VescBase::is_proved_by(const StopSettings& settings) const noexcept {
+  const auto timeout = std::chrono::milliseconds(settings.timeout_ms);
+  return timeout >= setup_.timeout_least && timeout <= setup_.timeout_most && settings.brake_current_a > 0.0;
+}
+
+std::string VescBase::proof_line(std::size_t index) const {
+  const Seen& seen = seen_[index];
   if (!seen.settings) {
-    line = std::string("timeout: ") + (seen.answered ? "answer damaged" : "no answer") + ": NOT PROVED";
-    return false;
+    return who(index) + "timeout: " + (seen.answered ? "answer damaged" : "no answer") + ": NOT PROVED";
   }
   const auto in_ms = [](Duration d) {
     return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
   };
-  const auto timeout = std::chrono::milliseconds(seen.settings->timeout_ms);
-  const bool proved =
-      timeout >= setup_.timeout_least && timeout <= setup_.timeout_most && seen.settings->brake_current_a > 0.0;
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), "timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s",
                 in_ms(setup_.timeout_least), in_ms(setup_.timeout_most),
                 static_cast<unsigned>(seen.settings->timeout_ms), seen.settings->brake_current_a,
-                proved ? "" : ": NOT PROVED");
-  line = text.data();
-  return proved;
+                is_proved_by(*seen.settings) ? "" : ": NOT PROVED");
+  return who(index) + text.data();
+}
+
+std::string VescBase::proof_remedy() const {
+  return "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at your own "
+         "risk";
 }
 
 void VescBase::take(const ReceivedFrame& received) noexcept {
-  const auto message = decode(received.frame);
-  if (!message) return;
-  if (message->controller == setup_.own) return take_answer(*message);
-  for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
+  const CanFrame& frame = received.frame;
+  const auto message = decode(frame);
+  // Nobody but us has our number: what bears it is an answer to us, or another master's.
+  if (frame.extended && (frame.id & 0xFFU) == setup_.own) {
+    if (!message || !take_answer(*message, received.stamp)) note_foreign(frame);
+    return;
+  }
+  for (const AxisSetup& axis_setup : setup_.axes) {
+    if (is_order(frame, axis_setup.controller)) return note_foreign(frame);
+  }
+  for (std::size_t k = 0; message && k < setup_.axes.size(); ++k) {
     if (message->controller == setup_.axes[k].controller) take_own(k, *message, received.stamp);
   }
 }
 
 void VescBase::take_own(std::size_t index, const Message& message, Time stamp) noexcept {
   Seen& seen = seen_[index];
-  MotorAxis& of = axis(index);
   const double turns = setup_.axes[index].electrical_turns_per_rad;
-  if (const auto* status = std::get_if<Status>(&message.content)) {
-    of.heard = stamp;
-    of.speed_radps = status->erpm / (60.0 * turns);
-    of.fresh_speed = true;
-    of.obeys = seen.torque_on && seen.fault == 0;
-  }
   if (const auto* travel = std::get_if<Travel>(&message.content)) {
     const auto raw = static_cast<std::uint32_t>(travel->sixths_of_electrical_turn);
-    if (seen.has_travel) seen.sixths += counted(seen.travel, raw);
+    note_turned(index, stamp, counted(seen.travel, raw) / (6.0 * turns));
     seen.travel = raw;
-    seen.has_travel = true;
-    of.turned_rad = static_cast<double>(seen.sixths) / (6.0 * turns);
-    of.fresh_position = true;
+  }
+  if (const auto* status = std::get_if<Status>(&message.content)) {
+    note_heard(index, stamp);
+    note_speed(index, stamp, status->erpm / (60.0 * turns));
+    note_obeys(index, seen.torque_on && seen.fault == 0);
   }
 }
 
-void VescBase::take_answer(const Message& message) noexcept {
-  if (const auto* piece = std::get_if<Piece>(&message.content)) reader_.take(*piece);
-  const auto* end = std::get_if<PiecesEnd>(&message.content);
-  const auto* fault = std::get_if<Fault>(&message.content);
-  for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
-    const std::uint8_t controller = setup_.axes[k].controller;
-    if (end != nullptr && end->from == controller) {
-      seen_[k].settings = reader_.finish(*end);
-      seen_[k].answered = true;
-      reader_.begin();
-    }
-    if (fault != nullptr && fault->from == controller) {
-      seen_[k].fault = fault->code;
-      if (fault->code != 0) report_fault(DriveTrouble::kDriveFault);
-    }
+bool VescBase::is_awaited(std::size_t index, Time stamp) const noexcept {
+  return seen_[index].asked != kNever && stamp - seen_[index].asked < 2 * kAnswerLimit;
+}
+
+bool VescBase::take_answer(const Message& message, Time stamp) noexcept {
+  if (const auto* fault = std::get_if<Fault>(&message.content)) return take_fault(*fault);
+  if (const auto* piece = std::get_if<Piece>(&message.content)) {  // it does not say from whom
+    reader_.take(*piece);
+    return is_awaited(0, stamp) || is_awaited(1, stamp);
   }
+  const auto* end = std::get_if<PiecesEnd>(&message.content);
+  for (std::size_t k = 0; end != nullptr && k < setup_.axes.size(); ++k) {
+    if (end->from != setup_.axes[k].controller || !is_awaited(k, stamp)) continue;
+    seen_[k].settings = reader_.finish(*end);
+    seen_[k].answered = true;
+    reader_.begin();
+    return true;
+  }
+  return false;
+}
+
+bool VescBase::take_fault(const Fault& fault) noexcept {
+  for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
+    if (fault.from != setup_.axes[k].controller || seen_[k].open_asks == 0) continue;
+    --seen_[k].open_asks;
+    seen_[k].fault = fault.code;
+    if (fault.code != 0) report_fault(DriveTrouble::kDriveFault);
+    return true;
+  }
+  return false;
 }
 
 void VescBase::send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept {
   const AxisSetup& axis_setup = setup_.axes[index];
   Seen& seen = seen_[index];
   seen.torque_on = order == MotorOrder::kHold || order == MotorOrder::kRun;
+  const double brake_a = seen.settings ? std::clamp(seen.settings->brake_current_a, 0.0, kMostBrake_a) : 0.0;
   if (order == MotorOrder::kOff) {
-    axis(index).obeys = false;
+    note_obeys(index, false);  // being told is enough: it cannot say that it let go
     send(set_current(axis_setup.controller, 0));
+  } else if (order == MotorOrder::kNetworkStop && brake_a > 0.0) {
+    send(set_brake_current(axis_setup.controller, static_cast<std::int32_t>(1000.0 * brake_a)));
   } else {
     send(set_erpm(axis_setup.controller, to_erpm(speed_radps, axis_setup.electrical_turns_per_rad)));
   }
-  send(ask_fault(axis_setup.controller, setup_.own));
+  ask_for_fault(index);
+}
+
+void VescBase::ask_for_fault(std::size_t index) noexcept {
+  constexpr std::uint32_t kMostOpen = 5;  // answers may be late or lost, and one that nobody asked for must stand out
+  Seen& seen = seen_[index];
+  seen.open_asks = std::min(seen.open_asks + 1, kMostOpen);
+  send(ask_fault(setup_.axes[index].controller, setup_.own));
 }
 
 // Whether a frame is taken changes nothing: there is no third way, and it is said again as long as it has to be.

@@ -1,5 +1,6 @@
 #include "firmware/robot/drive_wiring.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,13 +37,24 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
   return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
 }
 
-canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
+/// What every stop is held against: the model's braking, at the wheels. Feedback lives two periods and a half, so that
+/// one late tick is no stop.
+StopLimits stop_limits(const RobotModel& model, Duration period) {
+  constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
+  const double radius_m = model.drive.wheel_radius_m;
+  StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
+  limits.fresh = std::max<Duration>(std::chrono::milliseconds(60), period * 5 / 2);
+  return limits;
+}
+
+canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, const StopLimits& stop) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
   settings.controller_node = read_node(table, "controller_node", 1);
   settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
   settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
+  base.stop = stop;
   base.allow_unproved = table.boolean("allow_unproved", false);
   const auto scales = read_scales(table, "counts_per_wheel_turn");
   const auto nodes = read_nodes(table, 2, 3);
@@ -56,27 +68,29 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
 
 /// Two motor controllers, one a wheel.
 template <typename Base>
-void read_axes(TomlTable& table, const std::string& key, Base& base) {
+void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop, Base& base) {
   const auto scales = read_scales(table, key);
   const auto nodes = read_nodes(table, 1, 2);
   for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
   base.allow_unproved = table.boolean("allow_unproved", false);
+  base.stop = stop;
 }
 
 }  // namespace
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period) {
   DriveWiring wiring;
+  const StopLimits stop = stop_limits(model, period);
   const std::string kind = table.text("kind");
   wiring.can = table.text("can");
   if (kind == "cia402") {
-    wiring.cia402 = read_cia402(table, model);
+    wiring.cia402 = read_cia402(table, model, stop);
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
-    read_axes(table, "motor_turns_per_wheel_turn", wiring.odrive);
+    read_axes(table, "motor_turns_per_wheel_turn", stop, wiring.odrive);
   } else if (kind == "vesc") {
     wiring.kind = DriveKind::kVesc;
-    read_axes(table, "electrical_turns_per_wheel_turn", wiring.vesc);
+    read_axes(table, "electrical_turns_per_wheel_turn", stop, wiring.vesc);
   } else {
     table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
   }

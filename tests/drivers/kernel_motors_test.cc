@@ -6,12 +6,8 @@
 #include <iostream>
 
 #include "drivers/can/socketcan.h"
-#include "drivers/emulators/odrive_node.h"
-#include "drivers/emulators/vesc_node.h"
-#include "drivers/motor/odrive_base.h"
-#include "drivers/motor/vesc_base.h"
-#include "tests/drivers/motor_bench.h"
-#include "tests/support/catch.h"
+#include "tests/drivers/odrive_bench.h"
+#include "tests/drivers/vesc_bench.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -60,9 +56,8 @@ struct Bench {
 
 TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of them fails") {
   if (is_missing()) return;
-  odrive::BaseSetup setup;
-  setup.axes = {odrive::AxisSetup{3, 2.0}, odrive::AxisSetup{4, -2.0}};
-  setup.silence_limit = 2s;
+  odrive::BaseSetup setup = tests::two_odrives();
+  setup.silence_limit = setup.stop.fresh = 2s;
   Bench<odrive::OdriveBase, odrive::BaseSetup, emulators::OdriveNode> bench(setup, 3, 4, false);
   REQUIRE(bench.base.arm().size() == 2);
   bench.drive(0.0, 20);
@@ -78,9 +73,8 @@ TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of
 
 TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one of them fails") {
   if (is_missing()) return;
-  vesc::BaseSetup setup;
-  setup.axes = {vesc::AxisSetup{23, 25.0}, vesc::AxisSetup{24, -25.0}};
-  setup.silence_limit = 2s;
+  vesc::BaseSetup setup = tests::two_vescs();
+  setup.silence_limit = setup.stop.fresh = 2s;
   Bench<vesc::VescBase, vesc::BaseSetup, emulators::VescNode> bench(setup, 23, 24, true);
   REQUIRE(bench.base.arm().size() == 2);
   bench.drive(0.0, 10);

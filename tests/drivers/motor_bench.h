@@ -7,6 +7,7 @@
 #include "drivers/can/in_process_bus.h"
 #include "hal/hal.h"
 #include "hal/types/errors.h"
+#include "tests/drivers/watched_port.h"
 #include "tests/support/allocation_guard.h"
 
 namespace jaywalk::tests {
@@ -32,7 +33,7 @@ class MotorClock final : public Clock {
 template <class Base, class Setup, class Node>
 struct MotorBench {
   MotorBench(const Setup& setup, std::uint8_t left_id, std::uint8_t right_id)
-      : left(bus.port(1), left_id), right(bus.port(2), right_id), base(bus.port(0), clock, setup) {
+      : left(bus.port(1), left_id), right(bus.port(2), right_id), port(bus.port(0), clock), base(port, clock, setup) {
     clock.nodes = {&left, &right};
   }
   /// Ticks of 20 ms.
@@ -58,6 +59,7 @@ struct MotorBench {
   MotorClock<Node> clock;
   InProcessBus bus{clock, 1};
   Node left, right;
+  WatchedPort port;
   Base base;
   WheelState wheels;
   std::vector<std::string> report;

@@ -5,36 +5,15 @@
 #include <limits>
 #include <string>
 
-#include "drivers/emulators/vesc_node.h"
 #include "tests/drivers/frames.h"
-#include "tests/drivers/motor_bench.h"
 #include "tests/drivers/random_bytes.h"
+#include "tests/drivers/vesc_bench.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
 
 namespace {
-
-vesc::BaseSetup two_axes() {
-  vesc::BaseSetup setup;
-  setup.axes = {vesc::AxisSetup{23, 25.0}, vesc::AxisSetup{24, -25.0}};  // the right motor looks the other way
-  return setup;
-}
-
-/// A wheel at 2 rad/s: 50 electrical turns a second, 3000 a minute; the emulated motor has that after 0.1 s.
-struct Bench : tests::MotorBench<vesc::VescBase, vesc::BaseSetup, emulators::VescNode> {
-  explicit Bench(const vesc::BaseSetup& setup = two_axes()) : MotorBench(setup, 23, 24) {}
-  void bring_to_two_radps() {
-    REQUIRE(armed() == "armed");
-    drive(0.0, 0.0, 10);
-    drive(2.0, 2.0, 50);
-    REQUIRE(base.trouble() == DriveTrouble::kNone);
-    REQUIRE(left.erpm() == Approx(3000.0));
-    REQUIRE(right.erpm() == Approx(-3000.0));
-  }
-  [[nodiscard]] bool is_at_rest() const { return std::fabs(left.erpm()) < 1e-9 && std::fabs(right.erpm()) < 1e-9; }
-};
 
 CanFrame extended(CanFrame made) {
   made.extended = true;
@@ -86,7 +65,7 @@ TEST_CASE("a VESC's fault code is told by the answer to a question") {
 }
 
 TEST_CASE("a VESC arms when its timeout and brake current were read back") {
-  Bench bench;
+  tests::VescBench bench;
   REQUIRE(bench.armed() == "armed");
   REQUIRE(bench.report.size() == 2);
   CHECK(bench.report[0] == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
@@ -94,7 +73,7 @@ TEST_CASE("a VESC arms when its timeout and brake current were read back") {
 }
 
 TEST_CASE("looking at a VESC reads its settings back and sends no speed") {
-  Bench bench;
+  tests::VescBench bench;
   CHECK(bench.base.inspect(0) == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
   CHECK(bench.left.heard_controller() == kNever);
   bench.right.set_timeout(1000, 0.0F);
@@ -102,7 +81,7 @@ TEST_CASE("looking at a VESC reads its settings back and sends no speed") {
 }
 
 TEST_CASE("a VESC as it comes from the factory is not armed") {
-  Bench bench;
+  tests::VescBench bench;
   bench.right.set_timeout(1000, 0.0F);
   CHECK(bench.armed() ==
         "VESC 24: timeout: wanted 40 to 90 ms, reads 1000 ms, then brakes with 0.0 A: NOT PROVED; set timeout and "
@@ -114,40 +93,40 @@ TEST_CASE("a VESC as it comes from the factory is not armed") {
 }
 
 TEST_CASE("a VESC without timeout or without brake or without a sound answer is not armed") {
-  Bench never;
+  tests::VescBench never;
   never.left.set_timeout(0, 10.0F);
   CHECK(never.armed().starts_with("VESC 23: timeout: wanted 40 to 90 ms, reads 0 ms, "));
-  Bench hasty;
+  tests::VescBench hasty;
   hasty.left.set_timeout(30, 10.0F);
   CHECK(hasty.armed().starts_with("VESC 23: timeout: wanted 40 to 90 ms, reads 30 ms, "));
-  Bench rolls;
+  tests::VescBench rolls;
   rolls.left.set_timeout(90, 0.0F);
   CHECK(rolls.armed().find("then brakes with 0.0 A: NOT PROVED") != std::string::npos);
-  Bench damaged;
+  tests::VescBench damaged;
   damaged.left.damage_answers();
   CHECK(damaged.armed().starts_with("VESC 23: timeout: answer damaged: NOT PROVED; "));
-  Bench silent;
+  tests::VescBench silent;
   silent.right.withhold_answers();
   CHECK(silent.armed().starts_with("VESC 24: timeout: no answer: NOT PROVED; "));
-  Bench unplugged;
+  tests::VescBench unplugged;
   unplugged.left.pull_cable();
   CHECK(unplugged.armed().starts_with("VESC 23: no status message 1; "));
-  Bench blind;
+  tests::VescBench blind;
   blind.left.withhold_travel();
   CHECK(blind.armed().starts_with("VESC 23: no status message 5; "));
 }
 
 TEST_CASE("an unproved VESC arms where that is allowed and it is on record") {
-  vesc::BaseSetup setup = two_axes();
+  vesc::BaseSetup setup = tests::two_vescs();
   setup.allow_unproved = true;
-  Bench bench(setup);
+  tests::VescBench bench(setup);
   bench.left.set_timeout(1000, 0.0F);
   CHECK(bench.armed() == "armed");
   CHECK(bench.report[0].ends_with(": NOT PROVED"));
 }
 
 TEST_CASE("wheels on VESCs turn as commanded and are felt in the same direction") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   CHECK(bench.wheels.left_radps == Approx(2.0));
   CHECK(bench.wheels.right_radps == Approx(2.0));
@@ -160,7 +139,7 @@ TEST_CASE("wheels on VESCs turn as commanded and are felt in the same direction"
 }
 
 TEST_CASE("wheel angles go on where a VESC's travel wraps") {
-  Bench bench;
+  tests::VescBench bench;
   bench.left.set_travel(std::numeric_limits<std::int32_t>::max() - 100);
   bench.bring_to_two_radps();
   // 48 electrical turns and more are 285 sixths: beyond the wrap.
@@ -168,7 +147,7 @@ TEST_CASE("wheel angles go on where a VESC's travel wraps") {
 }
 
 TEST_CASE("nothing with VESCs moves before a command of zero") {
-  Bench bench;
+  tests::VescBench bench;
   REQUIRE(bench.armed() == "armed");
   bench.drive(2.0, 2.0, 50);
   CHECK(bench.is_at_rest());
@@ -178,7 +157,7 @@ TEST_CASE("nothing with VESCs moves before a command of zero") {
 }
 
 TEST_CASE("VESCs brake by themselves when the controller dies") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   // The last command was 20 ms ago; 90 ms of timeout, 100 ms of ramp, two steps.
   bench.clock.sleep_until(bench.clock.now() + 172ms);
@@ -186,7 +165,7 @@ TEST_CASE("VESCs brake by themselves when the controller dies") {
 }
 
 TEST_CASE("reading back does not show that a VESC keeps to what it tells") {
-  Bench bench;
+  tests::VescBench bench;
   bench.left.set_timeout(1000, 10.0F);
   bench.left.lie_about_timeout(90);
   bench.bring_to_two_radps();  // it is armed: why the report says read back and not shown
@@ -195,7 +174,7 @@ TEST_CASE("reading back does not show that a VESC keeps to what it tells") {
 }
 
 TEST_CASE("a VESC's fault stops both wheels until a reset and a command of zero") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   bench.left.set_fault(3);
   bench.drive(2.0, 2.0, 10);
@@ -215,13 +194,13 @@ TEST_CASE("a VESC's fault stops both wheels until a reset and a command of zero"
 }
 
 TEST_CASE("a VESC that falls silent and a bus that fails are noticed") {
-  Bench unplugged;
+  tests::VescBench unplugged;
   unplugged.bring_to_two_radps();
   unplugged.left.pull_cable();
   unplugged.drive(2.0, 2.0, 20);
   CHECK(unplugged.base.trouble() == DriveTrouble::kDriveSilent);
   CHECK(unplugged.is_at_rest());
-  Bench refused;
+  tests::VescBench refused;
   refused.bring_to_two_radps();
   refused.bus.port(0).refuse_sends(1);
   refused.drive(2.0, 2.0, 10);
@@ -230,7 +209,7 @@ TEST_CASE("a VESC that falls silent and a bus that fails are noticed") {
 }
 
 TEST_CASE("VESCs are disarmed at the end without that being trouble") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   bench.drive(0.0, 0.0, 20);
   bench.base.disarm();
@@ -240,8 +219,22 @@ TEST_CASE("VESCs are disarmed at the end without that being trouble") {
   CHECK_FALSE(bench.base.is_enabled());
 }
 
+TEST_CASE("VESCs that are disarmed while they drive are braked first") {
+  tests::VescBench bench;
+  bench.bring_to_two_radps();
+  for (int k = 0; k < 60; ++k) {  // what is left below 0.5 rad/s rolls out
+    static_cast<void>(bench.base.latest());
+    bench.base.disarm();
+    bench.clock.sleep_until(bench.clock.now() + 20ms);
+  }
+  CHECK(bench.is_at_rest());
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  static_cast<void>(bench.base.latest());
+  CHECK_FALSE(bench.base.is_enabled());
+}
+
 TEST_CASE("a second way tells VESCs to stand still") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   vesc::Stopper stopper(bench.bus.port(3), {23, 24});
   for (int k = 0; k < 6; ++k) {
@@ -252,18 +245,18 @@ TEST_CASE("a second way tells VESCs to stand still") {
 }
 
 TEST_CASE("VESCs that cannot be are refused") {
-  vesc::BaseSetup setup = two_axes();
+  vesc::BaseSetup setup = tests::two_vescs();
   setup.axes[1].controller = 23;
-  CHECK_THROWS_AS(Bench(setup), StartupError);
+  CHECK_THROWS_AS(tests::VescBench(setup), StartupError);
   setup.axes[1].controller = 254;
-  CHECK_THROWS_AS(Bench(setup), StartupError);
-  setup = two_axes();
+  CHECK_THROWS_AS(tests::VescBench(setup), StartupError);
+  setup = tests::two_vescs();
   setup.axes[0].electrical_turns_per_rad = 0.0;
-  CHECK_THROWS_AS(Bench(setup), StartupError);
+  CHECK_THROWS_AS(tests::VescBench(setup), StartupError);
 }
 
 TEST_CASE("whatever stands on the bus the state of wheels on VESCs stays finite and a stop stays a stop") {
-  Bench bench;
+  tests::VescBench bench;
   bench.bring_to_two_radps();
   tests::RandomBytes random(73);
   bool stopped = false;

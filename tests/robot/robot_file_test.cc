@@ -105,6 +105,11 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   CHECK(odrives.drive.kind == DriveKind::kOdrive);
   CHECK(odrives.drive.odrive.axes[0].turns_per_rad == Approx(1.0));
   CHECK(odrives.drive.odrive.axes[1].turns_per_rad == Approx(-1.0));
+  // The p3dx brakes with 1 m/s2 on wheels of 0.0975 m; 50 Hz.
+  const double radius_m = odrives.setup.model.drive.wheel_radius_m;
+  CHECK(odrives.drive.odrive.stop.brake_radps2 == Approx(odrives.setup.model.limits.brake_mps2 / radius_m));
+  CHECK(odrives.drive.odrive.stop.tolerance_radps == Approx(0.05 / radius_m));
+  CHECK(odrives.drive.odrive.stop.fresh == std::chrono::milliseconds(60));
   const RobotFile vescs = load(with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600",
                                     "vesc\"\ncan = \"can0\"\nelectrical_turns_per_wheel_turn = 6.283185307179586"));
   CHECK(vescs.drive.kind == DriveKind::kVesc);

@@ -1,0 +1,116 @@
+// MotorPair's arming proof, at start-up and after every return.
+#include <cstdio>
+
+#include "drivers/motor/motor_pair.h"
+
+namespace jaywalk {
+
+namespace {
+
+/// Another controller commands at 20 Hz or more: in this time it is heard several times.
+constexpr Duration kListening = std::chrono::milliseconds(300);
+
+std::string in_words(const CanFrame& frame) {
+  std::array<char, 16> text{};
+  std::snprintf(text.data(), text.size(), frame.extended ? "%08Xh" : "%03Xh", static_cast<unsigned>(frame.id));
+  std::string words = text.data();
+  if (frame.remote) words += " (a request)";
+  for (const std::uint8_t byte : frame.payload()) {
+    std::snprintf(text.data(), text.size(), " %02X", static_cast<unsigned>(byte));
+    if (!frame.remote) words += text.data();
+  }
+  return words;
+}
+
+}  // namespace
+
+std::vector<std::string> MotorPair::arm() {
+  trouble_ = DriveTrouble::kNone;
+  listen();
+  begin_proofs();
+  while (proving_ && !foreign_) {
+    continue_proofs();
+    pass_time();
+  }
+  std::vector<std::string> report = judge_proofs();
+  armed_ = true;
+  bus_watch_.begin(bus_.health());
+  return report;
+}
+
+void MotorPair::listen() {
+  foreign_.reset();
+  for (const Time began = clock_.now(); clock_.now() - began < kListening && !foreign_;) pass_time();
+}
+
+std::vector<std::string> MotorPair::judge_proofs() const {
+  if (foreign_) {
+    throw StartupError("CAN: another program commands the drives: frame " + in_words(*foreign_),
+                       "end that program, or take it off this bus");
+  }
+  std::vector<std::string> report;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    if (results_[k] == ProofResult::kAbsent) throw absence(k);
+    if (results_[k] == ProofResult::kUnderWay) continue;
+    report.push_back(proof_line(k));
+    if (!accepts(results_[k])) throw StartupError(report.back(), proof_remedy());
+  }
+  if (trouble_ != DriveTrouble::kNone) {
+    throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
+  }
+  return report;
+}
+
+bool MotorPair::accepts(ProofResult result) const noexcept {
+  return result == ProofResult::kPassed || (result == ProofResult::kUnproved && setup_.allow_unproved);
+}
+
+void MotorPair::await_motor(std::size_t index) {
+  axes_[index].forget();
+  const Time began = clock_.now();
+  while (!axes_[index].shows_itself() && clock_.now() - began < setup_.answer_limit) pass_time();
+  if (!axes_[index].shows_itself()) throw absence(index);
+}
+
+void MotorPair::prove() noexcept {
+  if (!proving_) begin_proofs();
+  continue_proofs();
+}
+
+void MotorPair::begin_proofs() noexcept {
+  proving_ = true;
+  proved_ = both_shown_ = false;
+  under_proof_ = 0;
+  results_ = {};
+  proofs_began_ = clock_.now();
+  for (MotorAxis& a : axes_) a.forget();
+}
+
+/// One motor after the other, once both show themselves.
+void MotorPair::continue_proofs() noexcept {
+  if (both_shown_) return finish_proof(continue_proof(under_proof_));
+  const bool late = clock_.now() - proofs_began_ > setup_.answer_limit;
+  for (under_proof_ = 0; under_proof_ < axes_.size(); ++under_proof_) {
+    if (!axes_[under_proof_].shows_itself()) return late ? finish_proof(ProofResult::kAbsent) : void();
+  }
+  both_shown_ = true;
+  under_proof_ = 0;
+  begin_proof(0);
+}
+
+void MotorPair::finish_proof(ProofResult result) noexcept {
+  results_[under_proof_] = result;
+  if (result == ProofResult::kUnderWay) return;
+  if (!accepts(result)) return latch(DriveTrouble::kNotProved);
+  if (trouble_ != DriveTrouble::kNone) return;
+  if (++under_proof_ < axes_.size()) return begin_proof(under_proof_);
+  proving_ = false;
+  proved_ = true;
+}
+
+void MotorPair::pass_time() {
+  clock_.sleep_until(clock_.now() + std::chrono::milliseconds(1));
+  receive();
+}
+
+}  // namespace jaywalk
