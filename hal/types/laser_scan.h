@@ -11,6 +11,13 @@ namespace jaywalk {
 /// Most beams that a scan may have: 360 degrees at 0.18 degrees.
 inline constexpr std::size_t kMaxBeams = 2048;
 
+/// What one beam proves.
+enum class BeamState : std::uint8_t {
+  kHit,      ///< something stands at its range
+  kFree,     ///< the device measured, and says that nothing is within its reach
+  kUnknown   ///< nothing: lost, dirty, dazzled, too near, blanked, no number
+};
+
 /// One sweep of a planar laser scanner, in the laser's frame (x ahead, angles counter-clockwise).
 ///
 /// A range is metres along its beam. Finite values in [range_min_m, range_max_m) are hits; 0, NaN,
@@ -37,6 +44,9 @@ struct LaserScan {
   }
   [[nodiscard]] bool found_nothing(std::size_t beam) const { return range_m[beam] >= range_max_m; }  // false for NaN
   [[nodiscard]] bool too_near(std::size_t beam) const { return range_m[beam] < -std::numeric_limits<float>::max(); }
+  [[nodiscard]] BeamState state(std::size_t beam) const {
+    return is_hit(beam) ? BeamState::kHit : found_nothing(beam) ? BeamState::kFree : BeamState::kUnknown;
+  }
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return static_cast<double>(first_angle_rad) + static_cast<double>(beam) * static_cast<double>(angle_step_rad);
   }
