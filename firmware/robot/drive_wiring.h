@@ -21,6 +21,7 @@ struct DriveWiring {
 };
 
 /// Reads the table to its end. Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
-[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model);
+/// `tick`: the loop's period, two of which every drive's timeout outlasts, or one late tick would trip it.
+[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick);
 
 }  // namespace jaywalk

@@ -1,6 +1,7 @@
 #include "firmware/robot/robot_file.h"
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/safety/zone_check.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"
 
@@ -86,11 +87,12 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.laser = read_wiring(laser);
   read_laser(laser, setup.model.laser);
   laser.finish();
-  robot.drive = read_drive(root.table("drive"), setup.model);
+  robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
+  require_zone_in_reach(setup.model, setup.tick(), path.string());
   return robot;
 }
 

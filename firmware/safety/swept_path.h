@@ -17,7 +17,7 @@ class SweptPath {
 
   /// `rim_mps`: speed of the fastest-moving part, above 0; `length_m`: how far that goes, kLongest_m at most.
   SweptPath(const Twist2& twist, double rim_mps, double length_m) noexcept
-      : steps_(std::min(static_cast<std::size_t>(length_m / kStep_m) + 1, kMostSteps)) {
+      : steps_(std::min(static_cast<std::size_t>(std::min(length_m, kLongest_m) / kStep_m) + 1, kMostSteps)) {
     const double step_s = kStep_m / rim_mps;
     // Driving a chord and then turning differs from the arc by less than 0.3 mm a step.
     const double ahead_m = twist.v_mps * step_s;
