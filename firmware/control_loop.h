@@ -6,6 +6,7 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/localization/localizer.h"
@@ -58,6 +59,7 @@ class ControlLoop {
   Follower follower_;
   std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
   std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
+  Latency latency_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;               ///< what collect() last answered, never null

@@ -137,6 +137,7 @@ void transfer_rest(Archive& ar, Record& r) {
   transfer_twist(ar, r.verdict.permitted);
   ar(r.verdict.reasons), ar(r.verdict.gap_m);
   ar(r.command.stamp), ar(r.command.left_radps), ar(r.command.right_radps);
+  if (ar.version >= 4) ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
 }
 
 void put_scan(Put& put, const LaserScan& scan) {
@@ -193,6 +194,8 @@ bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, 
   Get get{ByteSource(in), version_};
   record.input = {};  // what an older recording does not have
   record.wheels = {};
+  record.took = Duration{0};
+  record.latency = {};
   bool new_scan = false;
   bool new_fix = false;
   get(lost_before);

@@ -1,6 +1,7 @@
 #include "firmware/robot/robot_file.h"
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/safety/zone_check.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"
 
@@ -91,6 +92,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
+  require_zone_in_reach(setup.model, setup.tick(), path.string());
   return robot;
 }
 

@@ -56,7 +56,7 @@ std::string refusal(const std::string& text) {
     static_cast<void>(load(text));
   } catch (const StartupError& error) {
     const std::string said = error.what();
-    return said.substr(said.find(".toml:") + 6);
+    return said.substr(said.find(".toml:") + 6);  // the stop zone's refusal has no line
   }
   return "loaded";
 }
@@ -115,6 +115,33 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   CHECK(vescs.drive.kind == DriveKind::kVesc);
   CHECK(vescs.drive.vesc.axes[1].electrical_turns_per_rad == Approx(-1.0));
   CHECK(refusal(with("cia402", "odrive")).rfind("10: drive.motor_turns_per_wheel_turn is missing; ", 0) == 0);
+}
+
+TEST_CASE("every drive's timeout outlasts two of the loop's periods") {
+  const auto at = [](const std::string& rate_hz, const std::string& timeout_ms) {
+    std::string text = with("[laser]", "rate_hz = " + rate_hz + "\n[laser]");
+    const std::string can = "can = \"can0\"";
+    return text.replace(text.find(can), can.size(), can + "\ncontroller_timeout_ms = " + timeout_ms);
+  };
+  CHECK(refusal(at("20", "40"))
+            .rfind("14: drive.controller_timeout_ms is 40, less than two of the loop's periods; ", 0) == 0);
+  CHECK(refusal(at("20", "99")) != "loaded");
+  CHECK(refusal(at("20", "100")) == "loaded");
+  CHECK(refusal(at("50", "40")) == "loaded");
+  const auto motors = [](const std::string& kind, const std::string& key, const std::string& rate_hz) {
+    std::string text = with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn", kind + "\"\ncan = \"can0\"\n" + key);
+    return text.replace(text.find("[laser]"), 7, "rate_hz = " + rate_hz + "\n[laser]");
+  };
+  CHECK(load(motors("vesc", "electrical_turns_per_wheel_turn", "25")).drive.vesc.timeout_least ==
+        std::chrono::milliseconds(80));
+  CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn", "20")) != "loaded");
+  CHECK(load(motors("odrive", "motor_turns_per_wheel_turn", "20")).drive.odrive.watchdog_least ==
+        std::chrono::milliseconds(100));
+}
+
+TEST_CASE("a robot that outruns its stop zone is refused") {
+  CHECK(refusal(with("range_m = 10.0", "range_m = 1.0")) != "loaded");
+  CHECK(refusal(with("range_m = 10.0", "beams = 90")) != "loaded");
 }
 
 TEST_CASE("the robot file of the rig loads") {
