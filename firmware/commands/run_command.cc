@@ -107,7 +107,9 @@ int run_robot(const RunOptions& options) {
   RobotDevices devices(file, clock);
   OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();
-  const ControlSocket socket(socket_for(options, file), [&](std::string_view line) { return desk.obey(line); });
+  const ControlSocket socket(
+      socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
+      order_priority(file.realtime));
   NoPoseSource no_fixes;
   LoopRunner runner(file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out,
                     true, [&](std::unique_ptr<Planner> planner) {
