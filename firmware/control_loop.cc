@@ -81,6 +81,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
   t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
+  if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);

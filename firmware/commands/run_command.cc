@@ -139,15 +139,16 @@ int run_robot(const RunOptions& options) {
   }
   report.follow();
   const RunStatus& last = report.last();
-  write_devices(options.out, last, not_permitted);
   runner.finish({.outcome = outcome(last),
                  .success = outcome(last) == "reached",
                  .heading_error_rad = at_goal(last),
                  .missed_ticks = last.missed_ticks,
                  .scenario = options.robot.filename().string()});
+  write_devices(options.out, last, not_permitted);
   RunPicture picture;
   picture.consider(runner);
   picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
+  runner.require_recorded();
   remark("disarmed; " + outcome(last) + "; see " + (options.out / "run.png").string());
   return last.latched ? 1 : 0;
 }
