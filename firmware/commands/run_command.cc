@@ -119,6 +119,7 @@ int run_robot(const RunOptions& options) {
                     });
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
+  controls.start(order_priority(file.realtime));
   devices.start();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
