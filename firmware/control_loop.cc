@@ -88,6 +88,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.latency = latency_.measured();
   t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal()});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
+  if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);

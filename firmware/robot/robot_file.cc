@@ -52,6 +52,11 @@ PanelWiring read_panel(TomlTable table) {
   };
   joystick.path = table.text("joystick");
   panel.needs_dead_man = table.boolean("needs_dead_man", panel.needs_dead_man);
+  joystick.dead_man_renew =
+      duration_from_seconds(table.number("dead_man_renew_s", {0.0, 60.0}, to_seconds(joystick.dead_man_renew)));
+  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
+    table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
+  }
   joystick.dead_man = button("dead_man_button", joystick.dead_man);
   joystick.stop = button("stop_button", joystick.stop);
   joystick.stop_opens = table.boolean("stop_opens", joystick.stop_opens);

@@ -162,6 +162,10 @@ TEST_CASE("a joystick is read from the file with its buttons") {
   CHECK(robot.panel->joystick.stop_opens);
   CHECK(robot.panel->joystick.dead_man == 0x136);  // BTN_TL
   CHECK(refusal(std::string(kGood) + "\n[panel]\nneeds_dead_man = true\n").find("joystick") != std::string::npos);
+  CHECK(robot.panel->joystick.dead_man_renew == Duration{0});
+  CHECK(load(std::string(kGood) + "\n[panel]\njoystick = \"/dev/null\"\ndead_man_renew_s = 1.5\n")
+            .panel->joystick.dead_man_renew == std::chrono::milliseconds(1500));
+  CHECK(refusal(kGood + panel + "dead_man_renew_s = 2\n").find("has no dead man to renew") != std::string::npos);
   CHECK(refusal(kGood + panel + "throttle = 1\n").find("throttle") != std::string::npos);
 }
 
