@@ -1,5 +1,7 @@
 #include "firmware/control_loop.h"
 
+#include <algorithm>
+
 namespace jaywalk {
 namespace {
 
@@ -39,7 +41,10 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
+  SupervisorConfig config{
+      .model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
+  config.max_wheel_age = std::max(config.max_wheel_age, 5 * setup.tick() / 2);  // of feedback, too, one may be lost
+  return config;
 }
 
 }  // namespace
@@ -54,6 +59,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       follower_(follower_config(setup)),
       guide_(guide_for(setup)),
       turn_(turn_for(setup)),
+      latency_(setup.model.drive),
       supervisor_(supervisor_config(setup)),
       diff_drive_(setup.model.drive),
       plan_(&planner.collect()) {}
@@ -79,12 +85,16 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
-  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
+  t.latency = latency_.measured();
+  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal()});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
+  if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
+  t.took = hal_.clock.now() - now;
+  latency_.add(now, t.took, t.wheels, t.command);
 
   if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();
@@ -116,7 +126,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
   return {.path = plan_->path,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
-          .has_goal = t.input.has_goal && !(supervisor_.latched() && setup_.applies_verdict()),
+          .has_goal = t.input.has_goal && (supervisor_.takes_wishes() || !setup_.applies_verdict()),
           .tracks = tracker_.tracks(),
           .standing = tracker_.standing(),
           .permitted_before = driven_,

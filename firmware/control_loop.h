@@ -6,6 +6,7 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/localization/localizer.h"
@@ -27,6 +28,7 @@ class ControlLoop {
 
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
+  [[nodiscard]] Mode mode() const noexcept { return supervisor_.mode(); }
   /// At the goal, on the way to the heading wanted there.
   [[nodiscard]] bool turns_at_goal() const noexcept { return turn_ && turn_->active(); }
 
@@ -57,6 +59,7 @@ class ControlLoop {
   Follower follower_;
   std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
   std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
+  Latency latency_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;               ///< what collect() last answered, never null

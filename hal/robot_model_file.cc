@@ -29,14 +29,10 @@ DriveModel read_drive(TomlTable table) {
 
 /// [[laser.blanked]], in degrees of the laser's own frame.
 Blanking read_blanked(TomlTable& laser) {
-  constexpr Range kDegrees{-360.0, 360.0};
   Blanking sectors;
   for (TomlTable table : laser.tables("blanked")) {
-    const BlankedSector sector{wrap_angle(table.number("from_deg", kDegrees) * kRadPerDeg),
-                               wrap_angle(table.number("to_deg", kDegrees) * kRadPerDeg)};
+    const BlankedSector sector = read_sector(table);
     table.finish();
-    if (sector.width_rad() == 0.0)
-      table.refuse("to_deg", "is where the sector begins", "give the end, counter-clockwise from there");
     if (!sectors.push_back(sector))
       table.refuse("from_deg", "begins one sector more than " + std::to_string(Blanking::capacity()), "join some");
   }
@@ -56,9 +52,20 @@ MotionLimits read_limits(TomlTable table) {
 
 }  // namespace
 
+BlankedSector read_sector(TomlTable& table) {
+  constexpr Range kDegrees{-360.0, 360.0};
+  const BlankedSector sector{wrap_angle(table.number("from_deg", kDegrees) * kRadPerDeg),
+                             wrap_angle(table.number("to_deg", kDegrees) * kRadPerDeg)};
+  if (sector.width_rad() == 0.0)
+    table.refuse("to_deg", "is where the sector begins", "give the end, counter-clockwise from there");
+  return sector;
+}
+
 void read_laser(TomlTable& table, LaserModel& laser) {
   laser.fov_rad = table.number("fov_deg", {1.0, 360.0}, laser.fov_rad / kRadPerDeg) * kRadPerDeg;
-  laser.beams = static_cast<std::uint32_t>(table.integer("beams", {2.0, static_cast<double>(kMaxBeams)}, laser.beams));
+  laser.beams = static_cast<std::uint32_t>(table.integer("beams", {1.0, static_cast<double>(kMaxBeams)}, laser.beams));
+  if (laser.beams < kLeastBeams)
+    table.refuse("beams", "are too few: so few beams are no scanner", "give the number that one sweep has, 3 or more");
   laser.rate_hz = table.number("rate_hz", {0.1, 100.0}, laser.rate_hz);
   laser.range_min_m = table.number("range_min_m", {0.0, 5.0}, laser.range_min_m);
   laser.range_max_m = table.number("range_m", {0.1, 300.0}, laser.range_max_m);

@@ -14,6 +14,9 @@ namespace jaywalk {
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 
+/// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.
+[[nodiscard]] BlankedSector read_sector(TomlTable& table);
+
 /// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount, blanked) over
 /// `laser`; keys that are absent leave it as it is.
 void read_laser(TomlTable& table, LaserModel& laser);

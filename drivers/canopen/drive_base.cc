@@ -151,6 +151,7 @@ WheelState CanopenDriveBase::latest() noexcept {
   watch();
   wheels_.trouble = trouble_;
   wheels_.stop = ladder_.stage();
+  wheels_.ready = is_proved() && !awaits_zero_ && is_enabled();
   return wheels_;
 }
 

@@ -44,6 +44,7 @@ std::vector<std::uint8_t> LdServer::message_of(std::size_t first_beam, std::span
   word(360.0 * kRate_hz);
   word(100.0 * kStep_deg * static_cast<double>(first_beam) + 0.5);
   for (const float m : range_m) {
+    // 0 for nothing in reach as for nothing measured: it has no other word.
     word(m > 0.0F && m <= 12.0F ? static_cast<double>(m) * 1000.0 + 0.5 : 0.0);
     packet.push_back(200);  // how strong the return was
   }

@@ -39,6 +39,11 @@ std::uint16_t check(const std::vector<std::uint8_t>& bytes) {
 Lms200Server::Lms200Server(std::unique_ptr<ByteServer> wire, std::uint32_t baud, World world)
     : ScannerServer(std::move(wire), fan(baud), kBeams, std::move(world)) {}
 
+bool Lms200Server::set_window(Window window) {
+  status_ = window == Window::kClean ? 0x00 : window == Window::kSoiled ? 0x82 : 0x83;
+  return true;
+}
+
 void Lms200Server::on_bytes(wire::Bytes bytes) {
   came_in_.insert(came_in_.end(), bytes.begin(), bytes.end());
   while (came_in_.size() >= kCommand) {
@@ -72,7 +77,8 @@ std::vector<std::uint8_t> Lms200Server::framed(std::span<const std::uint8_t> bod
 std::vector<std::uint8_t> Lms200Server::message_of(std::size_t, std::span<const float> range_m, Time, Time) {
   std::vector<std::uint8_t> body{0xB0, kBeams, 0x00};
   for (const float m : range_m) {
-    const unsigned cm = m > 0.0F && m <= 80.0F ? in_counts(m, 0.01) : 8183U;  // 8183: nothing seen
+    constexpr unsigned kBeyond = 8183, kDazzled = 8190;
+    const unsigned cm = m > 80.0F ? kBeyond : m > 0.0F ? in_counts(m, 0.01) : kDazzled;
     body.push_back(static_cast<std::uint8_t>(cm % 256));
     body.push_back(static_cast<std::uint8_t>(cm / 256));
   }

@@ -13,8 +13,9 @@ class Lms200Server final : public ScannerServer {
  public:
   Lms200Server(std::unique_ptr<ByteServer> wire, std::uint32_t baud, World world);
 
-  /// The status in its telegrams: 0 well, 3 error, 4 fatal.
+  /// The status in its telegrams: 0 well, 2 warning, 3 error, 4 fatal; 40h more: implausible values, 80h more: dirt.
   void set_status(std::uint8_t status) noexcept { status_ = status; }
+  [[nodiscard]] bool set_window(Window window) override;
 
  private:
   void on_new_peer() override {}

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <utility>
 
+#include "hal/types/blanking.h"
+#include "hal/types/geometry.h"
+
 namespace jaywalk::emulators {
 
 ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape& shape, std::size_t beams_per_message,
@@ -11,7 +14,20 @@ ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape&
       shape_(shape),
       beams_per_message_(beams_per_message),
       world_(std::move(world)),
-      range_m_(shape.beams) {}
+      range_m_(shape.beams),
+      lost_(shape.beams) {}
+
+void ScannerServer::lose_beams(std::size_t first, std::size_t count) {
+  for (std::size_t k = first; k < std::min(first + count, lost_.size()); ++k) lost_[k] = true;
+}
+
+void ScannerServer::lose_sector(double from_rad, double to_rad) {
+  constexpr double kSame_rad = 1e-9;
+  const BlankedSector sector{from_rad, to_rad};
+  for (std::size_t k = 0; k < lost_.size(); ++k) {
+    if (sector.off_rad(wrap_angle(shape_.angle_rad(k))) <= kSame_rad) lost_[k] = true;
+  }
+}
 
 void ScannerServer::order(ScannerFault fault, Duration duration) {
   if (fault_ == ScannerFault::kGone) wire_->set_present(true);
@@ -73,7 +89,9 @@ void ScannerServer::measure_until_now(Time now) {
   const std::size_t until = share >= 1.0 ? shape_.beams : static_cast<std::size_t>(past) + 1;
   if (until <= measured_) return;
   world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
-  measured_ = until;
+  for (; measured_ < until; ++measured_) {
+    if (lost_[measured_]) range_m_[measured_] = 0.0F;
+  }
   tell_measured(now);
 }
 
@@ -85,6 +103,7 @@ void ScannerServer::tell_measured(Time now) {
 }
 
 void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
+  if (noise() < 256.0 * damaged_share_) message[message.size() / 2] ^= 0x5AU;
   switch (fault_) {
     case ScannerFault::kSilence:
     case ScannerFault::kGone:
@@ -100,7 +119,7 @@ void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
       message[message.size() / 2] ^= 0x5AU;
       break;
     case ScannerFault::kGarbage:
-      for (auto& byte : message) byte = static_cast<std::uint8_t>((noise_ = noise_ * 1664525U + 1013904223U) >> 24U);
+      for (auto& byte : message) byte = noise();
       break;
     case ScannerFault::kHeldBack:
       held_.push_back({fault_ends_, std::move(message)});

@@ -26,6 +26,13 @@ enum class ScannerFault : std::uint8_t {
   kGone           ///< nothing is there to connect to
 };
 
+/// The window as the scanner judges it.
+enum class Window : std::uint8_t {
+  kClean,
+  kSoiled,  ///< it warns, and measures
+  kDirty    ///< it can measure no more
+};
+
 /// Where the beams look and when; the same words as in hal's LaserScan.
 struct SweepShape {
   std::size_t beams = 271;
@@ -50,7 +57,8 @@ struct SweepShape {
 /// code with the driver that it talks to, except how numbers stand in bytes.
 class ScannerServer {
  public:
-  /// Fills in the ranges (m) that beams `first_beam` onwards see at this moment; 0 where they see nothing.
+  /// Fills in the ranges (m) that beams `first_beam` onwards measure at this moment, as in hal's LaserScan: infinity
+  /// where nothing is within reach, 0 where nothing could be measured. Each kind of scanner says both in its own codes.
   using World = std::function<void(std::size_t first_beam, std::span<float> range_m)>;
 
   /// Messages of `beams_per_message` beams; a sweep holds a whole number of them.
@@ -63,6 +71,16 @@ class ScannerServer {
   void step(Time now);
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
+
+  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing; whoever else
+  /// was lost stays so.
+  void lose_beams(std::size_t first, std::size_t count);
+  void lose_sector(double from_rad, double to_rad);
+  void find_beams() noexcept { lost_.assign(lost_.size(), false); }
+  /// From now on each message is damaged with this probability, 0 to 1.
+  void damage_share(double share) noexcept { damaged_share_ = share; }
+  /// False where this kind of scanner has no word for dirt.
+  [[nodiscard]] virtual bool set_window(Window) { return false; }
 
   [[nodiscard]] const SweepShape& shape() const noexcept { return shape_; }
   /// Messages with ranges, a sweep each for most scanners.
@@ -89,6 +107,9 @@ class ScannerServer {
   void measure_until_now(Time now);
   void tell_measured(Time now);
   void send(std::vector<std::uint8_t> message, Time now);
+  [[nodiscard]] std::uint8_t noise() noexcept {
+    return static_cast<std::uint8_t>((noise_ = noise_ * 1664525U + 1013904223U) >> 24U);
+  }
   void send_held(Time now);
 
   struct Held {
@@ -101,6 +122,8 @@ class ScannerServer {
   std::size_t beams_per_message_;
   World world_;
   std::vector<float> range_m_;
+  std::vector<bool> lost_;  ///< for each beam
+  double damaged_share_ = 0.0;
   std::deque<Held> held_;
   std::size_t measured_ = 0, told_ = 0;  ///< beams of this sweep
   Time began_ = kNever;

@@ -1,6 +1,7 @@
 #include "drivers/emulators/scip_server.h"
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
@@ -91,19 +92,31 @@ std::string ScipServer::parameters() const {
          value("AFRT:", model_.front_step) + value("SCAN:", model_.turns_per_minute);
 }
 
+/// What it says for steps that are joined: the nearest distance, or else a code of the UTM-30LX.
+std::uint32_t ScipServer::joined_mm(std::span<const float> range_m) const {
+  constexpr std::uint32_t kNothingInRange = 1, kMeasurementError = 3;
+  std::uint32_t nearest = model_.range_max_mm + 1;
+  bool measured = true;
+  for (const float m : range_m) {
+    measured = measured && m > 0.0F;
+    if (m > 0.0F && std::isfinite(m)) nearest = std::min(nearest, in_counts(m, 0.001));
+  }
+  if (nearest <= model_.range_max_mm) return std::max(nearest, model_.range_min_mm);
+  return measured ? kNothingInRange : kMeasurementError;
+}
+
 std::vector<std::uint8_t> ScipServer::message_of(std::size_t, std::span<const float> range_m, Time began, Time) {
+  if (!status_.empty()) {
+    const std::string refusal = asked_ + '\n' + with_sum(status_) + "\n\n";
+    return {refusal.begin(), refusal.end()};
+  }
   const auto ms = std::chrono::duration_cast<std::chrono::milliseconds>(began.time_since_epoch()).count();
   std::string text = asked_ + '\n' + with_sum("99") + '\n' +
                      with_sum(characters(kClockAtStart_ms + static_cast<std::uint32_t>(ms), 4)) + '\n';
   std::string distances;
   for (std::uint32_t step = first_; step <= last_; step += joined_) {
-    float nearest_m = 0.0F;
-    for (std::uint32_t k = step; k < std::min(step + joined_, last_ + 1); ++k) {
-      const float m = range_m[k - model_.first_step];
-      if (m > 0.0F && (nearest_m == 0.0F || m < nearest_m)) nearest_m = m;
-    }
-    const auto mm = in_counts(nearest_m, 0.001);
-    distances += characters(mm <= model_.range_max_mm ? std::max(mm, 1U) : 1U, 3);  // 1: an error code, no return
+    const std::uint32_t end = std::min(step + joined_, last_ + 1);
+    distances += characters(joined_mm(range_m.subspan(step - model_.first_step, end - step)), 3);
   }
   for (std::size_t at = 0; at < distances.size(); at += kLine) text += with_sum(distances.substr(at, kLine)) + '\n';
   text += '\n';

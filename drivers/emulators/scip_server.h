@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "drivers/emulators/scanner_server.h"
 
@@ -27,6 +28,8 @@ class ScipServer final : public ScannerServer {
 
   /// The laser does not come on any more.
   void break_laser() noexcept { broken_ = true; }
+  /// The status that comes in place of each scan, as "0L" for a broken laser; empty: it is well.
+  void set_status(std::string status) { status_ = std::move(status); }
 
  private:
   void on_new_peer() override {}
@@ -38,6 +41,7 @@ class ScipServer final : public ScannerServer {
   void begin_scans(const std::string& command);
   void say(const std::string& command, const std::string& status, const std::string& lines = "");
   [[nodiscard]] std::string parameters() const;
+  [[nodiscard]] std::uint32_t joined_mm(std::span<const float> range_m) const;
 
   ScipModel model_;
   std::string came_in_;
@@ -45,6 +49,7 @@ class ScipServer final : public ScannerServer {
   std::uint32_t first_ = 0, last_ = 0, joined_ = 1;
   bool laser_on_ = false;
   bool broken_ = false;
+  std::string status_;
 };
 
 }  // namespace jaywalk::emulators

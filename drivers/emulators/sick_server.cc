@@ -128,7 +128,8 @@ std::vector<std::uint8_t> SickServer::message_of(std::size_t, std::span<const fl
   fields.number(1, 2);
   fields.number(0x00E0FFEE, 4);
   fields.number(0, 1);
-  fields.number(unwell_ ? 1 : 0, 1);
+  const std::uint32_t dirt = window_ == Window::kClean ? 0 : window_ == Window::kSoiled ? 2 : 4;
+  fields.number((unwell_ ? 1U : 0U) | dirt, 1);
   fields.number(++telegrams_, 2);
   fields.number(++sweeps_, 2);
   fields.number(on_device(began + shape().sweep), 4);
@@ -146,8 +147,9 @@ std::vector<std::uint8_t> SickServer::message_of(std::size_t, std::span<const fl
   fields.number(model_.step_tdeg, 2);
   fields.number(model_.beams, 2);
   for (const float m : range_m) {
+    constexpr std::uint32_t kNoEcho = 0, kNotMeasured = 2;  // the latter as a recorded TiM has it
     const bool seen = static_cast<double>(m) <= model_.range_max_m && m > 0.0F;
-    fields.number(seen ? in_counts(m, 0.001) : 0, 2);
+    fields.number(seen ? in_counts(m, 0.001) : m > 0.0F ? kNoEcho : kNotMeasured, 2);
   }
   for (int k = 0; k < 6; ++k) fields.number(0, 2);  // channels of 8 bits, position, name, comment, time, event
   const std::string telegram = framed("sSN LMDscandata " + fields.made());

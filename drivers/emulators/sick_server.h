@@ -31,6 +31,11 @@ class SickServer final : public ScannerServer {
   void ignore(std::string word) { ignored_word_ = std::move(word); }
   /// The status bit that says "error" in every telegram.
   void set_unwell(bool unwell) noexcept { unwell_ = unwell; }
+  /// The status bits that speak of contamination.
+  [[nodiscard]] bool set_window(Window window) override {
+    window_ = window;
+    return true;
+  }
 
  private:
   void on_new_peer() override;
@@ -48,6 +53,7 @@ class SickServer final : public ScannerServer {
   std::string refused_word_, ignored_word_;
   bool logged_in_ = false;
   bool unwell_ = false;
+  Window window_ = Window::kClean;
   std::uint16_t telegrams_ = 0;
   std::uint16_t sweeps_ = 0;
 };

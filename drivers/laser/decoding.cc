@@ -20,6 +20,8 @@ std::string_view name(Decoding decoding) noexcept {
       return "no distances";
     case Decoding::kDeviceError:
       return "scanner reports an error";
+    case Decoding::kDirty:
+      return "scanner's window is dirty";
   }
   return "unknown";
 }

@@ -13,7 +13,8 @@ enum class Decoding : std::uint8_t {
   kBadField,      ///< a field that is no number, or one that no scanner sends
   kTooManyBeams,  ///< more than kMaxBeams
   kNoDistances,   ///< a scan without a channel of first distances
-  kDeviceError    ///< the scanner says that it is not well
+  kDeviceError,   ///< the scanner says that it is not well
+  kDirty          ///< the scanner says that its window is too dirty to measure through
 };
 
 [[nodiscard]] std::string_view name(Decoding decoding) noexcept;

@@ -13,7 +13,7 @@ namespace jaywalk::ldrobot {
 inline constexpr std::size_t kPacketBytes = 47, kPacketPoints = 12;
 
 struct Point {
-  std::uint16_t range_mm = 0;  ///< 0: no return
+  std::uint16_t range_mm = 0;  ///< 0: nothing measured, for whatever cause
   std::uint8_t intensity = 0;
 };
 

@@ -13,8 +13,8 @@ class LdProtocol final : public ScannerProtocol {
   [[nodiscard]] bool awaits_answer() const noexcept override { return false; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
-  /// Packets are not numbered: what is lost of them shows as skipped bytes, and as beams without return.
-  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0}; }
+  /// Packets are not numbered: what is lost of them shows as skipped bytes, and as unknown beams.
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0, 0}; }
 
  private:
   PacketStream stream_;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 
 #include "hal/types/trig.h"
 
@@ -13,7 +14,9 @@ namespace {
 constexpr std::uint8_t kStx = 0x02, kAck = 0x06, kFromScanner = 0x80, kAllValues = 0xB0;
 constexpr std::size_t kHeader = 4, kChecksum = 2;
 constexpr double kTurn_s = 1.0 / 75.0;
-constexpr std::uint16_t kFarthest = 8182, kDistanceBits = 0x1FFF;
+constexpr std::uint16_t kFarthest = 8182, kBeyond = 8183, kDistanceBits = 0x1FFF, kDazzled = 0x8000;
+/// The status byte: how bad in the three lowest bits (1 note, 2 warning, 3 error, 4 fatal), the device in the next two.
+constexpr unsigned kSeverity = 7, kWarning = 2, kError = 3, kImplausible = 0x40, kPolluted = 0x80;
 
 /// What a number of values means: they are the only ones there are.
 struct Fan {
@@ -23,6 +26,19 @@ struct Fan {
 };
 constexpr std::array<Fan, 5> kFans{
     {{181, 180.0, 1.0, 1}, {361, 180.0, 0.5, 2}, {101, 100.0, 1.0, 1}, {201, 100.0, 0.5, 2}, {401, 100.0, 0.25, 4}}};
+
+float range_of(std::uint16_t value, float metres_per_count) noexcept {
+  if ((value & kDazzled) != 0) return 0.0F;
+  const std::uint16_t counts = value & kDistanceBits;
+  if (counts == kBeyond) return std::numeric_limits<float>::infinity();
+  return counts <= kFarthest ? static_cast<float>(counts) * metres_per_count : 0.0F;
+}
+
+Decoding judge(unsigned status) noexcept {
+  const bool error = (status & kSeverity) >= kError;
+  if (error && (status & kPolluted) != 0) return Decoding::kDirty;
+  return error || (status & kImplausible) != 0 ? Decoding::kDeviceError : Decoding::kScan;
+}
 
 void place(const Fan& fan, std::size_t telegram_bytes, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept {
   const double on_line_s = static_cast<double>(telegram_bytes) * 10.0 / baud;  // start and stop bit
@@ -95,17 +111,20 @@ Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserSc
   if (fan == kFans.end()) return Decoding::kBadField;
   const float metres_per_count = unit == 0 ? 0.01F : 0.001F;
   for (std::uint32_t k = 0; k < count; ++k) {
-    const std::uint16_t counts = reader.little<std::uint16_t>() & kDistanceBits;
-    scan.range_m[k] = counts <= kFarthest ? static_cast<float>(counts) * metres_per_count : 0.0F;
+    scan.range_m[k] = range_of(reader.little<std::uint16_t>(), metres_per_count);
   }
   const auto status = reader.little<std::uint8_t>();
   if (!reader.ok()) return Decoding::kTruncated;
-  if ((status & 7U) >= 3) return Decoding::kDeviceError;  // 1 note, 2 warning, 3 error, 4 fatal
+  if (judge(status) != Decoding::kScan) return judge(status);
   scan.beam_count = count;
   scan.range_min_m = 0.01F;
   scan.range_max_m = static_cast<float>(kFarthest) * metres_per_count;
   place(*fan, kHeader + body.size() + kChecksum, baud, arrival, scan);
   return Decoding::kScan;
+}
+
+bool warns(wire::Bytes body) noexcept {
+  return !body.empty() && ((body.back() & kSeverity) == kWarning || (body.back() & kPolluted) != 0);
 }
 
 }  // namespace jaywalk::lms200

@@ -42,8 +42,12 @@ class TelegramStream {
 ///
 /// `baud` is the line's rate: the scan's stamp is `arrival` less what the telegram took on the line, less the sweep.
 /// Half and quarter degrees are measured in two and four turns of the mirror, interlaced; the sweep spans them all. The
-/// three highest bits of a value are flags, the rest a distance up to 8182 counts of a centimetre or a millimetre;
-/// above are the scanner's error codes: "no return".
+/// three highest bits of a value are flags: field A, field B, dazzled (the measuring mode of the factory). The rest is
+/// a distance up to 8182 counts of a centimetre or a millimetre, 8183 for one beyond that, or an error code above. A
+/// dazzled value and an error code prove nothing.
 [[nodiscard]] Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserScan& scan) noexcept;
+
+/// The scanner warns in the status byte at the end of a body: of dirt on its window, or of something else.
+[[nodiscard]] bool warns(wire::Bytes body) noexcept;
 
 }  // namespace jaywalk::lms200

@@ -24,7 +24,9 @@ Heard Lms200Protocol::next(Time arrival, LaserScan& scan) noexcept {
     ++at_;
   }
   if (at_ < steps_.size()) return Heard::kAnswer;  // what it still sends from before
-  return heard_of(decode_scan(*body, baud_, arrival, scan));
+  const Heard heard = heard_of(decode_scan(*body, baud_, arrival, scan));
+  if (heard == Heard::kScan && warns(*body)) ++warned_;
+  return heard;
 }
 
 }  // namespace jaywalk::lms200

@@ -18,7 +18,7 @@ class Lms200Protocol final : public ScannerProtocol {
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
-  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0}; }
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0, warned_}; }
 
  private:
   std::uint32_t baud_;
@@ -26,6 +26,7 @@ class Lms200Protocol final : public ScannerProtocol {
   std::size_t at_ = 0;
   bool asked_ = false;
   TelegramStream stream_;
+  std::uint64_t warned_ = 0;
 };
 
 }  // namespace jaywalk::lms200

@@ -31,7 +31,7 @@ struct Node {
   bool begins_turn = false;
   std::uint8_t quality = 0;
   double angle_deg = 0.0;  ///< clockwise from ahead, below 360
-  float range_m = 0.0F;    ///< 0: no return
+  float range_m = 0.0F;    ///< 0: the measurement is not valid
 };
 
 /// Nothing where the bytes are fewer, their check bits wrong, or the angle more than a turn.

@@ -74,6 +74,7 @@ Heard RplidarProtocol::on_health() noexcept {
   queue_.drop(kHealthBytes);
   answer_found_ = false;
   step_ = Step::kAskScan;
+  if (status == 1) ++warned_;
   return status >= 2 ? Heard::kRefused : Heard::kAnswer;
 }
 

@@ -15,7 +15,7 @@ class RplidarProtocol final : public ScannerProtocol {
   [[nodiscard]] bool awaits_answer() const noexcept override { return step_ == Step::kHealth || step_ == Step::kScan; }
   void hear(wire::Bytes bytes) noexcept override { queue_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
-  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, skipped_ + queue_.lost(), 0}; }
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, skipped_ + queue_.lost(), 0, warned_}; }
 
  private:
   enum class Step : std::uint8_t { kStop, kPause, kHealth, kAskScan, kScan, kNodes };
@@ -32,6 +32,7 @@ class RplidarProtocol final : public ScannerProtocol {
   wire::ByteQueue<8192> queue_;
   TurnBuilder turn_{360, 0.15F, 25.0F};  ///< A1 to A3: nothing below, 12 to 25 m at most (maker's data sheets)
   std::uint64_t skipped_ = 0;
+  std::uint64_t warned_ = 0;
 };
 
 }  // namespace jaywalk::rplidar

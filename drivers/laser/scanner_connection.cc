@@ -18,9 +18,10 @@ constexpr int kMostReads = 16;
 }  // namespace
 
 std::string_view name(ScannerTrouble trouble) noexcept {
-  constexpr std::array<std::string_view, 8> kNames{
-      "none",           "scanner unreachable", "scanner closed the connection", "no answer", "scanner refuses to send",
-      "scanner silent", "scans are late",      "scanner reports an error"};
+  constexpr std::array<std::string_view, 9> kNames{
+      "none",           "scanner unreachable",      "scanner closed the connection",
+      "no answer",      "scanner refuses to send",  "scanner silent",
+      "scans are late", "scanner reports an error", "scanner's window is dirty"};
   const auto index = static_cast<std::size_t>(trouble);
   return index < kNames.size() ? kNames[index] : "unknown trouble";
 }
@@ -119,6 +120,9 @@ void ScannerConnection::take_messages(Time arrival) noexcept {
       case Heard::kDeviceError:
         suffer(ScannerTrouble::kDeviceError);
         break;
+      case Heard::kDirty:
+        suffer(ScannerTrouble::kDirty);
+        break;
       case Heard::kRefused:
         return give_up(ScannerTrouble::kRefused, arrival);
     }
@@ -150,8 +154,8 @@ void ScannerConnection::watch(Time now) noexcept {
     return;
   }
   if (without <= timing_.silence_limit) return;
-  const bool unwell = health_.trouble == ScannerTrouble::kDeviceError;
-  give_up(unwell ? ScannerTrouble::kDeviceError : scan_late_ ? ScannerTrouble::kLate : ScannerTrouble::kSilent, now);
+  const bool says_why = health_.trouble == ScannerTrouble::kDeviceError || health_.trouble == ScannerTrouble::kDirty;
+  give_up(says_why ? health_.trouble : scan_late_ ? ScannerTrouble::kLate : ScannerTrouble::kSilent, now);
 }
 
 void ScannerConnection::give_up(ScannerTrouble why, Time now) noexcept {

@@ -21,7 +21,8 @@ enum class ScannerTrouble : std::uint8_t {
   kRefused,      ///< it will not send scans
   kSilent,       ///< connected, and nothing comes that is a scan
   kLate,         ///< scans come, but too long after they were taken
-  kDeviceError   ///< it says itself that it is not well
+  kDeviceError,  ///< it says itself that it is not well
+  kDirty         ///< it says itself that its window is too dirty
 };
 
 [[nodiscard]] std::string_view name(ScannerTrouble trouble) noexcept;

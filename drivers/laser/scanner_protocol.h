@@ -14,6 +14,7 @@ enum class Heard : std::uint8_t {
   kAnswer,       ///< to a command, or something that is of no interest
   kMalformed,    ///< a message that does not hold what it should
   kDeviceError,  ///< the scanner says that it is not well
+  kDirty,        ///< the scanner says that its window is too dirty to measure through
   kRefused       ///< it will not send scans
 };
 
@@ -26,6 +27,8 @@ enum class Heard : std::uint8_t {
       return Heard::kAnswer;
     case Decoding::kDeviceError:
       return Heard::kDeviceError;
+    case Decoding::kDirty:
+      return Heard::kDirty;
     default:
       return Heard::kMalformed;
   }
@@ -36,6 +39,7 @@ struct ProtocolCounts {
   std::uint64_t lost = 0;           ///< scans that the scanner numbered and that did not come
   std::uint64_t skipped_bytes = 0;  ///< that belonged to no message
   std::uint64_t refused = 0;        ///< commands that the scanner refused or did not answer, and can do without
+  std::uint64_t warned = 0;         ///< messages in which the scanner warned, of dirt on its window for one
   bool operator==(const ProtocolCounts&) const = default;
 };
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <limits>
 #include <span>
 
 #include "hal/types/trig.h"
@@ -12,6 +13,9 @@ namespace jaywalk::scip {
 namespace {
 
 constexpr std::size_t kLongestData = 64;
+constexpr std::uint32_t kLastCode = 19;                             // of the URG-04LX; C-42-03320B, 6, tables 3 and 4
+constexpr std::uint32_t kNothingInRange = 1;                        // UTM-30LX
+constexpr std::uint32_t kNoEchoFirst = 65533, kNoEchoLast = 65535;  // of SCIP 2.2: nothing there, or too dark
 
 /// What was asked, as the answer's first line repeats it: "MD" first step, last step, steps to a beam.
 struct Question {
@@ -58,7 +62,9 @@ std::optional<std::string_view> checked(std::string_view line) noexcept {
 /// Gathers the characters of numbers that may begin on one line and end on the next.
 class DistanceReader {
  public:
-  DistanceReader(std::size_t characters, LaserScan& scan) noexcept : characters_(characters), scan_(scan) {}
+  /// `one_means_nothing`: as in ScannerModel.
+  DistanceReader(std::size_t characters, bool one_means_nothing, LaserScan& scan) noexcept
+      : characters_(characters), one_means_nothing_(one_means_nothing), scan_(scan) {}
 
   Decoding read(std::string_view characters) noexcept {
     for (const char c : characters) {
@@ -67,7 +73,7 @@ class DistanceReader {
       value_ = value_ << 6U | *bits;
       if (++gathered_ < characters_) continue;
       if (scan_.beam_count == kMaxBeams) return Decoding::kTooManyBeams;
-      scan_.range_m[scan_.beam_count++] = static_cast<float>(value_) * 0.001F;
+      scan_.range_m[scan_.beam_count++] = range_of(value_);
       value_ = 0;
       gathered_ = 0;
     }
@@ -76,15 +82,24 @@ class DistanceReader {
   [[nodiscard]] bool is_between_numbers() const noexcept { return gathered_ == 0; }
 
  private:
+  [[nodiscard]] float range_of(std::uint32_t value) const noexcept {
+    if (value == kNothingInRange && one_means_nothing_) return std::numeric_limits<float>::infinity();
+    const bool is_code = value <= kLastCode || (value >= kNoEchoFirst && value <= kNoEchoLast);
+    return is_code ? 0.0F : static_cast<float>(value) * 0.001F;
+  }
+
   std::size_t characters_;
+  bool one_means_nothing_;
   LaserScan& scan_;
   std::uint32_t value_ = 0;
   std::size_t gathered_ = 0;
 };
 
-Decoding read_distances(std::string_view rest, const Question& question, LaserScan& scan) noexcept {
+// Of joined steps one that is in error may hide what the others saw: there a code is only a code.
+Decoding read_distances(std::string_view rest, const Question& question, const ScannerModel& model,
+                        LaserScan& scan) noexcept {
   scan.beam_count = 0;
-  DistanceReader reader(question.characters, scan);
+  DistanceReader reader(question.characters, model.one_means_nothing && question.cluster == 1, scan);
   while (!rest.empty()) {
     const auto line = checked(take_line(rest));
     if (!line) return Decoding::kChecksum;
@@ -102,6 +117,9 @@ struct Told {
   std::uint32_t least, most;
   std::optional<std::uint32_t> value;
 };
+
+/// "MODL:UTM-30LX(Hokuyo Automatic Co.,Ltd.)"; not the UTM-30LX-EW, whose codes are others.
+bool names_utm_30lx(std::string_view text) noexcept { return text.substr(0, text.find('(')) == "MODL:UTM-30LX"; }
 
 /// "DMIN:20;4" into the one of `wanted` that has this name.
 Decoding take_value(std::string_view line, std::span<Told> wanted) noexcept {
@@ -174,9 +192,12 @@ Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
                             {"AMAX", 0, 9999, {}},
                             {"AFRT", 0, 9999, {}},
                             {"SCAN", 60, 60000, {}}}};
+  bool is_utm_30lx = false;
   while (!answer.empty()) {
-    const Decoding decoding = take_value(take_line(answer), told);
+    const std::string_view line = take_line(answer);
+    const Decoding decoding = take_value(line, told);
     if (decoding != Decoding::kScan) return decoding;
+    is_utm_30lx = is_utm_30lx || names_utm_30lx(line.substr(0, line.rfind(';')));
   }
   for (const Told& one : told) {
     if (!one.value) return Decoding::kTruncated;
@@ -190,6 +211,7 @@ Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
   model.last_step = value(4);
   model.front_step = value(5);
   model.period = duration_from_seconds(60.0 / static_cast<double>(value(6)));
+  model.one_means_nothing = is_utm_30lx;
   return Decoding::kScan;
 }
 
@@ -208,7 +230,7 @@ Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time ar
   if (!stamp) return Decoding::kChecksum;
   const auto device_time = decode_number(*stamp);
   if (stamp->size() != 4 || !device_time) return Decoding::kBadField;
-  const Decoding decoding = read_distances(answer, *question, scan);
+  const Decoding decoding = read_distances(answer, *question, model, scan);
   if (decoding != Decoding::kScan) return decoding;
   device_time_ms = *device_time;
   place(*question, model, arrival, scan);

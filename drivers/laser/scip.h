@@ -43,6 +43,8 @@ struct ScannerModel {
   float range_min_m = 0.1F;
   float range_max_m = 30.0F;
   Duration period = std::chrono::milliseconds(25);
+  /// The code 1 is "no object in the range", as of the UTM-30LX; others say weak light by it (C-42-03320B, 6).
+  bool one_means_nothing = false;
 };
 
 /// Reads the answer to PP: lines "DMIN:20;4", the last character the checksum of what stands before the semicolon.
@@ -52,8 +54,9 @@ struct ScannerModel {
 /// Decodes an answer to MD, MS, GD or GS (distances of the first echo) into `scan`, all but its sequence.
 ///
 /// `arrival` is when its last byte came in; the scan's stamp is that less the sweep: how long the scanner and the
-/// line held it is not known here. Distances below range_min_m are the scanner's error codes: "no return".
-/// `device_time_ms` is the scanner's own clock, 24 bits.
+/// line held it is not known here. Distances below range_min_m are the scanner's error codes: they prove nothing but
+/// the one by which a UTM-30LX says that it found nothing. Nor does 65533, which newer models say for nothing in range
+/// as well as for too little light. `device_time_ms` is the scanner's own clock, 24 bits.
 [[nodiscard]] Decoding decode_scan(std::string_view answer, const ScannerModel& model, Time arrival, LaserScan& scan,
                                    std::uint32_t& device_time_ms) noexcept;
 

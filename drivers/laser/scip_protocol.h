@@ -18,7 +18,7 @@ class ScipProtocol final : public ScannerProtocol {
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
-  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {lost_, skipped_ + stream_.lost(), 0}; }
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {lost_, skipped_ + stream_.lost(), 0, 0}; }
 
  private:
   enum class Step : std::uint8_t { kQuiet, kAsk, kLaserOn, kScans, kDone };

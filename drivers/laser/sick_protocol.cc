@@ -52,6 +52,7 @@ Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
   if (heard == Heard::kAnswer) return on_answer(text_of(*body));
   if (heard == Heard::kScan) {
     count_lost(header.telegram_counter);
+    if (header.warns_of_dirt) ++warned_;
     scan.stamp -= device_clock_.delay(header.sent_time_us, arrival);
   }
   return heard;
@@ -89,6 +90,6 @@ void SickProtocol::count_lost(std::uint16_t telegram_counter) noexcept {
   last_counter_ = telegram_counter;
 }
 
-ProtocolCounts SickProtocol::counts() const noexcept { return {lost_, stream_.skipped(), refused_}; }
+ProtocolCounts SickProtocol::counts() const noexcept { return {lost_, stream_.skipped(), refused_, warned_}; }
 
 }  // namespace jaywalk::sick

@@ -45,6 +45,7 @@ class SickProtocol final : public ScannerProtocol {
   std::uint16_t last_counter_ = 0;
   std::uint64_t lost_ = 0;
   std::uint64_t refused_ = 0;
+  std::uint64_t warned_ = 0;
 };
 
 }  // namespace jaywalk::sick

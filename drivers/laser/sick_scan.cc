@@ -78,6 +78,11 @@ struct Channel {
 
 constexpr double kRadPerTick = kPi / 180.0 / 10000.0;  // angles come in ten-thousandths of a degree
 constexpr double kAheadRad = kPi / 2.0;
+/// Counts below are no distances: 0 no valid measurement, 1 dazzled, the rest reserved (SICK LMS4000, 8023198, 12.1;
+/// the same telegram). The largest that the field holds is no distance that one of these scanners measures.
+constexpr std::uint32_t kLeastCounts = 16, kBeyondCounts = 0xFFFF;
+/// Device status, as in SICK's telegram listing (8014631) and LMS5xx (8013796, 10.2).
+constexpr std::uint32_t kError = 1, kDirtWarning = 2, kDirtError = 4;
 
 template <class Fields>
 Channel read_channel(Fields& fields) noexcept {
@@ -94,7 +99,7 @@ Channel read_channel(Fields& fields) noexcept {
 /// Whole turns and sane scales only; false for NaN.
 bool is_plausible(const Channel& channel) noexcept {
   return channel.metres_per_count > 0.0F && channel.metres_per_count <= 1.0F && std::fabs(channel.offset_m) <= 100.0F &&
-         std::fabs(channel.first_angle_rad) <= 4.0 * kPi && channel.step_rad > 0.0 &&
+         std::fabs(channel.first_angle_rad) <= 4.0 * kPi && channel.step_rad > 0.0 && channel.count >= kLeastBeams &&
          channel.step_rad * channel.count <= 2.0 * kPi + channel.step_rad;
 }
 
@@ -107,7 +112,8 @@ Decoding read_distances(Fields& fields, const Channel& channel, LaserScan& scan)
   scan.angle_step_rad = static_cast<float>(channel.step_rad);
   for (std::uint32_t beam = 0; beam < channel.count; ++beam) {
     const std::uint32_t counts = fields.u16();
-    scan.range_m[beam] = counts == 0 ? 0.0F : static_cast<float>(counts) * channel.metres_per_count + channel.offset_m;
+    const bool measured = counts >= kLeastCounts && counts < kBeyondCounts;
+    scan.range_m[beam] = measured ? static_cast<float>(counts) * channel.metres_per_count + channel.offset_m : 0.0F;
   }
   return fields.failure();
 }
@@ -129,8 +135,9 @@ Decoding read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequenc
   frequency_centihertz = fields.u32();
   fields.u32();  // measuring frequency
   if (fields.failure() != Decoding::kScan) return fields.failure();
-  // Bit 0: error. Bits 1 and 2 speak of dirt on the window, which the ranges themselves show.
-  if ((status & 1U) != 0) return Decoding::kDeviceError;
+  header.warns_of_dirt = (status & kDirtWarning) != 0;
+  if ((status & kError) != 0) return Decoding::kDeviceError;
+  if ((status & kDirtError) != 0) return Decoding::kDirty;
   return frequency_centihertz >= 10 && frequency_centihertz <= 100000 ? Decoding::kScan : Decoding::kBadField;
 }
 

@@ -1,6 +1,8 @@
 #include "drivers/laser/turn_builder.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "hal/types/trig.h"
 
@@ -17,15 +19,24 @@ bool TurnBuilder::add(double angle_deg, float range_m, Time measured, LaserScan&
   if (angle_deg < last_angle_deg_ - kHalfTurnDeg) {
     completed = began_ != kNever;
     if (completed) close_turn(measured, scan);
-    nearest_m_.fill(0.0F);
+    sector_m_.fill(0.0F);
     began_ = measured;
   }
   last_angle_deg_ = angle_deg;
   const double sector_deg = 360.0 / sectors_;
   const auto sector = std::min(static_cast<std::size_t>(angle_deg / sector_deg), std::size_t{sectors_ - 1});
-  float& nearest = nearest_m_[sector];
-  if (range_m >= range_min_m_ && (nearest == 0.0F || range_m < nearest)) nearest = range_m;
+  put(range_m, sector_m_[sector]);
   return completed;
+}
+
+void TurnBuilder::put(float range_m, float& sector) const noexcept {
+  const auto is_hit = [this](float r) { return r >= range_min_m_ && r < range_max_m_; };
+  if (is_hit(range_m)) {
+    sector = is_hit(sector) ? std::min(sector, range_m) : range_m;
+  } else if (!is_hit(sector)) {
+    const bool free = range_m >= range_max_m_ && !std::isnan(sector);
+    sector = free ? std::numeric_limits<float>::infinity() : std::numeric_limits<float>::quiet_NaN();
+  }
 }
 
 void TurnBuilder::close_turn(Time end, LaserScan& scan) const noexcept {
@@ -38,7 +49,8 @@ void TurnBuilder::close_turn(Time end, LaserScan& scan) const noexcept {
   scan.range_max_m = range_max_m_;
   scan.sweep = std::max(end - began_, Duration{0});
   scan.period = scan.sweep;
-  std::copy_n(nearest_m_.begin(), sectors_, scan.range_m.begin());
+  std::transform(sector_m_.begin(), sector_m_.begin() + sectors_, scan.range_m.begin(),
+                 [](float m) { return std::isnan(m) ? 0.0F : m; });
 }
 
 }  // namespace jaywalk

@@ -10,9 +10,10 @@ namespace jaywalk {
 /// Makes scans of the single points of a scanner that turns clockwise without end: a turn begins where the angle passes
 /// straight ahead.
 ///
-/// Points lie at uneven angles; they are put into equal sectors, the nearest point of a sector counts (as is right for
-/// what must not be hit), and sectors without a point hold 0, "no return". The first turn, seen in part, is not handed
-/// out.
+/// Points lie at uneven angles; they are put into equal sectors, the nearest hit of a sector counts (as is right for
+/// what must not be hit). A sector without a hit is free where all its points found nothing within reach; one with a
+/// point that proves nothing, or with none at all (a lost packet), is unknown: it holds 0. The first turn, seen in
+/// part, is not handed out.
 class TurnBuilder {
  public:
   static constexpr std::uint32_t kMostSectors = 512;
@@ -28,11 +29,12 @@ class TurnBuilder {
   void forget() noexcept { began_ = kNever; }
 
  private:
+  void put(float range_m, float& sector) const noexcept;
   void close_turn(Time end, LaserScan& scan) const noexcept;
 
   std::uint32_t sectors_;
   float range_min_m_, range_max_m_;
-  std::array<float, kMostSectors> nearest_m_{};
+  std::array<float, kMostSectors> sector_m_{};  ///< as in a scan, and NaN where a point proved nothing
   Time began_ = kNever;
   double last_angle_deg_ = 0.0;
 };

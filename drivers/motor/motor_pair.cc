@@ -26,6 +26,7 @@ WheelState MotorPair::latest() noexcept {
   watch();
   wheels_.trouble = trouble_;
   wheels_.stop = stop_;
+  wheels_.ready = proved_ && armed_ && !awaits_zero_ && trouble_ == DriveTrouble::kNone && is_enabled();
   return wheels_;
 }
 

@@ -32,7 +32,13 @@ double Joystick::Axis::share() const noexcept {
   return beyond > 0.0 ? std::copysign(beyond, raw) : 0.0;
 }
 
-Joystick::Joystick(JoystickSetup setup) : setup_(std::move(setup)) {}
+std::optional<std::uint16_t> bus_of(int device) noexcept {
+  input_id told{};
+  if (::ioctl(device, question(0x02, sizeof told), &told) < 0) return std::nullopt;  // EVIOCGID
+  return told.bustype;
+}
+
+Joystick::Joystick(JoystickSetup setup, BusOf bus) : setup_(std::move(setup)), ask_bus_(bus) {}
 
 void Joystick::poll(Time now) noexcept {
   if (device_.get() < 0 && (tried_ == kNever || now - tried_ >= kBetweenTries)) {
@@ -40,16 +46,43 @@ void Joystick::poll(Time now) noexcept {
     open();
   }
   read();
+  expire_dead_man(now);
+  count_stop();
+}
+
+/// A dead man whose time is up counts as one that was never seen released.
+void Joystick::expire_dead_man(Time now) noexcept {
+  if (heard_) heard_at_ = now;
+  heard_ = false;
+  if (setup_.dead_man_renew > Duration{0} && age(heard_at_, now) > setup_.dead_man_renew &&
+      dead_man_ == Button::kPressed) {
+    seen_released_ = false;
+  }
+}
+
+bool Joystick::stops() const noexcept {
+  if (device_.get() < 0) return true;
+  return setup_.stop_opens ? stop_ != Button::kPressed : stop_ == Button::kPressed;
+}
+
+void Joystick::count_stop() noexcept {
+  const bool stop = stops();
+  if (stop && !stopped_before_) ++stops_;
+  stopped_before_ = stop;
 }
 
 JoystickState Joystick::state() const noexcept {
-  if (device_.get() < 0) return {};
-  const bool held = dead_man_ == Button::kPressed && seen_released_;
-  const bool stop = setup_.stop_opens ? stop_ != Button::kPressed : stop_ == Button::kPressed;
+  JoystickState gone;
+  gone.stops = stops_;
+  if (device_.get() < 0) return gone;
+  const bool needs_renewal = on_bluetooth_ && setup_.dead_man_renew == Duration{0};
+  const bool held = dead_man_ == Button::kPressed && seen_released_ && !needs_renewal;
   return {.connected = true,
           .dead_man = held,
-          .stop = stop,
+          .stop = stops(),
+          .stops = stops_,
           .reset = reset_ == Button::kPressed,
+          .needs_renewal = needs_renewal,
           .forward = held ? -forward_.share() : 0.0,
           .left = held ? -left_.share() : 0.0};
 }
@@ -60,7 +93,9 @@ void Joystick::open() noexcept {
   dead_man_ = stop_ = reset_ = Button::kUnknown;
   seen_released_ = false;
   forward_ = left_ = Axis();
-  if (device_.get() >= 0) ask_present_state();
+  if (device_.get() < 0) return;
+  on_bluetooth_ = ask_bus_(device_.get()) == BUS_BLUETOOTH;
+  ask_present_state();
 }
 
 void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
@@ -96,6 +131,7 @@ void Joystick::read() noexcept {
 
 void Joystick::take(const InputEvent& event) noexcept {
   if (event.type == EV_SYN && event.code == SYN_DROPPED) return close();  // events are lost: ask again how things stand
+  heard_ = heard_ || event.type == EV_KEY || event.type == EV_ABS;
   if (event.type == EV_KEY) take_button(event.code, event.value != 0);
   if (event.type == EV_ABS && event.code == setup_.forward) forward_.value = event.value;
   if (event.type == EV_ABS && event.code == setup_.left) left_.value = event.value;
@@ -108,6 +144,7 @@ void Joystick::take_button(std::uint16_t code, bool pressed) noexcept {
     seen_released_ = seen_released_ || !pressed;
   }
   if (code == setup_.stop) stop_ = now;
+  count_stop();
   if (code == setup_.reset) reset_ = now;
 }
 

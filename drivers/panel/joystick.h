@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "drivers/panel/input_event.h"
@@ -19,23 +20,34 @@ struct JoystickSetup {
   std::uint16_t reset = 0x13B;   ///< BTN_START
   std::uint16_t forward = 0x01;  ///< ABS_Y: pushed away counts down
   std::uint16_t left = 0x00;     ///< ABS_X: to the left counts down
+  /// The dead man counts for so long after the newest event of any button or axis; then it must be released and pressed
+  /// anew. 0: for as long as it is held, as befits a cable.
+  Duration dead_man_renew{0};
 };
 
 struct JoystickState {
   bool connected = false;  ///< all else is false or 0 where it is not, but stop is true
   bool dead_man = false;   ///< held, and seen released since it was connected: one that is tied down does not count
   bool stop = true;
+  std::uint32_t stops = 0;  ///< how often stop began: one that is let go at once is seen all the same
   bool reset = false;
+  /// On Bluetooth and without dead_man_renew: a link that dies would leave the dead man held. It counts as released.
+  bool needs_renewal = false;
   double forward = 0.0;  ///< -1 to 1; 0 near the middle and without the dead man
   double left = 0.0;     ///< the same
 };
 
-/// A joystick or a box of buttons behind evdev. It never waits; a device that goes is looked for twice a second. The
-/// kernel tells changes only: a device that is dead without the kernel's knowing looks as it last was.
+/// Asks an open device on which bus it is, by the numbers of <linux/input.h>; nothing where it does not answer.
+using BusOf = std::optional<std::uint16_t> (*)(int device) noexcept;
+[[nodiscard]] std::optional<std::uint16_t> bus_of(int device) noexcept;
+
+/// A joystick or a box of buttons behind evdev; a device that goes is looked for twice a second, and opening it may
+/// block. The kernel tells changes only: a device that is dead without the kernel's knowing looks as it last was. A
+/// radio's receiver on USB is one of these, and cannot be told from a cable; see JoystickSetup::dead_man_renew.
 /// Thread: one; no memory is taken after construction.
 class Joystick {
  public:
-  explicit Joystick(JoystickSetup setup);
+  explicit Joystick(JoystickSetup setup, BusOf bus = bus_of);
   /// Takes in what happened since.
   void poll(Time now) noexcept;
   [[nodiscard]] JoystickState state() const noexcept;
@@ -53,14 +65,23 @@ class Joystick {
   void read() noexcept;
   void take(const InputEvent& event) noexcept;
   void take_button(std::uint16_t code, bool pressed) noexcept;
+  void count_stop() noexcept;
+  void expire_dead_man(Time now) noexcept;
+  [[nodiscard]] bool stops() const noexcept;
 
   JoystickSetup setup_;
+  BusOf ask_bus_;
+  bool on_bluetooth_ = false;
   wire::FileDescriptor device_;
   Time tried_ = kNever;
   EventStream events_;
   std::array<std::uint8_t, 1536> room_{};  // 64 events
   Button dead_man_ = Button::kUnknown, stop_ = Button::kUnknown, reset_ = Button::kUnknown;
   bool seen_released_ = false;
+  bool heard_ = false;  ///< an event of a button or an axis since the last poll()
+  Time heard_at_ = kNever;
+  bool stopped_before_ = true;
+  std::uint32_t stops_ = 0;
   Axis forward_, left_;
 };
 

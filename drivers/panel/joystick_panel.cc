@@ -4,11 +4,12 @@ namespace jaywalk::panel {
 
 OperatorInput JoystickPanel::latest() noexcept {
   OperatorInput input = goals_.latest();
-  joystick_.poll(clock_.now());
-  const JoystickState state = joystick_.state();
-  input.emergency_stop = input.emergency_stop || state.stop;
-  input.reset = input.reset || state.reset;
-  if (needs_dead_man_ && !state.dead_man) input.has_goal = false;
+  const std::uint32_t stops_before = state_.stops;
+  state_ = joystick_.latest();
+  const bool stopped_meanwhile = state_.stops != stops_before;
+  input.emergency_stop = input.emergency_stop || state_.stop || stopped_meanwhile;
+  input.reset = input.reset || state_.reset;
+  if (needs_dead_man_ && !state_.dead_man) input.has_goal = false;
   return input;
 }
 

@@ -1,7 +1,5 @@
 #pragma once
-#include <utility>
-
-#include "drivers/panel/joystick.h"
+#include "drivers/panel/joystick_watch.h"
 #include "hal/hal.h"
 
 namespace jaywalk::panel {
@@ -10,18 +8,18 @@ namespace jaywalk::panel {
 /// through only while the dead man's button is held. A joystick that is gone is an emergency stop.
 class JoystickPanel final : public OperatorPanel {
  public:
-  /// `goals` and `clock` outlive it. Without `needs_dead_man` the goal always passes.
-  JoystickPanel(OperatorPanel& goals, Clock& clock, JoystickSetup setup, bool needs_dead_man)
-      : goals_(goals), clock_(clock), joystick_(std::move(setup)), needs_dead_man_(needs_dead_man) {}
+  /// Both outlive it. Without `needs_dead_man` the goal always passes.
+  JoystickPanel(OperatorPanel& goals, JoystickWatch& joystick, bool needs_dead_man) noexcept
+      : goals_(goals), joystick_(joystick), needs_dead_man_(needs_dead_man) {}
 
   [[nodiscard]] OperatorInput latest() noexcept override;
   /// As of the last call of latest().
-  [[nodiscard]] JoystickState joystick() const noexcept { return joystick_.state(); }
+  [[nodiscard]] const JoystickState& joystick() const noexcept { return state_; }
 
  private:
   OperatorPanel& goals_;
-  Clock& clock_;
-  Joystick joystick_;
+  JoystickWatch& joystick_;
+  JoystickState state_;
   bool needs_dead_man_;
 };
 

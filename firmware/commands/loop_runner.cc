@@ -1,5 +1,6 @@
 #include "firmware/commands/loop_runner.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 
@@ -31,8 +32,28 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
 const TickRecord& LoopRunner::step_at(Time due) {
   clock_.sleep_until(due);
   tick_at(due);
-  recorder_.drain();
+  drain();
   return *record_;
+}
+
+void LoopRunner::drain() {
+  if (!recorder_.drain()) tell_losses();
+}
+
+void LoopRunner::report(const RunSample& sample) {
+  report_.add(sample);
+  if (report_.is_losing()) tell_losses();
+}
+
+void LoopRunner::tell_losses() {
+  std::vector<std::string> complaints = report_.complaints();
+  if (std::string complaint = recorder_.complaint(); !complaint.empty()) complaints.push_back(std::move(complaint));
+  for (const std::string& complaint : complaints) {
+    if (std::find(losses_.begin(), losses_.end(), complaint) != losses_.end()) continue;
+    losses_.push_back(complaint);
+    recorder_.note_loss();
+    std::fprintf(stderr, "jaywalk: %s; free some space; what stands in it is whole up to now\n", complaint.c_str());
+  }
 }
 
 const TickRecord& LoopRunner::tick_at(Time due) noexcept {
@@ -49,20 +70,23 @@ void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
   if (loop_.plan().sequence != plan_reported_) sample.plan_ms = loop_.plan().duration_ms;
   plan_reported_ = loop_.plan().sequence;
   if (own) sample.now = own(sample.now), sample.scanned = own(sample.scanned);
-  report_.add(sample);
+  report(sample);
 }
 
 void LoopRunner::finish(RunEnd end) {
-  const bool recorded = recorder_.close();
+  recorder_.close();
+  if (const std::string complaint = recorder_.complaint(); !complaint.empty()) end.not_recorded.push_back(complaint);
   end.dropped_records = recorder_.dropped();
   end.backend = chosen_.planner->backend();
   end.mode = name_of(setup_.mode);
   end.version = JAYWALK_VERSION;
   report_.finish(end);
-  if (!recorded) {
-    throw StartupError(out_.file("recording.jwr").string() + ": the disk did not take all of it",
-                       "free some space and run again");
-  }
+  tell_losses();
+}
+
+void LoopRunner::require_recorded() const {
+  if (losses_.empty()) return;
+  throw StartupError(losses_.front(), "free some space and run again; what stands in it is whole up to there");
 }
 
 }  // namespace jaywalk

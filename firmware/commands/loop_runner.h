@@ -4,6 +4,7 @@
 #include <functional>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include "firmware/backends.h"
 #include "firmware/commands/out_folder.h"
@@ -30,17 +31,20 @@ class LoopRunner {
   const TickRecord& step_at(Time due);
   /// For a loop with a thread of its own: a tick and nothing that is slow; neither sleeps nor writes.
   const TickRecord& tick_at(Time due) noexcept;
-  /// The thread that reports: writes out what has been recorded.
-  void drain() { recorder_.drain(); }
+  /// The thread that reports: writes out what has been recorded. Where the disk takes no more of a file, says so once
+  /// and gives the ticks from then on Reason::kNotRecorded; so does report().
+  void drain();
   /// What the tables are to say for a time of the loop's.
   using OwnTime = std::function<Time(Time)>;
   /// Tells the report of the last step. `truth` may be null; without `own` tables say the loop's times.
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
-  void report(const RunSample& sample) { report_.add(sample); }
-  /// Closes recording, tables and summary. Call once, after the last step. Throws StartupError naming what the disk
-  /// did not take; tables and summary are written even where the recording could not be.
+  void report(const RunSample& sample);
+  /// Closes recording and tables, and writes the summary. Call once, after the last step. Throws StartupError where the
+  /// disk does not take the summary.
   void finish(RunEnd end);
+  /// When all is written: throws StartupError naming the first file that the disk did not take all of.
+  void require_recorded() const;
 
   [[nodiscard]] const ControlLoop& loop() const { return loop_; }
   [[nodiscard]] const TickRecord& last() const { return *record_; }
@@ -53,6 +57,8 @@ class LoopRunner {
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 
  private:
+  void tell_losses();
+
   ControlSetup setup_;
   Clock& clock_;
   OutFolder out_;
@@ -65,6 +71,7 @@ class LoopRunner {
   Duration took_{0};
   std::uint32_t plan_reported_ = 0;
   std::uint64_t overruns_ = 0;
+  std::vector<std::string> losses_;  ///< told already
 };
 
 }  // namespace jaywalk

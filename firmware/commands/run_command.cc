@@ -107,7 +107,9 @@ int run_robot(const RunOptions& options) {
   RobotDevices devices(file, clock);
   OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();
-  const ControlSocket socket(socket_for(options, file), [&](std::string_view line) { return desk.obey(line); });
+  const ControlSocket socket(
+      socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
+      order_priority(file.realtime));
   NoPoseSource no_fixes;
   LoopRunner runner(file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out,
                     true, [&](std::unique_ptr<Planner> planner) {
@@ -117,6 +119,7 @@ int run_robot(const RunOptions& options) {
                     });
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
+  controls.start(order_priority(file.realtime));
   devices.start();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
@@ -137,15 +140,16 @@ int run_robot(const RunOptions& options) {
   }
   report.follow();
   const RunStatus& last = report.last();
-  write_devices(options.out, last, not_permitted);
   runner.finish({.outcome = outcome(last),
                  .success = outcome(last) == "reached",
                  .heading_error_rad = at_goal(last),
                  .missed_ticks = last.missed_ticks,
                  .scenario = options.robot.filename().string()});
+  write_devices(options.out, last, not_permitted);
   RunPicture picture;
   picture.consider(runner);
   picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
+  runner.require_recorded();
   remark("disarmed; " + outcome(last) + "; see " + (options.out / "run.png").string());
   return last.latched ? 1 : 0;
 }

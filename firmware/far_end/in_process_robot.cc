@@ -43,6 +43,7 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
 
 void InProcessRobot::step_far_end() {
   far_end_.step(clock_.now());
+  controls_.step();
   const Time now = clock_.now();
   while (messages_.size() < far_end_.scanner().messages_sent()) messages_.push_back(now);
 }

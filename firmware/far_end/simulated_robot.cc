@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 namespace jaywalk::rig {
@@ -72,7 +73,9 @@ void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
     for (const sim::Disc& body : world_.movers_seen())
       range = std::min(range, hit_range(map_from_laser.position(), beam, body));
     range += laser_.noise_m * noise_.normal();
-    range_m[k] = range >= laser_.range_min_m && range <= laser_.range_max_m ? static_cast<float>(range) : 0.0F;
+    range_m[k] = range < laser_.range_min_m   ? 0.0F
+                 : range > laser_.range_max_m ? std::numeric_limits<float>::infinity()
+                                              : static_cast<float>(range);
   }
 }
 

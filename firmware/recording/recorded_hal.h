@@ -40,9 +40,10 @@ class RecordedHal {
     using Recorded::Recorded;
     [[nodiscard]] const OutsideFix& latest() noexcept override { return record.fix; }
   };
-  struct StoppedClock : Recorded<Clock> {
+  /// A tick asks for the time when its command is out.
+  struct RecordedClock : Recorded<Clock> {
     using Recorded::Recorded;
-    [[nodiscard]] Time now() noexcept override { return record.now; }
+    [[nodiscard]] Time now() noexcept override { return record.now + record.took; }
     void sleep_until(Time) noexcept override {}
   };
 
@@ -50,7 +51,7 @@ class RecordedHal {
   Wheels wheels_;
   Panel panel_;
   Fixes fixes_;
-  StoppedClock clock_;
+  RecordedClock clock_;
 };
 
 }  // namespace jaywalk

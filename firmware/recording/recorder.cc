@@ -37,6 +37,7 @@ bool Recorder::drain() noexcept {
     if (writer_) taken = writer_->write(oldest.record, oldest.lost_before) && taken;
     drained_.store(tick + 1, std::memory_order_release);
   }
+  if (!taken) note_loss();
   return taken;
 }
 

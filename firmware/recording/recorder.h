@@ -38,6 +38,12 @@ class Recorder {
   /// Draining thread, after the last tick: drains and ends the file. False when the disk lost anything.
   bool close() noexcept;
 
+  /// What the disk did not take of the recording; empty: it has taken all. Draining thread.
+  [[nodiscard]] std::string complaint() const { return writer_ ? writer_->complaint() : ""; }
+  /// The disk takes no more of the recording, or of the tables beside it. Any thread.
+  [[nodiscard]] bool is_losing() const noexcept { return losing_.load(std::memory_order_relaxed); }
+  void note_loss() noexcept { losing_.store(true, std::memory_order_relaxed); }
+
   /// Records dropped so far because the ring was full. Any thread.
   [[nodiscard]] std::uint64_t dropped() const noexcept { return dropped_.load(std::memory_order_relaxed); }
 
@@ -56,6 +62,7 @@ class Recorder {
   std::atomic<std::uint64_t> committed_{0};  ///< records ever put in; written by the loop
   std::atomic<std::uint64_t> drained_{0};    ///< records ever taken out; written by the drain
   std::atomic<std::uint64_t> dropped_{0};
+  std::atomic<bool> losing_{false};
 };
 
 }  // namespace jaywalk

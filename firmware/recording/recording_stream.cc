@@ -2,10 +2,12 @@
 
 #include <zlib.h>
 
+#include <algorithm>
 #include <array>
 #include <cstring>
 #include <filesystem>
 #include <span>
+#include <utility>
 
 #include "firmware/recording/byte_order.h"
 #include "hal/types/errors.h"
@@ -15,6 +17,7 @@ namespace {
 
 constexpr std::array<unsigned char, 8> kMagic{'J', 'A', 'Y', 'W', 'A', 'L', 'K', '\n'};
 constexpr std::size_t kEntryHeadBytes = 12;
+constexpr std::size_t kBlockBytes = 1U << 16U;
 
 std::uint32_t crc_of(std::span<const unsigned char> bytes, std::uint32_t before = 0) {
   return static_cast<std::uint32_t>(crc32(before, bytes.data(), static_cast<uInt>(bytes.size())));
@@ -22,10 +25,6 @@ std::uint32_t crc_of(std::span<const unsigned char> bytes, std::uint32_t before 
 
 std::span<const unsigned char> bytes_of(const std::string& text) {
   return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
-}
-
-void put(std::ofstream& stream, std::span<const unsigned char> bytes) {
-  stream.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
 }
 
 /// What stands before an entry's bytes, or at the end (length 0, `check` the number of entries).
@@ -62,8 +61,7 @@ bool is_recording(const std::string& file) {
 }
 
 RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
-    : stream_(file, std::ios::binary | std::ios::trunc), entry_(kEntryHeadBytes + kMaxEntryBytes) {
-  if (!stream_) throw StartupError(file + ": cannot be written", "choose a folder that exists and may be written");
+    : file_(file), block_(std::max(kBlockBytes + kEntryHeadBytes + kMaxEntryBytes, setup.size() + 32)) {
   if (setup.size() > kMaxSetupBytes) {
     throw StartupError(file + ": a setup of " + std::to_string(setup.size()) + " bytes", "keep it below 16 MiB");
   }
@@ -74,29 +72,60 @@ RecordingWriter::RecordingWriter(const std::string& file, const std::string& set
   numbers.number(static_cast<std::uint32_t>(setup.size()));
   std::array<unsigned char, 4> check{};
   ByteSink(check).number(crc_of(bytes_of(setup), crc_of(head)));
-  put(stream_, head);
-  put(stream_, bytes_of(setup));
-  put(stream_, check);
+  put(head);
+  put(bytes_of(setup));
+  put(check);
 }
 
 RecordingWriter::~RecordingWriter() { close(); }
 
+void RecordingWriter::put(std::span<const unsigned char> bytes) noexcept {
+  if (!bytes.empty()) std::memcpy(block_.data() + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
 bool RecordingWriter::write(const TickRecord& record, std::uint64_t lost_before) noexcept {
-  if (!stream_) return false;
-  const std::span<unsigned char> all(entry_);
-  const std::size_t length = encoder_.encode(record, lost_before, all.subspan(kEntryHeadBytes));
-  const auto head = encode(static_cast<std::uint32_t>(length), crc_of(all.subspan(kEntryHeadBytes, length)));
-  std::memcpy(entry_.data(), head.data(), head.size());
-  put(stream_, all.first(kEntryHeadBytes + length));
+  if (!header_written_) write_out();
+  if (file_.has_failed()) return false;
+  const std::span<unsigned char> entry = std::span(block_).subspan(used_);
+  const std::size_t length = encoder_.encode(record, lost_before, entry.subspan(kEntryHeadBytes));
+  const auto head = encode(static_cast<std::uint32_t>(length), crc_of(entry.subspan(kEntryHeadBytes, length)));
+  std::memcpy(entry.data(), head.data(), head.size());
+  used_ += kEntryHeadBytes + length;
   ++entries_;
-  return static_cast<bool>(stream_);
+  if (written_at_ == kNever) written_at_ = record.now;
+  if (used_ >= kBlockBytes || record.now - written_at_ >= kLongestWait) {
+    write_out();
+    written_at_ = record.now;
+  }
+  return !file_.has_failed();
+}
+
+void RecordingWriter::write_out() noexcept {
+  const std::span<const unsigned char> block = std::span<const unsigned char>(block_).first(used_);
+  const std::size_t taken = file_.append(block);
+  used_ = 0;
+  if (taken == block.size()) {
+    header_written_ = true;
+    return;
+  }
+  std::size_t whole = 0;  // entries; of a header that is cut nothing is kept
+  while (header_written_ && taken - whole >= kEntryHeadBytes) {
+    const std::size_t entry = kEntryHeadBytes + decode(block.subspan(whole)).length;
+    if (taken - whole < entry) break;
+    whole += entry;
+  }
+  file_.take_back(taken - whole);
 }
 
 bool RecordingWriter::close() noexcept {
-  if (!stream_.is_open()) return static_cast<bool>(stream_);
-  if (stream_) put(stream_, encode(0, entries_));
-  stream_.close();
-  return static_cast<bool>(stream_);
+  if (std::exchange(closed_, true)) return !file_.has_failed();
+  write_out();
+  if (!file_.has_failed()) {
+    put(encode(0, entries_));
+    write_out();
+  }
+  return file_.close();
 }
 
 RecordingReader::RecordingReader(const std::string& file) : file_(file), stream_(file.c_str()), entry_(kMaxEntryBytes) {

@@ -8,11 +8,12 @@
 // CRC: the one of zlib and PNG. A file without its end was cut short (power lost, disk full); what
 // stands before the cut is good.
 #include <cstdint>
-#include <fstream>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
+#include "firmware/recording/append_file.h"
 #include "firmware/recording/tick_entry.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/gzip_file.h"
@@ -24,26 +25,38 @@ inline constexpr std::size_t kMaxSetupBytes = 16U << 20U;
 /// Whether `file`, packed with gzip or not, begins as a recording of ours does; false where it cannot be read.
 [[nodiscard]] bool is_recording(const std::string& file);
 
-/// Writes a recording. Only the constructor allocates.
+/// Writes a recording, a block of entries at a time: kLongestWait of ticks at most. A full disk takes nothing from the
+/// first entry on that it did not take whole. Only the constructor allocates.
 class RecordingWriter {
  public:
   /// `setup`: what it takes to build the same controller again, in the caller's own words; at most
-  /// kMaxSetupBytes. Throws StartupError when the file cannot be written.
+  /// kMaxSetupBytes. Throws StartupError when the file cannot be made.
   RecordingWriter(const std::string& file, const std::string& setup);
   /// Writes the end mark.
   ~RecordingWriter();
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  /// False when the disk took it no more, now or before.
+  static constexpr Duration kLongestWait = std::chrono::milliseconds(250);
+
+  /// False when the disk took no more, of this or of what came before.
   bool write(const TickRecord& record, std::uint64_t lost_before) noexcept;
   /// Writes the end mark and closes; false when anything was lost on the way to the disk.
   bool close() noexcept;
+  /// AppendFile's.
+  [[nodiscard]] std::string complaint() const { return file_.complaint(); }
 
  private:
-  std::ofstream stream_;
+  void put(std::span<const unsigned char> bytes) noexcept;
+  void write_out() noexcept;
+
+  AppendFile file_;
   TickEncoder encoder_;
-  std::vector<unsigned char> entry_;
+  std::vector<unsigned char> block_;  ///< what is not on the disk yet: the header, or whole entries
+  std::size_t used_ = 0;
+  bool header_written_ = false;
+  bool closed_ = false;
+  Time written_at_ = kNever;
   std::uint32_t entries_ = 0;
 };
 

@@ -123,7 +123,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
-  if (ar.version >= 4) ar(r.wheels.stop);
+  if (ar.version >= 4) ar(r.wheels.stop), ar(r.wheels.ready);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
   ar(r.input.goal_tolerance_m);
@@ -137,6 +137,7 @@ void transfer_rest(Archive& ar, Record& r) {
   transfer_twist(ar, r.verdict.permitted);
   ar(r.verdict.reasons), ar(r.verdict.gap_m);
   ar(r.command.stamp), ar(r.command.left_radps), ar(r.command.right_radps);
+  if (ar.version >= 4) ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
 }
 
 void put_scan(Put& put, const LaserScan& scan) {
@@ -193,6 +194,8 @@ bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, 
   Get get{ByteSource(in), version_};
   record.input = {};  // what an older recording does not have
   record.wheels = {};
+  record.took = Duration{0};
+  record.latency = {};
   bool new_scan = false;
   bool new_fix = false;
   get(lost_before);

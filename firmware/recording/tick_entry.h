@@ -9,7 +9,7 @@
 
 namespace jaywalk {
 
-/// Version 2 had no heading at the goal, version 3 no stage of a stop; both are read as well.
+/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies; both are read as well.
 inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 2;
 
 /// Most bytes that an encoded record takes: every beam and every mover in use, and room for the rest.

@@ -3,6 +3,7 @@
 // enough to live through the tick again.
 #include <cstdint>
 
+#include "firmware/safety/reaction.h"
 #include "firmware/safety/verdict.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
@@ -20,6 +21,7 @@ struct TickRecord {
   WheelState wheels;
   OperatorInput input;
   OutsideFix fix;
+  Duration took{0};  ///< from now until the command was out, by the HAL's clock
   // Made of it.
   PoseEstimate pose;
   bool plan_asked = false;          ///< this tick submitted a request
@@ -27,6 +29,7 @@ struct TickRecord {
   Time plan_stamp = kNever;
   PlanStatus plan_status = PlanStatus::kNone;
   Twist2 wanted;
+  MeasuredLatency latency;  ///< measured in the ticks before, for the stop zone
   Verdict verdict;
   // Out.
   WheelCommand command;

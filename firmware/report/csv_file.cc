@@ -4,8 +4,6 @@
 #include <charconv>
 #include <cmath>
 
-#include "hal/types/errors.h"
-
 namespace jaywalk {
 namespace {
 
@@ -22,24 +20,26 @@ std::string csv_cell(double value) {
   return std::string(text == "-0.000000" ? text.substr(1) : text);
 }
 
-CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file), stream_(file, std::ios::binary) {
-  if (!stream_)
-    throw StartupError(file + ": cannot be written", "choose an --out folder that exists and may be written");
+CsvFile::CsvFile(const std::string& file, std::string_view header) : file_(file) {
   rows_.reserve(kBlockBytes + 1024);
   rows_.append(header).append("\n");
 }
 
-CsvFile::~CsvFile() { write_out(); }
+CsvFile::~CsvFile() { close(); }
 
-void CsvFile::close() {
+bool CsvFile::close() {
   write_out();
-  stream_.close();
-  if (!stream_) throw StartupError(file_ + ": the disk did not take all of it", "free some space and run again");
+  return file_.close();
 }
 
-void CsvFile::write_out() {
-  stream_.write(rows_.data(), static_cast<std::streamsize>(rows_.size()));
+bool CsvFile::write_out() {
+  const std::size_t taken = file_.append({reinterpret_cast<const unsigned char*>(rows_.data()), rows_.size()});
+  if (taken < rows_.size()) {
+    const std::size_t last_end = taken == 0 ? std::string::npos : rows_.rfind('\n', taken - 1);
+    file_.take_back(last_end == std::string::npos ? taken : taken - (last_end + 1));
+  }
   rows_.clear();
+  return !file_.has_failed();
 }
 
 void CsvFile::begin_cell() {

@@ -38,8 +38,8 @@ void PathShape::mark(Vec2 position) {
 
 void Smoothness::add(Time t, double speed_mps) {
   samples_.push_back({t, speed_mps, 0.0, false});
-  while (window_start_ + 1 < samples_.size() && t - samples_[window_start_ + 1].t >= kWindow) ++window_start_;
-  const Sample& before = samples_[window_start_];
+  while (samples_.size() > 1 && t - samples_[1].t >= kWindow) samples_.pop_front();
+  const Sample& before = samples_.front();
   if (t - before.t < kWindow) return;
   Sample& now = samples_.back();
   const double window_s = to_seconds(t - before.t);

@@ -2,7 +2,7 @@
 // How far, how crooked and how rough a robot drove.
 #include <array>
 #include <cstdint>
-#include <vector>
+#include <deque>
 
 #include "firmware/report/distribution.h"
 #include "hal/types/geometry.h"
@@ -59,8 +59,7 @@ class Smoothness {
     double accel_mps2 = 0.0;
     bool has_accel = false;
   };
-  std::vector<Sample> samples_;
-  std::size_t window_start_ = 0;  ///< the youngest sample that is at least kWindow old
+  std::deque<Sample> samples_;  ///< the first is the youngest that is at least kWindow old
   Distribution accel_, jerk_;
 };
 

@@ -39,13 +39,20 @@ Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
+std::vector<std::string> all_complaints(std::vector<std::string> tables, const std::vector<std::string>& others) {
+  tables.insert(tables.end(), others.begin(), others.end());
+  return tables;
+}
+
 }  // namespace
 
 RunReport::RunReport(const std::filesystem::path& folder)
     : folder_(folder),
       tables_(open_tables(folder)),
       min_clearance_m_(std::numeric_limits<double>::infinity()),
-      min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {}
+      min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {
+  if (tables_) reserve_.emplace(folder_);
+}
 
 RunReport::~RunReport() = default;
 
@@ -58,7 +65,7 @@ void RunReport::add(const RunSample& sample) {
   if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
   const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
   shape_.add(pose.position());
-  if (driven_.empty() || now - driven_.back().t >= TrailBook::kSpacing) driven_.push_back({now, pose});
+  driven_.add(now, pose);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   add_tracks(sample);
 }
@@ -84,8 +91,13 @@ void RunReport::add_tracks(const RunSample& sample) {
   }
 }
 
+std::vector<std::string> RunReport::complaints() const {
+  return tables_ ? tables_->complaints() : std::vector<std::string>();
+}
+
 std::string RunReport::finish(const RunEnd& end) {
   if (tables_) tables_->close();
+  reserve_.reset();
   std::string text = summary(end);
   if (!folder_.empty()) {
     std::ofstream file(folder_ / "summary.json", std::ios::binary);
@@ -118,6 +130,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["ticks"] = ticks_;
   j["missed_ticks"] = end.missed_ticks;
   j["dropped_records"] = end.dropped_records;
+  j["not_recorded"] = all_complaints(complaints(), end.not_recorded);
   j["plan_ms"] = spread(plan_ms_);
   j["tick_ms"] = spread(tick_ms_);
   j["backend"] = end.backend;

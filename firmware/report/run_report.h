@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/report/disk_reserve.h"
 #include "firmware/report/distribution.h"
 #include "firmware/report/drive_metrics.h"
 #include "firmware/report/run_sample.h"
@@ -14,7 +15,7 @@
 
 namespace jaywalk {
 
-/// Works outside the tick: it allocates and writes. Not thread-safe.
+/// Works outside the tick: it allocates and writes. Its memory has bounds, however long the run. Not thread-safe.
 ///
 /// Lengths, turns and speeds are the world's where truth is given, else the controller's estimate
 /// (summary.json says which: "measured_on"); what only a world can know is null without it.
@@ -27,16 +28,18 @@ class RunReport {
   ~RunReport();
 
   void add(const RunSample& sample);
+  /// What the disk did not take of the tables, a line each; empty: it has taken all so far.
+  [[nodiscard]] std::vector<std::string> complaints() const;
+  [[nodiscard]] bool is_losing() const { return tables_ && tables_->is_losing(); }
   /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
-  /// where the disk did not take all; where there is a summary, the tables beside it are whole.
+  /// where the disk does not take the summary.
   std::string finish(const RunEnd& end);
 
   [[nodiscard]] double path_length_m() const { return shape_.length_m(); }
   [[nodiscard]] double duration_s() const { return ticks_ == 0 ? 0.0 : to_seconds(last_ - first_); }
 
-  /// For the picture: the robot's way (of truth where there is one, else estimated) at every
-  /// TrailBook::kSpacing, the movers' and the tracks'.
-  [[nodiscard]] const std::vector<DrivenPose>& driven() const { return driven_; }
+  /// For the picture: the robot's way (of truth where there is one, else estimated), the movers' and the tracks'.
+  [[nodiscard]] const std::vector<DrivenPose>& driven() const { return driven_.poses(); }
   [[nodiscard]] std::vector<Trail> mover_trails() const { return movers_.trails(); }
   [[nodiscard]] std::vector<Trail> track_trails() const { return tracks_.trails(); }
 
@@ -47,10 +50,11 @@ class RunReport {
 
   std::filesystem::path folder_;
   std::unique_ptr<RunTables> tables_;
+  std::optional<DiskReserve> reserve_;
   PathShape shape_;
   Smoothness smoothness_;
   Distribution plan_ms_, tick_ms_;
-  std::vector<DrivenPose> driven_;
+  DrivenWay driven_;
   TrailBook movers_, tracks_;
   std::uint64_t ticks_ = 0;
   Time first_ = kNever, last_ = kNever;

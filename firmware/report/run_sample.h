@@ -5,6 +5,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "firmware/recording/tick_record.h"
 #include "hal/types/geometry.h"
@@ -53,6 +54,7 @@ struct RunEnd {
   std::optional<double> heading_error_rad = {};  ///< at the end, where a heading was wanted at the goal
   std::uint64_t missed_ticks = 0;
   std::uint64_t dropped_records = 0;
+  std::vector<std::string> not_recorded = {};  ///< what the disk did not take beside the tables, a line each
   std::string backend = {};
   std::string mode = {};
   std::optional<std::uint64_t> seed = {};

@@ -25,12 +25,25 @@ void RunTables::add(const RunSample& sample) {
   if (sample.truth != nullptr) add_movers(sample);
   if (sample.record.scan.sequence != scan_sequence_) add_tracks(sample);
   scan_sequence_ = sample.record.scan.sequence;
+  if (age(written_at_, sample.record.now) < kLongestWait) return;
+  for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->write_out();
+  written_at_ = sample.record.now;
 }
 
 void RunTables::close() {
-  robot_.close();
-  movers_.close();
-  tracks_.close();
+  for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->close();
+}
+
+bool RunTables::is_losing() const noexcept {
+  return robot_.has_failed() || movers_.has_failed() || tracks_.has_failed();
+}
+
+std::vector<std::string> RunTables::complaints() const {
+  std::vector<std::string> all;
+  for (const CsvFile* const table : {&robot_, &movers_, &tracks_}) {
+    if (const std::string complaint = table->complaint(); !complaint.empty()) all.push_back(complaint);
+  }
+  return all;
 }
 
 void RunTables::add_robot(const RunSample& sample) {

@@ -1,19 +1,26 @@
 #pragma once
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "firmware/report/csv_file.h"
 #include "firmware/report/run_sample.h"
 
 namespace jaywalk {
 
-/// robot.csv, movers.csv and tracks.csv (columns: docs/outputs.md), a tick at a time.
+/// robot.csv, movers.csv and tracks.csv (columns: docs/outputs.md), a tick at a time; on the disk within kLongestWait
+/// of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.
 class RunTables {
  public:
+  static constexpr Duration kLongestWait = std::chrono::milliseconds(500);
+
   /// Throws StartupError when `folder` cannot be written to.
   explicit RunTables(const std::filesystem::path& folder);
   void add(const RunSample& sample);
-  /// Throws StartupError naming a table that the disk did not take whole.
   void close();
+  [[nodiscard]] bool is_losing() const noexcept;
+  /// AppendFile's, of each table that the disk did not take whole.
+  [[nodiscard]] std::vector<std::string> complaints() const;
 
  private:
   void add_robot(const RunSample& sample);
@@ -21,6 +28,7 @@ class RunTables {
   void add_tracks(const RunSample& sample);
 
   CsvFile robot_, movers_, tracks_;
+  Time written_at_ = kNever;
   std::uint32_t scan_sequence_ = 0;
 };
 

@@ -1,6 +1,5 @@
 #include "firmware/robot/control_socket.h"
 
-#include <poll.h>
 #include <pthread.h>
 #include <signal.h>
 #include <sys/socket.h>
@@ -13,12 +12,15 @@
 #include <cstdlib>
 #include <cstring>
 
+#include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-constexpr int kLook_ms = 100;  ///< how often the thread sees whether it is to end
+constexpr Duration kLook = std::chrono::milliseconds(100);  ///< how often the thread sees whether it is to end
+constexpr Duration kRound = std::chrono::milliseconds(5);   ///< at least, from one round to the next
+constexpr int kBacklog = 512;                               ///< clients that may wait to be accepted
 
 sockaddr_un address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
@@ -31,18 +33,15 @@ sockaddr_un address_of(const std::filesystem::path& path) {
   return address;
 }
 
-/// Connected, or -1 and errno.
+/// Connected, or -1 and errno. Gives up connecting, sending and receiving after three seconds each.
 wire::FileDescriptor connected_to(const std::filesystem::path& path) {
   const sockaddr_un address = address_of(path);
+  const timeval limit{.tv_sec = 3, .tv_usec = 0};
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
+  ::setsockopt(made.get(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
+  ::setsockopt(made.get(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
   if (::connect(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0) return {};
   return made;
-}
-
-void be_patient(int socket, int seconds) {
-  const timeval limit{.tv_sec = seconds, .tv_usec = 0};
-  ::setsockopt(socket, SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
-  ::setsockopt(socket, SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
 }
 
 wire::FileDescriptor listening_at(const std::filesystem::path& path) {
@@ -53,7 +52,7 @@ wire::FileDescriptor listening_at(const std::filesystem::path& path) {
   ::unlink(address.sun_path);  // of a run that was killed
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   if (::bind(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), 4) != 0) {
+      ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0) {
     throw StartupError(path.string() + ": " + std::strerror(errno), "give control_socket a name that can be made");
   }
   return made;
@@ -75,12 +74,12 @@ std::filesystem::path default_control_socket() {
   return std::filesystem::temp_directory_path() / "jaywalk.sock";
 }
 
-ControlSocket::ControlSocket(std::filesystem::path path, Answer answer)
-    : path_(std::move(path)), answer_(std::move(answer)), listener_(listening_at(path_)) {
+ControlSocket::ControlSocket(std::filesystem::path path, Answer answer, int priority)
+    : path_(std::move(path)), clients_(std::move(answer)), listener_(listening_at(path_)) {
   sigset_t all, before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { serve(); });
+  thread_ = std::thread([this, priority] { serve(priority); });
   ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
 }
 
@@ -91,30 +90,14 @@ ControlSocket::~ControlSocket() {
   std::filesystem::remove(path_, gone);
 }
 
-void ControlSocket::serve() noexcept {
+void ControlSocket::serve(int priority) noexcept {
+  static_cast<void>(enter_realtime({.priority = priority}));  // the loop's thread tells what is not permitted
   while (!ending_) {
-    pollfd waiting{.fd = listener_.get(), .events = POLLIN, .revents = 0};
-    if (::poll(&waiting, 1, kLook_ms) <= 0) continue;
-    const wire::FileDescriptor peer(::accept4(listener_.get(), nullptr, nullptr, SOCK_CLOEXEC));
-    if (peer.get() >= 0) talk(peer.get());
+    clients_.wait(listener_.get(), kLook);
+    const auto began = std::chrono::steady_clock::now();
+    clients_.serve(listener_.get(), Time{began.time_since_epoch()});
+    std::this_thread::sleep_until(began + kRound);
   }
-}
-
-void ControlSocket::talk(int peer) noexcept {
-  be_patient(peer, 1);
-  std::array<char, kLongestLine + 1> line{};
-  std::size_t length = 0;
-  while (length < line.size()) {
-    const ssize_t got = ::recv(peer, line.data() + length, line.size() - length, 0);
-    if (got <= 0) return;  // went away, or does not come to the end of its line
-    const void* end = std::memchr(line.data() + length, '\n', static_cast<std::size_t>(got));
-    length += static_cast<std::size_t>(got);
-    if (end == nullptr) continue;
-    const auto until = static_cast<std::size_t>(static_cast<const char*>(end) - line.data());
-    say(peer, answer_({line.data(), until}));
-    return;
-  }
-  say(peer, "refused: too long a line\n");
 }
 
 std::string ask(const std::filesystem::path& path, const std::string& line) {
@@ -123,7 +106,6 @@ std::string ask(const std::filesystem::path& path, const std::string& line) {
     throw StartupError(path.string() + ": no run listens there: " + std::strerror(errno),
                        "start one with jaywalk run, or name its socket with --socket");
   }
-  be_patient(run.get(), 3);
   say(run.get(), line + "\n");
   std::string answer;
   std::array<char, 1024> part{};

@@ -6,37 +6,36 @@
 //   status        how it goes                    reset         after a latched fault, at rest
 #include <atomic>
 #include <filesystem>
-#include <functional>
 #include <string>
-#include <string_view>
 #include <thread>
 
 #include "drivers/wire/file_descriptor.h"
+#include "firmware/robot/control_clients.h"
 
 namespace jaywalk {
 
 /// $JAYWALK_SOCKET, else jaywalk.sock in $XDG_RUNTIME_DIR, else in the folder for temporary files.
 [[nodiscard]] std::filesystem::path default_control_socket();
 
-/// Listens in a thread of its own; one talk at a time, each given a second at most. Owner and group may talk.
+/// Listens in a thread of its own and serves all clients there, a round of them every 5 ms at most: a flood of clients
+/// takes a bounded share of a processor, and a stop is read within two rounds (SAFETY: within 100 ms). Owner and group
+/// may talk.
 class ControlSocket {
  public:
-  /// Answers a line; called in the socket's thread. What begins with "refused" tells the asker that it failed.
-  using Answer = std::function<std::string(std::string_view line)>;
-  static constexpr std::size_t kLongestLine = 200;
+  using Answer = ControlClients::Answer;
 
-  /// Throws StartupError where another run listens there, or nobody can.
-  ControlSocket(std::filesystem::path path, Answer answer);
+  /// `priority`: the thread's, of SCHED_FIFO; 0: an ordinary one. Throws StartupError where another run listens there,
+  /// or nobody can.
+  ControlSocket(std::filesystem::path path, Answer answer, int priority = 0);
   ~ControlSocket();
   ControlSocket(const ControlSocket&) = delete;
   ControlSocket& operator=(const ControlSocket&) = delete;
 
  private:
-  void serve() noexcept;
-  void talk(int peer) noexcept;
+  void serve(int priority) noexcept;
 
   std::filesystem::path path_;
-  Answer answer_;
+  ControlClients clients_;
   wire::FileDescriptor listener_;
   std::atomic<bool> ending_{false};
   std::thread thread_;

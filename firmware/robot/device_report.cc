@@ -44,6 +44,7 @@ void write_devices(const std::filesystem::path& folder, const RunStatus& last,
                    {"malformed", last.laser.malformed},
                    {"late", last.laser.late},
                    {"skipped_bytes", last.laser.protocol.skipped_bytes},
+                   {"warned", last.laser.protocol.warned},
                    {"connections", last.laser.connections}};
   json["drive"] = name(last.drive);
   json["latched_by"] = to_string(last.latched_by);

@@ -39,19 +39,33 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
 
 /// What every stop is held against: the model's braking, at the wheels. Feedback lives two periods and a half, so that
 /// one late tick is no stop.
-StopLimits stop_limits(const RobotModel& model, Duration period) {
+StopLimits stop_limits(const RobotModel& model, Duration tick) {
   constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
   const double radius_m = model.drive.wheel_radius_m;
   StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
-  limits.fresh = std::max<Duration>(std::chrono::milliseconds(60), period * 5 / 2);
+  limits.fresh = std::max<Duration>(std::chrono::milliseconds(60), tick * 5 / 2);
   return limits;
 }
 
-canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, const StopLimits& stop) {
+/// Refuses a loop of which two periods take longer than the longest timeout that a drive of this kind may have.
+void require_two_ticks_within(TomlTable& table, Duration tick, Duration most, const std::string& what) {
+  if (2 * tick <= most) return;
+  table.refuse("kind",
+               "needs " + what + " of at most " + std::to_string(most / std::chrono::milliseconds(1)) +
+                   " ms, less than two of the loop's periods",
+               "raise rate_hz");
+}
+
+canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
   settings.controller_node = read_node(table, "controller_node", 1);
   settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
+  if (2 * tick > std::chrono::milliseconds(settings.controller_timeout_ms)) {
+    table.refuse("controller_timeout_ms",
+                 "is " + std::to_string(settings.controller_timeout_ms) + ", less than two of the loop's periods",
+                 "raise it, or rate_hz");
+  }
   settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.stop = stop;
@@ -78,18 +92,22 @@ void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop,
 
 }  // namespace
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period) {
+DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) {
   DriveWiring wiring;
-  const StopLimits stop = stop_limits(model, period);
+  const StopLimits stop = stop_limits(model, tick);
   const std::string kind = table.text("kind");
   wiring.can = table.text("can");
   if (kind == "cia402") {
-    wiring.cia402 = read_cia402(table, model, stop);
+    wiring.cia402 = read_cia402(table, model, tick, stop);
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
+    require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
+    wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);
     read_axes(table, "motor_turns_per_wheel_turn", stop, wiring.odrive);
   } else if (kind == "vesc") {
     wiring.kind = DriveKind::kVesc;
+    require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
+    wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
     read_axes(table, "electrical_turns_per_wheel_turn", stop, wiring.vesc);
   } else {
     table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");

@@ -20,8 +20,8 @@ struct DriveWiring {
   vesc::BaseSetup vesc;
 };
 
-/// Reads the table to its end; the loop commands once a `period`. Throws StartupError "FILE:LINE: cause; remedy" for
-/// anything wrong or unknown.
-[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period);
+/// Reads the table to its end. Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
+/// `tick`: the loop's period, two of which every drive's timeout outlasts, or one late tick would trip it.
+[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick);
 
 }  // namespace jaywalk

@@ -9,28 +9,42 @@ constexpr double kRest_mps = 0.01;
 
 }  // namespace
 
+ControlReply OperatorDesk::reply_to(std::string_view line) {
+  if (line == "stop" || line == "stop now") return take_stop(line == "stop now");
+  if (line == "status") return describe(status());
+  if (line.starts_with("goto ")) return take_goal(line.substr(5));
+  if (line == "reset") return take_reset();
+  return "refused: not understood; say goto X Y [HEADING], stop, reset or status\n";
+}
+
 std::string OperatorDesk::obey(std::string_view line) {
+  const ControlReply reply = reply_to(line);
+  return reply.job ? reply.job() : reply.text;
+}
+
+RunStatus OperatorDesk::status() {
   const std::lock_guard lock(asking_);
-  const RunStatus status = statuses_.latest();
-  if (line == "status") return describe(status);
-  if (line.starts_with("goto ")) return take_goal(line.substr(5), status);
-  if (line == "reset") return take_reset(status);
-  if (line != "stop" && line != "stop now")
-    return "refused: not understood; say goto X Y [HEADING], stop, reset or status\n";
+  return statuses_.latest();
+}
+
+std::string OperatorDesk::take_stop(bool now) {
+  const std::lock_guard lock(asking_);
   ++wish_.number;
   wish_.has_goal = false;
-  if (line == "stop now") ++wish_.emergencies;
+  if (now) ++wish_.emergencies;
   wishes_.publish(wish_);
   return "stopping\n";
 }
 
-std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& status) {
+std::string OperatorDesk::take_goal(std::string_view words) {
   GoalOrder goal;
   try {
     goal = read_goal_order(words);
   } catch (const StartupError& error) {
     return std::string("refused: ") + error.what() + "\n";
   }
+  const std::lock_guard lock(asking_);
+  const RunStatus& status = statuses_.latest();
   if (closed_) return "refused: the run is ending\n";
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
   if (status.latched) {
@@ -43,14 +57,25 @@ std::string OperatorDesk::take_goal(std::string_view words, const RunStatus& sta
   return "going\n";
 }
 
-std::string OperatorDesk::take_reset(const RunStatus& status) {
+ControlReply OperatorDesk::take_reset() {
+  const std::lock_guard lock(asking_);
+  const RunStatus& status = statuses_.latest();
   if (!status.latched) return "nothing to reset\n";
-  if (status.bus.state == CanState::kBusOff) {  // first of all: off the bus nobody knows how fast the wheels are
-    if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
-    if (!bus_comes_back())
-      return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
-  }
-  if (statuses_.latest().speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  if (status.bus.state != CanState::kBusOff) return reset_at_rest(status);
+  // First of all: off the bus nobody knows how fast the wheels are.
+  return ControlReply([this, before = wish_.emergencies] { return restart_bus_and_reset(before); });
+}
+
+std::string OperatorDesk::restart_bus_and_reset(std::uint32_t emergencies) {
+  if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
+  if (!bus_comes_back()) return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
+  const std::lock_guard lock(asking_);
+  if (wish_.emergencies != emergencies) return "refused: stopped anew meanwhile; see to it, then jaywalk reset\n";
+  return reset_at_rest(statuses_.latest());
+}
+
+std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
+  if (status.speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
   ++wish_.resets;
   wishes_.publish(wish_);
   return "reset\n";
@@ -59,10 +84,10 @@ std::string OperatorDesk::take_reset(const RunStatus& status) {
 bool OperatorDesk::bus_comes_back() {
   constexpr Duration kLongest = std::chrono::seconds(1), kLook = std::chrono::milliseconds(20);
   const Time limit = clock_.now() + kLongest;
-  while (statuses_.latest().bus.state == CanState::kBusOff && clock_.now() < limit) {
+  while (status().bus.state == CanState::kBusOff && clock_.now() < limit) {
     clock_.sleep_until(clock_.now() + kLook);
   }
-  return statuses_.latest().bus.state != CanState::kBusOff;
+  return status().bus.state != CanState::kBusOff;
 }
 
 void OperatorDesk::close() {

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "firmware/robot/control_clients.h"
 #include "firmware/robot/goal_order.h"
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"
@@ -31,7 +32,10 @@ class OperatorDesk final : public OperatorPanel {
   OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus)
       : clock_(clock), tolerances_(tolerances), restart_bus_(std::move(restart_bus)) {}
 
-  /// The socket's thread, or any, one at a time: obeys one line (control_socket.h) and returns the answer.
+  /// Any thread: obeys one line (control_socket.h) at once. A reset at bus-off waits for the bus: that is the reply's
+  /// job, to be run in a thread that may wait; it holds up no other line.
+  [[nodiscard]] ControlReply reply_to(std::string_view line);
+  /// The same to the end: waits where reply_to() leaves a job.
   [[nodiscard]] std::string obey(std::string_view line);
   /// Any thread: no goal from now on, and none is taken any more.
   void close();
@@ -50,15 +54,21 @@ class OperatorDesk final : public OperatorPanel {
     std::uint32_t emergencies = 0;
   };
 
-  [[nodiscard]] std::string take_goal(std::string_view words, const RunStatus& status);
-  [[nodiscard]] std::string take_reset(const RunStatus& status);
+  [[nodiscard]] RunStatus status();
+  [[nodiscard]] std::string take_stop(bool now);
+  [[nodiscard]] std::string take_goal(std::string_view words);
+  [[nodiscard]] ControlReply take_reset();
+  /// In a thread that may wait. `emergencies`: how many there were when the reset was asked for.
+  [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t emergencies);
+  /// Under the lock: presses reset for the loop.
+  [[nodiscard]] std::string reset_at_rest(const RunStatus& status);
   /// True when the loop says that the bus is well again, within a second.
   [[nodiscard]] bool bus_comes_back();
 
   Clock& clock_;
   GoalTolerances tolerances_;
   RestartBus restart_bus_;
-  std::mutex asking_;  ///< never the loop's
+  std::mutex asking_;  ///< never the loop's, and never held while something waits
   bool closed_ = false;
   Wish wish_;  ///< the askers'
   Mailbox<Wish> wishes_;

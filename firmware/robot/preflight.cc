@@ -11,6 +11,7 @@
 
 #include "drivers/can/link_facts.h"
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/scanner_check.h"
 #include "hal/types/errors.h"
@@ -92,6 +93,7 @@ std::string check_joystick(const PanelWiring& panel, Clock& clock) {
   const panel::JoystickState state = joystick.state();
   if (!state.connected)
     throw StartupError(panel.joystick.path + ": is not there", "plug it in, or correct [panel] joystick");
+  refuse_unrenewed(state, panel);
   if (state.stop) throw StartupError(panel.joystick.path + ": its stop is pressed, or not known", "release it");
   return panel.joystick.path + ": connected, stop released";
 }

@@ -13,10 +13,14 @@ struct RealtimeWishes {
 };
 
 /// Who goes before whom where processors are few: the guard, the loop, then whoever takes in what the scanner sends.
-/// Planner, report and control socket are ordinary threads: a plan that takes long holds up none of these.
+/// After them come those that take a person's orders: the joystick's and the control socket's. Planner and report are
+/// ordinary threads: a plan that takes long holds up none of these.
 [[nodiscard]] constexpr int guard_priority(const RealtimeWishes& w) { return w.priority > 0 ? w.priority + 1 : 0; }
 [[nodiscard]] constexpr int laser_priority(const RealtimeWishes& w) {
   return w.priority > 1 ? w.priority - 1 : w.priority;
+}
+[[nodiscard]] constexpr int order_priority(const RealtimeWishes& w) {
+  return w.priority > 2 ? w.priority - 2 : w.priority;
 }
 
 /// Keeps all memory, had and to come, from being paged out. Start-up only, once a process.

@@ -1,6 +1,7 @@
 #include "firmware/robot/robot_file.h"
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/safety/zone_check.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"
 
@@ -51,6 +52,11 @@ PanelWiring read_panel(TomlTable table) {
   };
   joystick.path = table.text("joystick");
   panel.needs_dead_man = table.boolean("needs_dead_man", panel.needs_dead_man);
+  joystick.dead_man_renew =
+      duration_from_seconds(table.number("dead_man_renew_s", {0.0, 60.0}, to_seconds(joystick.dead_man_renew)));
+  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
+    table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
+  }
   joystick.dead_man = button("dead_man_button", joystick.dead_man);
   joystick.stop = button("stop_button", joystick.stop);
   joystick.stop_opens = table.boolean("stop_opens", joystick.stop_opens);
@@ -91,6 +97,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
+  require_zone_in_reach(setup.model, setup.tick(), path.string());
   return robot;
 }
 

@@ -76,7 +76,8 @@ double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
 
 void RobotLoop::tell(const TickRecord& t) noexcept {
   constexpr Reason kLimits = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
-                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched;
+                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched |
+                             Reason::kNotRecorded;
   const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;

@@ -26,11 +26,11 @@ std::string describe(const RunStatus& status) {
       << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
       << "\nlaser: " << name(status.laser.trouble) << "\nlaser_last_trouble: " << name(status.laser.last_trouble)
       << "\nlaser_scans: " << status.laser.scans << "\nlaser_malformed: " << status.laser.malformed
-      << "\nlaser_lost: " << status.laser.protocol.lost << "\nlaser_connections: " << status.laser.connections
-      << "\nbus: " << name(status.bus.state) << "\nbus_error_frames: " << status.bus.error_frames
-      << "\nbus_lost: " << status.bus.frames_lost << "\nbus_malformed: " << status.bus.malformed
-      << "\nticks: " << status.ticks << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls
-      << '\n';
+      << "\nlaser_lost: " << status.laser.protocol.lost << "\nlaser_warned: " << status.laser.protocol.warned
+      << "\nlaser_connections: " << status.laser.connections << "\nbus: " << name(status.bus.state)
+      << "\nbus_error_frames: " << status.bus.error_frames << "\nbus_lost: " << status.bus.frames_lost
+      << "\nbus_malformed: " << status.bus.malformed << "\nticks: " << status.ticks
+      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls << '\n';
   return out.str();
 }
 

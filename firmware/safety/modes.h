@@ -18,9 +18,10 @@ enum class Mode : std::uint8_t {
 
 /// What the loop lets out to the drives in a mode.
 enum class WireOrder : std::uint8_t {
-  kNothing,   ///< no frame: the drives' own watchdogs hold the wheels
-  kZero,      ///< heartbeat and setpoints of zero; no torque until the drives are proved
-  kSetpoints  ///< heartbeat and the permitted speeds
+  kNothing,    ///< no frame: the drives' own watchdogs hold the wheels
+  kZero,       ///< heartbeat and setpoints of zero; no torque until the drives are proved
+  kSetpoints,  ///< heartbeat and the permitted speeds
+  kRamp        ///< heartbeat and speeds that only fall
 };
 
 struct ModeRow {
@@ -37,8 +38,8 @@ inline constexpr std::array kModes{
     ModeRow{Mode::kArmed, "armed", WireOrder::kZero, "heartbeat, setpoints of zero; torque holds the wheels"},
     ModeRow{Mode::kDriving, "driving", WireOrder::kSetpoints, "heartbeat, permitted speeds"},
     ModeRow{Mode::kTurning, "turning", WireOrder::kSetpoints, "heartbeat, permitted speeds"},
-    ModeRow{Mode::kStopping, "stopping", WireOrder::kZero, "heartbeat, speeds that ramp to zero"},
-    ModeRow{Mode::kLatched, "latched", WireOrder::kZero,
+    ModeRow{Mode::kStopping, "stopping", WireOrder::kRamp, "heartbeat, speeds that ramp to zero"},
+    ModeRow{Mode::kLatched, "latched", WireOrder::kRamp,
             "heartbeat, speeds that ramp to zero; where the feedback does not confirm it: quick stop, network stop, "
             "then nothing"},
 };
@@ -58,15 +59,16 @@ struct ModeInput {
   bool at_rest = false;  ///< nothing is permitted any more, that is: the ramp has ended
 };
 
-/// The mode after this tick's input. A fault that latches is left by a reset's edge with the button released and a
-/// wanted twist of zero, and leads to standby; standby is left when the drives are ready and the wanted twist is zero:
-/// there is no other way from a fault to motion. A fault that is still there latches again.
+/// The mode after this tick's input. Latched is left by a reset's edge with the button released and a wanted twist of
+/// zero, to standby, or to armed where the drives are ready; standby is left when the drives are ready and the wanted
+/// twist is zero: there is no other way from a fault to motion. A fault that is still there latches again.
 [[nodiscard]] constexpr Mode next_mode(Mode mode, const ModeInput& in) noexcept {
   const bool may_leave = in.reset_edge && in.wants_zero && !in.stop_pressed;
   if (in.latches && !(mode == Mode::kLatched && may_leave)) return Mode::kLatched;
-  if (mode == Mode::kLatched) return may_leave ? Mode::kStandby : Mode::kLatched;
-  if (!in.drives_ready) return Mode::kStandby;
+  if (mode == Mode::kLatched && !may_leave) return Mode::kLatched;
+  if (!in.drives_ready || (mode == Mode::kLatched && in.latches)) return Mode::kStandby;
   if ((mode == Mode::kOff || mode == Mode::kStandby) && !in.wants_zero) return Mode::kStandby;
+  if (mode == Mode::kLatched) return Mode::kArmed;
   if (in.fault) return in.at_rest ? Mode::kArmed : Mode::kStopping;
   if (in.has_goal) return in.at_goal ? Mode::kTurning : Mode::kDriving;
   return in.at_rest ? Mode::kArmed : Mode::kStopping;

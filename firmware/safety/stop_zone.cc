@@ -7,7 +7,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kStep_m = 0.04;  // half a 70 mm cylinder and a bit: none slips between two steps
+constexpr double kStep_m = SweptPath::kStep_m;
 
 /// Where a beam ends, in the laser's frame.
 Vec2 end_of(const LaserScan& scan, std::size_t beam) {
@@ -28,9 +28,13 @@ double StopZone::margin_at(double rim_mps) const noexcept {
   return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
 }
 
-double StopZone::speed_to_stop_within(double gap_m, Duration sweep) const noexcept {
+double StopZone::stopping_distance_m(double rim_mps, double reaction_s) const noexcept {
+  return rim_mps * reaction_s + rim_mps * rim_mps / (2.0 * config_.brake_mps2);
+}
+
+double StopZone::speed_to_stop_within(double gap_m, double reaction_s) const noexcept {
   if (!(gap_m > 0.0)) return 0.0;
-  const double bt = config_.brake_mps2 * (config_.reaction_s + to_seconds(sweep));
+  const double bt = config_.brake_mps2 * reaction_s;
   return std::sqrt(bt * bt + 2.0 * config_.brake_mps2 * gap_m) - bt;
 }
 
@@ -38,16 +42,14 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist) const noexcep
   const double rim_speed = rim_speed_mps(twist);
   double gap = std::numeric_limits<double>::infinity();
   if (rim_speed < 1e-9) return gap;
-  const double step_s = kStep_m / rim_speed;
-  // Driving a chord and then turning differs from the arc by less than 0.3 mm a step.
-  const Step step{twist.v_mps * step_s, direction(-twist.w_radps * step_s)};
+  const SweptPath path(twist, rim_speed, config_.look_ahead_m);
   const Transform2 robot_from_laser(config_.robot_from_laser);
   const double margin = margin_at(rim_speed);
   const double reach_m = rim_radius_m_ + config_.margin_m + config_.look_ahead_m;
   for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
     if (!scan.is_hit(beam)) continue;
     const Vec2 hit = robot_from_laser * end_of(scan, beam);
-    if (norm(hit) <= reach_m) gap = std::min(gap, way_to(hit, step, margin, std::min(gap, config_.look_ahead_m)));
+    if (norm(hit) <= reach_m) gap = std::min(gap, way_to(hit, path, margin, std::min(gap, config_.look_ahead_m)));
   }
   return gap;
 }
@@ -62,19 +64,21 @@ std::size_t StopZone::beams_on_body(const LaserScan& scan) const noexcept {
   return count;
 }
 
-double StopZone::way_to(Vec2 point, const Step& step, double margin_m, double most_m) const noexcept {
+double StopZone::way_to(Vec2 point, const SweptPath& path, double margin_m, double most_m) const noexcept {
+  // No part of the body goes farther than the rim: the clearance lasts for so many steps at least.
+  const auto free_steps = [margin_m](double clearance) {
+    return static_cast<std::size_t>(std::max(1.0, (clearance - margin_m) / kStep_m));
+  };
   const double clearance_now = config_.footprint.distance_to(point);
   double before = clearance_now;
-  const int steps = static_cast<int>(most_m / kStep_m) + 1;
-  for (int k = 0; k < steps; ++k) {
-    const Vec2 q{point.x - step.ahead_m, point.y};  // as the moved robot sees it
-    point = {step.turn_back.x * q.x - step.turn_back.y * q.y, step.turn_back.y * q.x + step.turn_back.x * q.y};
-    const double clearance = config_.footprint.distance_to(point);
+  const std::size_t steps = std::min(static_cast<std::size_t>(most_m / kStep_m) + 1, path.steps());
+  for (std::size_t k = free_steps(before); k <= steps; k += free_steps(before)) {
+    const double clearance = config_.footprint.distance_to(path.seen_from(k, point));
     const bool still_touching = clearance_now == 0.0 && clearance == 0.0;
     if (still_touching || (clearance < margin_m && clearance < clearance_now - 1e-4)) {
       // The margin is met within this step, where the clearance has fallen to it; at once where it had before.
       const double within = before > margin_m ? (before - margin_m) / (before - clearance) : 0.0;
-      return (k + within) * kStep_m;
+      return (static_cast<double>(k - 1) + within) * kStep_m;
     }
     before = clearance;
   }

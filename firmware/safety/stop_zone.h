@@ -1,4 +1,5 @@
 #pragma once
+#include "firmware/safety/swept_path.h"
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
@@ -11,8 +12,7 @@ struct StopZoneConfig {
   double margin_m = 0.08;        ///< kept free round the footprint at kFullMargin_mps of its rim and above
   double creep_margin_m = 0.04;  ///< the same at rest; in between in proportion: it passes a door closely, but slowly
   double brake_mps2 = 1.0;       ///< what the drive was proved to do
-  double reaction_s = 0.0;       ///< oldest scan accepted + control + drive
-  double look_ahead_m = 2.0;     ///< nothing further away can matter at the speeds allowed
+  double look_ahead_m = 2.0;     ///< how far the rim goes, at its fastest, until the robot stands
 };
 
 /// How far the robot can go along a constant twist before its footprint, grown by the margin, meets a point of the raw
@@ -23,7 +23,7 @@ class StopZone {
  public:
   explicit StopZone(const StopZoneConfig& config);
 
-  /// +infinity when nothing is met within the look-ahead. Cost: steps of 4 cm times beams within reach.
+  /// +infinity when nothing is met within the look-ahead. Cost: a few steps of 4 cm for each beam within reach.
   [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
   /// Whether a beam ends within the footprint: on a part of the robot itself, or on somebody who touches it. Such a
   /// point forbids every motion that does not leave it.
@@ -34,20 +34,16 @@ class StopZone {
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;
   /// Speed of the fastest-moving part of the footprint, m/s.
   [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept;
-  /// The fastest rim speed from which the robot still stops within `gap_m`: v t + v^2 / (2 b) = gap. t is the
-  /// reaction time and what a scan's first beam is older than its last.
-  [[nodiscard]] double speed_to_stop_within(double gap_m, Duration sweep = Duration{0}) const noexcept;
+  /// How far the rim goes from this speed until the robot stands: v t + v^2 / (2 b), t the reaction time.
+  [[nodiscard]] double stopping_distance_m(double rim_mps, double reaction_s) const noexcept;
+  /// The fastest rim speed from which the robot still stops within `gap_m`.
+  [[nodiscard]] double speed_to_stop_within(double gap_m, double reaction_s) const noexcept;
 
   static constexpr double kFullMargin_mps = 0.4;
 
  private:
-  /// What the robot does while its rim goes one step.
-  struct Step {
-    double ahead_m = 0.0;
-    Vec2 turn_back;  ///< unit vector at minus the turned angle
-  };
   /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.
-  [[nodiscard]] double way_to(Vec2 point, const Step& step, double margin_m, double most_m) const noexcept;
+  [[nodiscard]] double way_to(Vec2 point, const SweptPath& path, double margin_m, double most_m) const noexcept;
 
   StopZoneConfig config_;
   double rim_radius_m_;

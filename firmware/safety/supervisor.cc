@@ -4,17 +4,16 @@
 #include <cmath>
 
 #include "firmware/safety/trust.h"
+#include "firmware/safety/zone_check.h"
 
 namespace jaywalk {
 namespace {
 
 StopZoneConfig zone_config(const SupervisorConfig& config) {
-  // The oldest scan that is still accepted is 1.5 periods old.
-  const double scan_s = 1.5 / config.model.laser.rate_hz;
   return {.footprint = config.model.footprint,
           .robot_from_laser = config.model.laser.robot_from_laser,
           .brake_mps2 = config.model.limits.brake_mps2,
-          .reaction_s = scan_s + config.control_and_drive_s};
+          .look_ahead_m = std::min(longest_stop_m(config.model, config.tick), SweptPath::kLongest_m)};
 }
 
 Reason reason_for(DriveTrouble trouble) {
@@ -34,36 +33,37 @@ double share_within(const Twist2& twist, const MotionLimits& limits, double fres
   return share;
 }
 
+/// How many times such a twist fits into the limits.
+double times_to_limits(const Twist2& twist, const MotionLimits& limits) {
+  constexpr double kLeast = 1e-9;  // of what hardly moves
+  return std::min(limits.max_speed_mps / std::max(std::fabs(twist.v_mps), kLeast),
+                  limits.max_turn_radps / std::max(std::fabs(twist.w_radps), kLeast));
+}
+
 Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
-
-/// Whether the direction lies between the scan's first beam and its last, in the laser's frame.
-bool sweeps_over(const LaserScan& scan, double way) {
-  const double from_first = wrap_angle(way - scan.angle_rad(0)) * (scan.angle_step_rad < 0.0F ? -1.0 : 1.0);
-  const double past_first = from_first < -1e-6 ? from_first + 2 * kPi : from_first;
-  return past_first <= std::fabs(static_cast<double>(scan.angle_step_rad)) * scan.beam_count;
-}
-
-/// Whether a part of the robot's own that is wider than 3 degrees, half a shin at a metre, hides what comes from within
-/// 45 degrees of that way.
-bool hides_a_shin(const Blanking& blanked, double way) {
-  constexpr double kNarrow_rad = 3.0 * kPi / 180.0, kBeside_rad = 0.25 * kPi;
-  return std::any_of(blanked.begin(), blanked.end(), [way](const BlankedSector& sector) {
-    return sector.width_rad() > kNarrow_rad && sector.off_rad(way) < kBeside_rad;
-  });
-}
 
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
-    : config_(config), stop_zone_(zone_config(config)), frozen_scan_(config.model.drive) {}
+    : config_(config),
+      stop_zone_(zone_config(config)),
+      watch_(config.model.footprint, config.model.laser.robot_from_laser, StopZoneConfig{}.margin_m),
+      gaps_(config.model.laser),
+      scan_timing_(config.model.laser.rate_hz),
+      frozen_scan_(config.model.drive),
+      mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}
+
+bool Supervisor::takes_wishes() const noexcept {
+  return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
+}
 
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
   Verdict verdict;
   verdict.gap_m = std::numeric_limits<double>::infinity();
   verdict.reasons = faults(wanted, input);
-  update_latch(verdict.reasons, wanted, input);
-  if (latched_) verdict.reasons |= Reason::kLatched;
-  const bool stop = verdict.reasons != Reason::kNone;
+  update_mode(verdict.reasons, wanted, input);
+  if (mode_ == Mode::kLatched) verdict.reasons |= Reason::kLatched;
+  const bool stop = verdict.reasons != Reason::kNone || !takes_wishes();
   if (!input.input.has_goal) verdict.reasons |= Reason::kNoGoal;
   const Twist2 target = stop ? Twist2{} : limited(wanted, input, verdict);
   permitted_ = braked(target);
@@ -81,25 +81,21 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
 
 Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   Reason reasons = Reason::kNone;
-  // A scan is as old as its last beam; the stop zone reckons with the first.
-  const Duration limit = duration_from_seconds(1.5 / config_.model.laser.rate_hz) + sweep_of(input.scan);
-  stale_scans_ = is_older(input.scan.stamp, input.now, limit) ? stale_scans_ + 1 : 0;
-  if (stale_scans_ >= 2) reasons |= Reason::kScanStale;
+  if (scan_timing_.is_stale(input.scan, input.now)) reasons |= Reason::kScanStale;
   if (input.scan.sequence > 0 && !is_trustworthy(input.scan, config_.model.laser)) reasons |= Reason::kScanInvalid;
+  gaps_.update(input.scan);
+  if (sight_loss_.is_lost(gaps_.counts(), input.now)) reasons |= Reason::kSightLost;
   if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
   return reasons;
 }
 
 Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
   Reason reasons = reason_for(wheels.trouble);
-  if (config_.needs_wheels && is_older(wheels.stamp, now, config_.max_wheel_age)) reasons |= Reason::kWheelsStale;
+  // Drives that are being proved report nothing yet, and have no torque.
+  if (config_.needs_wheels && wheels.ready && is_older(wheels.stamp, now, config_.max_wheel_age))
+    reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
   return reasons;
-}
-
-/// What a scan says it took, within reason: two turns.
-Duration Supervisor::sweep_of(const LaserScan& scan) const noexcept {
-  return std::clamp(scan.sweep, Duration{0}, duration_from_seconds(2.0 / config_.model.laser.rate_hz));
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {
@@ -110,18 +106,25 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
   return missed_;
 }
 
-void Supervisor::update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
+void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
   constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
                              Reason::kStopUnconfirmed | Reason::kForeignMaster;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;
-  if (has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone)) latched_ = true;
-  // A fault that is still there latches again in the next tick.
-  if (latched_ && reset_edge && !input.input.emergency_stop && wanted == Twist2{}) latched_ = false;
+  mode_ =
+      next_mode(mode_, {.fault = faults != Reason::kNone,
+                        .latches = has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone),
+                        .stop_pressed = input.input.emergency_stop,
+                        .reset_edge = reset_edge,
+                        .wants_zero = wanted == Twist2{},
+                        .drives_ready = input.wheels.ready,
+                        .has_goal = input.input.has_goal,
+                        .at_goal = input.at_goal,
+                        .at_rest = permitted_ == Twist2{}});
 }
 
-Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept {
+Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) noexcept {
   const MotionLimits& limits = config_.model.limits;
   const auto at_most = [&](double share, Reason reason) {
     if (share >= 1.0) return;
@@ -129,14 +132,15 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
     verdict.reasons |= reason;
   };
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
-  at_most(watched_share(input.scan, twist), Reason::kUnwatched);
+  const double reaction = reaction_s(input);
+  at_most(watched_share(twist, reaction), Reason::kUnwatched);
+  at_most(proven_share(twist, reaction), Reason::kUnwatched);
   const double fresh = plan_share(input.plan_stamp, input.now);  // of the limits: shares of what is wanted add up
   if (fresh < 1.0) verdict.reasons |= Reason::kPlanStale;
   at_most(share_within(twist, limits, fresh), Reason::kPlanStale);
   verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
-  if (rim_speed > 0.0)
-    at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, sweep_of(input.scan)) / rim_speed, Reason::kStopZone);
+  if (rim_speed > 0.0) at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, reaction) / rim_speed, Reason::kStopZone);
   if (verdict.gap_m == 0.0 && stop_zone_.beams_on_body(input.scan) > 0) verdict.reasons |= Reason::kTouched;
   return twist;
 }
@@ -148,21 +152,30 @@ double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
   return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
 }
 
-/// Slowly where nothing looks: the way it goes, and beside it, where its corners swing round.
-double Supervisor::watched_share(const LaserScan& scan, const Twist2& twist) const noexcept {
-  constexpr double kBesideRad = 2.0 * kPi / 3.0 - 0.01;  // scanners of 240 degrees see it, those of 180 do not
-  double blind_mps = 0.0;
-  if (!watched(scan, twist.v_mps >= 0.0 ? 0.0 : kPi)) blind_mps = std::fabs(twist.v_mps);
-  if (!watched(scan, kBesideRad) || !watched(scan, -kBesideRad))
-    blind_mps = std::max(blind_mps, std::fabs(twist.w_radps) * config_.model.footprint.circumscribed_radius_m());
-  return std::min(1.0, config_.unwatched_speed_mps / std::max(blind_mps, 1e-9));
+double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
+  return reckoned_age_s(input.scan, input.now, config_.model.laser.rate_hz) +
+         control_and_drive_s(config_.tick, input.latency);
 }
 
-/// Whether beams look that way, in the robot's frame: 0 is ahead.
-bool Supervisor::watched(const LaserScan& scan, double way) const noexcept {
-  const LaserModel& laser = config_.model.laser;
-  const double in_laser = wrap_angle(way - laser.robot_from_laser.heading);
-  return sweeps_over(scan, in_laser) && !hides_a_shin(laser.blanked, in_laser);
+/// Slowly where the laser never looks: each part of the body that goes there.
+double Supervisor::watched_share(const Twist2& twist, double reaction_s) const noexcept {
+  const double rim_mps = stop_zone_.rim_speed_mps(twist);
+  if (rim_mps <= config_.unwatched_speed_mps) return 1.0;
+  const SweptPath path(twist, rim_mps, gaps_.has_blanked() ? stop_zone_.stopping_distance_m(rim_mps, reaction_s) : 0.0);
+  return config_.unwatched_speed_mps / std::max(watch_.unwatched_mps(gaps_, twist, path), config_.unwatched_speed_mps);
+}
+
+/// Slowly where the way that it takes to stop enters what lost beams could hide, and so that it stops before that. Once
+/// it does so, the way from its fastest counts: it would speed up and brake again and again.
+double Supervisor::proven_share(const Twist2& twist, double reaction_s) noexcept {
+  const double rim_mps = stop_zone_.rim_speed_mps(twist);
+  if (rim_mps < 1e-9) return 1.0;
+  const double judged_mps = lost_ahead_ ? rim_mps * times_to_limits(twist, config_.model.limits) : rim_mps;
+  const SweptPath path(twist, rim_mps, stop_zone_.stopping_distance_m(judged_mps, reaction_s));
+  const double way_m = watch_.way_to_lost_m(gaps_, twist, path, stop_zone_.margin_at(rim_mps));
+  lost_ahead_ = std::isfinite(way_m);
+  if (!lost_ahead_) return 1.0;
+  return std::min(config_.unwatched_speed_mps, stop_zone_.speed_to_stop_within(way_m, reaction_s)) / rim_mps;
 }
 
 Twist2 Supervisor::braked(const Twist2& target) const noexcept {

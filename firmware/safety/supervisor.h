@@ -1,7 +1,13 @@
 #pragma once
+#include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/frozen_scan.h"
+#include "firmware/safety/modes.h"
+#include "firmware/safety/reaction.h"
+#include "firmware/safety/scan_timing.h"
+#include "firmware/safety/sight_loss.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/verdict.h"
+#include "firmware/safety/watch.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
@@ -15,7 +21,6 @@ struct SupervisorConfig {
   Duration max_plan_age = std::chrono::milliseconds(1000);  ///< older: standstill
   Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
   double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
-  double control_and_drive_s = 0.08;  ///< a tick, a frame, and the drive's lag (50 ms in the plant)
   Duration tick = std::chrono::milliseconds(20);
   bool needs_wheels = true;  ///< false only where a recording has none
   bool latches_all = false;  ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
@@ -28,6 +33,8 @@ struct SafetyInput {
   const OperatorInput& input;
   Time plan_stamp = kNever;
   Time now = kNever;
+  MeasuredLatency latency{};
+  bool at_goal = false;  ///< only the heading is left to be reached
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
@@ -40,31 +47,36 @@ class Supervisor {
  public:
   explicit Supervisor(const SupervisorConfig& config);
   [[nodiscard]] Verdict judge(const Twist2& wanted, const SafetyInput& input) noexcept;
-  /// An earlier fault still waits for its reset: ask for nothing until then.
-  [[nodiscard]] bool latched() const noexcept { return latched_; }
+  [[nodiscard]] Mode mode() const noexcept { return mode_; }
+  /// False while an earlier fault waits for its reset, or the drives for their proof: ask for nothing until then.
+  [[nodiscard]] bool takes_wishes() const noexcept;
 
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
-  [[nodiscard]] Duration sweep_of(const LaserScan& scan) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
-  void update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
-  [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) const noexcept;
+  void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
+  [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) noexcept;
   [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
-  [[nodiscard]] double watched_share(const LaserScan& scan, const Twist2& twist) const noexcept;
-  [[nodiscard]] bool watched(const LaserScan& scan, double way) const noexcept;
+  [[nodiscard]] double reaction_s(const SafetyInput& input) const noexcept;
+  [[nodiscard]] double watched_share(const Twist2& twist, double reaction_s) const noexcept;
+  [[nodiscard]] double proven_share(const Twist2& twist, double reaction_s) noexcept;
   [[nodiscard]] Twist2 braked(const Twist2& target) const noexcept;
 
   SupervisorConfig config_;
   StopZone stop_zone_;
+  Watch watch_;
+  BlindGaps gaps_;
+  ScanTiming scan_timing_;
+  SightLoss sight_loss_;
   FrozenScan frozen_scan_;
-  Twist2 permitted_;     ///< last tick's
-  int stale_scans_ = 0;  ///< ticks in a row with a scan too old
+  Twist2 permitted_;         ///< last tick's
+  bool lost_ahead_ = false;  ///< what lost beams could hide held it up, last tick
   int missed_ = 0;
   Time judged_ = kNever;
-  bool latched_ = false;
+  Mode mode_;
   bool reset_before_ = false;
 };
 

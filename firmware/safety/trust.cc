@@ -5,6 +5,7 @@
 namespace jaywalk {
 namespace {
 
+constexpr std::size_t kLeastBeams = 3;  // two are no scanner
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 
 bool has_directions(const LaserScan& scan) {
@@ -15,13 +16,10 @@ bool has_directions(const LaserScan& scan) {
 
 bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept {
   if (scan.beam_count != laser.beams || scan.beam_count > kMaxBeams || !has_directions(scan)) return false;
-  std::size_t not_numbers = 0;
-  bool measured = false;
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-    not_numbers += std::isnan(scan.range_m[beam]) ? 1U : 0U;
-    measured = measured || scan.is_hit(beam) || scan.found_nothing(beam);
-  }
-  return measured && 2 * not_numbers < scan.beam_count;
+  std::size_t measured = 0;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
+    measured += scan.state(beam) != BeamState::kUnknown ? 1U : 0U;
+  return measured >= kLeastBeams;
 }
 
 bool is_trustworthy(const WheelState& wheels) noexcept {

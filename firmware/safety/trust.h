@@ -6,8 +6,8 @@
 namespace jaywalk {
 
 /// Whether the supervisor may judge by a scan: not with another number of beams than this scanner has, nor with
-/// directions that are no numbers, nor with half its ranges or more so, nor where no beam measured anything, be it that
-/// nothing is in reach: a scanner that is broken, covered or blinded.
+/// directions that are no numbers, nor where fewer than three beams measured anything, be it that nothing is in reach:
+/// a scanner that is broken, covered or blinded.
 [[nodiscard]] bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept;
 
 /// Whether angles and speeds of the wheels are numbers.

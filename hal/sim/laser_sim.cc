@@ -37,8 +37,8 @@ void LaserSim::see(const Disc& mover, Vec2 laser_in_map) noexcept {
 float LaserSim::measured(double range) noexcept {
   const bool lost = loss_.uniform() < model_.drop_out;
   const double noisy = range + model_.noise_m * noise_.normal();
-  const bool seen = !lost && noisy >= model_.range_min_m && noisy <= model_.range_max_m;
-  return seen ? static_cast<float>(noisy) : std::numeric_limits<float>::infinity();
+  if (lost || noisy < model_.range_min_m) return 0.0F;
+  return noisy <= model_.range_max_m ? static_cast<float>(noisy) : std::numeric_limits<float>::infinity();
 }
 
 void LaserSim::sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,

@@ -11,7 +11,8 @@
 namespace jaywalk::sim {
 
 /// A planar laser: every beam at once, or one after another as it turns; Gaussian range noise, beams that get lost.
-/// What lies outside its range limits gives infinity. Memory is taken at construction.
+/// What lies beyond its range gives infinity; what is too near and a lost beam give 0 (LaserScan). Memory is taken at
+/// construction.
 class LaserSim {
  public:
   LaserSim(const LaserModel& model, std::uint64_t seed);

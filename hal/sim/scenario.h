@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
@@ -32,12 +33,24 @@ struct RecordedSpec {
   bool legs = false;
 };
 
-enum class FaultKind { kScanStale, kScanNan, kScanShort, kScanFrozen, kWheelsStale, kWheelSlip, kEmergencyStop };
+enum class FaultKind {
+  kScanStale,
+  kScanNan,
+  kScanShort,
+  kScanFrozen,
+  kBeamsLost,
+  kWheelsStale,
+  kWheelSlip,
+  kEmergencyStop
+};
 
 struct FaultSpec {
   double at_s = 0.0;
   double for_s = 0.0;
   FaultKind kind = FaultKind::kScanStale;
+  BlankedSector lost{-kPi / 3.0, kPi / 3.0};  ///< of kBeamsLost, in the laser's frame: 120 degrees ahead
+
+  [[nodiscard]] bool active(double now_s) const noexcept { return now_s >= at_s && now_s < at_s + for_s; }
 };
 
 /// How the wheels slip: shares of a wheel's speed that the ground does not see.

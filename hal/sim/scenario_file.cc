@@ -111,10 +111,11 @@ void read_movers(TomlTable& table, Scenario& scenario) {
 }
 
 FaultSpec read_fault(TomlTable& table) {
-  constexpr std::array<std::pair<const char*, FaultKind>, 7> kKinds{{{"scan_stale", FaultKind::kScanStale},
+  constexpr std::array<std::pair<const char*, FaultKind>, 8> kKinds{{{"scan_stale", FaultKind::kScanStale},
                                                                      {"scan_nan", FaultKind::kScanNan},
                                                                      {"scan_short", FaultKind::kScanShort},
                                                                      {"scan_frozen", FaultKind::kScanFrozen},
+                                                                     {"beams_lost", FaultKind::kBeamsLost},
                                                                      {"wheels_stale", FaultKind::kWheelsStale},
                                                                      {"wheel_slip", FaultKind::kWheelSlip},
                                                                      {"emergency_stop", FaultKind::kEmergencyStop}}};
@@ -122,6 +123,8 @@ FaultSpec read_fault(TomlTable& table) {
   spec.at_s = table.number("at_s", kSeconds);
   spec.for_s = table.number("for_s", kSeconds);
   const std::string name = table.text("kind");
+  const bool has_sector = table.has("from_deg") || table.has("to_deg");
+  if (name == "beams_lost" && has_sector) spec.lost = read_sector(table);
   table.finish();
   std::string known;
   for (const auto& [text, kind] : kKinds) {

@@ -3,6 +3,17 @@
 #include <limits>
 
 namespace jaywalk::sim {
+namespace {
+
+/// As a scanner does whose packets of a sector are lost, or whose window is dirty there.
+void lose(const BlankedSector& sector, LaserScan& scan) noexcept {
+  constexpr double kSame_rad = 1e-6;  // single precision's angles: a beam on the sector's rim is in it
+  for (std::size_t k = 0; k < scan.beam_count; ++k) {
+    if (sector.off_rad(scan.angle_rad(k)) <= kSame_rad) scan.range_m[k] = 0.0F;
+  }
+}
+
+}  // namespace
 
 bool Metronome::due(Time now) noexcept {
   const bool is_due = now >= time_from_seconds(beats_ / rate_hz_);
@@ -60,6 +71,9 @@ void Sensors::turn(const World& world) noexcept {
 void Sensors::spoil(const World& world) noexcept {
   if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
   if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
+  for (const FaultSpec& fault : world.faults()) {
+    if (fault.kind == FaultKind::kBeamsLost && fault.active(to_seconds(world.now()))) lose(fault.lost, scan_);
+  }
 }
 
 void Sensors::locate(const Truth& truth) noexcept {

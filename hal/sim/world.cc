@@ -60,9 +60,8 @@ const Scenario& World::with_free_places(const Scenario& scenario) const {
 
 bool World::fault_active(FaultKind kind) const noexcept {
   const double now_s = to_seconds(truth_.now);
-  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
-    return fault.kind == kind && now_s >= fault.at_s && now_s < fault.at_s + fault.for_s;
-  });
+  return std::any_of(faults_.begin(), faults_.end(),
+                     [&](const FaultSpec& fault) { return fault.kind == kind && fault.active(now_s); });
 }
 
 double World::gap_to(std::span<const MoverTruth> movers) const noexcept {

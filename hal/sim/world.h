@@ -34,6 +34,7 @@ class World {
   /// What a laser sees of the movers that are there.
   [[nodiscard]] std::span<const Disc> movers_seen() const noexcept { return seen_; }
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
+  [[nodiscard]] std::span<const FaultSpec> faults() const noexcept { return faults_; }
   [[nodiscard]] bool fault_active(FaultKind kind) const noexcept;
 
  private:

@@ -11,14 +11,25 @@ namespace jaywalk {
 /// Most beams that a scan may have: 360 degrees at 0.18 degrees.
 inline constexpr std::size_t kMaxBeams = 2048;
 
+/// Fewest beams that a scan may have: with fewer it is no scanner.
+inline constexpr std::size_t kLeastBeams = 3;
+
+/// What one beam proves.
+enum class BeamState : std::uint8_t {
+  kHit,     ///< something stands at its range
+  kFree,    ///< the device measured, and says that nothing is within its reach
+  kUnknown  ///< nothing: lost, dirty, dazzled, too near, blanked, no number
+};
+
 /// One sweep of a planar laser scanner, in the laser's frame (x ahead, angles counter-clockwise).
 ///
-/// A range is metres along its beam. Finite values in [range_min_m, range_max_m) are hits; 0, NaN,
-/// infinity and everything outside those limits are "no return": the beam proves nothing, neither
-/// an obstacle nor free space (dark or mirror surfaces return nothing too). Infinity and range_max_m itself, which
-/// many scanners say for nothing, still say more than 0 and NaN: the scanner measured, and found nothing in its reach
-/// (as REP 117 has it), and minus infinity that something too near to be measured is before it: the robot itself
-/// (blank()).
+/// A range is metres along its beam, and tells the beam's state:
+///   [range_min_m, range_max_m)     hit
+///   range_max_m and more, infinity free: the scanner measured, and found nothing within its reach (as REP 117 has it)
+///   0, NaN, below range_min_m      unknown: a lost packet, dirt, dazzle, an error code, something too near
+///   minus infinity                 unknown: before the beam stands the robot itself (blank())
+/// Only hits and free beams prove free room. A decoder writes infinity only where its device says that it measured and
+/// found nothing; where a code can mean anything else as well, it writes 0. The table of codes is in drivers/README.md.
 struct LaserScan {
   Time stamp = kNever;           ///< when the first beam was measured
   std::uint32_t sequence = 0;    ///< grows by one a sweep; 0: no scan yet
@@ -35,8 +46,14 @@ struct LaserScan {
     const float r = range_m[beam];
     return r >= range_min_m && r < range_max_m && r > 0.0F;  // false for NaN
   }
-  [[nodiscard]] bool found_nothing(std::size_t beam) const { return range_m[beam] >= range_max_m; }  // false for NaN
+  [[nodiscard]] bool found_nothing(std::size_t beam) const {
+    const float r = range_m[beam];
+    return r >= range_max_m && r > 0.0F;  // false for NaN
+  }
   [[nodiscard]] bool too_near(std::size_t beam) const { return range_m[beam] < -std::numeric_limits<float>::max(); }
+  [[nodiscard]] BeamState state(std::size_t beam) const {
+    return is_hit(beam) ? BeamState::kHit : found_nothing(beam) ? BeamState::kFree : BeamState::kUnknown;
+  }
   [[nodiscard]] double angle_rad(std::size_t beam) const {
     return static_cast<double>(first_angle_rad) + static_cast<double>(beam) * static_cast<double>(angle_step_rad);
   }

@@ -48,6 +48,7 @@ struct WheelState {
   double right_radps = 0.0;
   DriveTrouble trouble = DriveTrouble::kNone;
   StopStage stop = StopStage::kNone;
+  bool ready = true;  ///< both drives follow commands; of drives on wires: proved, enabled, and without trouble
 };
 
 /// What the wheels are asked to do.

@@ -122,6 +122,31 @@ TEST_CASE("of two points in one sector the nearer counts and no return counts fo
   CHECK_FALSE(scan->is_hit(100));
 }
 
+TEST_CASE("a sector is free only where every point of it found nothing in reach, and a hit outweighs the rest") {
+  SweepBuilder builder;
+  auto scan = std::make_unique<LaserScan>();
+  CHECK_FALSE(builder.add(packet_at(350.4, 0), Time{1s}, *scan));
+  Packet first = packet_at(0.4, 13000), second = packet_at(0.4, 13000);  // 13 m: beyond the data sheet's 12
+  second.points[1].range_mm = 0;
+  first.points[2].range_mm = 0;
+  second.points[3].range_mm = 3000;
+  first.points[4].range_mm = 3000;
+  first.points[5].range_mm = 0;
+  second.points[5].range_mm = 3000;
+  first.points[6].range_mm = 3000;
+  second.points[6].range_mm = 0;
+  first.points[7].range_mm = second.points[7].range_mm = 0;
+  first.points[8].range_mm = second.points[8].range_mm = 5;  // nearer than the scanner can see
+  CHECK_FALSE(builder.add(first, Time{1003ms}, *scan));
+  CHECK_FALSE(builder.add(second, Time{1003ms}, *scan));
+  CHECK_FALSE(builder.add(packet_at(350.4, 0), Time{1100ms}, *scan));
+  REQUIRE(builder.add(packet_at(0.4, 0), Time{1103ms}, *scan));
+  CHECK(scan->state(0) == BeamState::kFree);
+  for (const std::size_t beam : {1U, 2U, 7U, 8U}) CHECK(scan->state(beam) == BeamState::kUnknown);
+  for (const std::size_t beam : {3U, 4U, 5U, 6U}) CHECK(scan->range_m[beam] == Approx(3.0F));
+  for (std::size_t beam = 12; beam < 430; ++beam) REQUIRE(scan->state(beam) == BeamState::kUnknown);  // no point at all
+}
+
 TEST_CASE("any bytes make packets within their limits and scans of them") {
   tests::RandomBytes random(51);
   PacketStream packets;

@@ -58,14 +58,14 @@ TEST_CASE("the CRC of an LMS200 takes each byte with the one before it") {
 TEST_CASE("half a degree in centimetres becomes a scan from right to left") {
   LaserScan scan;
   Octets body = values(361);
-  body[3] = 0xF7;  // value 0: 1FF7h, the first of the error codes
+  body[3] = 0xF7;  // value 0: 1FF7h, beyond the maximum
   body[4] = 0x1F;
   body[6] = 0x20;  // value 1: 101 with the highest flag
   REQUIRE(decode_scan(body, 500000, Time{1s}, scan) == Decoding::kScan);
   REQUIRE(scan.beam_count == 361);
   CHECK(scan.first_angle_rad == Approx(-1.5707963));
   CHECK(scan.angle_step_rad == Approx(0.0087266));
-  CHECK_FALSE(scan.is_hit(0));
+  CHECK(scan.state(0) == BeamState::kFree);
   CHECK(scan.range_m[1] == Approx(1.01));
   CHECK(scan.range_m[360] == Approx(4.60));
   CHECK(scan.range_max_m == Approx(81.82));
@@ -73,6 +73,43 @@ TEST_CASE("half a degree in centimetres becomes a scan from right to left") {
   CHECK(to_seconds(scan.period) == Approx(2.0 / 75.0));
   CHECK(to_seconds(scan.sweep) == Approx(1.5 / 75.0));
   CHECK(to_seconds(scan.stamp) == Approx(1.0 - 0.01464 - 0.02).epsilon(1e-6));
+}
+
+TEST_CASE("of an LMS200's codes only 'beyond the maximum' is free room, and a dazzled value proves nothing") {
+  struct Case {
+    unsigned value;
+    BeamState state;
+  };
+  const std::vector<Case> cases{{100, BeamState::kHit},
+                                {100 | 0x2000, BeamState::kHit},  // in field A
+                                {100 | 0x4000, BeamState::kHit},  // in field B
+                                {8181, BeamState::kHit},
+                                {8183, BeamState::kFree},
+                                {8183 | 0x6000, BeamState::kFree},
+                                {0, BeamState::kUnknown},
+                                {8184, BeamState::kUnknown},
+                                {8185, BeamState::kUnknown},
+                                {8186, BeamState::kUnknown},  // channel 1 could not be read
+                                {8187, BeamState::kUnknown},  // too much noise
+                                {8188, BeamState::kUnknown},
+                                {8189, BeamState::kUnknown},  // overflow
+                                {8190, BeamState::kUnknown},  // dazzled
+                                {8191, BeamState::kUnknown},  // not valid
+                                {100 | 0x8000, BeamState::kUnknown},
+                                {8183 | 0x8000, BeamState::kUnknown}};
+  for (const unsigned unit : {0U, 0x4000U}) {  // centimetres and millimetres
+    Octets body = values(181, unit);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      body[3 + 2 * k] = static_cast<std::uint8_t>(cases[k].value);
+      body[4 + 2 * k] = static_cast<std::uint8_t>(cases[k].value >> 8U);
+    }
+    LaserScan scan;
+    REQUIRE(decode_scan(body, 38400, Time{1s}, scan) == Decoding::kScan);
+    for (std::size_t k = 0; k < cases.size(); ++k) {
+      INFO(cases[k].value);
+      CHECK(scan.state(k) == cases[k].state);
+    }
+  }
 }
 
 TEST_CASE("a slow line makes the LMS200 leave turns out") {

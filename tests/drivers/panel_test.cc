@@ -7,6 +7,8 @@
 #include <cmath>
 #include <filesystem>
 #include <string>
+#include <thread>
+#include <tuple>
 #include <vector>
 
 #include "drivers/panel/joystick_panel.h"
@@ -46,16 +48,24 @@ struct GoalAtOne final : OperatorPanel {
   }
 };
 
+/// This machine's.
+struct SleepingClock final : Clock {
+  [[nodiscard]] Time now() noexcept override { return Time{std::chrono::steady_clock::now().time_since_epoch()}; }
+  void sleep_until(Time wake) noexcept override { std::this_thread::sleep_for(wake - now()); }
+};
+
 /// A named pipe in the place of a device: it says what a test writes, and nothing when asked how things stand.
 class Bench {
  public:
-  explicit Bench(bool stop_opens = false)
+  explicit Bench(bool stop_opens = false, Duration renew = 0s, BusOf bus = bus_of)
       : path_((std::filesystem::temp_directory_path() / ("jaywalk_panel_" + std::to_string(::getpid()))).string()),
-        panel(goals_, clock, {.path = path_, .stop_opens = stop_opens}, true) {
+        watch(clock, {.path = path_, .stop_opens = stop_opens, .dead_man_renew = renew}, bus),
+        panel(goals_, watch, true) {
     std::filesystem::remove(path_);
   }
   ~Bench() { std::filesystem::remove(path_); }
 
+  [[nodiscard]] const std::string& path() const { return path_; }
   void plug_in() {
     REQUIRE(::mkfifo(path_.c_str(), 0600) == 0);
     writer_ = wire::FileDescriptor(::open(path_.c_str(), O_RDWR | O_NONBLOCK));
@@ -70,6 +80,10 @@ class Bench {
   void press(std::uint16_t code, bool pressed = true) { write(event(EV_KEY, code, pressed ? 1 : 0)); }
   OperatorInput after(Duration time) {
     clock.sleep_until(clock.now() + time);
+    watch.step();
+    return tick();
+  }
+  OperatorInput tick() {
     const AllocationGuard guard;
     const OperatorInput input = panel.latest();
     heap_calls += guard.calls();
@@ -83,6 +97,7 @@ class Bench {
 
  public:
   tests::HandClock clock;
+  JoystickWatch watch;
   JoystickPanel panel;
   std::uint64_t heap_calls = 0;
 };
@@ -188,6 +203,96 @@ TEST_CASE("a joystick that is pulled is an emergency stop and is found again wit
   CHECK_FALSE(input.emergency_stop);
   CHECK_FALSE(input.has_goal);
   CHECK(bench.heap_calls == 0);
+}
+
+TEST_CASE("the loop's thread opens no device: what the watch has not looked at is not there") {
+  Bench bench;
+  bench.plug_in();
+  CHECK(bench.tick().emergency_stop);
+  CHECK_FALSE(bench.after(0ms).emergency_stop);
+}
+
+TEST_CASE("a watch that hangs for more than 100 ms is a joystick that is gone") {
+  Bench bench;
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(20ms).has_goal);
+  bench.clock.sleep_until(bench.clock.now() + 100ms);
+  CHECK(bench.tick().has_goal);
+  bench.clock.sleep_until(bench.clock.now() + 1ms);
+  const OperatorInput input = bench.tick();
+  CHECK(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);
+  CHECK_FALSE(bench.after(0ms).emergency_stop);
+}
+
+TEST_CASE("a stop that is pressed and let go between two ticks is one for a tick") {
+  Bench bench;
+  bench.plug_in();
+  CHECK_FALSE(bench.after(0ms).emergency_stop);
+  bench.press(kStop);
+  bench.press(kStop, false);
+  CHECK(bench.after(10ms).emergency_stop);
+  CHECK_FALSE(bench.after(20ms).emergency_stop);
+  bench.press(kStop);
+  bench.watch.step();
+  bench.press(kStop, false);
+  bench.watch.step();
+  CHECK(bench.tick().emergency_stop);
+  CHECK_FALSE(bench.tick().emergency_stop);
+}
+
+TEST_CASE(
+    "a dead man that is to be renewed counts until two seconds after the last event, then it must be pressed anew") {
+  Bench bench(false, 2s);
+  bench.plug_in();
+  static_cast<void>(bench.after(0ms));
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(20ms).has_goal);
+  CHECK(bench.after(2s).has_goal);
+  bench.write(event(EV_ABS, kX, 100));  // the link lives
+  CHECK(bench.after(10ms).has_goal);
+  CHECK(bench.after(2s).has_goal);
+  CHECK_FALSE(bench.after(10ms).has_goal);
+  CHECK_FALSE(bench.tick().emergency_stop);
+  bench.write(event(EV_ABS, kX, 0));
+  CHECK_FALSE(bench.after(10ms).has_goal);
+  bench.press(kDeadMan, false);
+  bench.press(kDeadMan);
+  CHECK(bench.after(10ms).has_goal);
+}
+
+TEST_CASE("a dead man on Bluetooth counts only where it is to be renewed, and says so") {
+  const BusOf bluetooth = [](int) noexcept -> std::optional<std::uint16_t> { return BUS_BLUETOOTH; };
+  const BusOf usb = [](int) noexcept -> std::optional<std::uint16_t> { return BUS_USB; };
+  for (const auto& [bus, renew, drives] :
+       {std::tuple{bluetooth, Duration{0}, false}, {bluetooth, Duration{2s}, true}, {usb, Duration{0}, true}}) {
+    Bench bench(false, renew, bus);
+    bench.plug_in();
+    static_cast<void>(bench.after(0ms));
+    bench.press(kDeadMan, false);
+    bench.press(kDeadMan);
+    CHECK(bench.after(20ms).has_goal == drives);
+    CHECK(bench.panel.joystick().needs_renewal == !drives);
+    CHECK_FALSE(bench.panel.joystick().stop);
+  }
+}
+
+TEST_CASE("a watch in a thread of its own finds the joystick and publishes how it stands") {
+  SleepingClock clock;
+  Bench pipe;
+  pipe.plug_in();
+  JoystickWatch watch(clock, {.path = pipe.path()});
+  watch.start(0);
+  const auto limit = std::chrono::steady_clock::now() + 30s;
+  while (!watch.latest().connected && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
+  pipe.press(kDeadMan, false);
+  pipe.press(kDeadMan);
+  while (!watch.latest().dead_man && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
+  CHECK(watch.latest().dead_man);
 }
 
 TEST_CASE("a joystick whose events were lost is asked again how it stands") {

@@ -97,6 +97,32 @@ TEST_CASE("what is no scan is named") {
   CHECK(of("") == Decoding::kOtherMessage);
 }
 
+TEST_CASE("only a UTM-30LX says by 1 that nothing is in its range, every other code proves nothing") {
+  // 0 to 5: error codes; 50: 5 cm; 65533: "0" and 16 * 4096 - 3; 23000 mm; 100 * 1024 mm, farther than the 30 m.
+  const std::string answer =
+      "MD0000000901000\n" + checked_line("99") + checked_line("0000") + checked_line("00000100200300400500b?om5UHI00");
+  const auto decoded = [&](bool is_utm, const std::string& text) {
+    auto scan = std::make_unique<LaserScan>();
+    std::uint32_t device_time_ms = 0;
+    ScannerModel model;
+    model.one_means_nothing = is_utm;
+    REQUIRE(decode_scan(text, model, Time{1s}, *scan, device_time_ms) == Decoding::kScan);
+    return scan;
+  };
+  for (const bool is_utm : {true, false}) {
+    const auto scan = decoded(is_utm, answer);
+    REQUIRE(scan->beam_count == 10);
+    CHECK(scan->state(1) == (is_utm ? BeamState::kFree : BeamState::kUnknown));
+    for (const std::size_t beam : {0U, 2U, 3U, 4U, 5U, 6U, 7U}) CHECK(scan->state(beam) == BeamState::kUnknown);
+    CHECK(scan->range_m[8] == Approx(22.872F));
+    CHECK(scan->state(8) == BeamState::kHit);
+    CHECK(scan->state(9) == BeamState::kFree);
+  }
+  // Of joined steps one may have been in error: 1 for all of them is not believed.
+  const std::string joined = "MD0000000102000\n" + checked_line("99") + checked_line("0000") + checked_line("001");
+  CHECK(decoded(true, joined)->state(0) == BeamState::kUnknown);
+}
+
 TEST_CASE("answers are cut out of a stream in pieces of any size without the heap") {
   const std::string stream = three_beams() + "\n\nBM\n" + checked_line("00") + "\n" + three_beams() + "\n\n";
   for (std::size_t piece = 1; piece <= stream.size(); ++piece) {
@@ -156,9 +182,29 @@ TEST_CASE("what a URG-04LX says of itself is read") {
   CHECK(model.last_step == 725);
   CHECK(model.front_step == 384);
   CHECK(model.period == std::chrono::milliseconds(100));
+  CHECK_FALSE(model.one_means_nothing);
   CHECK(scip::decode_model(head + tail, model) == Decoding::kTruncated);  // no DMAX
   CHECK(scip::decode_model(head + "DMAX:5601;_\n" + tail, model) == Decoding::kChecksum);
   CHECK(scip::decode_model(head + "DMAX:0;D\n" + tail, model) == Decoding::kBadField);  // D+M+A+X+:+0 = 404, 20, 'D'
   CHECK(scip::decode_model("PP\n0Ee\n", model) == Decoding::kDeviceError);
   CHECK(scip::decode_model("VV\n00P\n", model) == Decoding::kOtherMessage);
+}
+
+TEST_CASE("a UTM-30LX is known by its model's name, and one that is like it is not taken for it") {
+  const auto is_utm = [](const std::string& name) {
+    std::string answer = "PP\n" + checked_line("00");
+    for (const std::string& line :
+         {"MODL:" + name, std::string("DMIN:23"), std::string("DMAX:60000"), std::string("ARES:1440"),
+          std::string("AMIN:0"), std::string("AMAX:1080"), std::string("AFRT:540"), std::string("SCAN:2400")}) {
+      answer += line + ';' + checksum(line) + '\n';
+    }
+    scip::ScannerModel model;
+    REQUIRE(scip::decode_model(answer, model) == Decoding::kScan);
+    return model.one_means_nothing;
+  };
+  CHECK(is_utm("UTM-30LX(Hokuyo Automatic Co.,Ltd.)"));
+  CHECK(is_utm("UTM-30LX"));
+  CHECK_FALSE(is_utm("UTM-30LX-EW(Hokuyo Automatic Co.,Ltd.)"));
+  CHECK_FALSE(is_utm("UST-10LX"));
+  CHECK_FALSE(is_utm(""));
 }

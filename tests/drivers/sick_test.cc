@@ -1,4 +1,6 @@
+#include <array>
 #include <cstdio>
+#include <span>
 #include <string>
 
 #include "drivers/laser/cola_stream.h"
@@ -57,6 +59,19 @@ Body three_beams(std::uint32_t status = 0) {
   return body.number(1000, 2).number(0, 2).number(4660, 2);
 }
 
+/// As above, with these counts for distances.
+Body beams_of(std::span<const std::uint32_t> counts, std::uint32_t scale, std::uint32_t offset) {
+  Body body;
+  body.number(1, 2).number(1, 2).number(0x119FD06, 4).number(0, 1).number(0, 1);
+  body.number(0xAFB1, 2).number(0xAFB5, 2).number(1000, 4).number(5000, 4);
+  body.number(0, 1).number(0, 1).number(8, 1).number(0, 1).number(0, 2).number(2500, 4).number(0xA2, 4);
+  body.number(0, 2).number(1, 2).word("DIST1").number(scale, 4).number(offset, 4);
+  body.number(static_cast<std::uint32_t>(-450000), 4).number(10000, 2);
+  body.number(static_cast<std::uint32_t>(counts.size()), 2);
+  for (const std::uint32_t count : counts) body.number(count, 2);
+  return body;
+}
+
 Octets framed_body(const Octets& body) {
   const ColaCommand command = framed(Cola::kB, std::string(body.begin(), body.end()));
   return {command.begin(), command.end()};
@@ -96,11 +111,45 @@ TEST_CASE("three beams decode alike in both dialects") {
   }
 }
 
-TEST_CASE("a scanner that reports an error gives no scan and dirt on its window does not hide one") {
-  LaserScan scan;
-  ScanHeader header;
-  CHECK(decode_scan(Cola::kB, three_beams(1).in(Cola::kB), {}, Time{1s}, scan, header) == Decoding::kDeviceError);
-  CHECK(decode_scan(Cola::kB, three_beams(2).in(Cola::kB), {}, Time{1s}, scan, header) == Decoding::kScan);
+TEST_CASE("a scanner that reports an error or a dirty window gives no scan, and its warning of dirt is told") {
+  for (const Cola dialect : {Cola::kA, Cola::kB}) {
+    LaserScan scan;
+    ScanHeader header;
+    const auto of = [&](std::uint32_t status) {
+      return decode_scan(dialect, three_beams(status).in(dialect), {}, Time{1s}, scan, header);
+    };
+    CHECK(of(1) == Decoding::kDeviceError);
+    CHECK(of(0) == Decoding::kScan);
+    CHECK_FALSE(header.warns_of_dirt);
+    CHECK(of(2) == Decoding::kScan);
+    CHECK(header.warns_of_dirt);
+    CHECK(of(4) == Decoding::kDirty);
+    CHECK(of(6) == Decoding::kDirty);
+    CHECK(of(5) == Decoding::kDeviceError);
+    CHECK(of(0x80) == Decoding::kScan);  // without meaning in the maker's list
+    CHECK_FALSE(header.warns_of_dirt);
+  }
+}
+
+TEST_CASE("a SICK's reserved distances prove nothing, whatever scale and offset make of them") {
+  // 0, 1, 15: reserved. 60: 6 cm. 12000: 12 m, farther than the model's 10 m. 65535: the field's end.
+  constexpr std::array<std::uint32_t, 6> kCounts{0, 1, 15, 60, 12000, 0xFFFF};
+  for (const Cola dialect : {Cola::kA, Cola::kB}) {
+    const auto decoded = [&](std::uint32_t scale, std::uint32_t offset) {
+      auto scan = std::make_unique<LaserScan>();
+      ScanHeader header;
+      const Octets body = beams_of(kCounts, scale, offset).in(dialect);
+      REQUIRE(decode_scan(dialect, body, {}, Time{1s}, *scan, header) == Decoding::kScan);
+      return scan;
+    };
+    const auto plain = decoded(0x3F800000, 0);
+    for (const std::size_t beam : {0U, 1U, 2U, 5U}) CHECK(plain->state(beam) == BeamState::kUnknown);
+    CHECK(plain->state(3) == BeamState::kHit);
+    CHECK(plain->state(4) == BeamState::kFree);
+    const auto moved = decoded(0x3F800000, 0x447A0000);  // 1000 mm are added
+    for (const std::size_t beam : {0U, 1U, 2U, 5U}) CHECK(moved->state(beam) == BeamState::kUnknown);
+    CHECK(moved->range_m[3] == Approx(1.06F));
+  }
 }
 
 TEST_CASE("answers to commands are no scans") {
@@ -203,7 +252,14 @@ TEST_CASE("the 16 real telegrams of a TiM decode to what was measured") {
   CHECK(telegrams->skipped() == 0);
   CHECK(heap_calls == 0);
   CHECK(first_m == Approx(0.626F));  // 0272h behind the count 032Bh of the first telegram
-  CHECK(sum_mm == 875498);           // of the last: added up from its bytes
+  CHECK(sum_mm == 875474);           // of the last: added up from its bytes, less the 12 beams that it says 2 for
+  int hits = 0, unknown = 0;
+  for (std::size_t beam = 0; beam < 811; ++beam) {
+    hits += scan->state(beam) == BeamState::kHit ? 1 : 0;
+    unknown += scan->state(beam) == BeamState::kUnknown ? 1 : 0;
+  }
+  CHECK(hits == 799);
+  CHECK(unknown == 12);
   CHECK(scan->first_angle_rad == Approx(-2.3561945));
   CHECK(scan->angle_step_rad == Approx(0.0058172).epsilon(1e-4));  // 0.3333 degrees
   CHECK(to_seconds(scan->period) == Approx(1.0 / 15.0));

@@ -29,7 +29,7 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.scan.range_m[2] = std::numeric_limits<float>::infinity();
   r.scan.range_m[3] = -0.0F;
   r.scan.range_m[4] = std::numeric_limits<float>::denorm_min();
-  r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, StopStage::kSilent};
+  r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, StopStage::kSilent, false};
   r.input = {Time{Duration{12}}, true, {x * 5, x * 6}, x * 7, x * 18, x * 19, n % 2 == 1, n % 2 == 0};
   if (n % 7 == 3) r.input.goal_heading_rad = kAnyHeading;
   r.fix.stamp = Time{Duration{13}};
@@ -48,6 +48,8 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.plan_stamp = Time{Duration{15 + n}};
   r.plan_status = PlanStatus::kNoPath;
   r.wanted = {x * 12, x * 13};
+  r.took = Duration{17 + n};
+  r.latency = {x * 20, x * 21};
   r.verdict = {{x * 14, x * 15}, Reason::kStopZone | Reason::kNoGoal, std::numeric_limits<double>::infinity()};
   r.command = {Time{Duration{16 + n}}, x * 16, x * 17};
 }
@@ -76,11 +78,12 @@ inline void fill(TickRecord& r, std::uint32_t n) {
 }
 
 [[nodiscard]] inline bool same_inputs(const TickRecord& a, const TickRecord& b) {
-  return a.now == b.now && same_scan(a.scan, b.scan) && same_fix(a.fix, b.fix) && a.wheels.stamp == b.wheels.stamp &&
-         a.wheels.sequence == b.wheels.sequence && a.wheels.left_rad == b.wheels.left_rad &&
-         a.wheels.right_rad == b.wheels.right_rad && a.wheels.left_radps == b.wheels.left_radps &&
-         a.wheels.right_radps == b.wheels.right_radps && a.wheels.trouble == b.wheels.trouble &&
-         a.wheels.stop == b.wheels.stop && a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
+  return a.now == b.now && a.took == b.took && same_scan(a.scan, b.scan) && same_fix(a.fix, b.fix) &&
+         a.wheels.stamp == b.wheels.stamp && a.wheels.sequence == b.wheels.sequence &&
+         a.wheels.left_rad == b.wheels.left_rad && a.wheels.right_rad == b.wheels.right_rad &&
+         a.wheels.left_radps == b.wheels.left_radps && a.wheels.right_radps == b.wheels.right_radps &&
+         a.wheels.trouble == b.wheels.trouble && a.wheels.stop == b.wheels.stop && a.wheels.ready == b.wheels.ready &&
+         a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
          a.input.goal_in_map == b.input.goal_in_map && a.input.goal_tolerance_m == b.input.goal_tolerance_m &&
          std::bit_cast<std::uint64_t>(a.input.goal_heading_rad) ==
              std::bit_cast<std::uint64_t>(b.input.goal_heading_rad) &&
@@ -92,7 +95,8 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   return same_inputs(a, b) && a.pose.stamp == b.pose.stamp && a.pose.map_from_robot == b.pose.map_from_robot &&
          a.pose.position_std_m == b.pose.position_std_m && a.pose.heading_std_rad == b.pose.heading_std_rad &&
          a.plan_asked == b.plan_asked && a.plan_sequence == b.plan_sequence && a.plan_stamp == b.plan_stamp &&
-         a.plan_status == b.plan_status && a.wanted == b.wanted && a.verdict.permitted == b.verdict.permitted &&
+         a.plan_status == b.plan_status && a.wanted == b.wanted && a.latency.tick_s == b.latency.tick_s &&
+         a.latency.drive_s == b.latency.drive_s && a.verdict.permitted == b.verdict.permitted &&
          a.verdict.reasons == b.verdict.reasons && a.verdict.gap_m == b.verdict.gap_m &&
          a.command.stamp == b.command.stamp && a.command.left_radps == b.command.left_radps &&
          a.command.right_radps == b.command.right_radps;

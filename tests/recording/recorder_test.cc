@@ -88,16 +88,18 @@ TEST_CASE("the largest record that there can be fits an entry") {
 }
 
 TEST_CASE("a tick of version 2, which had no heading at the goal, comes back with any") {
-  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the input's stamp
-  // 8, flag 1, point 16 and tolerance 8: 96 bytes.
+  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage of a
+  // stop 1 (byte 63, since version 4), the input's stamp 8, flag 1, point 16 and tolerance 8: 97 bytes.
   std::vector<unsigned char> bytes(kMaxEntryBytes);
   bytes.resize(TickEncoder().encode(*made(5), 0, bytes));
-  bytes.erase(bytes.begin() + 96, bytes.begin() + 112);
+  bytes.erase(bytes.begin() + 97, bytes.begin() + 113);
+  bytes.erase(bytes.begin() + 63);
   const auto read = std::make_unique<TickRecord>();
   read->input.goal_heading_rad = 1.0;
   std::uint64_t lost = 0;
   REQUIRE(TickDecoder(2).decode(bytes, *read, lost));
   const auto expected = made(5);
+  expected->wheels.stop = WheelState{}.stop;
   expected->input.goal_heading_rad = kAnyHeading;
   expected->input.goal_heading_tolerance_rad = 0.1;
   CHECK(same_bits(*read, *expected));

@@ -104,6 +104,7 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["jerk_max_mps3"] == 0.0);
   CHECK(j["ticks"] == 101);
   CHECK(j["missed_ticks"] == 0);
+  CHECK(j["not_recorded"].empty());
   CHECK(j["tick_ms"]["p50"] == 1.0);
   CHECK(j["tick_ms"]["max"] == 3.0);
   CHECK(j["plan_ms"]["p99"] == 0.5);
@@ -139,22 +140,23 @@ TEST_CASE("the same run leaves the same bytes") {
   }
 }
 
-std::string refusal(const std::filesystem::path& folder) {
-  try {
-    drive(folder, true);
-  } catch (const StartupError& e) {
-    return e.what();
-  }
-  return "";
-}
-
-TEST_CASE("a table that the disk did not take whole ends the run with its name, and there is no summary") {
+TEST_CASE("a table that the disk did not take whole stands in the summary by its name") {
   for (const std::string table : {"robot.csv", "movers.csv", "tracks.csv"}) {
     const Scratch scratch;
     std::filesystem::create_symlink("/dev/full", scratch.path(table));
-    CHECK(refusal(scratch.folder()).find(table + ": the disk did not take all of it; ") != std::string::npos);
-    CHECK_FALSE(std::filesystem::exists(scratch.path("summary.json")));
+    const Json j = Json::parse(drive(scratch.folder(), true));
+    REQUIRE(j["not_recorded"].size() == 1);
+    CHECK(j["not_recorded"][0].get<std::string>().find(table + ": the disk takes no more of it: ") !=
+          std::string::npos);
+    CHECK(j["ticks"] == 101);
   }
+}
+
+TEST_CASE("a summary that the disk does not take ends the run with its name") {
+  const Scratch scratch;
+  RunReport report(scratch.folder());
+  std::filesystem::create_symlink("/dev/full", scratch.path("summary.json"));
+  CHECK_THROWS_AS(report.finish({}), StartupError);
 }
 
 TEST_CASE("an earlier run's summary and picture do not outlive the beginning of another") {

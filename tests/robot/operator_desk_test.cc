@@ -135,6 +135,20 @@ TEST_CASE("a reset at bus-off restarts the bus first, and is none where that fai
   CHECK_FALSE(bench.desk.latest().reset);
 }
 
+TEST_CASE("a stop that comes while a reset waits for the bus is obeyed at once, and the reset is none") {
+  Bench bench;
+  bench.latch();
+  bench.tell([](RunStatus& s) { s.bus.state = CanState::kBusOff; });
+  const ControlReply waits = bench.desk.reply_to("reset");
+  REQUIRE(waits.job);
+  CHECK(bench.desk.reply_to("stop now").text == "stopping\n");
+  CHECK(bench.desk.latest().emergency_stop);
+  CHECK(waits.job().rfind("refused: stopped anew meanwhile", 0) == 0);
+  CHECK_FALSE(bench.desk.latest().reset);
+  CHECK(bench.desk.obey("reset") == "reset\n");  // the bus is back
+  CHECK(bench.desk.latest().reset);
+}
+
 TEST_CASE("an emergency stop is pressed for a tick and takes the goal") {
   Bench bench;
   CHECK(bench.desk.obey("goto 1 1") == "going\n");

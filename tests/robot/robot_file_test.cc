@@ -56,7 +56,7 @@ std::string refusal(const std::string& text) {
     static_cast<void>(load(text));
   } catch (const StartupError& error) {
     const std::string said = error.what();
-    return said.substr(said.find(".toml:") + 6);
+    return said.substr(said.find(".toml:") + 6);  // the stop zone's refusal has no line
   }
   return "loaded";
 }
@@ -117,6 +117,33 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   CHECK(refusal(with("cia402", "odrive")).rfind("10: drive.motor_turns_per_wheel_turn is missing; ", 0) == 0);
 }
 
+TEST_CASE("every drive's timeout outlasts two of the loop's periods") {
+  const auto at = [](const std::string& rate_hz, const std::string& timeout_ms) {
+    std::string text = with("[laser]", "rate_hz = " + rate_hz + "\n[laser]");
+    const std::string can = "can = \"can0\"";
+    return text.replace(text.find(can), can.size(), can + "\ncontroller_timeout_ms = " + timeout_ms);
+  };
+  CHECK(refusal(at("20", "40"))
+            .rfind("14: drive.controller_timeout_ms is 40, less than two of the loop's periods; ", 0) == 0);
+  CHECK(refusal(at("20", "99")) != "loaded");
+  CHECK(refusal(at("20", "100")) == "loaded");
+  CHECK(refusal(at("50", "40")) == "loaded");
+  const auto motors = [](const std::string& kind, const std::string& key, const std::string& rate_hz) {
+    std::string text = with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn", kind + "\"\ncan = \"can0\"\n" + key);
+    return text.replace(text.find("[laser]"), 7, "rate_hz = " + rate_hz + "\n[laser]");
+  };
+  CHECK(load(motors("vesc", "electrical_turns_per_wheel_turn", "25")).drive.vesc.timeout_least ==
+        std::chrono::milliseconds(80));
+  CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn", "20")) != "loaded");
+  CHECK(load(motors("odrive", "motor_turns_per_wheel_turn", "20")).drive.odrive.watchdog_least ==
+        std::chrono::milliseconds(100));
+}
+
+TEST_CASE("a robot that outruns its stop zone is refused") {
+  CHECK(refusal(with("range_m = 10.0", "range_m = 1.0")) != "loaded");
+  CHECK(refusal(with("range_m = 10.0", "beams = 90")) != "loaded");
+}
+
 TEST_CASE("the robot file of the rig loads") {
   const RobotFile robot = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
   CHECK(robot.laser.host == "127.0.0.1");
@@ -135,6 +162,10 @@ TEST_CASE("a joystick is read from the file with its buttons") {
   CHECK(robot.panel->joystick.stop_opens);
   CHECK(robot.panel->joystick.dead_man == 0x136);  // BTN_TL
   CHECK(refusal(std::string(kGood) + "\n[panel]\nneeds_dead_man = true\n").find("joystick") != std::string::npos);
+  CHECK(robot.panel->joystick.dead_man_renew == Duration{0});
+  CHECK(load(std::string(kGood) + "\n[panel]\njoystick = \"/dev/null\"\ndead_man_renew_s = 1.5\n")
+            .panel->joystick.dead_man_renew == std::chrono::milliseconds(1500));
+  CHECK(refusal(kGood + panel + "dead_man_renew_s = 2\n").find("has no dead man to renew") != std::string::npos);
   CHECK(refusal(kGood + panel + "throttle = 1\n").find("throttle") != std::string::npos);
 }
 

@@ -11,6 +11,7 @@
 #include "firmware/far_end/living_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
+#include "tests/support/file_size_limit.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -113,6 +114,22 @@ TEST_CASE("a scan is in the verdict of the next tick, whose frames leave within 
   CHECK(used >= 70);  // 15 a second, 5 s
   CHECK(bench.last().verdict.reasons == Reason::kNone);
   CHECK(bench.speed_mps() > 0.3);
+}
+
+TEST_CASE("a disk that is full is told in the status within a second, and the robot drives on") {
+  Bench bench("robot");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(100);
+  CHECK(bench.robot.desk().obey("status").find("not_recorded") == std::string::npos);
+  const FileSizeLimit disk(1'000);  // less than there is of the recording
+  bench.tick(50);
+  CHECK(bench.robot.desk().obey("status").find("\nreasons: not_recorded\n") != std::string::npos);
+  CHECK(bench.robot.desk().obey("status").rfind("state: driving\n", 0) == 0);
+  CHECK(bench.last().verdict.reasons == Reason::kNotRecorded);
+  CHECK(bench.speed_mps() > 0.3);
+  bench.tick(50);
+  CHECK(bench.heap_calls == 0);
 }
 
 TEST_CASE("a heading that is asked for over the desk is turned to over the wires, and then the goal is reached") {

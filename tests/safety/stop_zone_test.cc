@@ -30,7 +30,6 @@ const StopZone kZone({.footprint = {.front_m = 0.5, .rear_m = 0.5, .half_width_m
                       .robot_from_laser = {},
                       .margin_m = 0.1,
                       .brake_mps2 = 1.5,
-                      .reaction_s = 0.12,
                       .look_ahead_m = 2.0});
 constexpr double kStep_m = 0.04;  // what the gap is rounded down by
 
@@ -68,9 +67,10 @@ TEST_CASE("it may leave what it faces but not press on") {
 
 TEST_CASE("stopping from 1.4 m/s with 1.5 m/s2 after 0.12 s takes 0.82 m, and back") {
   // v t + v^2 / 2b = 0.168 + 0.6533 = 0.8213 m (the example of the makers' guide, less its 0.25 m of margin).
-  CHECK(kZone.speed_to_stop_within(0.82133) == Approx(1.4).epsilon(1e-4));
-  CHECK(kZone.speed_to_stop_within(0.0) == 0.0);
-  CHECK(kZone.speed_to_stop_within(-1.0) == 0.0);
+  CHECK(kZone.speed_to_stop_within(0.82133, 0.12) == Approx(1.4).epsilon(1e-4));
+  CHECK(kZone.stopping_distance_m(1.4, 0.12) == Approx(0.82133).epsilon(1e-4));
+  CHECK(kZone.speed_to_stop_within(0.0, 0.12) == 0.0);
+  CHECK(kZone.speed_to_stop_within(-1.0, 0.12) == 0.0);
 }
 
 TEST_CASE("a cylinder of 70 mm is seen wherever it stands in the way") {

@@ -91,16 +91,17 @@ TEST_CASE("a mover hides the wall behind it: 0.27 m radius, 3 m ahead, seen at 2
   CHECK(scan->range_m[85] < 3.0);
 }
 
-TEST_CASE("walls beyond the range give infinity, and so do those nearer than the shortest") {
+TEST_CASE("walls beyond the range leave a beam free, and those too near leave it unknown") {
   LaserModel model = plain();
   model.range_max_m = 5.0;
   model.range_min_m = 2.5;
   LaserSim laser(model, 1);
   const auto scan = sweep(laser, room(), {4.0, 2.0, 0.0});
   CHECK(scan->range_m[90] == std::numeric_limits<float>::infinity());
-  CHECK(scan->range_m[0] == std::numeric_limits<float>::infinity());
-  CHECK_FALSE(scan->is_hit(90));
-  CHECK(scan->is_hit(45));  // 2 root 2 m
+  CHECK(scan->range_m[0] == 0.0F);
+  CHECK(scan->state(90) == BeamState::kFree);
+  CHECK(scan->state(0) == BeamState::kUnknown);
+  CHECK(scan->state(45) == BeamState::kHit);  // 2 root 2 m
 }
 
 TEST_CASE("noise of 2 cm is 2 cm without bias, and 20 percent drop-out loses 20 percent") {
@@ -117,7 +118,10 @@ TEST_CASE("noise of 2 cm is 2 cm without bias, and 20 percent drop-out loses 20 
   for (int k = 0; k < kSweeps; ++k) {
     const auto scan = sweep(laser, walls, pose);
     for (std::size_t b = 0; b < 181; ++b) {
-      if (!scan->is_hit(b)) continue;
+      if (!scan->is_hit(b)) {
+        REQUIRE(scan->state(b) == BeamState::kUnknown);  // lost
+        continue;
+      }
       const double error = static_cast<double>(scan->range_m[b]) - static_cast<double>(truth->range_m[b]);
       sum += error;
       squares += error * error;

@@ -155,6 +155,30 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
   CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml:0: no such file"));
 }
 
+TEST_CASE("lost beams are those of the named sector, or else of the 120 degrees ahead") {
+  const std::string fault = "[[faults]]\nat_s = 1\nfor_s = 2\nkind = \"beams_lost\"\n";
+  CHECK(parsed(kMap + kRobot + fault).faults[0].lost.width_rad() == Approx(2.0 * kPi / 3.0));
+  const FaultSpec named = parsed(kMap + kRobot + fault + "from_deg = -100\nto_deg = 30\n").faults[0];
+  CHECK(named.kind == FaultKind::kBeamsLost);
+  CHECK(named.lost.from_rad == Approx(-100.0 * kPi / 180.0));
+  CHECK(named.lost.to_rad == Approx(30.0 * kPi / 180.0));
+  const std::string half = refusal([&] { static_cast<void>(parsed(kMap + kRobot + fault + "from_deg = -100\n")); });
+  CHECK(says(half, "faults.to_deg is missing"));
+  const std::string other = "[[faults]]\nat_s = 1\nfor_s = 2\nkind = \"scan_nan\"\nfrom_deg = 1\nto_deg = 2\n";
+  CHECK(says(refusal([&] { static_cast<void>(parsed(kMap + kRobot + other)); }), "faults.from_deg is not a known key"));
+}
+
+TEST_CASE("two beams are no scanner, in a scenario nor in a robot's own file") {
+  const std::string few = refusal([] { static_cast<void>(parsed(kMap + kRobot + "[robot.laser]\nbeams = 2\n")); });
+  CHECK(says(few, "robot.laser.beams are too few"));
+  CHECK(parsed(kMap + kRobot + "[robot.laser]\nbeams = 3\n").model.laser.beams == 3);
+  std::string body = kBody;
+  const std::size_t at = body.find("beams = ");
+  body.replace(at, body.find('\n', at) - at, "beams = 2");
+  const std::string file = folder().write("two_beams.toml", body);
+  CHECK(says(refusal([&] { static_cast<void>(load_robot_model(file)); }), "laser.beams are too few"));
+}
+
 TEST_CASE("sectors in which the laser sees the robot are read in degrees, sixteen at most") {
   const std::string sector = "[[robot.laser.blanked]]\nfrom_deg = 170\nto_deg = -170\n";
   std::string text = kMap + kRobot;

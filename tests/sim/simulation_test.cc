@@ -242,6 +242,15 @@ TEST_CASE("faults last as long as they are told") {
     drive(sim, 0.0, 0.0, 0.4);
     CHECK(sim.hal().laser.latest().beam_count == 811);
   }
+  SECTION("beams lost ahead") {
+    Simulation sim(with_fault(FaultKind::kBeamsLost), 1);
+    drive(sim, 0.0, 0.0, 1.2);
+    const LaserScan lost = sim.hal().laser.latest();
+    // 811 beams, a third of a degree apart, the 405th ahead: 60 degrees to each side are 180 beams.
+    for (std::size_t k = 0; k < 811; ++k) REQUIRE((lost.state(k) == BeamState::kUnknown) == (k >= 225 && k <= 585));
+    drive(sim, 0.0, 0.0, 0.4);
+    for (std::size_t k = 0; k < 811; ++k) REQUIRE(sim.hal().laser.latest().state(k) != BeamState::kUnknown);
+  }
   SECTION("one scan again and again") {
     Simulation sim(with_fault(FaultKind::kScanFrozen), 1);
     drive(sim, 1.0, 1.0, 1.1);

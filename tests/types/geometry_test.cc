@@ -58,6 +58,20 @@ TEST_CASE("zero, NaN, infinity, the greatest range and what lies beyond the limi
   CHECK(scan.found_nothing(2));
 }
 
+TEST_CASE("a beam proves a hit or free room or nothing, and a scan that holds nothing proves nothing") {
+  LaserScan scan;
+  CHECK(scan.state(0) == BeamState::kUnknown);  // no limits yet, and 0 is not beyond them
+  scan.range_min_m = 0.1F;
+  scan.range_max_m = 10.0F;
+  const auto of = [&scan](float range_m) {
+    scan.range_m[0] = range_m;
+    return scan.state(0);
+  };
+  for (const float hit : {0.1F, 3.0F, 9.999F}) CHECK(of(hit) == BeamState::kHit);
+  for (const float free : {10.0F, 10.5F, INFINITY}) CHECK(of(free) == BeamState::kFree);
+  for (const float unknown : {0.0F, -0.0F, 0.05F, -1.0F, -INFINITY, NAN}) CHECK(of(unknown) == BeamState::kUnknown);
+}
+
 TEST_CASE("the P3-DX fits a circle of 19 cm and is held by one of 30 cm") {
   const Footprint body = p3dx().footprint;
   CHECK(body.inscribed_radius_m() == Approx(0.1905));

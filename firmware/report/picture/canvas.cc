@@ -3,6 +3,7 @@
 #include <cairo.h>
 
 #include <cmath>
+#include <cstdio>
 #include <new>
 
 #include "hal/types/errors.h"
@@ -146,6 +147,7 @@ void Canvas::unclip() { cairo_restore(cairo_->to); }
 void Canvas::save_png(const std::string& file) const {
   const cairo_status_t status = cairo_surface_write_to_png(cairo_->surface.get(), file.c_str());
   if (status != CAIRO_STATUS_SUCCESS) {
+    std::remove(file.c_str());  // half a picture is none
     throw StartupError(file + ": " + cairo_status_to_string(status), "choose an --out folder that may be written");
   }
 }

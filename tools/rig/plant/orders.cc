@@ -1,17 +1,50 @@
 #include "tools/rig/plant/orders.h"
 
 #include <cstdlib>
+#include <optional>
 #include <sstream>
+
+#include "hal/types/trig.h"
 
 namespace jaywalk::rig {
 namespace {
 
 using emulators::ScannerFault;
+using emulators::Window;
+
+std::string soil(emulators::ScannerServer& scanner, Window window) {
+  return scanner.set_window(window) ? "" : "this kind of scanner has no word for dirt";
+}
+
+/// What stays so until it is whole again; nothing where it is no such order.
+std::optional<std::string> order_loss(const std::string& what, std::istringstream& words,
+                                      emulators::ScannerServer& scanner) {
+  double first = 0.0, second = 0.0;
+  if (what == "soiled") return soil(scanner, Window::kSoiled);
+  if (what == "dirty") return soil(scanner, Window::kDirty);
+  if (what == "lose") {
+    if (!(words >> first >> second)) return "from and to, in degrees?";
+    scanner.lose_sector(first * kPi / 180.0, second * kPi / 180.0);
+    return "";
+  }
+  if (what == "damage") {
+    if (!(words >> first) || !(first >= 0.0 && first <= 1.0)) return "a share, 0 to 1?";
+    scanner.damage_share(first);
+    return "";
+  }
+  if (what != "whole") return std::nullopt;
+  scanner.find_beams();
+  scanner.damage_share(0.0);
+  static_cast<void>(scanner.set_window(Window::kClean));
+  return "";
+}
 
 std::string order_scanner(std::istringstream& words, SimulatedRobot& robot) {
   std::string what;
   double seconds = 0.0;
-  words >> what >> seconds;
+  words >> what;
+  if (const auto answer = order_loss(what, words, robot.scanner())) return *answer;
+  words >> seconds;
   ScannerFault fault = ScannerFault::kNone;
   if (what == "reset") fault = ScannerFault::kReset;
   if (what == "half") fault = ScannerFault::kHalfTelegram;

@@ -15,6 +15,10 @@ namespace jaywalk::rig {
 ///   say 701#05                   a frame as another program would send it; eight digits: an extended identifier
 ///   scanner reset|half           the connection is torn; half a telegram comes
 ///   scanner halves|silence|garbage|gone SECONDS
+///   scanner lose FROM_DEG TO_DEG a sector measures nothing, counter-clockwise in the laser's frame
+///   scanner damage SHARE         of all messages so many are damaged, 0 to 1
+///   scanner soiled|dirty         it warns of dirt on its window; it says that it can measure no more
+///   scanner whole                an end of the last four
 ///
 /// Returns what is wrong with the order; empty where it was obeyed.
 [[nodiscard]] std::string obey(std::string_view order, SimulatedRobot& robot);

@@ -1,0 +1,78 @@
+#pragma once
+// The clients of the control socket: each has a small buffer and a deadline of its own, and none can hold up another.
+#include <sys/types.h>
+
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <future>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "drivers/wire/file_descriptor.h"
+#include "hal/types/time.h"
+
+namespace jaywalk {
+
+/// What a line is answered. What takes longer than a moment is a job: it runs in a thread of its own, and its return
+/// value is the answer.
+struct ControlReply {
+  ControlReply(std::string answer) : text(std::move(answer)) {}  // NOLINT: an answer in words is a reply
+  ControlReply(const char* answer) : text(answer) {}             // NOLINT: the same
+  explicit ControlReply(std::function<std::string()> longer) : job(std::move(longer)) {}
+
+  std::string text;
+  std::function<std::string()> job;
+};
+
+/// Serves any number of clients in rounds; nothing in a round waits. Work per round is bounded, so that a flood costs
+/// its sender time and nobody else: kMostAccepted connections, kMostAnswers answers. Stops are answered before all
+/// else and are not counted. When all places are taken, the process with most of them loses its oldest.
+///
+/// A stop that has come is answered in the round that reads it; it waits at most two rounds for that (one that is under
+/// way, and one more where kMostAccepted others connected before it). Thread: one.
+class ControlClients {
+ public:
+  /// Must not wait. What begins with "refused" tells the asker that it failed.
+  using Answer = std::function<ControlReply(std::string_view line)>;
+  static constexpr std::size_t kLongestLine = 200;
+  static constexpr std::size_t kMostClients = 128, kMostAccepted = 64, kMostAnswers = 16;
+  /// From connecting to the end of its line.
+  static constexpr Duration kPatience = std::chrono::seconds(1);
+
+  explicit ControlClients(Answer answer);
+
+  /// Waits until a client of `listener` wants something, `longest` at most; less where an answer is still due.
+  void wait(int listener, Duration longest);
+  /// Accepts, reads, answers, and drops those whose time is up.
+  void serve(int listener, Time now);
+  [[nodiscard]] std::size_t connected() const noexcept { return clients_.size(); }
+
+ private:
+  struct Client {
+    wire::FileDescriptor socket;
+    pid_t process = 0;
+    Time since = kNever;
+    std::array<char, kLongestLine + 1> line{};
+    std::size_t length = 0;
+    enum class State : std::uint8_t { kTalks, kAsked, kAwaitsJob, kDone } state = State::kTalks;
+    [[nodiscard]] std::string_view order() const noexcept { return {line.data(), length}; }
+  };
+  using State = Client::State;
+
+  void accept_new(int listener, Time now);
+  /// Drops the oldest client of the process that has most.
+  void make_room();
+  static void read(Client& client) noexcept;
+  void answer(Client& client);
+  void start_job(Client& client, const std::function<std::string()>& job);
+  void answer_job();
+  void drop_done(Time now);
+
+  Answer answer_;
+  std::vector<Client> clients_;  ///< the oldest first
+  std::future<std::string> job_;
+};
+
+}  // namespace jaywalk

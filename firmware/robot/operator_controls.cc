@@ -1,0 +1,37 @@
+#include "firmware/robot/operator_controls.h"
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+
+OperatorControls::OperatorControls(const RobotFile& file, Clock& clock, OperatorDesk::RestartBus restart_bus)
+    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus)),
+      wiring_(file.panel) {
+  if (!wiring_) return;
+  watch_.emplace(clock, wiring_->joystick);
+  joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man);
+}
+
+void OperatorControls::start(int priority) {
+  if (!watch_) return;
+  watch_->step();
+  refuse_unrenewed(watch_->latest(), *wiring_);
+  watch_->start(priority);
+}
+
+void OperatorControls::step() noexcept {
+  if (watch_) watch_->step();
+}
+
+OperatorPanel& OperatorControls::panel() noexcept {
+  if (joystick_) return *joystick_;
+  return desk_;
+}
+
+void refuse_unrenewed(const panel::JoystickState& state, const PanelWiring& wiring) {
+  if (!state.needs_renewal || !wiring.needs_dead_man) return;
+  throw StartupError(wiring.joystick.path + ": is on Bluetooth, whose link may die with the dead man held",
+                     "give [panel] dead_man_renew_s, 2 say, or use a cable");
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,68 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+/// What a scan says of a place.
+enum class Sight : std::uint8_t {
+  kProven,     ///< a post of 70 mm there would cut a beam that measured
+  kLost,       ///< it would not: beams that should measure there did not
+  kUnwatched,  ///< the laser never looks there: outside its field of view, or a blanked sector
+};
+
+/// How many beams of a scan proved something. Blanked ones do not count.
+struct BeamCounts {
+  std::uint32_t measured = 0;
+  std::uint32_t lost = 0;
+  std::uint32_t ahead = 0;       ///< within 60 degrees of the robot's way ahead
+  std::uint32_t lost_ahead = 0;  ///< of these
+};
+
+/// The gaps between the beams of the newest scan that measured something.
+///
+/// Between two of them that are an angle g apart a cylinder of 70 mm can hide from 0.035 m / sin(g/2) on: that is as
+/// far as its middle must be from the laser to cut neither. What is nearer is proven. A gap at the rim of the field of
+/// view has one neighbour, and counts twice its width. Thread: the loop's; never allocates, never throws.
+class BlindGaps {
+ public:
+  explicit BlindGaps(const LaserModel& laser) : laser_(laser) {}
+
+  void update(const LaserScan& scan) noexcept;
+
+  /// Of a place in the laser's frame.
+  [[nodiscard]] Sight at(Vec2 place_in_laser) const noexcept;
+  [[nodiscard]] const BeamCounts& counts() const noexcept { return counts_; }
+  /// How near the laser something can be hidden by lost beams; +infinity where nothing can.
+  [[nodiscard]] double nearest_lost_m() const noexcept { return nearest_lost_m_; }
+  [[nodiscard]] bool has_blanked() const noexcept { return !laser_.blanked.empty(); }
+
+ private:
+  /// Of a beam: measured something or not, or never asked.
+  enum class Beam : std::uint8_t { kMeasured, kLost, kBlanked };
+  struct Gap {
+    double near_m;  ///< from here on something can hide
+    Sight sight;
+  };
+
+  void learn_directions(const LaserScan& scan) noexcept;
+  void judge_beams(const LaserScan& scan) noexcept;
+  void find_gaps() noexcept;
+  /// The `count` intervals from beam `from` on lie between two that measured, or between one and the rim.
+  void mark(std::size_t from, std::size_t count, double half_rad) noexcept;
+
+  LaserModel laser_;
+  std::size_t beams_ = 0;
+  double first_rad_ = 0.0, step_rad_ = 0.0;
+  bool all_round_ = false;
+  std::array<bool, kMaxBeams> blanked_{}, ahead_{};
+  std::array<Beam, kMaxBeams> beam_{};
+  std::array<Gap, kMaxBeams> gap_{};  ///< between a beam and the next
+  BeamCounts counts_;
+  double nearest_lost_m_ = 0.0;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,74 @@
+#include "firmware/safety/latency.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMemory_s = 2.0;    // of time in which commands changed
+constexpr double kEnough_s = 0.3;    // of it, before anything is said
+constexpr double kLongest_s = 0.05;  // that one reading stands for
+
+double squares(const WheelState& felt, const WheelCommand& wanted) {
+  const double left = felt.left_radps - wanted.left_radps, right = felt.right_radps - wanted.right_radps;
+  return left * left + right * right;
+}
+
+}  // namespace
+
+/// The command that was in force then; null where it is not kept.
+const WheelCommand* DriveResponse::command_at(Time time) const noexcept {
+  const std::size_t kept = std::min(count_, kKept);
+  for (std::size_t back = 1; back <= kept; ++back) {
+    const WheelCommand& command = commands_[(count_ - back) % kKept];
+    if (command.stamp <= time) return &command;
+  }
+  return nullptr;
+}
+
+/// Whether the commands of the longest delay before that time differ enough to tell delays apart.
+bool DriveResponse::changed_before(Time time) const noexcept {
+  const WheelCommand* const last = command_at(time);
+  const Time first = time - (kDelays - 1) * kDelayStep;
+  if (last == nullptr || command_at(first) == nullptr) return false;
+  double most = 0.0;
+  for (const WheelCommand& command : commands_) {
+    if (command.stamp < first || command.stamp > time) continue;
+    most = std::max(
+        {most, std::fabs(command.left_radps - last->left_radps), std::fabs(command.right_radps - last->right_radps)});
+  }
+  return most > telling_radps_;
+}
+
+void DriveResponse::add(const WheelState& wheels, const WheelCommand& command) noexcept {
+  const bool is_new = wheels.sequence != seen_ && std::isfinite(wheels.left_radps) && std::isfinite(wheels.right_radps);
+  seen_ = wheels.sequence;
+  if (is_new && changed_before(wheels.stamp)) {
+    const double step_s = std::clamp(told_ == kNever ? 0.0 : to_seconds(wheels.stamp - told_), 0.0, kLongest_s);
+    const double kept = std::max(0.0, 1.0 - step_s / kMemory_s);
+    for (std::size_t k = 0; k < kDelays; ++k)
+      misfit_[k] = kept * misfit_[k] + step_s * squares(wheels, *command_at(wheels.stamp - k * kDelayStep));
+    told_ = wheels.stamp;
+    told_s_ += step_s;
+    const auto best = std::min_element(misfit_.begin(), misfit_.end()) - misfit_.begin();
+    if (told_s_ >= kEnough_s) seconds_ = to_seconds(best * kDelayStep);
+  }
+  commands_[count_++ % kKept] = command;
+}
+
+void Latency::add(Time now, Duration took, const WheelState& wheels, const WheelCommand& command) noexcept {
+  if (span_began_ == kNever || now - span_began_ > kSpan) {
+    span_began_ = now;
+    worst_before_ = worst_;
+    worst_ = Duration{0};
+  }
+  worst_ = std::max(worst_, took);
+  response_.add(wheels, command);
+}
+
+MeasuredLatency Latency::measured() const noexcept {
+  return {to_seconds(std::max(worst_, worst_before_)), response_.seconds()};
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,59 @@
+#include "firmware/safety/zone_check.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+
+#include "firmware/safety/reaction.h"
+#include "firmware/safety/stop_zone.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kPost_m = 0.07;
+constexpr const char* kRemedy =
+    "lower limits.max_speed_mps, raise limits.brake_mps2 (what the drives are proved to do), or take ";
+
+/// From the laser to the farthest corner of the footprint.
+double farthest_corner_m(const RobotModel& model) {
+  const Footprint& body = model.footprint;
+  const Vec2 laser = model.laser.robot_from_laser.position();
+  double farthest = 0.0;
+  for (const double x : {body.front_m, -body.rear_m}) {
+    for (const double y : {body.half_width_m, -body.half_width_m})
+      farthest = std::max(farthest, distance(laser, {x, y}));
+  }
+  return farthest;
+}
+
+}  // namespace
+
+double fastest_rim_mps(const RobotModel& model) noexcept {
+  return model.limits.max_speed_mps + model.limits.max_turn_radps * model.footprint.circumscribed_radius_m();
+}
+
+double longest_stop_m(const RobotModel& model, Duration tick) noexcept {
+  const double v = fastest_rim_mps(model);
+  return v * worst_reaction_s(model.laser.rate_hz, tick) + v * v / (2.0 * model.limits.brake_mps2);
+}
+
+void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {
+  const double stop_m = longest_stop_m(model, tick);
+  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model);
+  const double step_rad = model.laser.fov_rad / (model.laser.beams - 1);
+  const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
+  std::array<char, 200> text{};
+  const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {
+    if (reach_m <= limit_m) return;
+    std::snprintf(text.data(), text.size(), ": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m",
+                  stop_m, reach_m, why, limit_m);
+    throw StartupError(place + text.data(), std::string(kRemedy) + otherwise);
+  };
+  refuse_beyond(model.laser.range_max_m, "its range is", "a laser that sees farther");
+  refuse_beyond(seen_m, "a post of 70 mm fits between two of its beams from", "a laser with more beams");
+  refuse_beyond(SweptPath::kLongest_m, "the stop zone ends at", "a slower robot");
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,299 @@
+// Clients that keep the control socket busy, by the hundred, and a stop among them.
+#include <sys/socket.h>
+#include <sys/un.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cstring>
+#include <functional>
+#include <thread>
+#include <vector>
+
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/operator_desk.h"
+#include "firmware/robot/steady_clock.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace std::chrono_literals;
+
+namespace {
+
+constexpr std::size_t kHostile = 100;
+
+std::filesystem::path place() {
+  return std::filesystem::temp_directory_path() / ("hostile" + std::to_string(::getpid()) + ".sock");
+}
+
+/// A client that never waits: where there is no room for it, it is none.
+wire::FileDescriptor hostile_client() {
+  wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0));
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  std::strcpy(address.sun_path, place().c_str());
+  static_cast<void>(::connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address));
+  return peer;
+}
+
+void say(const wire::FileDescriptor& peer, std::string_view text) {
+  static_cast<void>(::send(peer.get(), text.data(), text.size(), MSG_NOSIGNAL));
+}
+
+bool is_dropped(const wire::FileDescriptor& peer) {
+  char byte = 0;
+  const ssize_t got = ::recv(peer.get(), &byte, 1, MSG_DONTWAIT | MSG_PEEK);
+  return got == 0 || (got < 0 && errno != EAGAIN);
+}
+
+/// A hundred of them, each of which connects again when it is dropped. `first` is what one does then, `next` what it
+/// does every 10 ms.
+class Hostile {
+ public:
+  using Deed = std::function<void(wire::FileDescriptor&)>;
+  Hostile(const Deed& first, const Deed& next) {
+    for (std::size_t k = 0; k < kHostile; ++k) peers_.push_back(hostile_client());
+    for (wire::FileDescriptor& peer : peers_) first(peer);
+    thread_ = std::thread([this, first, next] {
+      while (!ending_) {
+        for (wire::FileDescriptor& peer : peers_) {
+          if (is_dropped(peer)) peer = hostile_client(), first(peer);
+          next(peer);
+        }
+        std::this_thread::sleep_for(10ms);
+      }
+    });
+  }
+  ~Hostile() {
+    ending_ = true;
+    thread_.join();
+  }
+
+ private:
+  std::vector<wire::FileDescriptor> peers_;
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+/// A thread that only sleeps, and how long this machine has kept it from waking up meanwhile (ms, at most).
+class Bystander {
+ public:
+  Bystander() : thread_([this] { watch(); }) {}
+  ~Bystander() {
+    ending_ = true;
+    thread_.join();
+  }
+  [[nodiscard]] double held_up_ms() const { return held_up_ms_; }
+
+ private:
+  void watch() {
+    while (!ending_) {
+      const auto due = std::chrono::steady_clock::now() + 1ms;
+      std::this_thread::sleep_until(due);
+      const std::chrono::duration<double, std::milli> late = std::chrono::steady_clock::now() - due;
+      held_up_ms_ = std::max(held_up_ms_.load(), late.count());
+    }
+  }
+  std::atomic<double> held_up_ms_{0.0};
+  std::atomic<bool> ending_{false};
+  std::thread thread_;
+};
+
+/// The desk behind a socket, latched at bus-off, and a bus whose restart takes half a second.
+struct Bench {
+  Bench() {
+    RunStatus status;
+    status.running = status.latched = true;
+    status.bus.state = CanState::kBusOff;
+    desk.tell(status);
+  }
+  /// How long a stop takes from before its client connects until it is answered and the loop sees it: the worst of
+  /// five, each less what this machine held up a bystander meanwhile (others may work on it).
+  double stop_ms() {
+    double worst = 0.0;
+    for (int k = 0; k < 5; ++k) {
+      const Bystander bystander;
+      const auto began = std::chrono::steady_clock::now();
+      const bool answered = ask(place(), "stop now") == "stopping\n";
+      const bool seen = desk.latest().emergency_stop;
+      const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+      worst = std::max(worst, took.count() - bystander.held_up_ms());
+      CHECK(answered);
+      CHECK(seen);
+    }
+    return worst;
+  }
+
+  SteadyClock clock;
+  OperatorDesk desk{clock, {}, [] {
+                      std::this_thread::sleep_for(500ms);
+                      return std::string();
+                    }};
+  ControlSocket socket{place(), [this](std::string_view line) { return desk.reply_to(line); }};
+};
+
+const Hostile::Deed kNothing = [](wire::FileDescriptor&) {};
+
+}  // namespace
+
+// SAFETY: a stop order is obeyed within 100 ms whatever other clients of the socket do.
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred idle clients") {
+  Bench bench;
+  const Hostile hostile(kNothing, kNothing);
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred clients with half a line") {
+  Bench bench;
+  const Hostile hostile([](wire::FileDescriptor& peer) { say(peer, "sto"); }, kNothing);
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred clients that drip letters") {
+  Bench bench;
+  const Hostile hostile(kNothing, [](wire::FileDescriptor& peer) { say(peer, "x"); });
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred clients that come again and again and read no answer") {
+  Bench bench;
+  const auto again = [](wire::FileDescriptor& peer) {
+    peer = hostile_client();
+    say(peer, "status\nstatus\n");
+  };
+  const Hostile hostile(again, again);
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred clients that never come to the end of a line") {
+  Bench bench;
+  const auto flood = [](wire::FileDescriptor& peer) {
+    peer = hostile_client();
+    say(peer, std::string(100'000, 'x'));
+  };
+  const Hostile hostile(flood, flood);
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+TEST_CASE("a stop is obeyed within 100 ms beside a hundred resets that wait for the bus") {
+  Bench bench;
+  const Hostile hostile([](wire::FileDescriptor& peer) { say(peer, "reset\n"); }, kNothing);
+  std::this_thread::sleep_for(20ms);
+  CHECK(bench.stop_ms() < 100.0);
+}
+
+namespace {
+
+/// Rounds by hand, at times by hand.
+struct Rounds {
+  Rounds() {
+    std::filesystem::remove(place());
+    sockaddr_un address{};
+    address.sun_family = AF_UNIX;
+    std::strcpy(address.sun_path, place().c_str());
+    REQUIRE(::bind(listener.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+    REQUIRE(::listen(listener.get(), 512) == 0);
+  }
+  ~Rounds() { std::filesystem::remove(place()); }
+  void round(Duration later = 5ms) {
+    now += later;
+    clients.serve(listener.get(), now);
+  }
+  static std::string heard_by(const wire::FileDescriptor& peer) {
+    std::string text(300, '\0');
+    const ssize_t got = ::recv(peer.get(), text.data(), text.size(), MSG_DONTWAIT);
+    text.resize(got > 0 ? static_cast<std::size_t>(got) : 0);
+    return text;
+  }
+
+  std::vector<std::string> lines;
+  ControlClients clients{[this](std::string_view line) -> ControlReply {
+    lines.emplace_back(line);
+    if (line == "slow") return ControlReply([] { return std::string("slowly\n"); });
+    return "heard\n";
+  }};
+  wire::FileDescriptor listener{::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK, 0)};
+  Time now{1h};
+};
+
+}  // namespace
+
+TEST_CASE("a stop that came is answered in the round that reads it, before a hundred lines that came earlier") {
+  Rounds rounds;
+  std::vector<wire::FileDescriptor> others;
+  for (std::size_t k = 0; k < 60; ++k) {
+    others.push_back(hostile_client());
+    say(others.back(), "status\n");
+  }
+  const wire::FileDescriptor stopper = hostile_client();
+  say(stopper, "stop now\n");
+  rounds.round();
+  CHECK(Rounds::heard_by(stopper) == "heard\n");
+  REQUIRE(rounds.lines.size() == 1 + ControlClients::kMostAnswers);
+  CHECK(rounds.lines.front() == "stop now");
+  // 60 others at 16 a round: the last is answered in the fourth.
+  for (int k = 0; k < 3; ++k) rounds.round();
+  CHECK(rounds.lines.size() == 61);
+  CHECK(Rounds::heard_by(others.back()) == "heard\n");
+}
+
+TEST_CASE("a stop behind 120 connections is read in the second round, 5 ms later") {
+  Rounds rounds;
+  std::vector<wire::FileDescriptor> others;
+  for (std::size_t k = 0; k < 120; ++k) others.push_back(hostile_client());
+  const wire::FileDescriptor stopper = hostile_client();
+  say(stopper, "stop\n");
+  rounds.round();
+  CHECK(rounds.lines.empty());
+  rounds.round();
+  CHECK(rounds.lines == std::vector<std::string>{"stop"});
+}
+
+TEST_CASE("where all places are taken the oldest client loses its own, and a new one is served") {
+  Rounds rounds;
+  std::vector<wire::FileDescriptor> others;
+  for (std::size_t k = 0; k < ControlClients::kMostClients; ++k) others.push_back(hostile_client());
+  rounds.round();
+  rounds.round();
+  CHECK(rounds.clients.connected() == ControlClients::kMostClients);
+  const wire::FileDescriptor late = hostile_client();
+  rounds.round();
+  CHECK(rounds.clients.connected() == ControlClients::kMostClients);
+  say(others.front(), "status\n");
+  say(others[1], "status\n");
+  say(late, "status\n");
+  rounds.round();
+  CHECK(Rounds::heard_by(others.front()).empty());
+  CHECK(Rounds::heard_by(others[1]) == "heard\n");
+  CHECK(Rounds::heard_by(late) == "heard\n");
+}
+
+TEST_CASE("a client that does not come to the end of its line within a second is dropped, however it drips") {
+  Rounds rounds;
+  const wire::FileDescriptor drip = hostile_client();
+  for (int k = 0; k < 10; ++k) {
+    say(drip, "s");
+    rounds.round(100ms);
+    REQUIRE(rounds.clients.connected() == 1);
+  }
+  rounds.round(101ms);
+  CHECK(rounds.clients.connected() == 0);
+  CHECK(rounds.lines.empty());
+}
+
+TEST_CASE("an answer that takes long is given when it is there, and a second one that would is refused") {
+  Rounds rounds;
+  const wire::FileDescriptor first = hostile_client(), second = hostile_client();
+  say(first, "slow\n");
+  say(second, "slow\n");
+  rounds.round();
+  CHECK(Rounds::heard_by(second).rfind("refused: an earlier order", 0) == 0);
+  std::string answer;
+  for (int k = 0; k < 10'000 && answer.empty(); ++k) {
+    rounds.round(2s);  // it is not dropped meanwhile
+    answer = Rounds::heard_by(first);
+    if (answer.empty()) std::this_thread::sleep_for(1ms);
+  }
+  CHECK(answer == "slowly\n");
+  CHECK(rounds.clients.connected() == 0);
+}

@@ -1,0 +1,143 @@
+#pragma once
+// A robot on a plane with one obstacle, driven by the supervisor alone: its own few formulas, none of the controller's.
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <vector>
+
+#include "firmware/safety/supervisor.h"
+
+namespace jaywalk {
+
+/// What stands in the way: a post, or a rectangle that is turned.
+struct Obstacle {
+  Vec2 centre{};
+  double radius_m = 0.0;  ///< of a post; 0: a rectangle
+  Vec2 half{};            ///< half of the rectangle's sides
+  double heading = 0.0;
+
+  /// How far a ray runs until it meets the obstacle; infinity where it does not.
+  [[nodiscard]] double ray(Vec2 from, Vec2 along) const {
+    constexpr double kNever_m = std::numeric_limits<double>::infinity();
+    const Vec2 to = centre - from;
+    if (radius_m > 0.0) {
+      const double nearest = std::fabs(along.x * to.y - along.y * to.x), ahead = along.x * to.x + along.y * to.y;
+      return nearest > radius_m || ahead < 0.0 ? kNever_m : ahead - std::sqrt(radius_m * radius_m - nearest * nearest);
+    }
+    const double c = std::cos(heading), s = std::sin(heading);
+    const double origin[2] = {-(c * to.x + s * to.y), -(c * to.y - s * to.x)};
+    const double way[2] = {c * along.x + s * along.y, c * along.y - s * along.x};
+    const double size[2] = {half.x, half.y};
+    double enters = 0.0, leaves = kNever_m;
+    for (int axis = 0; axis < 2; ++axis) {
+      if (std::fabs(way[axis]) < 1e-12) {
+        if (std::fabs(origin[axis]) > size[axis]) return kNever_m;
+        continue;
+      }
+      const double one = (-size[axis] - origin[axis]) / way[axis], other = (size[axis] - origin[axis]) / way[axis];
+      enters = std::max(enters, std::min(one, other)), leaves = std::min(leaves, std::max(one, other));
+    }
+    return enters < leaves ? enters : kNever_m;
+  }
+  /// Points all along its rim, 5 mm apart or less.
+  [[nodiscard]] std::vector<Vec2> rim() const {
+    std::vector<Vec2> points;
+    const double c = std::cos(heading), s = std::sin(heading);
+    for (int k = 0; k < 800; ++k) {
+      const double turn = 2.0 * kPi * k / 800;
+      Vec2 p{radius_m * std::cos(turn), radius_m * std::sin(turn)};
+      if (radius_m == 0.0) {
+        const double along = k % 200 / 100.0 - 1.0;
+        p = k < 400 ? Vec2{half.x * along, k < 200 ? half.y : -half.y}
+                    : Vec2{k < 600 ? half.x : -half.x, half.y * along};
+      }
+      points.push_back({centre.x + c * p.x - s * p.y, centre.y + s * p.x + c * p.y});
+    }
+    return points;
+  }
+};
+
+/// The supervisor's inputs at 50 Hz: scans at the laser's rate, wheels that follow with a lag of 50 ms and at most one
+/// and a half times the braking that was proved.
+class DrivenRobot {
+ public:
+  DrivenRobot(const RobotModel& model, std::vector<Obstacle> obstacles, const SupervisorConfig& config)
+      : model_(model), obstacles_(std::move(obstacles)), supervisor_(config), tick_s_(to_seconds(config.tick)) {
+    input_.has_goal = true;
+    scan_.beam_count = model.laser.beams;
+    scan_.first_angle_rad = static_cast<float>(-0.5 * model.laser.fov_rad);
+    scan_.angle_step_rad = static_cast<float>(model.laser.fov_rad / (model.laser.beams - 1));
+    scan_.range_min_m = static_cast<float>(model.laser.range_min_m);
+    scan_.range_max_m = static_cast<float>(model.laser.range_max_m);
+  }
+  DrivenRobot(const RobotModel& model, std::vector<Obstacle> obstacles)
+      : DrivenRobot(model, std::move(obstacles), SupervisorConfig{.model = model}) {}
+
+  /// What is done to each scan before anything looks at it.
+  std::function<void(LaserScan&)> spoil = [](LaserScan&) {};
+
+  Verdict tick(const Twist2& wanted) {
+    now_ += duration_from_seconds(tick_s_);
+    if (scan_.sequence == 0 || to_seconds(now_ - scan_.stamp) > 1.0 / model_.laser.rate_hz - 1e-6) sweep();
+    wheels_.stamp = now_;
+    ++wheels_.sequence;
+    const Verdict verdict = supervisor_.judge(wanted, {scan_, wheels_, input_, now_, now_});
+    for (int k = 0; k < 10; ++k) move(verdict.permitted, 0.1 * tick_s_);
+    return verdict;
+  }
+  [[nodiscard]] const LaserScan& scan() const { return scan_; }
+  [[nodiscard]] const Pose2& pose() const { return pose_; }
+  [[nodiscard]] double speed_mps() const { return twist_.v_mps; }
+  /// Least distance between the footprint and an obstacle; 0 in contact.
+  [[nodiscard]] double clearance_m() const {
+    double least = std::numeric_limits<double>::infinity();
+    for (const Obstacle& obstacle : obstacles_) {
+      for (const Vec2 p : obstacle.rim()) {
+        const Vec2 d = p - pose_.position();
+        const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
+        least = std::min(least, model_.footprint.distance_to({c * d.x + s * d.y, c * d.y - s * d.x}));
+      }
+    }
+    return least;
+  }
+
+ private:
+  void sweep() {
+    scan_.stamp = now_;
+    ++scan_.sequence;
+    const Pose2& mount = model_.laser.robot_from_laser;
+    const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
+    const Vec2 laser{pose_.x + c * mount.x - s * mount.y, pose_.y + s * mount.x + c * mount.y};
+    for (std::size_t k = 0; k < scan_.beam_count; ++k) {
+      const double way = pose_.heading + mount.heading + scan_.angle_rad(k);
+      double range = std::numeric_limits<double>::infinity();
+      for (const Obstacle& obstacle : obstacles_)
+        range = std::min(range, obstacle.ray(laser, {std::cos(way), std::sin(way)}));
+      scan_.range_m[k] = static_cast<float>(range);
+    }
+    spoil(scan_);
+  }
+  void move(const Twist2& wanted, double step_s) {
+    const double most = 1.5 * model_.limits.brake_mps2 * step_s;
+    twist_.v_mps += std::clamp((wanted.v_mps - twist_.v_mps) * step_s / 0.05, -most, most);
+    const double most_turn = most / model_.footprint.circumscribed_radius_m();
+    twist_.w_radps += std::clamp((wanted.w_radps - twist_.w_radps) * step_s / 0.05, -most_turn, most_turn);
+    const double heading = pose_.heading + 0.5 * twist_.w_radps * step_s;
+    pose_ = {pose_.x + twist_.v_mps * step_s * std::cos(heading), pose_.y + twist_.v_mps * step_s * std::sin(heading),
+             pose_.heading + twist_.w_radps * step_s};
+  }
+
+  RobotModel model_;
+  std::vector<Obstacle> obstacles_;
+  Supervisor supervisor_;
+  double tick_s_;
+  Time now_ = time_from_seconds(1.0);
+  LaserScan scan_;
+  WheelState wheels_;
+  OperatorInput input_;
+  Pose2 pose_;
+  Twist2 twist_;
+};
+
+}  // namespace jaywalk

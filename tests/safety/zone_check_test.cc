@@ -1,0 +1,71 @@
+#include "firmware/safety/zone_check.h"
+
+#include <string>
+
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(20);
+
+std::string refusal(const RobotModel& model, Duration tick = kTick) {
+  try {
+    require_zone_in_reach(model, tick, "robot.toml");
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+RobotModel at(RobotModel model, double max_speed_mps) {
+  model.limits.max_speed_mps = max_speed_mps;
+  return model;
+}
+
+}  // namespace
+
+TEST_CASE("the built-in robots reach as far as they need, at any rate of the loop") {
+  for (const double hz : {20.0, 50.0, 200.0}) {
+    for (const RobotModel& model : {p3dx(), at(p3dx(), 1.2), wheelchair()})
+      CHECK(refusal(model, duration_from_seconds(1.0 / hz)).empty());
+  }
+}
+
+TEST_CASE("the longest stop counts the rim's speed, the oldest scan, the slowest loop and drive, and the braking") {
+  // p3dx: 0.6 + 1.5 x 0.29673 = 1.0451 m/s. Scans of 15 Hz: 3.7 periods, 0.24667 s; 0.02 + 0.1 + 0.3 s.
+  // 1.0451 x 0.66667 + 1.0451^2 / 2 = 1.2428 m.
+  CHECK(fastest_rim_mps(p3dx()) == Approx(1.0451).epsilon(1e-4));
+  CHECK(longest_stop_m(p3dx(), kTick) == Approx(1.2428).epsilon(1e-3));
+}
+
+TEST_CASE("a robot that outruns what its laser sees is refused with what to do about it") {
+  RobotModel fast = at(p3dx(), 2.0);
+  fast.limits.brake_mps2 = 0.5;
+  CHECK(refusal(fast).empty());  // 7.6 m of 25
+  fast.laser.range_max_m = 5.0;
+  const std::string said = refusal(fast);
+  CHECK(said.rfind("robot.toml: stopping takes 7.6 m, ", 0) == 0);
+  CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps, raise limits.brake_mps2") != std::string::npos);
+}
+
+TEST_CASE("a robot before which a post of 70 mm fits between two beams is refused") {
+  RobotModel fast = at(p3dx(), 2.0);
+  fast.limits.brake_mps2 = 0.5;
+  fast.laser.beams = 271;  // a degree: from 0.07 m / (2 sin 0.5 deg) = 4.0 m on
+  CHECK(refusal(fast).find("a post of 70 mm fits between two of its beams from 4.0 m") != std::string::npos);
+  RobotModel two = p3dx();
+  two.laser.beams = 2;
+  CHECK_FALSE(refusal(two).empty());
+}
+
+TEST_CASE("a robot whose stop is longer than the stop zone can be is refused") {
+  RobotModel train = at(p3dx(), 10.0);
+  train.limits.brake_mps2 = 1.0;
+  train.laser.range_max_m = 300.0;
+  train.laser.beams = 2048;
+  train.laser.fov_rad = 0.5;
+  CHECK(refusal(train).find("the stop zone ends at 20.5 m") != std::string::npos);
+}
