@@ -7,6 +7,7 @@ namespace jaywalk {
 
 StopStage StopLadder::update(Time now, bool stopping, bool trouble,
                              const std::array<WheelFeedback, 2>& wheels) noexcept {
+  follow_orders(now, wheels);
   if (!stopping && stage_ == StopStage::kNone) {
     under_way_ = ended_ = false;
     return stage_;
@@ -27,11 +28,21 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
 
 void StopLadder::reset() noexcept { *this = StopLadder(limits_); }
 
+void StopLadder::follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept {
+  const double braked = followed_ == kNever ? 0.0 : limits_.brake_radps2 * to_seconds(now - followed_);
+  followed_ = now;
+  for (std::size_t k = 0; k < wheels.size(); ++k) {
+    owed_radps_[k] = std::max(std::fabs(wheels[k].told_radps), owed_radps_[k] - braked);
+  }
+}
+
 void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept {
   under_way_ = true;
   ended_ = false;
   ordered_ = now;
-  for (std::size_t k = 0; k < wheels.size(); ++k) speed_at_order_[k] = std::fabs(wheels[k].speed_radps);
+  for (std::size_t k = 0; k < wheels.size(); ++k) {
+    speed_at_order_[k] = std::min(std::fabs(wheels[k].speed_radps), owed_radps_[k]);
+  }
   // The drives are told to quick-stop at once where there is trouble.
   if (trouble_) stage_ = std::max(stage_, StopStage::kQuickStop);
 }

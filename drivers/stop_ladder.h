@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <limits>
 
 #include "hal/types/wheels.h"
 
@@ -14,18 +15,20 @@ struct StopLimits {
   Duration fresh = std::chrono::milliseconds(60);     ///< older feedback confirms nothing
 };
 
-/// What one wheel's drive said last.
+/// What one wheel's drive said last, and what it is told in this cycle.
 struct WheelFeedback {
   double speed_radps = 0.0;
   Time stamp = kNever;
+  double told_radps = std::numeric_limits<double>::infinity();  ///< infinity: not known
 };
 
 /// Follows a stop until both wheels' feedback confirms it, and says how far it must go where they do not (SAFETY 14).
 ///
 /// From the order on each wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
-/// feedback. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage` after the
-/// other; so at the latest 100 ms and the ramp after the order both wheels stand or nothing is sent. A stage is never
-/// gone back on before reset().
+/// feedback. Where it was told to slow down before, v is at most what that left of it at the ramp b: a commanded ramp
+/// is not owed twice. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage`
+/// after the other; so at the latest 100 ms and the ramp after the order both wheels stand or nothing is sent. A stage
+/// is never gone back on before reset().
 ///
 /// A stop that was commanded (both speeds zero) ends when both wheels stand; one because of trouble is watched until
 /// reset(): a wheel that turns again while the drives are in trouble takes it further. Thread: the drive base's; never
@@ -43,6 +46,8 @@ class StopLadder {
   void reset() noexcept;
 
  private:
+  /// What each wheel was told, falling with the ramp at most.
+  void follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
   void begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
   /// Whether the feedback shows what the ramp allows now.
   [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
@@ -55,7 +60,8 @@ class StopLadder {
   bool under_way_ = false, ended_ = false;
   bool trouble_ = false;
   Time ordered_ = kNever, climbed_ = kNever;
-  std::array<double, 2> speed_at_order_{};
+  Time followed_ = kNever;
+  std::array<double, 2> owed_radps_{}, speed_at_order_{};
 };
 
 }  // namespace jaywalk

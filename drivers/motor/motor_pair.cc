@@ -141,7 +141,7 @@ void MotorPair::command(const WheelCommand& command) noexcept {
   if (awaits_zero_ && zero && proved_) begin_enabling();
   const bool finite = std::isfinite(command.left_radps) && std::isfinite(command.right_radps);
   const bool moves = order_now() == MotorOrder::kRun && finite && !zero;
-  follow_stop(moves);
+  follow_stop(moves, {command.left_radps, command.right_radps});
   const MotorOrder order = order_now();
   const bool runs = moves && order == MotorOrder::kRun;
   tell(0, order, runs ? command.left_radps : 0.0);
@@ -161,10 +161,10 @@ void MotorPair::tell(std::size_t index, MotorOrder order, double speed_radps) no
 }
 
 /// Holds the stop against each wheel's own feedback, so that one which obeys goes on being braked.
-void MotorPair::follow_stop(bool moves) noexcept {
+void MotorPair::follow_stop(bool moves, const std::array<double, 2>& told_radps) noexcept {
   if (!armed_ || (awaits_zero_ && trouble_ == DriveTrouble::kNone)) return;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
-    const WheelFeedback felt{axes_[k].speed_radps, axes_[k].felt};
+    const WheelFeedback felt{axes_[k].speed_radps, axes_[k].felt, moves ? told_radps[k] : 0.0};
     stop_ = std::max(stop_, ladders_[k].update(clock_.now(), !moves, trouble_ != DriveTrouble::kNone, {felt, felt}));
   }
   if (stop_ != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);

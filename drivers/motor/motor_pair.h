@@ -100,7 +100,7 @@ class MotorPair : public WiredDrive {
   void continue_proofs() noexcept;
   void finish_proof(ProofResult result) noexcept;
   void begin_enabling() noexcept;
-  void follow_stop(bool moves) noexcept;
+  void follow_stop(bool moves, const std::array<double, 2>& told_radps) noexcept;
   [[nodiscard]] bool stands(std::size_t index) const noexcept;
   [[nodiscard]] MotorOrder order_now() const noexcept;
   void tell(std::size_t index, MotorOrder order, double speed_radps) noexcept;

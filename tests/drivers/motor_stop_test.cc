@@ -85,6 +85,17 @@ TEST_CASE("a wheel that tells nothing more while it drives stops both after the 
   }
 }
 
+TEST_CASE("a wheel that stays behind a commanded ramp is left to itself 100 ms after the ramp's end") {
+  tests::OdriveBench bench;
+  bench.bring_to_two_radps();
+  bench.left.go_deaf();
+  for (double speed = 2.0 - 0.16; speed > 0.0; speed -= 0.16) bench.drive(speed, speed, 1);  // 8 rad/s2
+  const Time zero = bench.clock.now();
+  bench.drive(0.0, 0.0, 50);
+  CHECK(bench.wheels.stop == StopStage::kSilent);
+  CHECK(bench.port.last() - zero <= 100ms);
+}
+
 TEST_CASE("where one wheel does not stop the other one is braked all the same") {
   tests::OdriveBench bench;
   bench.bring_to_two_radps();

@@ -54,6 +54,37 @@ TEST_CASE("a wheel that keeps its speed takes a commanded stop to silence 120 ms
   CHECK(bench.tick(0.0, 0.0) == StopStage::kNone);
 }
 
+TEST_CASE("a stop at the end of a commanded ramp is owed no second ramp") {
+  // 6 rad/s commanded down with 10 rad/s2 in 0.6 s; the right wheel never follows. 60 ms after the command is zero it
+  // counts as stuck: silence 120 ms after that command.
+  StopLadder ladder({.brake_radps2 = 10.0, .tolerance_radps = 0.5});
+  Time now{10s};
+  for (double told = 6.0; told > 0.1; told -= 0.2, now += kTick) {
+    REQUIRE(ladder.update(now, false, false, {{{told, now, told}, {6.0, now, told}}}) == StopStage::kNone);
+  }
+  for (int ms = 0; ms <= 60; ms += 20, now += kTick) {
+    CHECK(ladder.update(now, true, false, {{{0.0, now, 0.0}, {6.0, now, 0.0}}}) == StopStage::kNone);
+  }
+  for (const StopStage stage : {StopStage::kQuickStop, StopStage::kNetworkStop, StopStage::kSilent}) {
+    CHECK(ladder.update(now, true, false, {{{0.0, now, 0.0}, {6.0, now, 0.0}}}) == stage);
+    now += kTick;
+  }
+}
+
+TEST_CASE("a command that drops faster than the ramp owes the ramp all the same") {
+  StopLadder ladder({.brake_radps2 = 10.0, .tolerance_radps = 0.5});
+  Time now{10s};
+  static_cast<void>(ladder.update(now, false, false, {{{6.0, now, 6.0}, {6.0, now, 6.0}}}));
+  now += kTick;
+  static_cast<void>(ladder.update(now, false, false, {{{6.0, now, 0.1}, {6.0, now, 0.1}}}));
+  double speed = 6.0;
+  for (int k = 0; k < 40; ++k) {
+    now += kTick;
+    CHECK(ladder.update(now, true, k > 5, {{{speed, now, 0.0}, {speed, now, 0.0}}}) <= StopStage::kQuickStop);
+    speed = std::max(speed - 10.0 * 0.02, 0.0);
+  }
+}
+
 TEST_CASE("a stop that turned into trouble because it was not confirmed is not begun anew") {
   Bench bench;
   StopStage stage = StopStage::kNone;
