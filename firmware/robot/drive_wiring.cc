@@ -1,5 +1,6 @@
 #include "firmware/robot/drive_wiring.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -36,7 +37,18 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
   return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
 }
 
-canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
+/// What a stop is held against: the model's brake at the wheel, and as much time as the loop's period makes of it,
+/// since the feedback that a tick reads was measured a period before.
+StopLimits stop_limits(const RobotModel& model, Duration period) {
+  constexpr double kTolerance_mps = 0.05;
+  const double radius_m = model.drive.wheel_radius_m;
+  StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
+  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * period);
+  limits.fresh = std::max<Duration>(limits.fresh, 5 * period / 2);
+  return limits;
+}
+
+canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration period) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
   settings.controller_node = read_node(table, "controller_node", 1);
@@ -49,6 +61,7 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model) {
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
   base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
+  base.stop = stop_limits(model, period);
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;
@@ -65,12 +78,12 @@ void read_axes(TomlTable& table, const std::string& key, Base& base) {
 
 }  // namespace
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model) {
+DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period) {
   DriveWiring wiring;
   const std::string kind = table.text("kind");
   wiring.can = table.text("can");
   if (kind == "cia402") {
-    wiring.cia402 = read_cia402(table, model);
+    wiring.cia402 = read_cia402(table, model, period);
   } else if (kind == "odrive") {
     wiring.kind = DriveKind::kOdrive;
     read_axes(table, "motor_turns_per_wheel_turn", wiring.odrive);

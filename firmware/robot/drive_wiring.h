@@ -20,7 +20,8 @@ struct DriveWiring {
   vesc::BaseSetup vesc;
 };
 
-/// Reads the table to its end. Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
-[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model);
+/// Reads the table to its end; `period` is the loop's. Throws StartupError "FILE:LINE: cause; remedy" for anything
+/// wrong or unknown.
+[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration period);
 
 }  // namespace jaywalk

@@ -86,7 +86,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.laser = read_wiring(laser);
   read_laser(laser, setup.model.laser);
   laser.finish();
-  robot.drive = read_drive(root.table("drive"), setup.model);
+  robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
   robot.control_socket = root.text("control_socket", "");

@@ -139,6 +139,58 @@ TEST_CASE("a heading that is asked for over the desk is turned to over the wires
   CHECK(bench.speed_mps() == 0.0);
 }
 
+TEST_CASE(
+    "a stranger that takes a drive out of operation latches, and a reset proves both drives before anything moves") {
+  Bench bench("robot");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(150);
+  REQUIRE(bench.speed_mps() > 0.3);
+  CHECK(bench.robot.wires().port(3).send({.id = 0x000, .size = 2, .bytes = {0x80, 2}}) == SendResult::kQueued);
+  bench.tick();
+  CHECK(has(bench.last().verdict.reasons, Reason::kForeignMaster));
+  bench.tick(35);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(bench.last().wheels.stop == StopStage::kSilent);
+  const std::string status = bench.robot.desk().obey("status");
+  CHECK(status.find("\nlatched_by: foreign_master\n") != std::string::npos);
+  CHECK(status.find("\nforeign_frame: 000#8002\n") != std::string::npos);
+  bench.tick(30);
+
+  CHECK(bench.robot.desk().obey("reset") == "reset\n");
+  bench.tick(2);
+  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+  CHECK(bench.robot.desk().obey("goto 9 8") ==
+        "refused: the drives are being proved again; try again in some seconds\n");
+  int ticks = 0;
+  bench.heap_calls = 0;
+  for (; ticks < 250 && has(bench.last().verdict.reasons, Reason::kLatched); ++ticks) bench.tick();
+  CHECK(ticks > 20);
+  CHECK(ticks < 250);
+  CHECK(bench.heap_calls == 0);
+  CHECK(bench.speed_mps() == 0.0);
+  bench.tick(20);
+  CHECK(bench.robot.desk().obey("status").rfind("state: waiting\n", 0) == 0);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+}
+
+TEST_CASE("an emergency stop over the desk, and a reset after it, ask the drives for no proof") {
+  Bench bench("robot");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(150);
+  CHECK(bench.robot.desk().obey("stop now") == "stopping\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(bench.last().wheels.stop == StopStage::kNone);
+  CHECK(bench.robot.drive().is_proved());
+  CHECK(bench.robot.desk().obey("reset") == "reset\n");
+  bench.tick();
+  CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+}
+
 TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, whatever the devices") {
   for (const char* robot : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
     Bench bench(robot);

@@ -53,6 +53,8 @@ class InProcessRobot {
   [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
   [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
   [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
+  /// Ports 3 and up are free, for strangers.
+  [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
   [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
   /// When the last byte of the scanner's message left, by message, from the first.
   [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
