@@ -5,6 +5,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iterator>
 #include <optional>
 
 #include "tests/support/allocation_guard.h"
@@ -19,12 +21,18 @@ namespace {
 
 constexpr Duration kTick = 20ms;
 
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 struct Bench {
-  explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {})
+  explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {}, int rate_hz = 50)
       : folder(std::filesystem::temp_directory_path() /
                ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
-        robot(file(robot_name, panel), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
-              folder) {
+        period(duration_from_seconds(1.0 / rate_hz)),
+        robot(file(robot_name, panel, rate_hz), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3,
+              clock, folder) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;
@@ -36,16 +44,19 @@ struct Bench {
     due = clock.now();
   }
   ~Bench() { std::filesystem::remove_all(folder); }
-  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel) const {
+  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel, int rate_hz) const {
     std::filesystem::create_directories(folder);
-    RobotFile wiring = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
+    const std::filesystem::path mine = folder / "robot.toml";
+    std::ofstream(mine) << "rate_hz = " << rate_hz << ".0\n"
+                        << text_of(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
+    RobotFile wiring = load_robot_file(mine);
     wiring.setup.backend = Backend::kCpu;
     wiring.panel = panel;
     if (wiring.laser.host.empty()) wiring.laser.device = folder / "scanner";
     return wiring;
   }
   void tick() {
-    due += kTick;
+    due += period;
     clock.sleep_until(due);
     const AllocationGuard guard;
     robot.loop().tick(due);
@@ -60,6 +71,7 @@ struct Bench {
   [[nodiscard]] const TickRecord& last() { return robot.runner().last(); }
 
   std::filesystem::path folder;
+  Duration period;
   rig::HandLivingClock clock;
   std::uint64_t heap_calls = 0;
   rig::InProcessRobot robot;
@@ -174,6 +186,27 @@ TEST_CASE(
   CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
   bench.tick(100);
   CHECK(bench.speed_mps() > 0.3);
+}
+
+TEST_CASE("at any rate of the loop ordinary drives, stops and turns are confirmed by the wheels' feedback") {
+  for (const int rate_hz : {20, 200}) {
+    Bench bench("robot", {}, rate_hz);
+    const auto live = [&](double seconds) { bench.tick(static_cast<int>(seconds * rate_hz)); };
+    live(0.5);
+    for (const char* goal : {"goto 9 8", "goto 3 3 2.5"}) {
+      for (const double seconds : {0.3, 1.6}) {
+        CHECK(bench.robot.desk().obey(goal) == "going\n");
+        live(seconds);
+        CHECK(bench.robot.desk().obey("stop now") == "stopping\n");
+        live(1.5);
+        REQUIRE(bench.speed_mps() == 0.0);
+        REQUIRE(bench.robot.drive().trouble() == DriveTrouble::kNone);
+        REQUIRE(bench.last().wheels.stop == StopStage::kNone);
+        CHECK(bench.robot.desk().obey("reset") == "reset\n");
+        live(0.3);
+      }
+    }
+  }
 }
 
 TEST_CASE("an emergency stop over the desk, and a reset after it, ask the drives for no proof") {
