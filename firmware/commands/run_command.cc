@@ -71,7 +71,8 @@ class LoopReport {
  private:
   void tell(const RunStatus& now) const {
     if (now.latched && !last_.latched) {
-      const std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
       remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
     }
     if (!now.latched && last_.latched) remark("reset; say anew where to go");
@@ -105,7 +106,7 @@ int run_robot(const RunOptions& options) {
   file.setup.backend = options.backend;
   SteadyClock clock;
   RobotDevices devices(file, clock);
-  OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
+  OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();
   const ControlSocket socket(
       socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
@@ -127,7 +128,7 @@ int run_robot(const RunOptions& options) {
   const EndSignals signals;
   StallGuard guard(devices.brake(), clock, kLongestStall);
   guard.start(guard_priority(file.realtime));
-  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus()}, desk, clock, guard);
+  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard);
   loop.start(file.realtime);
   for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
   for (const std::string& line : not_permitted) remark(line);

@@ -116,6 +116,7 @@ class Inspection {
 };
 
 std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& clock) {
+  const BusLock lock(wiring.can);
   SocketCan bus(open_can(wiring.can, filters_for(wiring)), clock);
   return make_drive(wiring, bus, clock)->inspect(side);
 }

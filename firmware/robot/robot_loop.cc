@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jaywalk {
 namespace {
 
 constexpr double kRest_mps = 0.01;
+/// What a wheel said before that tells no speed any more.
+constexpr Duration kSpeedKnown = std::chrono::milliseconds(500);
 constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -43,7 +46,7 @@ void RobotLoop::run(const RealtimeWishes& wishes) {
     due = next_due(due);
     tick(due);
     if (ending_ && !asked_to_end) asked_to_end = due;
-    at_rest = status_.speed_mps < kRest_mps && runner_.last().command.left_radps == 0.0 &&
+    at_rest = !(status_.speed_mps > kRest_mps) && runner_.last().command.left_radps == 0.0 &&
               runner_.last().command.right_radps == 0.0;
   }
   guard_.rest();
@@ -62,14 +65,13 @@ Time RobotLoop::next_due(Time due) noexcept {
 void RobotLoop::tick(Time due) noexcept {
   guard_.beat(clock_.now());
   const TickRecord& t = runner_.tick_at(due);
-  const bool reset_edge = t.input.reset && !reset_before_;
-  reset_before_ = t.input.reset;
-  if (reset_edge && speed_mps(t.wheels) < kRest_mps) devices_.drive.reset();
+  devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kRest_mps);
   tell(t);
   trace(t);
 }
 
-double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
+double RobotLoop::speed_mps(const WheelState& wheels, Time now) const noexcept {
+  if (wheels.sequence > 0 && age(wheels.stamp, now) > kSpeedKnown) return std::numeric_limits<double>::quiet_NaN();
   return std::max(std::fabs(wheels.left_radps), std::fabs(wheels.right_radps)) *
          runner_.setup().model.drive.wheel_radius_m;
 }
@@ -81,8 +83,10 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
-  status_.speed_mps = speed_mps(t.wheels);
+  status_.speed_mps = speed_mps(t.wheels, t.now);
   status_.enabled = devices_.drive.is_enabled();
+  status_.proved = devices_.drive.is_proved();
+  status_.foreign_frame = devices_.drive.foreign_frame();
   if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
   if (t.input.has_goal) {
     const bool stands = status_.speed_mps < kRest_mps;

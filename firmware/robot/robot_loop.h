@@ -11,6 +11,7 @@
 #include "firmware/commands/loop_runner.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
+#include "firmware/robot/reset_gate.h"
 #include "firmware/robot/ring.h"
 #include "firmware/robot/stall_guard.h"
 
@@ -30,6 +31,7 @@ struct LoopDevices {
   WiredDrive& drive;
   ScannerConnection& laser;
   const CanBus& bus;
+  ResetGate& resets;
 };
 
 /// A tick that comes a period late or more is missed: it is counted and never made up for. Nothing in this thread
@@ -64,7 +66,8 @@ class RobotLoop {
   void tell(const TickRecord& t) noexcept;
   void trace(const TickRecord& t) noexcept;
   void disarm(Time due) noexcept;
-  [[nodiscard]] double speed_mps(const WheelState& wheels) const noexcept;
+  /// Of the faster wheel; NaN where its feedback is too old to tell.
+  [[nodiscard]] double speed_mps(const WheelState& wheels, Time now) const noexcept;
 
   LoopRunner& runner_;
   LoopDevices devices_;
@@ -75,7 +78,6 @@ class RobotLoop {
   RunStatus status_;
   Traces traces_;
   std::uint32_t plan_traced_ = 0;
-  bool reset_before_ = false;
   std::vector<std::string> not_permitted_;
   std::atomic<bool> begun_{false}, ending_{false}, ended_{false};
   std::thread thread_;

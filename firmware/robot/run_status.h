@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "drivers/can/can_bus.h"
@@ -15,8 +16,10 @@ namespace jaywalk {
 struct RunStatus {
   bool running = false;  ///< the loop has begun
   Pose2 map_from_robot;
-  double speed_mps = 0.0;  ///< felt at the wheels; of the faster one
+  double speed_mps = 0.0;  ///< felt at the wheels; of the faster one; NaN where they were not heard lately
   bool enabled = false;
+  bool proved = true;                     ///< the drives passed their whole proof since their last trouble
+  std::optional<CanFrame> foreign_frame;  ///< of another master, while that is the trouble
   bool has_goal = false;
   bool turns_at_goal = false;  ///< has come to the goal and turns to the heading wanted there
   bool goal_reached = false;   ///< the last one that there was
