@@ -14,9 +14,9 @@ can_frame to_kernel(const CanFrame& frame) noexcept {
   return raw;
 }
 
-// The format bit is part of the mask: without it a filter for 081h lets 29-bit frames through as well.
+// Format and request bit are part of the mask: without the first a filter for 081h lets 29-bit frames through as well.
 can_filter to_kernel(const CanFilter& filter) noexcept {
-  return {.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U),
+  return {.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U) | (filter.remote ? CAN_RTR_FLAG : 0U),
           .can_mask = filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
 }
 

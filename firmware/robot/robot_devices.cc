@@ -46,7 +46,8 @@ std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, C
 }
 
 std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
-  if (wiring.kind == DriveKind::kOdrive) return {CanFilter{}};
+  // A request to an ODrive feeds its watchdog: only another master sends one.
+  if (wiring.kind == DriveKind::kOdrive) return {CanFilter{}, CanFilter{.id = 0, .mask = 0, .remote = true}};
   if (wiring.kind == DriveKind::kVesc) return {CanFilter{.id = 0, .mask = 0, .extended = true}};
   std::vector<CanFilter> filters;
   const auto& axes = wiring.cia402.axes;

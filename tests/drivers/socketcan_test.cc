@@ -74,13 +74,16 @@ TEST_CASE("a remote frame carries a size and no bytes") {
   CHECK(from_kernel(to_kernel(frame)) == frame);
 }
 
-TEST_CASE("a kernel filter tells 11-bit identifiers from 29-bit ones and skips remote frames") {
+TEST_CASE("a kernel filter tells 11-bit identifiers from 29-bit ones and data frames from requests") {
   const can_filter standard = to_kernel(CanFilter{.id = 0x181, .mask = 0x7FF, .extended = false});
   CHECK(standard.can_id == 0x181U);
   CHECK(standard.can_mask == 0xC00007FFU);
   const can_filter extended = to_kernel(CanFilter{.id = 0x917, .mask = 0x1FFFFFFF, .extended = true});
   CHECK(extended.can_id == 0x80000917U);
   CHECK(extended.can_mask == 0xDFFFFFFFU);
+  const can_filter requests = to_kernel(CanFilter{.id = 0, .mask = 0, .extended = false, .remote = true});
+  CHECK(requests.can_id == 0x40000000U);
+  CHECK(requests.can_mask == 0xC0000000U);
 }
 
 TEST_CASE("a kernel frame of nine bytes or with a 12-bit identifier is refused") {

@@ -254,6 +254,35 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
   }
 }
 
+TEST_CASE("after an emergency stop that cut a drive's power a reset proves the drives anew and the robot drives") {
+  for (const char* robot : {"odrive_hokuyo", "vesc_ld19"}) {
+    Bench bench(robot);
+    bench.tick(25);
+    CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    bench.tick(100);
+    CHECK(bench.speed_mps() > 0.3);
+    CHECK(bench.robot.desk().obey("stop now").rfind("stop", 0) == 0);
+    bench.tick(100);
+    bench.robot.far_end().drive(0).pull_cable();
+    bench.tick(50);
+    CHECK(bench.speed_mps() == 0.0);
+    CHECK(bench.last().wheels.trouble == DriveTrouble::kDriveSilent);
+    CHECK(bench.last().wheels.stop == StopStage::kSilent);
+    bench.robot.far_end().drive(0).plug_cable();
+    bench.tick(50);
+    bench.heap_calls = 0;
+    CHECK(bench.robot.desk().obey("reset").rfind("reset", 0) == 0);
+    bench.tick(60);
+    CHECK(bench.heap_calls == 0);
+    CHECK(bench.robot.drive().is_proved());
+    CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+    CHECK(bench.speed_mps() == 0.0);
+    CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    bench.tick(100);
+    CHECK(bench.speed_mps() > 0.3);
+  }
+}
+
 TEST_CASE("with a joystick the robot drives while its dead man is held, and its stop and reset are the robot's") {
   Joystick joystick;
   Bench bench("robot", PanelWiring{.joystick = {.path = joystick.path}});
