@@ -1,3 +1,5 @@
+#include <algorithm>
+#include <cmath>
 #include <memory>
 #include <vector>
 
@@ -145,6 +147,33 @@ TEST_CASE("a sector is free only where every point of it found nothing in reach,
   for (const std::size_t beam : {1U, 2U, 7U, 8U}) CHECK(scan->state(beam) == BeamState::kUnknown);
   for (const std::size_t beam : {3U, 4U, 5U, 6U}) CHECK(scan->range_m[beam] == Approx(3.0F));
   for (std::size_t beam = 12; beam < 430; ++beam) REQUIRE(scan->state(beam) == BeamState::kUnknown);  // no point at all
+}
+
+TEST_CASE("a scanner that turns up to a tenth too fast leaves sectors without a point, but never two side by side") {
+  auto scan = std::make_unique<LaserScan>();
+  for (const double turns_per_second : {9.9, 10.0, 10.05, 10.1, 10.5, 11.0}) {
+    SweepBuilder builder;
+    const double step_deg = 360.0 * turns_per_second / 4500.0;
+    int most_empty = 0;
+    for (int k = 0; k < 40 * 20; ++k) {
+      const double first_deg = std::fmod(12.0 * step_deg * k, 360.0);
+      Packet packet = packet_at(first_deg, 2000);
+      packet.speed_degps = static_cast<std::uint16_t>(360.0 * turns_per_second);
+      packet.last_angle_cdeg = static_cast<std::uint16_t>(std::fmod(first_deg + 11.0 * step_deg, 360.0) * 100.0);
+      if (!builder.add(packet, time_from_seconds(12.0 * k / 4500.0), *scan)) continue;
+      int empty = 0;
+      for (std::size_t beam = 0; beam < 450; ++beam) {
+        if (scan->is_hit(beam)) continue;
+        ++empty;
+        REQUIRE(scan->is_hit((beam + 1) % 450));
+      }
+      most_empty = std::max(most_empty, empty);
+    }
+    INFO(turns_per_second);
+    // 4500 points in so many turns leave so many of 450 sectors; rounding to hundredths of a degree may cost more.
+    CHECK(most_empty >= static_cast<int>(450.0 - 4500.0 / turns_per_second));
+    CHECK(most_empty <= 50);
+  }
 }
 
 TEST_CASE("any bytes make packets within their limits and scans of them") {
