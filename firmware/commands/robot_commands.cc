@@ -43,6 +43,8 @@ void add_run(CLI::App& app, int& exit_code) {
   add_backend(*run, run_options.backend);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
+                "Start although the kernel refuses real-time priority or locked memory");
   run->callback([&exit_code] { exit_code = run_robot(run_options); });
 }
 

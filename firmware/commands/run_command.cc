@@ -104,6 +104,7 @@ std::filesystem::path socket_for(const RunOptions& options, const RobotFile& fil
 int run_robot(const RunOptions& options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
+  if (options.allow_no_realtime) file.realtime.required = false;
   SteadyClock clock;
   RobotDevices devices(file, clock);
   OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
@@ -120,17 +121,18 @@ int run_robot(const RunOptions& options) {
                     });
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
+  StallGuard guard(devices.brake(), clock, kLongestStall);
+  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard);
+  for (const std::string& line : loop.prepare(file.realtime)) not_permitted.push_back(line);
+  require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
   controls.start(order_priority(file.realtime));
   devices.start();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
 
   const EndSignals signals;
-  StallGuard guard(devices.brake(), clock, kLongestStall);
   guard.start(guard_priority(file.realtime));
-  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard);
-  loop.start(file.realtime);
-  for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
+  loop.start();
   for (const std::string& line : not_permitted) remark(line);
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
 
@@ -145,6 +147,7 @@ int run_robot(const RunOptions& options) {
                  .success = outcome(last) == "reached",
                  .heading_error_rad = at_goal(last),
                  .missed_ticks = last.missed_ticks,
+                 .loop_times = &loop.times(),
                  .scenario = options.robot.filename().string()});
   write_devices(options.out, last, not_permitted);
   RunPicture picture;

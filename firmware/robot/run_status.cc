@@ -32,7 +32,9 @@ std::string describe(const RunStatus& status) {
       << "\nlaser_connections: " << status.laser.connections << "\nbus: " << name(status.bus.state)
       << "\nbus_error_frames: " << status.bus.error_frames << "\nbus_lost: " << status.bus.frames_lost
       << "\nbus_malformed: " << status.bus.malformed << "\nticks: " << status.ticks
-      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls << '\n';
+      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls
+      << "\nwake_late_max_us: " << status.wake_late_max_us << "\npage_faults: " << status.page_faults.minor
+      << " minor, " << status.page_faults.major << " major" << '\n';
   return out.str();
 }
 

@@ -5,6 +5,7 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/wheels.h"
@@ -36,6 +37,8 @@ struct RunStatus {
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;
   std::uint64_t stalls = 0;
+  double wake_late_max_us = 0.0;
+  PageFaults page_faults;  ///< of the loop's thread since its first tick
 };
 
 /// Lines of "word: value" for a person and for scripts. Not for the loop.

@@ -1,11 +1,13 @@
 // A tick of the whole controller with both ends of its wires in this process, time moved on by hand.
 #include <fcntl.h>
 #include <linux/input.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
 #include <fstream>
+#include <iostream>
 #include <iterator>
 #include <optional>
 
@@ -56,12 +58,18 @@ struct Bench {
     if (wiring.laser.host.empty()) wiring.laser.device = folder / "scanner";
     return wiring;
   }
-  void tick() {
+  void sleep() {
     due += period;
     clock.sleep_until(due);
+  }
+  void tick() {
+    sleep();
     const AllocationGuard guard;
     robot.loop().tick(due);
     heap_calls += guard.calls();
+    drain();
+  }
+  void drain() {
     robot.runner().drain();
     while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
   }
@@ -281,6 +289,35 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     bench.tick(100);
     CHECK(bench.speed_mps() > 0.3);
   }
+}
+
+// SAFETY: after arming no page fault. Memory is locked for the whole process, as a run does; what is counted is the
+// loop.
+TEST_CASE("a thousand busy ticks with memory locked have no page fault") {
+  Bench bench("robot");
+  const std::vector<std::string> refused = lock_memory();
+  if (!refused.empty()) {
+    std::cout << "skipped: " << refused.front() << '\n';
+    return;
+  }
+  bench.tick(50);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(50);
+  PageFaults faults;
+  for (int k = 0; k < 1000; ++k) {
+    if (k == 500) CHECK(bench.robot.desk().obey("goto 2 3") == "going\n");
+    bench.sleep();
+    const PageFaults before = page_faults();
+    bench.robot.loop().tick(bench.due);
+    const PageFaults tick = page_faults().since(before);
+    faults.minor += tick.minor;
+    faults.major += tick.major;
+    bench.drain();
+  }
+  ::munlockall();
+  CHECK(faults.minor == 0);
+  CHECK(faults.major == 0);
+  CHECK(bench.robot.desk().obey("status").find("\npage_faults: ") != std::string::npos);
 }
 
 TEST_CASE("with a joystick the robot drives while its dead man is held, and its stop and reset are the robot's") {
