@@ -39,7 +39,11 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  return {.model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
+  return {.model = setup.model,
+          .tick = setup.tick(),
+          .needs_wheels = setup.wheels,
+          .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
+          .latches_all = setup.wired};
 }
 
 }  // namespace
@@ -79,12 +83,13 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
-  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now});
+  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, sent_});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
+  sent_ = t.command;
 
   if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();

@@ -55,7 +55,11 @@ bool hides_a_shin(const Blanking& blanked, double way) {
 }  // namespace
 
 Supervisor::Supervisor(const SupervisorConfig& config)
-    : config_(config), stop_zone_(zone_config(config)), frozen_scan_(config.model.drive) {}
+    : config_(config),
+      stop_zone_(zone_config(config)),
+      frozen_scan_(config.model.drive),
+      felt_motion_(config.model.drive, config.model.limits.brake_mps2),
+      seen_motion_(config.model) {}
 
 Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexcept {
   Verdict verdict;
@@ -73,6 +77,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
   Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
+  if (config_.judges_motion) reasons |= motion_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
@@ -97,6 +102,13 @@ Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexce
   return reasons;
 }
 
+Reason Supervisor::motion_faults(const SafetyInput& input) noexcept {
+  Reason reasons = Reason::kNone;
+  if (felt_motion_.disobeys(input.sent, input.wheels, input.now)) reasons |= Reason::kWheelsDisobey;
+  if (seen_motion_.contradicts(input.scan, input.wheels, input.now)) reasons |= Reason::kMotionMismatch;
+  return reasons;
+}
+
 /// What a scan says it took, within reason: two turns.
 Duration Supervisor::sweep_of(const LaserScan& scan) const noexcept {
   return std::clamp(scan.sweep, Duration{0}, duration_from_seconds(2.0 / config_.model.laser.rate_hz));
@@ -112,7 +124,8 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
 
 void Supervisor::update_latch(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
   constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
-                             Reason::kStopUnconfirmed | Reason::kForeignMaster;
+                             Reason::kStopUnconfirmed | Reason::kForeignMaster | Reason::kWheelsDisobey |
+                             Reason::kMotionMismatch;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;

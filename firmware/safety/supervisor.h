@@ -1,5 +1,7 @@
 #pragma once
+#include "firmware/safety/felt_motion.h"
 #include "firmware/safety/frozen_scan.h"
+#include "firmware/safety/seen_motion.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/verdict.h"
 #include "hal/types/laser_scan.h"
@@ -17,8 +19,9 @@ struct SupervisorConfig {
   double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
   double control_and_drive_s = 0.08;  ///< a tick, a frame, and the drive's lag (50 ms in the plant)
   Duration tick = std::chrono::milliseconds(20);
-  bool needs_wheels = true;  ///< false only where a recording has none
-  bool latches_all = false;  ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
+  bool needs_wheels = true;    ///< false only where a recording has none
+  bool judges_motion = false;  ///< commanded against felt against seen: where wheels obey what is commanded here
+  bool latches_all = false;    ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
 };
 
 /// What the supervisor looks at; nothing of it comes from the planner but a stamp.
@@ -28,6 +31,7 @@ struct SafetyInput {
   const OperatorInput& input;
   Time plan_stamp = kNever;
   Time now = kNever;
+  WheelCommand sent{};  ///< what the drive was sent in the tick before
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
@@ -47,6 +51,7 @@ class Supervisor {
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
+  [[nodiscard]] Reason motion_faults(const SafetyInput& input) noexcept;
   [[nodiscard]] Duration sweep_of(const LaserScan& scan) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
@@ -60,6 +65,8 @@ class Supervisor {
   SupervisorConfig config_;
   StopZone stop_zone_;
   FrozenScan frozen_scan_;
+  FeltMotion felt_motion_;
+  SeenMotion seen_motion_;
   Twist2 permitted_;     ///< last tick's
   int stale_scans_ = 0;  ///< ticks in a row with a scan too old
   int missed_ = 0;

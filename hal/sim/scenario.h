@@ -32,7 +32,22 @@ struct RecordedSpec {
   bool legs = false;
 };
 
-enum class FaultKind { kScanStale, kScanNan, kScanShort, kScanFrozen, kWheelsStale, kWheelSlip, kEmergencyStop };
+enum class FaultKind {
+  kScanStale,
+  kScanNan,
+  kScanShort,
+  kScanFrozen,
+  kWheelsStale,
+  kWheelSlip,
+  kEmergencyStop,
+  kNoGrip,              ///< both wheels turn, the robot stands
+  kBothMotorsReversed,  ///< the encoders tell the truth
+  kLeftMotorReversed,   ///< likewise
+  kLeftWheelReversed,   ///< motor and encoder: the feedback obeys
+  kWheelsSwapped,       ///< drives, motors and encoders: left is right
+  kLeftWheelStuck,
+  kScannerMirrored  ///< upside down, or its sense of rotation taken the wrong way round
+};
 
 struct FaultSpec {
   double at_s = 0.0;

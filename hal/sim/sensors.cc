@@ -1,5 +1,6 @@
 #include "hal/sim/sensors.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace jaywalk::sim {
@@ -60,6 +61,8 @@ void Sensors::turn(const World& world) noexcept {
 void Sensors::spoil(const World& world) noexcept {
   if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
   if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
+  if (world.fault_active(FaultKind::kScannerMirrored))
+    std::reverse(scan_.range_m.begin(), scan_.range_m.begin() + scan_.beam_count);
 }
 
 void Sensors::locate(const Truth& truth) noexcept {
