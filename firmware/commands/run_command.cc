@@ -18,6 +18,7 @@
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
+#include "firmware/setup/commissioned.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -103,6 +104,8 @@ std::filesystem::path socket_for(const RunOptions& options, const RobotFile& fil
 int run_robot(const RunOptions& options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
+  const std::string not_commissioned = require_commissioned(options.robot, file);
+  if (!not_commissioned.empty()) remark(not_commissioned);
   SteadyClock clock;
   RobotDevices devices(file, clock);
   OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
@@ -159,6 +162,8 @@ int check_robot(const RunOptions& options) {
   try {
     const RobotFile file = load_robot_file(options.robot);
     tell({"file", true, options.robot.string()});
+    const CommissioningRecord record = read_commissioned(options.robot, file);
+    tell({"commissioned", record.state != Commissioned::kFailed, record.said});
     SteadyClock clock;
     for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) tell(part);
   } catch (const StartupError& error) {

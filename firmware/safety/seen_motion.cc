@@ -19,9 +19,11 @@ struct Explanation {
   }
 };
 
-/// Slip within bounds.
-constexpr std::array<Explanation, 7> kSlip{
-    {{0.85, 1.0}, {1.0, 0.85}, {0.7, 1.0}, {1.0, 0.7}, {0.5, 1.0}, {1.0, 0.5}, {0.5, 0.5}}};
+/// Slip within bounds: this share of what either wheel rolls, sought in halving steps, or of both.
+constexpr double kMostSlip = 0.5;
+constexpr int kSlipSteps = 5;
+/// Of the left wheel, or, below zero, of the right one.
+constexpr Explanation slip(double share) { return {1.0 - std::max(share, 0.0), 1.0 + std::min(share, 0.0)}; }
 /// No grip, on both sides or one; reversed, both or one; swapped, or a scanner upside down; that and reversed, or a
 /// scanner that looks backwards.
 constexpr std::array<Explanation, 8> kWrong{
@@ -140,14 +142,29 @@ void SeenMotion::look(const LaserScan& scan) noexcept {
 bool SeenMotion::is_better_explained(const LaserScan& scan, const Rolled& felt) const noexcept {
   Errors right = errors(scan, felt);
   if (right.compared < kLeastCompared || !leaves_to_explain(right)) return false;
-  for (const Explanation& is : kSlip) {
-    const Errors slipped = errors(scan, is.of(felt));
-    if (slipped.compared >= kLeastCompared && slipped.mean_m < right.mean_m) right = slipped;
-  }
+  right = with_slip(scan, felt, right);
   return leaves_to_explain(right) && std::any_of(kWrong.begin(), kWrong.end(), [&](const Explanation& is) {
            const Rolled moved = is.of(felt);
            return differs(moved, felt) && explains_better(errors(scan, moved), right);
          });
+}
+
+/// The least errors with slip within bounds: a turn that is off by a degree shows more than all of the way.
+SeenMotion::Errors SeenMotion::with_slip(const LaserScan& scan, const Rolled& felt, const Errors& none) const noexcept {
+  Errors best = errors(scan, Explanation{1.0 - kMostSlip, 1.0 - kMostSlip}.of(felt));
+  if (best.compared < kLeastCompared || none.mean_m < best.mean_m) best = none;
+  double share = 0.0, step = 0.5 * kMostSlip, least_m = none.mean_m;
+  for (int k = 0; k < kSlipSteps; ++k, step *= 0.5) {
+    const double about = share;
+    for (const double tried : {about - step, about + step}) {
+      const Errors slipped = errors(scan, slip(tried).of(felt));
+      if (slipped.compared < kLeastCompared || slipped.mean_m >= least_m) continue;
+      least_m = slipped.mean_m;
+      share = tried;
+      if (least_m < best.mean_m) best = slipped;
+    }
+  }
+  return best;
 }
 
 /// Whether enough points have an error that another motion could take away.

@@ -60,6 +60,7 @@ class SeenMotion {
   [[nodiscard]] bool is_kept_again(const LaserScan& scan) const noexcept;
   void look(const LaserScan& scan) noexcept;
   [[nodiscard]] bool is_better_explained(const LaserScan& scan, const Rolled& felt) const noexcept;
+  [[nodiscard]] Errors with_slip(const LaserScan& scan, const Rolled& felt, const Errors& none) const noexcept;
   [[nodiscard]] static bool leaves_to_explain(const Errors& errors) noexcept;
   [[nodiscard]] bool differs(const Rolled& a, const Rolled& b) const noexcept;
   [[nodiscard]] static bool explains_better(const Errors& wrong, const Errors& right) noexcept;
