@@ -18,6 +18,7 @@
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
+#include "firmware/setup/commissioned.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -105,6 +106,8 @@ int run_robot(const RunOptions& options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
   if (options.allow_no_realtime) file.realtime.required = false;
+  const std::string not_commissioned = require_commissioned(options.robot, file);
+  if (!not_commissioned.empty()) remark(not_commissioned);
   SteadyClock clock;
   RobotDevices devices(file, clock);
   OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
@@ -167,6 +170,8 @@ int check_robot(const RunOptions& options) {
   try {
     const RobotFile file = load_robot_file(options.robot);
     tell({"file", true, options.robot.string()});
+    const CommissioningRecord record = read_commissioned(options.robot, file);
+    tell({"commissioned", record.state != Commissioned::kFailed, record.said});
     SteadyClock clock;
     for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) tell(part);
   } catch (const StartupError& error) {
