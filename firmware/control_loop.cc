@@ -41,8 +41,11 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  SupervisorConfig config{
-      .model = setup.model, .tick = setup.tick(), .needs_wheels = setup.wheels, .latches_all = setup.wired};
+  SupervisorConfig config{.model = setup.model,
+                          .tick = setup.tick(),
+                          .needs_wheels = setup.wheels,
+                          .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
+                          .latches_all = setup.wired};
   config.max_wheel_age = std::max(config.max_wheel_age, 5 * setup.tick() / 2);  // of feedback, too, one may be lost
   return config;
 }
@@ -86,7 +89,8 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
   t.latency = latency_.measured();
-  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal()});
+  t.verdict =
+      supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
@@ -95,6 +99,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   hal_.drive.command(t.command);
   t.took = hal_.clock.now() - now;
   latency_.add(now, t.took, t.wheels, t.command);
+  sent_ = t.command;
 
   if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();

@@ -66,6 +66,7 @@ class ControlLoop {
   Time good_plan_stamp_ = kNever;  ///< of the last that has a path
   Time had_way_ = kNever;          ///< or moved, had no goal, or looked anew for one, last
   Twist2 driven_;                  ///< what the wheels were last asked for
+  WheelCommand sent_;              ///< and what that was for the drive
   bool scan_frozen_ = false;       ///< the supervisor said so of the tick before
   Fresh scans_, fixes_, plans_;
 };

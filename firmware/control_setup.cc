@@ -60,6 +60,7 @@ std::string to_text(const ControlSetup& setup) {
   // Not one of the fields above: setups that were written before it was one say nothing of it.
   for (const BlankedSector& sector : setup.model.laser.blanked)
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
+  json["judges_motion"] = setup.judges_motion;
   return json.dump();
 }
 
@@ -69,6 +70,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     ControlSetup setup = json.get<ControlSetup>();
     for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
+    setup.judges_motion = json.value("judges_motion", false);
     return setup;
   } catch (const nlohmann::json::exception& error) {
     throw StartupError(place + ": not a controller's setup (" + error.what() + ")",

@@ -21,6 +21,8 @@ struct ControlSetup {
   double goal_tolerance_m = 0.3;
   bool wheels = true;  ///< false: a recording without odometry
   bool wired = false;  ///< devices on wires: every fault waits for a reset
+  /// Commanded, felt and seen motion are compared; false for a log whose wheels obeyed another controller.
+  bool judges_motion = true;
   double rate_hz = 50.0;
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long

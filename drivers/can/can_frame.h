@@ -2,6 +2,7 @@
 #include <array>
 #include <cstdint>
 #include <span>
+#include <string>
 
 #include "hal/types/time.h"
 
@@ -18,6 +19,9 @@ struct CanFrame {
   [[nodiscard]] std::span<const std::uint8_t> payload() const noexcept { return {bytes.data(), size}; }
   bool operator==(const CanFrame&) const = default;
 };
+
+/// "701#05", as candump has it. Not for the loop.
+[[nodiscard]] std::string to_text(const CanFrame& frame);
 
 inline constexpr std::uint32_t kMaxStandardId = 0x7FF, kMaxExtendedId = 0x1FFFFFFF;
 

@@ -1,5 +1,6 @@
 #include "drivers/can/socketcan.h"
 
+#include <fcntl.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
 #include <net/if.h>
@@ -7,7 +8,6 @@
 #include <sys/uio.h>
 #include <time.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>
@@ -47,10 +47,14 @@ void bind_to(int socket, int index, const std::string& interface) {
     refuse(interface, "bind", errno);
 }
 
+Duration since_epoch(const timespec& time) noexcept {
+  return std::chrono::seconds(time.tv_sec) + std::chrono::nanoseconds(time.tv_nsec);
+}
+
 /// What the kernel sends along with a frame.
 struct Ancillary {
   bool has_stamp = false;
-  timespec stamp{};  ///< CLOCK_REALTIME
+  Duration stamp{};  ///< CLOCK_REALTIME
   bool has_lost = false;
   std::uint32_t lost = 0;  ///< frames dropped by this socket since it was opened
 };
@@ -60,7 +64,9 @@ Ancillary read_ancillary(msghdr& message) noexcept {
   for (cmsghdr* item = CMSG_FIRSTHDR(&message); item != nullptr; item = CMSG_NXTHDR(&message, item)) {
     if (item->cmsg_level != SOL_SOCKET) continue;
     if (item->cmsg_type == SCM_TIMESTAMPNS) {
-      std::memcpy(&found.stamp, CMSG_DATA(item), sizeof found.stamp);
+      timespec stamp{};
+      std::memcpy(&stamp, CMSG_DATA(item), sizeof stamp);
+      found.stamp = since_epoch(stamp);
       found.has_stamp = true;
     } else if (item->cmsg_type == SO_RXQ_OVFL) {
       std::memcpy(&found.lost, CMSG_DATA(item), sizeof found.lost);
@@ -70,14 +76,10 @@ Ancillary read_ancillary(msghdr& message) noexcept {
   return found;
 }
 
-// The kernel stamps with the wall clock, which may be set at any moment: only the frame's age is taken from it, and
-// only as far as an age can be believed.
-Time on_control_timeline(const Ancillary& ancillary, Time now) noexcept {
+Duration wall_clock() noexcept {
   timespec wall{};
-  if (!ancillary.has_stamp || ::clock_gettime(CLOCK_REALTIME, &wall) != 0) return now;
-  const Duration waited = std::chrono::seconds(wall.tv_sec - ancillary.stamp.tv_sec) +
-                          std::chrono::nanoseconds(wall.tv_nsec - ancillary.stamp.tv_nsec);
-  return now - std::clamp<Duration>(waited, Duration{0}, std::chrono::seconds(1));
+  ::clock_gettime(CLOCK_REALTIME, &wall);  // cannot fail: a clock that every kernel has
+  return since_epoch(wall);
 }
 
 }  // namespace
@@ -101,7 +103,14 @@ wire::FileDescriptor open_can(const std::string& interface, std::span<const CanF
   return socket;
 }
 
-SocketCan::SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept : socket_(std::move(socket)), clock_(clock) {}
+SocketCan::SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept
+    : socket_(std::move(socket)), clock_(clock), arrivals_(clock.now()) {}
+
+wire::FileDescriptor SocketCan::second() const {
+  wire::FileDescriptor copy(::fcntl(socket_.get(), F_DUPFD_CLOEXEC, 0));
+  if (copy.get() < 0) refuse("CAN", "second use of its socket", errno);
+  return copy;
+}
 
 void SocketCan::listen(std::span<const CanFilter> filters) { set_filters(socket_.get(), filters, "CAN"); }
 
@@ -137,6 +146,7 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
     if (got < 0) {
       if (errno == EINTR) continue;
       if (errno == ENETDOWN || errno == ENODEV) health_.state = CanState::kDown;
+      if (errno == EAGAIN) arrivals_.note_empty(clock_.now(), wall_clock());
       return false;
     }
     const Ancillary ancillary = read_ancillary(message);
@@ -153,7 +163,8 @@ bool SocketCan::receive(ReceivedFrame& received) noexcept {
     // Frames come only from a link that is up and a controller that takes part.
     const bool was_off = health_.state == CanState::kDown || health_.state == CanState::kBusOff;
     if (was_off) health_.state = CanState::kActive;
-    received = {*frame, on_control_timeline(ancillary, clock_.now())};
+    const Time now = clock_.now();
+    received = {*frame, ancillary.has_stamp ? arrivals_.arrival(ancillary.stamp, wall_clock(), now) : now};
     return true;
   }
   return false;

@@ -2,6 +2,7 @@
 #include <span>
 #include <string>
 
+#include "drivers/can/arrival_clock.h"
 #include "drivers/can/can_bus.h"
 #include "drivers/can/kernel_frame.h"
 #include "drivers/wire/file_descriptor.h"
@@ -23,6 +24,10 @@ class SocketCan final : public CanBus {
   /// `socket` is open_can's; the clock, which outlives this, counts the control time line.
   SocketCan(wire::FileDescriptor socket, Clock& clock) noexcept;
 
+  /// The same kernel socket once more, for a second thread that only sends: to the kernel, and so to this, its frames
+  /// are own ones and do not come back. Start-up only; throws StartupError.
+  [[nodiscard]] wire::FileDescriptor second() const;
+
   /// Start-up only: hands out what passes these from now on. Throws StartupError.
   void listen(std::span<const CanFilter> filters);
 
@@ -35,6 +40,7 @@ class SocketCan final : public CanBus {
 
   wire::FileDescriptor socket_;
   Clock& clock_;
+  ArrivalClock arrivals_;
   CanHealth health_;
 };
 

@@ -1,7 +1,6 @@
 #include "drivers/canopen/foreign_frames.h"
 
 #include <cassert>
-#include <cstdio>
 
 namespace jaywalk::canopen {
 namespace {
@@ -37,13 +36,6 @@ Identifiers masters_identifiers(std::uint8_t controller_node, const std::array<s
   return ids;
 }
 
-std::string describe_foreign(const CanFrame& frame) {
-  char bytes[48];
-  int end = std::snprintf(bytes, sizeof bytes, "%03Xh:", static_cast<unsigned>(frame.id));
-  for (const std::uint8_t byte : frame.payload()) {
-    end += std::snprintf(bytes + end, sizeof bytes - static_cast<std::size_t>(end), " %02X", byte);
-  }
-  return kind_of(frame.id) + " (" + bytes + ")";
-}
+std::string describe_foreign(const CanFrame& frame) { return kind_of(frame.id) + " (" + to_text(frame) + ")"; }
 
 }  // namespace jaywalk::canopen

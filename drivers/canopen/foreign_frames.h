@@ -16,7 +16,7 @@ using Identifiers = FixedVector<std::uint32_t, 16>;
 [[nodiscard]] Identifiers masters_identifiers(std::uint8_t controller_node,
                                               const std::array<std::uint8_t, 2>& drives) noexcept;
 
-/// "heartbeat with the controller's node (701h: 05)". Not for the loop.
+/// "heartbeat with the controller's node (701#05)". Not for the loop.
 [[nodiscard]] std::string describe_foreign(const CanFrame& frame);
 
 }  // namespace jaywalk::canopen

@@ -11,6 +11,8 @@ namespace jaywalk {
 namespace {
 
 constexpr double kHalfTurnDeg = 180.0;  // a smaller step back is jitter, not a new turn
+/// A longer step than so many sectors, from a point to the next, means that points between them are missing.
+constexpr double kUsualStep = 1.5;
 
 }  // namespace
 
@@ -22,11 +24,21 @@ bool TurnBuilder::add(double angle_deg, float range_m, Time measured, LaserScan&
     sector_m_.fill(0.0F);
     began_ = measured;
   }
-  last_angle_deg_ = angle_deg;
   const double sector_deg = 360.0 / sectors_;
+  const bool as_usual = angle_deg - last_angle_deg_ < kUsualStep * sector_deg;
+  last_angle_deg_ = angle_deg;
   const auto sector = std::min(static_cast<std::size_t>(angle_deg / sector_deg), std::size_t{sectors_ - 1});
+  if (as_usual) fill_stepped_over(sector, range_m);
   put(range_m, sector_m_[sector]);
+  last_sector_ = sector;
+  last_range_m_ = range_m;
   return completed;
+}
+
+void TurnBuilder::fill_stepped_over(std::size_t sector, float range_m) noexcept {
+  const bool measured = range_m >= range_min_m_ && last_range_m_ >= range_min_m_;
+  if (sector != last_sector_ + 2 || sector_m_[sector - 1] != 0.0F || !measured) return;
+  put(std::min(range_m, last_range_m_), sector_m_[sector - 1]);
 }
 
 void TurnBuilder::put(float range_m, float& sector) const noexcept {

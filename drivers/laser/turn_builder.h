@@ -12,8 +12,9 @@ namespace jaywalk {
 ///
 /// Points lie at uneven angles; they are put into equal sectors, the nearest hit of a sector counts (as is right for
 /// what must not be hit). A sector without a hit is free where all its points found nothing within reach; one with a
-/// point that proves nothing, or with none at all (a lost packet), is unknown: it holds 0. The first turn, seen in
-/// part, is not handed out.
+/// point that proves nothing, or with none at all (a lost packet), is unknown: it holds 0. One that was only stepped
+/// over, by less than 1.5 sectors from point to point, holds the nearer of the two where both were measured. The first
+/// turn, seen in part, is not handed out.
 class TurnBuilder {
  public:
   static constexpr std::uint32_t kMostSectors = 512;
@@ -30,6 +31,7 @@ class TurnBuilder {
 
  private:
   void put(float range_m, float& sector) const noexcept;
+  void fill_stepped_over(std::size_t sector, float range_m) noexcept;
   void close_turn(Time end, LaserScan& scan) const noexcept;
 
   std::uint32_t sectors_;
@@ -37,6 +39,8 @@ class TurnBuilder {
   std::array<float, kMostSectors> sector_m_{};  ///< as in a scan, and NaN where a point proved nothing
   Time began_ = kNever;
   double last_angle_deg_ = 0.0;
+  std::size_t last_sector_ = 0;
+  float last_range_m_ = 0.0F;
 };
 
 }  // namespace jaywalk

@@ -57,6 +57,7 @@ ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goa
   setup.goal = goal.value_or(log.last_pose().value_or(setup.start).position());
   setup.goal_tolerance_m = kGoalTolerance_m;
   setup.wheels = log.last_pose().has_value();
+  setup.judges_motion = false;  // they obeyed another controller
   return setup;
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/commands/choice_option.h"
+#include "firmware/commands/commission_command.h"
 #include "firmware/commands/run_command.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
@@ -15,6 +16,7 @@ namespace jaywalk {
 namespace {
 
 RunOptions run_options;
+CommissionOptions commission_options;
 std::filesystem::path socket_path;
 std::vector<std::string> goal;
 bool now = false;
@@ -43,6 +45,8 @@ void add_run(CLI::App& app, int& exit_code) {
   add_backend(*run, run_options.backend);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
+                "Start although the kernel refuses real-time priority or locked memory");
   run->callback([&exit_code] { exit_code = run_robot(run_options); });
 }
 
@@ -53,11 +57,20 @@ void add_check(CLI::App& app, int& exit_code) {
   check->callback([&exit_code] { exit_code = check_robot(run_options); });
 }
 
+void add_commission(CLI::App& app, int& exit_code) {
+  CLI::App* commission = app.add_subcommand("commission", "Turn each wheel a little and check how all is wired");
+  commission->add_option("robot", commission_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  commission->add_option("--socket", commission_options.control_socket, "Control socket (default: the file's)");
+  commission->add_flag("--yes", commission_options.yes, "The wheels may turn: do not ask");
+  commission->callback([&exit_code] { exit_code = commission_robot(commission_options); });
+}
+
 }  // namespace
 
 void add_robot_commands(CLI::App& app, int& exit_code) {
   add_run(app, exit_code);
   add_check(app, exit_code);
+  add_commission(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
   go->add_option("goal", goal, "X,Y [HEADING] in the map (m, rad; any heading where none is given)")
       ->delimiter(',')

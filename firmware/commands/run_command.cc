@@ -18,6 +18,7 @@
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
+#include "firmware/setup/commissioned.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -71,7 +72,8 @@ class LoopReport {
  private:
   void tell(const RunStatus& now) const {
     if (now.latched && !last_.latched) {
-      const std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
       remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
     }
     if (!now.latched && last_.latched) remark("reset; say anew where to go");
@@ -103,9 +105,12 @@ std::filesystem::path socket_for(const RunOptions& options, const RobotFile& fil
 int run_robot(const RunOptions& options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
+  if (options.allow_no_realtime) file.realtime.required = false;
+  const std::string not_commissioned = require_commissioned(options.robot, file);
+  if (!not_commissioned.empty()) remark(not_commissioned);
   SteadyClock clock;
   RobotDevices devices(file, clock);
-  OperatorControls controls(file, clock, [&] { return restart_link(file.drive.can); });
+  OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();
   const ControlSocket socket(
       socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
@@ -119,17 +124,18 @@ int run_robot(const RunOptions& options) {
                     });
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
+  StallGuard guard(devices.brake(), clock, kLongestStall);
+  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard);
+  for (const std::string& line : loop.prepare(file.realtime)) not_permitted.push_back(line);
+  require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
   controls.start(order_priority(file.realtime));
   devices.start();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
 
   const EndSignals signals;
-  StallGuard guard(devices.brake(), clock, kLongestStall);
   guard.start(guard_priority(file.realtime));
-  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus()}, desk, clock, guard);
-  loop.start(file.realtime);
-  for (const std::string& line : loop.not_permitted()) not_permitted.push_back(line);
+  loop.start();
   for (const std::string& line : not_permitted) remark(line);
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
 
@@ -144,6 +150,7 @@ int run_robot(const RunOptions& options) {
                  .success = outcome(last) == "reached",
                  .heading_error_rad = at_goal(last),
                  .missed_ticks = last.missed_ticks,
+                 .loop_times = &loop.times(),
                  .scenario = options.robot.filename().string()});
   write_devices(options.out, last, not_permitted);
   RunPicture picture;
@@ -163,6 +170,8 @@ int check_robot(const RunOptions& options) {
   try {
     const RobotFile file = load_robot_file(options.robot);
     tell({"file", true, options.robot.string()});
+    const CommissioningRecord record = read_commissioned(options.robot, file);
+    tell({"commissioned", record.state != Commissioned::kFailed, record.said});
     SteadyClock clock;
     for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) tell(part);
   } catch (const StartupError& error) {

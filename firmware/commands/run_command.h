@@ -10,6 +10,7 @@ struct RunOptions {
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/run";
   std::filesystem::path control_socket;  ///< empty: the file's, else the default
+  bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
 };
 
 /// The controller on the robot, until SIGINT or SIGTERM: then it ramps to rest, disarms and writes its summary.

@@ -34,10 +34,10 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       far_end_(scenario, seed, file_, {&wires_.port(1), &wires_.port(2)}, std::move(wire), clock.now()),
       laser_(make_laser(file_, clock)),
       drive_(make_drive(file_.drive, bus_, clock)),
-      controls_(file_, clock, [] { return std::string(); }),
+      controls_(file_, *drive_, clock, [] { return std::string(); }),
       runner_(file_.setup, {*laser_, *drive_, controls_.panel(), no_fixes_, clock}, out, true, wrap),
       guard_(no_brake_, clock, std::chrono::seconds(1)),
-      loop_(runner_, {*drive_, *laser_, bus_}, controls_.desk(), clock, guard_) {
+      loop_(runner_, {*drive_, *laser_, bus_, controls_.resets()}, controls_.desk(), clock, guard_) {
   messages_.reserve(kMostMessages);
 }
 

@@ -67,7 +67,8 @@ CanHealth SimulatedRobot::bus_health() const noexcept {
 void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
   const Pose2 map_from_laser = truth().map_from_robot * laser_.robot_from_laser;
   for (std::size_t k = 0; k < range_m.size(); ++k) {
-    const double angle = scanner_->shape().angle_rad(first_beam + k);
+    const double looked = scanner_->shape().angle_rad(first_beam + k);
+    const double angle = world_.fault_active(sim::FaultKind::kScannerMirrored) ? -looked : looked;
     const Vec2 beam = direction(map_from_laser.heading + angle);
     double range = world_.walls().cast(map_from_laser.position(), beam, laser_.range_max_m);
     for (const sim::Disc& body : world_.movers_seen())

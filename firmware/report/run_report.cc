@@ -29,6 +29,15 @@ Json spread(const Distribution& of) {
   return {{"p50", of.quantile(0.5)}, {"p99", of.quantile(0.99)}, {"max", of.max()}};
 }
 
+/// Bins are doublings: upper edge and count.
+Json spread(const LogHistogram& of) {
+  return {{"p50", of.quantile(0.5)},
+          {"p99", of.quantile(0.99)},
+          {"p99.9", of.quantile(0.999)},
+          {"max", of.max()},
+          {"bins", of.doublings()}};
+}
+
 template <class T>
 Json known(bool is_known, const T& value) {
   return is_known ? Json(value) : Json(nullptr);
@@ -133,6 +142,11 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["not_recorded"] = all_complaints(complaints(), end.not_recorded);
   j["plan_ms"] = spread(plan_ms_);
   j["tick_ms"] = spread(tick_ms_);
+  const LoopTimes* const loop = end.loop_times;
+  j["wake_late_us"] = loop != nullptr ? spread(loop->wake_late_us) : Json(nullptr);
+  j["tick_us"] = loop != nullptr ? spread(loop->tick_us) : Json(nullptr);
+  j["page_faults"] =
+      loop != nullptr ? Json{{"minor", loop->minor_faults}, {"major", loop->major_faults}} : Json(nullptr);
   j["backend"] = end.backend;
   j["mode"] = end.mode;
   j["seed"] = known(end.seed);

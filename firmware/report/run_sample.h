@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "firmware/recording/tick_record.h"
+#include "firmware/report/loop_times.h"
 #include "hal/types/geometry.h"
 #include "hal/types/time.h"
 #include "planner/perception/track.h"
@@ -55,6 +56,7 @@ struct RunEnd {
   std::uint64_t missed_ticks = 0;
   std::uint64_t dropped_records = 0;
   std::vector<std::string> not_recorded = {};  ///< what the disk did not take beside the tables, a line each
+  const LoopTimes* loop_times = nullptr;       ///< of a robot's loop; null elsewhere
   std::string backend = {};
   std::string mode = {};
   std::optional<std::uint64_t> seed = {};

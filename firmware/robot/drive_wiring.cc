@@ -37,13 +37,14 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
   return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
 }
 
-/// What every stop is held against: the model's braking, at the wheels. Feedback lives two periods and a half, so that
-/// one late tick is no stop.
+/// What every stop is held against: the model's braking, at the wheels, and as much time as the loop's period makes of
+/// it, since the feedback that a tick reads was measured a period before. One late tick is no stop.
 StopLimits stop_limits(const RobotModel& model, Duration tick) {
   constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
   const double radius_m = model.drive.wheel_radius_m;
   StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
-  limits.fresh = std::max<Duration>(std::chrono::milliseconds(60), tick * 5 / 2);
+  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * tick);
+  limits.fresh = std::max<Duration>(limits.fresh, 5 * tick / 2);
   return limits;
 }
 
@@ -75,6 +76,7 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
   base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
+  base.stop = stop_limits(model, period);
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;

@@ -4,12 +4,15 @@
 
 namespace jaywalk {
 
-OperatorControls::OperatorControls(const RobotFile& file, Clock& clock, OperatorDesk::RestartBus restart_bus)
+OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock,
+                                   OperatorDesk::RestartBus restart_bus)
     : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus)),
       wiring_(file.panel) {
-  if (!wiring_) return;
-  watch_.emplace(clock, wiring_->joystick);
-  joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man);
+  if (wiring_) {
+    watch_.emplace(clock, wiring_->joystick);
+    joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man);
+  }
+  gate_.emplace(joystick_ ? static_cast<OperatorPanel&>(*joystick_) : desk_, drive);
 }
 
 void OperatorControls::start(int priority) {
@@ -21,11 +24,6 @@ void OperatorControls::start(int priority) {
 
 void OperatorControls::step() noexcept {
   if (watch_) watch_->step();
-}
-
-OperatorPanel& OperatorControls::panel() noexcept {
-  if (joystick_) return *joystick_;
-  return desk_;
 }
 
 void refuse_unrenewed(const panel::JoystickState& state, const PanelWiring& wiring) {

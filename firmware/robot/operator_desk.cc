@@ -47,6 +47,9 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   const RunStatus& status = statuses_.latest();
   if (closed_) return "refused: the run is ending\n";
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
+  if (status.latched && !status.proved && status.drive == DriveTrouble::kNone) {
+    return "refused: the drives are being proved again; try again in some seconds\n";
+  }
   if (status.latched) {
     return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
   }

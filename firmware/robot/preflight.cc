@@ -38,24 +38,28 @@ std::string check_clock() {
          std::string(realtime ? ", PREEMPT_RT" : ", no real-time kernel");
 }
 
-void refuse_first(const std::vector<std::string>& refused, const std::string& otherwise) {
-  if (!refused.empty()) throw StartupError(refused.front(), otherwise);
+/// What is said of a thing that may be wished for and not required.
+std::string judged(const RealtimeWishes& wishes, const std::vector<std::string>& refused, const std::string& well,
+                   const std::string& otherwise) {
+  if (refused.empty()) return well;
+  if (wishes.required) throw StartupError(refused.front(), otherwise);
+  return refused.front() + "; not required";
 }
 
 /// In a thread of its own: this one stays as it is.
 std::string check_realtime(const RealtimeWishes& wishes) {
   std::vector<std::string> refused;
   std::thread([&] { refused = enter_realtime(wishes); }).join();
-  refuse_first(refused, "or set [realtime] priority = 0");
-  return wishes.priority == 0 ? "an ordinary thread is asked for" : "SCHED_FIFO " + std::to_string(wishes.priority);
+  const std::string well =
+      wishes.priority == 0 ? "an ordinary thread is asked for" : "SCHED_FIFO " + std::to_string(wishes.priority);
+  return judged(wishes, refused, well, "or set [realtime] priority = 0, or required = false");
 }
 
 std::string check_memory(const RealtimeWishes& wishes) {
   if (!wishes.lock_memory) return "is not to be locked";
   const std::vector<std::string> refused = lock_memory();
   ::munlockall();
-  refuse_first(refused, "or set [realtime] lock_memory = false");
-  return "can be locked";
+  return judged(wishes, refused, "can be locked", "or set [realtime] lock_memory = false, or required = false");
 }
 
 std::string check_socket(const std::filesystem::path& path) {
@@ -116,6 +120,7 @@ class Inspection {
 };
 
 std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& clock) {
+  const BusLock lock(wiring.can);
   SocketCan bus(open_can(wiring.can, filters_for(wiring)), clock);
   return make_drive(wiring, bus, clock)->inspect(side);
 }

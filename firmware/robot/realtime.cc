@@ -4,10 +4,13 @@
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
+#include <sys/resource.h>
 
 #include <array>
 #include <cerrno>
 #include <cstring>
+
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
@@ -53,6 +56,17 @@ std::vector<std::string> enter_realtime(const RealtimeWishes& wishes) {
   }
   touch_stack();
   return refused;
+}
+
+void require_realtime(const RealtimeWishes& wishes, const std::vector<std::string>& not_permitted) {
+  if (!wishes.required || not_permitted.empty()) return;
+  throw StartupError(not_permitted.front(), "or start without it: --allow-no-realtime, or [realtime] required = false");
+}
+
+PageFaults page_faults() noexcept {
+  rusage used{};
+  if (::getrusage(RUSAGE_THREAD, &used) != 0) return {};
+  return {static_cast<std::uint64_t>(used.ru_minflt), static_cast<std::uint64_t>(used.ru_majflt)};
 }
 
 }  // namespace jaywalk

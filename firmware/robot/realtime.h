@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -10,6 +11,7 @@ struct RealtimeWishes {
   int priority = 80;  ///< of SCHED_FIFO, 1 to 98; 0: an ordinary thread
   bool lock_memory = true;
   std::optional<int> cpu = {};  ///< a processor of its own
+  bool required = true;         ///< a run does not start without what it asks for here
 };
 
 /// Who goes before whom where processors are few: the guard, the loop, then whoever takes in what the scanner sends.
@@ -29,5 +31,17 @@ std::vector<std::string> lock_memory();
 
 /// Asks the kernel for what the calling thread wishes, except memory, and touches its stack. The same answer.
 std::vector<std::string> enter_realtime(const RealtimeWishes& wishes);
+
+/// Throws StartupError for the first of what was not permitted, where it is required.
+void require_realtime(const RealtimeWishes& wishes, const std::vector<std::string>& not_permitted);
+
+/// Of the calling thread since it began: those that cost a look into memory's tables, and those that waited for a disk.
+struct PageFaults {
+  std::uint64_t minor = 0, major = 0;
+  [[nodiscard]] PageFaults since(const PageFaults& before) const noexcept {
+    return {minor - before.minor, major - before.major};
+  }
+};
+[[nodiscard]] PageFaults page_faults() noexcept;
 
 }  // namespace jaywalk

@@ -50,7 +50,11 @@ std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
   if (wiring.kind == DriveKind::kOdrive) return {CanFilter{}, CanFilter{.id = 0, .mask = 0, .remote = true}};
   if (wiring.kind == DriveKind::kVesc) return {CanFilter{.id = 0, .mask = 0, .extended = true}};
   std::vector<CanFilter> filters;
-  for (const canopen::AxisSetup& axis : wiring.cia402.axes) {
+  const auto& axes = wiring.cia402.axes;
+  const auto masters =
+      canopen::masters_identifiers(wiring.cia402.settings.controller_node, {axes[0].node, axes[1].node});
+  for (const std::uint32_t id : masters) filters.push_back({.id = id, .mask = kMaxStandardId, .extended = false});
+  for (const canopen::AxisSetup& axis : axes) {
     for (const std::uint32_t base : {0x080U, 0x180U, 0x280U, 0x580U, 0x700U}) {
       filters.push_back({.id = base + axis.node, .mask = kMaxStandardId, .extended = false});
     }
@@ -61,8 +65,9 @@ std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
 RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
+      lock_(file.drive.can),
       bus_(open_can(file.drive.can, {}), clock),
-      brake_bus_(open_can(file.drive.can, {}), clock),
+      brake_bus_(bus_.second(), clock),
       laser_(make_laser(file, clock)),
       drive_(make_drive(file.drive, bus_, clock)),
       brake_(make_brake(file.drive, brake_bus_)) {}

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "drivers/can/bus_lock.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/quick_stopper.h"
 #include "drivers/laser/scanner_connection.h"
@@ -14,7 +15,7 @@ namespace jaywalk {
 /// Everything on wires. The constructor opens the bus, deaf still; nothing moves before drive().arm().
 class RobotDevices {
  public:
-  /// `clock` outlives it. Throws StartupError.
+  /// `clock` outlives it. Throws StartupError; also where another process has the bus.
   RobotDevices(const RobotFile& file, Clock& clock);
 
   [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
@@ -30,8 +31,9 @@ class RobotDevices {
  private:
   const RobotFile& file_;
   Clock& clock_;
+  BusLock lock_;
   SocketCan bus_;
-  SocketCan brake_bus_;
+  SocketCan brake_bus_;  ///< the same kernel socket: what the guard sends is not another master's
   std::unique_ptr<ScannerConnection> laser_;
   std::unique_ptr<WiredDrive> drive_;
   std::unique_ptr<EmergencyBrake> brake_;
@@ -45,7 +47,7 @@ class RobotDevices {
 /// where it is not the scanner that the file describes.
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock);
 
-/// The frames that the drives send, and of CiA 402 drives no others.
+/// The frames that the drives send, and those that another master would. Of CiA 402 drives no others.
 [[nodiscard]] std::vector<CanFilter> filters_for(const DriveWiring& wiring);
 
 }  // namespace jaywalk

@@ -39,6 +39,7 @@ RealtimeWishes read_realtime(TomlTable table) {
   RealtimeWishes wishes;
   wishes.priority = static_cast<int>(table.integer("priority", {0, 98}, wishes.priority));
   wishes.lock_memory = table.boolean("lock_memory", wishes.lock_memory);
+  wishes.required = table.boolean("required", wishes.required);
   if (table.has("cpu")) wishes.cpu = static_cast<int>(table.integer("cpu", {0, 1023}));
   table.finish();
   return wishes;

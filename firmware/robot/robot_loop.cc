@@ -1,14 +1,18 @@
 #include "firmware/robot/robot_loop.h"
 
 #include <pthread.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace jaywalk {
 namespace {
 
 constexpr double kRest_mps = 0.01;
+/// What a wheel said before that tells no speed any more.
+constexpr Duration kSpeedKnown = std::chrono::milliseconds(500);
 constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = std::chrono::milliseconds(500);
 
 }  // namespace
@@ -19,12 +23,25 @@ RobotLoop::RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDes
 
 RobotLoop::~RobotLoop() {
   end();
+  Stage prepared = Stage::kPrepared;
+  stage_.compare_exchange_strong(prepared, Stage::kGivenUp);
+  stage_.notify_all();
   if (thread_.joinable()) thread_.join();
 }
 
-void RobotLoop::start(const RealtimeWishes& wishes) {
+std::vector<std::string> RobotLoop::prepare(const RealtimeWishes& wishes) {
+  sigset_t all, before;  // signals are for the threads that know what to do with them
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_SETMASK, &all, &before);
   thread_ = std::thread([this, wishes] { run(wishes); });
-  begun_.wait(false);
+  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  stage_.wait(Stage::kPreparing);
+  return not_permitted_;
+}
+
+void RobotLoop::start() noexcept {
+  stage_ = Stage::kStarted;
+  stage_.notify_all();
 }
 
 void RobotLoop::end() noexcept {
@@ -35,41 +52,59 @@ void RobotLoop::end() noexcept {
 void RobotLoop::run(const RealtimeWishes& wishes) {
   ::pthread_setname_np(::pthread_self(), "loop");
   not_permitted_ = enter_realtime(wishes);
-  begun_ = true;
-  begun_.notify_all();
+  stage_ = Stage::kPrepared;
+  stage_.notify_all();
+  stage_.wait(Stage::kPrepared);
+  if (stage_ == Stage::kStarted) live();
+  ended_ = true;
+}
+
+void RobotLoop::live() noexcept {
   Time due = clock_.now() + period_;
   std::optional<Time> asked_to_end;
   for (bool at_rest = false; !(asked_to_end && (at_rest || due - *asked_to_end > kLongestRamp)); due += period_) {
     due = next_due(due);
     tick(due);
     if (ending_ && !asked_to_end) asked_to_end = due;
-    at_rest = status_.speed_mps < kRest_mps && runner_.last().command.left_radps == 0.0 &&
+    at_rest = !(status_.speed_mps > kRest_mps) && runner_.last().command.left_radps == 0.0 &&
               runner_.last().command.right_radps == 0.0;
   }
   guard_.rest();
   disarm(due);
-  ended_ = true;
 }
 
 /// Sleeps until the next tick; where that is a period late or more, the ticks that were missed are left out.
 Time RobotLoop::next_due(Time due) noexcept {
   clock_.sleep_until(due);
-  const auto missed = std::max<std::int64_t>((clock_.now() - due) / period_, 0);
+  const Duration late = clock_.now() - due;
+  times_.wake_late_us.add(to_seconds(late) * 1e6);
+  const auto missed = std::max<std::int64_t>(late / period_, 0);
   status_.missed_ticks += static_cast<std::uint64_t>(missed);
   return due + missed * period_;
 }
 
 void RobotLoop::tick(Time due) noexcept {
-  guard_.beat(clock_.now());
+  const Time began = clock_.now();
+  guard_.beat(began);
   const TickRecord& t = runner_.tick_at(due);
-  const bool reset_edge = t.input.reset && !reset_before_;
-  reset_before_ = t.input.reset;
-  if (reset_edge && speed_mps(t.wheels) < kRest_mps) devices_.drive.reset();
+  devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kRest_mps);
   tell(t);
   trace(t);
+  note_times(began);
 }
 
-double RobotLoop::speed_mps(const WheelState& wheels) const noexcept {
+/// Faults of the first tick are its own: memory that was never touched.
+void RobotLoop::note_times(Time began) noexcept {
+  times_.tick_us.add(to_seconds(clock_.now() - began) * 1e6);
+  if (!faults_before_) faults_before_ = page_faults();
+  status_.page_faults = page_faults().since(*faults_before_);
+  status_.wake_late_max_us = times_.wake_late_us.max();
+  times_.minor_faults = status_.page_faults.minor;
+  times_.major_faults = status_.page_faults.major;
+}
+
+double RobotLoop::speed_mps(const WheelState& wheels, Time now) const noexcept {
+  if (wheels.sequence > 0 && age(wheels.stamp, now) > kSpeedKnown) return std::numeric_limits<double>::quiet_NaN();
   return std::max(std::fabs(wheels.left_radps), std::fabs(wheels.right_radps)) *
          runner_.setup().model.drive.wheel_radius_m;
 }
@@ -81,8 +116,10 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
-  status_.speed_mps = speed_mps(t.wheels);
+  status_.speed_mps = speed_mps(t.wheels, t.now);
   status_.enabled = devices_.drive.is_enabled();
+  status_.proved = devices_.drive.is_proved();
+  status_.foreign_frame = devices_.drive.foreign_frame();
   if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
   if (t.input.has_goal) {
     const bool stands = status_.speed_mps < kRest_mps;

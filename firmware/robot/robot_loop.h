@@ -9,8 +9,10 @@
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
 #include "firmware/commands/loop_runner.h"
+#include "firmware/report/loop_times.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
+#include "firmware/robot/reset_gate.h"
 #include "firmware/robot/ring.h"
 #include "firmware/robot/stall_guard.h"
 
@@ -30,6 +32,7 @@ struct LoopDevices {
   WiredDrive& drive;
   ScannerConnection& laser;
   const CanBus& bus;
+  ResetGate& resets;
 };
 
 /// A tick that comes a period late or more is missed: it is counted and never made up for. Nothing in this thread
@@ -38,13 +41,17 @@ class RobotLoop {
  public:
   using Traces = Ring<TickTrace, 128>;
 
-  /// All outlive it; the drives are armed.
+  /// All outlive it.
   RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard);
   ~RobotLoop();
   RobotLoop(const RobotLoop&) = delete;
   RobotLoop& operator=(const RobotLoop&) = delete;
 
-  void start(const RealtimeWishes& wishes);
+  /// Start-up only, before the drives are armed: starts the thread, which asks the kernel for what is wished and then
+  /// waits. Returns what was not permitted, a line each.
+  [[nodiscard]] std::vector<std::string> prepare(const RealtimeWishes& wishes);
+  /// The drives are armed: the prepared thread begins to tick.
+  void start() noexcept;
   /// Takes no more goals, ramps to rest, disarms the drives and ends the thread; the caller goes on taking traces until
   /// has_ended().
   void end() noexcept;
@@ -55,16 +62,20 @@ class RobotLoop {
   void tick(Time due) noexcept;
 
   [[nodiscard]] Traces& traces() noexcept { return traces_; }
-  /// What the kernel did not permit the loop's thread, once it runs.
-  [[nodiscard]] const std::vector<std::string>& not_permitted() const { return not_permitted_; }
+  /// After has_ended().
+  [[nodiscard]] const LoopTimes& times() const noexcept { return times_; }
 
  private:
+  enum class Stage : std::uint8_t { kPreparing, kPrepared, kStarted, kGivenUp };
   void run(const RealtimeWishes& wishes);
+  void live() noexcept;
+  void note_times(Time began) noexcept;
   [[nodiscard]] Time next_due(Time due) noexcept;
   void tell(const TickRecord& t) noexcept;
   void trace(const TickRecord& t) noexcept;
   void disarm(Time due) noexcept;
-  [[nodiscard]] double speed_mps(const WheelState& wheels) const noexcept;
+  /// Of the faster wheel; NaN where its feedback is too old to tell.
+  [[nodiscard]] double speed_mps(const WheelState& wheels, Time now) const noexcept;
 
   LoopRunner& runner_;
   LoopDevices devices_;
@@ -75,9 +86,11 @@ class RobotLoop {
   RunStatus status_;
   Traces traces_;
   std::uint32_t plan_traced_ = 0;
-  bool reset_before_ = false;
+  LoopTimes times_;
+  std::optional<PageFaults> faults_before_;  ///< of this thread, at its first tick
   std::vector<std::string> not_permitted_;
-  std::atomic<bool> begun_{false}, ending_{false}, ended_{false};
+  std::atomic<Stage> stage_{Stage::kPreparing};
+  std::atomic<bool> ending_{false}, ended_{false};
   std::thread thread_;
 };
 

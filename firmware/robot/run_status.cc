@@ -24,13 +24,17 @@ std::string describe(const RunStatus& status) {
   if (status.has_goal && !std::isnan(status.goal_heading_rad)) out << ' ' << status.goal_heading_rad;
   out << "\nreasons: " << to_string(status.reasons) << "\nplan: " << name_of(status.plan)
       << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
+      << "\ndrives_proved: " << (status.proved ? "yes" : "no")
+      << "\nforeign_frame: " << (status.foreign_frame ? to_text(*status.foreign_frame) : "")
       << "\nlaser: " << name(status.laser.trouble) << "\nlaser_last_trouble: " << name(status.laser.last_trouble)
       << "\nlaser_scans: " << status.laser.scans << "\nlaser_malformed: " << status.laser.malformed
       << "\nlaser_lost: " << status.laser.protocol.lost << "\nlaser_warned: " << status.laser.protocol.warned
       << "\nlaser_connections: " << status.laser.connections << "\nbus: " << name(status.bus.state)
       << "\nbus_error_frames: " << status.bus.error_frames << "\nbus_lost: " << status.bus.frames_lost
       << "\nbus_malformed: " << status.bus.malformed << "\nticks: " << status.ticks
-      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls << '\n';
+      << "\nmissed_ticks: " << status.missed_ticks << "\nstalls: " << status.stalls
+      << "\nwake_late_max_us: " << status.wake_late_max_us << "\npage_faults: " << status.page_faults.minor
+      << " minor, " << status.page_faults.major << " major" << '\n';
   return out.str();
 }
 

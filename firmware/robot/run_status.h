@@ -1,9 +1,11 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/wheels.h"
@@ -15,8 +17,10 @@ namespace jaywalk {
 struct RunStatus {
   bool running = false;  ///< the loop has begun
   Pose2 map_from_robot;
-  double speed_mps = 0.0;  ///< felt at the wheels; of the faster one
+  double speed_mps = 0.0;  ///< felt at the wheels; of the faster one; NaN where they were not heard lately
   bool enabled = false;
+  bool proved = true;                     ///< the drives passed their whole proof since their last trouble
+  std::optional<CanFrame> foreign_frame;  ///< of another master, while that is the trouble
   bool has_goal = false;
   bool turns_at_goal = false;  ///< has come to the goal and turns to the heading wanted there
   bool goal_reached = false;   ///< the last one that there was
@@ -33,6 +37,8 @@ struct RunStatus {
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;
   std::uint64_t stalls = 0;
+  double wake_late_max_us = 0.0;
+  PageFaults page_faults;  ///< of the loop's thread since its first tick
 };
 
 /// Lines of "word: value" for a person and for scripts. Not for the loop.

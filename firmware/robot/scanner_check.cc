@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "firmware/robot/robot_devices.h"
+#include "firmware/safety/sight_loss.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/types/errors.h"
 
@@ -48,6 +49,19 @@ void require_free_body(const std::string& said, const LaserScan& scan, const Rob
                          sectors_on_body(zone, scan));
 }
 
+/// Throws where the loop would take the sight for lost by and by.
+void require_sight(const std::string& said, const LaserScan& scan, const RobotModel& model) {
+  BlindGaps gaps(model.laser);
+  gaps.update(scan);
+  const BeamCounts& counts = gaps.counts();
+  SightLoss sight;
+  const bool at_once = sight.is_lost(counts, Time{}), in_time = sight.is_lost(counts, Time{std::chrono::minutes(1)});
+  if (!at_once && !in_time) return;
+  throw StartupError(said + ", " + std::to_string(counts.lost) + " of the beams measured nothing, " +
+                         std::to_string(counts.lost_ahead) + " of them ahead",
+                     "clean its window, take away what covers it, or shade it");
+}
+
 }  // namespace
 
 std::string check_scanner(const RobotFile& file, Clock& clock) {
@@ -63,6 +77,7 @@ std::string check_scanner(const RobotFile& file, Clock& clock) {
                 rate_hz);
   const std::string said = laser->name() + figures;
   require_free_body(said, scan, file.setup.model);
+  require_sight(said, scan, file.setup.model);
   require_rate(said, rate_hz, file.setup.model.laser.rate_hz);
   return said;
 }

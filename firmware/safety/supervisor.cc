@@ -51,6 +51,8 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       gaps_(config.model.laser),
       scan_timing_(config.model.laser.rate_hz),
       frozen_scan_(config.model.drive),
+      felt_motion_(config.model.drive, config.model.limits.brake_mps2),
+      seen_motion_(config.model),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}
 
 bool Supervisor::takes_wishes() const noexcept {
@@ -73,6 +75,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
   Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
+  if (config_.judges_motion) reasons |= motion_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
@@ -98,6 +101,13 @@ Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexce
   return reasons;
 }
 
+Reason Supervisor::motion_faults(const SafetyInput& input) noexcept {
+  Reason reasons = Reason::kNone;
+  if (felt_motion_.disobeys(input.sent, input.wheels, input.now)) reasons |= Reason::kWheelsDisobey;
+  if (seen_motion_.contradicts(input.scan, input.wheels, input.now)) reasons |= Reason::kMotionMismatch;
+  return reasons;
+}
+
 int Supervisor::missed_in_a_row(Time now) noexcept {
   const Duration late = judged_ == kNever ? Duration{0} : now - judged_ - config_.tick / 2;
   judged_ = now;
@@ -108,7 +118,8 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
 
 void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
   constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
-                             Reason::kStopUnconfirmed | Reason::kForeignMaster;
+                             Reason::kStopUnconfirmed | Reason::kForeignMaster | Reason::kWheelsDisobey |
+                             Reason::kMotionMismatch;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;

@@ -1,9 +1,11 @@
 #pragma once
 #include "firmware/safety/blind_gaps.h"
+#include "firmware/safety/felt_motion.h"
 #include "firmware/safety/frozen_scan.h"
 #include "firmware/safety/modes.h"
 #include "firmware/safety/reaction.h"
 #include "firmware/safety/scan_timing.h"
+#include "firmware/safety/seen_motion.h"
 #include "firmware/safety/sight_loss.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/verdict.h"
@@ -22,8 +24,9 @@ struct SupervisorConfig {
   Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
   double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
   Duration tick = std::chrono::milliseconds(20);
-  bool needs_wheels = true;  ///< false only where a recording has none
-  bool latches_all = false;  ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
+  bool needs_wheels = true;    ///< false only where a recording has none
+  bool judges_motion = false;  ///< commanded against felt against seen: where wheels obey what is commanded here
+  bool latches_all = false;    ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
 };
 
 /// What the supervisor looks at; nothing of it comes from the planner but a stamp.
@@ -35,6 +38,7 @@ struct SafetyInput {
   Time now = kNever;
   MeasuredLatency latency{};
   bool at_goal = false;  ///< only the heading is left to be reached
+  WheelCommand sent{};   ///< what the drive was sent in the tick before
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
@@ -55,6 +59,7 @@ class Supervisor {
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
+  [[nodiscard]] Reason motion_faults(const SafetyInput& input) noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
@@ -72,6 +77,8 @@ class Supervisor {
   ScanTiming scan_timing_;
   SightLoss sight_loss_;
   FrozenScan frozen_scan_;
+  FeltMotion felt_motion_;
+  SeenMotion seen_motion_;
   Twist2 permitted_;         ///< last tick's
   bool lost_ahead_ = false;  ///< what lost beams could hide held it up, last tick
   int missed_ = 0;

@@ -5,7 +5,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::size_t kLeastBeams = 3;  // two are no scanner
 constexpr Duration kMostAhead = std::chrono::milliseconds(100);
 
 bool has_directions(const LaserScan& scan) {

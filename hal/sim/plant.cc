@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 namespace jaywalk::sim {
 
@@ -16,8 +17,8 @@ Plant::Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, co
 
 void Plant::command(const WheelCommand& command, Time now) noexcept {
   if (!std::isfinite(command.left_radps) || !std::isfinite(command.right_radps)) return;
-  left_.wanted = std::clamp(command.left_radps, -max_speed_, max_speed_);
-  right_.wanted = std::clamp(command.right_radps, -max_speed_, max_speed_);
+  left_.wanted = wiring_.left_motor * std::clamp(command.left_radps, -max_speed_, max_speed_);
+  right_.wanted = wiring_.right_motor * std::clamp(command.right_radps, -max_speed_, max_speed_);
   commanded_ = now;
 }
 
@@ -36,8 +37,11 @@ double Plant::turn(Wheel& wheel, double step_s, bool alive) const noexcept {
 /// along the heading that the robot has half way through it.
 void Plant::step(double step_s, Time now) noexcept {
   const bool alive = age(commanded_, now) <= kDriveWatchdog;
-  const double left = turn(left_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - left_.slip) * left_grip_;
-  const double right = turn(right_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - right_.slip);
+  if (wiring_.left_stuck) left_.speed = left_.wanted = 0.0;
+  double left = turn(left_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - left_.slip) * left_grip_;
+  double right = turn(right_, step_s, alive) * radius_m_ * (1.0 - slip_.mean - right_.slip) * right_grip_;
+  left *= wiring_.left_ground;
+  if (wiring_.swapped) std::swap(left, right);
   const double forward = 0.5 * (left + right), turned = (right - left) / track_m_;
   twist_ = {forward / step_s, turned / step_s};
   const Vec2 moved = direction(map_from_robot_.heading + 0.5 * turned) * forward;

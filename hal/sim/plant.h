@@ -22,6 +22,15 @@ inline constexpr double kTicksPerTurn = 76600.0;
 /// Without a command for this long the drive stops itself.
 inline constexpr Duration kDriveWatchdog{100'000'000};
 
+/// How motors, encoders and wheels are connected; the default is right.
+struct Miswiring {
+  double left_motor = 1.0;   ///< -1: turns the other way than commanded, and its encoder says so
+  double right_motor = 1.0;  ///< likewise
+  double left_ground = 1.0;  ///< -1: motor and encoder both the other way round
+  bool swapped = false;      ///< the left drive turns the right wheel, and the right one the left
+  bool left_stuck = false;   ///< its motor does not turn
+};
+
 /// A differential drive: two motors with lag, saturation and bounded acceleration, wheels that slip a little, encoders
 /// that count whole ticks of the wheels' turning. Equations in plant.cc.
 class Plant {
@@ -34,7 +43,9 @@ class Plant {
   void step(double step_s, Time now) noexcept;
   /// Draws new slip; `step_s` since the last time.
   void change_slip(double step_s) noexcept;
-  void lose_left_grip(bool lost) noexcept { left_grip_ = lost ? kLostGrip : 1.0; }
+  /// What share of its turning each wheel moves the robot by.
+  void grip(double left, double right) noexcept { left_grip_ = left, right_grip_ = right; }
+  void connect(const Miswiring& wiring) noexcept { wiring_ = wiring; }
   /// Something solid is in the way: body and wheels stand, the body at `pose`.
   void stop_at(const Pose2& pose) noexcept;
   /// Reads the encoders: whole ticks as angles, and speeds from the ticks counted since the last reading.
@@ -60,7 +71,8 @@ class Plant {
   Pose2 map_from_robot_;
   Twist2 twist_;
   Wheel left_, right_;
-  double left_grip_ = 1.0;
+  double left_grip_ = 1.0, right_grip_ = 1.0;
+  Miswiring wiring_;
   Time commanded_ = kNever;
   WheelState reading_;
   Random random_;

@@ -41,7 +41,14 @@ enum class FaultKind {
   kBeamsLost,
   kWheelsStale,
   kWheelSlip,
-  kEmergencyStop
+  kEmergencyStop,
+  kNoGrip,              ///< both wheels turn, the robot stands
+  kBothMotorsReversed,  ///< the encoders tell the truth
+  kLeftMotorReversed,   ///< likewise
+  kLeftWheelReversed,   ///< motor and encoder: the feedback obeys
+  kWheelsSwapped,       ///< drives, motors and encoders: left is right
+  kLeftWheelStuck,
+  kScannerMirrored  ///< upside down, or its sense of rotation taken the wrong way round
 };
 
 struct FaultSpec {

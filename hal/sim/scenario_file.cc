@@ -111,14 +111,23 @@ void read_movers(TomlTable& table, Scenario& scenario) {
 }
 
 FaultSpec read_fault(TomlTable& table) {
-  constexpr std::array<std::pair<const char*, FaultKind>, 8> kKinds{{{"scan_stale", FaultKind::kScanStale},
-                                                                     {"scan_nan", FaultKind::kScanNan},
-                                                                     {"scan_short", FaultKind::kScanShort},
-                                                                     {"scan_frozen", FaultKind::kScanFrozen},
-                                                                     {"beams_lost", FaultKind::kBeamsLost},
-                                                                     {"wheels_stale", FaultKind::kWheelsStale},
-                                                                     {"wheel_slip", FaultKind::kWheelSlip},
-                                                                     {"emergency_stop", FaultKind::kEmergencyStop}}};
+  constexpr std::array<std::pair<const char*, FaultKind>, 15> kKinds{{
+      {"scan_stale", FaultKind::kScanStale},
+      {"scan_nan", FaultKind::kScanNan},
+      {"scan_short", FaultKind::kScanShort},
+      {"scan_frozen", FaultKind::kScanFrozen},
+      {"beams_lost", FaultKind::kBeamsLost},
+      {"wheels_stale", FaultKind::kWheelsStale},
+      {"wheel_slip", FaultKind::kWheelSlip},
+      {"emergency_stop", FaultKind::kEmergencyStop},
+      {"no_grip", FaultKind::kNoGrip},
+      {"both_motors_reversed", FaultKind::kBothMotorsReversed},
+      {"left_motor_reversed", FaultKind::kLeftMotorReversed},
+      {"left_wheel_reversed", FaultKind::kLeftWheelReversed},
+      {"wheels_swapped", FaultKind::kWheelsSwapped},
+      {"left_wheel_stuck", FaultKind::kLeftWheelStuck},
+      {"scanner_mirrored", FaultKind::kScannerMirrored},
+  }};
   FaultSpec spec;
   spec.at_s = table.number("at_s", kSeconds);
   spec.for_s = table.number("for_s", kSeconds);

@@ -1,5 +1,6 @@
 #include "hal/sim/sensors.h"
 
+#include <algorithm>
 #include <limits>
 
 namespace jaywalk::sim {
@@ -74,6 +75,8 @@ void Sensors::spoil(const World& world) noexcept {
   for (const FaultSpec& fault : world.faults()) {
     if (fault.kind == FaultKind::kBeamsLost && fault.active(to_seconds(world.now()))) lose(fault.lost, scan_);
   }
+  if (world.fault_active(FaultKind::kScannerMirrored))
+    std::reverse(scan_.range_m.begin(), scan_.range_m.begin() + scan_.beam_count);
 }
 
 void Sensors::locate(const Truth& truth) noexcept {

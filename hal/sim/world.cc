@@ -129,10 +129,23 @@ void World::judge_gaps() noexcept {
   truth_.mover_clearance_m = to_mover;
 }
 
+void World::connect_plant() noexcept {
+  if (faults_.empty()) return;
+  const auto sign = [this](FaultKind reversed) { return fault_active(reversed) ? -1.0 : 1.0; };
+  const double both = sign(FaultKind::kBothMotorsReversed);
+  const double grip = fault_active(FaultKind::kNoGrip) ? 0.0 : 1.0;
+  plant_.grip(fault_active(FaultKind::kWheelSlip) ? grip * kLostGrip : grip, grip);
+  plant_.connect({.left_motor = both * sign(FaultKind::kLeftMotorReversed),
+                  .right_motor = both,
+                  .left_ground = sign(FaultKind::kLeftWheelReversed),
+                  .swapped = fault_active(FaultKind::kWheelsSwapped),
+                  .left_stuck = fault_active(FaultKind::kLeftWheelStuck)});
+}
+
 void World::step() noexcept {
   truth_.now += kWorldStep;
   const Pose2 before = plant_.map_from_robot();
-  plant_.lose_left_grip(fault_active(FaultKind::kWheelSlip));
+  connect_plant();
   plant_.step(to_seconds(kWorldStep), truth_.now);
   keep_out_of_solids(before);
   if (++steps_ % kStepsAMove == 0) {

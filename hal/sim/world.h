@@ -40,6 +40,7 @@ class World {
  private:
   [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }
   [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept;
+  void connect_plant() noexcept;
   void keep_out_of_solids(const Pose2& before) noexcept;
   void move_movers() noexcept;
   void see_movers() noexcept;

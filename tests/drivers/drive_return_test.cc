@@ -194,14 +194,14 @@ TEST_CASE("with any of a master's frames on the bus the drives are not armed, an
     const char* named;
   };
   const std::array<Said, 7> cases{
-      {{frame(0x701, {5}), "heartbeat of node 1 (701h: 05)"},
-       {frame(0x000, {1, 0}), "NMT command (000h: 01 00)"},
-       {frame(0x080, {}), "SYNC (080h:)"},
-       {frame(0x206, {0x0F, 0, 1, 0, 0, 0}), "process data to node 6 (206h: 0F 00 01 00 00 00)"},
-       {frame(0x505, {0}), "process data to node 5 (505h: 00)"},
-       {frame(0x605, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}), "SDO request to node 5 (605h: 40 41 60 00 00 00 00 00)"},
+      {{frame(0x701, {5}), "heartbeat of node 1 (701#05)"},
+       {frame(0x000, {1, 0}), "NMT command (000#0100)"},
+       {frame(0x080, {}), "SYNC (080#)"},
+       {frame(0x206, {0x0F, 0, 1, 0, 0, 0}), "process data to node 6 (206#0F0001000000)"},
+       {frame(0x505, {0}), "process data to node 5 (505#00)"},
+       {frame(0x605, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}), "SDO request to node 5 (605#4041600000000000)"},
        {frame(0x586, {0x4B, 0x41, 0x60, 0, 0, 0, 0, 0}),
-        "SDO answer that was not asked for, of node 6 (586h: 4B 41 60 00 00 00 00 00)"}}};
+        "SDO answer that was not asked for, of node 6 (586#4B41600000000000)"}}};
   for (const Said& said : cases) {
     Bench bench;
     bool spoke = false;

@@ -36,7 +36,8 @@ struct KernelBench {
   KernelBench() { clock.nodes = {&left, &right}; }
   static DriveBaseSetup patient() {
     DriveBaseSetup setup = tests::two_axes();
-    setup.silence_limit = setup.stop.fresh = std::chrono::seconds(2);  // frames have real ages here, and this machine may be busy
+    setup.silence_limit = setup.stop.fresh =
+        std::chrono::seconds(2);  // frames have real ages here, and this machine may be busy
     return setup;
   }
   void drive(double speed_radps, int ticks) {
@@ -100,6 +101,35 @@ TEST_CASE("a thousand frames cross the kernel's virtual bus in order, filtered a
   CHECK(arrived == 1000);
   CHECK(receiver.health().frames_lost == 0);
   CHECK(receiver.health().malformed == 0);
+}
+
+TEST_CASE("what a second user of a socket sends reaches the bus and not the socket itself") {
+  if (is_missing()) return;
+  tests::HandClock clock;
+  SocketCan bus = place_on_bus(clock), other = place_on_bus(clock);
+  SocketCan second(bus.second(), clock);
+  CanFrame frame;
+  frame.id = 0x205;
+  REQUIRE(second.send(frame) == SendResult::kQueued);
+  ReceivedFrame received;
+  CHECK(other.receive(received));
+  CHECK_FALSE(bus.receive(received));
+  REQUIRE(other.send(frame) == SendResult::kQueued);
+  CHECK(bus.receive(received));  // another program's
+}
+
+TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the controller's socket is none") {
+  if (is_missing()) return;
+  KernelBench bench;
+  bench.bring_to_two_radps();
+  SocketCan second(bench.controller.second(), bench.clock), stranger = place_on_bus(bench.clock);
+  REQUIRE(second.send(sync_frame()) == SendResult::kQueued);
+  bench.drive(2.0, 10);
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
+  REQUIRE(stranger.send(heartbeat_frame(1, NmtState::kOperational)) == SendResult::kQueued);
+  bench.drive(2.0, 12);
+  CHECK(bench.base.trouble() == DriveTrouble::kForeignMaster);
+  bench.check_stopped_until_reset();
 }
 
 TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lost frame or the heap") {

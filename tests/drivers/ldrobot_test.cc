@@ -1,8 +1,12 @@
+#include <cmath>
+#include <limits>
 #include <memory>
+#include <tuple>
 #include <vector>
 
 #include "drivers/laser/ld_packet.h"
 #include "drivers/laser/ld_sweep.h"
+#include "drivers/laser/turn_builder.h"
 #include "hal/types/trig.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"
@@ -145,6 +149,53 @@ TEST_CASE("a sector is free only where every point of it found nothing in reach,
   for (const std::size_t beam : {1U, 2U, 7U, 8U}) CHECK(scan->state(beam) == BeamState::kUnknown);
   for (const std::size_t beam : {3U, 4U, 5U, 6U}) CHECK(scan->range_m[beam] == Approx(3.0F));
   for (std::size_t beam = 12; beam < 430; ++beam) REQUIRE(scan->state(beam) == BeamState::kUnknown);  // no point at all
+}
+
+TEST_CASE("sectors that a scanner only steps over, as it turns a tenth too fast or not evenly, are not lost") {
+  auto scan = std::make_unique<LaserScan>();
+  for (const double turns_per_second : {9.9, 10.0, 10.05, 10.1, 10.5, 11.0}) {
+    SweepBuilder builder;
+    const double step_deg = 360.0 * turns_per_second / 4500.0;
+    int scans = 0;
+    for (int k = 0; k < 40 * 20; ++k) {
+      const double first_deg = std::fmod(12.0 * step_deg * k, 360.0);
+      Packet packet = packet_at(first_deg, 2000);
+      packet.speed_degps = static_cast<std::uint16_t>(360.0 * turns_per_second);
+      packet.last_angle_cdeg = static_cast<std::uint16_t>(std::fmod(first_deg + 11.0 * step_deg, 360.0) * 100.0);
+      if (!builder.add(packet, time_from_seconds(12.0 * k / 4500.0), *scan)) continue;
+      ++scans;
+      INFO(turns_per_second);
+      // Only where a turn begins and ends is the sector beside a point not known to have been stepped over.
+      for (std::size_t beam = 1; beam < 449; ++beam) REQUIRE(scan->range_m[beam] == Approx(2.0F));
+    }
+    CHECK(scans >= 18);
+  }
+}
+
+TEST_CASE("a sector that was stepped over takes the nearer of its neighbours, and nothing where one is unknown") {
+  TurnBuilder turn(450, 0.02F, 12.0F);
+  auto scan = std::make_unique<LaserScan>();
+  const auto point = [&](double in_sectors, float range_m) {
+    return turn.add(in_sectors * 0.8, range_m, Time{1s}, *scan);
+  };
+  const float infinite = std::numeric_limits<float>::infinity();
+  CHECK_FALSE(point(449.5, 0.0F));
+  for (const auto& [beside, before_m, after_m] : {std::tuple{10, 3.0F, 2.0F},
+                                                 {20, 2.0F, infinite},
+                                                 {30, infinite, infinite},
+                                                 {40, 2.0F, 0.0F},
+                                                 {50, 0.0F, infinite}}) {
+    CHECK_FALSE(point(beside + 0.9, before_m));
+    CHECK_FALSE(point(beside + 2.2, after_m));
+  }
+  CHECK_FALSE(point(60.5, 2.0F));
+  CHECK_FALSE(point(62.5, 2.0F));  // too long a step: one is missing between
+  CHECK_FALSE(point(449.5, 0.0F));
+  REQUIRE(point(0.5, 0.0F));
+  CHECK(scan->range_m[11] == 2.0F);
+  CHECK(scan->range_m[21] == 2.0F);
+  CHECK(scan->state(31) == BeamState::kFree);
+  for (const std::size_t beam : {41U, 51U, 61U}) CHECK(scan->state(beam) == BeamState::kUnknown);
 }
 
 TEST_CASE("any bytes make packets within their limits and scans of them") {

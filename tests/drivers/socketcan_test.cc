@@ -6,6 +6,7 @@
 #include <array>
 #include <string>
 
+#include "drivers/can/bus_lock.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"
@@ -13,6 +14,7 @@
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
+using namespace std::chrono_literals;
 
 namespace {
 
@@ -130,6 +132,48 @@ TEST_CASE("the socket hands out frames and keeps errors to itself") {
   CHECK_FALSE(bus.receive(received));
   CHECK(bus.health().state == CanState::kBusOff);
   CHECK(bus.health().bus_off_count == 1);
+}
+
+TEST_CASE("a frame's age is what the wall clock says it waited, no longer than the socket may have held it") {
+  const Duration wall = 1'000'000s;
+  ArrivalClock arrivals(Time{100s});
+  arrivals.note_empty(Time{100s}, wall);
+  // 20 ms later; it waited 5 ms, 12 ms, and cannot have waited 50.
+  const Time now = Time{100s + 20ms};
+  CHECK(arrivals.arrival(wall + 15ms, wall + 20ms, now) == Time{100s + 15ms});
+  CHECK(arrivals.arrival(wall + 8ms, wall + 20ms, now) == Time{100s + 8ms});
+  CHECK(arrivals.arrival(wall - 30ms, wall + 20ms, now) == Time{100s});
+  CHECK(arrivals.arrival(wall + 25ms, wall + 20ms, now) == now);  // a stamp ahead of the clock
+}
+
+TEST_CASE("a wall clock that is set under way makes feedback neither fresh nor older than a reading of the socket") {
+  const Duration wall = 1'000'000s;
+  for (const Duration step : {Duration(-3600s), Duration(-100ms), Duration(100ms), Duration(3600s)}) {
+    ArrivalClock arrivals(Time{100s});
+    arrivals.note_empty(Time{100s}, wall);
+    // Stamped before the clock was set, and after; the loop reads it 20 ms after it last found nothing.
+    CHECK(arrivals.arrival(wall + 15ms, wall + step + 20ms, Time{100s + 20ms}) == Time{100s});
+    CHECK(arrivals.arrival(wall + step + 19ms, wall + step + 20ms, Time{100s + 20ms}) == Time{100s});
+    // A loop that was held up for 0.5 s does not take what waited for fresh.
+    CHECK(arrivals.arrival(wall + 15ms, wall + step + 500ms, Time{100s + 500ms}) == Time{100s});
+    arrivals.note_empty(Time{100s + 20ms}, wall + step + 20ms);  // and from there on ages are right again
+    CHECK(arrivals.arrival(wall + step + 35ms, wall + step + 40ms, Time{100s + 40ms}) == Time{100s + 35ms});
+  }
+}
+
+TEST_CASE("one program at a time has an interface's drives, and another interface is another's") {
+  {
+    const BusLock lock("nocan7");
+    const BusLock other("nocan8");
+    std::string said;
+    try {
+      const BusLock second("nocan7");
+    } catch (const StartupError& error) {
+      said = error.what();
+    }
+    CHECK(said.starts_with("nocan7: another program of jaywalk has the drives on this bus; end it first"));
+  }
+  CHECK_NOTHROW(BusLock("nocan7"));  // it ended
 }
 
 TEST_CASE("a send that finds no room says so at once") {

@@ -91,6 +91,14 @@ TEST_CASE("drives brake at least as hard as the stop zone reckons") {
   REQUIRE(robot.setup.model.limits.brake_mps2 == 1.0);
   CHECK(robot.drive.cia402.settings.quick_stop == 187558);
   CHECK(robot.drive.cia402.settings.deceleration == 187558);
+  // 1 m/s2 and 0.05 m/s at a wheel of 0.0975 m; 50 Hz.
+  CHECK(robot.drive.cia402.stop.brake_radps2 == Approx(10.2564));
+  CHECK(robot.drive.cia402.stop.tolerance_radps == Approx(0.51282));
+  CHECK(robot.drive.cia402.stop.response == std::chrono::milliseconds(60));
+  CHECK(robot.drive.cia402.stop.fresh == std::chrono::milliseconds(60));
+  const StopLimits slow = load("rate_hz = 20.0\n" + std::string(kGood)).drive.cia402.stop;
+  CHECK(slow.response == std::chrono::milliseconds(120));
+  CHECK(slow.fresh == std::chrono::milliseconds(125));
 }
 
 TEST_CASE("every kind of scanner and drive has its own keys") {

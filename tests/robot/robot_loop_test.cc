@@ -3,6 +3,8 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "firmware/far_end/in_process_robot.h"
 #include "firmware/far_end/living_clock.h"
@@ -27,6 +29,20 @@ std::unique_ptr<Planner> in_thread(std::unique_ptr<Planner> planner) {
 
 }  // namespace
 
+TEST_CASE("a loop that is prepared and never started lives through no tick") {
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("jaywalk_given_up_" + std::to_string(::getpid()));
+  {
+    rig::HandLivingClock clock;
+    rig::InProcessRobot robot(wiring(), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
+                              folder);
+    CHECK(robot.loop().prepare({.priority = 0}).empty());
+    CHECK_FALSE(robot.loop().has_ended());
+    CHECK(robot.loop().traces().front() == nullptr);
+  }
+  std::filesystem::remove_all(folder);
+}
+
 // In real time, with every thread that a run has. Nothing here depends on this machine's being in time: a tick that is
 // missed latches, and ends all the same.
 TEST_CASE("the loop's thread tells of its ticks, and ramps to rest and disarms when it is told to end") {
@@ -40,11 +56,13 @@ TEST_CASE("the loop's thread tells of its ticks, and ramps to rest and disarms w
     robot.laser().start();
     const Time limit = clock.now() + 60s;
     while (robot.laser().latest().sequence == 0 && clock.now() < limit) clock.sleep_until(clock.now() + 1ms);
+    RobotLoop& loop = robot.loop();
+    CHECK(loop.prepare({.priority = 0}).empty());
+    CHECK(loop.traces().front() == nullptr);
     static_cast<void>(robot.drive().arm());
     // From here on the loop's thread alone sleeps by the clock.
     SteadyClock mine;
-    RobotLoop& loop = robot.loop();
-    loop.start({.priority = 0});
+    loop.start();
     std::uint64_t ticks = 0;
     bool asked = false;
     while (!loop.has_ended() && mine.now() < limit) {
@@ -59,6 +77,18 @@ TEST_CASE("the loop's thread tells of its ticks, and ramps to rest and disarms w
     CHECK(ticks > 100);
     CHECK_FALSE(robot.drive().is_enabled());
     CHECK(robot.far_end().rim_speed() == 0.0);
+    CHECK(loop.times().tick_us.count() == loop.times().wake_late_us.count());
+    CHECK(loop.times().tick_us.count() > 100);
+    CHECK(loop.times().tick_us.max() > 0.0);
+    robot.runner().finish({.outcome = "stopped", .loop_times = &loop.times()});
+    const auto summary = nlohmann::json::parse(std::ifstream(folder / "summary.json"));
+    for (const char* key : {"wake_late_us", "tick_us"}) {
+      for (const char* figure : {"p50", "p99", "p99.9", "max"}) CHECK(summary[key][figure].is_number());
+      std::uint64_t counted = 0;
+      for (const auto& bin : summary[key]["bins"]) counted += bin[1].get<std::uint64_t>();
+      CHECK(counted == loop.times().tick_us.count());
+    }
+    CHECK(summary["page_faults"]["major"].is_number());
     CHECK(robot.far_end().drive(0).state_name() != "enabled");
   }
   std::filesystem::remove_all(folder);

@@ -1,10 +1,14 @@
 // A tick of the whole controller with both ends of its wires in this process, time moved on by hand.
 #include <fcntl.h>
 #include <linux/input.h>
+#include <sys/mman.h>
 #include <sys/stat.h>
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
+#include <iostream>
+#include <iterator>
 #include <optional>
 
 #include "firmware/far_end/in_process_robot.h"
@@ -20,12 +24,18 @@ namespace {
 
 constexpr Duration kTick = 20ms;
 
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
 struct Bench {
-  explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {})
+  explicit Bench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {}, int rate_hz = 50)
       : folder(std::filesystem::temp_directory_path() /
                ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
-        robot(file(robot_name, panel), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
-              folder) {
+        period(duration_from_seconds(1.0 / rate_hz)),
+        robot(file(robot_name, panel, rate_hz), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3,
+              clock, folder) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;
@@ -37,20 +47,29 @@ struct Bench {
     due = clock.now();
   }
   ~Bench() { std::filesystem::remove_all(folder); }
-  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel) const {
+  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel, int rate_hz) const {
     std::filesystem::create_directories(folder);
-    RobotFile wiring = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
+    const std::filesystem::path mine = folder / "robot.toml";
+    std::ofstream(mine) << "rate_hz = " << rate_hz << ".0\n"
+                        << text_of(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
+    RobotFile wiring = load_robot_file(mine);
     wiring.setup.backend = Backend::kCpu;
     wiring.panel = panel;
     if (wiring.laser.host.empty()) wiring.laser.device = folder / "scanner";
     return wiring;
   }
-  void tick() {
-    due += kTick;
+  void sleep() {
+    due += period;
     clock.sleep_until(due);
+  }
+  void tick() {
+    sleep();
     const AllocationGuard guard;
     robot.loop().tick(due);
     heap_calls += guard.calls();
+    drain();
+  }
+  void drain() {
     robot.runner().drain();
     while (robot.loop().traces().front() != nullptr) robot.loop().traces().pop();
   }
@@ -61,6 +80,7 @@ struct Bench {
   [[nodiscard]] const TickRecord& last() { return robot.runner().last(); }
 
   std::filesystem::path folder;
+  Duration period;
   rig::HandLivingClock clock;
   std::uint64_t heap_calls = 0;
   rig::InProcessRobot robot;
@@ -156,6 +176,79 @@ TEST_CASE("a heading that is asked for over the desk is turned to over the wires
   CHECK(bench.speed_mps() == 0.0);
 }
 
+TEST_CASE(
+    "a stranger that takes a drive out of operation latches, and a reset proves both drives before anything moves") {
+  Bench bench("robot");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(150);
+  REQUIRE(bench.speed_mps() > 0.3);
+  CHECK(bench.robot.wires().port(3).send({.id = 0x000, .size = 2, .bytes = {0x80, 2}}) == SendResult::kQueued);
+  bench.tick();
+  CHECK(has(bench.last().verdict.reasons, Reason::kForeignMaster));
+  bench.tick(35);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(bench.last().wheels.stop == StopStage::kSilent);
+  const std::string status = bench.robot.desk().obey("status");
+  CHECK(status.find("\nlatched_by: foreign_master\n") != std::string::npos);
+  CHECK(status.find("\nforeign_frame: 000#8002\n") != std::string::npos);
+  bench.tick(30);
+
+  CHECK(bench.robot.desk().obey("reset") == "reset\n");
+  bench.tick(2);
+  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+  CHECK(bench.robot.desk().obey("goto 9 8") ==
+        "refused: the drives are being proved again; try again in some seconds\n");
+  int ticks = 0;
+  bench.heap_calls = 0;
+  for (; ticks < 250 && has(bench.last().verdict.reasons, Reason::kLatched); ++ticks) bench.tick();
+  CHECK(ticks > 20);
+  CHECK(ticks < 250);
+  CHECK(bench.heap_calls == 0);
+  CHECK(bench.speed_mps() == 0.0);
+  bench.tick(20);
+  CHECK(bench.robot.desk().obey("status").rfind("state: waiting\n", 0) == 0);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+}
+
+TEST_CASE("at any rate of the loop ordinary drives, stops and turns are confirmed by the wheels' feedback") {
+  for (const int rate_hz : {20, 200}) {
+    Bench bench("robot", {}, rate_hz);
+    const auto live = [&](double seconds) { bench.tick(static_cast<int>(seconds * rate_hz)); };
+    live(0.5);
+    for (const char* goal : {"goto 9 8", "goto 3 3 2.5"}) {
+      for (const double seconds : {0.3, 1.6}) {
+        CHECK(bench.robot.desk().obey(goal) == "going\n");
+        live(seconds);
+        CHECK(bench.robot.desk().obey("stop now") == "stopping\n");
+        live(1.5);
+        REQUIRE(bench.speed_mps() == 0.0);
+        REQUIRE(bench.robot.drive().trouble() == DriveTrouble::kNone);
+        REQUIRE(bench.last().wheels.stop == StopStage::kNone);
+        CHECK(bench.robot.desk().obey("reset") == "reset\n");
+        live(0.3);
+      }
+    }
+  }
+}
+
+TEST_CASE("an emergency stop over the desk, and a reset after it, ask the drives for no proof") {
+  Bench bench("robot");
+  bench.tick(10);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(150);
+  CHECK(bench.robot.desk().obey("stop now") == "stopping\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(bench.last().wheels.stop == StopStage::kNone);
+  CHECK(bench.robot.drive().is_proved());
+  CHECK(bench.robot.desk().obey("reset") == "reset\n");
+  bench.tick();
+  CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+}
+
 TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, whatever the devices") {
   for (const char* robot : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
     Bench bench(robot);
@@ -196,6 +289,35 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     bench.tick(100);
     CHECK(bench.speed_mps() > 0.3);
   }
+}
+
+// SAFETY: after arming no page fault. Memory is locked for the whole process, as a run does; what is counted is the
+// loop.
+TEST_CASE("a thousand busy ticks with memory locked have no page fault") {
+  Bench bench("robot");
+  const std::vector<std::string> refused = lock_memory();
+  if (!refused.empty()) {
+    std::cout << "skipped: " << refused.front() << '\n';
+    return;
+  }
+  bench.tick(50);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(50);
+  PageFaults faults;
+  for (int k = 0; k < 1000; ++k) {
+    if (k == 500) CHECK(bench.robot.desk().obey("goto 2 3") == "going\n");
+    bench.sleep();
+    const PageFaults before = page_faults();
+    bench.robot.loop().tick(bench.due);
+    const PageFaults tick = page_faults().since(before);
+    faults.minor += tick.minor;
+    faults.major += tick.major;
+    bench.drain();
+  }
+  ::munlockall();
+  CHECK(faults.minor == 0);
+  CHECK(faults.major == 0);
+  CHECK(bench.robot.desk().obey("status").find("\npage_faults: ") != std::string::npos);
 }
 
 TEST_CASE("with a joystick the robot drives while its dead man is held, and its stop and reset are the robot's") {

@@ -17,6 +17,7 @@ struct Bench {
   Time now = time_from_seconds(1.0);
   Time plan_stamp = now;
   bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
+  MeasuredLatency latency;
   Supervisor supervisor;
 
   explicit Bench(bool latches_all = false, const RobotModel& model = p3dx())
@@ -36,7 +37,7 @@ struct Bench {
     if (scan_fresh) scan.stamp = now;
     if (wheels_fresh) wheels.stamp = now;
     if (plan_fresh) plan_stamp = now;
-    return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now});
+    return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now, latency});
   }
   /// A press of the reset button at rest.
   void reset() {
@@ -184,6 +185,25 @@ TEST_CASE("a wall ahead lets the robot come near only as slowly as it can stop")
   CHECK(verdict.permitted.v_mps == Approx(0.4661).epsilon(1e-3));
   bench.scan.range_m[405] = 0.26F;
   CHECK(bench.ticks(60, {0.6, 0.0}).permitted.v_mps == 0.0);
+}
+
+TEST_CASE("slow drives, slow ticks and an old scan each cost their way, and no more than is reckoned with") {
+  // 0.1925 m are free, as above: v = sqrt(t^2 + 0.385) - t for a reaction time of t and 1 m/s2.
+  const auto speed_for = [](const MeasuredLatency& latency, int old_ticks = 0) {
+    Bench bench;
+    bench.latency = latency;
+    bench.scan.range_m.fill(INFINITY);
+    bench.scan.range_m[405] = 0.5F;
+    bench.ticks(60, {0.6, 0.0});
+    bench.scan_fresh = false;
+    return bench.ticks(1 + old_ticks, {0.6, 0.0}).permitted.v_mps;
+  };
+  const auto reckoned = [](double t_s) { return std::sqrt(t_s * t_s + 0.385) - t_s; };
+  CHECK(speed_for({}) == Approx(reckoned(0.18)).epsilon(1e-3));
+  CHECK(speed_for({0.001, 0.02}) == Approx(reckoned(0.18)).epsilon(1e-3));
+  CHECK(speed_for({0.015, 0.15}) == Approx(reckoned(0.1 + 0.02 + 0.015 + 0.15)).epsilon(1e-3));
+  CHECK(speed_for({5.0, 5.0}) == Approx(reckoned(0.1 + 0.02 + 0.1 + 0.3)).epsilon(1e-3));
+  CHECK(speed_for({}, 7) == Approx(reckoned(0.16 + 0.08)).epsilon(1e-3));  // eight ticks old
 }
 
 TEST_CASE("backwards with a scanner that looks ahead is at most 0.3 m/s") {

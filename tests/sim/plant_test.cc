@@ -179,7 +179,7 @@ TEST_CASE("wheels that slip by 5 percent each by itself turn the robot off its w
 
 TEST_CASE("a left wheel without grip turns as told, but the robot veers to the left") {
   Drive drive;
-  drive.plant.lose_left_grip(true);
+  drive.plant.grip(kLostGrip, 1.0);
   drive.run(2.0, 2.0, 1.0);
   CHECK(drive.read().left_radps == Approx(drive.read().right_radps));
   CHECK(drive.plant.twist().v_mps == Approx(0.5 * 2.0 * kRadius * (1.0 + kLostGrip)).epsilon(0.001));

@@ -19,7 +19,10 @@ void check_scan(Decoding decoding, const LaserScan& scan) {
   if (decoding != Decoding::kScan) return;
   require(scan.beam_count <= kMaxBeams);
   require(scan.stamp <= kArrival && scan.sweep >= Duration{0} && scan.period >= Duration{0});
-  for (std::uint32_t beam = 0; beam < scan.beam_count; ++beam) require(std::isfinite(scan.range_m[beam]));
+  // Infinity is free room; NaN is said by none, and minus infinity only of the robot itself (blank()).
+  for (std::uint32_t beam = 0; beam < scan.beam_count; ++beam) {
+    require(!std::isnan(scan.range_m[beam]) && !scan.too_near(beam));
+  }
 }
 
 /// Filled again and again: what a refused scan leaves in it must not matter.

@@ -1,0 +1,17 @@
+#pragma once
+#include <filesystem>
+
+namespace jaywalk {
+
+struct CommissionOptions {
+  std::filesystem::path robot;  ///< ROBOT.toml
+  std::filesystem::path control_socket;
+  bool yes = false;  ///< the wheels may turn: nobody is asked
+};
+
+/// Turns each wheel a little and checks motors, encoders, sides, counts and the scanner against what the scans show;
+/// prints a line a check and leaves ROBOT.commissioned.json. Returns 0 where all is well, else 1. Throws StartupError
+/// where it may not begin, or had to be broken off: nothing is written then.
+[[nodiscard]] int commission_robot(const CommissionOptions& options);
+
+}  // namespace jaywalk

@@ -1,0 +1,67 @@
+#include "firmware/safety/felt_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+/// A loop that is silent for longer may have its drives' watchdogs stop them.
+constexpr Duration kSilent = std::chrono::milliseconds(75);
+/// An older reading is another fault's.
+constexpr Duration kOldest = std::chrono::milliseconds(100);
+
+}  // namespace
+
+void FeltMotion::keep(const Sent& sent) noexcept {
+  const Sent& last = sent_[newest_];
+  if (last.from != kNever && last.left_mps == sent.left_mps && last.right_mps == sent.right_mps) return;
+  newest_ = (newest_ + 1) % kMostCommands;
+  sent_[newest_] = sent;
+}
+
+/// Of the commands that held at any time of the last kObeysWithin; zero before the first.
+FeltMotion::Span FeltMotion::commanded(double Sent::*wheel, Time now, bool zero_too) const noexcept {
+  const double newest = sent_[newest_].*wheel;
+  Span span{zero_too ? std::min(newest, 0.0) : newest, zero_too ? std::max(newest, 0.0) : newest};
+  for (std::size_t back = 0; back < kMostCommands; ++back) {
+    const Sent& sent = sent_[(newest_ + kMostCommands - back) % kMostCommands];
+    span.least = std::min(span.least, sent.*wheel);
+    span.greatest = std::max(span.greatest, sent.*wheel);
+    if (sent.from == kNever || now - sent.from >= kObeysWithin) break;
+  }
+  return span;
+}
+
+bool FeltMotion::is_off(Wheel& wheel, const Span& commanded, double felt_mps, double step_s) const noexcept {
+  const double ramped = ramp_mps2_ * step_s;
+  Span& may_be = wheel.may_be;
+  may_be.greatest = std::max(commanded.greatest, may_be.greatest - ramped);
+  may_be.least = std::min(commanded.least, may_be.least + ramped);
+  const auto tolerance = [](double bound) { return kOff_mps + kOffShare * std::fabs(bound); };
+  const double over = felt_mps - may_be.greatest - tolerance(may_be.greatest);
+  const double under = may_be.least - tolerance(may_be.least) - felt_mps;
+  wheel.off_m = std::clamp(wheel.off_m + std::max(over, under) * step_s, 0.0, 2.0 * kFault_m);
+  return wheel.off_m > kFault_m;
+}
+
+bool FeltMotion::disobeys(const WheelCommand& command, const WheelState& wheels, Time now) noexcept {
+  const Duration step = judged_ == kNever ? Duration{0} : now - judged_;
+  judged_ = now;
+  const double radius = drive_.wheel_radius_m;
+  keep({now - step, radius * command.left_radps, radius * command.right_radps});
+  if (step > kSilent || wheels.trouble != DriveTrouble::kNone) zero_until_ = now + kObeysWithin;
+  const bool zero_too = zero_until_ != kNever && now < zero_until_;
+  const bool readable = wheels.sequence > 0 && now - wheels.stamp <= kOldest && std::isfinite(wheels.left_radps) &&
+                        std::isfinite(wheels.right_radps);
+  const auto judge = [&](Wheel& wheel, double Sent::*sent, double felt_radps) {
+    const Span span = commanded(sent, now, zero_too);
+    return is_off(wheel, span, readable ? radius * felt_radps : wheel.may_be.greatest,
+                  to_seconds(std::clamp(step, Duration{0}, kSilent)));
+  };
+  const bool left = judge(left_, &Sent::left_mps, wheels.left_radps);
+  const bool right = judge(right_, &Sent::right_mps, wheels.right_radps);
+  return left || right;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,58 @@
+#pragma once
+#include <array>
+#include <cstddef>
+
+#include "hal/types/robot_model.h"
+#include "hal/types/wheels.h"
+
+namespace jaywalk {
+
+/// Compares each wheel's feedback with what it was commanded, through a model of the drive (SAFETY 18).
+///
+/// A sound drive has obeyed a command after at most kObeysWithin, and changes its speed by at least limits.brake_mps2
+/// until then. So its speed lies between a slowest and a fastest that follow the least and the greatest command of the
+/// last kObeysWithin, the slow way with that ramp. What it is outside by more than kOff_mps and kOffShare of the bound
+/// is summed up (Page 1954, CUSUM); kFault_m is disobedience: reversed, stuck, or turning without a command. Speeds and
+/// ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s. Thread: the loop's.
+class FeltMotion {
+ public:
+  static constexpr Duration kObeysWithin = std::chrono::milliseconds(200);  ///< bus, motor (50 ms), feedback's age
+  static constexpr double kOff_mps = 0.02;
+  static constexpr double kOffShare = 0.15;
+  static constexpr double kFault_m = 0.03;  ///< steps of coarse encoders cancel out long before
+
+  FeltMotion(const DriveModel& drive, double ramp_mps2) : drive_(drive), ramp_mps2_(ramp_mps2) {}
+
+  /// Once a tick: `command` is what the drive was sent in the tick before, `wheels` the newest reading. A drive in
+  /// trouble brakes by itself: from it zero is obedience as well.
+  [[nodiscard]] bool disobeys(const WheelCommand& command, const WheelState& wheels, Time now) noexcept;
+
+ private:
+  /// The commands of the last kObeysWithin at 200 Hz; at more the oldest is forgotten early.
+  static constexpr std::size_t kMostCommands = 64;
+  struct Span {
+    double least = 0.0, greatest = 0.0;
+  };
+  struct Wheel {
+    Span may_be;         ///< m/s
+    double off_m = 0.0;  ///< that it went too far or not far enough, of late
+  };
+  struct Sent {
+    Time from = kNever;
+    double left_mps = 0.0, right_mps = 0.0;
+  };
+
+  void keep(const Sent& sent) noexcept;
+  [[nodiscard]] Span commanded(double Sent::*wheel, Time now, bool zero_too) const noexcept;
+  [[nodiscard]] bool is_off(Wheel& wheel, const Span& commanded, double felt_mps, double step_s) const noexcept;
+
+  DriveModel drive_;
+  double ramp_mps2_;
+  std::array<Sent, kMostCommands> sent_{};
+  std::size_t newest_ = 0;
+  Wheel left_, right_;
+  Time judged_ = kNever;
+  Time zero_until_ = kNever;  ///< zero is obedience as well
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,102 @@
+#include "firmware/setup/scan_shift.h"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "planner/localization/symmetric3.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kWidest_rad = 1.2, kStep_rad = 0.1;
+constexpr int kIterations = 20;
+constexpr double kFar_m = 0.2, kFirstFar_m = 0.6;
+constexpr std::size_t kLeastPoints = 40, kMostPoints = 400;
+/// Of the points' normals, the mean square across the direction that is seen least: two points in a hundred on a wall
+/// across.
+constexpr double kLeastAcross = 0.02;
+constexpr double kMostLeft_m = 0.05;
+
+/// A point of a surface and the surface's normal there.
+struct Surfel {
+  Vec2 at, normal;
+};
+
+std::vector<Surfel> surfels_of(const LaserScan& scan) {
+  std::vector<Surfel> surfels;
+  const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
+  const std::size_t every = std::max<std::size_t>(1, beams / kMostPoints), beside = std::max<std::size_t>(2, every);
+  const auto hit = [&](std::size_t k) { return direction(scan.angle_rad(k)) * static_cast<double>(scan.range_m[k]); };
+  for (std::size_t k = beside; k + beside < beams; k += every) {
+    if (!scan.is_hit(k - beside) || !scan.is_hit(k) || !scan.is_hit(k + beside)) continue;
+    const Vec2 along = hit(k + beside) - hit(k - beside);
+    const double length = norm(along), step = std::fabs(static_cast<double>(scan.angle_step_rad));
+    if (length < 1e-6 || length > 0.05 + 6.0 * scan.range_m[k] * step * static_cast<double>(2 * beside)) continue;
+    surfels.push_back({hit(k), {-along.y / length, along.x / length}});
+  }
+  return surfels;
+}
+
+const Surfel& nearest(const std::vector<Surfel>& surfels, Vec2 p) {
+  return *std::min_element(surfels.begin(), surfels.end(), [p](const Surfel& a, const Surfel& b) {
+    return dot(a.at - p, a.at - p) < dot(b.at - p, b.at - p);
+  });
+}
+
+struct Fit {
+  Pose2 pose;
+  double left_m = kFar_m;
+  double across = 0.0;  ///< the mean square of normals in the direction that has least
+};
+
+/// The lesser eigenvalue of the normals' mean outer product.
+double least_across(const Symmetric3& information, double used) {
+  const double half = 0.5 * (information.xx - information.yy);
+  return (0.5 * (information.xx + information.yy) - norm({half, information.xy})) / used;
+}
+
+Fit fit_from(Pose2 pose, const std::vector<Surfel>& before, const std::vector<Surfel>& after) {
+  Fit fit;
+  for (int k = 0; k < kIterations; ++k) {
+    const double far_m = std::max(kFar_m, kFirstFar_m * (1.0 - 0.1 * k));
+    Symmetric3 information = diagonal(1e-6, 1e-6, 1e-6);
+    Row3 pull;
+    double used = 0.0, off_m = 0.0;
+    const Transform2 moved(pose);
+    for (const Surfel& surfel : after) {
+      const Vec2 p = moved * surfel.at;
+      const Surfel& wall = nearest(before, p);
+      const double off = dot(wall.normal, p - wall.at);
+      const bool pairs = norm(p - wall.at) < far_m;
+      off_m += pairs ? std::min(std::fabs(off), kFar_m) : kFar_m;
+      if (!pairs) continue;
+      const Row3 by{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
+      information.add_outer(by, 1.0);
+      pull = {pull.x - by.x * off, pull.y - by.y * off, pull.heading - by.heading * off};
+      used += 1.0;
+    }
+    if (used < static_cast<double>(kLeastPoints)) return {};
+    const Row3 step = inverse(information) * pull;
+    pose = {pose.x + step.x, pose.y + step.y, wrap_angle(pose.heading + step.heading)};
+    fit = {pose, off_m / static_cast<double>(after.size()), least_across(information, used)};
+    if (k > 8 && std::fabs(step.x) + std::fabs(step.y) + std::fabs(step.heading) < 1e-5) break;
+  }
+  return fit;
+}
+
+}  // namespace
+
+std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& after) {
+  const std::vector<Surfel> walls = surfels_of(before), points = surfels_of(after);
+  if (walls.size() < kLeastPoints || points.size() < kLeastPoints) return std::nullopt;
+  Fit best;
+  for (double turn = -kWidest_rad; turn <= kWidest_rad + 1e-9; turn += kStep_rad) {
+    const Fit fit = fit_from({0.0, 0.0, turn}, walls, points);
+    if (fit.left_m < best.left_m) best = fit;
+  }
+  if (best.left_m > kMostLeft_m || best.across < kLeastAcross) return std::nullopt;
+  return ScanShift{best.pose, best.left_m};
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,139 @@
+// Commissioning over wires, both ends in this process, time moved on by hand: every miswiring is refused.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "firmware/far_end/in_process_robot.h"
+#include "firmware/far_end/living_clock.h"
+#include "firmware/setup/commissioned.h"
+#include "firmware/setup/scan_shift.h"
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace std::chrono_literals;
+
+namespace {
+
+using Rewire = std::function<void(RobotFile&)>;
+
+struct Bench {
+  /// `rewire` changes what the far end is wired like; the controller believes its file.
+  Bench(const std::string& name, std::optional<sim::FaultKind> miswired, const Rewire& believe = {})
+      : folder(std::filesystem::temp_directory_path() / ("jaywalk_commission_" + std::to_string(::getpid()))),
+        file(wiring(name)),
+        robot(file, scenario(miswired), 3, clock, folder) {
+    if (believe) believe(file);
+    clock.live = [this] {
+      robot.step_far_end();
+      robot.laser().step();
+    };
+    while (robot.laser().latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
+    static_cast<void>(robot.drive().arm());
+  }
+  ~Bench() { std::filesystem::remove_all(folder); }
+  [[nodiscard]] RobotFile wiring(const std::string& name) const {
+    std::filesystem::create_directories(folder);
+    RobotFile wired = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
+    wired.setup.backend = Backend::kCpu;
+    if (wired.laser.host.empty()) wired.laser.device = folder / "scanner";
+    return wired;
+  }
+  static sim::Scenario scenario(std::optional<sim::FaultKind> miswired) {
+    sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml");
+    scenario.wanderers.clear();
+    if (miswired) scenario.faults = {{.at_s = 0.0, .for_s = 1000.0, .kind = *miswired}};
+    return scenario;
+  }
+  std::vector<WiringCheck> commission(const std::function<bool()>& stopped = [] { return false; }) {
+    const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
+    return judge_nudges(nudge_wheels(setup, robot.drive(), robot.laser(), clock, stopped), file.setup.model);
+  }
+
+  std::filesystem::path folder;
+  rig::HandLivingClock clock;
+  RobotFile file;
+  rig::InProcessRobot robot;
+};
+
+std::string faults_of(const std::vector<WiringCheck>& checks) {
+  std::string words;
+  for (const WiringCheck& check : checks) {
+    if (!check.is_well) words += check.part + ": " + check.said + "\n";
+  }
+  return words;
+}
+
+std::string faults_with(sim::FaultKind miswired, const std::string& name = "robot") {
+  return faults_of(Bench(name, miswired).commission());
+}
+
+bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
+
+}  // namespace
+
+TEST_CASE("a robot that is wired as its file says passes every check, on all kinds of drive") {
+  for (const char* name : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
+    CAPTURE(name);
+    Bench bench(name, std::nullopt);
+    const std::vector<WiringCheck> checks = bench.commission();
+    CHECK(faults_of(checks).empty());
+    CHECK(checks.size() == 6);
+    CHECK(bench.robot.far_end().rim_speed() < 0.001);
+    CHECK(bench.robot.far_end().truth().contacts == 0);
+  }
+}
+
+TEST_CASE("motors that turn the other way, and one that does not turn, are named by their drives") {
+  CHECK(says(faults_with(sim::FaultKind::kBothMotorsReversed), "left drive: its encoder counts backwards"));
+  CHECK(says(faults_with(sim::FaultKind::kLeftMotorReversed), "left drive: its encoder counts backwards"));
+  CHECK(says(faults_with(sim::FaultKind::kLeftWheelStuck), "left drive: its wheel does not turn"));
+}
+
+TEST_CASE("what only the scans tell is named: a wheel reversed, sides exchanged or a scanner upside down, no grip") {
+  for (const char* name : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
+    CAPTURE(name);
+    CHECK(says(faults_with(sim::FaultKind::kLeftWheelReversed, name), "the left wheel goes backward"));
+    CHECK(says(faults_with(sim::FaultKind::kWheelsSwapped, name), "left and right are exchanged"));
+    CHECK(says(faults_with(sim::FaultKind::kScannerMirrored, name), "scanner is upside down"));
+    CHECK(says(faults_with(sim::FaultKind::kNoGrip, name), "the robot does not"));
+  }
+}
+
+TEST_CASE("a model whose wheel is a fifth larger, and a mount that is turned by 30 degrees, are refused") {
+  Bench larger("robot", std::nullopt, [](RobotFile& file) { file.setup.model.drive.wheel_radius_m *= 1.2; });
+  CHECK(says(faults_of(larger.commission()), "left counts: the scans show 0.8"));
+  Bench turned("robot", std::nullopt,
+               [](RobotFile& file) { file.setup.model.laser.robot_from_laser.heading = kPi / 6.0; });
+  CHECK(says(faults_of(turned.commission()), "correct [laser] mount"));
+}
+
+TEST_CASE("with something near, or when it is told to stop, no wheel goes on turning") {
+  Bench near("robot", std::nullopt, [](RobotFile& file) { file.setup.model.footprint.half_width_m = 1.9; });
+  CHECK_THROWS_AS(near.commission(), StartupError);
+  CHECK(near.robot.far_end().rim_speed() < 0.001);
+  Bench bench("robot", std::nullopt);
+  CHECK_THROWS_AS(bench.commission([&] { return bench.robot.far_end().rim_speed() > 0.05; }), StartupError);
+  bench.clock.sleep_until(bench.clock.now() + 500ms);
+  CHECK(bench.robot.far_end().rim_speed() < 0.001);
+}
+
+TEST_CASE("what was found is kept beside the robot file, and counts for that wiring alone") {
+  Bench bench("robot", std::nullopt);
+  const std::filesystem::path robot = bench.folder / "mine.toml";
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kNotYet);
+  CHECK(says(require_commissioned(robot, bench.file), "never commissioned"));
+  write_commissioned(robot, bench.file, {{"left drive", true, "well"}});
+  CHECK(std::filesystem::exists(bench.folder / "mine.commissioned.json"));
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
+  CHECK(require_commissioned(robot, bench.file).empty());
+  RobotFile changed = bench.file;
+  changed.drive.cia402.axes[0].counts_per_rad *= -1.0;
+  CHECK(says(require_commissioned(robot, changed), "changed since"));
+  write_commissioned(robot, bench.file, {{"left drive", true, "well"}, {"right drive", false, "broken"}});
+  CHECK_THROWS_AS(require_commissioned(robot, bench.file), StartupError);
+  CHECK(says(require_commissioned(robot, changed), "changed since"));
+  std::ofstream(bench.folder / "mine.commissioned.json") << "{\"wiring\": 7";
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kNotYet);
+}

@@ -1,0 +1,152 @@
+#include "firmware/safety/felt_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <deque>
+#include <functional>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// Two wheels of 0.1 m, each with a motor that follows its command with a lag of 50 ms and at most 1.5 m/s2, and whose
+/// speed is read some time later, in steps of 1000 counts a turn over 10 ms: 0.063 m/s.
+struct Bench {
+  double period_s = 0.02, late_s = 0.02, step_mps = 0.0;
+  double left_motor = 1.0, right_motor = 1.0;  ///< -1 reversed, 0 stuck
+  bool runs_away = false;                      ///< it turns as it turned
+  DriveTrouble trouble = DriveTrouble::kNone;
+  FeltMotion felt{DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0};
+  double now_s = 1.0, left_mps = 0.0, right_mps = 0.0;
+  std::deque<WheelState> readings{};
+  WheelCommand sent{};
+
+  double turned(double speed, double wanted) const {
+    return runs_away ? speed : speed + std::clamp((wanted - speed) / 0.05, -1.5, 1.5) * 0.001;
+  }
+  double read(double speed) const {
+    return 10.0 * (step_mps > 0.0 ? std::floor(speed / step_mps + 0.5) * step_mps : speed);
+  }
+  /// A tick that then commands these; whether what came before was disobeyed.
+  bool tick(double left, double right) {
+    for (double t = 0.0; t < period_s - 1e-9; t += 0.001) {
+      now_s += 0.001;
+      left_mps = turned(left_mps, left_motor * 0.1 * sent.left_radps);
+      right_mps = turned(right_mps, right_motor * 0.1 * sent.right_radps);
+      readings.push_back({.stamp = time_from_seconds(now_s),
+                          .sequence = 1,
+                          .left_radps = read(left_mps),
+                          .right_radps = read(right_mps),
+                          .trouble = trouble});
+    }
+    while (readings.size() > 1 && readings[1].stamp <= time_from_seconds(now_s - late_s)) readings.pop_front();
+    const bool disobeyed = felt.disobeys(sent, readings.front(), time_from_seconds(now_s));
+    sent = {time_from_seconds(now_s), 10.0 * left, 10.0 * right};
+    return disobeyed;
+  }
+  /// Seconds until disobedience is told; infinity where it is not within `limit_s`.
+  double told_after(double limit_s, const std::function<std::pair<double, double>(double)>& commanded) {
+    const double began_s = now_s;
+    while (now_s - began_s < limit_s) {
+      const auto [left, right] = commanded(now_s - began_s);
+      if (tick(left, right)) return now_s - began_s;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+};
+
+/// Rest, 0.5 m/s2 to 0.6 m/s, a turn, an emergency stop, back and forth on the spot, each for a second.
+std::pair<double, double> lively(double t_s) {
+  const double part_s = t_s - 6.0 * std::floor(t_s / 6.0);
+  if (part_s < 1.0) return {0.0, 0.0};
+  if (part_s < 2.2) return {0.5 * (part_s - 1.0), 0.5 * (part_s - 1.0)};
+  if (part_s < 3.0) return {0.3, 0.9};
+  if (part_s < 4.0) return {0.0, 0.0};  // at once: the drive ramps
+  return part_s < 5.0 ? std::pair{-0.25, 0.25} : std::pair{0.25, -0.25};
+}
+
+std::pair<double, double> steadily(double) { return {0.3, 0.3}; }
+
+}  // namespace
+
+TEST_CASE("wheels that obey late, with a lag and in coarse steps are no fault at any rate of the loop") {
+  for (const double period_s : {0.005, 0.02, 0.05}) {
+    for (const double late_s : {0.01, 0.05}) {
+      for (const double step_mps : {0.0, 0.063}) {
+        Bench bench{.period_s = period_s, .late_s = late_s, .step_mps = step_mps};
+        CHECK(std::isinf(bench.told_after(18.0, lively)));
+      }
+    }
+  }
+}
+
+TEST_CASE("a wheel that is reversed or stuck is told within half a second of driving, whichever it is") {
+  for (const double period_s : {0.005, 0.02, 0.05}) {
+    for (const double late_s : {0.01, 0.05}) {
+      for (const auto& [left, right] : {std::pair{-1.0, -1.0}, {-1.0, 1.0}, {1.0, -1.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+        Bench bench{.period_s = period_s, .late_s = late_s, .left_motor = left, .right_motor = right};
+        CHECK(bench.told_after(2.0, steadily) < 0.5);
+      }
+    }
+  }
+}
+
+TEST_CASE("a wheel that sticks under way is told within half a second") {
+  Bench bench;
+  REQUIRE(std::isinf(bench.told_after(2.0, steadily)));
+  bench.right_motor = 0.0;
+  CHECK(bench.told_after(2.0, steadily) < 0.5);
+}
+
+TEST_CASE("wheels that turn though they are commanded to stand are told, on either side and in either direction") {
+  for (const double felt_mps : {0.2, -0.2}) {
+    for (const bool left : {true, false}) {
+      FeltMotion felt(DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0);
+      double told_s = 0.0;
+      for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
+        const WheelState wheels{.stamp = time_from_seconds(t),
+                                .sequence = 1,
+                                .left_radps = left ? 10.0 * felt_mps : 0.0,
+                                .right_radps = left ? 0.0 : 10.0 * felt_mps};
+        if (felt.disobeys({}, wheels, time_from_seconds(t))) told_s = t;
+      }
+      CHECK(told_s > 0.1);  // 0.18 m/s too much for 0.167 s is 0.03 m
+      CHECK(told_s < 0.25);
+    }
+  }
+}
+
+TEST_CASE("a drive in trouble may brake by itself, but not go on") {
+  Bench bench;
+  REQUIRE(std::isinf(bench.told_after(2.0, steadily)));
+  bench.trouble = DriveTrouble::kEmergency;
+  bench.left_motor = bench.right_motor = 0.0;
+  CHECK(std::isinf(bench.told_after(0.5, steadily)));
+  CHECK(std::isinf(bench.told_after(3.0, [](double) { return std::pair{0.0, 0.0}; })));
+  Bench racing;
+  REQUIRE(std::isinf(racing.told_after(2.0, steadily)));
+  racing.trouble = DriveTrouble::kLeftOperation;
+  racing.runs_away = true;
+  const double told_s = racing.told_after(2.0, [](double) { return std::pair{0.0, 0.0}; });
+  CHECK(told_s > 0.4);  // 0.2 s to obey, then from 0.3 m/s down at 1 m/s2, and 0.03 m
+  CHECK(told_s < 0.7);
+}
+
+TEST_CASE("commands too small for a fault at once add up: a wheel that does not creep when commanded 0.1 m/s") {
+  Bench bench{.left_motor = 0.0};
+  const double told_s = bench.told_after(3.0, [](double) { return std::pair{0.1, 0.1}; });
+  CHECK(told_s > 0.5);  // 0.2 s to obey, then 0.1 - 0.035 m/s for 0.46 s is 0.03 m
+  CHECK(told_s < 0.9);
+}
+
+TEST_CASE("feedback that stopped coming, or is no number, says nothing of obedience") {
+  FeltMotion felt(DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0);
+  WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
+  for (double t = 0.0; t < 3.0; t += 0.02) {
+    if (t > 1.0) wheels.left_radps = std::numeric_limits<double>::quiet_NaN(), wheels.stamp = time_from_seconds(t);
+    const bool disobeyed = felt.disobeys({time_from_seconds(t), 3.0, 3.0}, wheels, time_from_seconds(t));
+    if (t > 0.12) CHECK_FALSE(disobeyed);
+  }
+}

@@ -1,0 +1,221 @@
+#include "firmware/safety/seen_motion.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+struct Wall {
+  Vec2 from, to;
+};
+struct Post {
+  Vec2 centre, velocity;
+  double radius_m = 0.2;
+};
+
+/// How a robot's wheels and scanner are connected: what the ground gets of each wheel's turning.
+struct Wiring {
+  double left = 1.0, right = 1.0;
+  bool swapped = false, mirrored = false;
+};
+
+/// A robot among walls and people, its wheels read every 10 ms, its scanner with 10 mm of noise. World written here
+/// anew, so that no formula is shared.
+struct Bench {
+  std::vector<Wall> walls{};
+  std::vector<Post> people{};
+  Wiring wiring{};
+  RobotModel model = p3dx();
+  Pose2 pose{};
+  double now_s = 0.0;
+  SeenMotion seen{model};
+  LaserScan scan{};
+  WheelState wheels{};
+  std::mt19937 random{7};
+  std::normal_distribution<double> noise{0.0, 0.01};
+
+  double range(Vec2 from, Vec2 way) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Wall& wall : walls) {
+      const Vec2 along = wall.to - wall.from, to = wall.from - from;
+      const double across = cross(way, along);
+      if (std::fabs(across) < 1e-12) continue;
+      const double r = cross(to, along) / across, share = cross(to, way) / across;
+      if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
+    }
+    for (const Post& post : people) {
+      const Vec2 to = post.centre - from;
+      const double ahead = dot(to, way), aside = cross(way, to);
+      const double inside = post.radius_m * post.radius_m - aside * aside;
+      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
+    }
+    return nearest;
+  }
+  void look() {
+    const LaserModel& laser = model.laser;
+    scan.stamp = time_from_seconds(now_s);
+    ++scan.sequence;
+    scan.beam_count = laser.beams;
+    scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
+    scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
+    scan.range_min_m = 0.05F;
+    scan.range_max_m = 25.0F;
+    const Pose2 eye = pose * laser.robot_from_laser;
+    for (std::size_t k = 0; k < scan.beam_count; ++k) {
+      const double angle = wiring.mirrored ? -scan.angle_rad(k) : scan.angle_rad(k);
+      scan.range_m[k] = static_cast<float>(range(eye.position(), direction(eye.heading + angle)) + noise(random));
+    }
+  }
+  /// Ten milliseconds at these speeds (m/s) of the wheels, as they feel them.
+  bool step(double left_mps, double right_mps) {
+    now_s += 0.01;
+    const double radius = model.drive.wheel_radius_m;
+    wheels.left_rad += 0.01 * left_mps / radius;
+    wheels.right_rad += 0.01 * right_mps / radius;
+    wheels.stamp = time_from_seconds(now_s);
+    ++wheels.sequence;
+    double left = wiring.left * left_mps, right = wiring.right * right_mps;
+    if (wiring.swapped) std::swap(left, right);
+    const double turn = 0.01 * (right - left) / model.drive.track_width_m;
+    const Vec2 way = direction(pose.heading + 0.5 * turn) * (0.005 * (left + right));
+    pose = {pose.x + way.x, pose.y + way.y, wrap_angle(pose.heading + turn)};
+    for (Post& post : people) post.centre = post.centre + post.velocity * 0.01;
+    if (std::fmod(now_s + 1e-6, 1.0 / model.laser.rate_hz) < 0.01) look();
+    return seen.contradicts(scan, wheels, time_from_seconds(now_s));
+  }
+  /// Seconds until a contradiction; infinity where there is none within `limit_s`.
+  double told_after(double limit_s, double left_mps, double right_mps) {
+    for (double t = 0.0; t < limit_s; t += 0.01) {
+      if (step(left_mps, right_mps)) return t;
+    }
+    return std::numeric_limits<double>::infinity();
+  }
+};
+
+std::vector<Wall> room() {
+  return {{{-3.0, -2.0}, {4.0, -2.0}}, {{4.0, -2.0}, {4.0, 3.0}},  {{4.0, 3.0}, {-3.0, 3.0}},
+          {{-3.0, 3.0}, {-3.0, -2.0}}, {{2.5, -2.0}, {2.5, -1.2}}, {{-1.0, 3.0}, {0.0, 2.2}}};
+}
+std::vector<Wall> endless_corridor() { return {{{-200.0, -1.0}, {200.0, -1.0}}, {{-200.0, 1.0}, {200.0, 1.0}}}; }
+
+const std::vector<std::pair<double, double>> kMotions{{0.3, 0.3}, {-0.3, -0.3}, {0.25, 0.35},
+                                                      {0.6, 0.5}, {-0.1, 0.1},  {0.05, 0.25}};
+
+}  // namespace
+
+TEST_CASE("what the scans show is what sound wheels felt, straight, in bends and on the spot") {
+  for (const auto& [left, right] : kMotions) {
+    Bench bench{.walls = room()};
+    CHECK(std::isinf(bench.told_after(2.0, left, right)));
+  }
+}
+
+TEST_CASE("a wheel reversed with its encoder is told within half a second of driving, and so are both") {
+  for (const auto& [left, right] : {std::pair{-1.0, 1.0}, {1.0, -1.0}, {-1.0, -1.0}}) {
+    for (const double speed : {0.2, 0.3, 0.6}) {
+      Bench bench{.walls = room(), .wiring = {.left = left, .right = right}};
+      CHECK(bench.told_after(1.0, speed, speed) < 0.5);
+    }
+  }
+}
+
+TEST_CASE("swapped wheels and a mirrored scanner are told within half a second of turning, not before") {
+  for (const Wiring& wiring : {Wiring{.swapped = true}, Wiring{.mirrored = true}}) {
+    Bench straight{.walls = room(), .wiring = wiring};
+    CHECK(std::isinf(straight.told_after(2.0, 0.3, 0.3)));
+    for (const double rim : {0.05, 0.15, 0.3}) {  // 0.3 rad/s to 1.8 rad/s
+      Bench turning{.walls = room(), .wiring = wiring};
+      CHECK(turning.told_after(1.0, -rim, rim) < 0.5);
+    }
+    Bench bending{.walls = room(), .wiring = wiring};
+    CHECK(bending.told_after(1.0, 0.25, 0.35) < 0.5);
+  }
+}
+
+TEST_CASE("wheels that spin while the robot stands are told within half a second; half of their grip is slip") {
+  for (const auto& [left, right] : {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}) {
+    Bench spinning{.walls = room(), .wiring = {.left = left, .right = right}};
+    CHECK(spinning.told_after(1.0, 0.3, 0.3) < 0.5);
+  }
+  for (const double grip : {0.95, 0.8, 0.5, 0.4}) {
+    Bench slipping{.walls = room(), .wiring = {.left = grip}};
+    CHECK(std::isinf(slipping.told_after(2.0, 0.3, 0.3)));
+    Bench both{.walls = room(), .wiring = {.left = grip, .right = grip}};
+    CHECK(std::isinf(both.told_after(2.0, 0.3, 0.3)));
+  }
+}
+
+TEST_CASE("a scanner before the axle and turned on its mount is reckoned with") {
+  RobotModel model = p3dx();
+  model.laser.robot_from_laser = {0.7, 0.1, 0.5 * kPi};
+  for (const auto& [left, right] : kMotions) {
+    Bench bench{.walls = room(), .model = model};
+    CHECK(std::isinf(bench.told_after(2.0, left, right)));
+  }
+  Bench reversed{.walls = room(), .wiring = {.left = -1.0, .right = -1.0}, .model = model};
+  CHECK(reversed.told_after(1.0, 0.3, 0.3) < 0.5);
+}
+
+TEST_CASE("five scans a second are enough") {
+  RobotModel model = p3dx();
+  model.laser.rate_hz = 5.0;
+  Bench sound{.walls = room(), .model = model};
+  CHECK(std::isinf(sound.told_after(2.0, 0.3, 0.35)));
+  Bench reversed{.walls = room(), .wiring = {.left = -1.0}, .model = model};
+  CHECK(reversed.told_after(2.0, 0.3, 0.3) < 0.65);  // half a second and the scan that it waits for
+}
+
+TEST_CASE("where scans cannot tell there is no fault: along an endless corridor, and on open ground") {
+  Bench corridor{.walls = endless_corridor(), .wiring = {.left = -1.0, .right = -1.0}};
+  CHECK(std::isinf(corridor.told_after(3.0, 0.3, 0.3)));
+  Bench open{.wiring = {.left = -1.0, .right = -1.0}};
+  CHECK(std::isinf(open.told_after(3.0, 0.3, 0.3)));
+}
+
+TEST_CASE("people who walk along with a sound robot are no fault, in a room, a corridor or on open ground") {
+  const std::vector<Post> company{{{0.2, 0.8}, {0.6, 0.0}}, {{0.3, -0.8}, {0.6, 0.0}}, {{1.5, 0.2}, {0.6, 0.0}}};
+  for (const std::vector<Wall>& walls : {room(), endless_corridor(), std::vector<Wall>{}}) {
+    Bench bench{.walls = walls, .people = company};
+    CHECK(std::isinf(bench.told_after(3.0, 0.6, 0.6)));
+  }
+}
+
+TEST_CASE("the same scan again, scans that hit nothing and wheels without a number say nothing of motion") {
+  Bench bench{.walls = room()};
+  REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
+  const LaserScan frozen = bench.scan;
+  for (int k = 0; k < 100; ++k) {
+    bench.step(0.3, 0.3);
+    LaserScan again = frozen;
+    again.sequence = bench.scan.sequence + 100;
+    again.stamp = bench.scan.stamp;
+    CHECK_FALSE(bench.seen.contradicts(again, bench.wheels, time_from_seconds(bench.now_s)));
+  }
+  LaserScan nothing = bench.scan;
+  nothing.range_m.fill(std::numeric_limits<float>::infinity());
+  WheelState broken = bench.wheels;
+  broken.left_rad = std::numeric_limits<double>::quiet_NaN();
+  for (int k = 0; k < 100; ++k) {
+    ++nothing.sequence;
+    ++broken.sequence;
+    CHECK_FALSE(bench.seen.contradicts(nothing, broken, time_from_seconds(bench.now_s)));
+  }
+}
+
+TEST_CASE("scans of no sound shape are passed over") {
+  for (const std::uint32_t beams : {0U, 1U, 5000U}) {
+    Bench bench{.walls = room()};
+    REQUIRE(std::isinf(bench.told_after(1.0, 0.3, 0.3)));
+    LaserScan bad = bench.scan;
+    bad.beam_count = beams;
+    ++bad.sequence;
+    CHECK_FALSE(bench.seen.contradicts(bad, bench.wheels, time_from_seconds(bench.now_s)));
+  }
+}
