@@ -8,6 +8,7 @@
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 
@@ -108,7 +109,9 @@ int run_sim(const SimOptions& options) {
   const std::uint64_t seed = options.seed.value_or(scenario.seed);
   sim::Simulation simulation(scenario, seed);
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
-  LoopRunner runner(setup_for(scenario, options), simulation.hal(), options.out, true);
+  const ControlSetup setup = setup_for(scenario, options);
+  if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
+  LoopRunner runner(setup, simulation.hal(), options.out, true);
   RunPicture picture;
   Progress progress;
   TruthForReport truth_for_report;
