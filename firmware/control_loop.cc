@@ -148,7 +148,8 @@ void ControlLoop::look(const TickRecord& t) noexcept {
                          .standing = tracker_.standing(),
                          .moving = tracker_.moving(),
                          .goal_in_map = t.input.goal_in_map,
-                         .somebody_hidden = tracker_.hides_somebody(t.pose.map_from_robot.position(), kNear_m)};
+                         .somebody_hidden = tracker_.hides_somebody(t.pose.map_from_robot.position(), kNear_m),
+                         .now = t.now};
   if (turns_at_goal()) {
     turn_->look(input);
     if (guide_) guide_->manoeuvre().stop();

@@ -19,12 +19,12 @@ constexpr double kMargin_m = 0.10;
 constexpr double kTightMargin_m = 0.075;
 /// A manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
 constexpr double kLeastMargin_m = 0.05;
-constexpr int kRefusedLooks = 15;     // a second
-constexpr int kPatientLooks = 75;     // five: whoever is before it may go on, and whoever is behind it steps aside
-constexpr int kLookRoundLooks = 150;  // ten
+constexpr Duration kRefused = std::chrono::seconds(1);
+constexpr Duration kPatience = std::chrono::seconds(5);  // time that a pedestrian is given to walk on or step aside
+constexpr Duration kLookRound = std::chrono::seconds(10);
+constexpr Duration kUnfit = std::chrono::milliseconds(450);  // before it takes up more than a way forward
 constexpr double kOtherGoal_m = 0.2;
 constexpr double kOff_m = 0.12;         // a manoeuvre left by more is given up
-constexpr int kUnfitLooks = 8;          // before it stops following the path for anything but a way forward
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
 
@@ -47,19 +47,24 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
   const bool braked_hard = std::exchange(brakes_hard_, false);
   if (input.path.empty()) {
     drive_.stop();
+    unfit_.pause();
     return;
   }
   map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
   if (refused && may_back_off(input)) {
-    refused_looks_ = 0;
+    refused_.forget();
+    unfit_.pause();
     back_off(input.map_from_robot);
     return;
   }
-  if (keeps_manoeuvre(input)) return;
+  if (keeps_manoeuvre(input)) {
+    unfit_.pause();
+    return;
+  }
   drive_.stop();
   most_speed_mps_ = speed_that_fits(input);
-  unfit_looks_ = most_speed_mps_ == 0.0 ? unfit_looks_ + 1 : 0;
-  if (unfit_looks_ == 0) rounds_ = 0;
+  unfit_.update(most_speed_mps_ == 0.0, input.now);
+  if (most_speed_mps_ > 0.0) rounds_ = searches_ = 0;
   if (most_speed_mps_ == 0.0) {
     const BodyAhead ahead{map_, limits_, input.map_from_robot, input.driven};
     brakes_hard_ = !at_rest(input.driven) && (braked_hard || !ahead.stops_in_time());  // to rest, once it has begun
@@ -71,8 +76,8 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
 bool FootprintGuide::is_refused(const GuideInput& input) noexcept {
   const bool refused =
       input.wanted != Twist2{} && std::fabs(input.driven.v_mps) < 1e-3 && std::fabs(input.driven.w_radps) < 1e-3;
-  refused_looks_ = refused ? refused_looks_ + 1 : 0;
-  return refused_looks_ >= kRefusedLooks;
+  refused_.update(refused, input.now);
+  return refused_.total() >= kRefused;
 }
 
 /// What was driven for another goal is not driven on.
@@ -80,7 +85,9 @@ void FootprintGuide::note_goal(Vec2 goal_in_map) noexcept {
   if (distance(goal_in_map, goal_in_map_) < kOtherGoal_m) return;
   goal_in_map_ = goal_in_map;
   drive_.stop();
-  unfit_looks_ = refused_looks_ = rounds_ = 0;
+  unfit_.forget();
+  refused_.forget();
+  rounds_ = searches_ = 0;
 }
 
 bool FootprintGuide::keeps_manoeuvre(const GuideInput& input) const noexcept {
@@ -146,7 +153,7 @@ void FootprintGuide::back_off(const Pose2& here) noexcept {
 
 /// At once where it has seen what is behind it; else not before whoever is there had time.
 bool FootprintGuide::may_back_off(const GuideInput& input) const noexcept {
-  return refused_looks_ >= kPatientLooks || !(input.somebody_hidden || unseen_behind(input.map_from_robot, kBackOff_m));
+  return refused_.total() >= kPatience || !(input.somebody_hidden || unseen_behind(input.map_from_robot, kBackOff_m));
 }
 
 bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexcept {
@@ -156,22 +163,22 @@ bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexc
 void FootprintGuide::search(const GuideInput& input) noexcept {
   const bool stands = std::fabs(input.driven.v_mps) < 0.02 && std::fabs(input.driven.w_radps) < 0.1;
   const ManoeuvreGoal goal = goal_along(input);
-  // One search a look: where there is none with room, every fourth time one with less.
-  const double margin = unfit_looks_ % 4 != 0 ? kMargin_m : kTightMargin_m;
+  // One search an update: where there is none with room, every fourth is one with less.
+  const double margin = ++searches_ % 4 != 0 ? kMargin_m : kTightMargin_m;
   const Manoeuvre& found = search_.find(map_, input.map_from_robot, goal, margin);
   if (found.size() < 2) {
-    const int looks = somebody_near(input) ? kPatientLooks : kUnfitLooks;
-    if (unfit_looks_ >= looks && stands && unseen_behind(input.map_from_robot, kBackOut_m))
+    const Duration patience = somebody_near(input) ? kPatience : kUnfit;
+    if (unfit_.total() >= patience && stands && unseen_behind(input.map_from_robot, kBackOut_m))
       back_out(input.map_from_robot);
-    else if (rounds_ < 2 && unfit_looks_ >= (rounds_ + 1) * kLookRoundLooks && stands)
+    else if (rounds_ < 2 && unfit_.total() >= (rounds_ + 1) * kLookRound && stands)
       look_round(input.map_from_robot);
     return;
   }
   const bool backs =
       std::any_of(found.begin(), found.end(), [](const auto& step) { return step.gear == Gear::kBackward; });
-  if (backs && input.somebody_hidden && unfit_looks_ < kPatientLooks) return;
+  if (backs && input.somebody_hidden && unfit_.total() < kPatience) return;
   // A robot under way takes up only what goes on forward; for anything else it stops first, and looks again.
-  if (!(stands && unfit_looks_ >= kUnfitLooks) && found[1].gear != Gear::kForward) return;
+  if (!(stands && unfit_.total() >= kUnfit) && found[1].gear != Gear::kForward) return;
   drive_.begin(found);
 }
 

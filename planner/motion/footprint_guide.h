@@ -4,6 +4,7 @@
 
 #include "hal/types/robot_model.h"
 #include "planner/motion/body_map.h"
+#include "planner/motion/held_time.h"
 #include "planner/motion/manoeuvre_drive.h"
 #include "planner/motion/manoeuvre_search.h"
 #include "planner/planner.h"
@@ -20,6 +21,7 @@ struct GuideInput {
   std::span<const Track> moving = {};      ///< the same
   Vec2 goal_in_map{};
   bool somebody_hidden = false;  ///< went out of sight within kNear_m lately: nothing backs at once
+  Time now{};                    ///< the tick's: waits are counted by it
 };
 
 inline constexpr double kNear_m = 2.5;  ///< of the axle: who is in the way, or of the rider's company
@@ -65,9 +67,10 @@ class FootprintGuide {
   Vec2 goal_in_map_;
   double most_speed_mps_ = std::numeric_limits<double>::infinity();
   bool brakes_hard_ = false;
-  int rounds_ = 0;         ///< how often it has looked round since the path fitted last
-  int unfit_looks_ = 0;    ///< in a row, at which the path fitted at no speed
-  int refused_looks_ = 0;  ///< in a row, at which the supervisor had refused to move
+  int rounds_ = 0;    ///< how often it has looked round since the path fitted last
+  int searches_ = 0;  ///< the same
+  HeldTime unfit_;    ///< the path has fitted at no speed; manoeuvres do not count
+  HeldTime refused_;  ///< the supervisor has refused to move
 };
 
 }  // namespace jaywalk

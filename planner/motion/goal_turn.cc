@@ -21,13 +21,11 @@ constexpr double kLook_rad = 0.06;  // between two looks at the outline: 5 cm of
 constexpr double kRest_mps = 0.01, kRest_radps = 0.02;
 constexpr double kTurnGain_per_s = 2.0;  // as Steering::turn_radps()
 constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close enough to stand still
-constexpr int kRefusedLooks = 15;        // a second
-constexpr int kLeftAloneLooks = 150;     // ten
-constexpr int kGiveUpLooks = 15;         // a second
-constexpr int kPatientLooks = 75;        // five seconds, as the guide's
-constexpr int kLookRoundLooks = 150;     // ten seconds
-constexpr int kSearchEveryLooks = 8;     // while it is blocked
-constexpr double kClosest_rad = 0.07;    // what a search's steps of headings can promise
+constexpr Duration kRefused = std::chrono::seconds(1), kLeftAlone = std::chrono::seconds(10);
+constexpr Duration kGiveUp = std::chrono::seconds(1);
+constexpr Duration kPatience = std::chrono::seconds(5), kLookRound = std::chrono::seconds(10);  // as the guide's
+constexpr Duration kSearchEvery = std::chrono::milliseconds(500);                               // while it is blocked
+constexpr double kClosest_rad = 0.07;  // what a search's steps of headings can promise
 
 /// To the same heading the other way round.
 double long_way(double turn_rad) { return turn_rad > 0.0 ? turn_rad - 2.0 * kPi : turn_rad + 2.0 * kPi; }
@@ -67,8 +65,9 @@ void GoalTurn::begin() noexcept {
   active_ = true;
   settled_ = blocked_ = chosen_ = away_ = false;
   drive_.stop();
-  refused_for_ = {};
-  refused_looks_ = waits_ = 0;
+  refused_until_ = {kNever, kNever};
+  refused_.forget();
+  note_found();
   off_m_ = kOff_m;
 }
 
@@ -84,12 +83,12 @@ Twist2 GoalTurn::wish(const Pose2& here) noexcept {
 
 void GoalTurn::look(const GuideInput& input) noexcept {
   somebody_hidden_ = input.somebody_hidden;
-  for (int& looks : refused_for_) looks = std::max(looks - 1, 0);
+  now_ = input.now;
   const bool refused = is_refused(input);
-  if (settled_) return;
+  if (settled_) return waited_.pause();
   map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
-  if (goes_on(input, refused)) return;
-  if (refused && !drive_.active()) refused_for(to_go_rad_) = kLeftAloneLooks;
+  if (goes_on(input, refused)) return waited_.pause();
+  if (refused && !drive_.active()) refused_until(to_go_rad_) = now_ + kLeftAlone;
   if (refused) searches_ = 0;
   drive_.stop();
   if (away_) {
@@ -102,16 +101,25 @@ void GoalTurn::look(const GuideInput& input) noexcept {
 /// At the goal: a way to turn, else a manoeuvre.
 void GoalTurn::seek(const Pose2& here) noexcept {
   chosen_ = choose_way(here);
-  waits_ = chosen_ ? 0 : waits_ + 1;
-  const bool searches = waits_ % kSearchEveryLooks == 1 && (!somebody_hidden_ || waits_ > kPatientLooks);
+  waited_.update(!chosen_, now_);
+  if (chosen_) note_found();
+  const bool searches =
+      !chosen_ && age(searched_at_, now_) >= kSearchEvery && (!somebody_hidden_ || waited_.total() > kPatience);
+  if (searches) searched_at_ = now_;
   blocked_ = !chosen_ && !(searches && !has_room(here) && search(here)) && !look_round(here);
+}
+
+void GoalTurn::note_found() noexcept {
+  waited_.forget();
+  rounds_ = 0;
+  searched_at_ = kNever;
 }
 
 /// After ten seconds to the left, after twenty to the right, as far as it can: what is in the way where it does not
 /// look may have gone.
 bool GoalTurn::look_round(const Pose2& here) noexcept {
-  if (waits_ != kLookRoundLooks && waits_ != 2 * kLookRoundLooks) return false;
-  draw_turn(map_, here, waits_ == kLookRoundLooks ? kLookRound_rad : -kLookRound_rad, kMargins_m[1], straight_);
+  if (rounds_ == 2 || waited_.total() < (rounds_ + 1) * kLookRound) return false;
+  draw_turn(map_, here, rounds_++ == 0 ? kLookRound_rad : -kLookRound_rad, kMargins_m[1], straight_);
   if (straight_.size() < 2) return false;
   drive_.begin(straight_, ManoeuvreDrive::Steering::kFree, ManoeuvreDrive::End::kAtRest);
   return true;
@@ -129,8 +137,10 @@ void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
       return;
     }
   }
-  waits_ = search(here) ? 0 : waits_ + 1;
-  away_ = waits_ < kGiveUpLooks;
+  const bool found = search(here);
+  waited_.update(!found, now_);
+  if (found) note_found();
+  away_ = waited_.total() < kGiveUp;
 }
 
 /// Not back into what it has not seen, nor where somebody may be.
@@ -152,9 +162,9 @@ bool GoalTurn::goes_on(const GuideInput& input, bool refused) const noexcept {
 /// Whether the supervisor has refused for a while, or as good as.
 bool GoalTurn::is_refused(const GuideInput& input) noexcept {
   const bool refused = input.wanted != Twist2{} && is_at_rest(input.driven);
-  refused_looks_ = refused ? refused_looks_ + 1 : 0;
-  if (refused_looks_ < kRefusedLooks) return false;
-  refused_looks_ = 0;
+  refused_.update(refused, now_);
+  if (refused_.total() < kRefused) return false;
+  refused_.forget();
   return true;
 }
 
@@ -163,7 +173,7 @@ bool GoalTurn::choose_way(const Pose2& here) noexcept {
   const double error = input_.heading_error_rad(here);
   for (const double margin : kMargins_m) {
     for (const double turn : std::array{error, long_way(error)}) {
-      if (refused_for(turn) > 0 || !fits(here, turn, margin)) continue;
+      if (now_ < refused_until(turn) || !fits(here, turn, margin)) continue;
       to_go_rad_ = turn;
       return true;
     }

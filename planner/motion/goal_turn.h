@@ -46,9 +46,10 @@ class GoalTurn {
   [[nodiscard]] bool choose_way(const Pose2& here) noexcept;
   [[nodiscard]] bool has_room(const Pose2& here) const noexcept;
   [[nodiscard]] bool fits(const Pose2& here, double turn_rad, double margin_m) const noexcept;
-  [[nodiscard]] int& refused_for(double turn_rad) noexcept { return refused_for_[turn_rad < 0.0 ? 1 : 0]; }
+  [[nodiscard]] Time& refused_until(double turn_rad) noexcept { return refused_until_[turn_rad < 0.0 ? 1 : 0]; }
   [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
   void seek(const Pose2& here) noexcept;
+  void note_found() noexcept;
   bool look_round(const Pose2& here) noexcept;
   void draw_off(const Pose2& here, double off_m) noexcept;
   void seek_back(const Pose2& here, bool refused) noexcept;
@@ -67,9 +68,12 @@ class GoalTurn {
   bool chosen_ = false;  ///< to_go_rad_ leads along a way that was found free
   double to_go_rad_ = 0.0;
   double heading_before_ = 0.0;
-  std::array<int, 2> refused_for_{};  ///< looks for which turning left, right is not tried again
-  int refused_looks_ = 0;             ///< in a row, at which the supervisor had refused to move
-  int waits_ = 0;                     ///< looks in a row that have found nothing
+  Time now_{};                                         ///< GuideInput's
+  std::array<Time, 2> refused_until_{kNever, kNever};  ///< turning left, right is not tried again before
+  HeldTime refused_;                                   ///< the supervisor has refused to move
+  HeldTime waited_;                                    ///< nothing was found
+  int rounds_ = 0;                                     ///< how often it has looked round meanwhile
+  Time searched_at_ = kNever;                          ///< the same
   std::size_t searches_ = 0;
   Manoeuvre straight_;
   double off_m_ = 0.0;  ///< signed: the last way straight off

@@ -257,7 +257,6 @@ TEST_CASE(
   CHECK(bench.after(10ms).has_goal);
   CHECK(bench.after(2s).has_goal);
   CHECK_FALSE(bench.after(10ms).has_goal);
-  CHECK_FALSE(bench.tick().emergency_stop);
   bench.write(event(EV_ABS, kX, 0));
   CHECK_FALSE(bench.after(10ms).has_goal);
   bench.press(kDeadMan, false);
@@ -277,7 +276,6 @@ TEST_CASE("a dead man on Bluetooth counts only where it is to be renewed, and sa
     bench.press(kDeadMan);
     CHECK(bench.after(20ms).has_goal == drives);
     CHECK(bench.panel.joystick().needs_renewal == !drives);
-    CHECK_FALSE(bench.panel.joystick().stop);
   }
 }
 

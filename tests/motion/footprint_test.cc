@@ -15,6 +15,8 @@ using tests::Ground;
 
 namespace {
 
+constexpr Duration kScan{66'666'667};  // of 15 Hz
+
 const RobotModel kChair = wheelchair();
 
 /// A wall along x = 2 with a door of 0.90 m about y = 0.
@@ -218,7 +220,12 @@ TEST_CASE("the guide lets the body follow in the open, slows or swings it at a d
   };
   const auto look = [](FootprintGuide& guide, const Ground& ground, const Path& path, const Pose2& pose, int looks) {
     for (int k = 0; k < looks; ++k) {
-      guide.look({.path = path, .map_from_robot = pose, .wanted = {}, .driven = {}, .still = ground.map()});
+      guide.look({.path = path,
+                  .map_from_robot = pose,
+                  .wanted = {},
+                  .driven = {},
+                  .still = ground.map(),
+                  .now = Time{kScan * k}});
     }
   };
   FootprintGuide free(kChair.footprint, kChair.limits);
@@ -254,7 +261,10 @@ TEST_CASE("a manoeuvre for one goal is not driven for another") {
   Path path;
   for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({-3.0 * (k / 40.0), 0.0}));
   FootprintGuide guide(kChair.footprint, kChair.limits);
-  const auto look = [&](Vec2 goal) { guide.look({.path = path, .still = ground.map(), .goal_in_map = goal}); };
+  Time now{};
+  const auto look = [&](Vec2 goal) {
+    guide.look({.path = path, .still = ground.map(), .goal_in_map = goal, .now = now += kScan});
+  };
   for (int k = 0; k < 10; ++k) look({-3.0, 0.0});
   REQUIRE(guide.manoeuvre().active());
   look({-3.0, 0.1});
@@ -271,30 +281,45 @@ TEST_CASE("refused, the guide backs off where it has seen what is behind, and wa
   Path path;
   for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({0.05 * k, 0.0}));
   const Ground ground;
-  const auto looks_until_off = [&](const EvidenceMap& still, bool hidden) {
+  const auto seconds_until_off = [&](const EvidenceMap& still, bool hidden, double scans_hz) {
     FootprintGuide guide(kChair.footprint, kChair.limits);
-    int looks = 0;
-    for (; looks < 100 && !guide.manoeuvre().active(); ++looks)
-      guide.look(
-          {.path = path, .wanted = {0.3, 0.0}, .still = still, .goal_in_map = {2.0, 0.0}, .somebody_hidden = hidden});
-    return looks;
+    double now_s = -1.0 / scans_hz;
+    while (now_s < 20.0 && !guide.manoeuvre().active()) {
+      now_s += 1.0 / scans_hz;
+      guide.look({.path = path,
+                  .wanted = {0.3, 0.0},
+                  .still = still,
+                  .goal_in_map = {2.0, 0.0},
+                  .somebody_hidden = hidden,
+                  .now = time_from_seconds(now_s)});
+    }
+    return now_s;
   };
-  CHECK(looks_until_off(ground.map(), false) == 15);
-  CHECK(looks_until_off(ground.map(), true) == 75);
-  CHECK(looks_until_off(unseen, false) == 75);
+  for (const double scans_hz : {5.0, 15.0, 40.0}) {
+    CAPTURE(scans_hz);
+    const double scan_s = 1.01 / scans_hz;
+    CHECK(seconds_until_off(ground.map(), false, scans_hz) == Approx(1.0).margin(scan_s));
+    CHECK(seconds_until_off(ground.map(), true, scans_hz) == Approx(5.0).margin(scan_s));
+    CHECK(seconds_until_off(unseen, false, scans_hz) == Approx(5.0).margin(scan_s));
+  }
 }
 
 TEST_CASE("a manoeuvre that backs waits for five seconds while somebody near is out of sight") {
   const Ground ground = dead_end();
   Path path;
   for (int k = 0; k <= 40; ++k) REQUIRE(path.push_back({-3.0 * (k / 40.0), 0.0}));
-  const auto looks_until_off = [&](bool hidden) {
+  const auto seconds_until_off = [&](bool hidden, double scans_hz) {
     FootprintGuide guide(kChair.footprint, kChair.limits);
-    int looks = 0;
-    for (; looks < 100 && !guide.manoeuvre().active(); ++looks)
-      guide.look({.path = path, .still = ground.map(), .somebody_hidden = hidden});
-    return looks;
+    double now_s = -1.0 / scans_hz;
+    while (now_s < 20.0 && !guide.manoeuvre().active()) {
+      now_s += 1.0 / scans_hz;
+      guide.look({.path = path, .still = ground.map(), .somebody_hidden = hidden, .now = time_from_seconds(now_s)});
+    }
+    return now_s;
   };
-  CHECK(looks_until_off(false) == 8);
-  CHECK(looks_until_off(true) == 75);
+  for (const double scans_hz : {5.0, 15.0, 40.0}) {
+    CAPTURE(scans_hz);
+    CHECK(seconds_until_off(false, scans_hz) == Approx(0.45).margin(1.01 / scans_hz));
+    CHECK(seconds_until_off(true, scans_hz) == Approx(5.0).margin(1.01 / scans_hz));
+  }
 }

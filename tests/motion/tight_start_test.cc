@@ -125,7 +125,10 @@ TEST_CASE("where nothing is to be done for ten seconds the guide looks round, on
   Pose2 pose;
   std::vector<double> turns;  // of the manoeuvres that do nothing else
   for (int looks = 0; looks < 15 * 90; ++looks) {
-    guide.look({.path = out, .map_from_robot = pose, .still = box.map()});
+    guide.look({.path = out,
+                .map_from_robot = pose,
+                .still = box.map(),
+                .now = Time{Duration{66'666'667} * looks}});  // of 15 Hz
     const double before = pose.heading;
     bool drives = false, turned = false;
     while (guide.manoeuvre().active()) {
