@@ -53,8 +53,6 @@ class InProcessRobot {
   [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
   [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
   [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
-  /// Ports 3 and up are free, for strangers.
-  [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
   [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
   /// Port 0 is the controller's, 1 and 2 are the drives' (left, right); the others are free.
   [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }

@@ -21,7 +21,8 @@ namespace jaywalk {
 ///
 /// Told within 0.5 s at 0.2 m/s or 0.3 rad/s, where the scans can tell: not in open ground, not along a corridor
 /// without features, and a mirrored scanner only in turns. Movers that fill 20 % of the view and go
-/// along with the robot would deceive it. Thread: the loop's. Memory is fixed (45 kB).
+/// along with the robot would deceive it. Thread: the loop's. Memory is fixed (45 kB); a
+/// scan costs 0.05 to 0.2 ms on average (recorded runs, desktop).
 class SeenMotion {
  public:
   explicit SeenMotion(const RobotModel& model);

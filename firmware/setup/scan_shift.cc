@@ -10,8 +10,11 @@ namespace jaywalk {
 namespace {
 
 constexpr double kWidest_rad = 1.2, kStep_rad = 0.1;
-constexpr int kIterations = 20;
-constexpr double kFar_m = 0.2, kFirstFar_m = 0.6;
+constexpr int kIterations = 25;
+constexpr double kFar_m = 0.2, kFirstFar_m = 0.4, kLastFar_m = 0.06;
+constexpr double kAlike = 0.8;  ///< cosine between the normals of what may be one surface
+/// A nudge is short, whatever the mount: it weighs as two points at rest, and half a metre is a wrong match.
+constexpr double kRestPoints = 2.0, kMost_m = 0.5;
 constexpr std::size_t kLeastPoints = 40, kMostPoints = 400;
 /// Of the points' normals, the mean square across the direction that is seen least: two points in a hundred on a wall
 /// across.
@@ -59,16 +62,17 @@ double least_across(const Symmetric3& information, double used) {
 Fit fit_from(Pose2 pose, const std::vector<Surfel>& before, const std::vector<Surfel>& after) {
   Fit fit;
   for (int k = 0; k < kIterations; ++k) {
-    const double far_m = std::max(kFar_m, kFirstFar_m * (1.0 - 0.1 * k));
-    Symmetric3 information = diagonal(1e-6, 1e-6, 1e-6);
-    Row3 pull;
+    const double far_m = std::max(kLastFar_m, kFirstFar_m * (1.0 - 0.06 * k));
+    Symmetric3 information = diagonal(kRestPoints, kRestPoints, 1e-6);
+    Row3 pull{-kRestPoints * pose.x, -kRestPoints * pose.y, 0.0};
     double used = 0.0, off_m = 0.0;
     const Transform2 moved(pose);
     for (const Surfel& surfel : after) {
       const Vec2 p = moved * surfel.at;
       const Surfel& wall = nearest(before, p);
       const double off = dot(wall.normal, p - wall.at);
-      const bool pairs = norm(p - wall.at) < far_m;
+      const bool alike = std::fabs(dot(wall.normal, moved.rotate(surfel.normal))) > kAlike;
+      const bool pairs = alike && std::fabs(off) < far_m && norm(p - wall.at) < kFirstFar_m;
       off_m += pairs ? std::min(std::fabs(off), kFar_m) : kFar_m;
       if (!pairs) continue;
       const Row3 by{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
@@ -80,7 +84,7 @@ Fit fit_from(Pose2 pose, const std::vector<Surfel>& before, const std::vector<Su
     const Row3 step = inverse(information) * pull;
     pose = {pose.x + step.x, pose.y + step.y, wrap_angle(pose.heading + step.heading)};
     fit = {pose, off_m / static_cast<double>(after.size()), least_across(information, used)};
-    if (k > 8 && std::fabs(step.x) + std::fabs(step.y) + std::fabs(step.heading) < 1e-5) break;
+    if (k > 16 && std::fabs(step.x) + std::fabs(step.y) + std::fabs(step.heading) < 1e-5) break;
   }
   return fit;
 }
@@ -93,10 +97,25 @@ std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& a
   Fit best;
   for (double turn = -kWidest_rad; turn <= kWidest_rad + 1e-9; turn += kStep_rad) {
     const Fit fit = fit_from({0.0, 0.0, turn}, walls, points);
-    if (fit.left_m < best.left_m) best = fit;
+    if (fit.left_m < best.left_m && norm(fit.pose.position()) < kMost_m) best = fit;
   }
   if (best.left_m > kMostLeft_m || best.across < kLeastAcross) return std::nullopt;
   return ScanShift{best.pose, best.left_m};
+}
+
+double misfit_m(const LaserScan& before, const LaserScan& after, const Pose2& before_from_after) {
+  constexpr double kMostOff_m = 0.1;
+  const std::vector<Surfel> walls = surfels_of(before), points = surfels_of(after);
+  if (walls.empty() || points.empty()) return kMostOff_m;
+  const Transform2 moved(before_from_after);
+  double sum_m = 0.0;
+  for (const Surfel& surfel : points) {
+    const Surfel& wall = nearest(walls, moved * surfel.at);
+    const bool alike = std::fabs(dot(wall.normal, moved.rotate(surfel.normal))) > kAlike;
+    const double off_m = std::fabs(dot(wall.normal, moved * surfel.at - wall.at));
+    sum_m += alike ? std::min(off_m, kMostOff_m) : kMostOff_m;
+  }
+  return sum_m / static_cast<double>(points.size());
 }
 
 }  // namespace jaywalk

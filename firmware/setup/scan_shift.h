@@ -13,8 +13,11 @@ struct ScanShift {
 };
 
 /// Matches two scans without any idea of the motion: point to line (Chen and Medioni 1992) from turns of up to 70
-/// degrees either way, the best of them. Nothing where they have too little in common, or where it could slide along
-/// what it sees. Start-up only: takes about a second and allocates.
+/// degrees either way, the best of them. The turn is exact; a way that few points tell is taken to be short. Nothing
+/// where they have too little in common. Start-up only: takes about a second and allocates.
 [[nodiscard]] std::optional<ScanShift> match_scans(const LaserScan& before, const LaserScan& after);
+
+/// How badly the scans fit one another at that pose: the mean distance across the surfaces, each at most 0.1 m.
+[[nodiscard]] double misfit_m(const LaserScan& before, const LaserScan& after, const Pose2& before_from_after);
 
 }  // namespace jaywalk

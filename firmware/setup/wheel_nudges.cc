@@ -12,7 +12,7 @@ namespace jaywalk {
 namespace {
 
 constexpr Duration kRest = std::chrono::milliseconds(800), kLongestNudge = std::chrono::seconds(5);
-constexpr Duration kOldestWheels = std::chrono::milliseconds(100);
+constexpr Duration kOldestWheels = std::chrono::milliseconds(100), kFirstWords = std::chrono::milliseconds(300);
 constexpr double kReaction_s = 0.2;  ///< a scan's age, a tick, the drive
 constexpr double kLeastRoom_m = 0.15;
 
@@ -27,10 +27,10 @@ class Nudging {
         stopped_(stopped),
         zone_({.footprint = setup.model.footprint,
                .robot_from_laser = setup.model.laser.robot_from_laser,
-               .brake_mps2 = setup.model.limits.brake_mps2,
-               .reaction_s = kReaction_s}),
+               .brake_mps2 = setup.model.limits.brake_mps2}),
         felt_(setup.model.drive, setup.model.limits.brake_mps2),
-        due_(clock.now()) {}
+        began_(clock.now()),
+        due_(began_) {}
 
   Nudge nudge(std::size_t side, double sign) {
     Nudge nudge{.side = side, .sign = sign};
@@ -84,6 +84,7 @@ class Nudging {
     if (stopped_()) give_up("commissioning: broken off", "start it again when nothing speaks against it");
     if (wheels_.trouble != DriveTrouble::kNone)
       give_up("commissioning: " + std::string(name(wheels_.trouble)), "see to the drives, then start it again");
+    if (now - began_ < kFirstWords) return;  // drives speak when they are spoken to
     if (is_older(wheels_.stamp, now, kOldestWheels)) give_up("commissioning: no wheel feedback", "see to the drives");
     const Duration oldest = duration_from_seconds(3.0 / setup_.model.laser.rate_hz + 0.2);
     if (is_older(scan_.stamp, now, oldest)) give_up("commissioning: no scans", "see to the scanner");
@@ -93,7 +94,8 @@ class Nudging {
     const double v = 0.5 * setup_.speed_mps, w = setup_.speed_mps / setup_.model.drive.track_width_m;
     for (const Twist2& way : {Twist2{v, w}, Twist2{v, -w}, Twist2{-v, w}, Twist2{-v, -w}}) {
       const double gap_m = zone_.gap_m(scan_, way);
-      if (gap_m < kLeastRoom_m || zone_.speed_to_stop_within(gap_m, scan_.sweep) < zone_.rim_speed_mps(way))
+      if (gap_m < kLeastRoom_m ||
+          zone_.speed_to_stop_within(gap_m, kReaction_s + to_seconds(scan_.sweep)) < zone_.rim_speed_mps(way))
         give_up("commissioning: something stands too near", "leave half a metre free all round the robot");
     }
   }
@@ -105,7 +107,7 @@ class Nudging {
   const std::function<bool()>& stopped_;
   StopZone zone_;
   FeltMotion felt_;
-  Time due_;
+  Time began_, due_;
   WheelState wheels_;
   LaserScan scan_;
   WheelCommand sent_;

@@ -3,6 +3,8 @@
 #include <array>
 #include <cmath>
 #include <cstdio>
+#include <cstdlib>
+#include <limits>
 #include <optional>
 
 #include "firmware/setup/scan_shift.h"
@@ -10,9 +12,10 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kTolerance = 0.1;     ///< of counts a turn
-constexpr double kOffMount_rad = 0.2;  ///< 11 degrees: matched scans are good to five
-constexpr double kLeastShare = 0.3;    ///< of the motion felt, or the robot did not move
+constexpr double kTolerance = 0.1;   ///< of counts a turn
+constexpr double kLeastShare = 0.3;  ///< of the turn felt, or the robot did not move
+constexpr double kClearly = 0.9;     ///< a misfit that is less than this of another
+constexpr int kOffMountSteps = 3;    ///< of 5 degrees
 
 const char* side_name(std::size_t side) { return side == 0 ? "left" : "right"; }
 
@@ -20,24 +23,37 @@ const char* side_name(std::size_t side) { return side == 0 ? "left" : "right"; }
 struct SideMotion {
   double felt_m = 0.0;    ///< way of the rim
   double seen_rad = 0.0;  ///< turn, positive where the wheel's side should go forward
-  Vec2 seen_way;          ///< of the middle, in the direction of half the turn
   bool matched = true;
+  double forward_misfit_m = 0.0, backward_misfit_m = 0.0;  ///< of the scans, had the middle gone so with that turn
 };
+
+/// The way that a wheel rolled forward.
+double felt_m(const Nudge& nudge, const DriveModel& drive) {
+  const double left = nudge.after.left_rad - nudge.before.left_rad;
+  const double right = nudge.after.right_rad - nudge.before.right_rad;
+  return drive.wheel_radius_m * (nudge.side == 0 ? left : right);
+}
+
+/// The middle goes half of the wheel's way, in the direction of half the turn.
+double misfit_with(const Nudge& nudge, double turn_rad, double way_m, const Pose2& mount) {
+  const Vec2 way = direction(0.5 * turn_rad) * way_m;
+  return misfit_m(nudge.scan_before, nudge.scan_after, inverse(mount) * Pose2{way.x, way.y, turn_rad} * mount);
+}
 
 SideMotion motion_of(const std::vector<Nudge>& nudges, std::size_t side, const RobotModel& model) {
   SideMotion sum;
   const Pose2& mount = model.laser.robot_from_laser;
   for (const Nudge& nudge : nudges) {
     if (nudge.side != side) continue;
-    const double left = nudge.after.left_rad - nudge.before.left_rad;
-    const double right = nudge.after.right_rad - nudge.before.right_rad;
-    sum.felt_m += nudge.sign * model.drive.wheel_radius_m * (side == 0 ? left : right);
+    const double felt = felt_m(nudge, model.drive);
+    sum.felt_m += nudge.sign * felt;
     const std::optional<ScanShift> shift = match_scans(nudge.scan_before, nudge.scan_after);
     sum.matched = sum.matched && shift.has_value();
     if (!shift) continue;
-    const Pose2 moved = mount * shift->before_from_after * inverse(mount);
-    sum.seen_rad += nudge.sign * (side == 0 ? -moved.heading : moved.heading);
-    sum.seen_way = sum.seen_way + Transform2({0.0, 0.0, -0.5 * moved.heading}).rotate(moved.position()) * nudge.sign;
+    const double turn = shift->before_from_after.heading;
+    sum.seen_rad += nudge.sign * (side == 0 ? -turn : turn);
+    sum.forward_misfit_m += misfit_with(nudge, turn, 0.5 * felt, mount);
+    sum.backward_misfit_m += misfit_with(nudge, turn, -0.5 * felt, mount);
   }
   return sum;
 }
@@ -70,10 +86,12 @@ struct Signs {
 };
 
 Signs signs_of(const SideMotion& seen, double track_m) {
-  const auto sign = [](double is, double should) {
-    return std::fabs(is) < kLeastShare * std::fabs(should) ? 0 : (is > 0.0) == (should > 0.0) ? 1 : -1;
-  };
-  return {sign(seen.seen_rad, seen.felt_m / track_m), sign(seen.seen_way.x, 0.5 * seen.felt_m)};
+  Signs signs;
+  if (std::fabs(seen.seen_rad) >= kLeastShare * std::fabs(seen.felt_m) / track_m)
+    signs.turn = (seen.seen_rad > 0.0) == (seen.felt_m > 0.0) ? 1 : -1;
+  if (seen.forward_misfit_m < kClearly * seen.backward_misfit_m) signs.way = 1;
+  if (seen.backward_misfit_m < kClearly * seen.forward_misfit_m) signs.way = -1;
+  return signs;
 }
 
 WiringCheck check_sides(const Signs& left, const Signs& right) {
@@ -96,6 +114,10 @@ WiringCheck check_sides(const Signs& left, const Signs& right) {
     return {part, false,
             "it drives backward and turns as it should: either the scanner looks backward ([laser] mount), or the "
             "drives are exchanged and both reversed"};
+  if (left.turn != 0 && right.turn != 0 && (left.way == 0 || right.way == 0))
+    return {
+        part, false,
+        "the scans show the turns, but not which way it went; go to where walls stand ahead and beside, then again"};
   if (left.turn == 0 || right.turn == 0)
     return {part, false, "a wheel turns and the robot does not; see to grip, coupling and counts a turn"};
   return {part, false,
@@ -111,13 +133,33 @@ WiringCheck check_counts(const SideMotion& seen, std::size_t side, double track_
   return {std::string(side_name(side)) + " counts", well, said};
 }
 
-WiringCheck check_mount(const std::array<SideMotion, 2>& seen) {
-  const Vec2 way = seen[0].seen_way + seen[1].seen_way;
-  const double off = atan2(way.y, way.x);
+/// The scanner's heading on the robot that explains the scans best, beside what the file says.
+WiringCheck check_mount(const std::vector<Nudge>& nudges, const RobotModel& model) {
+  constexpr double kStep_rad = 5.0 * kPi / 180.0;
+  constexpr int kSteps = 9;  // to 45 degrees either way
+  double at_file_m = 0.0, least_m = std::numeric_limits<double>::infinity();
+  int best = 0;
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    Pose2 mount = model.laser.robot_from_laser;
+    mount.heading = wrap_angle(mount.heading + k * kStep_rad);
+    double sum_m = 0.0;
+    for (const Nudge& nudge : nudges) {
+      const double felt = felt_m(nudge, model.drive);
+      const double turn = (nudge.side == 0 ? -felt : felt) / model.drive.track_width_m;
+      sum_m += misfit_with(nudge, turn, 0.5 * felt, mount);
+    }
+    if (k == 0) at_file_m = sum_m;
+    if (sum_m < least_m) least_m = sum_m, best = k;
+  }
+  const bool well = std::abs(best) < kOffMountSteps || least_m > kClearly * at_file_m;
   char said[120];
-  const bool well = std::fabs(off) <= kOffMount_rad;
-  std::snprintf(said, sizeof said, "the robot drives %.0f degrees beside where the scanner looks%s", off * 180.0 / kPi,
-                well ? "" : "; correct [laser] mount");
+  if (well) {
+    std::snprintf(said, sizeof said, "it looks where the file says, as far as %d degrees can be told",
+                  5 * kOffMountSteps);
+  } else {
+    std::snprintf(said, sizeof said, "it is turned by about %d degrees more than the file says; correct [laser] mount",
+                  5 * best);
+  }
   return {"scanner's mount", well, said};
 }
 
@@ -136,7 +178,7 @@ std::vector<WiringCheck> judge_nudges(const std::vector<Nudge>& nudges, const Ro
   checks.push_back(check_sides(signs_of(seen[0], track_m), signs_of(seen[1], track_m)));
   if (!checks.back().is_well) return checks;
   for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
-  checks.push_back(check_mount(seen));
+  checks.push_back(check_mount(nudges, model));
   return checks;
 }
 

@@ -21,7 +21,8 @@ using Rewire = std::function<void(RobotFile&)>;
 struct Bench {
   /// `rewire` changes what the far end is wired like; the controller believes its file.
   Bench(const std::string& name, std::optional<sim::FaultKind> miswired, const Rewire& believe = {})
-      : folder(std::filesystem::temp_directory_path() / ("jaywalk_commission_" + std::to_string(::getpid()))),
+      : folder(std::filesystem::temp_directory_path() /
+               ("jaywalk_commission_" + std::to_string(::getpid()) + "_" + std::to_string(benches++))),
         file(wiring(name)),
         robot(file, scenario(miswired), 3, clock, folder) {
     if (believe) believe(file);
@@ -51,6 +52,7 @@ struct Bench {
     return judge_nudges(nudge_wheels(setup, robot.drive(), robot.laser(), clock, stopped), file.setup.model);
   }
 
+  static inline int benches = 0;
   std::filesystem::path folder;
   rig::HandLivingClock clock;
   RobotFile file;
@@ -71,6 +73,12 @@ std::string faults_with(sim::FaultKind miswired, const std::string& name = "robo
 
 bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
+void check_says(sim::FaultKind miswired, const std::string& name, const std::string& words) {
+  const std::string said = faults_with(miswired, name);
+  CAPTURE(name, said);
+  CHECK(says(said, words));
+}
+
 }  // namespace
 
 TEST_CASE("a robot that is wired as its file says passes every check, on all kinds of drive") {
@@ -78,7 +86,7 @@ TEST_CASE("a robot that is wired as its file says passes every check, on all kin
     CAPTURE(name);
     Bench bench(name, std::nullopt);
     const std::vector<WiringCheck> checks = bench.commission();
-    CHECK(faults_of(checks).empty());
+    CHECK(faults_of(checks) == "");
     CHECK(checks.size() == 6);
     CHECK(bench.robot.far_end().rim_speed() < 0.001);
     CHECK(bench.robot.far_end().truth().contacts == 0);
@@ -86,18 +94,17 @@ TEST_CASE("a robot that is wired as its file says passes every check, on all kin
 }
 
 TEST_CASE("motors that turn the other way, and one that does not turn, are named by their drives") {
-  CHECK(says(faults_with(sim::FaultKind::kBothMotorsReversed), "left drive: its encoder counts backwards"));
-  CHECK(says(faults_with(sim::FaultKind::kLeftMotorReversed), "left drive: its encoder counts backwards"));
-  CHECK(says(faults_with(sim::FaultKind::kLeftWheelStuck), "left drive: its wheel does not turn"));
+  check_says(sim::FaultKind::kBothMotorsReversed, "robot", "left drive: its encoder counts backwards");
+  check_says(sim::FaultKind::kLeftMotorReversed, "robot", "left drive: its encoder counts backwards");
+  check_says(sim::FaultKind::kLeftWheelStuck, "robot", "left drive: its wheel does not turn");
 }
 
 TEST_CASE("what only the scans tell is named: a wheel reversed, sides exchanged or a scanner upside down, no grip") {
   for (const char* name : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
-    CAPTURE(name);
-    CHECK(says(faults_with(sim::FaultKind::kLeftWheelReversed, name), "the left wheel goes backward"));
-    CHECK(says(faults_with(sim::FaultKind::kWheelsSwapped, name), "left and right are exchanged"));
-    CHECK(says(faults_with(sim::FaultKind::kScannerMirrored, name), "scanner is upside down"));
-    CHECK(says(faults_with(sim::FaultKind::kNoGrip, name), "the robot does not"));
+    check_says(sim::FaultKind::kLeftWheelReversed, name, "the left wheel goes backward");
+    check_says(sim::FaultKind::kWheelsSwapped, name, "left and right are exchanged");
+    check_says(sim::FaultKind::kScannerMirrored, name, "scanner is upside down");
+    check_says(sim::FaultKind::kNoGrip, name, "the robot does not");
   }
 }
 
