@@ -76,7 +76,6 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
   base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
-  base.stop = stop_limits(model, period);
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;
