@@ -87,21 +87,26 @@ TEST_CASE("the largest record that there can be fits an entry") {
   CHECK(same_bits(*read, *record));
 }
 
-TEST_CASE("a tick of version 2, which had no heading at the goal, comes back with any") {
-  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage of a
-  // stop 1 (byte 63, since version 4), the input's stamp 8, flag 1, point 16 and tolerance 8: 97 bytes.
+TEST_CASE("a tick of version 2, which had neither heading at the goal nor stage of a stop nor latencies, comes back") {
   std::vector<unsigned char> bytes(kMaxEntryBytes);
   bytes.resize(TickEncoder().encode(*made(5), 0, bytes));
-  bytes.erase(bytes.begin() + 97, bytes.begin() + 113);
-  bytes.erase(bytes.begin() + 63);
+  // Behind the latencies' 24 bytes stand a scan of five beams, 44 + 4 + 5 * 4, and a fix with a mover, 61 + 4 + 28.
+  bytes.erase(bytes.end() - 161 - 24, bytes.end() - 161);
+  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage 1,
+  // ready 1, the input's stamp 8, flag 1, point 16 and tolerance 8: 98 bytes.
+  bytes.erase(bytes.begin() + 98, bytes.begin() + 114);
+  bytes.erase(bytes.begin() + 63, bytes.begin() + 65);
   const auto read = std::make_unique<TickRecord>();
   read->input.goal_heading_rad = 1.0;
   std::uint64_t lost = 0;
   REQUIRE(TickDecoder(2).decode(bytes, *read, lost));
   const auto expected = made(5);
-  expected->wheels.stop = WheelState{}.stop;
   expected->input.goal_heading_rad = kAnyHeading;
   expected->input.goal_heading_tolerance_rad = 0.1;
+  expected->wheels.stop = StopStage::kNone;
+  expected->wheels.ready = true;
+  expected->took = Duration{0};
+  expected->latency = {};
   CHECK(same_bits(*read, *expected));
   CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
 }
