@@ -181,10 +181,10 @@ TEST_CASE("a sector that was stepped over takes the nearer of its neighbours, an
   const float infinite = std::numeric_limits<float>::infinity();
   CHECK_FALSE(point(449.5, 0.0F));
   for (const auto& [beside, before_m, after_m] : {std::tuple{10, 3.0F, 2.0F},
-                                                 {20, 2.0F, infinite},
-                                                 {30, infinite, infinite},
-                                                 {40, 2.0F, 0.0F},
-                                                 {50, 0.0F, infinite}}) {
+                                                  {20, 2.0F, infinite},
+                                                  {30, infinite, infinite},
+                                                  {40, 2.0F, 0.0F},
+                                                  {50, 0.0F, infinite}}) {
     CHECK_FALSE(point(beside + 0.9, before_m));
     CHECK_FALSE(point(beside + 2.2, after_m));
   }
