@@ -8,7 +8,8 @@
 
 namespace jaywalk {
 
-/// Lets through the data frames (or, where `remote`, the requests for them) whose identifier agrees with `id` where `mask` has ones.
+/// Lets through the data frames (or, where `remote`, the requests for them) whose identifier agrees with `id` where
+/// `mask` has ones.
 struct CanFilter {
   std::uint32_t id = 0;
   std::uint32_t mask = 0;

@@ -244,8 +244,10 @@ bool CanopenDriveBase::are_at_rest() const noexcept {
 void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept {
   if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone) return;  // nobody is there to be told
   const bool in_trouble = trouble_ != DriveTrouble::kNone;
-  const StopStage stage =
-      ladder_.update(now(), stopping || in_trouble, in_trouble, {axes_[0].feedback(), axes_[1].feedback()});
+  std::array<WheelFeedback, 2> felt{axes_[0].feedback(), axes_[1].feedback()};
+  felt[0].told_radps = left_radps;
+  felt[1].told_radps = right_radps;
+  const StopStage stage = ladder_.update(now(), stopping || in_trouble, in_trouble, felt);
   if (stage != StopStage::kNone) latch(DriveTrouble::kStopUnconfirmed);
   if (stage == StopStage::kSilent) return;
   // A drive that was not proved is not fed, nor is one that did not obey a quick stop.

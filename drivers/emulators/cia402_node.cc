@@ -239,6 +239,7 @@ void Cia402Node::move(double seconds) noexcept {
   const double target = static_cast<std::int32_t>(objects_.value({0x60FF, 0}));
   switch (state_) {
     case State::kOperationEnabled:
+      friction_ = static_cast<double>(objects_.value({0x6084, 0})) / 10.0;
       velocity_ = ramped(velocity_, target, std::fabs(target) > std::fabs(velocity_) ? ramp(0x6083) : ramp(0x6084));
       break;
     case State::kQuickStop:
@@ -246,7 +247,7 @@ void Cia402Node::move(double seconds) noexcept {
       velocity_ = ramped(velocity_, 0.0, ramp(0x6085));
       break;
     default:
-      velocity_ = ramped(velocity_, 0.0, ramp(0x6084) / 10.0);  // it rolls out
+      velocity_ = ramped(velocity_, 0.0, friction_ * seconds);  // it rolls out
       break;
   }
   position_ += 0.5 * (before + velocity_) * seconds;

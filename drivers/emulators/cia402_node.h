@@ -81,6 +81,7 @@ class Cia402Node {
   std::int32_t pending_target_ = 0;
   std::uint16_t last_controlword_ = 0;
   double velocity_ = 0.0;
+  double friction_ = 100.0;  ///< counts/s2: a tenth of the ramp with which it drove last
   double position_ = 0.0;
   bool has_encoder_ = false;
   double encoder_velocity_ = 0.0, encoder_position_ = 0.0;

@@ -21,24 +21,25 @@ double in_ms(Duration d) { return 1e3 * to_seconds(d); }
 std::string csv_row(const FaultResult& row) {
   char text[200];
   std::snprintf(text, sizeof text, "%s,%s,%.1f,%.0f,%.0f,%.3f,%d,%d\n", row.fault->name, faults::name_of(row.drive),
-                row.speed_mps, in_ms(row.reaction), in_ms(row.fault->limit), row.stop_distance_m, row.latched ? 1 : 0,
+                row.speed_mps, in_ms(row.reaction), in_ms(row.limit), row.stop_distance_m, row.latched ? 1 : 0,
                 row.why_not.empty() ? 1 : 0);
   return text;
 }
 
 void print(const FaultResult& row) {
   std::printf("%-4s  %-24s %-7s %.1f m/s  %5.0f of %4.0f ms  %6.3f m  %-7s  %s\n", row.why_not.empty() ? "ok" : "FAIL",
-              row.fault->name, faults::name_of(row.drive), row.speed_mps, in_ms(row.reaction), in_ms(row.fault->limit),
+              row.fault->name, faults::name_of(row.drive), row.speed_mps, in_ms(row.reaction), in_ms(row.limit),
               row.stop_distance_m, row.latched ? "latched" : "-", row.why_not.c_str());
 }
 
 /// A line for a fault and a kind of drive: its rows follow one another, a speed each.
 std::string markdown_line(std::span<const FaultResult> rows) {
-  Duration slowest{0};
+  Duration slowest{0}, longest{0};
   std::string distances;
   bool ok = true;
   for (const FaultResult& row : rows) {
     slowest = std::max(slowest, row.reaction);
+    longest = std::max(longest, row.limit);
     ok = ok && row.why_not.empty();
     char text[40];
     std::snprintf(text, sizeof text, "%.2f | ", row.stop_distance_m);
@@ -47,7 +48,7 @@ std::string markdown_line(std::span<const FaultResult> rows) {
   const FaultResult& first = rows.front();
   char text[300];
   std::snprintf(text, sizeof text, "| `%s` | %s | %.0f | %.0f | %s%s | %s |\n", first.fault->name,
-                faults::name_of(first.drive), in_ms(slowest), in_ms(first.fault->limit), distances.c_str(),
+                faults::name_of(first.drive), in_ms(slowest), in_ms(longest), distances.c_str(),
                 first.latched ? "yes" : "no", ok ? "yes" : "**no**");
   return text;
 }

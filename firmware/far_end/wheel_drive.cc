@@ -27,6 +27,21 @@ class NodeDrive final : public WheelDrive {
   void raise_fault(std::uint16_t code) noexcept override { node_.raise_fault(code); }
   void pull_cable() noexcept override { node_.pull_cable(); }
   void plug_cable() noexcept override { node_.plug_cable(); }
+  void restart() noexcept override { node_.restart(); }
+  void stick() noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) {
+      node_.hang();
+    } else {
+      node_.stick();
+    }
+  }
+  void lose_feedback() noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) {
+      node_.lose_feedback();
+    } else {
+      node_.mute();
+    }
+  }
   [[nodiscard]] emulators::DriveObjects* objects() noexcept override {
     if constexpr (std::is_same_v<Node, Cia402Node>) return &node_.objects();
     return nullptr;

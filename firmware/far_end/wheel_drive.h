@@ -24,6 +24,12 @@ class WheelDrive {
   virtual void raise_fault(std::uint16_t code) noexcept = 0;
   virtual void pull_cable() noexcept = 0;
   virtual void plug_cable() noexcept = 0;
+  /// Power lost and back.
+  virtual void restart() noexcept = 0;
+  /// It goes on at its last target, whatever it is told; its watch over the controller works.
+  virtual void stick() noexcept = 0;
+  /// It obeys, and says nothing of its wheel any more.
+  virtual void lose_feedback() noexcept = 0;
   /// What a CiA 402 drive can be told to lie about or to lack; null of others.
   [[nodiscard]] virtual emulators::DriveObjects* objects() noexcept = 0;
 };

@@ -14,28 +14,35 @@ class FaultBench;
 enum class Outcome {
   kLatched,  ///< at rest, latched: no goal is taken before a reset
   kStopped,  ///< at rest; it may go on when the cause is gone
-  kCrawls,   ///< 0.3 m/s at most (SAFETY 9), or at rest
   kDead      ///< the controller is gone: at rest by the drives' own watchdogs
+};
+
+/// Which drives let their wheels roll out under a fault: no limit of ours holds for their way then.
+enum class RollsOut {
+  kNone,
+  kMotors,  ///< an ODrive whose watchdog lets go, a VESC in fault
+  kAll      ///< a CiA 402 drive without power, too
 };
 
 /// One row of the matrix but for drive and speed.
 struct FaultCase {
   const char* name;
-  void (*strike)(FaultBench&);      ///< once, at speed
+  void (*strike)(FaultBench&);      ///< once, at speed; null: the wiring is wrong from the start
   void (*every_tick)(FaultBench&);  ///< and then again and again; may be null
   Reason reason;                    ///< one of these is to be named; kNone: none can be
   Duration limit;                   ///< from the fault to the moment from which on the wheels only slow down
   Outcome outcome;
   std::optional<DriveKind> only = {};  ///< of the one kind of drive that can have it
-  /// An ODrive whose watchdog lets go, and a VESC in fault, brake nothing: no limit of ours holds for their distance.
-  bool rolls_out = false;
+  RollsOut rolls_out = RollsOut::kNone;
+  bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
+  std::optional<sim::FaultKind> miswiring = {};
 };
 
 struct FaultResult {
   const FaultCase* fault = nullptr;
   DriveKind drive = DriveKind::kCia402;
   double speed_mps = 0.0;
-  Duration reaction{0};
+  Duration reaction{0}, limit{0};
   double stop_distance_m = 0.0;
   bool latched = false;
   std::string why_not = {};  ///< empty: ok
@@ -46,15 +53,16 @@ struct FaultResult {
 class FaultBench {
  public:
   /// `folder` is for the files of the run. Throws StartupError.
-  FaultBench(DriveKind kind, double speed_mps, const std::filesystem::path& folder);
+  FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, const std::filesystem::path& folder);
 
-  [[nodiscard]] FaultResult suffer(const FaultCase& fault);
+  [[nodiscard]] FaultResult suffer();
 
   // What strikes may use.
   [[nodiscard]] rig::InProcessRobot& robot() noexcept { return *robot_; }
   [[nodiscard]] rig::WheelDrive& left_drive() noexcept { return robot_->far_end().drive(0); }
   [[nodiscard]] rig::WheelDrive& right_drive() noexcept { return robot_->far_end().drive(1); }
-  [[nodiscard]] const DriveWiring& wiring() const noexcept { return file_.drive; }
+  [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return robot_->far_end().scanner(); }
+  [[nodiscard]] DriveKind kind() const noexcept { return kind_; }
   [[nodiscard]] InProcessBus::Port& controllers_port() noexcept { return robot_->wires().port(0); }
   /// Another program's place on the bus.
   void say_as_stranger(const CanFrame& frame) noexcept { (void)robot_->wires().port(3).send(frame); }
@@ -69,9 +77,18 @@ class FaultBench {
   [[nodiscard]] bool reach_speed();
   [[nodiscard]] double rim_mps() noexcept;
   [[nodiscard]] bool named(Reason reason) const noexcept { return reason == Reason::kNone || has(seen_, reason); }
-  [[nodiscard]] std::string complaint(const FaultCase& fault, const FaultResult& result);
-  [[nodiscard]] std::string complaint_afterwards(const FaultCase& fault);
+  /// At full speed, then the fault.
+  [[nodiscard]] FaultResult struck_at_speed();
+  /// Sets out with wrong wiring, towards a goal for which it has to turn.
+  [[nodiscard]] FaultResult wrong_from_start();
+  void begin_watch();
+  void endure();
+  [[nodiscard]] Duration limit() const noexcept;
+  [[nodiscard]] bool rolls_out() const noexcept;
+  [[nodiscard]] std::string complaint(const FaultResult& result);
+  [[nodiscard]] std::string complaint_afterwards();
 
+  const FaultCase& fault_;
   DriveKind kind_;
   double speed_mps_;
   RobotFile file_;

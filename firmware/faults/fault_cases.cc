@@ -22,9 +22,39 @@ constexpr Duration kScans = 300ms;
 /// older than they are.
 constexpr Duration kPlans = 600ms;
 
+/// A lost stop escalates to silence 100 ms after the ramp's end, and 100 ms later the drive's own watchdog acts.
+constexpr Duration kEscalated = 100ms + 100ms + kAtOnce;
+/// A scan of 15 Hz, and what it takes to come.
+constexpr Duration kNextScan = 67ms + 67ms + kAtOnce;
+/// Half a second of driving.
+constexpr Duration kMiswired = 500ms;
+
+/// What another master would tell the left drive.
+CanFrame foreign_setpoint(DriveKind kind) {
+  CanFrame frame;
+  frame.size = 8;
+  frame.extended = kind == DriveKind::kVesc;
+  frame.id = kind == DriveKind::kVesc ? 0x317 : kind == DriveKind::kOdrive ? 3U << 5U | 0x0DU : 0x202;
+  if (kind == DriveKind::kVesc) frame.size = 4;
+  if (kind == DriveKind::kCia402) frame.size = 6;
+  return frame;
+}
+
+void tell_network(FaultBench& bench, std::uint8_t command) {
+  CanFrame frame;
+  frame.size = 2;
+  frame.bytes = {command, 0};  // every node
+  bench.say_as_stranger(frame);
+}
+
+void stick_and_stop(FaultBench& bench, rig::WheelDrive& drive) {
+  drive.stick();
+  (void)bench.robot().desk().obey("stop now");
+}
+
 void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
 
-constexpr std::array kCases{
+const std::array kCases{
     FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
               Reason::kEmergencyStop, kAtOnce, Outcome::kLatched},
     FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, nullptr, Reason::kScanStale,
@@ -44,7 +74,7 @@ constexpr std::array kCases{
               kFeedback,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"drive_unplugged_right",
               [](FaultBench& b) { b.right_drive().pull_cable(); },
               nullptr,
@@ -52,7 +82,7 @@ constexpr std::array kCases{
               kFeedback,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"drive_fault_left",
               [](FaultBench& b) { b.left_drive().raise_fault(0x21); },
               nullptr,
@@ -60,7 +90,7 @@ constexpr std::array kCases{
               kAtOnce,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"drive_fault_right",
               [](FaultBench& b) { b.right_drive().raise_fault(0x21); },
               nullptr,
@@ -68,7 +98,7 @@ constexpr std::array kCases{
               kAtOnce,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"bus_refuses_frames",
               [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); },
               nullptr,
@@ -76,7 +106,7 @@ constexpr std::array kCases{
               kByThemselves,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"bus_off",
               [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
               nullptr,
@@ -84,7 +114,7 @@ constexpr std::array kCases{
               kByThemselves,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, nullptr,
               Reason::kBus, kAtOnce, Outcome::kLatched},
     FaultCase{"interface_down",
@@ -94,7 +124,7 @@ constexpr std::array kCases{
               kByThemselves,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(50ms); }, nullptr, Reason::kMissedTicks, 50ms + kAtOnce,
               Outcome::kLatched},
     FaultCase{"controller_hangs",
@@ -104,7 +134,7 @@ constexpr std::array kCases{
               kByThemselves,
               Outcome::kLatched,
               {},
-              true},
+              RollsOut::kMotors},
     FaultCase{"controller_dies",
               [](FaultBench& b) { b.hold_up(Duration::max()); },
               nullptr,
@@ -112,7 +142,153 @@ constexpr std::array kCases{
               kByThemselves,
               Outcome::kDead,
               {},
+              RollsOut::kMotors},
+
+    FaultCase{"scanner_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed); }, nullptr, Reason::kScanStale,
+              kScans, Outcome::kLatched},
+    FaultCase{"scanner_dirty", [](FaultBench& b) { (void)b.scanner().set_window(emulators::Window::kDirty); }, nullptr,
+              Reason::kScanStale, kScans, Outcome::kLatched},
+    FaultCase{"beams_lost_ahead", [](FaultBench& b) { b.scanner().lose_sector(-kPi / 3.0, kPi / 3.0); }, nullptr,
+              Reason::kUnwatched, kNextScan, Outcome::kStopped},
+    FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); }, nullptr,
+              Reason::kScanInvalid | Reason::kSightLost, kNextScan, Outcome::kLatched},
+    FaultCase{"feedback_lost_left",
+              [](FaultBench& b) { b.left_drive().lose_feedback(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              kFeedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"feedback_lost_right",
+              [](FaultBench& b) { b.right_drive().lose_feedback(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              kFeedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"drive_restarts_left",
+              [](FaultBench& b) { b.left_drive().restart(); },
+              nullptr,
+              Reason::kDrive | Reason::kWheelsDisobey,
+              kFeedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kAll},
+    FaultCase{"drive_restarts_right",
+              [](FaultBench& b) { b.right_drive().restart(); },
+              nullptr,
+              Reason::kDrive | Reason::kWheelsDisobey,
+              kFeedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kAll},
+    FaultCase{"stop_ignored_left",
+              [](FaultBench& b) { stick_and_stop(b, b.left_drive()); },
+              nullptr,
+              Reason::kStopUnconfirmed,
+              kEscalated,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors,
               true},
+    FaultCase{"stop_ignored_right",
+              [](FaultBench& b) { stick_and_stop(b, b.right_drive()); },
+              nullptr,
+              Reason::kStopUnconfirmed,
+              kEscalated,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors,
+              true},
+    FaultCase{"network_preoperational", [](FaultBench& b) { tell_network(b, 0x80); },
+              [](FaultBench& b) { tell_network(b, 0x80); }, Reason::kForeignMaster | Reason::kDrive,
+              kByThemselves + 100ms, Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"network_stopped", [](FaultBench& b) { tell_network(b, 0x02); },
+              [](FaultBench& b) { tell_network(b, 0x02); }, Reason::kForeignMaster | Reason::kDrive,
+              kByThemselves + 100ms, Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"foreign_heartbeat",
+              [](FaultBench& b) {
+                CanFrame frame;
+                frame.id = 0x701;
+                frame.size = 1;
+                frame.bytes = {0x05};
+                b.say_as_stranger(frame);
+              },
+              nullptr, Reason::kForeignMaster, kAtOnce, Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); }, nullptr,
+              Reason::kForeignMaster, kAtOnce, Outcome::kLatched},
+    FaultCase{"both_motors_reversed",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kBothMotorsReversed},
+    FaultCase{"left_motor_reversed",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kLeftMotorReversed},
+    FaultCase{"left_wheel_reversed",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kLeftWheelReversed},
+    FaultCase{"wheels_swapped",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kWheelsSwapped},
+    FaultCase{"left_wheel_stuck",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kLeftWheelStuck},
+    FaultCase{"scanner_mirrored",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kScannerMirrored},
+    FaultCase{"no_grip",
+              nullptr,
+              nullptr,
+              Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kDrive | Reason::kStopUnconfirmed,
+              kMiswired,
+              Outcome::kLatched,
+              {},
+              RollsOut::kNone,
+              false,
+              sim::FaultKind::kNoGrip},
 };
 
 }  // namespace

@@ -31,8 +31,7 @@ int matrix_rows() noexcept {
 int run_matrix(const std::filesystem::path& folder, const std::function<void(const FaultResult&)>& tell) {
   int bad = 0;
   for_each_row([&](const FaultCase& fault, DriveKind kind, double speed_mps) {
-    FaultBench bench(kind, speed_mps, folder);
-    const FaultResult result = bench.suffer(fault);
+    const FaultResult result = FaultBench(fault, kind, speed_mps, folder).suffer();
     bad += result.why_not.empty() ? 0 : 1;
     tell(result);
   });

@@ -36,7 +36,7 @@ bool stops(double loop_hz, double scan_hz, int lost, double phase, double late_s
     ++wheels.sequence;
     static_cast<void>(supervisor.judge({0.1, 0.0}, {scan, wheels, input, now, now}));
   }
-  return supervisor.latched();
+  return supervisor.mode() == Mode::kLatched;
 }
 
 }  // namespace
