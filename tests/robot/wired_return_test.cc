@@ -62,7 +62,7 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     Bench bench(robot);
     bench.tick(25);
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-    bench.tick(100);
+    bench.tick(150);
     CHECK(bench.speed_mps() > 0.3);
     CHECK(bench.robot.desk().obey("stop now").rfind("stop", 0) == 0);
     bench.tick(100);
@@ -81,7 +81,7 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
     CHECK(bench.speed_mps() == 0.0);
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-    bench.tick(100);
+    bench.tick(150);
     CHECK(bench.speed_mps() > 0.3);
   }
 }

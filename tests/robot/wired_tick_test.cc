@@ -62,7 +62,8 @@ TEST_CASE("a heading that is asked for over the desk is turned to over the wires
   bench.tick(40);
   const std::string on_the_way = bench.robot.desk().obey("status");
   CHECK(on_the_way.rfind("state: turning\n", 0) == 0);
-  CHECK(on_the_way.find(" 2.5\nreasons: \n") != std::string::npos);
+  // A pivot swings corners where the laser does not look.
+  CHECK(on_the_way.find(" 2.5\nreasons: unwatched\n") != std::string::npos);
   CHECK(bench.speed_mps() > 0.1);
   bench.heap_calls = 0;
   bench.tick(250);
@@ -104,8 +105,9 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
     for (int k = 0; k < 25; ++k) bench.tick();
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
     bench.heap_calls = 0;
-    for (int k = 0; k < 100; ++k) bench.tick();
+    for (int k = 0; k < 150; ++k) bench.tick();
     const auto calls = bench.heap_calls;
+    INFO(robot << ": " << to_string(bench.last().verdict.reasons));
     CHECK(calls == 0);
     CHECK(bench.speed_mps() > 0.3);
   }
