@@ -242,7 +242,8 @@ bool CanopenDriveBase::are_at_rest() const noexcept {
 }
 
 void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept {
-  if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone) return;  // nobody is there to be told
+  if (phase_ != Phase::kProved && trouble_ == DriveTrouble::kNone)
+    return;  // neither drive is armed, or a proof is under way
   const bool in_trouble = trouble_ != DriveTrouble::kNone;
   std::array<WheelFeedback, 2> felt{axes_[0].feedback(), axes_[1].feedback()};
   felt[0].told_radps = left_radps;

@@ -57,8 +57,8 @@ void Cia402Node::take(const CanFrame& frame, Time now) noexcept {
   if (frame.id == 0x080) on_sync();
 }
 
-// CiA 301: start, stop, enter pre-operational, reset node, reset communication. The latter forgets whom it watches and
-// leaves the motor as it is.
+// CiA 301: start, stop, enter pre-operational, reset node, reset communication. The latter clears the heartbeat
+// consumer and leaves the motor as it is.
 void Cia402Node::take_network_command(std::uint8_t command) noexcept {
   switch (command) {
     case 0x01:
@@ -196,7 +196,7 @@ void Cia402Node::watch_controller(Time now) noexcept {
   lose_controller();
 }
 
-// 1029h: a communication error takes it out of Operational, where nobody told it otherwise.
+// 1029h: a communication error takes it out of Operational, unless it was set otherwise.
 void Cia402Node::lose_controller() noexcept {
   send_emergency(0x8130);
   if (network_ == Network::kOperational && objects_.value({0x1029, 1}) == 0) network_ = Network::kPreOperational;
