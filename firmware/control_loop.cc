@@ -6,7 +6,9 @@ namespace jaywalk {
 namespace {
 
 constexpr LaserScan kNoScan{};
-constexpr Duration kNoWayFor = std::chrono::seconds(10);  // whoever is in the way has had his time
+constexpr Duration kPlanEvery = std::chrono::milliseconds(190);  // walls are no hurry: motion looks out for movers
+constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);     // as the supervisor's longest age of a plan
+constexpr Duration kNoWayFor = std::chrono::seconds(10);         // whoever is in the way has had his time
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
@@ -17,7 +19,8 @@ LocalizationConfig localization_config(const ControlSetup& setup) {
 PerceptionConfig perception_config(const ControlSetup& setup) {
   return {.robot_from_laser = setup.model.laser.robot_from_laser,
           .cell_m = setup.planner().cell_m,
-          .map_centre = (setup.start.position() + setup.goal) * 0.5};
+          .map_centre = (setup.start.position() + setup.goal) * 0.5,
+          .body = setup.model.footprint};
 }
 
 FollowerConfig follower_config(const ControlSetup& setup) {
@@ -40,6 +43,15 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
   return std::make_unique<GoalTurn>(setup.model.footprint, setup.model.limits, !setup.guides_body());
 }
 
+std::unique_ptr<motion::MotionPlanner> motion_for(const ControlSetup& setup) {
+  if (setup.guides_body() || setup.mode == PlanMode::kPaper) return nullptr;
+  return std::make_unique<motion::MotionPlanner>(motion::MotionConfig{.footprint = setup.model.footprint,
+                                                                      .limits = setup.model.limits,
+                                                                      .constant_speed = setup.constant_speed,
+                                                                      .goal_tolerance_m = setup.goal_tolerance_m,
+                                                                      .tick_s = to_seconds(setup.tick())});
+}
+
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
   SupervisorConfig config{.model = setup.model,
                           .tick = setup.tick(),
@@ -60,6 +72,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       localizer_(localization_config(setup)),
       tracker_(perception_config(setup)),
       follower_(follower_config(setup)),
+      motion_(motion_for(setup)),
       guide_(guide_for(setup)),
       turn_(turn_for(setup)),
       latency_(setup.model.drive),
@@ -87,7 +100,9 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   if (finds_no_way(t)) tracker_.forget_unseen();
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
-  t.wanted = follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
+  t.wanted = drives_by_motion()
+                 ? motion_->twist(now, goal_for_motion(t), t.pose.map_from_robot, t.input.goal_in_map, driven_)
+                 : follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
   t.latency = latency_.measured();
   t.verdict =
       supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
@@ -102,8 +117,9 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   sent_ = t.command;
 
   if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
-  t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy();
-  if (t.plan_asked) planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
+  if (new_scan && motion_) decide(t);
+  t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy() && (!motion_ || age(asked_, now) >= kPlanEvery);
+  if (t.plan_asked) asked_ = now, planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
   recorder_.commit();
   return t;
 }
@@ -116,6 +132,7 @@ void ControlLoop::note_plan(TickRecord& t) noexcept {
   } else if (setup_.keeps_speed()) {
     good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
   }
+  if (drives_by_motion()) good_plan_stamp_ = motion_->decision().seen;
   t.plan_stamp = good_plan_stamp_;
 }
 
@@ -127,11 +144,15 @@ bool ControlLoop::finds_no_way(const TickRecord& t) noexcept {
   return waits;
 }
 
+bool ControlLoop::goal_for_motion(const TickRecord& t) const noexcept {
+  return t.input.has_goal && (supervisor_.takes_wishes() || !setup_.applies_verdict());
+}
+
 FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
   return {.path = plan_->path,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
-          .has_goal = t.input.has_goal && (supervisor_.takes_wishes() || !setup_.applies_verdict()),
+          .has_goal = goal_for_motion(t),
           .tracks = tracker_.tracks(),
           .standing = tracker_.standing(),
           .permitted_before = driven_,
@@ -158,7 +179,30 @@ void ControlLoop::look(const TickRecord& t) noexcept {
   }
 }
 
+void ControlLoop::decide(const TickRecord& t) noexcept {
+  motion_->decide({.seen = {.now = t.now,
+                            .stamp = t.scan.stamp,
+                            .map_from_robot = t.pose.map_from_robot,
+                            .tracks = tracker_.tracks(),
+                            .standing = tracker_.standing(),
+                            .still = tracker_.still(),
+                            .scan = t.scan,
+                            .map_from_laser = localizer_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
+                            .guide = plan_->guide},
+                   .goal_in_map = t.input.goal_in_map,
+                   .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor},
+                  driven_);
+}
+
 PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
+  if (motion_) {
+    return {.stamp = t.scan.stamp,
+            .map_from_robot = t.pose.map_from_robot,
+            .goal_in_map = t.input.goal_in_map,
+            .speed_mps = setup_.model.limits.max_speed_mps,
+            .still = &tracker_.still(),
+            .masked = motion_->memory().masked()};
+  }
   return {.stamp = t.scan.stamp,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,

@@ -12,6 +12,7 @@
 #include "planner/localization/localizer.h"
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/follower.h"
+#include "planner/motion/motion_planner.h"
 #include "planner/perception/tracker.h"
 #include "planner/planner.h"
 
@@ -36,9 +37,14 @@ class ControlLoop {
   void note_plan(TickRecord& t) noexcept;
   /// Whether it has stood for ten seconds with a goal and no path to it; then not for another ten.
   [[nodiscard]] bool finds_no_way(const TickRecord& t) noexcept;
+  /// There is a goal, and wishes count.
+  [[nodiscard]] bool goal_for_motion(const TickRecord& t) const noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
   /// With a new plan, and after the wheels have their command: is there room for the body?
   void look(const TickRecord& t) noexcept;
+  /// With a new scan, and after the wheels have their command: how to move from the next tick on.
+  void decide(const TickRecord& t) noexcept;
+  [[nodiscard]] bool drives_by_motion() const noexcept { return motion_ != nullptr && !turns_at_goal(); }
   [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
 
   /// Tells a device's new reading from one seen before.
@@ -57,12 +63,14 @@ class ControlLoop {
   Localizer localizer_;
   Tracker tracker_;
   Follower follower_;
-  std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
-  std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
+  std::unique_ptr<motion::MotionPlanner> motion_;  ///< null for a long body, and in mode paper
+  std::unique_ptr<FootprintGuide> guide_;          ///< null for a body that is nearly round
+  std::unique_ptr<GoalTurn> turn_;                 ///< null for a robot that keeps its speed
   Latency latency_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;               ///< what collect() last answered, never null
+  Time asked_ = kNever;            ///< when a plan was asked for last
   Time good_plan_stamp_ = kNever;  ///< of the last that has a path
   Time had_way_ = kNever;          ///< or moved, had no goal, or looked anew for one, last
   Twist2 driven_;                  ///< what the wheels were last asked for

@@ -48,6 +48,8 @@ PlannerConfig ControlSetup::planner() const {
   config.mode = mode;
   config.cell_m = kCell_m;
   config.side_cells = grid_side_for(start.position(), goal, kCell_m);
+  config.inscribed_m = model.footprint.inscribed_radius_m();
+  config.circumscribed_m = model.footprint.circumscribed_radius_m();
   config.inflation_m = guides_body() ? model.footprint.inscribed_radius_m() : mover_radius_m();
   config.mover_margin_m = kMoverMargin_m + mover_radius_m() - config.inflation_m;
   return config;

@@ -11,6 +11,7 @@
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/guide.h"
 #include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
@@ -38,14 +39,23 @@ inline constexpr std::size_t kMaxPathPoints = 4096;
 /// border), 0.05 to 0.2 m apart. Empty unless the status is kOk.
 using Path = FixedVector<Vec2, kMaxPathPoints>;
 
+/// A body that is no wall, though the map may hold one there: it stood, and was mapped.
+struct MoverDisc {
+  Vec2 centre_in_map;
+  double radius_m = 0.0;
+  bool lasting = false;  ///< has stood for long: ways past it are preferred to ways through
+};
+inline constexpr double kOwnBody_m = 0.2;  ///< beyond its radius what is mapped may be its own: noise, legs, its way
+
 struct PlanRequest {
   Time stamp = kNever;  ///< of the scan that the request rests on
   Pose2 map_from_robot;
   Vec2 goal_in_map;
-  double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
-  const EvidenceMap* still = nullptr;  ///< walls; read during submit only
-  std::span<const Track> moving;       ///< copied during submit
-  std::span<const Stander> standing;   ///< where nobody passes, as wide as they are; read during submit only
+  double speed_mps = 0.0;                  ///< the robot's cruising speed: warp numbers count its travel
+  const EvidenceMap* still = nullptr;      ///< walls; read during submit only
+  std::span<const Track> moving = {};      ///< copied during submit
+  std::span<const Stander> standing = {};  ///< where nobody passes, as wide as they are; read during submit only
+  std::span<const MoverDisc> masked = {};  ///< for the guide; read during submit only
   /// Of a robot that cannot turn anywhere and does not see behind itself: what lies near it, was never seen and is not
   /// under it is no way while there is another. Null: what was never seen is free. Read during submit only.
   const Footprint* body = nullptr;
@@ -68,6 +78,7 @@ struct Plan {
   std::int32_t cycles = 0;   ///< solver's work
   double duration_ms = 0.0;  ///< measured; for reports only, no decision rests on it
   Path path;
+  Guide guide;  ///< to motion; whatever the status
   FixedVector<Prediction, kMaxTracks> predictions;
 };
 
@@ -87,8 +98,9 @@ struct PlannerConfig {
   std::int32_t max_side_cells = 1024;  ///< memory is taken for this; the grid doubles up to it when the goal
                                        ///< cannot be reached inside it
   double inflation_m = 0.3;            ///< obstacle cells grow by this: the robot's radius and a margin
-  double mover_margin_m = 0.3;         ///< the "safety distance" round a mover's predicted body
-  double horizon_cap_s = 5.0;          ///< predictions go no further
+  double inscribed_m = 0.2, circumscribed_m = 0.3;  ///< the body's, for the guide
+  double mover_margin_m = 0.3;                      ///< the "safety distance" round a mover's predicted body
+  double horizon_cap_s = 5.0;                       ///< predictions go no further
 };
 
 /// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024.

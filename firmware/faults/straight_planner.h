@@ -1,4 +1,7 @@
 #pragma once
+#include <limits>
+#include <vector>
+
 #include "planner/planner.h"
 
 namespace jaywalk::faults {
@@ -20,6 +23,7 @@ class StraightPlanner final : public Planner {
     const double length = norm(way);
     for (double gone = 0.0; gone < length; gone += kStep_m) add(from + way * (gone / length));
     add(request.goal_in_map);
+    plan_.guide = guide_to(request);
   }
   [[nodiscard]] const Plan& collect() noexcept override { return plan_; }
   [[nodiscard]] FieldView view_field() const override { return {}; }
@@ -28,12 +32,31 @@ class StraightPlanner final : public Planner {
 
  private:
   static constexpr double kStep_m = 0.1;
+  static constexpr std::int32_t kSide = 96;  ///< cells of a metre, with the goal in the middle
+
+  /// Nothing stands anywhere, and the way is straight.
+  [[nodiscard]] Guide guide_to(const PlanRequest& request) noexcept {
+    const auto low_x = static_cast<float>(request.goal_in_map.x) - kSide / 2,
+               low_y = static_cast<float>(request.goal_in_map.y) - kSide / 2;
+    for (std::int32_t j = 0; j < kSide; ++j) {
+      for (std::int32_t i = 0; i < kSide; ++i) {
+        const double away = norm({i + 0.5 - kSide / 2, j + 0.5 - kSide / 2}) / request.speed_mps;
+        to_go_s_[static_cast<std::size_t>(j * kSide + i)] =
+            fault_ == PlanFault::kNotFinite ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(away);
+      }
+    }
+    return {low_x, low_y, 1.0F, kSide, false, surface_.data(), unseen_.data(), to_go_s_.data()};
+  }
 
   void add(Vec2 point) noexcept {
     if (fault_ == PlanFault::kNotFinite) point.y = std::numeric_limits<double>::quiet_NaN();
     static_cast<void>(plan_.path.push_back(point));  // of 4096: the hall has room for 440
   }
 
+  static constexpr std::size_t kCells = static_cast<std::size_t>(kSide) * kSide;
+  std::vector<Place> surface_ = std::vector<Place>(kCells, Place{1e9F, 1e9F});
+  std::vector<std::uint8_t> unseen_ = std::vector<std::uint8_t>(kCells, 0);
+  std::vector<float> to_go_s_ = std::vector<float>(kCells, 0.0F);
   Plan plan_;
   PlanFault fault_ = PlanFault::kNone;
 };

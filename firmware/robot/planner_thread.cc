@@ -36,6 +36,11 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
   for (const Stander& stander : request.standing) {
     if (!standing_.push_back(stander)) break;
   }
+  masked_.clear();
+  for (const MoverDisc& disc : request.masked) {
+    if (!masked_.push_back(disc)) break;
+  }
+  request_.masked = {masked_.begin(), masked_.size()};
   request_.still = &still_;
   request_.moving = {moving_.begin(), moving_.size()};
   request_.standing = {standing_.begin(), standing_.size()};

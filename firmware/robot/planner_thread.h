@@ -33,6 +33,7 @@ class PlannerThread final : public Planner {
   EvidenceMap still_;
   FixedVector<Track, kMaxTracks> moving_;
   FixedVector<Stander, kMaxTracks> standing_;
+  FixedVector<MoverDisc, kMaxTracks> masked_;
   Mailbox<Plan> plans_;
   std::atomic<bool> busy_{false}, ending_{false};
   std::atomic<std::uint32_t> asked_{0};

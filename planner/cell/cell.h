@@ -7,7 +7,9 @@
 
 #ifdef __CUDACC__
 #define JAYWALK_CELL __host__ __device__ inline
+#define JAYWALK_ANYWHERE __host__ __device__ inline
 #else
+#define JAYWALK_ANYWHERE inline                     // for functions too long to be put into each of their callers
 #define JAYWALK_CELL [[gnu::always_inline]] inline  // a stage that is called cannot go four cells at a time
 #endif
 

@@ -7,6 +7,7 @@
 #include <memory>
 #include <utility>
 
+#include "planner/field/guide_field.h"
 #include "planner/field/nearest_cell.h"
 #include "planner/field/pass.h"
 #include "planner/field/path.h"
@@ -22,9 +23,10 @@ class GridPlanner final : public Planner {
         executor_(std::move(executor)),
         pass_(*executor_, config.max_side_cells),
         flood_(Grid{config.max_side_cells}.cells()),
-        window_{{0, 0}, config.side_cells, config.cell_m} {
+        window_{{0, 0}, config.side_cells, config.cell_m},
+        guide_(config.inscribed_m, config.circumscribed_m, config.max_side_cells) {
     for (Answer& answer : answers_) {
-      answer = std::make_unique<Result>();
+      answer = std::make_unique<Result>(config.max_side_cells);
       answer->psi = pass_.take_psi();
     }
   }
@@ -40,7 +42,10 @@ class GridPlanner final : public Planner {
     plan.cycles = 0;
     plan.path.clear();
     plan.predictions.clear();
+    plan.guide = {};
     plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
+    if (plan.status != PlanStatus::kBadRequest)
+      plan.guide = guide_.settle(guide_request(request, result), result.guide);
     if (plan.status != PlanStatus::kOk) plan.path.clear();
     plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     is_new_ = true;
@@ -68,9 +73,21 @@ class GridPlanner final : public Planner {
   struct Result {
     Plan plan;
     Window window;
+    GuideField::Memory guide;
     float* psi = nullptr;
+
+    explicit Result(std::int32_t max_side) : guide(max_side) {}
   };
   using Answer = std::unique_ptr<Result>;
+
+  [[nodiscard]] static GuideRequest guide_request(const PlanRequest& request, const Result& result) noexcept {
+    return {.window = result.window,
+            .still = request.still,
+            .movers = request.masked,
+            .robot_in_map = request.map_from_robot.position(),
+            .goal_in_map = request.goal_in_map,
+            .speed_mps = request.speed_mps};
+  }
 
   [[nodiscard]] std::int32_t cells(double metres) const noexcept {
     return static_cast<std::int32_t>(std::floor(metres / config_.cell_m + 0.5));
@@ -229,6 +246,7 @@ class GridPlanner final : public Planner {
   Window window_;
   Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
   std::int32_t solved_goal_ = kNoCell;
+  GuideField guide_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Answer, 2> answers_;  ///< collected, and being made
   bool is_new_ = false;

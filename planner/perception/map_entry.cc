@@ -64,6 +64,20 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
   }
 }
 
+void free_under(EvidenceMap& map, const Pose2& map_from_robot, const Footprint& body) noexcept {
+  if (body.half_width_m <= 0.0) return;
+  const double reach = body.circumscribed_radius_m();
+  const Vec2 middle = map_from_robot.position();
+  const Pose2 robot_from_map = inverse(map_from_robot);
+  const CellIndex low = map.cell_at(middle - Vec2{reach, reach}), high = map.cell_at(middle + Vec2{reach, reach});
+  for (std::int32_t j = low.j; j <= high.j; ++j) {
+    for (std::int32_t i = low.i; i <= high.i; ++i) {
+      const bool covered = body.distance_to(robot_from_map * map.centre_of({i, j})) == 0.0;
+      if (covered && map.evidence({i, j}) == 0) map.add({i, j}, kPass);
+    }
+  }
+}
+
 void MapEntry::enter(EvidenceMap& map, Vec2 laser, const std::array<Vec2, kMaxBeams>& points, const Entries& entries,
                      std::size_t count, double step_s) noexcept {
   if (++scan_ == 0) {  // the count of scans ran over: old marks would look new

@@ -4,6 +4,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/perception/scan_points.h"
 
@@ -16,6 +17,9 @@ enum class Becomes : std::uint8_t {
   kWall,      ///< an obstacle, and a wall in time
 };
 using Entries = std::array<Becomes, kMaxBeams>;
+
+/// Where the robot's body is nothing else stands: cells that were never seen and whose middle lies under it are free.
+void free_under(EvidenceMap& map, const Pose2& map_from_robot, const Footprint& body) noexcept;
 
 /// Enters scans: a beam's cells up to just before its end are free, the cell it ends in is occupied. Each cell changes
 /// at most once a scan, and an end counts more than a passing beam. Memory: 2 bytes a cell, taken in the constructor.

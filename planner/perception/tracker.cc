@@ -35,6 +35,7 @@ void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
 struct Tracker::State {
   explicit State(const PerceptionConfig& c)
       : robot_from_laser(c.robot_from_laser),
+        own_body(c.body),
         still(c.map_side_cells, c.cell_m, c.map_centre),
         entry(still),
         loose(still),
@@ -51,6 +52,7 @@ struct Tracker::State {
   void publish() noexcept;
 
   Pose2 robot_from_laser;
+  Footprint own_body;
   EvidenceMap still;
   MapEntry entry;
   LooseThings loose;
@@ -150,6 +152,7 @@ void Tracker::State::enter_still() noexcept {
   decide_entries(bodies, scene.clusters, scene.in_map, count, still, now, entries);
   still.roll_to(laser_in_map);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
+  free_under(still, scene.map_from_laser * inverse(robot_from_laser), own_body);
 }
 
 void Tracker::State::publish() noexcept {

@@ -16,7 +16,8 @@ struct PerceptionConfig {
   Pose2 robot_from_laser;
   double cell_m = 0.1;
   std::int32_t map_side_cells = 1024;
-  Vec2 map_centre;  ///< where the evidence map is centred at start
+  Vec2 map_centre;   ///< where the evidence map is centred at start
+  Footprint body{};  ///< of the robot: where it stands nothing else does. Without size: nothing is said of that
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.

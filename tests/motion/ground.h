@@ -18,6 +18,7 @@ class Ground {
     }
     return *this;
   }
+  void forget(CellIndex cell) { map_.forget(cell); }
   [[nodiscard]] const EvidenceMap& map() const { return map_; }
 
  private:

@@ -1,0 +1,163 @@
+#include "planner/motion/attempts.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/cell/draws.h"
+#include "planner/cell/exp_log.h"
+
+namespace jaywalk::motion {
+namespace {
+
+constexpr std::uint32_t kPurpose = 3;  ///< of the draws
+
+constexpr std::array<float, 7> kFollowShares{1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
+constexpr int kWaits = 4, kGoes = 4;
+constexpr std::array<float, 11> kTurns{0.0F, -0.15F, 0.15F, -0.3F, 0.3F, -0.5F, 0.5F, -0.75F, 0.75F, -1.0F, 1.0F};
+constexpr std::array<float, 4> kForward{1.0F, 0.667F, 0.333F, 0.0F};  ///< of full speed
+constexpr std::array<float, 2> kBack{0.5F, 1.0F};                     ///< of the speed backward
+constexpr std::array<int, 2> kBends{7, 14};                           ///< steps of an arc before it follows
+constexpr int kTurnCount = static_cast<int>(kTurns.size());
+
+constexpr int kFollows = static_cast<int>(kFollowShares.size());
+constexpr int kArcs = static_cast<int>(kForward.size() + kBack.size()) * kTurnCount;
+constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) * kTurnCount;
+constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
+
+constexpr int kSteerEvery = 3;  ///< steps
+constexpr float kLookM = 0.5F;  ///< the guide is asked this far off
+constexpr int kDirections = 16;
+constexpr float kSharpness = 8.0F;  ///< of the choice between directions side by side, 1/s
+constexpr float kGain = 1.8F;       ///< rad/s a radian off
+constexpr float kTurnsFirstRad = 0.9F;
+constexpr float kWhileTurningMps = 0.1F;
+
+float at(const std::array<float, kTurns.size()>& values, int k) { return values[static_cast<std::size_t>(k)]; }
+
+}  // namespace
+
+int Attempts::count() const {
+  return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
+                          : kFollows + kWaits + kGoes + kArcs + kBentForward + kBentBack;
+}
+
+void Attempts::make(int n, Trajectory& out) const noexcept {
+  out.perturbed = false;
+  if (constant_ > 0.0F) {
+    if (n == 0) return out.attempt = Attempt::kFollow, follow_from(s_.start, 0, constant_, out);
+    return n <= kTurnCount ? arc(n - 1, out) : arc_then_follow(n - 1 - kTurnCount, out);
+  }
+  const float full = s_.body.bounds.speed;
+  RobotState robot = s_.start;
+  if (n < kFollows) {
+    out.attempt = Attempt::kFollow;
+    return follow_from(robot, 0, kFollowShares[static_cast<std::size_t>(n)] * full, out);
+  }
+  n -= kFollows;
+  if (n < kWaits) {
+    out.attempt = Attempt::kWaitThenGo;
+    const int wait = 8 * (n + 1);
+    drive_out(robot, 0, wait, {}, out);
+    return follow_from(robot, wait, full, out);
+  }
+  n -= kWaits;
+  if (n < kGoes) {
+    out.attempt = Attempt::kGoThenStop;
+    follow_from(robot, 0, full, out);
+    return std::fill(out.commands.begin() + 6 + 8 * n, out.commands.end(), Command{});
+  }
+  n -= kGoes;
+  if (n < kArcs) return arc(n, out);
+  arc_then_follow(n - kArcs, out);
+}
+
+void Attempts::arc(int n, Trajectory& out) const noexcept {
+  const int row = n / kTurnCount, forward = static_cast<int>(kForward.size());
+  const MotionBounds& b = s_.body.bounds;
+  const float v = constant_ > 0.0F ? constant_
+                  : row < forward  ? kForward[static_cast<std::size_t>(row)] * b.speed
+                                   : -kBack[static_cast<std::size_t>(row - forward)] * b.back;
+  out.attempt = v < 0.0F ? Attempt::kArcBack : Attempt::kArc;
+  out.commands.fill({v, at(kTurns, n % kTurnCount) * b.turn});
+}
+
+void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
+  const MotionBounds& b = s_.body.bounds;
+  const bool back = constant_ <= 0.0F && n >= kBentForward;
+  const int row = (back ? n - kBentForward : n) / kTurnCount, bends = static_cast<int>(kBends.size());
+  const float v = constant_ > 0.0F ? constant_
+                  : back           ? -kBack[static_cast<std::size_t>(row)] * b.back
+                                   : kForward[static_cast<std::size_t>(row / bends)] * b.speed;
+  const int steps = back ? kBends[0] : kBends[static_cast<std::size_t>(row % bends)];
+  out.attempt = back ? Attempt::kBackThenFollow : Attempt::kArcThenFollow;
+  RobotState robot = s_.start;
+  drive_out(robot, 0, steps, {v, at(kTurns, n % kTurnCount) * b.turn}, out);
+  follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
+}
+
+void Attempts::drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept {
+  for (int step = from; step < to; ++step) {
+    out.commands[static_cast<std::size_t>(step)] = command;
+    robot = moved(robot, command, s_.body.bounds, kStepS);
+  }
+}
+
+void Attempts::follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept {
+  for (; step < kSteps; step += kSteerEvery) {
+    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), pursuit(robot, speed), out);
+  }
+}
+
+/// Towards where, half a metre off, the goal is nearest in time.
+Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
+  static constexpr float kStepRad = 2.0F * cell::kPiF / kDirections;
+  const auto asked = [&](float rad) {
+    const cell::Heading to = cell::heading_at(rad);
+    return s_.guide.time_to_go(r.x + kLookM * to.x, r.y + kLookM * to.y);
+  };
+  float best = Guide::kNoWay_s, best_rad = 0.0F;
+  for (int k = 0; k < kDirections; ++k) {
+    const float rad = static_cast<float>(k) * kStepRad, t = asked(rad);
+    if (t < best) best = t, best_rad = rad;
+  }
+  if (best >= Guide::kNoWay_s) return {constant_, 0.0F};
+  float sum = 0.0F, weights = 0.0F;
+  for (int k = -2; k <= 2; ++k) {
+    const float off = static_cast<float>(k) * 0.5F * kStepRad, t = asked(best_rad + off);
+    if (t >= Guide::kNoWay_s) continue;
+    const float weight = cell::exp((best - t) * kSharpness);
+    sum += weight * off, weights += weight;
+  }
+  const float error = cell::wrapped(best_rad + (weights > 0.0F ? sum / weights : 0.0F) - r.heading);
+  const float turn = s_.body.bounds.turn, wanted = kGain * error;
+  const bool turns_first = constant_ <= 0.0F && std::fabs(error) > kTurnsFirstRad;
+  return {turns_first ? std::min(speed, kWhileTurningMps) : speed, std::clamp(wanted, -turn, turn)};
+}
+
+void Attempts::perturb(const Trajectory& base, std::uint32_t decision, int round, int number,
+                       Trajectory& out) const noexcept {
+  const MotionBounds& b = s_.body.bounds;
+  const auto n = static_cast<std::uint32_t>(number);
+  cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), n});
+  const float v_size = (constant_ > 0.0F ? 0.0F : (n & 1U) != 0 ? 0.42F : 0.17F) * b.speed;
+  const float w_size = (n & 2U) != 0 ? 0.5F : 0.2F;
+  float v_goal = 0.0F, w_goal = 0.0F, v = 0.0F, w = 0.0F;
+  int hold = 0;
+  out.attempt = base.attempt;
+  out.perturbed = true;
+  for (int step = 0; step < kSteps; ++step) {
+    if (hold-- == 0) {
+      hold = 4 + static_cast<int>(10.0F * draws.uniform());
+      v_goal = v_size * draws.normal();
+      w_goal = w_size * draws.normal();
+    }
+    v += 0.3F * (v_goal - v);
+    w += 0.3F * (w_goal - w);
+    const Command& c = base.commands[static_cast<std::size_t>(step)];
+    out.commands[static_cast<std::size_t>(step)] = {
+        constant_ > 0.0F ? constant_ : std::clamp(c.v + v, -b.back, b.speed), std::clamp(c.w + w, -b.turn, b.turn)};
+  }
+}
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,29 @@
+#pragma once
+#include "planner/motion/judge.h"
+
+namespace jaywalk::motion {
+
+/// The trajectories that a decision tries, by number: each a function of the situation and its number alone, so that
+/// they can be made anywhere and in any order. Thread: any.
+class Attempts {
+ public:
+  /// `constant_mps` above 0: every one of them has that speed throughout.
+  Attempts(const Situation& situation, float constant_mps) : s_(situation), constant_(constant_mps) {}
+
+  [[nodiscard]] int count() const;
+  void make(int number, Trajectory& out) const noexcept;
+  /// `base` with smooth noise; `round` and `number` name it.
+  void perturb(const Trajectory& base, std::uint32_t decision, int round, int number, Trajectory& out) const noexcept;
+
+ private:
+  void follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept;
+  void drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept;
+  void arc(int number, Trajectory& out) const noexcept;
+  void arc_then_follow(int number, Trajectory& out) const noexcept;
+  [[nodiscard]] Command pursuit(const RobotState& robot, float speed) const noexcept;
+
+  const Situation& s_;
+  float constant_;
+};
+
+}  // namespace jaywalk::motion

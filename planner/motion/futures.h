@@ -1,0 +1,58 @@
+#pragma once
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "planner/motion/walker.h"
+#include "planner/perception/track.h"
+
+namespace jaywalk::motion {
+
+inline constexpr int kFutures = 32;             ///< a bit of a word each
+inline constexpr std::size_t kMostMovers = 64;  ///< nearest first
+inline constexpr float kFutureStepS = 0.2F;
+inline constexpr int kFutureSteps = 31;  ///< 0 to 6 s
+
+/// Where everybody is in each of the futures, at one time.
+struct MoverAt {
+  float x[kFutures], y[kFutures];
+  float along_x[kFutures], along_y[kFutures];
+  std::uint32_t walks;         ///< a bit a future
+  float mid_x, mid_y, spread;  ///< a circle that holds the places in all futures
+};
+
+/// Joint futures of all movers: in each they walk, stop, turn away from walls and from each other, and set out.
+/// Memory in the constructor. Thread: the loop's.
+class Futures {
+ public:
+  Futures() : at_(static_cast<std::size_t>(kFutureSteps) * kMostMovers), walkers_(kMostMovers) {}
+
+  /// Those seen are drawn from what is believed of them; those out of sight are given as they may be, kFutures of each.
+  void draw(std::span<const MoverBelief> seen, std::span<const Walker> hidden, const TurningModel& turning,
+            const Guide& guide, std::uint32_t decision) noexcept;
+
+  [[nodiscard]] std::size_t movers() const { return movers_; }
+  /// The map holds it where it stands: it was never seen to walk.
+  [[nodiscard]] bool is_mapped(std::size_t mover) const { return mapped_[mover]; }
+  [[nodiscard]] float radius(std::size_t mover) const { return radius_[mover]; }
+  [[nodiscard]] const MoverAt& at(int step, std::size_t mover) const {
+    return at_[static_cast<std::size_t>(step) * kMostMovers + mover];
+  }
+
+ private:
+  void note(int step) noexcept;
+  void find_blocked(int step) noexcept;
+
+  std::vector<MoverAt> at_;
+  struct Row {
+    Walker in[kFutures];
+  };
+  std::vector<Row> walkers_;
+  float radius_[kMostMovers] = {};
+  bool mapped_[kMostMovers] = {};
+  std::uint32_t blocked_[kMostMovers] = {};  ///< a bit a future
+  std::size_t movers_ = 0;
+};
+
+}  // namespace jaywalk::motion

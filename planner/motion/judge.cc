@@ -1,0 +1,198 @@
+#include "planner/motion/judge.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "planner/cell/exp_log.h"
+
+namespace jaywalk::motion {
+namespace {
+
+// Seconds that a passenger would give not to have it; by trial on a prototype, maps 3 and 4, seeds 9001 to 9010.
+constexpr float kConflict = 200.0F, kConflictFadesS = 4.0F;  ///< what is far ahead will be decided on again
+constexpr float kTouch = 500.0F, kNearlyTouch = 1000.0F;
+constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F, kStopZoneForS = 1.5F;
+constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;  ///< a second, at the body's edge
+constexpr float kByWall = 0.6F, kByWallM = 0.28F;
+constexpr float kUnseen = 40.0F;                              ///< a second, with all of the rim
+constexpr float kUnseenFadesM = 0.6F;                         ///< after driving on so far it has been seen, most likely
+constexpr float kUnseenDared = 0.15F, kUnseenTurned = 10.0F;  ///< where the only way leads there; and a rad/s
+constexpr float kNearMover = 0.15F;                           ///< a look, each
+constexpr float kNearMoverM = 1.0F;
+constexpr float kAccel = 2.0F, kTurnAccel = 0.6F;     ///< a squared change of m/s, rad/s in a step
+constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
+constexpr float kBackward = 0.02F;                    ///< each step
+constexpr float kArrivedEarly = 0.5F;
+constexpr float kFacing = 0.5F;  ///< the wrong way at the end
+constexpr float kFacingM = 0.35F;
+
+constexpr float kTouchM = 0.03F;                         ///< of a surface counts as touching: pose and map err
+constexpr float kMarginM = 0.04F, kFullMarginM = 0.08F;  ///< StopZoneConfig's, at rest and
+constexpr float kFullMarginMps = 0.4F;                   ///< at this rim speed
+constexpr float kZoneEdgeM = 0.01F;
+constexpr float kMoverMarginM = 0.035F;
+constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn away, and a margin
+constexpr float kZoneSideM = 0.013F;
+constexpr float kMostTimeToGoS = 500.0F;
+
+/// In which futures a disc of the robot at (x, y) touches a mover or stands in the quarter circle before one that
+/// walks; adds how near it is to `nearness`, a sum over futures.
+std::uint32_t conflicts(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m,
+                        float& nearness) {
+  const float touch = mover_m + disc_m + kMoverMarginM, touch2 = touch * touch;
+  const float zone = mover_m + kZoneM, edge = disc_m + kZoneSideM;
+  const float reach2 = (zone + edge) * (zone + edge), edge2 = edge * edge;
+  alignas(32) std::int32_t hit[kFutures], faced[kFutures];
+  alignas(32) float near[kFutures];
+  for (int k = 0; k < kFutures; ++k) {
+    const float dx = x - at.x[k], dy = y - at.y[k], d2 = dx * dx + dy * dy;
+    const float ahead = dx * at.along_x[k] + dy * at.along_y[k];
+    const float left = dy * at.along_x[k] - dx * at.along_y[k], aside = left < 0.0F ? -left : left;
+    // Along the quarter circle's side, and off it; beyond the side a disc still reaches in.
+    const float along = (ahead + aside) * 0.70710678F, off = (aside - ahead) * 0.70710678F;
+    const float over = edge2 - off * off;
+    const float first = along - std::sqrt(over > 0.0F ? over : 0.0F);
+    const std::int32_t inside = (aside <= ahead) & (d2 < reach2);
+    const std::int32_t beside = (aside > ahead) & (along > 0.0F) & (over > 0.0F) & (first < zone);
+    hit[k] = d2 < touch2 ? 1 : 0;
+    faced[k] = inside | beside;
+    near[k] = d2 < kNearMoverM * kNearMoverM ? kNearMoverM * kNearMoverM - d2 : 0.0F;
+  }
+  std::uint32_t touched = 0, in_zone = 0;
+  for (int k = 0; k < kFutures; ++k) {
+    touched |= static_cast<std::uint32_t>(hit[k]) << k;
+    in_zone |= static_cast<std::uint32_t>(faced[k]) << k;
+    nearness += near[k];
+  }
+  return is_mapped ? (touched | in_zone) & at.walks : touched | (in_zone & at.walks);
+}
+
+class Judge {
+ public:
+  Judge(const Situation& s) : s_(s), along_(cell::heading_at(s.start.heading)) {
+    clearance_ = at_start_ = clearance_at(s.start);
+  }
+
+  /// After a step: what the robot is near. `t`: seconds from now.
+  void look(const RobotState& before, const RobotState& now, int step) {
+    const float t = static_cast<float>(step + 1) * kStepS;
+    along_ = cell::heading_at(now.heading);
+    walls(now, t);
+    comfort(before, now);
+    unseen(now);
+    if ((step & 1) != 0) movers(now, (step + 1) / 2, t);
+  }
+
+  Cost cost;
+
+ private:
+  [[nodiscard]] float clearance_at(const RobotState& r) const {
+    return s_.body.to_walls.clearance(s_.guide, r.x, r.y, along_);
+  }
+
+  void walls(const RobotState& r, float t) {
+    const float c = clearance_at(r);
+    const bool nears = c < clearance_ - 1e-4F && c < at_start_ - 0.003F;  // it may always leave what it stands beside
+    clearance_ = c;
+    if (c < kTouchM && nears) {
+      const float deep = (kTouchM - c) * 20.0F;
+      cost.touch += kNearlyTouch * cell::exp(-0.2F * t) * (deep < 1.0F ? deep : 1.0F) + (c < 0.0F ? kTouch : 0.0F);
+    }
+    if (c >= kByWallM) return;
+    const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m, share = rim / kFullMarginMps;
+    const float margin = kMarginM + (kFullMarginM - kMarginM) * (share < 1.0F ? share : 1.0F) + kZoneEdgeM;
+    if (c < margin && nears && t < kStopZoneForS && cost.stop_zone <= 0.0F) {
+      cost.stop_zone = kStopZone * cell::exp(-t / kStopZoneFadesS);
+    }
+    const float close = c < kNearWallM ? (kNearWallM - c) / kNearWallM : 0.0F;
+    cost.clearance += kStepS * (kNearWall * close * close + kByWall * (kByWallM - c) / kByWallM);
+  }
+
+  void unseen(const RobotState& r) {
+    if (r.v > 0.0F) gone_ += r.v * kStepS;
+    int parts = 0;
+    for (const Place& p : s_.body.rim) {
+      const float x = r.x + p.x * along_.x - p.y * along_.y, y = r.y + p.x * along_.y + p.y * along_.x;
+      parts += s_.guide.is_unseen(x, y) ? 1 : 0;
+    }
+    if (parts == 0) return;
+    const float price = s_.guide.through_unseen ? kUnseenDared + kUnseenTurned * std::fabs(r.w)
+                                                : kUnseen * cell::exp(-gone_ / kUnseenFadesM);
+    cost.unseen += price * kStepS * static_cast<float>(parts) * 0.125F;
+  }
+
+  void comfort(const RobotState& before, const RobotState& now) {
+    const float dv = now.v - before.v, dw = now.w - before.w, side = now.v * now.w;
+    cost.comfort += kAccel * dv * dv + kTurnAccel * dw * dw + kTurning * now.w * now.w + kSideways * side * side;
+    if (now.v < -0.01F) cost.comfort += kBackward;
+  }
+
+  void movers(const RobotState& r, int step, float t) {
+    std::uint32_t met = 0;
+    float nearness = 0.0F;
+    const BodyDiscs& discs = s_.body.to_movers;
+    const int at_step = step < kFutureSteps ? step : kFutureSteps - 1;
+    for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
+      const MoverAt& at = s_.futures.at(at_step, m);
+      const bool mapped = s_.futures.is_mapped(m);  // while it stands it is a surface like others
+      const float radius = s_.futures.radius(m), most = at.spread + radius + kZoneM + discs.radius + 0.1F;
+      for (int k = 0; k < discs.count; ++k) {
+        const float x = r.x + discs.ahead[static_cast<std::size_t>(k)] * along_.x;
+        const float y = r.y + discs.ahead[static_cast<std::size_t>(k)] * along_.y;
+        const float dx = x - at.mid_x, dy = y - at.mid_y;
+        if (dx * dx + dy * dy < most * most) met |= conflicts(at, radius, mapped, x, y, discs.radius, nearness);
+      }
+    }
+    cost.nearness += kNearMover * nearness / static_cast<float>(kFutures * discs.count);
+    const std::uint32_t first = met & ~met_;
+    met_ |= met;
+    if (first != 0) {
+      const float share = static_cast<float>(std::popcount(first)) / kFutures;
+      cost.conflict += kConflict * share * cell::exp(-t / kConflictFadesS);
+    }
+  }
+
+  const Situation& s_;
+  cell::Heading along_;
+  float clearance_ = 0.0F, at_start_ = 0.0F;
+  float gone_ = 0.0F;      ///< forward, m
+  std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
+};
+
+/// Seconds from where a trajectory ends, and half a second for facing the wrong way there.
+float to_go(const Situation& s, const RobotState& end) {
+  const float there = s.guide.time_to_go(end.x, end.y);
+  if (there >= Guide::kNoWay_s) return kMostTimeToGoS;
+  const cell::Heading along = cell::heading_at(end.heading);
+  const float ahead = s.guide.time_to_go(end.x + kFacingM * along.x, end.y + kFacingM * along.y);
+  const float gained = there - (ahead < there + 1.0F ? ahead : there + 1.0F);
+  const float facing = gained * s.body.bounds.speed / kFacingM;
+  return there + kFacing * (1.0F - facing);
+}
+
+}  // namespace
+
+Cost judge(const Situation& s, const Trajectory& trajectory, float bound, RobotState* driven) noexcept {
+  Judge judge(s);
+  RobotState robot = s.start;
+  judge.cost.time = kArrivedEarly;
+  for (int step = 0; step < kSteps; ++step) {
+    const RobotState before = robot;
+    robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
+    if (driven != nullptr) driven[step] = robot;
+    judge.look(before, robot, step);
+    judge.cost.time += kStepS;
+    const float dx = robot.x - s.goal.x, dy = robot.y - s.goal.y;
+    if (dx * dx + dy * dy < s.arrives_within_m * s.arrives_within_m) {
+      judge.cost.time -= kArrivedEarly;
+      for (int rest = step + 1; driven != nullptr && rest < kSteps; ++rest) driven[rest] = robot;
+      return judge.cost;
+    }
+    if ((step & 1) != 0 && judge.cost.total() > bound) return judge.cost;
+  }
+  judge.cost.time += to_go(s, robot);
+  return judge.cost;
+}
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,161 @@
+#include "planner/motion/motion_planner.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::motion {
+namespace {
+
+constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
+constexpr int kRounds = 3, kPerturbed = 24;
+constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
+constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
+constexpr double kStopWithin = 2.0 / 3.0;                       ///< of the tolerance
+constexpr double kJustBelow = 1.0 - 1e-6;                       ///< single precision must not round a limit up
+constexpr float kArriveWithin = 0.8F;                           ///< the same, for roll-outs
+constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;        ///< comfort: a passenger's
+constexpr float kSlowing = 0.8F;
+constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
+constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
+constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
+
+RobotBody body_of(const MotionConfig& config) {
+  const Footprint& f = config.footprint;
+  const MotionLimits& l = config.limits;
+  const double outer = f.circumscribed_radius_m();
+  RobotBody body;
+  body.to_walls = BodyDiscs::covering(f, kOverSides_m);
+  body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
+  if (outer < f.inscribed_radius_m() + kNearlyRound_m) {
+    body.to_movers = {};
+    body.to_movers.count = 1;
+    body.to_movers.radius = static_cast<float>(outer);
+  }
+  body.rim_m = static_cast<float>(outer);
+  const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
+             side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);
+  body.rim = {{{front, side},
+               {front, 0.0F},
+               {front, -side},
+               {middle, side},
+               {middle, -side},
+               {rear, side},
+               {rear, 0.0F},
+               {rear, -side}}};
+  const auto at_most = [](double limit, float most) { return std::min(static_cast<float>(limit), most); };
+  body.bounds = {.speed = static_cast<float>(l.max_speed_mps * kJustBelow),
+                 .back = at_most(l.max_speed_mps, kBackMps),
+                 .turn = at_most(l.max_turn_radps, kMostTurn),
+                 .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
+                 .accel = static_cast<float>(l.max_accel_mps2),
+                 .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
+                 .jerk = static_cast<float>(l.max_jerk_mps3)};
+  return body;
+}
+
+}  // namespace
+
+MotionPlanner::MotionPlanner(const MotionConfig& config)
+    : config_(config), body_(body_of(config)), futures_(std::make_unique<Futures>()) {}
+
+bool MotionPlanner::is_there(const Pose2& here, Vec2 goal) const noexcept {
+  return !config_.constant_speed && distance(here.position(), goal) < config_.goal_tolerance_m * kStopWithin;
+}
+
+void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexcept {
+  const Seen& seen = input.seen;
+  memory_.update(seen);
+  if (!input.has_goal || !seen.guide.known() || !finite(seen.map_from_robot)) return;
+  ++decision_.number;
+  futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), seen.guide, decision_.number);
+  RobotState now{static_cast<float>(seen.map_from_robot.x),
+                 static_cast<float>(seen.map_from_robot.y),
+                 static_cast<float>(seen.map_from_robot.heading),
+                 static_cast<float>(driven.v_mps),
+                 static_cast<float>(driven.w_radps),
+                 0.0F};
+  now = moved(now, {now.v, now.w}, body_.bounds, kLagS);
+  now.accel = accel_;
+  const Situation situation{body_,
+                            seen.guide,
+                            *futures_,
+                            now,
+                            {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)},
+                            kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
+  best_cost_ = {.time = 1e9F};
+  float to_beat = 1e9F;
+  if (decision_.at != kNever && seen.now - decision_.at < kHoldsFor) {
+    best_ = shifted(seen.now);
+    best_cost_ = judge(situation, best_, 1e9F);
+    to_beat = best_cost_.total();
+  }
+  const Trajectory last = best_;
+  const Cost last_cost = best_cost_;
+  choose(situation);
+  if (best_cost_.total() > to_beat - kLeastGain) best_ = last, best_cost_ = last_cost;
+  decision_.at = seen.now;
+  decision_.seen = seen.stamp;
+  decision_.trajectory = best_;
+  decision_.cost = judge(situation, best_, 1e9F, decision_.driven.data());
+}
+
+void MotionPlanner::try_out(const Situation& situation, const Trajectory& trajectory) noexcept {
+  const Cost cost = judge(situation, trajectory, best_cost_.total());
+  if (cost.total() < best_cost_.total()) best_ = trajectory, best_cost_ = cost;
+}
+
+void MotionPlanner::choose(const Situation& situation) noexcept {
+  const float constant = config_.constant_speed ? body_.bounds.speed : 0.0F;
+  const Attempts attempts(situation, constant);
+  for (int n = 0; n < attempts.count(); ++n) {
+    attempts.make(n, trial_);
+    try_out(situation, trial_);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    const Trajectory base = best_;
+    for (int n = 0; n < kPerturbed; ++n) {
+      attempts.perturb(base, decision_.number, round, n, trial_);
+      try_out(situation, trial_);
+    }
+  }
+}
+
+/// What is left of the last decision, in between its steps, its last command held.
+Trajectory MotionPlanner::shifted(Time now) const noexcept {
+  Trajectory out = decision_.trajectory;
+  const float steps = static_cast<float>(to_seconds(now - decision_.at)) / kStepS;
+  const auto& old = decision_.trajectory.commands;
+  for (int k = 0; k < kSteps; ++k) {
+    const float at = static_cast<float>(k) + steps;
+    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(at), kSteps - 1));
+    const std::size_t j = std::min(i + 1, old.size() - 1);
+    const float share = at - static_cast<float>(static_cast<int>(at));
+    out.commands[static_cast<std::size_t>(k)] = {old[i].v + share * (old[j].v - old[i].v),
+                                                 old[i].w + share * (old[j].w - old[i].w)};
+  }
+  out.attempt = Attempt::kLast;
+  return out;
+}
+
+Command MotionPlanner::command_at(Time now) const noexcept {
+  if (decision_.at == kNever || now - decision_.at > kHoldsFor) return {};
+  const auto step = static_cast<int>(to_seconds(now - decision_.at) / static_cast<double>(kStepS));
+  return decision_.trajectory.commands[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
+}
+
+Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal,
+                            const Twist2& permitted) noexcept {
+  const Command was{static_cast<float>(permitted.v_mps), static_cast<float>(permitted.w_radps)};
+  if (std::fabs(was.v - wished_.v) > 1e-4F) accel_ = 0.0F;  // somebody else has set the speed
+  const bool rests = !has_goal || is_there(map_from_robot, goal);
+  Command to = rests ? Command{} : command_at(now);
+  if (config_.constant_speed && has_goal) to.v = body_.bounds.speed;
+  const RobotState next =
+      moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, to, body_.bounds, static_cast<float>(config_.tick_s));
+  accel_ = next.accel;
+  wished_ = {next.v, next.w};
+  if (rests && std::fabs(next.v) < 1e-6F && std::fabs(next.w) < 1e-6F) return wished_ = {}, Twist2{};
+  return {static_cast<double>(next.v), static_cast<double>(next.w)};
+}
+
+}  // namespace jaywalk::motion

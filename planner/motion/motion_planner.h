@@ -1,0 +1,73 @@
+#pragma once
+#include <memory>
+#include <vector>
+
+#include "hal/types/robot_model.h"
+#include "planner/motion/attempts.h"
+#include "planner/motion/mover_memory.h"
+
+namespace jaywalk::motion {
+
+struct MotionConfig {
+  Footprint footprint;
+  MotionLimits limits;
+  bool constant_speed = false;  ///< one speed from start to goal, never stopping
+  double goal_tolerance_m = 0.3;
+  double tick_s = 0.02;
+};
+
+/// What a tick knows, after its command is out.
+struct MotionInput {
+  Seen seen;
+  Vec2 goal_in_map;
+  bool has_goal = false;
+};
+
+/// What was decided, for the record and for pictures.
+struct Decision {
+  std::uint32_t number = 0;  ///< from 1
+  Time at = kNever;
+  Time seen = kNever;  ///< stamp of the scan that it rests on
+  Trajectory trajectory;
+  Cost cost;
+  std::array<RobotState, kSteps> driven{};
+};
+
+/// Decides how to move: draws futures of everybody, drives trajectories through them in thought, and takes the one that
+/// costs the passenger least; the last one stays unless another is better by kLeastGain. Each tick then drives on along
+/// it.
+///
+/// Memory in the constructor. Thread: the loop's.
+class MotionPlanner {
+ public:
+  explicit MotionPlanner(const MotionConfig& config);
+
+  /// With each new scan, after the wheels have their command: what to do from the next tick on.
+  void decide(const MotionInput& input, const Twist2& driven) noexcept;
+  /// This tick's wish. `permitted_before`: what became of the last one.
+  [[nodiscard]] Twist2 twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal_in_map,
+                             const Twist2& permitted_before) noexcept;
+
+  [[nodiscard]] const MoverMemory& memory() const { return memory_; }
+  [[nodiscard]] const Decision& decision() const { return decision_; }
+  [[nodiscard]] const Futures& futures() const { return *futures_; }
+
+ private:
+  void choose(const Situation& situation) noexcept;
+  void try_out(const Situation& situation, const Trajectory& trajectory) noexcept;
+  [[nodiscard]] Trajectory shifted(Time now) const noexcept;
+  [[nodiscard]] Command command_at(Time now) const noexcept;
+  [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
+
+  MotionConfig config_;
+  RobotBody body_;
+  MoverMemory memory_;
+  std::unique_ptr<Futures> futures_;
+  Decision decision_;
+  Trajectory trial_, best_;
+  Cost best_cost_;
+  Command wished_;      ///< last
+  float accel_ = 0.0F;  ///< of the ramp
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,54 @@
+#pragma once
+// How the robot moves when it is told to: one formula for the roll-outs and for the wheels.
+#include <cmath>
+
+#include "planner/cell/cell.h"
+#include "planner/cell/circle.h"
+
+namespace jaywalk::motion {
+
+/// What the robot may do, SI.
+struct MotionBounds {
+  float speed = 0.0F, back = 0.0F;  ///< forward, and backward where its scanner does not look
+  float turn = 0.0F, turn_accel = 0.0F;
+  float accel = 0.0F, slowing = 0.0F;
+  float jerk = 0.0F;
+};
+
+/// Where the robot is and how it moves, in the map.
+struct RobotState {
+  float x = 0.0F, y = 0.0F, heading = 0.0F;
+  float v = 0.0F, w = 0.0F, accel = 0.0F;
+};
+
+struct Command {
+  float v = 0.0F, w = 0.0F;
+};
+
+/// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk and without overshoot (the
+/// acceleration never exceeds what jerk takes back to zero in the speed left), the turn with bounded acceleration. The
+/// arc is taken at its middle heading.
+JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
+  RobotState s = from;
+  const float left = to.v - s.v, size = std::fabs(left);
+  const bool slows = std::fabs(to.v) < std::fabs(s.v) || to.v * s.v < 0.0F;
+  const float step = bounds.jerk * dt;
+  const float landing = step * (std::sqrt(0.25F + 2.0F * size / (step * dt)) - 0.5F);
+  float wanted = slows ? bounds.slowing : bounds.accel;
+  wanted = wanted < landing ? wanted : landing;
+  wanted = wanted < size / dt ? wanted : size / dt;
+  const float change = (left < 0.0F ? -wanted : wanted) - s.accel;
+  s.accel += change > step ? step : change < -step ? -step : change;
+  s.v += s.accel * dt;
+  const bool passed = left > 0.0F ? s.v > to.v : s.v < to.v;  // by a rounding
+  if (passed || std::fabs(to.v - s.v) < 1e-6F) s.v = to.v;
+  const float turn_step = bounds.turn_accel * dt, turn_left = to.w - s.w;
+  s.w += turn_left > turn_step ? turn_step : turn_left < -turn_step ? -turn_step : turn_left;
+  const cell::Heading middle = cell::heading_at(s.heading + 0.5F * s.w * dt);
+  s.heading += s.w * dt;
+  s.x += s.v * middle.x * dt;
+  s.y += s.v * middle.y * dt;
+  return s;
+}
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,46 @@
+#pragma once
+#include <array>
+#include <cstdint>
+
+#include "planner/motion/robot_motion.h"
+
+namespace jaywalk::motion {
+
+inline constexpr float kStepS = 0.1F;  ///< of a trajectory
+inline constexpr int kSteps = 60;      ///< 6 s: with 4 s, a third fewer of others' worlds were reached (prototype)
+
+/// What a trajectory is an attempt at. Recorded by number: new ones at the end.
+enum class Attempt : std::uint8_t {
+  kLast,    ///< the one decided on before, as far as it is not driven yet
+  kFollow,  ///< the guide, at some speed
+  kWaitThenGo,
+  kGoThenStop,
+  kArc,
+  kArcBack,
+  kArcThenFollow,
+  kBackThenFollow,
+};
+
+/// Timed commands; what comes of them is up to robot_motion.h.
+struct Trajectory {
+  Attempt attempt = Attempt::kFollow;
+  bool perturbed = false;
+  std::array<Command, kSteps> commands{};
+};
+
+/// What a trajectory costs, in seconds of the passenger's time.
+struct Cost {
+  float time = 0.0F;       ///< until its end, and from there to the goal
+  float conflict = 0.0F;   ///< chance of touching or forcing somebody for the first time, sooner is worse
+  float touch = 0.0F;      ///< of walls
+  float stop_zone = 0.0F;  ///< so near a surface, at its speed, that the supervisor would brake
+  float clearance = 0.0F;  ///< near surfaces
+  float unseen = 0.0F;     ///< parts of the body where nothing was ever seen
+  float nearness = 0.0F;   ///< near movers
+  float comfort = 0.0F;    ///< changes of speed and of turning
+  [[nodiscard]] float total() const {
+    return time + conflict + touch + stop_zone + clearance + unseen + nearness + comfort;
+  }
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,40 @@
+#pragma once
+#include <vector>
+
+#include "planner/field/guide_field.h"
+#include "tests/motion/ground.h"
+
+namespace jaywalk::test {
+
+/// Ground that was seen from (-4, -4) to (6, 6), walls drawn on it, and the guide of a P3-DX-like body there.
+class Guided {
+ public:
+  Guided& wall(Vec2 from, Vec2 to) {
+    ground_.wall(from, to);
+    return *this;
+  }
+  void forget(CellIndex cell) { ground_.forget(cell); }
+  const Guide& towards(Vec2 robot, Vec2 goal) {
+    const field::Window window{{-118, -118}, 256, 0.1};
+    guide_ = field_.settle({.window = window,
+                            .still = &ground_.map(),
+                            .movers = movers,
+                            .robot_in_map = robot,
+                            .goal_in_map = goal,
+                            .speed_mps = 0.6},
+                           memory_);
+    return guide_;
+  }
+  [[nodiscard]] const Guide& guide() const { return guide_; }
+  [[nodiscard]] const EvidenceMap& map() const { return ground_.map(); }
+
+  std::vector<MoverDisc> movers;
+
+ private:
+  tests::Ground ground_;
+  field::GuideField field_{0.1905, 0.297, 256};
+  field::GuideField::Memory memory_{256};
+  Guide guide_;
+};
+
+}  // namespace jaywalk::test

@@ -1,0 +1,172 @@
+// Decisions: in worlds small enough to say what is right.
+#include "planner/motion/motion_planner.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/motion/guided.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::motion;
+
+namespace {
+
+constexpr double kTick = 0.02;
+
+/// A P3-DX that does what it is told, and one mover that it sees as it is.
+class Drive {
+ public:
+  explicit Drive(test::Guided& ground, Vec2 goal, bool constant = false)
+      : ground_(ground),
+        goal_(goal),
+        planner_({.footprint = p3dx().footprint,
+                  .limits = p3dx().limits,
+                  .constant_speed = constant,
+                  .goal_tolerance_m = 0.3,
+                  .tick_s = kTick}) {
+    scan_.beam_count = 3;
+    scan_.range_max_m = 25.0F;
+  }
+
+  Pose2 pose{0.0, 0.0, 0.0};
+  Twist2 twist;
+  bool has_mover = false;
+  Vec2 mover{}, walks{};
+  bool blind_guide = false;
+  double least_m = 10.0;  ///< between robot's and mover's middles
+  double slowest = 10.0, fastest = -10.0;
+
+  /// Seconds until it is there; 0: not within `for_s`.
+  double run(double for_s) {
+    for (double t = 0.0; t < for_s; t += kTick) {
+      const Time now = time_from_seconds(t + 1.0);
+      twist = planner_.twist(now, true, pose, goal_, twist);
+      slowest = t > 3.0 ? std::min(slowest, twist.v_mps) : slowest;
+      fastest = std::max(fastest, twist.v_mps);
+      const Vec2 along = direction(pose.heading + 0.5 * twist.w_radps * kTick);
+      pose = {pose.x + twist.v_mps * kTick * along.x, pose.y + twist.v_mps * kTick * along.y,
+              wrap_angle(pose.heading + twist.w_radps * kTick)};
+      mover = mover + walks * kTick;
+      if (has_mover) least_m = std::min(least_m, distance(pose.position(), mover));
+      if (distance(pose.position(), goal_) < 0.3) return t + kTick;
+      if (static_cast<int>(t / kTick + 0.5) % 4 == 0) decide(now);
+    }
+    return 0.0;
+  }
+
+  [[nodiscard]] const MotionPlanner& planner() const { return planner_; }
+
+ private:
+  void decide(Time now) {
+    Guide guide = ground_.towards(pose.position(), goal_);
+    const std::vector<float> nothing(static_cast<std::size_t>(guide.side) * static_cast<std::size_t>(guide.side),
+                                     std::numeric_limits<float>::quiet_NaN());
+    if (blind_guide) guide.to_go_s = nothing.data();
+    const Track track{.id = 1,
+                      .stamp = now,
+                      .position_in_map = mover,
+                      .velocity_in_map = walks,
+                      .covariance = {1e-4, 1e-5, 1e-3},
+                      .radius_m = 0.27,
+                      .moving = norm(walks) > 0.1,
+                      .hits = 20,
+                      .last_seen = now};
+    planner_.decide({.seen = {.now = now,
+                              .stamp = now,
+                              .map_from_robot = pose,
+                              .tracks = {&track, has_mover ? 1U : 0U},
+                              .standing = {},
+                              .still = ground_.map(),
+                              .scan = scan_,
+                              .map_from_laser = pose,
+                              .guide = guide},
+                     .goal_in_map = goal_,
+                     .has_goal = true},
+                    twist);
+  }
+
+  test::Guided& ground_;
+  Vec2 goal_;
+  MotionPlanner planner_;
+  LaserScan scan_;
+};
+
+}  // namespace
+
+TEST_CASE("in the open it drives straight to the goal, at full speed") {
+  test::Guided g;
+  Drive drive(g, {4.0, 0.0});
+  const double took = drive.run(20.0);
+  CHECK(took > 0.0);
+  CHECK(took < 3.7 / 0.6 + 2.5);  // speeding up costs 0.9 s, slowing down little
+  CHECK(drive.fastest == Approx(0.6).margin(0.01));
+}
+
+TEST_CASE("it turns first where the goal lies behind") {
+  test::Guided g;
+  Drive drive(g, {-3.0, 0.5});
+  CHECK(drive.run(25.0) > 0.0);
+}
+
+TEST_CASE("somebody who crosses is neither touched nor made to turn") {
+  // Both would be at (2, 0) after 3.8 s.
+  test::Guided g;
+  Drive drive(g, {4.0, 0.0});
+  drive.has_mover = true;
+  drive.mover = {2.0, -1.9}, drive.walks = {0.0, 0.5};
+  CHECK(drive.run(25.0) > 0.0);
+  CHECK(drive.least_m > 0.27 + 0.3);
+}
+
+TEST_CASE("somebody who comes head-on is let by") {
+  test::Guided g;
+  Drive drive(g, {4.0, 0.0});
+  drive.has_mover = true;
+  drive.mover = {5.0, 0.0}, drive.walks = {-0.5, 0.0};
+  CHECK(drive.run(25.0) > 0.0);
+  CHECK(drive.least_m > 0.27 + 0.2);
+}
+
+TEST_CASE("a wall between is driven round without touching it") {
+  test::Guided g;
+  g.wall({2.0, -2.0}, {2.0, 1.5});
+  Drive drive(g, {4.0, 0.0});
+  CHECK(drive.run(40.0) > 0.0);
+}
+
+TEST_CASE("at constant speed it never slows down, and still lets by who crosses") {
+  test::Guided g;
+  Drive drive(g, {4.0, 0.0}, true);
+  drive.has_mover = true;
+  drive.mover = {2.0, -1.9}, drive.walks = {0.0, 0.5};
+  CHECK(drive.run(40.0) > 0.0);
+  CHECK(drive.slowest == Approx(0.6).margin(0.001));
+  CHECK(drive.least_m > 0.27 + 0.19);
+}
+
+TEST_CASE("a guide that is no number moves nobody") {
+  test::Guided g;
+  Drive drive(g, {4.0, 0.0});
+  drive.blind_guide = true;
+  CHECK(drive.run(3.0) == 0.0);
+  CHECK(norm(drive.pose.position()) < 0.2);
+}
+
+TEST_CASE("the same drive is the same to the bit, and takes no memory") {
+  test::Guided one, two;
+  Drive a(one, {4.0, 0.0}), b(two, {4.0, 0.0});
+  for (Drive* d : {&a, &b}) d->has_mover = true, d->mover = {3.0, 2.0}, d->walks = {-0.3, -0.3};
+  CHECK(a.run(8.0) == b.run(8.0));
+  CHECK(a.pose == b.pose);
+}
+
+TEST_CASE("without a decision for half a second it stops") {
+  MotionPlanner planner({.footprint = p3dx().footprint, .limits = p3dx().limits});
+  Twist2 twist{0.5, 0.3};
+  for (int k = 0; k < 100; ++k) {
+    twist = planner.twist(time_from_seconds(1.0 + 0.02 * k), true, {}, {4.0, 0.0}, twist);
+  }
+  CHECK(twist == Twist2{});
+}

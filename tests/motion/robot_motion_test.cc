@@ -1,0 +1,39 @@
+#include "planner/motion/robot_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk::motion;
+
+namespace {
+
+constexpr MotionBounds kBounds{
+    .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 2.0F};
+
+}  // namespace
+
+TEST_CASE("a command is reached within acceleration and jerk, and not overshot") {
+  for (const float to : {0.6F, 0.1F, -0.3F, 0.013F}) {
+    RobotState s;
+    float accel = 0.0F;
+    for (int k = 0; k < 200; ++k) {
+      const RobotState next = moved(s, {to, 0.0F}, kBounds, 0.02F);
+      CHECK(std::fabs(next.accel) <= 0.8F + 1e-5F);
+      CHECK(std::fabs(next.accel - accel) <= 2.0F * 0.02F + 1e-5F);
+      CHECK(std::fabs(next.v) <= std::fabs(to) + 1e-6F);
+      accel = next.accel;
+      s = next;
+    }
+    CHECK(s.v == to);
+  }
+}
+
+TEST_CASE("a quarter circle of 0.5 m radius ends where it should") {
+  RobotState s{0.0F, 0.0F, 0.0F, 0.5F, 1.0F, 0.0F};
+  for (int k = 0; k < 157; ++k) s = moved(s, {0.5F, 1.0F}, kBounds, 0.01F);
+  CHECK(s.x == Approx(0.5).margin(0.002));
+  CHECK(s.y == Approx(0.5).margin(0.002));
+  CHECK(s.heading == Approx(1.57).margin(0.001));
+}
