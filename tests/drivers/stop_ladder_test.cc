@@ -166,19 +166,20 @@ TEST_CASE("at any rate of the loop the last word to a wheel that does not stop i
 
 TEST_CASE("at any rate of the loop a stop that both wheels follow 60 ms late is confirmed, with one late tick too") {
   for (const Duration tick : {50ms, 40ms, 33ms, 20ms, 10ms, 5ms}) {
-    for (double speed = 0.0; speed < 12.0; speed += 0.05) {
+    for (double speed = 0.0; speed < 12.0; speed += 0.35) {
       for (int late = -1; late < static_cast<int>(1400ms / tick); ++late) {
-        CAPTURE(tick.count(), speed, late);
         StopLadder ladder(stop_limits(10.0, 0.5, tick));
         const Time order{10s};
         Time now = order, before = order - tick;
-        static_cast<void>(ladder.update(before, false, false, {drives_at(speed, before), drives_at(speed, before)}));
+        auto stage = ladder.update(before, false, false, {drives_at(speed, before), drives_at(speed, before)});
         for (int k = 0; now < order + 1500ms; ++k) {
           const double felt = std::clamp(speed - 10.0 * to_seconds(before - 60ms - order), 0.0, speed);
-          REQUIRE(ladder.update(now, true, false, {{{felt, before, 0.0}, {felt, before, 0.0}}}) == StopStage::kNone);
+          stage = std::max(stage, ladder.update(now, true, false, {{{felt, before, 0.0}, {felt, before, 0.0}}}));
           before = now;
           now += k == late ? tick * 3 / 2 : tick;
         }
+        CAPTURE(tick.count(), speed, late);
+        REQUIRE(stage == StopStage::kNone);
       }
     }
   }
