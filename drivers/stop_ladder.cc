@@ -5,6 +5,19 @@
 
 namespace jaywalk {
 
+namespace {
+/// So long after the ramp's end both wheels show that they stand, or nothing is sent any more.
+constexpr double kConfirmation_s = 0.1;
+}  // namespace
+
+StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick) noexcept {
+  StopLimits limits{.brake_radps2 = brake_radps2, .tolerance_radps = tolerance_radps};
+  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * tick);
+  limits.fresh = std::max<Duration>(limits.fresh, 5 * tick / 2);
+  limits.tick = tick;
+  return limits;
+}
+
 StopStage StopLadder::update(Time now, bool stopping, bool trouble,
                              const std::array<WheelFeedback, 2>& wheels) noexcept {
   follow_orders(now, wheels);
@@ -24,17 +37,25 @@ StopStage StopLadder::update(Time now, bool stopping, bool trouble,
     ended_ = true;
     return stage_;
   }
+  if (is_over(now) && !confirmed_) {
+    confirmed_ = is_at_rest(now, wheels);
+    if (!confirmed_) stage_ = StopStage::kSilent;
+  }
   if (now - ordered_ > limits_.response && !is_kept(now, wheels)) climb(now);
   return stage_;
 }
 
 void StopLadder::reset() noexcept { *this = StopLadder(limits_); }
 
+// What a wheel was told holds until now; what it is told in this cycle counts from now on.
 void StopLadder::follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept {
-  const double braked = followed_ == kNever ? 0.0 : limits_.brake_radps2 * to_seconds(now - followed_);
+  const bool is_first = followed_ == kNever;
+  const double braked = is_first ? 0.0 : limits_.brake_radps2 * to_seconds(now - followed_);
   followed_ = now;
   for (std::size_t k = 0; k < wheels.size(); ++k) {
-    owed_radps_[k] = std::max(std::fabs(wheels[k].told_radps), owed_radps_[k] - braked);
+    const double told = std::fabs(wheels[k].told_radps);
+    owed_radps_[k] = std::max(is_first ? told : told_radps_[k], owed_radps_[k] - braked);
+    told_radps_[k] = told;
   }
 }
 
@@ -45,9 +66,14 @@ void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noe
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     speed_at_order_[k] = std::min(std::fabs(wheels[k].speed_radps), owed_radps_[k]);
   }
+  longest_s_ = std::max(speed_at_order_[0], speed_at_order_[1]) / limits_.brake_radps2 + kConfirmation_s;
+  confirmed_ = false;
   // The drives are told to quick-stop at once where there is trouble.
   if (trouble_) stage_ = std::max(stage_, StopStage::kQuickStop);
 }
+
+// Written so that a ramp that is no number is over.
+bool StopLadder::is_over(Time now) const noexcept { return !(to_seconds(now - ordered_) <= longest_s_); }
 
 bool StopLadder::is_fresh(Time now, const WheelFeedback& wheel) const noexcept {
   return age(wheel.stamp, now) <= limits_.fresh;
@@ -72,6 +98,8 @@ bool StopLadder::is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels
 void StopLadder::climb(Time now) noexcept {
   if (stage_ == StopStage::kSilent || age(climbed_, now) < limits_.stage) return;
   stage_ = static_cast<StopStage>(static_cast<int>(stage_) + 1);
+  // The network stop comes with a quick stop: it waits for no cycle that would be silent.
+  if (!confirmed_ && is_over(now + limits_.tick)) stage_ = std::max(stage_, StopStage::kNetworkStop);
   climbed_ = now;
 }
 

@@ -13,7 +13,12 @@ struct StopLimits {
   Duration response = std::chrono::milliseconds(60);  ///< from the order until the ramp must show in the feedback
   Duration stage = std::chrono::milliseconds(20);     ///< from one stage to the next
   Duration fresh = std::chrono::milliseconds(60);     ///< older feedback confirms nothing
+  Duration tick = std::chrono::milliseconds(20);      ///< the controller's cycle
 };
+
+/// As much time as the loop's period `tick` makes of it, since the feedback that a tick reads was measured a period
+/// before. One late tick is no stop.
+[[nodiscard]] StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick) noexcept;
 
 /// What one wheel's drive said last, and what it is told in this cycle.
 struct WheelFeedback {
@@ -27,8 +32,9 @@ struct WheelFeedback {
 /// From the order on each wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
 /// feedback. Where it was told to slow down before, v is at most what that left of it at the ramp b: a commanded ramp
 /// is not owed twice. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage`
-/// after the other; so at the latest 100 ms and the ramp after the order both wheels stand or nothing is sent. A stage
-/// is never gone back on before reset().
+/// after the other. 100 ms after the ramp both wheels stand or nothing is sent any more, whatever the loop's rate: a
+/// stage for which no cycle is left until then comes together with the next, or not at all. A stage is never gone back
+/// on before reset().
 ///
 /// A stop that was commanded (both speeds zero) ends when both wheels stand; one because of trouble is watched until
 /// reset(): a wheel that turns again while the drives are in trouble takes it further. Thread: the drive base's; never
@@ -49,6 +55,7 @@ class StopLadder {
   /// What each wheel was told, falling with the ramp at most.
   void follow_orders(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
   void begin(Time now, const std::array<WheelFeedback, 2>& wheels) noexcept;
+  [[nodiscard]] bool is_over(Time now) const noexcept;
   /// Whether the feedback shows what the ramp allows now.
   [[nodiscard]] bool is_kept(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
   [[nodiscard]] bool is_at_rest(Time now, const std::array<WheelFeedback, 2>& wheels) const noexcept;
@@ -60,8 +67,10 @@ class StopLadder {
   bool under_way_ = false, ended_ = false;
   bool trouble_ = false;
   Time ordered_ = kNever, climbed_ = kNever;
+  double longest_s_ = 0.0;  ///< of this stop: nothing is sent later to wheels that do not stand
+  bool confirmed_ = false;  ///< they stood then
   Time followed_ = kNever;
-  std::array<double, 2> owed_radps_{}, speed_at_order_{};
+  std::array<double, 2> told_radps_{}, owed_radps_{}, speed_at_order_{};
 };
 
 }  // namespace jaywalk

@@ -124,6 +124,9 @@ void add_faults(CLI::App& app) {
   CLI::App* faults =
       app.add_subcommand("faults", "The fault matrix: every fault, drive and speed on the simulated robot");
   faults->add_option("--out", faults_options.out, "Folder for faults.csv")->capture_default_str();
+  faults->add_option("--rate-hz", faults_options.rate_hz, "Rate of the control loop")
+      ->check(CLI::Range(25.0, 200.0))
+      ->capture_default_str();
 }
 
 /// The parser would only say that one is missing.

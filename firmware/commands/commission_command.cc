@@ -10,6 +10,7 @@
 #include <string>
 
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/steady_clock.h"
 #include "firmware/setup/commissioned.h"
@@ -38,6 +39,14 @@ std::string obey(std::string_view line) {
   return "stopping\n";
 }
 
+/// What the kernel does not permit of what this thread and its process wish.
+std::vector<std::string> enter_fully(const RealtimeWishes& wishes) {
+  std::vector<std::string> refused;
+  if (wishes.lock_memory) refused = lock_memory();
+  for (std::string& line : enter_realtime(wishes)) refused.push_back(std::move(line));
+  return refused;
+}
+
 /// At rest already.
 void disarm(WiredDrive& drive, Clock& clock) {
   const Time limit = clock.now() + std::chrono::milliseconds(500);
@@ -51,7 +60,8 @@ void disarm(WiredDrive& drive, Clock& clock) {
 }  // namespace
 
 int commission_robot(const CommissionOptions& options) {
-  const RobotFile file = load_robot_file(options.robot);
+  RobotFile file = load_robot_file(options.robot);
+  if (options.allow_no_realtime) file.realtime.required = false;
   require_consent(options.yes);
   const std::filesystem::path of_file = file.control_socket.empty() ? default_control_socket() : file.control_socket;
   const ControlSocket socket(options.control_socket.empty() ? of_file : options.control_socket, obey);
@@ -60,7 +70,9 @@ int commission_robot(const CommissionOptions& options) {
   SteadyClock clock;
   RobotDevices devices(file, clock);
   devices.start();
+  require_realtime(file.realtime, enter_fully(file.realtime));  // before the drives may turn a wheel
   static_cast<void>(devices.drive().arm());
+  withdraw_commissioned(options.robot, file);
   const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
   std::vector<Nudge> nudges;
   try {

@@ -6,12 +6,13 @@ namespace jaywalk {
 struct CommissionOptions {
   std::filesystem::path robot;  ///< ROBOT.toml
   std::filesystem::path control_socket;
-  bool yes = false;  ///< the wheels may turn: nobody is asked
+  bool yes = false;                ///< the wheels may turn: nobody is asked
+  bool allow_no_realtime = false;  ///< goes on where the kernel refuses what the file asks for
 };
 
 /// Turns each wheel a little and checks motors, encoders, sides, counts and the scanner against what the scans show;
 /// prints a line a check and leaves ROBOT.commissioned.json. Returns 0 where all is well, else 1. Throws StartupError
-/// where it may not begin, or had to be broken off: nothing is written then.
+/// where it may not begin: nothing is written then; or had to be broken off: then what was found before is withdrawn.
 [[nodiscard]] int commission_robot(const CommissionOptions& options);
 
 }  // namespace jaywalk

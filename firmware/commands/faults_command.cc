@@ -85,7 +85,7 @@ int run_faults(const FaultsOptions& options) {
   std::vector<FaultResult> rows;
   const std::filesystem::path table = options.out / "faults.csv";
   write(table, csv);
-  const int bad = faults::run_matrix(scratch, [&](const FaultResult& row) {
+  const int bad = faults::run_matrix(options.rate_hz, scratch, [&](const FaultResult& row) {
     csv += csv_row(row);
     print(row);
     rows.push_back(row);

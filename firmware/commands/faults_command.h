@@ -5,6 +5,7 @@ namespace jaywalk {
 
 struct FaultsOptions {
   std::filesystem::path out = "out/faults";
+  double rate_hz = 50.0;  ///< of the control loop
 };
 
 /// The fault matrix on the simulated robot: prints it, and leaves faults.csv in the folder (docs/outputs.md). Returns 0

@@ -62,6 +62,8 @@ void add_commission(CLI::App& app, int& exit_code) {
   commission->add_option("robot", commission_options.robot, "Robot file (TOML; docs/robot.md)")->required();
   commission->add_option("--socket", commission_options.control_socket, "Control socket (default: the file's)");
   commission->add_flag("--yes", commission_options.yes, "The wheels may turn: do not ask");
+  commission->add_flag("--allow-no-realtime", commission_options.allow_no_realtime,
+                       "Go on where the kernel refuses real-time priority or locked memory");
   commission->callback([&exit_code] { exit_code = commission_robot(commission_options); });
 }
 

@@ -1,5 +1,7 @@
 #include "firmware/far_end/wheel_drive.h"
 
+#include <algorithm>
+
 #include "drivers/emulators/cia402_node.h"
 #include "drivers/emulators/odrive_node.h"
 #include "drivers/emulators/vesc_node.h"
@@ -9,6 +11,9 @@ namespace {
 
 using emulators::Cia402Node;
 using emulators::VescNode;
+
+/// Its heartbeat tells so late that the watchdog expired.
+constexpr Duration kOdriveHeartbeat = std::chrono::milliseconds(10);
 
 /// `Node` moves and measures in units of its own, `units_per_rad` of them a radian of the wheel.
 template <class Node>
@@ -47,6 +52,8 @@ class NodeDrive final : public WheelDrive {
     return nullptr;
   }
 
+  [[nodiscard]] Node& node() noexcept { return node_; }
+
  private:
   Node node_;
   double units_per_rad_;
@@ -59,8 +66,11 @@ std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::siz
   const auto& vesc = wiring.vesc.axes[side];
   const auto& cia402 = wiring.cia402.axes[side];
   switch (wiring.kind) {
-    case DriveKind::kOdrive:
-      return std::make_unique<NodeDrive<emulators::OdriveNode>>(bus, odrive.node, odrive.turns_per_rad);
+    case DriveKind::kOdrive: {
+      auto drive = std::make_unique<NodeDrive<emulators::OdriveNode>>(bus, odrive.node, odrive.turns_per_rad);
+      drive->node().set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
+      return drive;
+    }
     case DriveKind::kVesc:
       return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
     case DriveKind::kCia402:

@@ -7,6 +7,9 @@
 
 namespace jaywalk::rig {
 
+/// An ODrive's watchdog as docs/robot.md advises it; longer where the loop is slow.
+constexpr Duration kOdriveWatchdog = std::chrono::milliseconds(60);
+
 /// One wheel's drive at the far end of the bus, of any kind, in the wheel's units.
 class WheelDrive {
  public:

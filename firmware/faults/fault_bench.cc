@@ -24,8 +24,9 @@ std::string in_words(const char* format, double a, double b) {
 
 }  // namespace
 
-FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, const std::filesystem::path& folder)
-    : fault_(fault), kind_(kind), speed_mps_(speed_mps), file_(robot_file(kind, speed_mps, folder)) {
+FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
+                       const std::filesystem::path& folder)
+    : fault_(fault), kind_(kind), speed_mps_(speed_mps), file_(robot_file(kind, speed_mps, rate_hz, folder)) {
   const auto straight = [this](std::unique_ptr<Planner>) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();
@@ -63,6 +64,7 @@ void FaultBench::watch() noexcept {
 
 void FaultBench::hold_up(Duration time) noexcept {
   held_up_until_ = time == Duration::max() ? Time::max() : clock_.now() + time;
+  outlasts_watchdog_ = time > rig::kOdriveWatchdog;
 }
 
 void FaultBench::tick() {
@@ -153,11 +155,13 @@ FaultResult FaultBench::wrong_from_start() {
 
 Duration FaultBench::limit() const noexcept {
   const double ramp_s = fault_.after_ramp ? speed_struck_ / kBrake_mps2 : 0.0;
-  return fault_.limit + duration_from_seconds(ramp_s);
+  return fault_.limit(file_.setup.tick()) + duration_from_seconds(ramp_s);
 }
 
 bool FaultBench::rolls_out() const noexcept {
-  return fault_.rolls_out == RollsOut::kAll || (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402);
+  const bool lets_go = kind_ == DriveKind::kOdrive && outlasts_watchdog_;
+  return lets_go || fault_.rolls_out == RollsOut::kAll ||
+         (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402);
 }
 
 std::string FaultBench::complaint(const FaultResult& result) {

@@ -30,7 +30,8 @@ struct FaultCase {
   void (*strike)(FaultBench&);      ///< once, at speed; null: the wiring is wrong from the start
   void (*every_tick)(FaultBench&);  ///< and then again and again; may be null
   Reason reason;                    ///< one of these is to be named; kNone: none can be
-  Duration limit;                   ///< from the fault to the moment from which on the wheels only slow down
+  /// Of the loop's period: from the fault to the moment from which on the wheels only slow down.
+  Duration (*limit)(Duration tick) noexcept;
   Outcome outcome;
   std::optional<DriveKind> only = {};  ///< of the one kind of drive that can have it
   RollsOut rolls_out = RollsOut::kNone;
@@ -53,7 +54,8 @@ struct FaultResult {
 class FaultBench {
  public:
   /// `folder` is for the files of the run. Throws StartupError.
-  FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, const std::filesystem::path& folder);
+  FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
+             const std::filesystem::path& folder);
 
   [[nodiscard]] FaultResult suffer();
 
@@ -66,6 +68,7 @@ class FaultBench {
   [[nodiscard]] InProcessBus::Port& controllers_port() noexcept { return robot_->wires().port(0); }
   /// Another program's place on the bus.
   void say_as_stranger(const CanFrame& frame) noexcept { (void)robot_->wires().port(3).send(frame); }
+  [[nodiscard]] Duration tick_length() const noexcept { return file_.setup.tick(); }
   [[nodiscard]] StraightPlanner& planner() noexcept { return *planner_; }
   /// The loop does not run for so long, for ever with max().
   void hold_up(Duration time) noexcept;
@@ -102,6 +105,7 @@ class FaultBench {
   Vec2 place_{};
   Reason seen_ = Reason::kNone;  ///< since the fault
   bool latched_ = false;
+  bool outlasts_watchdog_ = false;  ///< what held the loop up
 };
 
 }  // namespace jaywalk::faults

@@ -1,5 +1,6 @@
 #include "firmware/faults/fault_cases.h"
 
+#include <algorithm>
 #include <array>
 
 namespace jaywalk::faults {
@@ -10,24 +11,27 @@ using emulators::ScannerFault;
 
 /// Two periods of the loop: what happens just after a tick is seen by the next, whose frames the drives obey with the
 /// one after it; and what a ramp takes to be 5 mm/s below the speed before it.
-constexpr Duration kAtOnce = 40ms + 20ms;
+Duration at_once(Duration tick) noexcept { return 2 * tick + 20ms; }
 /// The drives' own watchdog or heartbeat consumer, 100 ms at most, after the frame before it; a wheel that nothing
 /// brakes is 5 mm/s slower only after 40 ms more.
-constexpr Duration kByThemselves = 100ms + kAtOnce;
-/// 60 ms without feedback.
-constexpr Duration kFeedback = 60ms + kAtOnce;
+Duration by_themselves(Duration tick) noexcept { return 100ms + at_once(tick); }
+/// 60 ms without feedback, or two and a half periods of the loop.
+Duration feedback(Duration tick) noexcept { return std::max<Duration>(60ms, 5 * tick / 2) + at_once(tick); }
 /// Two scans of 15 Hz that do not come, and the age of the one before.
-constexpr Duration kScans = 300ms;
+Duration scans(Duration tick) noexcept { return 240ms + at_once(tick); }
 /// Plans are good for 0.3 s, and then the speed falls until they are a second old; the scan that they rest on is
 /// older than they are.
-constexpr Duration kPlans = 600ms;
-
+Duration plans(Duration tick) noexcept { return 540ms + at_once(tick); }
 /// A lost stop escalates to silence 100 ms after the ramp's end, and 100 ms later the drive's own watchdog acts.
-constexpr Duration kEscalated = 100ms + 100ms + kAtOnce;
+Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick); }
+/// A stranger's NMT command, repeated: the feedback that stops coming, silence, and the drives' own watchdog.
+Duration network(Duration tick) noexcept { return 100ms + by_themselves(tick); }
 /// A scan of 15 Hz, and what it takes to come.
-constexpr Duration kNextScan = 67ms + 67ms + kAtOnce;
+Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
+/// Two and a half periods of the loop.
+Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
 /// Half a second of driving.
-constexpr Duration kMiswired = 500ms;
+Duration miswired_for(Duration) noexcept { return 500ms; }
 
 /// What another master would tell the left drive.
 CanFrame foreign_setpoint(DriveKind kind) {
@@ -60,7 +64,7 @@ FaultCase miswired(const char* name, sim::FaultKind kind) {
                   .strike = nullptr,
                   .every_tick = nullptr,
                   .reason = Reason::kNone,
-                  .limit = kMiswired,
+                  .limit = miswired_for,
                   .outcome = Outcome::kLatched};
   fault.reason = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   fault.miswiring = kind;
@@ -69,22 +73,22 @@ FaultCase miswired(const char* name, sim::FaultKind kind) {
 
 const std::array kCases{
     FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
-              Reason::kEmergencyStop, kAtOnce, Outcome::kLatched},
+              Reason::kEmergencyStop, at_once, Outcome::kLatched},
     FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, nullptr, Reason::kScanStale,
-              kScans, Outcome::kLatched},
+              scans, Outcome::kLatched},
     FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale,
-              kScans, Outcome::kLatched},
+              scans, Outcome::kLatched},
     FaultCase{"scanner_garbage", [](FaultBench& b) { scanner(b, ScannerFault::kGarbage); }, nullptr, Reason::kScanStale,
-              kScans, Outcome::kLatched},
+              scans, Outcome::kLatched},
     FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
-              kScans, Outcome::kLatched},
+              scans, Outcome::kLatched},
     FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
-              kPlans, Outcome::kStopped},
+              plans, Outcome::kStopped},
     FaultCase{"drive_unplugged_left",
               [](FaultBench& b) { b.left_drive().pull_cable(); },
               nullptr,
               Reason::kWheelsStale | Reason::kDrive,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -92,7 +96,7 @@ const std::array kCases{
               [](FaultBench& b) { b.right_drive().pull_cable(); },
               nullptr,
               Reason::kWheelsStale | Reason::kDrive,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -100,7 +104,7 @@ const std::array kCases{
               [](FaultBench& b) { b.left_drive().raise_fault(0x21); },
               nullptr,
               Reason::kDrive,
-              kAtOnce,
+              at_once,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -108,7 +112,7 @@ const std::array kCases{
               [](FaultBench& b) { b.right_drive().raise_fault(0x21); },
               nullptr,
               Reason::kDrive,
-              kAtOnce,
+              at_once,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -116,7 +120,7 @@ const std::array kCases{
               [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); },
               nullptr,
               Reason::kBus,
-              kByThemselves,
+              by_themselves,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -124,27 +128,27 @@ const std::array kCases{
               [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
               nullptr,
               Reason::kBus,
-              kByThemselves,
+              by_themselves,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
     FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, nullptr,
-              Reason::kBus, kAtOnce, Outcome::kLatched},
+              Reason::kBus, at_once, Outcome::kLatched},
     FaultCase{"interface_down",
               [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); },
               nullptr,
               Reason::kBus,
-              kByThemselves,
+              by_themselves,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
-    FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(50ms); }, nullptr, Reason::kMissedTicks, 50ms + kAtOnce,
-              Outcome::kLatched},
+    FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(5 * b.tick_length() / 2); }, nullptr,
+              Reason::kMissedTicks, two_ticks, Outcome::kLatched},
     FaultCase{"controller_hangs",
               [](FaultBench& b) { b.hold_up(400ms); },
               nullptr,
               Reason::kMissedTicks,
-              kByThemselves,
+              by_themselves,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -152,24 +156,24 @@ const std::array kCases{
               [](FaultBench& b) { b.hold_up(Duration::max()); },
               nullptr,
               Reason::kNone,
-              kByThemselves,
+              by_themselves,
               Outcome::kDead,
               {},
               RollsOut::kMotors},
 
     FaultCase{"scanner_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed); }, nullptr, Reason::kScanStale,
-              kScans, Outcome::kLatched},
+              scans, Outcome::kLatched},
     FaultCase{"scanner_dirty", [](FaultBench& b) { (void)b.scanner().set_window(emulators::Window::kDirty); }, nullptr,
-              Reason::kScanStale, kScans, Outcome::kLatched},
+              Reason::kScanStale, scans, Outcome::kLatched},
     FaultCase{"beams_lost_ahead", [](FaultBench& b) { b.scanner().lose_sector(-kPi / 3.0, kPi / 3.0); }, nullptr,
-              Reason::kUnwatched, kNextScan, Outcome::kStopped},
+              Reason::kUnwatched, next_scan, Outcome::kStopped},
     FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); }, nullptr,
-              Reason::kScanInvalid | Reason::kSightLost, kNextScan, Outcome::kLatched},
+              Reason::kScanInvalid | Reason::kSightLost, next_scan, Outcome::kLatched},
     FaultCase{"feedback_lost_left",
               [](FaultBench& b) { b.left_drive().lose_feedback(); },
               nullptr,
               Reason::kWheelsStale | Reason::kDrive,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -177,7 +181,7 @@ const std::array kCases{
               [](FaultBench& b) { b.right_drive().lose_feedback(); },
               nullptr,
               Reason::kWheelsStale | Reason::kDrive,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kMotors},
@@ -185,7 +189,7 @@ const std::array kCases{
               [](FaultBench& b) { b.left_drive().restart(); },
               nullptr,
               Reason::kDrive | Reason::kWheelsDisobey,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kAll},
@@ -193,7 +197,7 @@ const std::array kCases{
               [](FaultBench& b) { b.right_drive().restart(); },
               nullptr,
               Reason::kDrive | Reason::kWheelsDisobey,
-              kFeedback,
+              feedback,
               Outcome::kLatched,
               {},
               RollsOut::kAll},
@@ -201,7 +205,7 @@ const std::array kCases{
               [](FaultBench& b) { stick_and_stop(b, b.left_drive()); },
               nullptr,
               Reason::kStopUnconfirmed,
-              kEscalated,
+              escalated,
               Outcome::kLatched,
               {},
               RollsOut::kMotors,
@@ -210,17 +214,17 @@ const std::array kCases{
               [](FaultBench& b) { stick_and_stop(b, b.right_drive()); },
               nullptr,
               Reason::kStopUnconfirmed,
-              kEscalated,
+              escalated,
               Outcome::kLatched,
               {},
               RollsOut::kMotors,
               true},
     FaultCase{"network_preoperational", [](FaultBench& b) { tell_network(b, 0x80); },
-              [](FaultBench& b) { tell_network(b, 0x80); }, Reason::kForeignMaster | Reason::kDrive,
-              kByThemselves + 100ms, Outcome::kLatched, DriveKind::kCia402},
+              [](FaultBench& b) { tell_network(b, 0x80); }, Reason::kForeignMaster | Reason::kDrive, network,
+              Outcome::kLatched, DriveKind::kCia402},
     FaultCase{"network_stopped", [](FaultBench& b) { tell_network(b, 0x02); },
-              [](FaultBench& b) { tell_network(b, 0x02); }, Reason::kForeignMaster | Reason::kDrive,
-              kByThemselves + 100ms, Outcome::kLatched, DriveKind::kCia402},
+              [](FaultBench& b) { tell_network(b, 0x02); }, Reason::kForeignMaster | Reason::kDrive, network,
+              Outcome::kLatched, DriveKind::kCia402},
     FaultCase{"foreign_heartbeat",
               [](FaultBench& b) {
                 CanFrame frame;
@@ -229,9 +233,9 @@ const std::array kCases{
                 frame.bytes = {0x05};
                 b.say_as_stranger(frame);
               },
-              nullptr, Reason::kForeignMaster, kAtOnce, Outcome::kLatched, DriveKind::kCia402},
+              nullptr, Reason::kForeignMaster, at_once, Outcome::kLatched, DriveKind::kCia402},
     FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); }, nullptr,
-              Reason::kForeignMaster, kAtOnce, Outcome::kLatched},
+              Reason::kForeignMaster, at_once, Outcome::kLatched},
     miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
     miswired("left_motor_reversed", sim::FaultKind::kLeftMotorReversed),
     miswired("left_wheel_reversed", sim::FaultKind::kLeftWheelReversed),

@@ -22,16 +22,11 @@ void for_each_row(Visit&& visit) {
 
 }  // namespace
 
-int matrix_rows() noexcept {
-  int rows = 0;
-  for_each_row([&rows](const FaultCase&, DriveKind, double) { ++rows; });
-  return rows;
-}
-
-int run_matrix(const std::filesystem::path& folder, const std::function<void(const FaultResult&)>& tell) {
+int run_matrix(double rate_hz, const std::filesystem::path& folder,
+               const std::function<void(const FaultResult&)>& tell) {
   int bad = 0;
   for_each_row([&](const FaultCase& fault, DriveKind kind, double speed_mps) {
-    const FaultResult result = FaultBench(fault, kind, speed_mps, folder).suffer();
+    const FaultResult result = FaultBench(fault, kind, speed_mps, rate_hz, folder).suffer();
     bad += result.why_not.empty() ? 0 : 1;
     tell(result);
   });

@@ -42,12 +42,13 @@ const char* name_of(DriveKind kind) noexcept {
   return kind == DriveKind::kVesc ? "vesc" : "cia402";
 }
 
-RobotFile robot_file(DriveKind kind, double speed_mps, const std::filesystem::path& folder) {
+RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder) {
   write(folder / "model.toml", model_text(speed_mps));
-  write(folder / "robot.toml", std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\n") +
-                                   "[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n[drive]\nkind = \"" +
-                                   name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" +
-                                   drive_keys(kind));
+  write(folder / "robot.toml",
+        std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
+            "\n"
+            "[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n[drive]\nkind = \"" +
+            name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;

@@ -7,8 +7,9 @@
 namespace jaywalk::faults {
 
 /// The robot file of the matrix for one kind of drive, written into `folder` and read back as a person's would be: a
-/// P3-DX whose fastest speed is `speed_mps`, with a SICK on a network. Throws StartupError.
-[[nodiscard]] RobotFile robot_file(DriveKind kind, double speed_mps, const std::filesystem::path& folder);
+/// P3-DX whose fastest speed is `speed_mps`, with a SICK on a network and a loop of `rate_hz`. Throws StartupError.
+[[nodiscard]] RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz,
+                                   const std::filesystem::path& folder);
 
 /// The world: a hall of 44 m x 5 m, the robot at one end, looking along it. Its map is written into `folder`.
 [[nodiscard]] sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder);

@@ -37,15 +37,11 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
   return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
 }
 
-/// What every stop is held against: the model's braking, at the wheels, and as much time as the loop's period makes of
-/// it, since the feedback that a tick reads was measured a period before. One late tick is no stop.
-StopLimits stop_limits(const RobotModel& model, Duration tick) {
+/// What every stop is held against: the model's braking, at the wheels.
+StopLimits stop_limits_of(const RobotModel& model, Duration tick) {
   constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
   const double radius_m = model.drive.wheel_radius_m;
-  StopLimits limits{.brake_radps2 = model.limits.brake_mps2 / radius_m, .tolerance_radps = kTolerance_mps / radius_m};
-  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * tick);
-  limits.fresh = std::max<Duration>(limits.fresh, 5 * tick / 2);
-  return limits;
+  return stop_limits(model.limits.brake_mps2 / radius_m, kTolerance_mps / radius_m, tick);
 }
 
 /// Refuses a loop of which two periods take longer than the longest timeout that a drive of this kind may have.
@@ -95,7 +91,7 @@ void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop,
 
 DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) {
   DriveWiring wiring;
-  const StopLimits stop = stop_limits(model, tick);
+  const StopLimits stop = stop_limits_of(model, tick);
   const std::string kind = table.text("kind");
   wiring.can = table.text("can");
   if (kind == "cia402") {

@@ -1,5 +1,8 @@
 #include "firmware/setup/commissioned.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -40,6 +43,25 @@ std::string today() {
   return {text.data(), length};
 }
 
+/// `text` takes the file's place in one step, and is on the disk by then: a power cut leaves the old or the new.
+void replace(const std::filesystem::path& path, const std::string& text) {
+  const std::filesystem::path beside = path.string() + ".new",
+                              folder = path.has_parent_path() ? path.parent_path() : ".";
+  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  bool kept = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
+  kept = file >= 0 && ::fsync(file) == 0 && kept;
+  kept = file >= 0 && ::close(file) == 0 && kept;
+  kept = kept && std::rename(beside.c_str(), path.c_str()) == 0;
+  if (!kept) {
+    static_cast<void>(::unlink(beside.c_str()));
+    throw StartupError(path.string() + ": cannot be written", "see to the folder's rights and the disk's room");
+  }
+  const int entry = ::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC);
+  if (entry < 0) return;
+  static_cast<void>(::fsync(entry));
+  static_cast<void>(::close(entry));
+}
+
 }  // namespace
 
 std::filesystem::path commissioned_path(const std::filesystem::path& robot) {
@@ -73,10 +95,11 @@ void write_commissioned(const std::filesystem::path& robot, const RobotFile& fil
   json["passed"] = std::all_of(checks.begin(), checks.end(), [](const WiringCheck& check) { return check.is_well; });
   for (const WiringCheck& check : checks)
     json["checks"].push_back({{"part", check.part}, {"ok", check.is_well}, {"said", check.said}});
-  const std::filesystem::path path = commissioned_path(robot);
-  std::ofstream out(path);
-  out << json.dump(2) << '\n' << std::flush;
-  if (!out) throw StartupError(path.string() + ": cannot be written", "see to the folder's rights and the disk's room");
+  replace(commissioned_path(robot), json.dump(2) + '\n');
+}
+
+void withdraw_commissioned(const std::filesystem::path& robot, const RobotFile& file) {
+  write_commissioned(robot, file, {{"commissioning", false, "broken off before its end; do it again"}});
 }
 
 CommissioningRecord read_commissioned(const std::filesystem::path& robot, const RobotFile& file) {

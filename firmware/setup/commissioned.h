@@ -23,9 +23,13 @@ struct CommissioningRecord {
 /// A number that another drive, scale, node, wheel, track, scanner or mount changes (FNV-1a, hexadecimal).
 [[nodiscard]] std::string wiring_digest(const RobotFile& file);
 
-/// Throws StartupError where it cannot be written.
+/// The old record is replaced whole, or stays where the new one cannot be written. Throws StartupError there.
 void write_commissioned(const std::filesystem::path& robot, const RobotFile& file,
                         const std::vector<WiringCheck>& checks);
+
+/// Before the wheels turn: what was found before holds no longer, and counts as failed until write_commissioned().
+/// Throws StartupError where it cannot be written.
+void withdraw_commissioned(const std::filesystem::path& robot, const RobotFile& file);
 
 /// A file that cannot be read counts as never; one that is of other wiring as changed.
 [[nodiscard]] CommissioningRecord read_commissioned(const std::filesystem::path& robot, const RobotFile& file);

@@ -52,7 +52,7 @@ class Nudging {
  private:
   /// False where the feedback is not what was commanded.
   bool tick(double left_radps, double right_radps) {
-    due_ += setup_.tick;
+    due_ = std::max(due_, clock_.now() - setup_.tick) + setup_.tick;  // ticks that were missed are left out
     clock_.sleep_until(due_);
     const Time now = clock_.now();
     wheels_ = drive_.latest();

@@ -18,12 +18,12 @@ struct DriveBench {
   explicit DriveBench(const canopen::DriveBaseSetup& setup = two_axes()) : base(port, clock, setup) {
     clock.nodes = {&left, &right};
   }
-  /// Ticks of 20 ms.
+  /// A tick is `tick` long.
   void drive(double left_radps, double right_radps, int ticks) {
     for (int k = 0; k < ticks; ++k) {
       wheels = base.latest();
       base.command({clock.now(), left_radps, right_radps});
-      clock.sleep_until(clock.now() + std::chrono::milliseconds(20));
+      clock.sleep_until(clock.now() + tick);
     }
   }
   void bring_to_two_radps() {
@@ -45,6 +45,7 @@ struct DriveBench {
   void stranger_says(const CanFrame& frame) { REQUIRE(bus.port(3).send(frame) == SendResult::kQueued); }
   [[nodiscard]] bool is_at_rest() const { return left.velocity() == 0.0 && right.velocity() == 0.0; }
 
+  Duration tick = std::chrono::milliseconds(20);
   PlantClock clock;
   InProcessBus bus{clock, 1};
   WatchedPort port{bus.port(0), clock};

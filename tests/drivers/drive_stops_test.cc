@@ -162,3 +162,37 @@ TEST_CASE("ordinary stops from any speed and disarming are confirmed and trouble
   CHECK_FALSE(bench.left.is_enabled());
   CHECK(bench.base.trouble() == DriveTrouble::kNone);
 }
+
+TEST_CASE("at 20 Hz, too, a drive that ignores a stop is told nothing more 100 ms after the ramp") {
+  for (const double speed : {0.35, 0.7, 2.0}) {
+    CAPTURE(speed);
+    canopen::DriveBaseSetup setup = tests::two_axes();
+    setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, 50ms);
+    Bench bench(setup);
+    bench.tick = 50ms;
+    bench.report = bench.base.arm();
+    bench.drive(0.0, 0.0, 10);
+    bench.drive(speed, speed, 40);
+    bench.left.hang();
+    const Time order = bench.clock.now();
+    bench.drive(0.0, 0.0, 40);
+    CHECK(bench.wheels.stop == StopStage::kSilent);
+    CHECK(bench.port.last() - order <= duration_from_seconds(speed / setup.stop.brake_radps2) + 100ms);
+    CHECK(bench.is_at_rest());
+  }
+}
+
+TEST_CASE("at 20 Hz ordinary stops are confirmed and trouble nobody") {
+  canopen::DriveBaseSetup setup = tests::two_axes();
+  setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, 50ms);
+  Bench bench(setup);
+  bench.tick = 50ms;
+  bench.report = bench.base.arm();
+  bench.drive(0.0, 0.0, 10);
+  for (const double speed : {0.2, 0.4, 1.0, 2.0, -2.0, 0.5}) {
+    bench.drive(speed, -speed, 20);
+    bench.drive(0.0, 0.0, 20);
+    REQUIRE(bench.base.trouble() == DriveTrouble::kNone);
+    REQUIRE(bench.wheels.stop == StopStage::kNone);
+  }
+}

@@ -36,14 +36,14 @@ struct MotorBench {
       : left(bus.port(1), left_id), right(bus.port(2), right_id), port(bus.port(0), clock), base(port, clock, setup) {
     clock.nodes = {&left, &right};
   }
-  /// Ticks of 20 ms.
+  /// A tick is `tick` long.
   void drive(double left_radps, double right_radps, int ticks) {
     for (int k = 0; k < ticks; ++k) {
       const AllocationGuard guard;
       wheels = base.latest();
       base.command({clock.now(), left_radps, right_radps});
       heap_calls += guard.calls();
-      clock.sleep_until(clock.now() + std::chrono::milliseconds(20));
+      clock.sleep_until(clock.now() + tick);
     }
   }
   /// What arming said, "armed" where it said yes.
@@ -56,6 +56,7 @@ struct MotorBench {
     return "armed";
   }
 
+  Duration tick = std::chrono::milliseconds(20);
   MotorClock<Node> clock;
   InProcessBus bus{clock, 1};
   Node left, right;

@@ -148,3 +148,35 @@ TEST_CASE("after falling silent a reset speaks to the drives again and they driv
   CHECK(vescs.left.erpm() == Approx(3000.0));
   CHECK(vescs.right.erpm() == Approx(-3000.0));
 }
+
+namespace {
+
+/// At 20 Hz, from each speed: a wheel that ignores the order, then, on a bench anew, one that obeys.
+template <class Bench, class Setup>
+void stops_at_20_hz(Setup setup) {
+  setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, 50ms);
+  for (const double speed : {0.55, 0.8, 2.0}) {
+    for (const bool obeys : {false, true}) {
+      CAPTURE(speed, obeys);
+      Bench bench(setup);
+      bench.tick = 50ms;
+      REQUIRE(bench.armed() == "armed");
+      bench.drive(0.0, 0.0, 20);
+      bench.drive(speed, speed, 40);
+      REQUIRE(bench.base.trouble() == DriveTrouble::kNone);
+      if (!obeys) bench.left.stick();
+      const Time order = bench.clock.now();
+      bench.drive(0.0, 0.0, 40);
+      const Duration last = bench.port.last() - order;
+      CHECK((bench.wheels.stop == StopStage::kNone) == obeys);
+      if (!obeys) CHECK(last <= duration_from_seconds(speed / setup.stop.brake_radps2) + 100ms);
+    }
+  }
+}
+
+}  // namespace
+
+TEST_CASE("at 20 Hz, too, a motor that ignores a stop is told nothing more 100 ms after the ramp") {
+  stops_at_20_hz<tests::OdriveBench>(tests::two_odrives());
+  stops_at_20_hz<tests::VescBench>(tests::two_vescs());
+}

@@ -1,5 +1,8 @@
 #include "drivers/stop_ladder.h"
 
+#include <algorithm>
+#include <vector>
+
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -126,4 +129,72 @@ TEST_CASE("trouble that comes into a stop under way gives it no time anew") {
   CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kQuickStop);  // 100 ms after the order
   CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kNetworkStop);
   CHECK(bench.tick(0.0, 6.0, true, true) == StopStage::kSilent);
+}
+
+namespace {
+
+WheelFeedback drives_at(double speed, Time now) { return {speed, now, speed}; }
+
+/// The last tick in which the drives were told anything, counted from the order to stop: the wheel on the left obeys,
+/// the other one brakes as it should down to `stuck` and keeps that. Feedback is a tick old.
+Duration last_word(double speed, double stuck, Duration tick) {
+  StopLadder ladder(stop_limits(10.0, 0.5, tick));
+  const Time order{10s};
+  static_cast<void>(
+      ladder.update(order - tick, false, false, {drives_at(speed, order - tick), drives_at(speed, order - tick)}));
+  Duration last{0};
+  for (Time now = order; now < order + 3s; now += tick) {
+    const double braked = 10.0 * std::max(to_seconds(now - tick - order), 0.0), obeys = std::max(speed - braked, 0.0);
+    const WheelFeedback left{obeys, now - tick, 0.0}, right{std::max(obeys, stuck), now - tick, 0.0};
+    if (ladder.update(now, true, false, {left, right}) != StopStage::kSilent) last = now - order;
+  }
+  return last;
+}
+
+}  // namespace
+
+TEST_CASE("at any rate of the loop the last word to a wheel that does not stop is within the ramp and 100 ms") {
+  for (const Duration tick : {50ms, 40ms, 33ms, 20ms, 10ms, 5ms}) {
+    for (double speed = 0.55; speed < 12.0; speed += 0.05) {
+      for (double stuck = 0.55; stuck <= speed; stuck += 0.35) {
+        CAPTURE(tick.count(), speed, stuck);
+        REQUIRE(last_word(speed, stuck, tick) <= duration_from_seconds(speed / 10.0) + 100ms);
+      }
+    }
+  }
+}
+
+TEST_CASE("at any rate of the loop a stop that both wheels follow 60 ms late is confirmed, with one late tick too") {
+  for (const Duration tick : {50ms, 40ms, 33ms, 20ms, 10ms, 5ms}) {
+    for (double speed = 0.0; speed < 12.0; speed += 0.35) {
+      for (int late = -1; late < static_cast<int>(1400ms / tick); ++late) {
+        StopLadder ladder(stop_limits(10.0, 0.5, tick));
+        const Time order{10s};
+        Time now = order, before = order - tick;
+        auto stage = ladder.update(before, false, false, {drives_at(speed, before), drives_at(speed, before)});
+        for (int k = 0; now < order + 1500ms; ++k) {
+          const double felt = std::clamp(speed - 10.0 * to_seconds(before - 60ms - order), 0.0, speed);
+          stage = std::max(stage, ladder.update(now, true, false, {{{felt, before, 0.0}, {felt, before, 0.0}}}));
+          before = now;
+          now += k == late ? tick * 3 / 2 : tick;
+        }
+        CAPTURE(tick.count(), speed, late);
+        REQUIRE(stage == StopStage::kNone);
+      }
+    }
+  }
+}
+
+TEST_CASE("at 20 Hz the last word to a wheel that does not stop is the network stop") {
+  // 2 rad/s: rest after 0.2 s, nothing sent after 0.3 s. The ramp, 120 ms of response and 0.5 rad/s of tolerance take
+  // until 170 ms: quick stop at 200 ms; the network stop at 250 ms; at 300 ms a last one, then nothing.
+  StopLadder ladder(stop_limits(10.0, 0.5, 50ms));
+  std::vector<StopStage> stages;
+  Time now = Time{10s} - 50ms;
+  static_cast<void>(ladder.update(now, false, false, {drives_at(2.0, now), drives_at(2.0, now)}));
+  for (now = Time{10s}; now <= Time{10s} + 400ms; now += 50ms)
+    stages.push_back(ladder.update(now, true, false, {{{2.0, now, 0.0}, {0.0, now, 0.0}}}));
+  CHECK(stages[3] == StopStage::kNone);
+  CHECK(stages[6] == StopStage::kSilent);
+  CHECK(std::find(stages.begin(), stages.end(), StopStage::kNetworkStop) != stages.end());
 }

@@ -10,6 +10,7 @@
 #include "firmware/setup/scan_shift.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
+#include "tests/support/file_size_limit.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -143,4 +144,27 @@ TEST_CASE("what was found is kept beside the robot file, and counts for that wir
   CHECK(says(require_commissioned(robot, changed), "changed since"));
   std::ofstream(bench.folder / "mine.commissioned.json") << "{\"wiring\": 7";
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kNotYet);
+}
+
+TEST_CASE("a commissioning that was begun leaves no pass of before, and its record is replaced whole") {
+  Bench bench("robot", std::nullopt);
+  const std::filesystem::path robot = bench.folder / "mine.toml", record = commissioned_path(robot);
+  write_commissioned(robot, bench.file, {{"left drive", true, "well"}});
+  std::filesystem::create_hard_link(record, bench.folder / "first");
+  withdraw_commissioned(robot, bench.file);
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kFailed);
+  CHECK_THROWS_AS(require_commissioned(robot, bench.file), StartupError);
+  std::filesystem::rename(bench.folder / "first", record);  // nobody wrote into it
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
+  for (const auto& entry : std::filesystem::directory_iterator(bench.folder))
+    CHECK(entry.path().string().find(".commissioned.json.") == std::string::npos);
+}
+
+TEST_CASE("a record that cannot be written is an error, and what stood there stays") {
+  Bench bench("robot", std::nullopt);
+  const std::filesystem::path robot = bench.folder / "mine.toml";
+  write_commissioned(robot, bench.file, {{"left drive", true, "well"}});
+  const FileSizeLimit full(16);
+  CHECK_THROWS_AS(write_commissioned(robot, bench.file, {{"left drive", true, "well again"}}), StartupError);
+  CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
 }
