@@ -48,6 +48,11 @@ void Device::order(Fault fault, int after_launches, int times) {
   fault_ = fault, fault_after_ = after_launches, fault_times_ = times;
 }
 
+void Device::delay(int not_ready) {
+  properties_.not_ready = not_ready;
+  for (Event& event : events_) event.not_ready = std::min(event.not_ready, not_ready);
+}
+
 bool Device::is_stuck() const {
   return std::any_of(streams_.begin(), streams_.end(), [](const Stream& stream) { return stream.is_stuck; });
 }

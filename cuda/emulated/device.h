@@ -41,6 +41,9 @@ class Device {
   /// The launch after so many more, and `times` in all.
   void order(Fault fault, int after_launches = 0, int times = 1);
 
+  /// From now on each event is said to be still ahead so often.
+  void delay(int not_ready);
+
   [[nodiscard]] const Properties& properties() const { return properties_; }
   [[nodiscard]] Counts counts() const { return counts_; }
   /// Whether a kernel was left that never ends.

@@ -22,6 +22,7 @@ void Launch::begin(const Shape& shape) {
   for (std::size_t k = 0; k < blocks * threads_; ++k) ready_[k / threads_].push_back(static_cast<std::uint32_t>(k));
   lane_values_.assign(warps_.size() * kWarp, 0);
   ended_ = 0;
+  special_ = 0;
   here.block_extent = shape.block, here.grid_extent = shape.grid;
 }
 
@@ -58,6 +59,10 @@ Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, Order
 }
 
 void Launch::choose(OrderRandom& random) {
+  if (random.below(32) == 0) {
+    habit_ = static_cast<Habit>(random.below(3));
+    special_ = random.below(2) == 0 ? 0 : random.below(ready_.size());
+  }
   std::vector<std::size_t> blocks;
   for (std::size_t k = 0; k < ready_.size(); ++k) {
     if (!ready_[k].empty()) blocks.push_back(k);
@@ -66,9 +71,15 @@ void Launch::choose(OrderRandom& random) {
   if (blocks.empty()) return;
   // To put large shared memories by takes long: block by block then.
   const std::uint32_t way = shared_.is_large() ? 0 : random.below(4);
-  const std::size_t one = blocks[random.below(blocks.size())];
+  std::size_t one = blocks[random.below(blocks.size())];
+  const bool only_special = habit_ == Habit::kAhead && !ready_[special_].empty();
+  if (only_special) one = special_;
+  const bool spare_special = habit_ == Habit::kBehind && blocks.size() > 1;
+  if (spare_special && one == special_) one = blocks[blocks[0] == special_ ? 1 : 0];
   for (const std::size_t k : blocks) {
-    if (k != one && (way < 2 || (way == 2 && random.below(2) == 0))) continue;
+    const bool left_out =
+        way < 2 || only_special || (way == 2 && random.below(2) == 0) || (spare_special && k == special_);
+    if (k != one && left_out) continue;
     chosen_.insert(chosen_.end(), ready_[k].begin(), ready_[k].end());
     ready_[k].clear();
   }

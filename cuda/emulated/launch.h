@@ -77,6 +77,9 @@ class Launch {
   void begin(const Shape& shape);
   [[nodiscard]] std::size_t warps_of_block() const { return (threads_ + kWarp - 1) / kWarp; }
   [[nodiscard]] std::size_t warp() const { return block() * warps_of_block() + thread() / kWarp; }
+  /// How blocks get on for a while: one is as far ahead of the others as barriers allow, or as far behind.
+  enum class Habit : std::uint8_t { kMixed, kAhead, kBehind };
+
   /// Threads to run next: of one block, of some, or of all.
   void choose(OrderRandom& random);
   void resume(std::uint32_t thread);
@@ -92,6 +95,8 @@ class Launch {
   Barrier grid_;
   std::vector<std::vector<std::uint32_t>> ready_;  ///< by block
   std::vector<std::uint32_t> chosen_;
+  Habit habit_ = Habit::kMixed;
+  std::size_t special_ = 0;  ///< the block that is ahead or behind
   std::vector<std::uint64_t> lane_values_;
 };
 

@@ -39,19 +39,24 @@ int find(dl_phdr_info* part, std::size_t, void* into) {
 void SharedMemory::begin(std::size_t blocks, std::size_t dynamic) {
   ThreadLocals locals;
   ::dl_iterate_phdr(find, &locals);
-  live_ = locals.begin, size_ = locals.size;
-  dynamic_at_ = static_cast<std::size_t>(reinterpret_cast<std::byte*>(&block_memory[0]) - live_);
+  live_ = locals.begin;
+  before_ = static_cast<std::size_t>(reinterpret_cast<std::byte*>(&block_memory[0]) - live_);
   dynamic_ = dynamic;
-  kept_.assign(blocks, std::vector<std::byte>(live_, live_ + size_));
-  for (auto& kept : kept_) poison(kept.data() + dynamic_at_, dynamic_);
+  after_ = locals.size - before_ - kMostSharedBytes;
+  kept_.resize(blocks);
+  for (auto& kept : kept_) {
+    kept.assign(live_, live_ + before_ + dynamic_);
+    poison(kept.data() + before_, dynamic_);
+    kept.insert(kept.end(), live_ + before_ + kMostSharedBytes, live_ + locals.size);
+  }
   running_ = kOutside;
 }
 
 void SharedMemory::swap(std::size_t block) {
   std::byte* kept = kept_[block].data();
-  const std::size_t used = dynamic_at_ + dynamic_, after = dynamic_at_ + kMostSharedBytes;
+  const std::size_t used = before_ + dynamic_;
   std::swap_ranges(live_, live_ + used, kept);
-  std::swap_ranges(live_ + after, live_ + size_, kept + after);
+  std::swap_ranges(kept + used, kept + used + after_, live_ + before_ + kMostSharedBytes);
 }
 
 void SharedMemory::enter(std::size_t block) {
@@ -64,9 +69,9 @@ void SharedMemory::enter(std::size_t block) {
 void SharedMemory::end() { enter(kOutside); }
 
 void* SharedMemory::of_block(const void* variable, std::size_t block) {
-  const std::ptrdiff_t at = static_cast<const std::byte*>(variable) - live_;
-  if (at < 0 || static_cast<std::size_t>(at) >= size_) return nullptr;
-  return block == running_ ? live_ + at : kept_[block].data() + at;
+  const auto at = static_cast<std::size_t>(static_cast<const std::byte*>(variable) - live_);
+  if (block == running_) return live_ + at;
+  return kept_[block].data() + (at < before_ + dynamic_ ? at : at - kMostSharedBytes + dynamic_);
 }
 
 }  // namespace jaywalk::emulated

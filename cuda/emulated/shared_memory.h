@@ -31,9 +31,8 @@ class SharedMemory {
 
   void swap(std::size_t block);
 
-  std::byte* live_ = nullptr;  ///< all thread_local variables of this program, in this thread
-  std::size_t size_ = 0;
-  std::size_t dynamic_at_ = 0, dynamic_ = 0;  ///< block_memory's place among them, and what is used of it
+  std::byte* live_ = nullptr;                         ///< all thread_local variables of this program, in this thread
+  std::size_t before_ = 0, dynamic_ = 0, after_ = 0;  ///< bytes before block_memory, used of it, and after it
   std::vector<std::vector<std::byte>> kept_;
   std::size_t running_ = kOutside;
 };

@@ -10,6 +10,7 @@
 //                                (start_field.h), looking whether anything has changed (pass.h)
 //   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
+//   failure()                    why the last order failed, of executors that can
 // and to orders (order.h), which know no more of it:
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order

@@ -59,6 +59,10 @@ class GridPlanner final : public Planner {
   }
 
   [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
+  [[nodiscard]] const char* failure() const noexcept override {
+    if constexpr (requires { executor_->failure(); }) return executor_->failure();
+    return "";
+  }
 
   /// What the stages of the last submission left behind. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }
