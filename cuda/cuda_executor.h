@@ -1,6 +1,7 @@
 #pragma once
 // An executor on a CUDA device: an order is one kernel, whose threads are a crew (crew_kernel.h). Stages work in the
-// device's memory; what host and stages share lies in pinned host memory, and orders copy it at their begin and end.
+// device's memory; what host and stages share lies in pinned host memory, and orders copy it at their begin and end. On
+// a device that shares the host's memory all is in managed memory, which both cache, and nothing is copied.
 #include <cuda_runtime.h>
 
 #include <algorithm>
@@ -43,10 +44,13 @@ class CudaExecutor {
   /// An order that has not ended by `limit` has failed. Throws std::runtime_error with the driver's own words, or why
   /// the device does not do.
   explicit CudaExecutor(std::chrono::milliseconds limit) : limit_(limit) {
-    int device = 0, cooperates = 0, least = 0, greatest = 0;
+    int device = 0, cooperates = 0, integrated = 0, managed = 0, least = 0, greatest = 0;
     must(cudaGetDevice(&device));
     must(cudaDeviceGetAttribute(&cooperates, cudaDevAttrCooperativeLaunch, device));
     must(cudaDeviceGetAttribute(&processors_, cudaDevAttrMultiProcessorCount, device));
+    must(cudaDeviceGetAttribute(&integrated, cudaDevAttrIntegrated, device));
+    must(cudaDeviceGetAttribute(&managed, cudaDevAttrManagedMemory, device));
+    is_one_memory_ = integrated != 0 && managed != 0;
     if (cooperates == 0) throw std::runtime_error("the blocks of a kernel cannot meet on it");
     must(cudaDeviceGetStreamPriorityRange(&least, &greatest));
     must(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest));
@@ -69,16 +73,18 @@ class CudaExecutor {
   template <class T>
   T* take(std::size_t n) {
     void* block = nullptr;
-    must(cudaMalloc(&block, n * sizeof(T)));
+    must(is_one_memory_ ? cudaMallocManaged(&block, n * sizeof(T)) : cudaMalloc(&block, n * sizeof(T)));
     blocks_.push_back(block);
     must(cudaMemset(block, 0, n * sizeof(T)));
     must(cudaDeviceSynchronize());
     return static_cast<T*>(block);
   }
 
-  /// Pinned, zeroed, and at the same address for the device.
+  /// The stages' own where host and device share their memory. Elsewhere pinned, zeroed, and at the same address for
+  /// the device.
   template <class T>
-  T* show(T*, std::size_t n) {
+  T* show(T* stages, std::size_t n) {
+    if (is_one_memory_) return stages;
     void* block = nullptr;
     must(cudaHostAlloc(&block, n * sizeof(T), cudaHostAllocMapped | cudaHostAllocPortable));
     shown_.push_back(block);
@@ -91,10 +97,18 @@ class CudaExecutor {
     must(cudaMemcpy(to, from, n * sizeof(T), cudaMemcpyHostToDevice));
   }
 
+  /// On a Jetson: one memory, which the host must not touch while a kernel runs.
+  [[nodiscard]] bool is_one_memory() const noexcept { return is_one_memory_; }
+
+  /// Whether memory may be touched and an order run: nothing that was given up still runs, and the device works.
+  [[nodiscard]] bool is_ready() noexcept {
+    return failure_ != DeviceFailure::kBroken && (failure_ != DeviceFailure::kSilent || is_back());
+  }
+
   /// One launch. Sleeps until it has ended or its time is up; while an earlier one may still run, nothing is launched.
   template <class Order>
   bool run(const Order& order) noexcept {
-    if (failure_ == DeviceFailure::kSilent && !is_back()) return false;
+    if (!is_ready()) return false;
     cudaEventRecord(begin_, stream_);
     const cudaError_t launched = launch(order);
     cudaEventRecord(end_, stream_);
@@ -220,6 +234,7 @@ class CudaExecutor {
 
   std::chrono::milliseconds limit_;
   DeviceFailure failure_ = DeviceFailure::kNone;
+  bool is_one_memory_ = false;
   int processors_ = 0;
   cudaStream_t stream_ = nullptr;
   cudaEvent_t begin_ = nullptr, end_ = nullptr;

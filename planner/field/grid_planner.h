@@ -40,7 +40,8 @@ class GridPlanner final : public Planner {
     plan.cycles = 0;
     plan.path.clear();
     plan.predictions.clear();
-    plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
+    plan.status = PlanStatus::kBackendFailed;
+    if (is_ready()) plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
     if (plan.status != PlanStatus::kOk) plan.path.clear();
     plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     is_new_ = true;
@@ -87,6 +88,11 @@ class GridPlanner final : public Planner {
   [[nodiscard]] std::int32_t nearest_free(CellIndex robot) const noexcept {
     return nearest_cell(window_.grid(), robot.i, robot.j, cells(kStartRadius_m),
                         [this](std::int32_t c) { return is_free(c); });
+  }
+
+  [[nodiscard]] bool is_ready() noexcept {
+    if constexpr (requires { executor_->is_ready(); }) return executor_->is_ready();
+    return true;
   }
 
   PlanStatus plan_path(const PlanRequest& request, Result& result) noexcept {

@@ -66,7 +66,7 @@ TEST_CASE("emulated: each way to fail, in each launch of a plan, is answered by 
                         Case{Fault::kBroken, "cpu (cuda: the device failed)"},
                         Case{Fault::kHangs, "cpu (cuda: a kernel did not end in time)"}}) {
     for (int launch = 0; launch < kLaunchesOfPlan; ++launch) {
-      Drive drive;
+      Drive drive({.integrated = launch % 2 == 0, .guarded = true});
       const std::size_t points = drive.plan().path.size();
       device().order(c.fault, launch);
       for (std::uint32_t sequence = 2; sequence <= 4; ++sequence) {
@@ -117,7 +117,7 @@ TEST_CASE("emulated: a kernel that was late and has ended is no reason to leave 
 TEST_CASE(
     "emulated: a kernel that hangs, or an error that stays, is not launched upon when the device is asked again") {
   for (const Fault fault : {Fault::kHangs, Fault::kBroken}) {
-    Drive drive;
+    Drive drive({.integrated = true, .guarded = true});
     device().order(fault);
     (void)drive.plan();
     const std::int64_t launches = device().counts().launches;
