@@ -86,6 +86,20 @@ TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and
   }
 }
 
+TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: the host sees the mover's mark") {
+  device().power_on(properties_of(Kind::kSmallClusters, 6));
+  const auto cpu = make_cpu_planner(small_window()), gpu = cuda_planner(small_window());
+  const EvidenceMap map = evidence_of({"room", 64});
+  PlanRequest request = across(map);
+  request.goal_in_map = {3.2, 3.2};
+  Track track = crowd()[0];
+  track.position_in_map = request.goal_in_map;
+  track.velocity_in_map = {0.0, 0.0};
+  track.radius_m = 0.8;  // farther from the goal than the 0.5 m that it may be moved where no mover is
+  request.moving = {&track, 1};
+  CHECK(check_plan(*cpu, *gpu, request));
+}
+
 TEST_CASE("emulated at length: plans among movers in random orders from 20 seeds", "[.large]") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) check_crowd(properties_of(kKinds[seed % 5], seed), 6);
 }

@@ -36,7 +36,8 @@ __global__ void sum_of_block(int* ints) {
   ints[t] = static_cast<int>(t);
   for (unsigned half = blockDim.x / 2; half > 0; half /= 2) {
     if (kMeets) __syncthreads();
-    if (t < half) ints[t] += ints[t + half];
+    // Unsigned: without barriers it may be poison that is added.
+    if (t < half) ints[t] = static_cast<int>(static_cast<unsigned>(ints[t]) + static_cast<unsigned>(ints[t + half]));
   }
 }
 
