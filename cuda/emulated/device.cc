@@ -5,6 +5,8 @@
 #include <cstdlib>
 #include <utility>
 
+#include "cuda/emulated/poison.h"
+
 namespace jaywalk::emulated {
 namespace {
 
@@ -36,6 +38,7 @@ void Device::power_on(const Properties& properties) {
   properties_ = properties;
   counts_ = {};
   random_ = OrderRandom(properties.seed);
+  poison_byte = properties.seed % 2 == 0 ? 0xff : 0xcd;
   memory_.set_busy(false);
   memory_.begin_anew(properties.guarded);
   streams_.clear(), events_.clear(), functions.clear();

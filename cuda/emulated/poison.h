@@ -4,11 +4,11 @@
 
 namespace jaywalk::emulated {
 
-/// What memory holds that nothing has been written to: no zero, no small number, a float of -4e8.
-inline constexpr int kPoison = 0xcd;
+/// Of what memory holds that nothing has been written to: 0xcd makes floats of -4e8; with even seeds 0xff makes NaNs.
+inline int poison_byte = 0xcd;
 
 inline void poison(void* memory, std::size_t bytes) {
-  if (bytes > 0) std::memset(memory, kPoison, bytes);
+  if (bytes > 0) std::memset(memory, poison_byte, bytes);
 }
 
 }  // namespace jaywalk::emulated
