@@ -2,6 +2,12 @@
 
 #include <utility>
 
+#include "hal/types/errors.h"
+#include "planner/field/fallback_planner.h"
+
+#ifndef JAYWALK_HAS_CUDA
+#define JAYWALK_HAS_CUDA 0
+#endif
 #if JAYWALK_HAS_CUDA
 #include "cuda/cuda_planner.h"
 #endif
@@ -20,23 +26,35 @@ std::unique_ptr<field::MapField> make_cuda_map_field(const field::CellMap&, std:
   why_not = "cuda: not in this build";
   return nullptr;
 }
+bool has_cuda_left_behind() { return false; }
 }  // namespace
 const char* built_backends() { return "cpu"; }
 #endif
 
+namespace {
+[[noreturn]] void refuse_cuda(const std::string& why_not) {
+  throw StartupError("--backend " + why_not, "plan on the CPU: --backend cpu, or auto");
+}
+}  // namespace
+
 ChosenPlanner make_planner(const PlannerConfig& config, Backend backend) {
   if (backend == Backend::kCpu) return {make_cpu_planner(config), ""};
   std::string why_not;
-  if (auto planner = make_cuda_planner(config, why_not)) return {std::move(planner), ""};
-  const bool is_asked_for = backend == Backend::kCuda || built_backends() != std::string("cpu");
-  return {make_cpu_planner(config), is_asked_for ? why_not + "; the CPU plans" : ""};
+  if (auto planner = make_cuda_planner(config, why_not)) {
+    return {std::make_unique<FallbackPlanner>(std::move(planner), make_cpu_planner(config)), ""};
+  }
+  if (backend == Backend::kCuda) refuse_cuda(why_not);
+  return {make_cpu_planner(config), JAYWALK_HAS_CUDA ? why_not : ""};
 }
 
-ChosenMapField make_map_field(const field::CellMap& map, Backend backend) {
-  if (backend == Backend::kCpu) return {field::make_cpu_map_field(map), ""};
+std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend) {
+  if (backend == Backend::kCpu) return field::make_cpu_map_field(map);
   std::string why_not;
-  if (auto solver = make_cuda_map_field(map, why_not)) return {std::move(solver), ""};
-  return {field::make_cpu_map_field(map), backend == Backend::kCuda ? why_not + "; the CPU solves" : ""};
+  if (auto solver = make_cuda_map_field(map, why_not)) return solver;
+  if (backend == Backend::kCuda) refuse_cuda(why_not);
+  return field::make_cpu_map_field(map);
 }
+
+bool has_device_left_behind() { return has_cuda_left_behind(); }
 
 }  // namespace jaywalk

@@ -11,17 +11,18 @@ namespace jaywalk {
 
 struct ChosenPlanner {
   std::unique_ptr<Planner> planner;
-  std::string remark;  ///< one line when the choice needs a word ("cuda: no device; the CPU plans"), else empty
+  std::string why_not_cuda;  ///< for the summary, where this build could but this machine cannot; else empty
 };
 
-/// kAuto takes the GPU where build and machine have one, the CPU elsewhere; kCuda falls back to the CPU with a remark.
+/// kAuto takes the GPU where build and machine have one, the CPU elsewhere. A GPU that fails while it plans gives way
+/// to the CPU (FallbackPlanner). Throws StartupError where kCuda cannot be had.
 [[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend);
 
-struct ChosenMapField {
-  std::unique_ptr<field::MapField> solver;
-  std::string remark;  ///< one line when cuda was asked for and there is none
-};
-[[nodiscard]] ChosenMapField make_map_field(const field::CellMap& map, Backend backend);
+/// The same for a map alone, without a fall-back.
+[[nodiscard]] std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend);
+
+/// Whether this process has given up work of a device that may still run: it then ends by std::_Exit.
+[[nodiscard]] bool has_device_left_behind();
 
 /// "cpu" or "cpu, cuda": what this build has, for --version.
 [[nodiscard]] const char* built_backends();

@@ -2,6 +2,7 @@
 #include <charconv>
 #include <csignal>
 #include <cstdio>
+#include <cstdlib>
 
 #include "firmware/backends.h"
 #include "firmware/commands/bench_command.h"
@@ -177,15 +178,17 @@ int run(int argc, char** argv) {
 int main(int argc, char** argv) {
   open_standard_streams();
   std::signal(SIGXFSZ, SIG_IGN);  // a file that may not grow (ulimit -f) is a full disk, and told as one
+  int code = kBadInput;
   try {
-    const int code = run(argc, argv);
+    code = run(argc, argv);
     require_heard();
-    return code;
   } catch (const jaywalk::StartupError& error) {
     std::fprintf(stderr, "jaywalk: %s\n", error.what());
-    return kBadInput;
+    code = kBadInput;
   } catch (const std::exception& error) {
     std::fprintf(stderr, "jaywalk: %s; please report this with the command that led to it\n", error.what());
-    return kBadInput;
+    code = kBadInput;
   }
+  if (jaywalk::has_device_left_behind()) std::fflush(nullptr), std::_Exit(code);
+  return code;
 }

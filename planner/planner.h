@@ -121,6 +121,8 @@ class Planner {
   /// The field behind the plan that collect() last returned. For pictures: never in the loop.
   [[nodiscard]] virtual FieldView view_field() const = 0;
   [[nodiscard]] virtual const char* backend() const noexcept = 0;
+  /// Why the last submission came to kBackendFailed, in a few words.
+  [[nodiscard]] virtual const char* failure() const noexcept { return ""; }
 };
 
 /// A planner on the CPU. Throws StartupError for a configuration that makes no sense.

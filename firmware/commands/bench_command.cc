@@ -92,10 +92,9 @@ class Bench {
     const int repeats = side >= 2048 ? 3 : side >= 1024 ? 7 : side >= 512 ? 15 : 41;
     const std::vector<Timing> rivals = time_rivals(map, repeats);
     for (const Timing& rival : rivals) add(map, rival, rival);
-    for (const Backend backend : {Backend::kCpu, Backend::kCuda}) {
-      const ChosenMapField chosen = make_map_field(map.cells, backend);
-      if (chosen.remark.empty()) measure(map, *chosen.solver, backend, repeats, rivals);
-    }
+    measure(map, *make_map_field(map.cells, Backend::kCpu), Backend::kCpu, repeats, rivals);
+    const auto device = make_map_field(map.cells, Backend::kAuto);
+    if (device->backend() != std::string("cpu")) measure(map, *device, Backend::kCuda, repeats, rivals);
   }
 
   /// One backend's solver and planner.

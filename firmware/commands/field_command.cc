@@ -85,9 +85,8 @@ int run_field(const FieldOptions& options) {
     throw StartupError("--inflation_m: outside 0 to 5 m", "give the robot's radius and a margin");
   }
   const MapCells map = load_map_cells(options.map, options.cell_m);
-  const ChosenMapField chosen = make_map_field(map.cells, options.backend);
-  if (!chosen.remark.empty()) std::puts(chosen.remark.c_str());
-  MapField& solver = *chosen.solver;
+  const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend);
+  MapField& solver = *chosen;
   solver.inflate(static_cast<float>(options.inflation_m / map.cell_m));
   const CellIndex goal = goal_cell(options, map, solver);
   const auto solve = [&] { return options.start_only ? solver.solve_start(goal) : solver.solve_cold(goal); };

@@ -25,9 +25,7 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
       recorder_({.file = record ? out_.file("recording.jwr").string() : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       report_(out),
-      due_(hal.clock.now()) {
-  if (!chosen_.remark.empty()) std::fprintf(stderr, "jaywalk: %s\n", chosen_.remark.c_str());
-}
+      due_(hal.clock.now()) {}
 
 const TickRecord& LoopRunner::step_at(Time due) {
   clock_.sleep_until(due);
@@ -78,6 +76,7 @@ void LoopRunner::finish(RunEnd end) {
   if (const std::string complaint = recorder_.complaint(); !complaint.empty()) end.not_recorded.push_back(complaint);
   end.dropped_records = recorder_.dropped();
   end.backend = chosen_.planner->backend();
+  if (!chosen_.why_not_cuda.empty()) end.backend += " (" + chosen_.why_not_cuda + ")";
   end.mode = name_of(setup_.mode);
   end.version = JAYWALK_VERSION;
   report_.finish(end);

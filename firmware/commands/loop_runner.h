@@ -21,7 +21,7 @@ class LoopRunner {
   /// Puts something round the planner.
   using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
 
-  /// Prints the planner's remark, if there is one. `record` says whether to leave recording.jwr in `out`.
+  /// `record` says whether to leave recording.jwr in `out`.
   /// Throws StartupError.
   LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record, const Wrap& wrap = {});
 

@@ -130,7 +130,8 @@ int replay_recording(const ReplayOptions& options) {
   warn_of_options_of_logs(options);
   refuse_own_folder(options.logs[0], options.out);
   RecordingReader reader(file);
-  const ControlSetup setup = setup_from_text(reader.setup(), file);
+  ControlSetup setup = setup_from_text(reader.setup(), file);
+  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;  // the bits are the same wherever it is replayed
   TickRecord recorded;
   if (!reader.next(recorded)) {
     throw StartupError(file + ": no whole tick in it", "take an undamaged copy of the recording");

@@ -53,10 +53,12 @@ JAYWALK_CELL float corrected(float v, float correction) {
   return moved > floor ? moved : floor;
 }
 
-/// psi with v absorbed: -ln(exp(-psi) v); v = 0 is where there is no equation.
+/// psi with v absorbed: -ln(exp(-psi) v); v = 0 is where there is no equation, and psi stays as it is. (A NaN less 0
+/// would be another NaN on a GPU.)
 JAYWALK_CELL float rebased(float psi, float v) {
   const float factor = v > 0.0F ? v : 1.0F;
-  return psi - log(factor);
+  const float absorbed = psi - log(factor);
+  return v > 0.0F ? absorbed : psi;
 }
 
 }  // namespace jaywalk::cell

@@ -1,7 +1,7 @@
 #pragma once
 // An executor visits: it has memory and loops, and no mathematics. To the host it offers:
 //   T* take<T>(n)                zeroed memory for n values, for stages alone
-//   kOneMemory                   whether host and stages share theirs
+//   kOneMemory                   whether host and stages share theirs; is_one_memory() where that depends on the device
 //   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
 //                                it gave, where they share theirs; elsewhere other memory, and orders copy
 //   fill(to, from, n)            n values from the host into memory for stages
@@ -10,6 +10,9 @@
 //                                (start_field.h), looking whether anything has changed (pass.h)
 //   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
+//   failure(), is_ready()        of executors that can fail: why the last order did; whether memory that is shown may
+//   be
+//                                touched and another order may run
 // and to orders (order.h), which know no more of it:
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order

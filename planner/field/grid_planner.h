@@ -43,8 +43,9 @@ class GridPlanner final : public Planner {
     plan.path.clear();
     plan.predictions.clear();
     plan.guide = {};
-    plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
-    if (plan.status != PlanStatus::kBadRequest)
+    plan.status = PlanStatus::kBackendFailed;
+    if (is_ready()) plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
+    if (plan.status != PlanStatus::kBadRequest && plan.status != PlanStatus::kBackendFailed)
       plan.guide = guide_.settle(guide_request(request, result), result.guide);
     if (plan.status != PlanStatus::kOk) plan.path.clear();
     plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
@@ -64,6 +65,10 @@ class GridPlanner final : public Planner {
   }
 
   [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
+  [[nodiscard]] const char* failure() const noexcept override {
+    if constexpr (requires { executor_->failure(); }) return executor_->failure();
+    return "";
+  }
 
   /// What the stages of the last submission left behind. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }
@@ -100,6 +105,11 @@ class GridPlanner final : public Planner {
   [[nodiscard]] std::int32_t nearest_free(CellIndex robot) const noexcept {
     return nearest_cell(window_.grid(), robot.i, robot.j, cells(kStartRadius_m),
                         [this](std::int32_t c) { return is_free(c); });
+  }
+
+  [[nodiscard]] bool is_ready() noexcept {
+    if constexpr (requires { executor_->is_ready(); }) return executor_->is_ready();
+    return true;
   }
 
   PlanStatus plan_path(const PlanRequest& request, Result& result) noexcept {

@@ -79,6 +79,7 @@ class MapFieldOn final : public MapField {
   MapQuality solve(CellIndex goal, From from) noexcept {
     const std::int32_t c = grid_.at(goal.i, goal.j);
     const FieldQuality q = pass_.solve(grid_, c, from, psi_);
+    if (!q.done) return {};  // what a device that failed has left is no field to follow
     return {q.certified, q.certified ? 1.0F : reach(goal), q.joined, q.cycles};
   }
 

@@ -28,7 +28,7 @@ class Pass {
 
   /// Memory for a potential that solve() is to fill.
   [[nodiscard]] float* take_psi() {
-    if (Executor::kOneMemory) return take_rows<float>(executor_, max_side_);
+    if (is_one_memory()) return take_rows<float>(executor_, max_side_);
     if (psi_ == nullptr) psi_ = take_rows<float>(executor_, max_side_);
     return executor_.show(psi_, static_cast<std::size_t>(Grid{max_side_}.cells()));
   }
@@ -81,7 +81,7 @@ class Pass {
     if constexpr (Executor::kQueue) (void)start(grid, goal);
     const bool is_started = started_ == goal;
     started_ = goal;
-    float* solved = Executor::kOneMemory ? psi : psi_;
+    float* solved = is_one_memory() ? psi : psi_;
     if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi})) return {};
     return *a_.shown.quality;
   }
@@ -105,6 +105,11 @@ class Pass {
     std::uint8_t wanted = 0;
     bool operator==(const Cleared&) const = default;
   };
+
+  [[nodiscard]] bool is_one_memory() const noexcept {
+    if constexpr (requires { executor_.is_one_memory(); }) return executor_.is_one_memory();
+    return Executor::kOneMemory;
+  }
 
   static std::size_t cells_looked_through(std::int32_t max_side) {
     return static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0);

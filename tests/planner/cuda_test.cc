@@ -1,14 +1,13 @@
 // The GPU gives the CPU's bytes. Runs where a device is.
 #include <cstdio>
-#include <cstring>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include "planner/planner.h"
+#include "tests/planner/cuda_parity.h"
 #include "tests/planner/shaped_maps.h"
-#include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
 #if JAYWALK_HAS_CUDA
@@ -60,25 +59,7 @@ TEST_CASE("the CUDA planner gives the bytes of the CPU planner, plan by plan") {
   if (!gpu) return;
   const auto cpu = make_cpu_planner(config);
   for (const test::TestMap& map : {test::open_room(), test::office(), test::serpentine(10), test::clutter(31)}) {
-    const EvidenceMap evidence = test::evidence_of(map);
-    PlanRequest request;
-    request.map_from_robot = {1.07, 0.65, 0.4};
-    request.goal_in_map = {24.31, 24.28};
-    request.speed_mps = 0.6;
-    request.still = &evidence;
-    for (int tick = 0; tick < 3; ++tick) {
-      request.map_from_robot.x += 0.04;
-      gpu->submit(request);
-      cpu->submit(request);
-      const Plan& a = gpu->collect();
-      const Plan& b = cpu->collect();
-      REQUIRE(a.status == b.status);
-      REQUIRE(a.path.size() == b.path.size());
-      CHECK(a.cycles == b.cycles);
-      CHECK(std::memcmp(a.path.data(), b.path.data(), a.path.size() * sizeof(Vec2)) == 0);
-      const auto psi_a = gpu->view_field().psi, psi_b = cpu->view_field().psi;
-      CHECK(std::memcmp(psi_a.data(), psi_b.data(), psi_a.size_bytes()) == 0);
-    }
+    test::check_run(*cpu, *gpu, map, 3);
   }
 }
 

@@ -1,0 +1,117 @@
+#include "cuda/emulated/launch.h"
+
+#include <cstdio>
+#include <utility>
+
+namespace jaywalk::emulated {
+
+void Launch::begin(const Shape& shape) {
+  shape_ = &shape;
+  threads_ = shape.block.count();
+  const std::size_t blocks = shape.grid.count();
+  warps_.assign(blocks * warps_of_block(), {});
+  for (std::size_t k = 0; k < warps_.size(); ++k) {
+    const std::size_t first = k % warps_of_block() * kWarp;
+    warps_[k].expected = threads_ - first < kWarp ? threads_ - first : kWarp;
+  }
+  blocks_.assign(blocks, {threads_, {}});
+  clusters_.assign(blocks / shape.cluster_blocks, {threads_ * shape.cluster_blocks, {}});
+  // Blocks that were not launched to meet never do.
+  grid_ = {shape.cooperative ? threads_ * blocks : threads_ * blocks + 1, {}};
+  ready_.assign(blocks, {});
+  for (std::size_t k = 0; k < blocks * threads_; ++k) ready_[k / threads_].push_back(static_cast<std::uint32_t>(k));
+  lane_values_.assign(warps_.size() * kWarp, 0);
+  ended_ = 0;
+  special_ = 0;
+  here.block_extent = shape.block, here.grid_extent = shape.grid;
+}
+
+Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, OrderRandom& random,
+                  std::int64_t most_barriers, Counts& counts) {
+  begin(shape);
+  kernel_ = &kernel, counts_ = &counts;
+  const std::size_t all = threads_ * shape.grid.count();
+  fibers_.make(
+      all, [](void* launch) { (*static_cast<Launch*>(launch)->kernel_)(); }, this);
+  shared_.begin(shape.grid.count(), shape.dynamic_bytes);
+  Launch* before = std::exchange(launch_under_way, this);
+  const std::int64_t limit = counts.grid + counts.cluster + counts.block + most_barriers;
+  Ended how = Ended::kWell;
+  while (ended_ < all && how == Ended::kWell) {
+    choose(random);
+    for (const std::uint32_t thread : chosen_) resume(thread);
+    if (chosen_.empty()) how = Ended::kNever;
+    if (counts.grid + counts.cluster + counts.block > limit) how = Ended::kTooLong;
+  }
+  shared_.end();
+  launch_under_way = before;
+  ++counts.launches;
+  if (how == Ended::kNever) {
+    std::size_t at_blocks = 0, at_clusters = 0;
+    for (const Barrier& barrier : blocks_) at_blocks += barrier.waiting.size();
+    for (const Barrier& barrier : clusters_) at_clusters += barrier.waiting.size();
+    std::fprintf(stderr,
+                 "emulated CUDA: of %zu threads %zu have ended, %zu wait for their block, %zu for their cluster, %zu "
+                 "for the grid\n",
+                 all, ended_, at_blocks, at_clusters, grid_.waiting.size());
+  }
+  return fibers_.are_stacks_whole() ? how : Ended::kOffStack;
+}
+
+void Launch::choose(OrderRandom& random) {
+  if (random.below(32) == 0) {
+    habit_ = static_cast<Habit>(random.below(3));
+    special_ = random.below(2) == 0 ? 0 : random.below(ready_.size());
+  }
+  std::vector<std::size_t> blocks;
+  for (std::size_t k = 0; k < ready_.size(); ++k) {
+    if (!ready_[k].empty()) blocks.push_back(k);
+  }
+  chosen_.clear();
+  if (blocks.empty()) return;
+  // To put large shared memories by takes long: block by block then.
+  const std::uint32_t way = shared_.is_large() ? 0 : random.below(4);
+  std::size_t one = blocks[random.below(blocks.size())];
+  const bool only_special = habit_ == Habit::kAhead && !ready_[special_].empty();
+  if (only_special) one = special_;
+  const bool spare_special = habit_ == Habit::kBehind && blocks.size() > 1;
+  if (spare_special && one == special_) one = blocks[blocks[0] == special_ ? 1 : 0];
+  for (const std::size_t k : blocks) {
+    const bool left_out =
+        way < 2 || only_special || (way == 2 && random.below(2) == 0) || (spare_special && k == special_);
+    if (k != one && left_out) continue;
+    chosen_.insert(chosen_.end(), ready_[k].begin(), ready_[k].end());
+    ready_[k].clear();
+  }
+  for (std::size_t k = chosen_.size(); k > 1; --k) std::swap(chosen_[k - 1], chosen_[random.below(k)]);
+}
+
+void Launch::resume(std::uint32_t thread) {
+  running_ = thread;
+  shared_.enter(block());
+  here.thread = shape_->block.place(this->thread());
+  here.block = shape_->grid.place(block());
+  if (!fibers_.resume(thread)) ++ended_;
+}
+
+void Launch::meet(Barrier& barrier, std::int64_t& count) {
+  barrier.waiting.push_back(static_cast<std::uint32_t>(running_));
+  if (barrier.waiting.size() == barrier.expected) {
+    ++count;
+    for (const std::uint32_t thread : barrier.waiting) ready_[thread / threads_].push_back(thread);
+    barrier.waiting.clear();
+  }
+  fibers_.give_way();
+}
+
+void Launch::meet_warp() { meet(warps_[warp()], counts_->warp); }
+void Launch::meet_block() { meet(blocks_[block()], counts_->block); }
+void Launch::meet_cluster() { meet(clusters_[block() / shape_->cluster_blocks], counts_->cluster); }
+void Launch::meet_grid() { meet(grid_, counts_->grid); }
+
+void Launch::pause() {
+  ready_[block()].push_back(static_cast<std::uint32_t>(running_));
+  fibers_.give_way();
+}
+
+}  // namespace jaywalk::emulated

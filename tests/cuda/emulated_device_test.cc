@@ -1,0 +1,211 @@
+// The emulated device tells what is wrong with a kernel or with how it is launched.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <bit>
+#include <cstring>
+#include <limits>
+#include <set>
+#include <vector>
+
+#include "cuda/emulated/include/cooperative_groups.h"
+#include "cuda/emulated/include/cuda_runtime.h"
+#include "tests/cuda/sample_kernels.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+/// A stream and device memory for ints, on a device newly switched on.
+struct Rig {
+  explicit Rig(const emulated::Properties& properties = {}, std::size_t n = 4096) : count(n) {
+    emulated::device().power_on(properties);
+    REQUIRE(cudaStreamCreateWithFlags(&stream, cudaStreamNonBlocking) == cudaSuccess);
+    REQUIRE(cudaMalloc(&ints, n * sizeof(int)) == cudaSuccess);
+    REQUIRE(cudaEventCreate(&event) == cudaSuccess);
+  }
+  ~Rig() { emulated::device().power_on(); }
+  Rig(const Rig&) = delete;
+  Rig& operator=(const Rig&) = delete;
+
+  template <class... Arguments>
+  cudaError_t launch(Launched how, void (*kernel)(Arguments...), Arguments... arguments) {
+    return launch_sample(how, stream, kernel, arguments...);
+  }
+  /// What the kernels so far have left. Waits for them.
+  std::vector<int> result() {
+    REQUIRE(cudaStreamSynchronize(stream) == cudaSuccess);
+    std::vector<int> values(count);
+    REQUIRE(cudaMemcpy(values.data(), ints, count * sizeof(int), cudaMemcpyDeviceToHost) == cudaSuccess);
+    return values;
+  }
+
+  std::size_t count;
+  cudaStream_t stream = nullptr;
+  cudaEvent_t event = nullptr;
+  int* ints = nullptr;
+};
+
+/// The signal that ends a process which does this, or 0.
+template <class Act>
+int signal_of(const Act& act) {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::close(STDERR_FILENO);
+    ::signal(SIGSEGV, SIG_DFL), ::signal(SIGABRT, SIG_DFL);
+    act();
+    ::_exit(0);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  return WIFSIGNALED(status) ? WTERMSIG(status) : 0;
+}
+
+}  // namespace
+
+TEST_CASE("every thread of every block runs once, and knows its place") {
+  Rig rig;
+  REQUIRE(rig.launch({.blocks = 3, .threads = 96}, add_place, rig.ints) == cudaSuccess);
+  const std::vector<int> values = rig.result();
+  for (std::size_t k = 0; k < 288; ++k) REQUIRE(values[k] == static_cast<int>(k));
+  CHECK(emulated::device().counts().launches == 1);
+}
+
+TEST_CASE("a block that meets sums right in every order, one that does not sums wrong in some") {
+  std::set<int> with, without;
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    for (const bool meets : {true, false}) {
+      Rig rig({.seed = seed});
+      const auto kernel = meets ? sum_of_block<true> : sum_of_block<false>;
+      REQUIRE(rig.launch({.blocks = 1, .threads = 128}, kernel, rig.ints) == cudaSuccess);
+      (meets ? with : without).insert(rig.result()[0]);
+    }
+  }
+  CHECK(with == std::set<int>{128 * 127 / 2});
+  CHECK(without.size() > 1);
+}
+
+TEST_CASE("shared memory is a block's own, poisoned at first, and a cluster's blocks reach one another's") {
+  Rig rig({.cluster_blocks = 8});
+  REQUIRE(rig.launch({.blocks = 8, .threads = 64, .cluster = 8, .dynamic_bytes = 64 * sizeof(int)}, pass_round_cluster,
+                     rig.ints) == cudaSuccess);
+  const std::vector<int> values = rig.result();
+  // Block b's thread t has read what the next block's thread t wrote: 1000 (b + 1) + t.
+  for (int b = 0; b < 8; ++b) {
+    for (int t = 0; t < 64; ++t) REQUIRE(values[static_cast<std::size_t>(b * 64 + t)] == 1000 * ((b + 1) % 8) + t);
+  }
+  CHECK(values[8 * 64] == static_cast<int>(0xcdcdcdcd));  // what block 0 saw in it before anything was written
+}
+
+TEST_CASE("blocks meet across the grid where they were launched together, and wait for ever where they were not") {
+  Rig rig;
+  REQUIRE(rig.launch({.blocks = 3, .threads = 64, .cooperative = true}, meet_grid, rig.ints) == cudaSuccess);
+  CHECK(rig.result()[0] == 3 * 64);
+  CHECK(emulated::device().counts().grid == 1);
+  CHECK(rig.launch({.blocks = 4, .threads = 64, .cooperative = true}, meet_grid, rig.ints) ==
+        cudaErrorCooperativeLaunchTooLarge);
+  (void)cudaGetLastError();
+  REQUIRE(rig.launch({.blocks = 3, .threads = 64}, meet_grid, rig.ints) == cudaSuccess);
+  REQUIRE(cudaEventRecord(rig.event, rig.stream) == cudaSuccess);
+  CHECK(cudaEventQuery(rig.event) == cudaErrorNotReady);
+  CHECK(emulated::device().is_stuck());
+}
+
+TEST_CASE("a barrier that some threads leave out never opens") {
+  Rig rig;
+  REQUIRE(rig.launch({.blocks = 1, .threads = 64}, meet_by_halves, rig.ints) == cudaSuccess);
+  REQUIRE(cudaEventRecord(rig.event, rig.stream) == cudaSuccess);
+  CHECK(cudaEventQuery(rig.event) == cudaErrorNotReady);
+  CHECK(emulated::device().is_stuck());
+}
+
+TEST_CASE("a kernel with more barriers than the limit is ended, and its error stays") {
+  Rig rig({.most_barriers = 100});
+  REQUIRE(rig.launch({.blocks = 1, .threads = 32}, meet_for_ever, rig.ints) == cudaSuccess);
+  CHECK(cudaStreamSynchronize(rig.stream) == cudaErrorLaunchTimeout);
+  CHECK(cudaGetLastError() == cudaErrorLaunchTimeout);
+  CHECK(rig.launch({.blocks = 1, .threads = 32}, add_place, rig.ints) == cudaErrorLaunchTimeout);
+}
+
+TEST_CASE("a warp's lanes exchange values, and atomics add up") {
+  Rig rig;
+  REQUIRE(rig.launch({.blocks = 2, .threads = 64}, reduce_warps, rig.ints) == cudaSuccess);
+  const std::vector<int> values = rig.result();
+  for (std::size_t warp = 0; warp < 4; ++warp) CHECK(values[1 + warp] == 32 * 31 / 2);
+  CHECK(values[0] == 4);
+}
+
+TEST_CASE("a launch runs when something waits for it, and not before") {
+  Rig rig({.not_ready = 2});
+  int* pinned = nullptr;
+  REQUIRE(cudaHostAlloc(&pinned, 64 * sizeof(int), cudaHostAllocMapped) == cudaSuccess);
+  pinned[3] = -1;
+  REQUIRE(rig.launch({.blocks = 1, .threads = 64}, add_place, pinned) == cudaSuccess);
+  REQUIRE(cudaEventRecord(rig.event, rig.stream) == cudaSuccess);
+  CHECK(pinned[3] == -1);
+  CHECK(cudaEventQuery(rig.event) == cudaErrorNotReady);
+  CHECK(cudaGetLastError() == cudaErrorNotReady);  // as CUDA has it
+  CHECK(cudaEventQuery(rig.event) == cudaErrorNotReady);
+  CHECK(pinned[3] == -1);
+  CHECK(cudaEventQuery(rig.event) == cudaSuccess);
+  CHECK(pinned[3] == 3);
+}
+
+TEST_CASE("memory of the device is poisoned, ends where it ends, and is not the host's") {
+  Rig rig({.guarded = true}, 64);
+  CHECK(rig.result()[7] == static_cast<int>(0xcdcdcdcd));
+  CHECK(signal_of([&] { rig.ints[0] = 1; }) == SIGSEGV);
+  CHECK(signal_of([&] {
+          (void)rig.launch({.blocks = 2, .threads = 64}, add_place, rig.ints);  // twice as many as there is room for
+          (void)cudaStreamSynchronize(rig.stream);
+        }) == SIGSEGV);
+  int* managed = nullptr;
+  REQUIRE(cudaMallocManaged(&managed, 64 * sizeof(int)) == cudaSuccess);
+  managed[0] = 5;
+  REQUIRE(rig.launch({.blocks = 1, .threads = 64}, add_place, managed) == cudaSuccess);
+  CHECK(signal_of([&] { managed[0] = 5; }) == SIGSEGV);  // while a kernel is under way
+  REQUIRE(cudaStreamSynchronize(rig.stream) == cudaSuccess);
+  CHECK(managed[63] == 63);
+}
+
+TEST_CASE("errors to order: one launch refused, all broken from then on, one that never ends") {
+  Rig rig;
+  const Launched one{.blocks = 1, .threads = 32};
+  emulated::device().order(emulated::Fault::kRefused, 1);
+  CHECK(rig.launch(one, add_place, rig.ints) == cudaSuccess);
+  CHECK(rig.launch(one, add_place, rig.ints) == cudaErrorLaunchOutOfResources);
+  CHECK(rig.launch(one, add_place, rig.ints) == cudaSuccess);
+  CHECK(cudaGetLastError() == cudaErrorLaunchOutOfResources);
+  CHECK(cudaGetLastError() == cudaSuccess);
+  emulated::device().order(emulated::Fault::kHangs);
+  CHECK(rig.launch(one, add_place, rig.ints) == cudaSuccess);
+  CHECK(cudaEventRecord(rig.event, rig.stream) == cudaSuccess);
+  for (int k = 0; k < 10; ++k) CHECK(cudaEventQuery(rig.event) == cudaErrorNotReady);
+  CHECK(signal_of([&] { (void)cudaEventSynchronize(rig.event); }) == SIGABRT);
+  CHECK(signal_of([&] { (void)cudaFree(rig.ints); }) == SIGABRT);
+  CHECK(signal_of([&] { std::exit(0); }) == SIGABRT);
+  CHECK(signal_of([&] { std::_Exit(0); }) == 0);
+  emulated::device().power_on();
+  Rig other;
+  emulated::device().order(emulated::Fault::kBroken);
+  CHECK(other.launch(one, add_place, other.ints) == cudaSuccess);
+  CHECK(cudaStreamSynchronize(other.stream) == cudaErrorIllegalAddress);
+  CHECK(cudaFree(other.ints) == cudaErrorIllegalAddress);
+}
+
+#if JAYWALK_EMULATES_NAN
+TEST_CASE("a NaN that comes from arithmetic is NVIDIA's, one that is copied stays what it was") {
+  Rig rig;
+  REQUIRE(rig.launch({.blocks = 1, .threads = 1}, nans, rig.ints, std::numeric_limits<float>::quiet_NaN()) ==
+          cudaSuccess);
+  const std::vector<int> values = rig.result();
+  CHECK(values[0] == 0x7fc00000);  // copied
+  CHECK(values[1] == 0x7fffffff);  // + 1
+  CHECK(values[2] == 0x7fffffff);  // 0 / 0
+  CHECK(values[3] == 0x7fffffff);  // infinity - infinity
+  CHECK(values[4] == std::bit_cast<int>(1.5F));
+  CHECK(values[5] == 0x7fffffff);  // square root of -1
+}
+#endif

@@ -1,0 +1,171 @@
+// A device that fails under way: the CPU plans from the same submission on, and the process stops and ends.
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <string>
+
+#include "planner/field/fallback_planner.h"
+#include "tests/cuda/cuda_rig.h"
+#include "tests/planner/cuda_parity.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+using emulated::device;
+using emulated::Fault;
+
+namespace {
+
+constexpr int kLaunchesOfPlan = 3;
+
+/// A robot in a room of 6.4 m that asks for a plan at 15 Hz.
+struct Drive {
+  explicit Drive(const emulated::Properties& properties = {.guarded = true}) {
+    device().power_on(properties);
+    planner = std::make_unique<FallbackPlanner>(cuda_planner(small_window()), make_cpu_planner(small_window()));
+  }
+  ~Drive() {
+    planner.reset();
+    device().power_on();
+  }
+  Drive(const Drive&) = delete;
+  Drive& operator=(const Drive&) = delete;
+
+  const Plan& plan() {
+    request.stamp += std::chrono::milliseconds(66);
+    planner->submit(request);
+    return planner->collect();
+  }
+  [[nodiscard]] std::string backend() const { return planner->backend(); }
+
+  TestMap room{"room", 64};
+  EvidenceMap evidence = evidence_of(room);
+  std::unique_ptr<FallbackPlanner> planner;
+  PlanRequest request = [this] {
+    PlanRequest across_room = across(evidence);
+    across_room.stamp = time_from_seconds(100.0);
+    return across_room;
+  }();
+};
+
+}  // namespace
+
+TEST_CASE("emulated: a device that serves plans") {
+  Drive drive;
+  const Plan& plan = drive.plan();
+  CHECK(plan.status == PlanStatus::kOk);
+  CHECK(plan.sequence == 1);
+  CHECK(drive.backend() == "cuda");
+}
+
+TEST_CASE("emulated: each way to fail, in each launch of a plan, is answered by the CPU in the same submission") {
+  struct Case {
+    Fault fault;
+    const char* backend;
+  };
+  for (const Case& c : {Case{Fault::kRefused, "cpu (cuda: a launch was refused)"},
+                        Case{Fault::kBroken, "cpu (cuda: the device failed)"},
+                        Case{Fault::kHangs, "cpu (cuda: a kernel did not end in time)"}}) {
+    for (int launch = 0; launch < kLaunchesOfPlan; ++launch) {
+      Drive drive({.integrated = launch % 2 == 0, .guarded = true});
+      const std::size_t points = drive.plan().path.size();
+      device().order(c.fault, launch);
+      for (std::uint32_t sequence = 2; sequence <= 4; ++sequence) {
+        const Plan& plan = drive.plan();
+        CHECK(plan.status == PlanStatus::kOk);
+        CHECK(plan.certified);
+        CHECK(plan.path.size() == points);
+        CHECK(plan.sequence == sequence);
+        CHECK(drive.backend() == c.backend);
+        CHECK(drive.planner->view_field().psi.size() == 64 * 64);
+      }
+      CHECK(has_cuda_left_behind() == (c.fault == Fault::kHangs));
+      drive.planner.reset();  // ends the test where it waits for what hangs
+    }
+  }
+}
+
+TEST_CASE("emulated: after five seconds the device is asked once more: one refused launch is forgotten") {
+  Drive drive;
+  device().order(Fault::kRefused);
+  (void)drive.plan();
+  drive.request.stamp += std::chrono::milliseconds(4900);
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  CHECK(drive.backend() != "cuda");
+  drive.request.stamp += std::chrono::milliseconds(100);
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  CHECK(drive.backend() == "cuda");
+  device().order(Fault::kRefused);
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  drive.request.stamp += std::chrono::seconds(60);
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  CHECK(drive.backend() == "cpu (cuda: a launch was refused)");  // twice is for good
+}
+
+TEST_CASE("emulated: a kernel that was late and has ended is no reason to leave the device for good") {
+  Drive drive;
+  (void)drive.plan();
+  device().delay(1 << 30);
+  (void)drive.plan();
+  CHECK(drive.backend() == "cpu (cuda: a kernel did not end in time)");
+  device().delay(0);
+  drive.request.stamp += std::chrono::seconds(6);
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  CHECK(drive.backend() == "cuda");
+  CHECK_FALSE(has_cuda_left_behind());
+}
+
+TEST_CASE(
+    "emulated: a kernel that hangs, or an error that stays, is not launched upon when the device is asked again") {
+  for (const Fault fault : {Fault::kHangs, Fault::kBroken}) {
+    Drive drive({.integrated = true, .guarded = true});
+    device().order(fault);
+    (void)drive.plan();
+    const std::int64_t launches = device().counts().launches;
+    drive.request.stamp += std::chrono::seconds(6);
+    CHECK(drive.plan().status == PlanStatus::kOk);
+    CHECK(device().counts().launches == launches);
+    CHECK(drive.backend().substr(0, 4) == "cpu ");
+  }
+}
+
+TEST_CASE("emulated: a process with a kernel that never ends ends, with the code that it wants") {
+  const pid_t child = ::fork();
+  if (child == 0) {
+    ::alarm(60);  // a limit for the worst case alone
+    {
+      Drive drive;
+      device().order(Fault::kHangs);
+      (void)drive.plan();
+      drive.planner.reset();
+    }
+    device().order(Fault::kNone);
+    std::_Exit(has_cuda_left_behind() ? 7 : 8);
+  }
+  int status = 0;
+  ::waitpid(child, &status, 0);
+  CHECK(WIFEXITED(status));
+  CHECK(WEXITSTATUS(status) == 7);
+}
+
+TEST_CASE(
+    "emulated: no device, one that refuses, breaks or hangs at the start, and one without memory: none is made, and "
+    "why") {
+  struct Case {
+    emulated::Properties properties;
+    Fault fault;
+    const char* why;
+  };
+  for (const Case& c :
+       {Case{{.devices = 0}, Fault::kNone, "cuda: no device (cudaErrorNoDevice)"},
+        Case{{.bytes = 1 << 20}, Fault::kNone, "cuda: the device does not serve (cudaErrorMemoryAllocation)"},
+        Case{{}, Fault::kRefused, "cuda: a trial field could not be solved"},
+        Case{{}, Fault::kBroken, "cuda: a trial field could not be solved"},
+        Case{{}, Fault::kHangs, "cuda: a trial field could not be solved"}}) {
+    device().power_on(c.properties);
+    device().order(c.fault, 0, 100);
+    std::string why;
+    CHECK(make_cuda_planner(small_window(), why) == nullptr);
+    CHECK(why == c.why);
+  }
+  device().power_on();
+}

@@ -1,0 +1,118 @@
+// The CUDA sources, unmodified, on the emulated device: every field and plan has the CPU's bytes, in whatever order
+// threads run. What of it takes minutes is part of tools/long_tests.
+#include <cstdio>
+
+#include "tests/cuda/cuda_rig.h"
+#include "tests/planner/cuda_parity.h"
+#include "tests/planner/shaped_maps.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+using emulated::device;
+
+namespace {
+
+/// Boxes in a room; both corners are free.
+TestMap boxes(std::int32_t side, std::uint64_t seed) {
+  TestMap map("boxes", side);
+  Random random(seed);
+  for (std::int32_t k = 0; k < side / 5; ++k) {
+    const std::int32_t i = random.below(side - 4), j = random.below(side - 4);
+    map.box(i, j, i + 2 + random.below(8), j + 2 + random.below(8));
+  }
+  map.box(4, 4, 16, 16, 0), map.box(side - 18, side - 18, side - 4, side - 4, 0);
+  return map;
+}
+
+field::CellMap cells_of(const TestMap& map) { return {map.side, map.side, map.wall}; }
+
+PlannerConfig window(std::int32_t side) {
+  PlannerConfig config;
+  config.side_cells = config.max_side_cells = side;
+  return config;
+}
+
+/// Plans of both modes in a window of 6.4 m among six movers.
+void check_crowd(const emulated::Properties& properties, int ticks) {
+  const EvidenceMap map = evidence_of(boxes(64, 3));
+  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
+    device().power_on(properties);
+    PlannerConfig config = small_window();
+    config.mode = mode;
+    const auto cpu = make_cpu_planner(config), gpu = cuda_planner(config);
+    std::vector<Track> tracks = crowd();
+    PlanRequest request = across(map);
+    int planned = 0;
+    for (int tick = 0; tick < ticks; ++tick) {
+      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
+      request.moving = tracks;
+      planned += check_plan(*cpu, *gpu, request) ? 1 : 0;
+    }
+    CHECK(planned > 0);
+  }
+}
+
+}  // namespace
+
+TEST_CASE("emulated: fields of maps of every shape have the CPU's bytes, in clusters and in grids") {
+  for (const Kind kind : {Kind::kLargeClusters, Kind::kGrid}) {
+    for (const field::CellMap& map : shaped_maps()) {
+      device().power_on(properties_of(kind, 7));
+      check_field(map, *cuda_field(map));
+    }
+  }
+}
+
+TEST_CASE("emulated: fields have the CPU's bytes in random orders from 20 seeds on devices of every kind") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    device().power_on(properties_of(kKinds[seed % 5], seed));
+    const field::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
+    check_field(map, *cuda_field(map));
+    CHECK_FALSE(device().is_stuck());
+  }
+}
+
+TEST_CASE("emulated: plans among movers have the CPU's bytes in both modes") {
+  for (std::uint64_t seed = 1; seed <= 5; ++seed) check_crowd(properties_of(kKinds[seed % 5], seed), 3);
+}
+
+TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and two that the host keeps out of") {
+  for (const Kind kind : {Kind::kLargeClusters, Kind::kOneMemory}) {
+    emulated::Properties properties = properties_of(kind, 5);
+    properties.guarded = true;
+    device().power_on(properties);
+    const auto cpu = make_cpu_planner(window(128)), gpu = cuda_planner(window(128));
+    check_run(*cpu, *gpu, boxes(128, 2), 2);
+  }
+}
+
+TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: the host sees the mover's mark") {
+  device().power_on(properties_of(Kind::kSmallClusters, 6));
+  const auto cpu = make_cpu_planner(small_window()), gpu = cuda_planner(small_window());
+  const EvidenceMap map = evidence_of({"room", 64});
+  PlanRequest request = across(map);
+  request.goal_in_map = {3.2, 3.2};
+  Track track = crowd()[0];
+  track.position_in_map = request.goal_in_map;
+  track.velocity_in_map = {0.0, 0.0};
+  track.radius_m = 0.8;  // farther from the goal than the 0.5 m that it may be moved where no mover is
+  request.moving = {&track, 1};
+  CHECK(check_plan(*cpu, *gpu, request));
+}
+
+TEST_CASE("emulated at length: plans among movers in random orders from 20 seeds", "[.large]") {
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) check_crowd(properties_of(kKinds[seed % 5], seed), 6);
+}
+
+TEST_CASE("emulated at length: fields and plans of 256 and 512 cells a side", "[.large]") {
+  for (const Kind kind : {Kind::kLargeClusters, Kind::kGrid}) {
+    device().power_on(properties_of(kind, 11));
+    const auto cpu = make_cpu_planner(window(256)), gpu = cuda_planner(window(256));
+    for (const TestMap& map : {open_room(), office(), serpentine(10), clutter(31)}) check_run(*cpu, *gpu, map, 3);
+    device().power_on(properties_of(kind, 12));
+    check_field(cells_of(boxes(512, 9)), *cuda_field(cells_of(boxes(512, 9))));
+  }
+  device().power_on(properties_of(Kind::kGrid, 13));
+  const auto cpu = make_cpu_planner(window(512)), gpu = cuda_planner(window(512));
+  check_run(*cpu, *gpu, boxes(512, 4), 2);
+}

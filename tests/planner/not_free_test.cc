@@ -1,0 +1,83 @@
+// A NaN that comes from arithmetic has other bits on every kind of processor: an x86 keeps its operand's, an NVIDIA GPU
+// returns 7fffffff. So psi of a cell that is not free is handed on as it is. A signalling NaN shows it: arithmetic sets
+// its quiet bit (IEEE 754, 6.2.3), a copy does not.
+#include <cstring>
+
+#include "tests/planner/field_rig.h"
+#include "tests/planner/one_memory.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+constexpr std::uint32_t kSignalling = 0x7fa00001;
+
+std::uint32_t bits_of(const float* value) {
+  std::uint32_t bits = 0;
+  std::memcpy(&bits, value, sizeof bits);
+  return bits;
+}
+
+/// Visits one cell after the other. Of this file alone, so that the stages are compiled as the build says for this
+/// file.
+class Visitor : public OneMemory {
+ public:
+  static constexpr std::int32_t kColumns = 1, kCellsOfRow = 16;
+  static constexpr bool kInTurn = true;
+
+  template <class Order>
+  bool run(const Order& order) {
+    order(*this);
+    return true;
+  }
+  template <class Stage>
+  void for_each(std::int32_t n, const Stage& stage) {
+    for (std::int32_t k = 0; k < n; ++k) stage(k);
+  }
+  template <class Stage>
+  void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) {
+    for (std::int32_t k = 0; k < w * h; ++k) stage(k % w, k / w);
+  }
+  template <class... Steps>
+  void for_each_row(std::int32_t h, const Steps&... steps) {
+    (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
+  }
+  template <class... Steps>
+  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) {
+    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+  }
+  static field::Counted total(std::int32_t n, const field::Counted* counted) {
+    return field::SerialExecutor::total(n, counted);
+  }
+};
+
+/// Cells that are not free whose bits are not the mark any more.
+int computed(const FieldRig<Visitor>& rig, const float* psi) {
+  int count = 0;
+  for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
+    count += rig.arrays().clearance[c] <= 0.0F && bits_of(psi + c) != kSignalling ? 1 : 0;
+  }
+  return count;
+}
+
+}  // namespace
+
+TEST_CASE("psi of a cell that is not free is handed on and never computed, cold, warm and by the start field alone") {
+  FieldRig<Visitor> rig(64);
+  TestMap map("rooms", 64);
+  map.box(20, 0, 22, 44), map.box(42, 20, 44, 64), map.box(42, 8, 54, 10);
+  const std::int32_t goal = rig.grid.at(55, 50);
+  rig.load(map, 1.0F, goal);
+  for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
+    if (rig.arrays().clearance[c] <= 0.0F) std::memcpy(rig.arrays().start_psi + c, &kSignalling, sizeof kSignalling);
+  }
+  for (const field::From from : {field::From::kNothing, field::From::kLast, field::From::kStartOnly}) {
+    const field::FieldQuality quality = rig.pass.solve(rig.grid, goal, from, rig.psi);
+    CHECK(quality.certified);
+    CHECK(quality.joined > 2000);
+    CHECK(computed(rig, rig.arrays().start_psi) == 0);
+    CHECK(computed(rig, rig.psi) == 0);
+  }
+}
