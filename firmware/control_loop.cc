@@ -6,7 +6,7 @@ namespace jaywalk {
 namespace {
 
 constexpr LaserScan kNoScan{};
-constexpr Duration kPlanEvery = std::chrono::milliseconds(190);  // walls are no hurry: motion looks out for movers
+constexpr Duration kPlanEvery = std::chrono::milliseconds(90);   // walls are no hurry: motion looks out for movers
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);     // as the supervisor's longest age of a plan
 constexpr Duration kNoWayFor = std::chrono::seconds(10);         // whoever is in the way has had his time
 
@@ -127,12 +127,13 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 void ControlLoop::note_plan(TickRecord& t) noexcept {
   t.plan_sequence = plan_->sequence;
   t.plan_status = plan_->status;
-  if (plan_->status == PlanStatus::kOk) {
+  if (drives_by_motion()) {
+    good_plan_stamp_ = std::min(motion_->decision().seen, plan_->stamp);
+  } else if (plan_->status == PlanStatus::kOk) {
     good_plan_stamp_ = plan_->stamp;
-  } else if (setup_.keeps_speed()) {
-    good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
   }
-  if (drives_by_motion()) good_plan_stamp_ = motion_->decision().seen;
+  if (setup_.keeps_speed() && plan_->status != PlanStatus::kOk)
+    good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
   t.plan_stamp = good_plan_stamp_;
 }
 

@@ -4,15 +4,10 @@
 #include <array>
 #include <cmath>
 
-#include "planner/cell/clearance.h"
 #include "planner/field/planning_rules.h"
 
 namespace jaywalk::field {
 namespace {
-
-constexpr std::int16_t kNoRow = 0x7fff;
-constexpr std::int32_t kReach = 20;  ///< cells that a surface is known to: Guide::kFar_m
-constexpr Place kNowhere{1e9F, 1e9F};
 
 constexpr std::uint32_t kNoWay = 0xffffffffU;
 constexpr float kRates = 16.0F;  ///< rate units of a cell that costs what it is long
@@ -60,20 +55,6 @@ constexpr std::array<Neighbour, 16> kNeighbours{{{1, 0, kStraight},
                                                  {-1, 2, kKnight},
                                                  {-1, -2, kKnight}}};
 
-Place place_of(Vec2 p) { return {static_cast<float>(p.x), static_cast<float>(p.y)}; }
-
-/// Calls visit(c, i, j) for the cells inside `box` whose middle lies within a disc.
-template <class Box, class Visit>
-void for_each_in_disc(const Window& window, const Box& box, Vec2 centre, double radius_m, const Visit& visit) {
-  const Vec2 half{radius_m, radius_m};
-  const CellIndex low = window.cell_at(centre - half), high = window.cell_at(centre + half);
-  for (std::int32_t j = std::max(low.j, box.j0); j <= std::min(high.j, box.j1); ++j) {
-    for (std::int32_t i = std::max(low.i, box.i0); i <= std::min(high.i, box.i1); ++i) {
-      if (distance(window.in_map({i + 0.5, j + 0.5}), centre) <= radius_m) visit(window.grid().at(i, j));
-    }
-  }
-}
-
 }  // namespace
 
 GuideField::Memory::Memory(std::int32_t max_side)
@@ -84,22 +65,20 @@ GuideField::Memory::Memory(std::int32_t max_side)
 GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
-      own_(static_cast<std::size_t>(Grid{max_side}.cells())),
-      rows_(own_.size()),
-      rate_(own_.size()),
-      cost_(own_.size()),
-      entries_(2 * own_.size()),
+      surfaces_(max_side),
+      rate_(static_cast<std::size_t>(Grid{max_side}.cells())),
+      cost_(rate_.size()),
+      entries_(2 * rate_.size()),
       heads_(kBuckets, -1) {}
 
 Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
   const Window& window = request.window;
   const auto cells = static_cast<std::size_t>(window.grid().cells());
-  const Box box = box_of(request);
+  const CellBox box = box_of(request);
   std::fill_n(memory.surface.begin(), cells, kNowhere);
   std::fill_n(memory.to_go_s.begin(), cells, Guide::kNoWay_s);
   std::fill_n(memory.unseen.begin(), cells, std::uint8_t{0});
-  fetch_cells(request, box, memory.unseen.data());
-  spread_surfaces(window, box, memory.surface.data());
+  surfaces_.find(window, box, request.still, request.movers, memory.unseen.data(), memory.surface.data());
   weigh(request, box, memory);
   settle_costs(request, box);
   const double seconds = window.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
@@ -121,12 +100,13 @@ Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
 }
 
 /// Everything that is known, robot and goal, and three metres about them: room enough to walk round.
-GuideField::Box GuideField::box_of(const GuideRequest& request) const noexcept {
+CellBox GuideField::box_of(const GuideRequest& request) const noexcept {
   const Window& window = request.window;
   const std::int32_t last = window.side - 1, margin = static_cast<std::int32_t>(3.0 / window.cell_m);
   const CellIndex robot = window.cell_at(request.robot_in_map);
   const CellIndex goal = projected_goal(window, request.robot_in_map, request.goal_in_map);
-  Box box{std::min(robot.i, goal.i), std::min(robot.j, goal.j), std::max(robot.i, goal.i), std::max(robot.j, goal.j)};
+  CellBox box{std::min(robot.i, goal.i), std::min(robot.j, goal.j), std::max(robot.i, goal.i),
+              std::max(robot.j, goal.j)};
   for (std::int32_t j = 0; request.still != nullptr && j <= last; ++j) {
     for (std::int32_t i = 0; i <= last; ++i) {
       if (!request.still->occupied({window.low.i + i, window.low.j + j})) continue;
@@ -137,72 +117,6 @@ GuideField::Box GuideField::box_of(const GuideRequest& request) const noexcept {
           std::clamp(box.i1 + margin, 0, last), std::clamp(box.j1 + margin, 0, last)};
 }
 
-void GuideField::fetch_cells(const GuideRequest& request, const Box& box, std::uint8_t* unseen) noexcept {
-  const Window& window = request.window;
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      const auto c = static_cast<std::size_t>(window.grid().at(i, j));
-      const CellIndex cell{window.low.i + i, window.low.j + j};
-      const bool wall = request.still != nullptr && request.still->occupied(cell);
-      rows_[c] = wall ? std::int16_t{0} : kNoRow;
-      unseen[c] = request.still != nullptr && request.still->evidence(cell) == 0 ? std::uint8_t{1} : std::uint8_t{0};
-      if (wall) own_[c] = place_of(request.still->surface(cell));
-    }
-  }
-  // A mover that stood was mapped: what lies within his body is no wall.
-  for (const MoverDisc& mover : request.movers) {
-    for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kOwnBody_m,
-                     [this](std::int32_t c) { rows_[static_cast<std::size_t>(c)] = kNoRow; });
-  }
-}
-
-/// The nearest occupied cell up and down each column, then along each row by the lower envelope of its columns'
-/// parabolas (planner/cell/clearance.h): what a cell keeps is that cell's own surface.
-void GuideField::spread_surfaces(const Window& window, const Box& box, Place* surface) noexcept {
-  const Grid grid = window.grid();
-  const auto at = [&grid](std::int32_t i, std::int32_t j) { return static_cast<std::size_t>(grid.at(i, j)); };
-  const auto size = [](std::int16_t row) { return std::abs(static_cast<std::int32_t>(row)); };
-  for (std::int32_t j = box.j0 + 1; j <= box.j1; ++j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      const std::int16_t below = rows_[at(i, j - 1)];
-      if (rows_[at(i, j)] == 0 || below == kNoRow || below <= -kReach) continue;
-      rows_[at(i, j)] = static_cast<std::int16_t>(below - 1);
-    }
-  }
-  for (std::int32_t j = box.j1 - 1; j >= box.j0; --j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      const std::int16_t above = rows_[at(i, j + 1)], here = rows_[at(i, j)];
-      if (above == kNoRow || above < 0 || above >= kReach || size(here) <= above + 1) continue;
-      rows_[at(i, j)] = static_cast<std::int16_t>(above + 1);
-    }
-  }
-  std::array<std::int32_t, 4096> column, begin;  // of the widest window there is
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    std::int32_t top = -1;
-    for (std::int32_t u = box.i0; u <= box.i1; ++u) {
-      const std::int16_t row = rows_[at(u, j)];
-      if (row == kNoRow) continue;
-      const auto height = [&](std::int32_t i) { return size(rows_[at(i, j)]); };
-      const auto k = [](std::int32_t n) { return static_cast<std::size_t>(n); };
-      while (top >= 0 && cell::squared_distance(begin[k(top)], column[k(top)], height(column[k(top)])) >
-                             cell::squared_distance(begin[k(top)], u, height(u))) {
-        --top;
-      }
-      const std::int32_t from =
-          top < 0 ? box.i0 : 1 + cell::last_nearer(column[k(top)], height(column[k(top)]), u, height(u));
-      if (from > box.i1) continue;
-      ++top;
-      column[k(top)] = u;
-      begin[k(top)] = std::max(from, box.i0);
-    }
-    for (std::int32_t i = box.i1; i >= box.i0 && top >= 0; --i) {
-      const std::int32_t u = column[static_cast<std::size_t>(top)];
-      if (std::abs(u - i) <= kReach) surface[at(i, j)] = own_[at(u, j + rows_[at(u, j)])];
-      if (i == begin[static_cast<std::size_t>(top)]) --top;
-    }
-  }
-}
-
 std::uint16_t GuideField::rate_at(float d) const noexcept {
   if (d < blocked_m_) return 0;
   const float near = d < kRoom_m ? kRoom_m - d : 0.0F;
@@ -211,7 +125,7 @@ std::uint16_t GuideField::rate_at(float d) const noexcept {
 }
 
 /// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.
-bool GuideField::leads_through_unseen(const GuideRequest& request, const Box& box,
+bool GuideField::leads_through_unseen(const GuideRequest& request, const CellBox& box,
                                       const Memory& memory) const noexcept {
   const CellIndex robot = request.window.cell_at(request.robot_in_map);
   std::int32_t i = robot.i, j = robot.j;
@@ -233,7 +147,7 @@ bool GuideField::leads_through_unseen(const GuideRequest& request, const Box& bo
   return false;
 }
 
-void GuideField::weigh(const GuideRequest& request, const Box& box, const Memory& memory) noexcept {
+void GuideField::weigh(const GuideRequest& request, const CellBox& box, const Memory& memory) noexcept {
   const Window& window = request.window;
   const Place* surface = memory.surface.data();
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
@@ -276,7 +190,7 @@ void GuideField::push(std::int32_t c, std::uint32_t cost) noexcept {
 
 /// The goal's cell, or the nearest that is a way; every cell of the border for a goal outside, with what is left
 /// beyond.
-void GuideField::seed(const GuideRequest& request, const Box& box) noexcept {
+void GuideField::seed(const GuideRequest& request, const CellBox& box) noexcept {
   const Window& window = request.window;
   const Grid grid = window.grid();
   const Vec2 goal = request.goal_in_map;
@@ -304,7 +218,7 @@ void GuideField::seed(const GuideRequest& request, const Box& box) noexcept {
   for (std::int32_t j = box.j0; j <= box.j1; ++j) add(box.i0, j), add(box.i1, j);
 }
 
-void GuideField::relax_from(std::int32_t c, const Box& box, std::int32_t side) noexcept {
+void GuideField::relax_from(std::int32_t c, const CellBox& box, std::int32_t side) noexcept {
   const std::int32_t i = c % side, j = c / side;
   const std::uint32_t here = cost_[static_cast<std::size_t>(c)], own = rate_[static_cast<std::size_t>(c)];
   for (const Neighbour& n : kNeighbours) {
@@ -323,7 +237,7 @@ void GuideField::relax_from(std::int32_t c, const Box& box, std::int32_t side) n
 }
 
 /// Dial's buckets in a ring.
-void GuideField::settle_costs(const GuideRequest& request, const Box& box) noexcept {
+void GuideField::settle_costs(const GuideRequest& request, const CellBox& box) noexcept {
   const Grid grid = request.window.grid();
   for (std::int32_t j = box.j0; j <= box.j1; ++j)
     std::fill_n(cost_.begin() + grid.at(box.i0, j), box.i1 - box.i0 + 1, kNoWay);

@@ -3,7 +3,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/field/window.h"
+#include "planner/field/nearest_surfaces.h"
 #include "planner/guide.h"
 #include "planner/planner.h"
 
@@ -40,29 +40,22 @@ class GuideField {
   Guide settle(const GuideRequest& request, Memory& memory) noexcept;
 
  private:
-  /// Cells that the work is limited to, both ends included.
-  struct Box {
-    std::int32_t i0, j0, i1, j1;
-  };
   struct Entry {
     std::int32_t cell, next;
   };
 
-  [[nodiscard]] Box box_of(const GuideRequest& request) const noexcept;
-  void fetch_cells(const GuideRequest& request, const Box& box, std::uint8_t* unseen) noexcept;
-  void spread_surfaces(const Window& window, const Box& box, Place* surface) noexcept;
-  void weigh(const GuideRequest& request, const Box& box, const Memory& memory) noexcept;
-  [[nodiscard]] bool leads_through_unseen(const GuideRequest& request, const Box& box,
+  [[nodiscard]] CellBox box_of(const GuideRequest& request) const noexcept;
+  void weigh(const GuideRequest& request, const CellBox& box, const Memory& memory) noexcept;
+  [[nodiscard]] bool leads_through_unseen(const GuideRequest& request, const CellBox& box,
                                           const Memory& memory) const noexcept;
-  void settle_costs(const GuideRequest& request, const Box& box) noexcept;
-  void seed(const GuideRequest& request, const Box& box) noexcept;
-  void relax_from(std::int32_t c, const Box& box, std::int32_t side) noexcept;
+  void settle_costs(const GuideRequest& request, const CellBox& box) noexcept;
+  void seed(const GuideRequest& request, const CellBox& box) noexcept;
+  void relax_from(std::int32_t c, const CellBox& box, std::int32_t side) noexcept;
   void push(std::int32_t c, std::uint32_t cost) noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
   float blocked_m_, tight_m_;
-  std::vector<Place> own_;           ///< each occupied cell's own surface
-  std::vector<std::int16_t> rows_;   ///< to the nearest occupied cell in the column: signed, kNoRow where none is near
+  NearestSurfaces surfaces_;
   std::vector<std::uint16_t> rate_;  ///< 0: no way
   std::vector<std::uint32_t> cost_;
   std::vector<Entry> entries_;

@@ -11,6 +11,8 @@ namespace {
 
 // Seconds that a passenger would give not to have it; by trial on a prototype, maps 3 and 4, seeds 9001 to 9010.
 constexpr float kConflict = 200.0F, kConflictFadesS = 4.0F;  ///< what is far ahead will be decided on again
+constexpr float kWhoStands =
+    0.1F;  ///< of it: who has stood for long and sets out is seen to before the robot drives on
 constexpr float kTouch = 500.0F, kNearlyTouch = 1000.0F;
 constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F, kStopZoneForS = 1.5F;
 constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;  ///< a second, at the body's edge
@@ -20,6 +22,8 @@ constexpr float kUnseenFadesM = 0.6F;                         ///< after driving
 constexpr float kUnseenDared = 0.15F, kUnseenTurned = 10.0F;  ///< where the only way leads there; and a rad/s
 constexpr float kNearMover = 0.15F;                           ///< a look, each
 constexpr float kNearMoverM = 1.0F;
+constexpr float kTooFast = 1.6F;    ///< a m/s, each look, faster beside who stands than the gap within a second,
+constexpr float kPoliteMps = 0.2F;  ///< or than this: decision 15
 constexpr float kAccel = 2.0F, kTurnAccel = 0.6F;     ///< a squared change of m/s, rad/s in a step
 constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
 constexpr float kBackward = 0.02F;                    ///< each step
@@ -36,15 +40,19 @@ constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn 
 constexpr float kZoneSideM = 0.013F;
 constexpr float kMostTimeToGoS = 500.0F;
 
-/// In which futures a disc of the robot at (x, y) touches a mover or stands in the quarter circle before one that
-/// walks; adds how near it is to `nearness`, a sum over futures.
-std::uint32_t conflicts(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m,
-                        float& nearness) {
+/// What a disc of the robot has to do with one mover, in all futures.
+struct Meeting {
+  std::uint32_t met = 0;  ///< in which it touches the mover, or stands in the quarter circle before it while it walks
+  float nearness = 0.0F;  ///< a sum over futures
+  float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
+};
+
+Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m, float speed) {
   const float touch = mover_m + disc_m + kMoverMarginM, touch2 = touch * touch;
   const float zone = mover_m + kZoneM, edge = disc_m + kZoneSideM;
   const float reach2 = (zone + edge) * (zone + edge), edge2 = edge * edge;
   alignas(32) std::int32_t hit[kFutures], faced[kFutures];
-  alignas(32) float near[kFutures];
+  alignas(32) float near[kFutures], fast[kFutures];
   for (int k = 0; k < kFutures; ++k) {
     const float dx = x - at.x[k], dy = y - at.y[k], d2 = dx * dx + dy * dy;
     const float ahead = dx * at.along_x[k] + dy * at.along_y[k];
@@ -58,14 +66,20 @@ std::uint32_t conflicts(const MoverAt& at, float mover_m, bool is_mapped, float 
     hit[k] = d2 < touch2 ? 1 : 0;
     faced[k] = inside | beside;
     near[k] = d2 < kNearMoverM * kNearMoverM ? kNearMoverM * kNearMoverM - d2 : 0.0F;
+    const float gap = std::sqrt(d2) - mover_m - disc_m;  // it may set out, and be there within a second
+    const float polite = gap < kPoliteMps ? kPoliteMps : gap;
+    fast[k] = speed > polite ? speed - polite : 0.0F;
   }
+  Meeting m;
   std::uint32_t touched = 0, in_zone = 0;
   for (int k = 0; k < kFutures; ++k) {
     touched |= static_cast<std::uint32_t>(hit[k]) << k;
     in_zone |= static_cast<std::uint32_t>(faced[k]) << k;
-    nearness += near[k];
+    m.nearness += near[k];
+    m.too_fast += (at.walks >> k & 1U) != 0 ? 0.0F : fast[k];
   }
-  return is_mapped ? (touched | in_zone) & at.walks : touched | (in_zone & at.walks);
+  m.met = is_mapped ? (touched | in_zone) & at.walks : touched | (in_zone & at.walks);
+  return m;
 }
 
 class Judge {
@@ -129,8 +143,9 @@ class Judge {
   }
 
   void movers(const RobotState& r, int step, float t) {
-    std::uint32_t met = 0;
-    float nearness = 0.0F;
+    Meeting all;
+    std::uint32_t stood = 0;
+    const float speed = std::fabs(r.v);
     const BodyDiscs& discs = s_.body.to_movers;
     const int at_step = step < kFutureSteps ? step : kFutureSteps - 1;
     for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
@@ -141,15 +156,25 @@ class Judge {
         const float x = r.x + discs.ahead[static_cast<std::size_t>(k)] * along_.x;
         const float y = r.y + discs.ahead[static_cast<std::size_t>(k)] * along_.y;
         const float dx = x - at.mid_x, dy = y - at.mid_y;
-        if (dx * dx + dy * dy < most * most) met |= conflicts(at, radius, mapped, x, y, discs.radius, nearness);
+        if (dx * dx + dy * dy >= most * most) continue;
+        const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed);
+        (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
+        all.nearness += meeting.nearness;
+        all.too_fast += meeting.too_fast;
       }
     }
-    cost.nearness += kNearMover * nearness / static_cast<float>(kFutures * discs.count);
+    cost.nearness += (kNearMover * all.nearness + kTooFast * all.too_fast) / static_cast<float>(kFutures * discs.count);
+    count_first(all.met, 1.0F, t);
+    count_first(stood, kWhoStands, t);
+  }
+
+  /// Somebody is met for the first time in these futures.
+  void count_first(std::uint32_t met, float weight, float t) {
     const std::uint32_t first = met & ~met_;
     met_ |= met;
     if (first != 0) {
       const float share = static_cast<float>(std::popcount(first)) / kFutures;
-      cost.conflict += kConflict * share * cell::exp(-t / kConflictFadesS);
+      cost.conflict += kConflict * weight * share * cell::exp(-t / kConflictFadesS);
     }
   }
 

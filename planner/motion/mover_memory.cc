@@ -9,8 +9,6 @@ namespace {
 constexpr double kWithinM = 9.0;   ///< of the robot: more than both come in 6 s
 constexpr double kStillM = 0.25;   ///< who stays within it stands
 constexpr double kLastingS = 5.0;  ///< who has stood for longer is in the way for now
-constexpr double kWalksMps = 0.15;
-constexpr std::uint32_t kSureHits = 4;
 constexpr double kUnknownForS = 4.0;  ///< what is new and as wide as a body may walk off
 constexpr double kUnknownWithinM = 4.0;
 constexpr double kLeastBodyM = 0.15, kWidestBodyM = 0.7;
@@ -25,10 +23,6 @@ constexpr double kLearnWithinM = 8.0;
 constexpr double kTurnSine = 0.43;  ///< of 0.45 rad, in half a second: it has turned
 
 double speed_of(const Track& t) { return norm(t.velocity_in_map); }
-bool walks(const Track& t) {
-  const double speed = speed_of(t);
-  return t.moving || (speed > kWalksMps && speed > 2.0 * std::sqrt(t.covariance.vv));
-}
 
 }  // namespace
 
@@ -69,7 +63,7 @@ MoverMemory::Memory& MoverMemory::memory_of(const Track& track, const Seen& seen
 }
 
 void MoverMemory::note(Memory& m, const Track& track, const Seen& seen) noexcept {
-  if (walks(track) && track.hits >= kSureHits) m.has_walked = true;
+  if (track.moving) m.has_walked = true;
   if (distance(track.position_in_map, m.anchor) > kStillM) {
     m.anchor = track.position_in_map;
     m.still_since = seen.now;

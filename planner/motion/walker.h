@@ -28,7 +28,9 @@ inline constexpr float kTurnsAtRadps = 1.5F;      ///< before it goes on in anot
 inline constexpr float kLookAheadM = 0.5F;        ///< what lies nearer than this before a mover makes it turn
 inline constexpr float kPausesForS = 2.0F;        ///< at most, who walked and stands now
 inline constexpr float kLongPauseS = 4.0F;        ///< who has stood for longer may stand for any time:
-inline constexpr float kStandsForS = 6.0F;        ///< on average
+inline constexpr float kStandsForS = 6.0F;        ///< on average, or as long again as it has stood
+inline constexpr float kUnknownStandsForS =
+    20.0F;  ///< the same of what was never seen to walk: most of it is furniture
 
 /// Whether a surface lies in the quarter circle of `reach` m ahead of a place: looked for in four discs that fill it.
 JAYWALK_ANYWHERE bool faces_surface(const Guide& guide, float x, float y, const cell::Heading& along, float reach) {
@@ -90,13 +92,15 @@ struct Walker {
     w.until_stop_s = w.draws.waiting_s(turning.stops_hz());
     w.face(cell::angle_of(vx, vy));
     const float speed = std::sqrt(vx * vx + vy * vy), half = 0.5F * b.usual_mps;
-    w.walks = speed > kSetsOutAboveMps;
+    w.walks = speed > kSetsOutAboveMps && (b.has_walked || speed > 2.0F * b.velocity_std);
     w.speed = speed > (half < kStandsBelowMps ? half : kStandsBelowMps) ? speed : b.usual_mps;
     if (w.walks) return w;
     w.face(cell::kPiF * w.draws.either_way());
     (void)w.look_for_way(guide);
     const bool for_long = !b.has_walked || b.stood_s > kLongPauseS;
-    w.wait_s = for_long ? w.draws.waiting_s(1.0F / kStandsForS) : kPausesForS * w.draws.uniform();
+    const float least = b.has_walked ? kStandsForS : kUnknownStandsForS;
+    const float expected = b.stood_s > least ? b.stood_s : least;
+    w.wait_s = for_long ? w.draws.waiting_s(1.0F / expected) : kPausesForS * w.draws.uniform();
     return w;
   }
 

@@ -1,5 +1,7 @@
 #include "firmware/control_loop.h"
 
+#include <unistd.h>
+
 #include <bit>
 #include <filesystem>
 #include <vector>
@@ -26,7 +28,7 @@ std::vector<std::uint64_t> command_bits(SimulatedDrive drive, int ticks) {
 /// Records `seconds` of a drive, lives through the recording again and counts commands that differ in any bit.
 int different_commands(PlanMode mode, double seconds, const SimulatedDrive::Edit& edit = {}) {
   const std::string file =
-      (std::filesystem::temp_directory_path() / ("jaywalk_" + std::to_string(int(mode)) + ".jwr")).string();
+      (std::filesystem::temp_directory_path() / ("jaywalk_" + std::to_string(::getpid()) + ".jwr")).string();
   {
     SimulatedDrive drive("map1_16", 7, edit, mode, file);
     drive.drive(seconds);
@@ -52,7 +54,7 @@ TEST_CASE("a busy thousand ticks ask nothing of the heap") {
     tracks = std::max<std::uint64_t>(tracks, drive.loop().tracker().moving().size());
   }
   CHECK(calls == 0);
-  CHECK(plans > 250);  // 20 s at 15 scans a second: it was busy
+  CHECK(plans > 90);  // 22 s at five a second: it was busy
   CHECK(tracks >= 2);
 }
 

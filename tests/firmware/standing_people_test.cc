@@ -12,7 +12,7 @@ namespace {
 /// He stands there from the third second to the 33rd.
 struct Passing {
   bool arrived = false;
-  double seconds = 0.0, nearest_m = 1e9, speed_there_mps = 0.0;
+  double seconds = 0.0, nearest_m = 1e9;
   std::uint32_t contacts = 0;
 };
 
@@ -21,10 +21,7 @@ Passing pass(const RobotModel& model, std::uint64_t seed) {
   Passing passing;
   passing.arrived = drive.drive(90.0, [&](const TickRecord& t) {
     passing.seconds = to_seconds(t.now);
-    if (drive.truth().mover_clearance_m < passing.nearest_m) {
-      passing.nearest_m = drive.truth().mover_clearance_m;
-      passing.speed_there_mps = t.verdict.permitted.v_mps;
-    }
+    passing.nearest_m = std::min(passing.nearest_m, drive.truth().mover_clearance_m);
     return drive.to_goal_m() < 0.3 || drive.truth().contacts > 0;
   });
   passing.contacts = drive.truth().contacts;
@@ -33,14 +30,14 @@ Passing pass(const RobotModel& model, std::uint64_t seed) {
 
 }  // namespace
 
-TEST_CASE("a robot passes somebody who stands in a passage clear of him, not of his shins alone") {
+TEST_CASE("a robot keeps clear of somebody who stands in a passage, and not of his shins alone") {
   const std::uint64_t seed = GENERATE(std::uint64_t{1}, std::uint64_t{2});
   const Passing passing = pass(p3dx(), seed);
   CHECK(passing.arrived);
   CHECK(passing.contacts == 0);
-  CHECK(passing.seconds < 33.0);          // it does not wait: there is room beside him
-  CHECK(passing.nearest_m > 0.13);        // 0.09 to 0.10 m when it keeps clear of his shins
-  CHECK(passing.speed_there_mps < 0.25);  // the gap within a second, or 0.2 m/s; where nobody stands it goes 0.6
+  CHECK(passing.nearest_m > 0.13);  // 0.09 to 0.10 m when it keeps clear of his shins
+  // There is room beside him, at 0.2 m/s; it waits until he goes on all the same (decision 33).
+  CHECK(passing.seconds < 60.0);
 }
 
 TEST_CASE("a wheelchair that has no room beside him waits until he goes on") {
