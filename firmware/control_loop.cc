@@ -6,9 +6,9 @@ namespace jaywalk {
 namespace {
 
 constexpr LaserScan kNoScan{};
-constexpr Duration kPlanEvery = std::chrono::milliseconds(90);   // walls are no hurry: motion looks out for movers
-constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);     // as the supervisor's longest age of a plan
-constexpr Duration kNoWayFor = std::chrono::seconds(10);         // whoever is in the way has had his time
+constexpr Duration kPlanEvery = std::chrono::milliseconds(90);  // walls are no hurry: motion looks out for movers
+constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);    // as the supervisor's longest age of a plan
+constexpr Duration kNoWayFor = std::chrono::seconds(10);        // whoever is in the way has had his time
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
