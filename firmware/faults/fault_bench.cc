@@ -135,8 +135,8 @@ FaultResult FaultBench::struck_at_speed() {
 }
 
 // The goal lies 106 degrees to the left, so that the robot has to turn: in a gentle arc a robot of 0.3 m/s stays below
-// what scans can tell (docs/safety.md). Driving begins where more than 0.1 m/s is asked of the left wheel, on whose side the wiring is wrong: below, lags and
-// encoders' steps hide it.
+// what scans can tell (docs/safety.md). Driving begins where more than 0.1 m/s is asked of the left wheel, on whose
+// side the wiring is wrong: below, lags and encoders' steps hide it.
 FaultResult FaultBench::wrong_from_start() {
   constexpr double kDriving_mps = 0.1;
   FaultResult result;

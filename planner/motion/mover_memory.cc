@@ -6,9 +6,9 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr double kWithinM = 9.0;   ///< of the robot: more than both come in 6 s
-constexpr double kStillM = 0.25;   ///< who stays within it stands
-constexpr double kLastingS = 5.0;  ///< who has stood for longer is in the way for now
+constexpr double kWithinM = 9.0;      ///< of the robot: more than both come in 6 s
+constexpr double kStillM = 0.25;      ///< who stays within it stands
+constexpr double kLastingS = 5.0;     ///< who has stood for longer is in the way for now
 constexpr double kUnknownForS = 4.0;  ///< what is new and as wide as a body may walk off
 constexpr double kUnknownWithinM = 4.0;
 constexpr double kLeastBodyM = 0.15, kWidestBodyM = 0.7;
