@@ -8,7 +8,7 @@ namespace {
 constexpr LaserScan kNoScan{};
 constexpr Duration kPlanEvery = std::chrono::milliseconds(90);  // walls are no hurry: motion looks out for movers
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);    // as the supervisor's longest age of a plan
-constexpr Duration kNoWayFor = std::chrono::seconds(10);        // whoever is in the way has had his time
+constexpr Duration kNoWayFor = std::chrono::seconds(10);        // time for a person in the way to walk on
 
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,

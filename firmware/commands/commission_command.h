@@ -6,7 +6,7 @@ namespace jaywalk {
 struct CommissionOptions {
   std::filesystem::path robot;  ///< ROBOT.toml
   std::filesystem::path control_socket;
-  bool yes = false;                ///< the wheels may turn: nobody is asked
+  bool yes = false;                ///< consent that the wheels may turn: the program does not ask for it
   bool allow_no_realtime = false;  ///< goes on where the kernel refuses what the file asks for
 };
 

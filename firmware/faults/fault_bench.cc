@@ -134,9 +134,9 @@ FaultResult FaultBench::struck_at_speed() {
   return result;
 }
 
-// The goal lies 106 degrees to the left, so that the robot has to turn: in a gentle arc a robot of 0.3 m/s stays below
-// what scans can tell (docs/safety.md). Driving begins where more than 0.1 m/s is asked of the left wheel, on whose
-// side the wiring is wrong: below, lags and encoders' steps hide it.
+// The goal lies 106 degrees to the left, so that the robot has to turn: a gentle arc at 0.3 m/s is too slow for the
+// scan-based check (docs/safety.md). The reaction time starts when the left wheel, whose wiring is wrong, is commanded
+// above 0.1 m/s: below that, drive lag and encoder steps hide the fault.
 FaultResult FaultBench::wrong_from_start() {
   constexpr double kDriving_mps = 0.1;
   FaultResult result;

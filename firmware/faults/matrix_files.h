@@ -6,8 +6,8 @@
 
 namespace jaywalk::faults {
 
-/// The robot file of the matrix for one kind of drive, written into `folder` and read back as a person's would be: a
-/// P3-DX whose fastest speed is `speed_mps`, with a SICK on a network and a loop of `rate_hz`. Throws StartupError.
+/// The robot file of the matrix for one kind of drive, written into `folder` and read back like a user's: a P3-DX
+/// with maximum speed `speed_mps`, a SICK scanner on a network and a loop at `rate_hz`. Throws StartupError.
 [[nodiscard]] RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz,
                                    const std::filesystem::path& folder);
 

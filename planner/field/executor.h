@@ -10,9 +10,8 @@
 //                                (start_field.h), looking whether anything has changed (pass.h)
 //   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
-//   failure(), is_ready()        of executors that can fail: why the last order did; whether memory that is shown may
-//   be
-//                                touched and another order may run
+//   failure(), is_ready()        of executors that can fail: why the last order did; whether the host may touch shown
+//                                memory and run another order
 // and to orders (order.h), which know no more of it:
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order

@@ -30,7 +30,7 @@ constexpr float kRoomWeight = 2.5F;     ///< by trial: a prototype's, on two map
 constexpr float kTightWeight = 30.0F;   ///< where a body's corners would touch if it turned
 constexpr float kTight_m = 0.03F;       ///< beyond the corners' circle
 constexpr float kBlocked_m = 0.01F;     ///< beyond the inscribed circle
-constexpr float kLastingWeight = 8.0F;  ///< through somebody who has stood for long: he may go, a wall does not
+constexpr float kLastingWeight = 8.0F;  ///< where a body has stood for long: it may leave, a wall does not
 constexpr float kUnseenWeight = 8.0F;   ///< near the robot, what it has not seen yet
 constexpr double kBesideLasting_m = 0.4;
 

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "tests/motion/guided.h"
-#include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -154,7 +153,7 @@ TEST_CASE("a guide that is no number moves nobody") {
   CHECK(norm(drive.pose.position()) < 0.2);
 }
 
-TEST_CASE("the same drive is the same to the bit, and takes no memory") {
+TEST_CASE("the same drive is the same to the bit") {
   test::Guided one, two;
   Drive a(one, {4.0, 0.0}), b(two, {4.0, 0.0});
   for (Drive* d : {&a, &b}) d->has_mover = true, d->mover = {3.0, 2.0}, d->walks = {-0.3, -0.3};
