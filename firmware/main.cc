@@ -14,6 +14,7 @@
 #include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
 #include "firmware/commands/standard_streams.h"
+#include "firmware/commands/view_option.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -51,6 +52,7 @@ void add_sim(CLI::App& app) {
   add_backend(*sim, sim_options.backend);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
+  add_view(*sim, sim_options.view);
 }
 
 /// `value` when it can be a place (m) or an angle; NaN cannot.

@@ -3,11 +3,13 @@
 #include <chrono>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <thread>
 
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/commands/sim_view.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -76,6 +78,21 @@ std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
   return walls;
 }
 
+std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup& setup, const sim::Scenario& scenario,
+                                  sim::Simulation& simulation) {
+  if (!options.view) return nullptr;
+  auto view = std::make_unique<SimView>(*options.view, simulation.hal().panel, !setup.keeps_speed());
+  std::vector<view::WallPiece> walls;
+  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
+  view->begin(scenario.name, setup.model, walls);
+  return view;
+}
+
+Hal hal_for(sim::Simulation& simulation, SimView* view) {
+  const Hal hal = simulation.hal();
+  return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock};
+}
+
 /// At a goal with a heading the robot is to stand.
 bool rests(const Twist2& twist) { return std::fabs(twist.v_mps) < 0.01 && std::fabs(twist.w_radps) < 0.02; }
 
@@ -86,7 +103,8 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (truth.contacts > 0) return "collision";
   const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
-  if (t.input.is_reached_at(truth.map_from_robot) && (!t.input.wants_heading() || rests(truth.twist))) {
+  if (t.input.has_goal && t.input.is_reached_at(truth.map_from_robot) &&
+      (!t.input.wants_heading() || rests(truth.twist))) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
@@ -111,7 +129,8 @@ int run_sim(const SimOptions& options) {
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
   const ControlSetup setup = setup_for(scenario, options);
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
-  LoopRunner runner(setup, simulation.hal(), options.out, true);
+  const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
+  LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true);
   RunPicture picture;
   Progress progress;
   TruthForReport truth_for_report;
@@ -123,7 +142,8 @@ int run_sim(const SimOptions& options) {
     picture.consider(runner);
     tell(progress, scenario, simulation.truth());
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
-    if (options.realtime) std::this_thread::sleep_until(began + t.now.time_since_epoch());
+    if (view) view->follow(runner, ended);
+    if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }
   progress.make_way();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();

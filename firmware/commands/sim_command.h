@@ -4,6 +4,7 @@
 #include <optional>
 
 #include "firmware/control_setup.h"
+#include "firmware/view/view_server.h"
 
 namespace jaywalk {
 
@@ -15,6 +16,7 @@ struct SimOptions {
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/sim";
   bool realtime = false;
+  std::optional<view::ViewAddress> view = {};  ///< serve the live page there
 };
 
 /// The whole controller on the simulated robot. Returns the process's exit code: 0 when the run succeeded by the strict

@@ -1,0 +1,40 @@
+#pragma once
+#include <chrono>
+#include <memory>
+#include <string>
+
+#include "firmware/commands/loop_runner.h"
+#include "firmware/view/steered_panel.h"
+#include "firmware/view/view_scene.h"
+#include "firmware/view/view_server.h"
+
+namespace jaywalk {
+
+/// The live page of a simulation: shows its ticks at the pace of the wall clock, and passes on goals. All of it happens
+/// between ticks; without an order from the page the run is the same, bit for bit. Thread: the simulation's.
+class SimView {
+ public:
+  /// Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
+  SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals);
+
+  [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
+  void begin(const std::string& title, const RobotModel& model, std::span<const view::WallPiece> walls);
+  /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
+  void follow(const LoopRunner& runner, const std::string& ended);
+
+ private:
+  void show(const LoopRunner& runner, const std::string& ended);
+  void keep_pace(Duration tick);
+  void obey_while_paused();
+
+  view::ViewOrders orders_;
+  view::SteeredPanel panel_;
+  view::ViewServer server_;
+  bool takes_goals_;
+  Pose2 robot_from_laser_;
+  Time shown_ = kNever, field_shown_ = kNever;
+  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
+  bool paused_ = false;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,99 @@
+#include "firmware/view/view_client.h"
+
+#include <sys/socket.h>
+
+#include <cerrno>
+
+#include "firmware/view/http.h"
+#include "firmware/view/live_page.h"
+#include "firmware/view/websocket.h"
+
+namespace jaywalk::view {
+namespace {
+
+constexpr std::size_t kMostReceived = 16384;  ///< bytes of a request's head, or of orders not yet read
+
+/// A name that another site's page cannot have: else a foreign name that leads to this machine would do as well.
+bool is_loopback_name(const std::string& host) {
+  const std::string name = host.substr(0, host.rfind(':'));
+  return name == "127.0.0.1" || name == "localhost";
+}
+
+/// Browsers say whose page opens a WebSocket: only our own may, since orders move the robot.
+bool is_own_page(const HttpRequest& request) {
+  const std::string origin = request.header("origin");
+  return origin.empty() || origin == "http://" + request.header("host");
+}
+
+}  // namespace
+
+bool ViewClient::serve() {
+  if (!receive()) return false;
+  if (!ends_) upgraded_ ? answer_frames() : answer_http();
+  return flush() && !(ends_ && unsent_.empty());
+}
+
+bool ViewClient::receive() {
+  char room[4096];
+  const ssize_t count = ::recv(socket_.get(), room, sizeof room, MSG_DONTWAIT);
+  if (count < 0) return errno == EAGAIN || errno == EINTR;
+  received_.append(room, static_cast<std::size_t>(count));
+  return count > 0 && received_.size() <= kMostReceived;
+}
+
+bool ViewClient::flush() {
+  if (unsent_.empty()) return true;
+  const ssize_t sent = ::send(socket_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
+  if (sent < 0) return errno == EAGAIN || errno == EINTR;
+  unsent_.erase(0, static_cast<std::size_t>(sent));
+  return true;
+}
+
+void ViewClient::offer(std::string_view message) {
+  if (upgraded_ && !ends_ && unsent_.empty()) queue(message);
+}
+
+void ViewClient::queue(std::string_view message) { unsent_ += to_frame(Opcode::kText, message); }
+
+void ViewClient::refuse(std::string_view status, std::string_view why) {
+  unsent_ += http_answer(status, "text/plain; charset=utf-8", why);
+  ends_ = true;
+}
+
+void ViewClient::answer_http() {
+  const auto end = received_.find("\r\n\r\n");
+  if (end == std::string::npos) return;
+  const auto request = parse_request(std::string_view(received_).substr(0, end + 4));
+  received_.erase(0, end + 4);
+  if (!request || request->method != "GET") return refuse("400 Bad Request", "GET alone is served\n");
+  if (rules_.loopback && !is_loopback_name(request->header("host")))
+    return refuse("403 Forbidden", "ask for 127.0.0.1 or localhost\n");
+  if (!rules_.token.empty() && query_value(request->query, "token") != rules_.token)
+    return refuse("403 Forbidden", "the address that was printed ends in a token: give it whole\n");
+  const std::string key = request->header("sec-websocket-key");
+  if (request->path == "/") {
+    unsent_ += http_answer("200 OK", "text/html; charset=utf-8", live_page());
+    ends_ = true;
+  } else if (request->path != "/ws") {
+    refuse("404 Not Found", "there are / and /ws\n");
+  } else if (key.empty() || !is_own_page(*request)) {
+    refuse("403 Forbidden", "a WebSocket from this server's own page alone\n");
+  } else {
+    unsent_ += "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n";
+    unsent_ += "Sec-WebSocket-Accept: " + accept_key(key) + "\r\n\r\n";
+    upgraded_ = joined_ = true;
+  }
+}
+
+void ViewClient::answer_frames() {
+  ClientFrame frame;
+  FrameState state = take_frame(received_, frame);
+  for (; state == FrameState::kWhole; state = take_frame(received_, frame)) {
+    if (frame.opcode == Opcode::kText) rules_.on_order(frame.payload);
+    if (frame.opcode == Opcode::kPing && unsent_.empty()) unsent_ += to_frame(Opcode::kPong, frame.payload);
+    if (frame.opcode == Opcode::kClose) unsent_ += to_frame(Opcode::kClose, ""), ends_ = true;
+  }
+  ends_ = ends_ || state == FrameState::kRefused;
+}
+
+}  // namespace jaywalk::view
