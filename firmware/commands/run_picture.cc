@@ -3,6 +3,7 @@
 #include <cstdio>
 
 #include "firmware/report/picture/picture.h"
+#include "firmware/report/picture/run_svg.h"
 
 namespace jaywalk {
 namespace {
@@ -50,6 +51,7 @@ void RunPicture::save(const std::filesystem::path& folder, const std::string& ti
   scene.footprint = setup.model.footprint;
   scene.extent = extent_of(scene);
   draw_picture(scene, (folder / "run.png").string());
+  draw_svg(scene, (folder / "run.svg").string());
 }
 
 }  // namespace jaywalk

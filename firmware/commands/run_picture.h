@@ -8,12 +8,13 @@
 
 namespace jaywalk {
 
-/// Gathers what run.png shows while a run goes on. Works outside the tick.
+/// Gathers what run.png and run.svg show while a run goes on. Works outside the tick.
 class RunPicture {
  public:
   /// Looks at the step just lived through; keeps the plan of the busiest moment.
   void consider(const LoopRunner& runner);
-  /// Writes run.png into `folder`. `walls` are the real ones; without them the picture shows what the robot saw.
+  /// Writes run.png and run.svg into `folder`. `walls` are the real ones; without them the picture shows what the robot
+  /// saw.
   void save(const std::filesystem::path& folder, const std::string& title, const LoopRunner& runner,
             std::span<const WallLine> walls) const;
 

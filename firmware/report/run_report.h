@@ -21,7 +21,7 @@ namespace jaywalk {
 /// (summary.json says which: "measured_on"); what only a world can know is null without it.
 class RunReport {
  public:
-  /// `folder` is made when missing; an earlier run's summary.json and run.png in it are removed, so that they
+  /// `folder` is made when missing; an earlier run's summary.json, run.png and run.svg in it are removed, so that they
   /// cannot stand beside this run's tables. An empty path keeps the figures and writes no files. Throws
   /// StartupError when it cannot be written to.
   explicit RunReport(const std::filesystem::path& folder);

@@ -163,9 +163,11 @@ TEST_CASE("an earlier run's summary and picture do not outlive the beginning of 
   const Scratch scratch;
   scratch.write("summary.json", "{}");
   scratch.write("run.png", "");
+  scratch.write("run.svg", "");
   const RunReport report(scratch.folder());
   CHECK_FALSE(std::filesystem::exists(scratch.path("summary.json")));
   CHECK_FALSE(std::filesystem::exists(scratch.path("run.png")));
+  CHECK_FALSE(std::filesystem::exists(scratch.path("run.svg")));
 }
 
 TEST_CASE("a folder that cannot be made is refused") {

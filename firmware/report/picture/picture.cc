@@ -24,7 +24,9 @@ Extent filled_out(const Extent& extent) {
   return {extent.low - more, extent.high + more};
 }
 
-Time end_of(const PictureScene& scene) {
+/// When movers are shown: at the moment of the plan, without one at the end.
+Time shown_time(const PictureScene& scene) {
+  if (scene.moment) return scene.moment->t;
   Time end = kNever;
   for (const DrivenPose& d : scene.driven) end = std::max(end, d.t);
   for (const Trail& trail : scene.movers) {
@@ -52,7 +54,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
     draw_field(canvas, to_sheet, cropped(scene.moment->field, field_extent(scene, to_sheet.extent())));
   }
   draw_walls(canvas, to_sheet, scene);
-  draw_movers(canvas, to_sheet, scene.movers, end_of(scene));
+  draw_movers(canvas, to_sheet, scene.movers, shown_time(scene));
   if (scene.movers.empty()) draw_tracks(canvas, to_sheet, scene.tracks);
   draw_drive(canvas, to_sheet, scene);
   draw_moment(canvas, to_sheet, scene);

@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
+
+#include "firmware/report/picture/playback.h"
 
 namespace jaywalk {
 namespace {
@@ -11,6 +14,22 @@ constexpr double kTrailFadeS = 12.0;        ///< a trail is e times fainter afte
 constexpr double kStepM = 0.7;              ///< a track that stays within this went nowhere
 constexpr double kOutlineEveryM = 1.5;      ///< travel between two outlines of the robot
 constexpr double kLabelApartPixels = 46.0;  ///< between two times written along the drive
+
+constexpr double kWallStepM = 0.05;  ///< between two places that are looked at for walls
+constexpr double kBodyM = 0.15;      ///< a body is at least this far across from its middle
+
+double gap_to_walls(const PictureScene& scene, Vec2 p) {
+  double gap = std::numeric_limits<double>::infinity();
+  for (const WallLine& wall : scene.walls) {
+    const Vec2 along = wall.to - wall.from;
+    const double squared = dot(along, along);
+    const double share = squared > 0.0 ? std::clamp(dot(p - wall.from, along) / squared, 0.0, 1.0) : 0.0;
+    gap = std::min(gap, distance(p, wall.from + along * share));
+  }
+  if (!scene.walls.empty()) return gap;  // cells seen occupied may be the mover's own, while it stood
+  for (const Vec2 cell : scene.occupied) gap = std::min(gap, distance(p, cell));
+  return gap;
+}
 
 Polyline outline(const Pose2& pose, const Footprint& f, const MapFrame& to_sheet) {
   const Transform2 map_from_robot(pose);
@@ -77,7 +96,7 @@ void draw_times(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Driv
 
 void draw_trail(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail, Time end) {
   const Colour own = colour_of(trail.id);
-  for (std::size_t i = 1; i < trail.points.size(); ++i) {
+  for (std::size_t i = 1; i < trail.points.size() && trail.points[i].t <= end; ++i) {
     const double age_s = to_seconds(end - trail.points[i].t);
     const double opacity = 0.10 + 0.75 * exp(-age_s / kTrailFadeS);
     canvas.stroke({to_sheet(trail.points[i - 1].position), to_sheet(trail.points[i].position)},
@@ -85,8 +104,8 @@ void draw_trail(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail, Ti
   }
 }
 
-void draw_body(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail) {
-  const Vec2 at = to_sheet(trail.points.back().position);
+void draw_body(Canvas& canvas, const MapFrame& to_sheet, const Trail& trail, Vec2 at_in_map) {
+  const Vec2 at = to_sheet(at_in_map);
   const double radius = to_sheet.pixels(std::max(trail.radius_m, 0.1));
   canvas.fill_disc(at, radius, colour_of(trail.id).faded(0.85));
   canvas.stroke_circle(at, radius,
@@ -137,10 +156,10 @@ void draw_tracks(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Tra
   }
 }
 
-void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time end) {
-  for (const Trail& trail : movers) draw_trail(canvas, to_sheet, trail, end);
+void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time t) {
+  for (const Trail& trail : movers) draw_trail(canvas, to_sheet, trail, t);
   for (const Trail& trail : movers) {
-    if (!trail.points.empty()) draw_body(canvas, to_sheet, trail);
+    if (const auto at = position_at(trail, t)) draw_body(canvas, to_sheet, trail, *at);
   }
 }
 
@@ -163,17 +182,31 @@ void draw_drive(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sc
   draw_times(canvas, to_sheet, scene.driven);
 }
 
+Vec2 end_before_wall(const PictureScene& scene, Vec2 from, Vec2 to, double radius_m) {
+  const double length = distance(from, to);
+  if (!(length > 0.0)) return to;
+  Vec2 reached = from;
+  for (double way = 0.0; way < length; way += kWallStepM) {
+    const Vec2 here = from + (to - from) * (way / length);
+    if (gap_to_walls(scene, here) < radius_m) return reached;
+    reached = here;
+  }
+  return gap_to_walls(scene, to) < radius_m ? reached : to;
+}
+
 void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
   if (!scene.moment) return;
   const PlanMoment& moment = *scene.moment;
   const double weight = weight_of(to_sheet);
   for (const Prediction& p : moment.predictions) {
-    const Vec2 at = to_sheet(p.position_in_map);
-    canvas.fill_disc(at, to_sheet.pixels(p.mark_radius_m), ink::kBand.faded(0.10));
-    canvas.stroke_circle(at, to_sheet.pixels(p.mark_radius_m), {ink::kBand, 1.6 * weight, 6.0});
     const auto track =
         std::find_if(moment.tracks.begin(), moment.tracks.end(), [&](const Track& t) { return t.id == p.track_id; });
-    if (track == moment.tracks.end()) continue;
+    const bool known = track != moment.tracks.end();
+    const Vec2 at =
+        to_sheet(known ? end_before_wall(scene, track->position_in_map, p.position_in_map, kBodyM) : p.position_in_map);
+    canvas.fill_disc(at, to_sheet.pixels(p.mark_radius_m), ink::kBand.faded(0.10));
+    canvas.stroke_circle(at, to_sheet.pixels(p.mark_radius_m), {ink::kBand, 1.6 * weight, 6.0});
+    if (!known) continue;
     canvas.stroke({to_sheet(track->position_in_map), at}, {ink::kBand.faded(0.8), 1.4 * weight, 3.0});
     canvas.fill_disc(to_sheet(track->position_in_map), 4.0 * weight, ink::kBand);
   }

@@ -27,14 +27,17 @@ inline constexpr Colour kForced = colour(0xC2182B);
 [[nodiscard]] double weight_of(const MapFrame& to_sheet);
 
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
-/// Older parts of a trail are fainter; a disc shows the body at the end, ringed where it was forced.
-void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time end);
+/// Trails up to time `t`, older parts fainter; a disc shows the body at `t`, ringed where it was forced at some time.
+void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time t);
 /// What the controller took for moving and saw go further than a step.
 void draw_tracks(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& tracks);
 /// Whether draw_tracks shows it.
 [[nodiscard]] bool went_somewhere(const Trail& track);
 /// The robot's way with its outline now and then, and the time every ten seconds or so.
 void draw_drive(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
+/// The part of the straight way from `from` to `to` that a disc of `radius_m` (m) can go before it meets a wall (where
+/// no walls are known: a cell that was seen occupied), as its end; `from` itself where it touches one already.
+[[nodiscard]] Vec2 end_before_wall(const PictureScene& scene, Vec2 from, Vec2 to, double radius_m);
 void draw_moment(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 void draw_ends(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 

@@ -39,9 +39,9 @@ void line_sample(Canvas& canvas, Vec2 at, const Pen& pen) {
   canvas.stroke({at - Vec2{kSwatch / 2.0, 0.0}, at + Vec2{kSwatch / 2.0, 0.0}}, pen);
 }
 
-std::string moment_words(const PictureScene& scene) {
-  if (scene.driven.empty()) return "plan";
-  return "plan at " + metres(to_seconds(scene.moment->t - scene.driven.front().t)) + " s";
+std::string moment_time(const PictureScene& scene) {
+  const Time begin = scene.driven.empty() ? Time{} : scene.driven.front().t;
+  return metres(to_seconds(scene.moment->t - begin)) + " s";
 }
 
 void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
@@ -64,7 +64,7 @@ void add_mover_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureS
     };
   };
   if (!scene.movers.empty()) {
-    rows.push_back({line_with_disc(10.0), "movers, fading with age"});
+    rows.push_back({line_with_disc(10.0), scene.moment ? "movers at " + moment_time(scene) : "movers at the end"});
   } else if (std::any_of(scene.tracks.begin(), scene.tracks.end(), went_somewhere)) {
     rows.push_back({line_with_disc(5.0), "tracked as moving"});
   }
@@ -87,7 +87,7 @@ void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const Picture
     };
     rows.push_back({white, "no room for the robot then"});
   }
-  rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kBand, 3.2, 10.0}); }, moment_words(scene)});
+  rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kBand, 3.2, 10.0}); }, "plan at " + moment_time(scene)});
   if (!scene.moment->predictions.empty()) {
     rows.push_back({[&](Vec2 at) {
                       canvas.fill_disc(at, 13.0, ink::kBand.faded(0.12));
