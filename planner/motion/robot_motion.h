@@ -25,13 +25,15 @@ struct Command {
   float v = 0.0F, w = 0.0F;
 };
 
-/// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk and without overshoot (the
-/// acceleration never exceeds what jerk takes back to zero in the speed left), the turn with bounded acceleration. The
-/// arc is taken at its middle heading.
+/// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk (the acceleration never exceeds
+/// what jerk takes back to zero in the speed left), the turn with bounded acceleration. A command that stays is not
+/// overshot; one that comes while the robot speeds up past it is. To go the other way the speed comes to rest first.
+/// The arc is taken at its middle heading.
 JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
   RobotState s = from;
-  const float left = to.v - s.v, size = std::fabs(left);
-  const bool slows = std::fabs(to.v) < std::fabs(s.v) || to.v * s.v < 0.0F;
+  const float wish = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
+  const float left = wish - s.v, size = std::fabs(left);
+  const bool slows = std::fabs(wish) < std::fabs(s.v);
   const float step = bounds.jerk * dt;
   const float landing = step * (std::sqrt(0.25F + 2.0F * size / (step * dt)) - 0.5F);
   float wanted = slows ? bounds.slowing : bounds.accel;
@@ -40,8 +42,9 @@ JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const M
   const float change = (left < 0.0F ? -wanted : wanted) - s.accel;
   s.accel += change > step ? step : change < -step ? -step : change;
   s.v += s.accel * dt;
-  const bool passed = left > 0.0F ? s.v > to.v : s.v < to.v;  // by a rounding
-  if (passed || std::fabs(to.v - s.v) < 1e-6F) s.v = to.v;
+  const bool passed = left > 0.0F ? s.v > wish : s.v < wish;
+  const bool lands = std::fabs(s.accel) <= 1.01F * step;
+  if ((passed && lands) || std::fabs(wish - s.v) < 1e-6F) s.v = wish;
   const float turn_step = bounds.turn_accel * dt, turn_left = to.w - s.w;
   s.w += turn_left > turn_step ? turn_step : turn_left < -turn_step ? -turn_step : turn_left;
   const cell::Heading middle = cell::heading_at(s.heading + 0.5F * s.w * dt);

@@ -1,6 +1,7 @@
 #include "planner/motion/robot_motion.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "tests/support/catch.h"
@@ -27,6 +28,21 @@ TEST_CASE("a command is reached within acceleration and jerk, and not overshot")
       s = next;
     }
     CHECK(s.v == to);
+  }
+}
+
+TEST_CASE("commands that change under way are followed within acceleration and jerk, the way to rest included") {
+  constexpr std::array<float, 7> kTo{0.6F, 0.2F, 0.4F, -0.3F, 0.5F, 0.0F, 0.35F};
+  for (int hold = 5; hold < 60; ++hold) {  // ticks
+    RobotState s;
+    for (int k = 0; k < 600; ++k) {
+      const RobotState next = moved(s, {kTo[static_cast<std::size_t>(k / hold) % kTo.size()], 0.0F}, kBounds, 0.02F);
+      const float accel = (next.v - s.v) / 0.02F;
+      CHECK(std::fabs(accel - s.accel) <= 2.0F * 0.02F + 0.01F);
+      CHECK(std::fabs(next.v) < 0.66F);
+      s = next;
+      s.accel = accel;
+    }
   }
 }
 
