@@ -7,22 +7,21 @@
 namespace jaywalk {
 namespace {
 
-constexpr Range kBodyMetres{0.01, 5.0};
 constexpr double kFarthestMountM = 10.0;  // of a laser from the axle: robots are 5 m long at most
 constexpr double kRadPerDeg = kPi / 180.0;
 
 Footprint read_footprint(TomlTable table) {
-  const Footprint footprint{.front_m = table.number("front_m", kBodyMetres),
-                            .rear_m = table.number("rear_m", kBodyMetres),
-                            .half_width_m = table.number("half_width_m", kBodyMetres)};
+  const Footprint footprint{.front_m = table.number("front_m"),
+                            .rear_m = table.number("rear_m"),
+                            .half_width_m = table.number("half_width_m")};
   table.finish();
   return footprint;
 }
 
 DriveModel read_drive(TomlTable table) {
-  const DriveModel drive{.wheel_radius_m = table.number("wheel_radius_m", {0.01, 1.0}),
-                         .track_width_m = table.number("track_width_m", {0.05, 3.0}),
-                         .max_wheel_speed_radps = table.number("max_wheel_speed_radps", {0.1, 500.0})};
+  const DriveModel drive{.wheel_radius_m = table.number("wheel_radius_m"),
+                         .track_width_m = table.number("track_width_m"),
+                         .max_wheel_speed_radps = table.number("max_wheel_speed_radps")};
   table.finish();
   return drive;
 }
@@ -40,12 +39,12 @@ Blanking read_blanked(TomlTable& laser) {
 }
 
 MotionLimits read_limits(TomlTable table) {
-  const MotionLimits limits{.max_speed_mps = table.number("max_speed_mps", {0.01, 10.0}),
-                            .max_turn_radps = table.number("max_turn_radps", {0.01, 10.0}),
-                            .max_accel_mps2 = table.number("max_accel_mps2", {0.01, 20.0}),
-                            .max_turn_accel_radps2 = table.number("max_turn_accel_radps2", {0.01, 50.0}),
-                            .max_jerk_mps3 = table.number("max_jerk_mps3", {0.01, 1000.0}),
-                            .brake_mps2 = table.number("brake_mps2", {0.01, 20.0})};
+  const MotionLimits limits{.max_speed_mps = table.number("max_speed_mps"),
+                            .max_turn_radps = table.number("max_turn_radps"),
+                            .max_accel_mps2 = table.number("max_accel_mps2"),
+                            .max_turn_accel_radps2 = table.number("max_turn_accel_radps2"),
+                            .max_jerk_mps3 = table.number("max_jerk_mps3"),
+                            .brake_mps2 = table.number("brake_mps2")};
   table.finish();
   return limits;
 }
@@ -53,25 +52,24 @@ MotionLimits read_limits(TomlTable table) {
 }  // namespace
 
 BlankedSector read_sector(TomlTable& table) {
-  constexpr Range kDegrees{-360.0, 360.0};
-  const BlankedSector sector{wrap_angle(table.number("from_deg", kDegrees) * kRadPerDeg),
-                             wrap_angle(table.number("to_deg", kDegrees) * kRadPerDeg)};
+  const BlankedSector sector{wrap_angle(table.number("from_deg") * kRadPerDeg),
+                             wrap_angle(table.number("to_deg") * kRadPerDeg)};
   if (sector.width_rad() == 0.0)
     table.refuse("to_deg", "is where the sector begins", "give the end, counter-clockwise from there");
   return sector;
 }
 
 void read_laser(TomlTable& table, LaserModel& laser) {
-  laser.fov_rad = table.number("fov_deg", {1.0, 360.0}, laser.fov_rad / kRadPerDeg) * kRadPerDeg;
-  laser.beams = static_cast<std::uint32_t>(table.integer("beams", {1.0, static_cast<double>(kMaxBeams)}, laser.beams));
+  laser.fov_rad = table.number("fov_deg", laser.fov_rad / kRadPerDeg) * kRadPerDeg;
+  laser.beams = static_cast<std::uint32_t>(table.integer("beams", laser.beams));
   if (laser.beams < kLeastBeams)
     table.refuse("beams", "are too few: so few beams are no scanner", "give the number that one sweep has, 3 or more");
-  laser.rate_hz = table.number("rate_hz", {0.1, 100.0}, laser.rate_hz);
-  laser.range_min_m = table.number("range_min_m", {0.0, 5.0}, laser.range_min_m);
-  laser.range_max_m = table.number("range_m", {0.1, 300.0}, laser.range_max_m);
-  laser.noise_m = table.number("noise_m", {0.0, 1.0}, laser.noise_m);
-  laser.drop_out = table.number("drop_out", {0.0, 1.0}, laser.drop_out);
-  if (table.has("mount")) {
+  laser.rate_hz = table.number("rate_hz", laser.rate_hz);
+  laser.range_min_m = table.number("range_min_m", laser.range_min_m);
+  laser.range_max_m = table.number("range_m", laser.range_max_m);
+  laser.noise_m = table.number("noise_m", laser.noise_m);
+  laser.drop_out = table.number("drop_out", laser.drop_out);
+  if (table.needs("mount") || table.has("mount")) {
     const auto mount = table.numbers("mount", 3);
     laser.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
     if (norm(laser.robot_from_laser.position()) > kFarthestMountM)
@@ -82,7 +80,7 @@ void read_laser(TomlTable& table, LaserModel& laser) {
 }
 
 RobotModel load_robot_model(const std::filesystem::path& path) {
-  const TomlFile file(path);
+  const TomlFile file(path, robot_model_keys());
   TomlTable root = file.root();
   RobotModel model;
   model.name = root.text("name", path.stem().string());
@@ -90,9 +88,6 @@ RobotModel load_robot_model(const std::filesystem::path& path) {
   model.drive = read_drive(root.table("drive"));
   model.limits = read_limits(root.table("limits"));
   TomlTable laser = root.table("laser");
-  for (const char* key : {"fov_deg", "beams", "rate_hz", "range_min_m", "range_m", "mount"}) {
-    if (!laser.has(key)) laser.refuse(key, "is missing", "add it");
-  }
   read_laser(laser, model.laser);
   laser.finish();
   root.finish();

@@ -1,14 +1,20 @@
 #pragma once
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
 
+/// Its keys.
+[[nodiscard]] const FileKeys& robot_model_keys();
+/// Those of a table `section` that lies over a model's laser: none is needed, each is the model's without it.
+[[nodiscard]] std::vector<SettingKey> laser_keys(const std::string& section);
+
 /// A robot's model from a TOML file with the tables footprint, drive, limits and laser; every key is documented in
-/// docs/scenarios.md. Throws StartupError "FILE:LINE: cause; remedy".
+/// docs/configuration.md. Throws StartupError "FILE:LINE: cause; remedy".
 [[nodiscard]] RobotModel load_robot_model(const std::filesystem::path& file);
 
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.

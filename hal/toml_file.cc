@@ -67,9 +67,21 @@ void refuse_deep_nesting(const std::filesystem::path& file) {
   }
 }
 
+/// toml11 3.7 ends the program by an assertion at some mistakes behind a text of several lines. No key of ours needs
+/// one.
+void refuse_texts_of_several_lines(const std::filesystem::path& file) {
+  std::ifstream stream(file, std::ios::binary);
+  std::size_t number = 1;
+  for (std::string line; std::getline(stream, line); ++number) {
+    if (line.find("'''") != std::string::npos || line.find("\"\"\"") != std::string::npos)
+      throw StartupError(place(file, number) + "three quotes begin a text of several lines", "write it in one line");
+  }
+}
+
 toml::value parse(const std::filesystem::path& file) {
   require_readable(file, file.string() + ":0: ", "give the path of a TOML file");
   refuse_deep_nesting(file);
+  refuse_texts_of_several_lines(file);
   try {
     return toml::parse(file.string());
   } catch (const toml::syntax_error& e) {
@@ -91,10 +103,12 @@ const toml::value* look_up(const toml::value& table, const std::string& key) {
 
 }  // namespace
 
-TomlFile::TomlFile(const std::filesystem::path& file) : file_(file), table_(parse(file)) {}
+TomlFile::TomlFile(const std::filesystem::path& file, const FileKeys& keys)
+    : keys_(&keys), file_(file), table_(parse(file)) {}
 
-TomlTable::TomlTable(const std::filesystem::path& file, const toml::value& table, std::string name)
-    : file_(&file), table_(&table), name_(std::move(name)) {}
+TomlTable::TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table,
+                     std::string name)
+    : file_(&file), keys_(&keys), table_(&table), name_(std::move(name)), section_(name_) {}
 
 std::string TomlTable::title(const std::string& key) const { return name_.empty() ? key : name_ + "." + key; }
 
@@ -108,6 +122,7 @@ void TomlTable::refuse(const std::string& key, const std::string& cause, const s
 }
 
 const toml::value* TomlTable::find(const std::string& key) {
+  static_cast<void>(row(key));
   asked_.insert(key);
   return look_up(*table_, key);
 }
@@ -118,7 +133,16 @@ const toml::value& TomlTable::need(const std::string& key) {
   return *node;
 }
 
-bool TomlTable::has(const std::string& key) const { return table_->contains(key); }
+bool TomlTable::needs(const std::string& key) const {
+  return std::holds_alternative<std::monostate>(row(key).otherwise);
+}
+
+const toml::value* TomlTable::find_unless_needed(const std::string& key) { return needs(key) ? &need(key) : find(key); }
+
+bool TomlTable::has(const std::string& key) const {
+  static_cast<void>(row(key));
+  return table_->contains(key);
+}
 
 double TomlTable::number_from(const std::string& key, const toml::value& node, Range range) const {
   if (!is_number(node)) refuse(key, "is not a number", "write a number");
@@ -129,31 +153,58 @@ double TomlTable::number_from(const std::string& key, const toml::value& node, R
   return value;
 }
 
-double TomlTable::number(const std::string& key, Range range) { return number_from(key, need(key), range); }
-
-double TomlTable::number(const std::string& key, Range range, double otherwise) {
-  const toml::value* node = find(key);
-  return node == nullptr ? otherwise : number_from(key, *node, range);
+double TomlTable::number(const std::string& key) {
+  const auto* otherwise = std::get_if<double>(&row(key).otherwise);
+  return otherwise != nullptr ? number(key, *otherwise) : number_from(key, need(key), row(key).range);
 }
 
-std::int64_t TomlTable::integer_from(const std::string& key, const toml::value& node, Range range) const {
+double TomlTable::number(const std::string& key, double otherwise) {
+  return number(key, otherwise, row(key).range.high);
+}
+
+double TomlTable::number(const std::string& key, double otherwise, double most) {
+  const toml::value* node = find_unless_needed(key);
+  const Range range = row(key).range;
+  return node == nullptr ? otherwise : number_from(key, *node, {range.low, std::min(range.high, most)});
+}
+
+std::int64_t TomlTable::integer_from(const std::string& key, const toml::value& node) const {
   if (!node.is_integer()) refuse(key, "is not a whole number", "write a whole number");
-  static_cast<void>(number_from(key, node, range));  // refuses what is outside
+  static_cast<void>(number_from(key, node, row(key).range));  // refuses what is outside
   return node.as_integer();
 }
 
-std::int64_t TomlTable::integer(const std::string& key, Range range) { return integer_from(key, need(key), range); }
-
-std::int64_t TomlTable::integer(const std::string& key, Range range, std::int64_t otherwise) {
-  const toml::value* node = find(key);
-  return node == nullptr ? otherwise : integer_from(key, *node, range);
+std::int64_t TomlTable::integer(const std::string& key) {
+  const auto* otherwise = std::get_if<double>(&row(key).otherwise);
+  return otherwise != nullptr ? integer(key, static_cast<std::int64_t>(*otherwise)) : integer_from(key, need(key));
 }
+
+std::int64_t TomlTable::integer(const std::string& key, std::int64_t otherwise) {
+  const toml::value* node = find_unless_needed(key);
+  return node == nullptr ? otherwise : integer_from(key, *node);
+}
+
+bool TomlTable::boolean(const std::string& key) { return boolean(key, std::get<bool>(row(key).otherwise)); }
 
 bool TomlTable::boolean(const std::string& key, bool otherwise) {
   const toml::value* node = find(key);
   if (node == nullptr) return otherwise;
   if (!node->is_boolean()) refuse(key, "is not true or false", "write true or false");
   return node->as_boolean();
+}
+
+std::size_t TomlTable::choice(const std::string& key) {
+  const std::string word = text(key);
+  const std::vector<std::string>& choices = row(key).choices;
+  const auto found = std::find(choices.begin(), choices.end(), word);
+  if (found == choices.end()) refuse(key, "is \"" + word + "\"", "choose one of " + joined(choices));
+  return static_cast<std::size_t>(found - choices.begin());
+}
+
+std::size_t TomlTable::choose_keys(const std::string& key) {
+  const std::size_t chosen = choice(key);
+  section_ = name_ + ":" + row(key).choices[chosen];
+  return chosen;
 }
 
 std::string TomlTable::text(const std::string& key) {
@@ -185,7 +236,7 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least
 TomlTable TomlTable::table(const std::string& key) {
   const toml::value& found = need(key);
   if (!found.is_table()) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
-  return {*file_, found, title(key)};
+  return {*file_, *keys_, found, title(key)};
 }
 
 std::vector<TomlTable> TomlTable::tables(const std::string& key) {
@@ -196,7 +247,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
   if (!node->is_array()) refuse(key, "is not a list of tables", remedy);
   for (const toml::value& item : node->as_array()) {
     if (!item.is_table()) refuse(key, "is not a list of tables", remedy);
-    found.emplace_back(*file_, item, title(key));
+    found.emplace_back(*file_, *keys_, item, title(key));
   }
   return found;
 }

@@ -8,29 +8,35 @@
 #include <toml.hpp>
 #include <vector>
 
+#include "hal/setting_keys.h"
+
 namespace jaywalk {
 
-/// Closed interval of allowed numbers.
-struct Range {
-  double low = 0.0;
-  double high = 0.0;
-};
-
-/// One table of a file. Each key is asked for by name; `finish` refuses the keys that nobody asked for.
-/// The table belongs to a TomlFile that outlives it.
+/// One table of a file. Each key is asked for by name; `finish` refuses the keys that nobody asked for. Ranges and
+/// defaults are those of the file's table of keys. The table belongs to a TomlFile that outlives it.
 class TomlTable {
  public:
-  TomlTable(const std::filesystem::path& file, const toml::value& table, std::string name);
+  TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table, std::string name);
 
   [[nodiscard]] bool has(const std::string& key) const;
-  /// The number under `key`; without a default the key must be there. Throws for a wrong type, NaN, or outside `range`.
-  [[nodiscard]] double number(const std::string& key, Range range);
-  [[nodiscard]] double number(const std::string& key, Range range, double otherwise);
-  [[nodiscard]] std::int64_t integer(const std::string& key, Range range);
-  [[nodiscard]] std::int64_t integer(const std::string& key, Range range, std::int64_t otherwise);
+  /// Whether the key has no default.
+  [[nodiscard]] bool needs(const std::string& key) const;
+  /// The number under `key`, else its default; without one the key must be there. Throws for a wrong type, NaN, or
+  /// outside the key's range.
+  [[nodiscard]] double number(const std::string& key);
+  /// The same, with a default that the table of keys tells in words, and at most `most` where that is less.
+  [[nodiscard]] double number(const std::string& key, double otherwise);
+  [[nodiscard]] double number(const std::string& key, double otherwise, double most);
+  [[nodiscard]] std::int64_t integer(const std::string& key);
+  [[nodiscard]] std::int64_t integer(const std::string& key, std::int64_t otherwise);
+  [[nodiscard]] bool boolean(const std::string& key);
   [[nodiscard]] bool boolean(const std::string& key, bool otherwise);
   [[nodiscard]] std::string text(const std::string& key);
   [[nodiscard]] std::string text(const std::string& key, const std::string& otherwise);
+  /// Which of the key's choices it is, counted from 0.
+  [[nodiscard]] std::size_t choice(const std::string& key);
+  /// The same; what else is read are this choice's own keys ("drive:vesc") and the table's.
+  [[nodiscard]] std::size_t choose_keys(const std::string& key);
   /// An array of exactly `count` finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) {
     return numbers(key, count, count);
@@ -52,25 +58,32 @@ class TomlTable {
   [[noreturn]] void refuse(const std::string& key, const std::string& cause, const std::string& remedy) const;
 
  private:
+  const SettingKey& row(const std::string& key) const { return keys_->find(section_, key); }
   const toml::value* find(const std::string& key);
   const toml::value& need(const std::string& key);
+  /// As `find`, but one that is needed must be there.
+  const toml::value* find_unless_needed(const std::string& key);
   [[nodiscard]] std::string title(const std::string& key) const;
   [[nodiscard]] double number_from(const std::string& key, const toml::value& node, Range range) const;
-  [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node, Range range) const;
+  [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node) const;
 
   const std::filesystem::path* file_;
+  const FileKeys* keys_;
   const toml::value* table_;
   std::string name_;
+  std::string section_;  ///< the name, and ":kind" where keys hold for one kind only
   std::set<std::string> asked_;
 };
 
 /// A parsed file. Throws StartupError when it cannot be read or is not TOML.
 class TomlFile {
  public:
-  explicit TomlFile(const std::filesystem::path& file);
-  [[nodiscard]] TomlTable root() const { return {file_, table_, ""}; }
+  /// `keys` outlives it.
+  TomlFile(const std::filesystem::path& file, const FileKeys& keys);
+  [[nodiscard]] TomlTable root() const { return {file_, *keys_, table_, ""}; }
 
  private:
+  const FileKeys* keys_;
   std::filesystem::path file_;
   toml::value table_;
 };

@@ -13,13 +13,13 @@ namespace {
 /// 6085h then covers limits.brake_mps2.
 constexpr double kRampOverBrake = 1.5;
 
-std::uint8_t read_node(TomlTable& table, const std::string& key, std::int64_t otherwise) {
-  return static_cast<std::uint8_t>(table.integer(key, {1, 127}, otherwise));
+std::uint8_t read_node(TomlTable& table, const std::string& key) {
+  return static_cast<std::uint8_t>(table.integer(key));
 }
 
 /// Of the left drive and the right one.
-std::array<std::uint8_t, 2> read_nodes(TomlTable& table, std::int64_t left, std::int64_t right) {
-  const std::array nodes{read_node(table, "left_node", left), read_node(table, "right_node", right)};
+std::array<std::uint8_t, 2> read_nodes(TomlTable& table) {
+  const std::array nodes{read_node(table, "left_node"), read_node(table, "right_node")};
   require_distinct(table, {{"left_node", nodes[0]}, {"right_node", nodes[1]}});
   return nodes;
 }
@@ -32,8 +32,8 @@ std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) 
 
 /// What a radian of a wheel is in the drive's own unit, `key` of them a turn; negative for a motor that is reversed.
 std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
-  const double per_rad = table.number(key, {1e-3, 1e9}) / (2.0 * kPi);
-  const bool left = table.boolean("left_reversed", false), right = table.boolean("right_reversed", false);
+  const double per_rad = table.number(key) / (2.0 * kPi);
+  const bool left = table.boolean("left_reversed"), right = table.boolean("right_reversed");
   return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
 }
 
@@ -56,19 +56,19 @@ void require_two_ticks_within(TomlTable& table, Duration tick, Duration most, co
 canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
-  settings.controller_node = read_node(table, "controller_node", 1);
-  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms", {40, 100}, 100));
+  settings.controller_node = read_node(table, "controller_node");
+  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms"));
   if (2 * tick > std::chrono::milliseconds(settings.controller_timeout_ms)) {
     table.refuse("controller_timeout_ms",
                  "is " + std::to_string(settings.controller_timeout_ms) + ", less than two of the loop's periods",
                  "raise it, or rate_hz");
   }
-  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms", {5, 100}, 50));
+  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms"));
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.stop = stop;
-  base.allow_unproved = table.boolean("allow_unproved", false);
+  base.allow_unproved = table.boolean("allow_unproved");
   const auto scales = read_scales(table, "counts_per_wheel_turn");
-  const auto nodes = read_nodes(table, 2, 3);
+  const auto nodes = read_nodes(table);
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
   base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
@@ -81,9 +81,9 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
 template <typename Base>
 void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop, Base& base) {
   const auto scales = read_scales(table, key);
-  const auto nodes = read_nodes(table, 1, 2);
+  const auto nodes = read_nodes(table);
   for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
-  base.allow_unproved = table.boolean("allow_unproved", false);
+  base.allow_unproved = table.boolean("allow_unproved");
   base.stop = stop;
 }
 
@@ -92,22 +92,22 @@ void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop,
 DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) {
   DriveWiring wiring;
   const StopLimits stop = stop_limits_of(model, tick);
-  const std::string kind = table.text("kind");
+  wiring.kind = static_cast<DriveKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
   wiring.can = table.text("can");
-  if (kind == "cia402") {
-    wiring.cia402 = read_cia402(table, model, tick, stop);
-  } else if (kind == "odrive") {
-    wiring.kind = DriveKind::kOdrive;
-    require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
-    wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);
-    read_axes(table, "motor_turns_per_wheel_turn", stop, wiring.odrive);
-  } else if (kind == "vesc") {
-    wiring.kind = DriveKind::kVesc;
-    require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
-    wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
-    read_axes(table, "electrical_turns_per_wheel_turn", stop, wiring.vesc);
-  } else {
-    table.refuse("kind", "is \"" + kind + "\"", "choose cia402, odrive or vesc");
+  switch (wiring.kind) {
+    case DriveKind::kCia402:
+      wiring.cia402 = read_cia402(table, model, tick, stop);
+      break;
+    case DriveKind::kOdrive:
+      require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
+      wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);
+      read_axes(table, "motor_turns_per_wheel_turn", stop, wiring.odrive);
+      break;
+    case DriveKind::kVesc:
+      require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
+      wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
+      read_axes(table, "electrical_turns_per_wheel_turn", stop, wiring.vesc);
+      break;
   }
   table.finish();
   return wiring;

@@ -1,6 +1,7 @@
 #include "firmware/robot/robot_file.h"
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"
@@ -8,39 +9,28 @@
 namespace jaywalk {
 namespace {
 
-const ScannerMake& choose_laser(TomlTable& table) {
-  const std::string kind = table.text("kind");
-  std::string names;
-  for (const ScannerMake& choice : scanner_makes()) {
-    if (kind == choice.name) return choice;
-    names += (names.empty() ? "" : ", ") + std::string(choice.name);
-  }
-  table.refuse("kind", "is \"" + kind + "\"", "choose one of " + names);
-}
-
 LaserWiring read_wiring(TomlTable& table) {
-  const ScannerMake& choice = choose_laser(table);
+  const ScannerMake& choice = scanner_makes()[table.choice("kind")];
   LaserWiring wiring;
   wiring.kind = choice.kind;
   const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
   if (serial) {
     wiring.device = table.text("device");
-    wiring.baud = static_cast<std::uint32_t>(table.integer("baud", {1200, 4000000}, choice.baud));
+    wiring.baud = static_cast<std::uint32_t>(table.integer("baud", choice.baud));
   } else {
     wiring.host = table.text("host");
-    wiring.port = static_cast<std::uint16_t>(table.integer("port", {1, 65535}, choice.port));
+    wiring.port = static_cast<std::uint16_t>(table.integer("port", choice.port));
   }
-  wiring.first_scan_limit =
-      duration_from_seconds(table.number("first_scan_limit_s", {0.1, 600.0}, to_seconds(wiring.first_scan_limit)));
+  wiring.first_scan_limit = duration_from_seconds(table.number("first_scan_limit_s"));
   return wiring;
 }
 
 RealtimeWishes read_realtime(TomlTable table) {
   RealtimeWishes wishes;
-  wishes.priority = static_cast<int>(table.integer("priority", {0, 98}, wishes.priority));
-  wishes.lock_memory = table.boolean("lock_memory", wishes.lock_memory);
-  wishes.required = table.boolean("required", wishes.required);
-  if (table.has("cpu")) wishes.cpu = static_cast<int>(table.integer("cpu", {0, 1023}));
+  wishes.priority = static_cast<int>(table.integer("priority"));
+  wishes.lock_memory = table.boolean("lock_memory");
+  wishes.required = table.boolean("required");
+  if (table.has("cpu")) wishes.cpu = static_cast<int>(table.integer("cpu"));
   table.finish();
   return wishes;
 }
@@ -48,20 +38,17 @@ RealtimeWishes read_realtime(TomlTable table) {
 PanelWiring read_panel(TomlTable table) {
   PanelWiring panel;
   panel::JoystickSetup& joystick = panel.joystick;
-  const auto button = [&table](const char* key, std::uint16_t otherwise) {
-    return static_cast<std::uint16_t>(table.integer(key, {0, 0x2FF}, otherwise));
-  };
+  const auto button = [&table](const char* key) { return static_cast<std::uint16_t>(table.integer(key)); };
   joystick.path = table.text("joystick");
-  panel.needs_dead_man = table.boolean("needs_dead_man", panel.needs_dead_man);
-  joystick.dead_man_renew =
-      duration_from_seconds(table.number("dead_man_renew_s", {0.0, 60.0}, to_seconds(joystick.dead_man_renew)));
+  panel.needs_dead_man = table.boolean("needs_dead_man");
+  joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
   if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
   }
-  joystick.dead_man = button("dead_man_button", joystick.dead_man);
-  joystick.stop = button("stop_button", joystick.stop);
-  joystick.stop_opens = table.boolean("stop_opens", joystick.stop_opens);
-  joystick.reset = button("reset_button", joystick.reset);
+  joystick.dead_man = button("dead_man_button");
+  joystick.stop = button("stop_button");
+  joystick.stop_opens = table.boolean("stop_opens");
+  joystick.reset = button("reset_button");
   require_distinct(
       table,
       {{"dead_man_button", joystick.dead_man}, {"stop_button", joystick.stop}, {"reset_button", joystick.reset}});
@@ -72,23 +59,22 @@ PanelWiring read_panel(TomlTable table) {
 }  // namespace
 
 RobotFile load_robot_file(const std::filesystem::path& path) {
-  const TomlFile file(path);
+  const TomlFile file(path, robot_file_keys());
   TomlTable root = file.root();
   RobotFile robot;
   ControlSetup& setup = robot.setup;
   setup.wired = true;
   setup.model = read_model_choice(root, "model");
   setup.model.limits.max_speed_mps =
-      root.number("max_speed_mps", {0.05, setup.model.limits.max_speed_mps}, setup.model.limits.max_speed_mps);
+      root.number("max_speed_mps", setup.model.limits.max_speed_mps, setup.model.limits.max_speed_mps);
   if (root.has("start")) {
     const auto start = root.numbers("start", 3);
     setup.start = {start[0], start[1], wrap_angle(start[2])};
   }
   setup.goal = setup.start.position();
-  setup.goal_tolerance_m = root.number("goal_tolerance_m", {0.05, 5.0}, setup.goal_tolerance_m);
-  robot.goal_heading_tolerance_rad =
-      root.number("goal_heading_tolerance_rad", {0.02, kPi}, robot.goal_heading_tolerance_rad);
-  setup.rate_hz = root.number("rate_hz", {20.0, 200.0}, setup.rate_hz);
+  setup.goal_tolerance_m = root.number("goal_tolerance_m");
+  robot.goal_heading_tolerance_rad = root.number("goal_heading_tolerance_rad");
+  setup.rate_hz = root.number("rate_hz");
   TomlTable laser = root.table("laser");
   robot.laser = read_wiring(laser);
   read_laser(laser, setup.model.laser);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/setting_keys.h"
 #include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
 #include "hal/types/operator_input.h"
@@ -94,6 +95,9 @@ struct Scenario {
   std::vector<RecordedSpec> recorded;
   std::vector<FaultSpec> faults;
 };
+
+/// Its keys (hal/setting_keys.h).
+[[nodiscard]] const FileKeys& scenario_keys();
 
 /// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong: unreadable file, unknown key, wrong type,
 /// value out of range, missing key, missing map file.

@@ -1,0 +1,57 @@
+#include "firmware/robot/robot_file_keys.h"
+
+namespace jaywalk {
+namespace {
+
+using enum KeyKind;
+
+constexpr Range kNodes{1.0, 127.0};  // CANopen's; ODrive and VESC take no other here
+constexpr Range kPerTurn{1e-3, 1e9};
+
+/// What a motor controller of `kind` needs that is one a wheel.
+void add_axes(std::vector<SettingKey>& keys, const std::string& kind, double left_node, const char* scale,
+              const char* meaning) {
+  keys.push_back({"drive:" + kind, scale, kNumber, kPerTurn, "", kNeeded, meaning});
+  keys.push_back({"drive:" + kind, "left_node", kInteger, kNodes, "", left_node, "the left drive's number on the bus"});
+  keys.push_back({"drive:" + kind, "right_node", kInteger, kNodes, "", left_node + 1.0, "the right drive's"});
+}
+
+}  // namespace
+
+std::vector<SettingKey> drive_keys() {
+  // The choices are in the order of DriveKind.
+  std::vector<SettingKey> keys{
+      {"drive", "kind", kChoice, {}, "", kNeeded, "what the motor controllers speak", {"cia402", "odrive", "vesc"}},
+      {"drive", "can", kText, {}, "", kNeeded, "the CAN interface, \"can0\" say"},
+      {"drive", "left_reversed", kBoolean, {}, "", false, "the left motor looks the other way"},
+      {"drive", "right_reversed", kBoolean, {}, "", false, "the right motor looks the other way"},
+      {"drive",
+       "allow_unproved",
+       kBoolean,
+       {},
+       "",
+       false,
+       "arm although a drive did not prove that it stops by itself"}};
+  add_axes(keys, "cia402", 2.0, "counts_per_wheel_turn", "encoder counts a turn of the wheel, gear included");
+  add_axes(keys, "odrive", 1.0, "motor_turns_per_wheel_turn", "the gear");
+  add_axes(keys, "vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs");
+  keys.push_back({"drive:cia402", "controller_node", kInteger, kNodes, "", 1.0,
+                  "the node whose heartbeat the drives watch: this program"});
+  keys.push_back({"drive:cia402",
+                  "controller_timeout_ms",
+                  kInteger,
+                  {40.0, 100.0},
+                  "ms",
+                  100.0,
+                  "without that heartbeat a drive stops by itself; at least two of the loop's periods"});
+  keys.push_back({"drive:cia402",
+                  "heartbeat_ms",
+                  kInteger,
+                  {5.0, 100.0},
+                  "ms",
+                  50.0,
+                  "the drives' own heartbeat; missed for three of these, a drive counts as lost"});
+  return keys;
+}
+
+}  // namespace jaywalk

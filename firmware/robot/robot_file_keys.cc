@@ -1,0 +1,124 @@
+#include "firmware/robot/robot_file_keys.h"
+
+#include "firmware/robot/robot_file.h"
+#include "hal/robot_model_file.h"
+
+namespace jaywalk {
+namespace {
+
+using enum KeyKind;
+
+constexpr Range kButtons{0.0, 767.0};  // KEY_MAX of linux/input-event-codes.h
+
+std::vector<SettingKey> top_keys() {
+  const RobotFile robot;
+  return {{"", "model", kText, {}, "", kNeeded, "\"p3dx\", \"wheelchair\", or a robot model file"},
+          {"", "max_speed_mps", kNumber, {0.05, 10.0}, "m/s", "the model's", "cruising speed; at most the model's"},
+          {"", "start", kNumbers, {}, "m, m, rad", "[0, 0, 0]", "[x, y, heading] in the map when the program starts"},
+          {"",
+           "goal_tolerance_m",
+           kNumber,
+           {0.05, 5.0},
+           "m",
+           robot.setup.goal_tolerance_m,
+           "a goal counts as reached within this"},
+          {"",
+           "goal_heading_tolerance_rad",
+           kNumber,
+           {0.02, kPi},
+           "rad",
+           robot.goal_heading_tolerance_rad,
+           "and within this of its heading, where one is wanted"},
+          {"", "rate_hz", kNumber, {20.0, 200.0}, "1/s", robot.setup.rate_hz, "of the control loop"},
+          {"", "control_socket", kText, {}, "", "the usual one", "where goto, stop, reset and status reach the run"},
+          {"", "laser", kTable, {}, "", kNeeded, "the scanner"},
+          {"", "drive", kTable, {}, "", kNeeded, "the motor controllers"},
+          {"", "panel", kTable, {}, "", "none", "a joystick or a box of buttons behind evdev"},
+          {"", "realtime", kTable, {}, "", "the defaults", "what the loop asks of the kernel"}};
+}
+
+std::vector<SettingKey> scanner_keys() {
+  std::vector<std::string> kinds;
+  for (const ScannerMake& make : scanner_makes()) kinds.emplace_back(make.name);
+  return {{"laser", "kind", kChoice, {}, "", kNeeded, "what the scanner speaks", kinds},
+          {"laser", "host", kText, {}, "", kNeeded, "address, of one on the network"},
+          {"laser", "port", kInteger, {1.0, 65535.0}, "", "the maker's", "TCP port, of one on the network"},
+          {"laser", "device", kText, {}, "", kNeeded, "\"/dev/ttyUSB0\" say, of one on a serial line"},
+          {"laser", "baud", kInteger, {1200.0, 4000000.0}, "bit/s", "the maker's", "of one on a serial line"},
+          {"laser",
+           "first_scan_limit_s",
+           kNumber,
+           {0.1, 600.0},
+           "s",
+           to_seconds(LaserWiring{}.first_scan_limit),
+           "how long to wait for it at start"}};
+}
+
+std::vector<SettingKey> panel_keys() {
+  const PanelWiring panel;
+  const panel::JoystickSetup& joystick = panel.joystick;
+  return {{"panel", "joystick", kText, {}, "", kNeeded, "the evdev device; gone, or not there: emergency stop"},
+          {"panel",
+           "needs_dead_man",
+           kBoolean,
+           {},
+           "",
+           panel.needs_dead_man,
+           "the robot drives only while its button is held"},
+          {"panel",
+           "dead_man_renew_s",
+           kNumber,
+           {0.0, 60.0},
+           "s",
+           to_seconds(joystick.dead_man_renew),
+           "so long after the newest event the dead man counts as released; 0: never; needed on Bluetooth"},
+          {"panel", "dead_man_button", kInteger, kButtons, "", static_cast<double>(joystick.dead_man),
+           "number of linux/input-event-codes.h: the left shoulder"},
+          {"panel", "stop_button", kInteger, kButtons, "", static_cast<double>(joystick.stop), "emergency stop"},
+          {"panel",
+           "stop_opens",
+           kBoolean,
+           {},
+           "",
+           joystick.stop_opens,
+           "the stop is a contact that opens; not known means stop"},
+          {"panel", "reset_button", kInteger, kButtons, "", static_cast<double>(joystick.reset), "reset, at rest"}};
+}
+
+std::vector<SettingKey> realtime_keys() {
+  const RealtimeWishes wishes;
+  return {
+      {"realtime",
+       "priority",
+       kInteger,
+       {0.0, 98.0},
+       "",
+       static_cast<double>(wishes.priority),
+       "of SCHED_FIFO, for the loop; 0: an ordinary thread"},
+      {"realtime", "lock_memory", kBoolean, {}, "", wishes.lock_memory, "nothing of the program is paged out"},
+      {"realtime",
+       "required",
+       kBoolean,
+       {},
+       "",
+       wishes.required,
+       "false: a run starts although the kernel refuses some of this"},
+      {"realtime", "cpu", kInteger, {0.0, 1023.0}, "", "any", "a processor for the loop alone (boot with isolcpus)"}};
+}
+
+FileKeys make_robot_file_keys() {
+  FileKeys file{"Robot file", {}};
+  for (const auto& keys :
+       {top_keys(), scanner_keys(), laser_keys("laser"), drive_keys(), panel_keys(), realtime_keys()})
+    file.keys.insert(file.keys.end(), keys.begin(), keys.end());
+  return file;
+}
+
+}  // namespace
+
+const FileKeys& robot_file_keys() {
+  static const FileKeys keys = make_robot_file_keys();
+  return keys;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,68 @@
+#include "hal/setting_keys.h"
+
+#include <cstdio>
+#include <stdexcept>
+
+namespace jaywalk {
+namespace {
+
+/// The shortest of two forms; 4000000 is no 4e+06.
+std::string shortest(double value) {
+  char text[40];
+  std::snprintf(text, sizeof text, value < 1e9 ? "%.10g" : "%g", value);
+  return text;
+}
+
+const SettingKey* look_up(const std::vector<SettingKey>& keys, const std::string& section, const std::string& key) {
+  for (const SettingKey& row : keys)
+    if (row.section == section && row.key == key) return &row;
+  return nullptr;
+}
+
+}  // namespace
+
+const SettingKey& FileKeys::find(const std::string& section, const std::string& key) const {
+  const SettingKey* row = look_up(keys, section, key);
+  if (row == nullptr) row = look_up(keys, section.substr(0, section.find(':')), key);
+  if (row == nullptr) throw std::logic_error(std::string(title) + ": no key " + section + "." + key + " in its table");
+  return *row;
+}
+
+std::string joined(const std::vector<std::string>& words) {
+  std::string all;
+  for (const std::string& word : words) all += (all.empty() ? "" : ", ") + word;
+  return all;
+}
+
+std::string allowed(const SettingKey& key) {
+  switch (key.kind) {
+    case KeyKind::kNumber:
+      return shortest(key.range.low) + " to " + shortest(key.range.high);
+    case KeyKind::kInteger:
+      return shortest(key.range.low) + " to " + shortest(key.range.high) + ", whole";
+    case KeyKind::kBoolean:
+      return "true or false";
+    case KeyKind::kChoice:
+      return joined(key.choices);
+    case KeyKind::kText:
+      return "text";
+    case KeyKind::kFile:
+      return "path, relative to this file";
+    case KeyKind::kNumbers:
+      return "list of numbers";
+    case KeyKind::kTable:
+      return "table";
+    case KeyKind::kTables:
+      return "tables";
+  }
+  return "";
+}
+
+std::string default_of(const SettingKey& key) {
+  if (const auto* number = std::get_if<double>(&key.otherwise)) return shortest(*number);
+  if (const auto* boolean = std::get_if<bool>(&key.otherwise)) return *boolean ? "true" : "false";
+  if (const auto* words = std::get_if<const char*>(&key.otherwise)) return *words;
+  return "needed";
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,49 @@
+#pragma once
+// The keys of the settings files: one table a kind of file, for its parser, `jaywalk config --explain` and the
+// reference page. A parser cannot read a key that is not in its table, and takes range and default from there.
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace jaywalk {
+
+/// Closed interval of allowed numbers.
+struct Range {
+  double low = 0.0;
+  double high = 0.0;
+};
+
+enum class KeyKind { kNumber, kInteger, kBoolean, kText, kChoice, kFile, kNumbers, kTable, kTables };
+
+/// What holds where a key is absent: nothing (the key is needed), a value, or something that these words tell.
+using Otherwise = std::variant<std::monostate, double, bool, const char*>;
+inline constexpr std::monostate kNeeded{};
+
+struct SettingKey {
+  std::string section;  ///< "robot.laser"; "" at the top; "drive:vesc": of [drive] where its kind is vesc
+  std::string key;
+  KeyKind kind = KeyKind::kNumber;
+  Range range{};          ///< of numbers and whole numbers
+  const char* unit = "";  ///< "" for those that have none
+  Otherwise otherwise{};
+  const char* meaning = "";
+  std::vector<std::string> choices{};  ///< of kChoice
+};
+
+struct FileKeys {
+  const char* title = "";  ///< "Scenario file"
+  std::vector<SettingKey> keys;
+
+  /// The key of `section`, or else of the section without its ":kind". Throws std::logic_error where there is none: a
+  /// parser asks for what the table does not have.
+  [[nodiscard]] const SettingKey& find(const std::string& section, const std::string& key) const;
+};
+
+/// "0.1 to 100", "true or false", "p3dx, wheelchair": what may be written.
+[[nodiscard]] std::string allowed(const SettingKey& key);
+/// "needed", "0.3", "the model's".
+[[nodiscard]] std::string default_of(const SettingKey& key);
+/// "a, b, c"
+[[nodiscard]] std::string joined(const std::vector<std::string>& words);
+
+}  // namespace jaywalk
