@@ -10,11 +10,15 @@
 #include "firmware/commands/command_words.h"
 #include "firmware/commands/faults_command.h"
 #include "firmware/commands/field_command.h"
+#include "firmware/commands/help_footers.h"
+#include "firmware/commands/parse_message.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
 #include "firmware/commands/standard_streams.h"
 #include "firmware/commands/view_option.h"
+#include "hal/nearest_word.h"
+#include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -91,6 +95,9 @@ void add_replay(CLI::App& app) {
           "X,Y,YAW of the laser on the robot (m, m, rad)")
       ->delimiter(',')
       ->expected(3);
+  replay->add_option(
+      "--model", replay_options.model,
+      "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
 }
 
@@ -106,7 +113,8 @@ void add_field(CLI::App& app) {
           "Goal X,Y in the map (default: the free cell nearest its middle)")
       ->delimiter(',')
       ->expected(2);
-  field->add_option("--inflation_m", field_options.inflation_m, "Walls grow by this")->capture_default_str();
+  field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
+      ->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
   add_backend(*field, field_options.backend);
   field->add_flag("--start-field", field_options.start_only,
@@ -134,26 +142,21 @@ void add_faults(CLI::App& app) {
 
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
-  std::string names;
+  std::vector<std::string> names;
   for (const CLI::App* command : app.get_subcommands([](const CLI::App*) { return true; })) {
     if (argc > 1 && (argv[1][0] == '-' || command->get_name() == argv[1])) return;
-    names += (names.empty() ? "" : ", ") + command->get_name();
+    names.push_back(command->get_name());
   }
-  throw StartupError(argc > 1 ? shown(argv[1]) + ": no such subcommand" : "a subcommand is required",
-                     "there are " + names);
-}
-
-std::string one_line(const CLI::App* app, const CLI::Error& error) {
-  const auto given = app->get_subcommands();
-  return std::string("jaywalk: ") + error.what() + "; see jaywalk " +
-         (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
+  const std::string all = "there are " + joined(names);
+  if (argc <= 1) throw StartupError("a subcommand is required", all);
+  throw StartupError(shown(argv[1]) + ": no such subcommand", did_you_mean(argv[1], names, all));
 }
 
 int run(int argc, char** argv) {
   CLI::App app{"jaywalk: plans for where things will be. Not certified; a navigation laser is not a safety scanner."};
   app.set_version_flag("--version", std::string("jaywalk ") + JAYWALK_VERSION + ", backends: " + built_backends());
   app.require_subcommand(1);
-  app.failure_message(one_line);
+  app.failure_message(parse_message);
   add_sim(app);
   add_replay(app);
   add_field(app);
@@ -161,6 +164,7 @@ int run(int argc, char** argv) {
   add_faults(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
+  add_footers(app);
   refuse_empty_words(argc, argv);
   require_command(app, argc, argv);
   try {
@@ -185,10 +189,11 @@ int main(int argc, char** argv) {
     code = run(argc, argv);
     require_heard();
   } catch (const jaywalk::StartupError& error) {
-    std::fprintf(stderr, "jaywalk: %s\n", error.what());
+    std::fprintf(stderr, "jaywalk: %s\n", printable(error.what()).c_str());
     code = kBadInput;
   } catch (const std::exception& error) {
-    std::fprintf(stderr, "jaywalk: %s; please report this with the command that led to it\n", error.what());
+    std::fprintf(stderr, "jaywalk: %s; please report this with the command that led to it\n",
+                 printable(error.what()).c_str());
     code = kBadInput;
   }
   if (jaywalk::has_device_left_behind()) std::fflush(nullptr), std::_Exit(code);

@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "hal/nearest_word.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk {
@@ -70,7 +71,7 @@ void read_laser(TomlTable& table, LaserModel& laser) {
   laser.noise_m = table.number("noise_m", laser.noise_m);
   laser.drop_out = table.number("drop_out", laser.drop_out);
   if (table.needs("mount") || table.has("mount")) {
-    const auto mount = table.numbers("mount", 3);
+    const auto mount = table.place_in_map("mount", 3);
     laser.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
     if (norm(laser.robot_from_laser.position()) > kFarthestMountM)
       table.refuse("mount", "lies beside any robot", "give x and y from the drive axle's middle, in metres");
@@ -94,11 +95,18 @@ RobotModel load_robot_model(const std::filesystem::path& path) {
   return model;
 }
 
+RobotModel robot_model(const std::string& choice) {
+  if (choice == "p3dx") return p3dx();
+  if (choice == "wheelchair") return wheelchair();
+  return load_robot_model(choice);
+}
+
 RobotModel read_model_choice(TomlTable& table, const std::string& key) {
   const std::string choice = table.text(key);
   if (choice == "p3dx") return p3dx();
   if (choice == "wheelchair") return wheelchair();
-  return load_robot_model(table.existing_file(key));
+  return load_robot_model(table.existing_file(
+      key, did_you_mean(choice, {"p3dx", "wheelchair"}, "write p3dx, wheelchair, or a robot model file's path")));
 }
 
 }  // namespace jaywalk

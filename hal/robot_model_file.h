@@ -17,6 +17,9 @@ namespace jaywalk {
 /// docs/configuration.md. Throws StartupError "FILE:LINE: cause; remedy".
 [[nodiscard]] RobotModel load_robot_model(const std::filesystem::path& file);
 
+/// "p3dx", "wheelchair", or the file of that path.
+[[nodiscard]] RobotModel robot_model(const std::string& choice);
+
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 

@@ -15,4 +15,11 @@ namespace jaywalk {
   return text.size() > kMost ? out + "..." : out;
 }
 
+/// The whole of it, with '?' for each control character; letters of other alphabets stay.
+[[nodiscard]] inline std::string printable(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return (c >= '\0' && c < ' ') || c == '\x7F'; }, '?');
+  return text;
+}
+
 }  // namespace jaywalk

@@ -7,8 +7,11 @@
 #include <fstream>
 #include <sstream>
 
+#include "hal/nearest_word.h"
+#include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk {
 namespace {
@@ -79,7 +82,7 @@ void refuse_texts_of_several_lines(const std::filesystem::path& file) {
 }
 
 toml::value parse(const std::filesystem::path& file) {
-  require_readable(file, file.string() + ":0: ", "give the path of a TOML file");
+  require_readable(file, file.string() + ": ", "give the path of a TOML file");
   refuse_deep_nesting(file);
   refuse_texts_of_several_lines(file);
   try {
@@ -210,7 +213,9 @@ std::size_t TomlTable::choose_keys(const std::string& key) {
 std::string TomlTable::text(const std::string& key) {
   const toml::value& node = need(key);
   if (!node.is_string()) refuse(key, "is not a text", "write it in quotes");
-  return toml::get<std::string>(node);
+  std::string said = toml::get<std::string>(node);
+  if (said != printable(said)) refuse(key, "holds a control character", "write letters that can be printed");
+  return said;
 }
 
 std::string TomlTable::text(const std::string& key, const std::string& otherwise) {
@@ -233,6 +238,19 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least
   return values;
 }
 
+std::vector<double> TomlTable::place_in_map(const std::string& key, std::size_t least) {
+  constexpr double kFarthest_m = 1e5, kOneTurn_rad = 2.0 * kPi;
+  const std::vector<double> values = numbers(key, least, 3);
+  for (std::size_t k = 0; k < 2; ++k) {
+    if (std::fabs(values[k]) > kFarthest_m)
+      refuse(key, "lies at " + written(values[k]) + " m", "give metres in the map's frame, at most 100000");
+  }
+  if (values.size() == 3 && std::fabs(values[2]) > kOneTurn_rad)
+    refuse(key, "has the heading " + written(values[2]) + " rad",
+           "give radians: " + written(values[2]) + " degrees are " + written(wrap_angle(values[2] * kPi / 180.0)));
+  return values;
+}
+
 TomlTable TomlTable::table(const std::string& key) {
   const toml::value& found = need(key);
   if (!found.is_table()) refuse(key, "is not a table", "write [" + title(key) + "] and its keys below");
@@ -252,11 +270,11 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
   return found;
 }
 
-std::filesystem::path TomlTable::existing_file(const std::string& key) {
+std::filesystem::path TomlTable::existing_file(const std::string& key, const std::string& remedy) {
   const std::filesystem::path named = text(key);
   std::filesystem::path file = named.is_absolute() ? named : file_->parent_path() / named;
   if (!std::filesystem::is_regular_file(file)) {
-    refuse(key, "names " + file.string() + ", which is no file", "give a path relative to this file's folder");
+    refuse(key, "names " + file.string() + ", which is no file", remedy);
   }
   return file;
 }
@@ -269,7 +287,9 @@ void TomlTable::finish() const {
     const bool earlier = unknown.empty() || here < line || (here == line && key < unknown);
     if (asked_.count(key) == 0 && earlier) line = here, unknown = key;
   }
-  if (!unknown.empty()) refuse(unknown, "is not a known key", "remove it or correct its spelling");
+  if (!unknown.empty())
+    refuse(printable(unknown), "is not a known key",
+           did_you_mean(unknown, {asked_.begin(), asked_.end()}, "remove it or correct its spelling"));
 }
 
 }  // namespace jaywalk

@@ -43,13 +43,17 @@ class TomlTable {
   }
   /// Of `least` or `most` of them.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
+  /// A place in the map: [x, y] or [x, y, heading], within 100 km and one turn to either side; of `least` to 3 numbers.
+  [[nodiscard]] std::vector<double> place_in_map(const std::string& key, std::size_t least);
   /// A table that must be there.
   [[nodiscard]] TomlTable table(const std::string& key);
   /// The tables written as [[key]]; none when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(const std::string& key);
 
-  /// An existing file named under `key`, relative to this file's folder.
-  [[nodiscard]] std::filesystem::path existing_file(const std::string& key);
+  /// An existing file named under `key`, relative to this file's folder; `remedy` for where there is none.
+  [[nodiscard]] std::filesystem::path existing_file(const std::string& key, const std::string& remedy =
+                                                                                "give a path relative to this file's "
+                                                                                "folder");
   /// Throws for the first key, in the file's order, that was not asked for.
   void finish() const;
   /// "FILE:LINE: " of `key`, or of the table where the key is absent: how a complaint about it begins.

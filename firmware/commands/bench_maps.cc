@@ -100,7 +100,7 @@ BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
   map.goal = {fine.cells.width / 2, fine.cells.height / 2};
   map.start = {fine.cells.width - 12, fine.cells.height - 12};
   if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side)) {
-    throw StartupError(file.string() + ":0: no free cell", "give a map with room for a robot");
+    throw StartupError(file.string() + ": no free cell", "give a map with room for a robot");
   }
   return map;
 }

@@ -29,6 +29,14 @@ std::int32_t cell_number(double metres, double cell_m) {
   return static_cast<std::int32_t>(std::floor(std::clamp(metres / cell_m, -1e6, 1e6)));
 }
 
+/// Nobody is to take the field for that of another goal.
+void tell_moved_goal(const FieldOptions& options, const MapCells& map, CellIndex asked, CellIndex at) {
+  if (!options.goal || (asked.i == at.i && asked.j == at.j)) return;
+  const Vec2 to = map.map_from_cells * Vec2{(at.i + 0.5) * map.cell_m, (at.j + 0.5) * map.cell_m};
+  std::fprintf(stderr, "jaywalk: --goal %.2f,%.2f lies in a wall or too near one; the field leads to %.2f,%.2f\n",
+               options.goal->x, options.goal->y, to.x, to.y);
+}
+
 CellIndex goal_cell(const FieldOptions& options, const MapCells& map, const MapField& solver) {
   CellIndex at{map.cells.width / 2, map.cells.height / 2};
   std::int32_t radius = map.cells.width + map.cells.height;
@@ -37,11 +45,13 @@ CellIndex goal_cell(const FieldOptions& options, const MapCells& map, const MapF
     at = {cell_number(in_cells.x, map.cell_m), cell_number(in_cells.y, map.cell_m)};
     radius = cell_number(kGoalRadius_m, map.cell_m);
   }
+  const CellIndex asked = at;
   if (!solver.nearest_free(at, radius)) {
     throw StartupError(
-        options.map.string() + ":0: no free cell " + (options.goal ? "within 0.5 m of the goal" : "at all"),
-        "give another --goal, or a smaller --inflation_m");
+        options.map.string() + ": no free cell " + (options.goal ? "within 0.5 m of the goal" : "at all"),
+        "give another --goal, or a smaller --inflation");
   }
+  tell_moved_goal(options, map, asked, at);
   return at;
 }
 
@@ -61,13 +71,13 @@ void write_npy(const std::filesystem::path& file, const MapCells& map, const Map
       out.write(reinterpret_cast<const char*>(&psi), sizeof psi);  // all our machines are little-endian
     }
   }
-  if (!out.flush()) throw StartupError(file.string() + ":0: cannot be written", "choose another --out");
+  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", "choose another --out");
 }
 
 void write_json(const std::filesystem::path& file, const nlohmann::ordered_json& json) {
   std::ofstream out(file);
   out << json.dump(2) << '\n';
-  if (!out.flush()) throw StartupError(file.string() + ":0: cannot be written", "choose another --out");
+  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", "choose another --out");
 }
 
 /// For a person: the share of cells that pick the exact field's best neighbour.
@@ -82,7 +92,7 @@ std::string in_words(const std::optional<double>& best) {
 
 int run_field(const FieldOptions& options) {
   if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0)) {
-    throw StartupError("--inflation_m: outside 0 to 5 m", "give the robot's radius and a margin");
+    throw StartupError("--inflation: outside 0 to 5 m", "give the robot's radius and a margin");
   }
   const MapCells map = load_map_cells(options.map, options.cell_m);
   const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend);

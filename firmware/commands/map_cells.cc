@@ -19,7 +19,7 @@ constexpr double kOccupiedAbove = 0.65;
 void check_size(const std::string& file, double width, double height) {
   const double most = field::kMostMapCells;
   if (width <= most && height <= most) return;
-  throw StartupError(file + ":0: more than 2048 cells a side", "choose larger cells: --resolution, or a smaller map");
+  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution, or a smaller map");
 }
 
 MapCells cells_of(const std::string& file, sim::Raster raster) {
@@ -67,18 +67,18 @@ MapCells load_map_cells(const std::filesystem::path& file, std::optional<double>
   if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0)) {
     throw StartupError("--resolution: outside 0.001 to 10 m", "give metres a cell");
   }
-  require_readable(file, name + ":0: ", "give a map's path");
+  require_readable(file, name + ": ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
-    if (cell_m) throw StartupError(name + ":0: says its resolution itself", "leave --resolution out");
+    if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
     return cells_of(name, sim::load_raster_map(file).raster);
   }
   if (ending == ".png" || ending == ".pgm") {
-    if (!cell_m) throw StartupError(name + ":0: a picture has no scale", "give --resolution, metres a pixel");
+    if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");
     return picture_cells(file, *cell_m);
   }
   if (ending == ".map") return drawn_cells(file, sim::load_aria_map(file), cell_m.value_or(kDefaultCell_m));
   if (ending == ".txt") return drawn_cells(file, sim::load_cylinder_map(file), cell_m.value_or(kDefaultCell_m));
-  throw StartupError(name + ":0: not a kind of map",
+  throw StartupError(name + ": not a kind of map",
                      "give .yaml (map_server), .map (ARIA), .txt (cylinders), .png, .pgm");
 }
 

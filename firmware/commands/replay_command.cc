@@ -6,6 +6,7 @@
 #include <cstdio>
 #include <sstream>
 
+#include "firmware/commands/interruption.h"
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
 #include "firmware/commands/progress.h"
@@ -13,6 +14,7 @@
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
+#include "hal/robot_model_file.h"
 #include "hal/sim/logs/line_file.h"
 #include "hal/sim/logs/log_replay.h"
 #include "hal/text_file.h"
@@ -41,20 +43,22 @@ sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
     throw StartupError(options.logs[most].string() + ": one file too many for " + format,
                        format == "carmen" ? "give one log" : "give SCAN.txt and, where there is one, ODOM.txt");
   }
-  const Pose2 mount = options.laser_mount.value_or(Pose2{});
+  const Pose2 mount =
+      options.laser_mount.value_or(options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser);
   if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
   return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
                              mount);
 }
 
-/// A recording does not say what carried the laser: a P3-DX stands in, with the log's own laser and drive.
-ControlSetup setup_for(const sim::LogReplay& log, const std::optional<Vec2>& goal) {
+/// A recording does not say what carried the laser: a P3-DX stands in where nobody else does, with the log's own laser
+/// and drive.
+ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) {
   ControlSetup setup;
-  setup.model = p3dx();
+  setup.model = options.model.empty() ? p3dx() : robot_model(options.model);
   setup.model.laser = log.log().laser();
   setup.model.drive = log.drive();
   setup.start = log.start_pose();
-  setup.goal = goal.value_or(log.last_pose().value_or(setup.start).position());
+  setup.goal = options.goal.value_or(log.last_pose().value_or(setup.start).position());
   setup.goal_tolerance_m = kGoalTolerance_m;
   setup.wheels = log.last_pose().has_value();
   setup.judges_motion = false;  // they obeyed another controller
@@ -66,13 +70,14 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::LogReplay log(load(options, format));
   std::istringstream complaints(log.log().complaint());
   for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
-  const ControlSetup setup = setup_for(log, options.goal);
+  const ControlSetup setup = setup_for(log, options);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
   RunPicture picture;
   MountCheck mount;
   Progress progress;
   const auto own_time = [&](Time t) { return log.log().own_time(t); };
+  const Interruption interruption;
   do {  // a recording of a single scan ends where it begins
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
@@ -82,7 +87,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
       const double whole_s = to_seconds(log.end_time() - log.start_time());
       progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
     }
-  } while (!log.ended());
+  } while (!log.ended() && !interruption.came());
   progress.make_way();
   if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
     const Pose2 given = setup.model.laser.robot_from_laser;
@@ -93,18 +98,22 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
         given.x, given.y, wrap_angle(given.heading + *yaw));
   }
   const std::string name = options.logs[0].filename().string();
-  runner.finish({.outcome = "replayed", .success = true, .scenario = name});
+  const bool whole = log.ended();
+  runner.finish({.outcome = whole ? "replayed" : "interrupted", .success = whole, .scenario = name});
   picture.save(options.out, name, runner, {});
   runner.require_recorded();
   const std::size_t scans = log.log().scans.size();
   std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
               to_seconds(log.end_time() - log.start_time()), (options.out / "run.png").c_str());
-  return 0;
+  return whole ? 0 : 1;
 }
 
 /// What only goes with a log: a recording has its own.
 void warn_of_options_of_logs(const ReplayOptions& options) {
-  const char* const given = options.goal ? "--goal" : options.laser_mount ? "--laser-mount" : nullptr;
+  const char* const given = options.goal             ? "--goal"
+                            : options.laser_mount    ? "--laser-mount"
+                            : !options.model.empty() ? "--model"
+                                                     : nullptr;
   if (given == nullptr) return;
   std::fprintf(stderr, "jaywalk: %s is left out of account: %s is a recording and has its own\n", given,
                options.logs[0].c_str());
@@ -143,6 +152,7 @@ int replay_recording(const ReplayOptions& options) {
   RunPicture picture;
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
+  const Interruption interruption;
   do {
     ++ticks;
     lost += reader.lost_before();
@@ -159,7 +169,7 @@ int replay_recording(const ReplayOptions& options) {
                    file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
                    now.left_radps, now.right_radps);
     }
-  } while (reader.next(recorded));
+  } while (!interruption.came() && reader.next(recorded));
   progress.make_way();
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});

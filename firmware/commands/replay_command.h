@@ -13,6 +13,7 @@ struct ReplayOptions {
   std::string format;                ///< scan-odom, carmen or jaywalk; empty: by what the file begins with
   std::optional<Vec2> goal;          ///< default: the recording's last pose
   std::optional<Pose2> laser_mount;  ///< robot_from_laser; default: the log's own word, else the robot's origin
+  std::string model;                 ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
   std::filesystem::path out = "out/replay";
 };
 

@@ -2,6 +2,8 @@
 
 #include <cstdio>
 #include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
@@ -20,7 +22,7 @@ RunOptions run_options;
 CommissionOptions commission_options;
 std::filesystem::path socket_path;
 std::vector<std::string> goal;
-bool now = false;
+bool now = false, as_json = false;
 
 void add_socket(CLI::App* command) {
   command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
@@ -32,6 +34,20 @@ int say(const std::string& line) {
   const bool refused = answer.starts_with("refused");
   std::fputs(answer.c_str(), refused ? stderr : stdout);
   return refused ? 1 : 0;
+}
+
+/// The answer's lines "key: value" as one object.
+int say_as_json(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  if (answer.starts_with("refused")) return std::fputs(answer.c_str(), stderr), 1;
+  nlohmann::ordered_json json;
+  std::istringstream lines(answer);
+  for (std::string said; std::getline(lines, said);) {
+    const std::size_t colon = said.find(": ");
+    if (colon != std::string::npos) json[said.substr(0, colon)] = said.substr(colon + 2);
+  }
+  std::printf("%s\n", json.dump(1).c_str());
+  return 0;
 }
 
 int say_goal() {
@@ -55,6 +71,7 @@ void add_check(CLI::App& app, int& exit_code) {
   CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
   check->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
   check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, said");
   check->callback([&exit_code] { exit_code = check_robot(run_options); });
 }
 
@@ -91,7 +108,8 @@ void add_robot_commands(CLI::App& app, int& exit_code) {
   reset->callback([&exit_code] { exit_code = say("reset"); });
   CLI::App* status = app.add_subcommand("status", "Ask a run how it goes");
   add_socket(status);
-  status->callback([&exit_code] { exit_code = say("status"); });
+  status->add_flag("--json", as_json, "As JSON: an object with a text for each line");
+  status->callback([&exit_code] { exit_code = as_json ? say_as_json("status") : say("status"); });
 }
 
 }  // namespace jaywalk

@@ -3,9 +3,11 @@
 #include <signal.h>
 #include <time.h>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <nlohmann/json.hpp>
 
 #include "drivers/can/restart_link.h"
 #include "firmware/commands/run_picture.h"
@@ -19,6 +21,7 @@
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/steady_clock.h"
 #include "firmware/setup/commissioned.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -100,6 +103,14 @@ std::filesystem::path socket_for(const RunOptions& options, const RobotFile& fil
   return file.control_socket.empty() ? default_control_socket() : file.control_socket;
 }
 
+/// [{"part": "file", "ok": true, "said": "..."}, ...]
+void print_json(const std::vector<CheckedPart>& parts) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const CheckedPart& part : parts)
+    rows.push_back({{"part", part.part}, {"ok", part.is_well}, {"said", part.said}});
+  std::printf("%s\n", rows.dump(1).c_str());
+}
+
 }  // namespace
 
 int run_robot(const RunOptions& options) {
@@ -162,22 +173,19 @@ int run_robot(const RunOptions& options) {
 }
 
 int check_robot(const RunOptions& options) {
-  bool all_well = true;
-  const auto tell = [&all_well](const CheckedPart& part) {
-    all_well = all_well && part.is_well;
-    std::printf("%-4s  %-15s %s\n", part.is_well ? "ok" : "FAIL", part.part.c_str(), part.said.c_str());
-  };
-  try {
-    const RobotFile file = load_robot_file(options.robot);
-    tell({"file", true, options.robot.string()});
-    const CommissioningRecord record = read_commissioned(options.robot, file);
-    tell({"commissioned", record.state != Commissioned::kFailed, record.said});
-    SteadyClock clock;
-    for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) tell(part);
-  } catch (const StartupError& error) {
-    tell({"file", false, error.what()});
+  const RobotFile file = load_robot_file(options.robot);
+  const CommissioningRecord record = read_commissioned(options.robot, file);
+  std::vector<CheckedPart> parts{{"file", true, options.robot.string()},
+                                 {"commissioned", record.state != Commissioned::kFailed, record.said}};
+  SteadyClock clock;
+  for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) parts.push_back(part);
+  if (options.json) {
+    print_json(parts);
+  } else {
+    for (const CheckedPart& part : parts)
+      std::printf("%-4s  %-15s %s\n", part.is_well ? "ok" : "FAIL", part.part.c_str(), printable(part.said).c_str());
   }
-  return all_well ? 0 : 1;
+  return std::all_of(parts.begin(), parts.end(), [](const CheckedPart& part) { return part.is_well; }) ? 0 : 1;
 }
 
 }  // namespace jaywalk

@@ -10,6 +10,7 @@ struct RunOptions {
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/run";
   std::filesystem::path control_socket;  ///< empty: the file's, else the default
+  bool json = false;                     ///< of a check: for programs
   bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
 };
 

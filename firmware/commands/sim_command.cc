@@ -6,6 +6,7 @@
 #include <memory>
 #include <thread>
 
+#include "firmware/commands/interruption.h"
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
@@ -110,6 +111,14 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
 }
 
+/// A run to a goal that no way leads to would only end by its timeout, without a word of why.
+void remark_unreachable(const sim::Scenario& scenario, const sim::Simulation& simulation) {
+  if (std::isfinite(simulation.static_shortest_path_m())) return;
+  std::fprintf(stderr,
+               "jaywalk: %sno way leads from start to goal, as wide as the robot is: the run can only time out\n",
+               scenario.goal_place.c_str());
+}
+
 /// As the crow flies: the bar goes back where the way does.
 void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& truth) {
   if (!progress.is_due()) return;
@@ -127,6 +136,7 @@ int run_sim(const SimOptions& options) {
   const std::uint64_t seed = options.seed.value_or(scenario.seed);
   sim::Simulation simulation(scenario, seed);
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
+  remark_unreachable(scenario, simulation);
   const ControlSetup setup = setup_for(scenario, options);
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
@@ -135,6 +145,7 @@ int run_sim(const SimOptions& options) {
   Progress progress;
   TruthForReport truth_for_report;
   std::string ended;
+  const Interruption interruption;
   const auto began = std::chrono::steady_clock::now();
   while (ended.empty()) {
     const TickRecord& t = runner.step();
@@ -142,6 +153,7 @@ int run_sim(const SimOptions& options) {
     picture.consider(runner);
     tell(progress, scenario, simulation.truth());
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
+    if (ended.empty() && interruption.came()) ended = "interrupted";
     if (view) view->follow(runner, ended);
     if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }

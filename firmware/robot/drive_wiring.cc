@@ -9,6 +9,8 @@
 namespace jaywalk {
 namespace {
 
+constexpr std::size_t kMostLetters = 16;  ///< IFNAMSIZ: of a network interface's name and its end
+
 /// The drives' own ramps lie above what the controller asks for, or they would lag behind it; the proof of 6084h and
 /// 6085h then covers limits.brake_mps2.
 constexpr double kRampOverBrake = 1.5;
@@ -94,6 +96,8 @@ DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) 
   const StopLimits stop = stop_limits_of(model, tick);
   wiring.kind = static_cast<DriveKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
   wiring.can = table.text("can");
+  if (wiring.can.empty() || wiring.can.size() >= kMostLetters || wiring.can.find_first_of("/ ") != std::string::npos)
+    table.refuse("can", "is no interface's name", "give the one that ip link shows, at most 15 letters");
   switch (wiring.kind) {
     case DriveKind::kCia402:
       wiring.cia402 = read_cia402(table, model, tick, stop);

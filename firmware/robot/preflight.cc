@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <filesystem>
 #include <fstream>
 #include <functional>
 #include <thread>
@@ -95,6 +96,9 @@ std::string check_joystick(const PanelWiring& panel, Clock& clock) {
   panel::Joystick joystick(panel.joystick);
   joystick.poll(clock.now());
   const panel::JoystickState state = joystick.state();
+  if (!state.connected && std::filesystem::exists(panel.joystick.path))
+    throw StartupError(panel.joystick.path + ": is no joystick that this user may read",
+                       "give an evdev device (/dev/input/by-id/...-event-joystick), and join the group input");
   if (!state.connected)
     throw StartupError(panel.joystick.path + ": is not there", "plug it in, or correct [panel] joystick");
   refuse_unrenewed(state, panel);

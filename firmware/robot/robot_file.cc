@@ -15,9 +15,13 @@ LaserWiring read_wiring(TomlTable& table) {
   wiring.kind = choice.kind;
   const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
   if (serial) {
+    if (table.has("host") && !table.has("device"))
+      table.refuse("host", "is for scanners on the network", "give the serial line of this one as device");
     wiring.device = table.text("device");
     wiring.baud = static_cast<std::uint32_t>(table.integer("baud", choice.baud));
   } else {
+    if (table.has("device") && !table.has("host"))
+      table.refuse("device", "is for scanners on a serial line", "give the address of this one as host");
     wiring.host = table.text("host");
     wiring.port = static_cast<std::uint16_t>(table.integer("port", choice.port));
   }
@@ -68,7 +72,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   setup.model.limits.max_speed_mps =
       root.number("max_speed_mps", setup.model.limits.max_speed_mps, setup.model.limits.max_speed_mps);
   if (root.has("start")) {
-    const auto start = root.numbers("start", 3);
+    const auto start = root.place_in_map("start", 3);
     setup.start = {start[0], start[1], wrap_angle(start[2])};
   }
   setup.goal = setup.start.position();

@@ -14,13 +14,13 @@ namespace {
 constexpr std::int64_t kMaxPixels = 64'000'000;
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& cause) {
-  throw StartupError(file.string() + ":0: " + cause, "use a whole PNG or PGM picture");
+  throw StartupError(file.string() + ": " + cause, "use a whole PNG or PGM picture");
 }
 
 void check_size(const std::filesystem::path& file, std::int64_t width, std::int64_t height) {
   if (width < 1 || height < 1) refuse(file, "no size stands in its first lines");
   if (width > kMaxPixels || height > kMaxPixels || width * height > kMaxPixels) {
-    throw StartupError(file.string() + ":0: " + std::to_string(width) + " x " + std::to_string(height) +
+    throw StartupError(file.string() + ": " + std::to_string(width) + " x " + std::to_string(height) +
                            " are more than 64 million pixels",
                        "take larger ones");
   }

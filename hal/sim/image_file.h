@@ -13,7 +13,7 @@ struct GreyImage {
 };
 
 /// Reads PNG (colour becomes grey, transparency lies on white) or PGM (P2, P5, 8 or 16 bit). Throws StartupError
-/// "FILE:0: cause; remedy" for anything else, a damaged file, or more than 64 million pixels.
+/// "FILE: cause; remedy" for anything else, a damaged file, or more than 64 million pixels.
 [[nodiscard]] GreyImage load_image(const std::filesystem::path& file);
 
 }  // namespace jaywalk::sim

@@ -1,6 +1,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <cmath>
+#include <fstream>
 #include <set>
 #include <string>
 
@@ -23,10 +24,11 @@ struct RasterSettings {
 class MapYaml {
  public:
   explicit MapYaml(const std::filesystem::path& file) : file_(file) {
+    refuse_picture();
     try {
       root_ = YAML::LoadFile(file.string());
     } catch (const YAML::BadFile&) {
-      throw StartupError(file_.string() + ":0: cannot be read", "give the path of a map_server YAML file");
+      throw StartupError(file_.string() + ": cannot be read", "give the path of a map_server YAML file");
     } catch (const YAML::Exception& e) {
       refuse(e.mark, e.msg);
     }
@@ -58,6 +60,14 @@ class MapYaml {
   }
 
  private:
+  /// A PNG or PGM itself, by its first bytes.
+  void refuse_picture() const {
+    char first[4] = {};
+    std::ifstream(file_, std::ios::binary).read(first, sizeof first);
+    const std::string bytes(first, sizeof first);
+    if (bytes == "\x89PNG" || bytes.rfind("P5", 0) == 0 || bytes.rfind("P2", 0) == 0)
+      throw StartupError(file_.string() + ": is a picture", "give the map_server YAML file that names it");
+  }
   /// The library takes the first of them.
   void refuse_repeated_keys() const {
     std::set<std::string> known;

@@ -19,7 +19,7 @@ struct Row {
 };
 
 [[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& cause) {
-  throw StartupError(file.string() + ":" + std::to_string(line) + ": " + cause,
+  throw StartupError(file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + cause,
                      "write rows of t_s,id,x_m,y_m below a line that says so");
 }
 

@@ -54,9 +54,9 @@ RobotModel read_model(TomlTable& table, bool& laser_turns) {
 }
 
 void read_robot(TomlTable table, Scenario& scenario) {
-  const auto start = table.numbers("start", 3);
+  const auto start = table.place_in_map("start", 3);
   scenario.start = {start[0], start[1], wrap_angle(start[2])};
-  const auto goal = table.numbers("goal", 2, 3);
+  const auto goal = table.place_in_map("goal", 2);
   scenario.goal = {goal[0], goal[1]};
   if (goal.size() == 3) scenario.goal_heading_rad = wrap_angle(goal[2]);
   scenario.start_place = table.place_of("start");

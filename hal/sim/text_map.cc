@@ -42,7 +42,7 @@ class LineReader {
     return values;
   }
   [[noreturn]] void refuse(const std::string& cause) const {
-    throw StartupError(file_.string() + ":" + std::to_string(number_) + ": " + cause, remedy_);
+    throw StartupError(file_.string() + (number_ > 0 ? ":" + std::to_string(number_) : "") + ": " + cause, remedy_);
   }
 
  private:

@@ -53,7 +53,7 @@ void Wanderers::place(const WanderSpec& spec, const Scenario& scenario, const Fr
                       .random = Random(seed, Purpose::kWanderer, id)});
     return;
   }
-  throw StartupError(scenario.map_file.string() + ":0: no room for mover " + std::to_string(id),
+  throw StartupError(scenario.map_file.string() + ": no room for mover " + std::to_string(id),
                      "ask for fewer or smaller movers");
 }
 

@@ -88,7 +88,7 @@ TEST_CASE("bad recordings of movers are refused with file, line and cause") {
   struct Bad {
     std::string text, place;
   };
-  const Bad cases[] = {{"", "walk.csv:0: holds nobody"},
+  const Bad cases[] = {{"", "walk.csv: holds nobody"},
                        {kHead, "walk.csv:1: holds nobody"},
                        {"0,1,2,3\n", "walk.csv:1: does not begin with t_s,id,x_m,y_m"},
                        {kHead + "0,1,2\n", "walk.csv:2: "},

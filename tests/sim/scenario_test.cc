@@ -124,7 +124,13 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
       {good + "max_speed_mps = 9\n", "s.toml:6: robot.max_speed_mps is 9"},
       {good + "goal_tolerance_m = 0\n", "s.toml:6: robot.goal_tolerance_m is 0"},
       {good + "[robot.laser]\nbeams = 5000\n", "s.toml:7: robot.laser.beams is 5000"},
-      {good + "[robot.laser]\nmount = [1e9, 0, 0]\n", "s.toml:7: robot.laser.mount lies beside any robot"},
+      {good + "[robot.laser]\nmount = [1e9, 0, 0]\n", "s.toml:7: robot.laser.mount lies at 1e+09 m"},
+      {good + "[robot.laser]\nmount = [11, 0, 0]\n", "s.toml:7: robot.laser.mount lies beside any robot"},
+      {good + "[robot.laser]\nmount = [0, 0, 90]\n", "s.toml:7: robot.laser.mount has the heading 90 rad"},
+      {kMap + "[robot]\nstart = [5, 5, 180.0]\ngoal = [8, 8]\n", "degrees are 3.14159"},
+      {kMap + "[robot]\nstart = [5, 5, 0]\ngoal = [8, -1e300]\n", "s.toml:5: robot.goal lies at -1e+300 m"},
+      {"name = \"a\\u001B[31m\"\n" + good, "s.toml:1: name holds a control character"},
+      {"timeout = 3\n" + good, "s.toml:1: timeout is not a known key; did you mean timeout_s?"},
       {good + "[robot.laser]\nfov_deg = 400\n", "s.toml:7: robot.laser.fov_deg is 400"},
       {good + "[robot.laser]\ncolour = 1\n", "s.toml:7: robot.laser.colour is not a known key"},
       {good + "[robot.laser]\nrange_min_m = 3\nrange_m = 2\n", "s.toml:7: robot.laser.range_min_m is not below"},
@@ -152,7 +158,7 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
     CHECK(says(message, bad.place));
     CHECK(says(message, "; "));
   }
-  CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml:0: no such file"));
+  CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml: no such file"));
 }
 
 TEST_CASE("lost beams are those of the named sector, or else of the 120 degrees ahead") {

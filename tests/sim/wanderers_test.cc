@@ -229,5 +229,5 @@ TEST_CASE("too many movers for the room are refused") {
   const Scratch scratch;
   const Scenario scenario = crowded_room(scratch, 200);
   const std::string message = refusal([&] { const Simulation sim(scenario, 1); });
-  CHECK(says(message, "room.map:0: no room for mover"));
+  CHECK(says(message, "room.map: no room for mover"));
 }

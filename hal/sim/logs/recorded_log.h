@@ -43,6 +43,7 @@ struct RecordedLog {
   std::vector<OdometryPose> odometry;  ///< empty where the recording has none
   std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
   std::vector<Time> own_stamps;  ///< of the scans, as recorded, where theirs are even instead (LineClock); or empty
+  std::size_t far_ranges = 0;    ///< over 100 m, and another than the last one over 100 m
   std::string remark;            ///< what else a person should know; or empty
 
   /// Counts a line that is left out; the first of its kind is remembered.

@@ -13,6 +13,8 @@ namespace {
 constexpr Duration kLongestGap =
     std::chrono::hours(1);                 // a tick lasts 20 ms: a clock set right would be replayed for ever
 constexpr double kFarthestRange = 1000.0;  // m
+constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
+constexpr std::size_t kLeastFar = 30;      // ranges: fewer are chance
 constexpr double kFarthestPlace = 1e6;     // m
 
 constexpr Duration kLeap = std::chrono::seconds(1);
@@ -35,8 +37,13 @@ bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::si
   nothing_from_m = std::min(nothing_from_m, kFarthestRange);
   scan.range_max_m = std::min(scan.range_max_m, static_cast<float>(kFarthestRange));
   scan.first_range = log.range_m.size();
+  double far = 0.0;  // the last of them
   for (std::size_t i = 0; i < scan.beams; ++i) {
     const double range = file.number(first_word + i);
+    if (std::isfinite(range) && range > kFarForRobots) {
+      if (far > 0.0 && std::fabs(range - far) > 0.5) ++log.far_ranges;
+      far = range;
+    }
     log.range_m.push_back(
         static_cast<float>(range >= nothing_from_m ? std::numeric_limits<double>::infinity() : range));
   }
@@ -45,6 +52,8 @@ bool add_scan(RecordedLog& log, const LineFile& file, RecordedScan scan, std::si
 }
 
 void require_scans(const RecordedLog& log, const LineFile& file, const std::string& expected) {
+  if (log.far_ranges >= kLeastFar && 3 * log.far_ranges > log.range_m.size())
+    throw StartupError(file.name() + ": a third of its ranges are over 100 m", "give metres: millimetres / 1000");
   if (!log.scans.empty()) return;
   const std::string place =
       log.refused.empty() ? file.name() : file.name() + ":" + std::to_string(log.refused.front().first_line);
