@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Success by the strict rule on the project's four maps: the table in README.md.
+"""Success by the strict rule on the project's four maps: the tables in docs/results.md.
 
 A run succeeds when the goal is reached within the time limit, nothing was touched, and no mover turned because of the robot.
 

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Drives through corridors of posts: the BARN figures in docs/tracking.md and README.md.
+"""Drives through corridors of posts: the BARN figures in docs/tracking.md and docs/results.md.
 
 Through every world of a folder (files of cylinders, lines `x y radius` in m). Where nobody is it counts tracks that move.
 
