@@ -47,6 +47,7 @@ std::unique_ptr<motion::MotionPlanner> motion_for(const ControlSetup& setup) {
   if (setup.guides_body() || setup.mode == PlanMode::kPaper) return nullptr;
   return std::make_unique<motion::MotionPlanner>(motion::MotionConfig{.footprint = setup.model.footprint,
                                                                       .limits = setup.model.limits,
+                                                                      .laser = setup.model.laser,
                                                                       .constant_speed = setup.constant_speed,
                                                                       .goal_tolerance_m = setup.goal_tolerance_m,
                                                                       .tick_s = to_seconds(setup.tick())});

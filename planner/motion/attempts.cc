@@ -79,7 +79,7 @@ void Attempts::arc(int n, Trajectory& out) const noexcept {
                   : row < forward  ? kForward[static_cast<std::size_t>(row)] * b.speed
                                    : -kBack[static_cast<std::size_t>(row - forward)] * b.back;
   out.attempt = v < 0.0F ? Attempt::kArcBack : Attempt::kArc;
-  out.commands.fill({v, at(kTurns, n % kTurnCount) * b.turn});
+  out.commands.fill(permitted({v, at(kTurns, n % kTurnCount) * b.turn}));
 }
 
 void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
@@ -92,7 +92,7 @@ void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
   const int steps = back ? kBends[0] : kBends[static_cast<std::size_t>(row % bends)];
   out.attempt = back ? Attempt::kBackThenFollow : Attempt::kArcThenFollow;
   RobotState robot = s_.start;
-  drive_out(robot, 0, steps, {v, at(kTurns, n % kTurnCount) * b.turn}, out);
+  drive_out(robot, 0, steps, permitted({v, at(kTurns, n % kTurnCount) * b.turn}), out);
   follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
 }
 
@@ -105,8 +105,13 @@ void Attempts::drive_out(RobotState& robot, int from, int to, Command command, T
 
 void Attempts::follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept {
   for (; step < kSteps; step += kSteerEvery) {
-    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), pursuit(robot, speed), out);
+    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), permitted(pursuit(robot, speed)), out);
   }
+}
+
+/// No faster to where nothing looks than the supervisor lets it; at constant speed that is not asked.
+Command Attempts::permitted(const Command& command) const noexcept {
+  return constant_ > 0.0F ? command : s_.body.blind.slowed(command);
 }
 
 /// Towards where, half a metre off, the goal is nearest in time.
@@ -157,6 +162,19 @@ void Attempts::perturb(const Trajectory& base, std::uint32_t decision, int round
     const Command& c = base.commands[static_cast<std::size_t>(step)];
     out.commands[static_cast<std::size_t>(step)] = {
         constant_ > 0.0F ? constant_ : std::clamp(c.v + v, -b.back, b.speed), std::clamp(c.w + w, -b.turn, b.turn)};
+  }
+}
+
+void Attempts::smooth(const Trajectory& base, int half, Trajectory& out) const noexcept {
+  const auto turn_at = [&](int step) {
+    return step < 0 ? s_.start.w : base.commands[static_cast<std::size_t>(std::min(step, kSteps - 1))].w;
+  };
+  out = base;
+  out.perturbed = true;
+  for (int step = 0; step < kSteps; ++step) {
+    float sum = 0.0F;
+    for (int near = step - half; near <= step + half; ++near) sum += turn_at(near);
+    out.commands[static_cast<std::size_t>(step)].w = sum / static_cast<float>(2 * half + 1);
   }
 }
 

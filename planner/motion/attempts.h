@@ -15,11 +15,15 @@ class Attempts {
   /// `base` with smooth noise; `round` and `number` name it.
   void perturb(const Trajectory& base, std::uint32_t decision, int round, int number, Trajectory& out) const noexcept;
 
+  /// `base` with its turning averaged over `half` steps to either side, from how the robot turns now.
+  void smooth(const Trajectory& base, int half, Trajectory& out) const noexcept;
+
  private:
   void follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept;
   void drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept;
   void arc(int number, Trajectory& out) const noexcept;
   void arc_then_follow(int number, Trajectory& out) const noexcept;
+  [[nodiscard]] Command permitted(const Command& command) const noexcept;
   [[nodiscard]] Command pursuit(const RobotState& robot, float speed) const noexcept;
 
   const Situation& s_;

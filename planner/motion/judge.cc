@@ -15,6 +15,7 @@ constexpr float kWhoStands =
     0.1F;  ///< of it: who has stood for long and sets out is seen to before the robot drives on
 constexpr float kTouch = 500.0F, kNearlyTouch = 1000.0F;
 constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F, kStopZoneForS = 1.5F;
+constexpr float kBlindRim = 10.0F;                     ///< a m/s that the supervisor would take away, each step
 constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;  ///< a second, at the body's edge
 constexpr float kByWall = 0.6F, kByWallM = 0.28F;
 constexpr float kUnseen = 40.0F;                              ///< a second, with all of the rim
@@ -24,11 +25,13 @@ constexpr float kNearMover = 0.15F;                           ///< a look, each
 constexpr float kNearMoverM = 1.0F;
 constexpr float kTooFast = 1.6F;    ///< a m/s, each look, faster beside who stands than the gap within a second,
 constexpr float kPoliteMps = 0.2F;  ///< or than this: decision 15
-constexpr float kAccel = 2.0F, kTurnAccel = 0.6F;     ///< a squared change of m/s, rad/s in a step
+constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m/s, rad/s in a step
 constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
 constexpr float kBackward = 0.02F;                    ///< each step
+constexpr float kReversal = 1.5F;                     ///< turning to the other side; maps 1 to 4, seeds 9001 to 9005
+constexpr float kImpatience = 0.25F, kMostStoodS = 4.0F;  ///< a second before it sets out, for each that it has stood
 constexpr float kArrivedEarly = 0.5F;
-constexpr float kFacing = 0.5F;  ///< the wrong way at the end
+constexpr float kFacing = 1.0F;  ///< the wrong way at the end
 constexpr float kFacingM = 0.35F;
 
 constexpr float kTouchM = 0.03F;                         ///< of a surface counts as touching: pose and map err
@@ -84,7 +87,8 @@ Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y,
 
 class Judge {
  public:
-  Judge(const Situation& s) : s_(s), along_(cell::heading_at(s.start.heading)) {
+  Judge(const Situation& s) : s_(s), along_(cell::heading_at(s.start.heading)), turned_(s.turned) {
+    waits_ = s.guide.time_to_go(s.start.x, s.start.y) < Guide::kNoWay_s;
     clearance_ = at_start_ = clearance_at(s.start);
   }
 
@@ -94,6 +98,8 @@ class Judge {
     along_ = cell::heading_at(now.heading);
     walls(now, t);
     comfort(before, now);
+    wait(now);
+    cost.stop_zone += kBlindRim * s_.body.blind.too_fast(now.v, now.w);
     unseen(now);
     if ((step & 1) != 0) movers(now, (step + 1) / 2, t);
   }
@@ -140,6 +146,15 @@ class Judge {
     const float dv = now.v - before.v, dw = now.w - before.w, side = now.v * now.w;
     cost.comfort += kAccel * dv * dv + kTurnAccel * dw * dw + kTurning * now.w * now.w + kSideways * side * side;
     if (now.v < -0.01F) cost.comfort += kBackward;
+    const float turns = turned_side(now.w, turned_);
+    if (turns * turned_ < 0.0F) cost.comfort += kReversal;
+    turned_ = turns;
+  }
+
+  /// Waiting for a while may look best again and again: the longer it has stood, the dearer is to stand on.
+  void wait(const RobotState& now) {
+    waits_ = waits_ && hardly_moves(now);
+    if (waits_) cost.time += kStepS * kImpatience * std::min(s_.stood_s, kMostStoodS);
   }
 
   void movers(const RobotState& r, int step, float t) {
@@ -181,6 +196,8 @@ class Judge {
   const Situation& s_;
   cell::Heading along_;
   float clearance_ = 0.0F, at_start_ = 0.0F;
+  float turned_ = 0.0F;    ///< to this side it turned last
+  bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
 };

@@ -1,4 +1,5 @@
 #pragma once
+#include "planner/motion/blind_rim.h"
 #include "planner/motion/body_discs.h"
 #include "planner/motion/futures.h"
 #include "planner/motion/trajectory.h"
@@ -10,6 +11,7 @@ struct RobotBody {
   BodyDiscs to_walls, to_movers;
   std::array<Place, 8> rim{};  ///< corners and the sides' middles, in the robot's frame
   float rim_m = 0.0F;          ///< farthest point from the axle
+  BlindRim blind;              ///< where the supervisor lets it go slowly
   MotionBounds bounds;
 };
 
@@ -20,6 +22,8 @@ struct Situation {
   const Futures& futures;
   RobotState start;
   Place goal;
+  float turned = 0.0F;            ///< the side that it turned to last: turned_side()
+  float stood_s = 0.0F;           ///< for so long it has hardly moved
   float arrives_within_m = 0.0F;  ///< of the goal: there
 };
 

@@ -8,6 +8,7 @@ namespace {
 
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
+constexpr std::array<int, 2> kSmoothedOver{3, 8};               ///< steps to either side
 constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
 constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 constexpr double kStopWithin = 2.0 / 3.0;                       ///< of the tolerance
@@ -15,6 +16,7 @@ constexpr double kJustBelow = 1.0 - 1e-6;                       ///< single prec
 constexpr float kArriveWithin = 0.8F;                           ///< the same, for roll-outs
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;        ///< comfort: a passenger's
 constexpr float kSlowing = 0.8F;
+constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
 constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
 constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
 constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
@@ -32,6 +34,7 @@ RobotBody body_of(const MotionConfig& config) {
     body.to_movers.radius = static_cast<float>(outer);
   }
   body.rim_m = static_cast<float>(outer);
+  body.blind = BlindRim(f, config.laser);
   const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
              side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);
   body.rim = {{{front, side},
@@ -49,7 +52,7 @@ RobotBody body_of(const MotionConfig& config) {
                  .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
                  .accel = static_cast<float>(l.max_accel_mps2),
                  .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
-                 .jerk = static_cast<float>(l.max_jerk_mps3)};
+                 .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
   return body;
 }
 
@@ -81,6 +84,8 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
                             *futures_,
                             now,
                             {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)},
+                            turned_,
+                            stood_s(seen.now),
                             kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
   best_cost_ = {.time = 1e9F};
   float to_beat = 1e9F;
@@ -113,6 +118,10 @@ void MotionPlanner::choose(const Situation& situation) noexcept {
   }
   for (int round = 0; round < kRounds; ++round) {
     const Trajectory base = best_;
+    for (const int half : kSmoothedOver) {
+      attempts.smooth(base, half, trial_);
+      try_out(situation, trial_);
+    }
     for (int n = 0; n < kPerturbed; ++n) {
       attempts.perturb(base, decision_.number, round, n, trial_);
       try_out(situation, trial_);
@@ -137,6 +146,10 @@ Trajectory MotionPlanner::shifted(Time now) const noexcept {
   return out;
 }
 
+float MotionPlanner::stood_s(Time now) const noexcept {
+  return moved_at_ == kNever || now < moved_at_ ? 0.0F : static_cast<float>(to_seconds(now - moved_at_));
+}
+
 Command MotionPlanner::command_at(Time now) const noexcept {
   if (decision_.at == kNever || now - decision_.at > kHoldsFor) return {};
   const auto step = static_cast<int>(to_seconds(now - decision_.at) / static_cast<double>(kStepS));
@@ -153,6 +166,8 @@ Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot
   const RobotState next =
       moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, to, body_.bounds, static_cast<float>(config_.tick_s));
   accel_ = next.accel;
+  turned_ = turned_side(next.w, turned_);
+  if (rests || moved_at_ == kNever || !hardly_moves(next)) moved_at_ = now;
   wished_ = {next.v, next.w};
   if (rests && std::fabs(next.v) < 1e-6F && std::fabs(next.w) < 1e-6F) return wished_ = {}, Twist2{};
   return {static_cast<double>(next.v), static_cast<double>(next.w)};

@@ -11,6 +11,7 @@ namespace jaywalk::motion {
 struct MotionConfig {
   Footprint footprint;
   MotionLimits limits;
+  LaserModel laser;
   bool constant_speed = false;  ///< one speed from start to goal, never stopping
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;
@@ -56,6 +57,7 @@ class MotionPlanner {
   void choose(const Situation& situation) noexcept;
   void try_out(const Situation& situation, const Trajectory& trajectory) noexcept;
   [[nodiscard]] Trajectory shifted(Time now) const noexcept;
+  [[nodiscard]] float stood_s(Time now) const noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
 
@@ -66,8 +68,10 @@ class MotionPlanner {
   Decision decision_;
   Trajectory trial_, best_;
   Cost best_cost_;
-  Command wished_;      ///< last
-  float accel_ = 0.0F;  ///< of the ramp
+  Command wished_;          ///< last
+  float accel_ = 0.0F;      ///< of the ramp
+  Time moved_at_ = kNever;  ///< when it last moved, or had nowhere to go
+  float turned_ = 0.0F;     ///< the side that it turned to last
 };
 
 }  // namespace jaywalk::motion

@@ -25,6 +25,15 @@ struct Command {
   float v = 0.0F, w = 0.0F;
 };
 
+/// The side (1: left, -1: right) that a robot turns to at `w` rad/s; `last` while it turns to neither.
+JAYWALK_CELL float turned_side(float w, float last) {
+  constexpr float kLeast = 0.1F;  // rad/s, as bench/ride_figures.py counts
+  return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
+}
+
+/// Slower than a passenger would call driving.
+JAYWALK_CELL bool hardly_moves(const RobotState& s) { return std::fabs(s.v) < 0.05F && std::fabs(s.w) < 0.1F; }
+
 /// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk (the acceleration never exceeds
 /// what jerk takes back to zero in the speed left), the turn with bounded acceleration. A command that stays is not
 /// overshot; one that comes while the robot speeds up past it is. To go the other way the speed comes to rest first.

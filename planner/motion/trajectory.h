@@ -33,11 +33,11 @@ struct Cost {
   float time = 0.0F;       ///< until its end, and from there to the goal
   float conflict = 0.0F;   ///< chance of touching or forcing somebody for the first time, sooner is worse
   float touch = 0.0F;      ///< of walls
-  float stop_zone = 0.0F;  ///< so near a surface, at its speed, that the supervisor would brake
+  float stop_zone = 0.0F;  ///< what the supervisor would brake: so fast so near a surface, or to where nothing looks
   float clearance = 0.0F;  ///< near surfaces
   float unseen = 0.0F;     ///< parts of the body where nothing was ever seen
   float nearness = 0.0F;   ///< near movers
-  float comfort = 0.0F;    ///< changes of speed and of turning
+  float comfort = 0.0F;    ///< changes of speed and of turning, and of the side it turns to
   [[nodiscard]] float total() const {
     return time + conflict + touch + stop_zone + clearance + unseen + nearness + comfort;
   }

@@ -22,6 +22,7 @@ class Drive {
         goal_(goal),
         planner_({.footprint = p3dx().footprint,
                   .limits = p3dx().limits,
+                  .laser = p3dx().laser,
                   .constant_speed = constant,
                   .goal_tolerance_m = 0.3,
                   .tick_s = kTick}) {
@@ -162,7 +163,7 @@ TEST_CASE("the same drive is the same to the bit") {
 }
 
 TEST_CASE("without a decision for half a second it stops") {
-  MotionPlanner planner({.footprint = p3dx().footprint, .limits = p3dx().limits});
+  MotionPlanner planner({.footprint = p3dx().footprint, .limits = p3dx().limits, .laser = p3dx().laser});
   Twist2 twist{0.5, 0.3};
   for (int k = 0; k < 100; ++k) {
     twist = planner.twist(time_from_seconds(1.0 + 0.02 * k), true, {}, {4.0, 0.0}, twist);

@@ -46,6 +46,12 @@ TEST_CASE("commands that change under way are followed within acceleration and j
   }
 }
 
+TEST_CASE("a turn to neither side keeps the last one") {
+  CHECK(turned_side(0.2F, -1.0F) == 1.0F);
+  CHECK(turned_side(-0.2F, 1.0F) == -1.0F);
+  CHECK(turned_side(0.05F, -1.0F) == -1.0F);
+}
+
 TEST_CASE("a quarter circle of 0.5 m radius ends where it should") {
   RobotState s{0.0F, 0.0F, 0.0F, 0.5F, 1.0F, 0.0F};
   for (int k = 0; k < 157; ++k) s = moved(s, {0.5F, 1.0F}, kBounds, 0.01F);

@@ -63,7 +63,7 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     bench.tick(25);
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
     bench.tick(150);
-    CHECK(bench.speed_mps() > 0.1);  // an LD19 does not reach across the hall
+    CHECK(bench.speed_mps() > 0.05);  // an LD19 does not reach across the hall: held to 0.1 m/s there
     CHECK(bench.robot.desk().obey("stop now").rfind("stop", 0) == 0);
     bench.tick(100);
     bench.robot.far_end().drive(0).pull_cable();
@@ -81,7 +81,8 @@ TEST_CASE("after an emergency stop that cut a drive's power a reset proves the d
     CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
     CHECK(bench.speed_mps() == 0.0);
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    const Vec2 from = bench.last().pose.map_from_robot.position();
     bench.tick(150);
-    CHECK(bench.speed_mps() > 0.1);  // an LD19 does not reach across the hall
+    CHECK(distance(bench.last().pose.map_from_robot.position(), from) > 0.15);  // the LD19's is held to 0.1 m/s there
   }
 }

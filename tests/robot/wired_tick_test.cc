@@ -109,8 +109,8 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
     const auto calls = bench.heap_calls;
     CHECK(calls == 0);
     // An LD19 has no word for "nothing within reach", and the hall is wider than its 12 m: what lies there is not
-    // proven.
-    CHECK(bench.speed_mps() > (std::string(robot) == "vesc_ld19" ? 0.1 : 0.3));
+    // proven, and the supervisor holds the robot to 0.1 m/s there.
+    CHECK(bench.speed_mps() > (std::string(robot) == "vesc_ld19" ? 0.05 : 0.3));
   }
 }
 

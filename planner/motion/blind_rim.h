@@ -1,0 +1,35 @@
+#pragma once
+#include <vector>
+
+#include "hal/types/robot_model.h"
+#include "planner/motion/robot_motion.h"
+
+namespace jaywalk::motion {
+
+/// The parts of the body's outline beside which the laser never looks. The supervisor lets such a part move outward at
+/// 0.3 m/s at most (firmware/safety/watch.cc); a roll-out that counts on more would be braked.
+///
+/// Memory in the constructor. Thread: any.
+class BlindRim {
+ public:
+  BlindRim() = default;
+  /// Beside points every 5 cm. Blanked sectors are left to the supervisor.
+  BlindRim(const Footprint& footprint, const LaserModel& laser);
+
+  /// By how much (m/s) the fastest of them is too fast when the robot drives at `v` m/s and turns at `w` rad/s; 0 when
+  /// none is.
+  [[nodiscard]] float too_fast(float v, float w) const noexcept;
+  /// The same way on, as fast as is permitted: both parts of the command in proportion, as the supervisor does it.
+  [[nodiscard]] Command slowed(const Command& command) const noexcept;
+  [[nodiscard]] std::size_t points() const noexcept { return points_.size(); }
+
+ private:
+  struct Point {
+    float x, y;          ///< in the robot's frame
+    float out_x, out_y;  ///< outward, both components at a corner
+  };
+  std::vector<Point> points_;
+  float reach_m_ = 0.0F;  ///< of the farthest from the axle
+};
+
+}  // namespace jaywalk::motion

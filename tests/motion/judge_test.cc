@@ -1,0 +1,52 @@
+#include "planner/motion/judge.h"
+
+#include <memory>
+
+#include "tests/motion/guided.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::motion;
+
+namespace {
+
+/// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
+Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false) {
+  test::Guided ground;
+  if (walled_in)
+    ground.wall({2.0, -4.0}, {2.0, 6.0})
+        .wall({-2.0, -4.0}, {-2.0, 6.0})
+        .wall({-2.0, -3.0}, {2.0, -3.0})
+        .wall({-2.0, 3.0}, {2.0, 3.0});
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  RobotBody body;
+  body.to_walls = body.to_movers = BodyDiscs::covering(p3dx().footprint, 0.02);
+  body.bounds = {
+      .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 0.75F};
+  const auto nobody = std::make_unique<Futures>();
+  Trajectory held;
+  held.commands.fill(command);
+  return judge({body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, stood_s, 0.24F}, held, 1e9F);
+}
+
+}  // namespace
+
+TEST_CASE("to stand on is the dearer the longer the robot has stood, up to four seconds; to set out is not") {
+  const float at_once = cost_of({}, 0.0F).total();
+  CHECK(cost_of({}, 2.0F).total() == Approx(at_once + 3.0F).margin(0.01));  // 6 s at half a second each
+  CHECK(cost_of({}, 4.0F).total() == Approx(at_once + 6.0F).margin(0.01));
+  CHECK(cost_of({}, 60.0F).total() == cost_of({}, 4.0F).total());
+  CHECK(cost_of({0.6F, 0.0F}, 4.0F).total() < cost_of({0.6F, 0.0F}, 0.0F).total() + 0.5F);
+}
+
+TEST_CASE("where no way is known it may stand for ever") {
+  const float at_once = cost_of({}, 0.0F, 0.0F, true).total();
+  REQUIRE(at_once > 400.0F);
+  CHECK(cost_of({}, 60.0F, 0.0F, true).total() == at_once);
+}
+
+TEST_CASE("turning to the other side than before has its price, once") {
+  const float left_again = cost_of({0.3F, 0.5F}, 0.0F, 1.0F).total();
+  CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F).total() == Approx(left_again + 1.5F).margin(0.01));
+  CHECK(cost_of({0.3F, 0.5F}, 0.0F, 0.0F).total() == Approx(left_again).margin(0.01));
+}

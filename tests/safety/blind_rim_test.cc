@@ -1,0 +1,55 @@
+// What roll-outs count on and what the supervisor permits where nothing watches: one rule in two rooms.
+#include "planner/motion/blind_rim.h"
+
+#include "firmware/safety/watch.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// A scan that measures with every beam.
+LaserScan full_scan(const LaserModel& laser) {
+  LaserScan scan;
+  scan.beam_count = laser.beams;
+  scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
+  scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
+  scan.range_min_m = 0.05F, scan.range_max_m = 25.0F;
+  for (std::size_t k = 0; k < scan.beam_count; ++k) scan.range_m[k] = 3.0F;
+  return scan;
+}
+
+/// As the supervisor has it: by how much the fastest part that moves outward unwatched exceeds 0.3 m/s.
+double taken_away(const RobotModel& robot, const Twist2& twist) {
+  BlindGaps gaps(robot.laser);
+  gaps.update(full_scan(robot.laser));
+  const Watch watch(robot.footprint, robot.laser.robot_from_laser, 0.08);
+  return std::max(watch.unwatched_mps(gaps, twist, SweptPath(twist, 0.0, 0.0)) - 0.3, 0.0);
+}
+
+}  // namespace
+
+TEST_CASE("a roll-out counts on no more speed to where nothing looks than the supervisor permits") {
+  for (const RobotModel& robot : {p3dx(), wheelchair()}) {
+    const motion::BlindRim rim(robot.footprint, robot.laser);
+    int held = 0;
+    for (double v = -0.6; v <= 0.61; v += 0.05) {
+      for (double w = -1.2; w <= 1.21; w += 0.1) {
+        const double taken = taken_away(robot, {v, w});
+        const double counted = static_cast<double>(rim.too_fast(static_cast<float>(v), static_cast<float>(w)));
+        INFO(robot.name << " v " << v << " w " << w << " taken " << taken << " counted " << counted);
+        CHECK(counted >= taken - 0.02);
+        CHECK(counted <= taken + 0.04);
+        held += taken > 0.0 ? 1 : 0;
+      }
+    }
+    CHECK(held > 10);
+  }
+}
+
+TEST_CASE("a laser that looks all round leaves no blind rim") {
+  LaserModel laser = p3dx().laser;
+  laser.fov_rad = 2.0 * kPi;
+  const motion::BlindRim rim(p3dx().footprint, laser);
+  CHECK(rim.too_fast(-0.6F, 1.0F) == 0.0F);
+}
