@@ -8,6 +8,7 @@
 #include "firmware/commands/bench_command.h"
 #include "firmware/commands/choice_option.h"
 #include "firmware/commands/command_words.h"
+#include "firmware/commands/export_command.h"
 #include "firmware/commands/faults_command.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/help_footers.h"
@@ -33,6 +34,7 @@ ReplayOptions replay_options;
 FieldOptions field_options;
 BenchOptions bench_options;
 FaultsOptions faults_options;
+ExportOptions export_options;
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
@@ -140,6 +142,12 @@ void add_faults(CLI::App& app) {
       ->capture_default_str();
 }
 
+void add_export(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("export", "A run's recording as MCAP, for Foxglove and ros2 bag");
+  command->add_option("run", export_options.run, "A run's folder, or its recording.jwr")->required();
+  command->add_option("--out", export_options.out, "File to write (default: run.mcap in the run's folder)");
+}
+
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -162,6 +170,7 @@ int run(int argc, char** argv) {
   add_field(app);
   add_bench(app);
   add_faults(app);
+  add_export(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
   add_footers(app);
@@ -174,6 +183,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
   if (app.got_subcommand("faults")) return run_faults(faults_options);
+  if (app.got_subcommand("export")) return run_export(export_options);
   if (app.got_subcommand("field")) return run_field(field_options);
   if (app.got_subcommand("sim")) return run_sim(sim_options);
   return app.got_subcommand("replay") ? run_replay(replay_options) : exit_code;

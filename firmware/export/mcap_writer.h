@@ -1,0 +1,59 @@
+#pragma once
+// MCAP files (mcap.dev/spec): records of messages in chunks, each with an index, a summary at the end.
+#include <cstdint>
+#include <fstream>
+#include <map>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/types/time.h"
+
+namespace jaywalk::mcap {
+
+/// Writes one file. What was written before a crash is read up to the last whole chunk. Thread: any, one at a time.
+class McapWriter {
+ public:
+  /// Throws StartupError when the file cannot be made.
+  explicit McapWriter(const std::string& file);
+
+  /// A topic of messages of one type in CDR; `schema`: its definition as ROS 2 writes it. Returns its number.
+  std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& schema);
+  /// One message, its stamp not before 0.
+  void write(std::uint16_t channel, Time stamp, std::string_view message);
+  /// Writes the summary. Throws StartupError when the disk did not take all of the file.
+  void close();
+
+  struct Topic {
+    std::string name, type;
+    std::uint64_t messages = 0;
+  };
+  [[nodiscard]] const std::vector<Topic>& topics() const { return topics_; }
+  [[nodiscard]] std::uint64_t messages() const { return messages_; }
+  /// Of the first message and the last, ns.
+  [[nodiscard]] std::uint64_t first_ns() const { return messages_ == 0 ? 0 : first_ns_; }
+  [[nodiscard]] std::uint64_t last_ns() const { return last_ns_; }
+
+ private:
+  struct ChunkIndex {
+    std::uint64_t first_ns, last_ns, offset, length, index_length, size;
+    std::map<std::uint16_t, std::uint64_t> index_offsets;
+  };
+  void put(std::string_view bytes);
+  void put_chunk();
+  [[nodiscard]] std::string index_record(const ChunkIndex& chunk) const;
+  [[nodiscard]] std::string statistics() const;
+
+  std::string file_;
+  std::ofstream out_;
+  std::uint64_t offset_ = 0;
+  std::string definitions_;  ///< records of schemas and channels
+  std::vector<Topic> topics_;
+  std::string chunk_;
+  std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
+  std::map<std::uint16_t, std::string> message_index_;  ///< of the chunk at hand: time and offset of each message
+  std::vector<ChunkIndex> chunks_;
+  std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
+};
+
+}  // namespace jaywalk::mcap
