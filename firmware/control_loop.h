@@ -29,6 +29,8 @@ class ControlLoop {
 
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
+  /// Null for a long body, and in mode paper.
+  [[nodiscard]] const motion::MotionPlanner* motion() const noexcept { return motion_.get(); }
   [[nodiscard]] Mode mode() const noexcept { return supervisor_.mode(); }
   /// At the goal, on the way to the heading wanted there.
   [[nodiscard]] bool turns_at_goal() const noexcept { return turn_ && turn_->active(); }

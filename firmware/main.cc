@@ -18,6 +18,7 @@
 #include "firmware/commands/sim_command.h"
 #include "firmware/commands/standard_streams.h"
 #include "firmware/commands/view_option.h"
+#include "firmware/commands/why_command.h"
 #include "hal/nearest_word.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
@@ -35,6 +36,7 @@ FieldOptions field_options;
 BenchOptions bench_options;
 FaultsOptions faults_options;
 ExportOptions export_options;
+WhyOptions why_options;
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
@@ -148,6 +150,13 @@ void add_export(CLI::App& app) {
   command->add_option("--out", export_options.out, "File to write (default: run.mcap in the run's folder)");
 }
 
+void add_why(CLI::App& app) {
+  CLI::App* why = app.add_subcommand("why", "One moment of a recording: what it saw, wanted, was permitted, and why");
+  why->add_option("run", why_options.run, "A run's folder, or its recording.jwr")->required();
+  why->add_option("t_s", why_options.at_s, "When, in seconds of the recording's clock")->required();
+  why->add_option("--out", why_options.out, "Folder for why.png")->capture_default_str();
+}
+
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -171,6 +180,7 @@ int run(int argc, char** argv) {
   add_bench(app);
   add_faults(app);
   add_export(app);
+  add_why(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
   add_footers(app);
@@ -183,6 +193,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
   if (app.got_subcommand("faults")) return run_faults(faults_options);
+  if (app.got_subcommand("why")) return run_why(why_options);
   if (app.got_subcommand("export")) return run_export(export_options);
   if (app.got_subcommand("field")) return run_field(field_options);
   if (app.got_subcommand("sim")) return run_sim(sim_options);

@@ -5,16 +5,11 @@
 #include <fstream>
 #include <string>
 
-#include "firmware/backends.h"
 #include "firmware/commands/progress.h"
-#include "firmware/control_loop.h"
+#include "firmware/commands/relived_run.h"
 #include "firmware/export/mcap_writer.h"
 #include "firmware/export/ros_messages.h"
 #include "firmware/export/ros_schemas.h"
-#include "firmware/recording/held_planner.h"
-#include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recorder.h"
-#include "firmware/recording/recording_stream.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -110,39 +105,19 @@ void write_metadata(const std::filesystem::path& file, const mcap::McapWriter& m
 }  // namespace
 
 int run_export(const ExportOptions& options) {
-  const std::filesystem::path recording =
-      std::filesystem::is_directory(options.run) ? options.run / "recording.jwr" : options.run;
-  const std::filesystem::path out = options.out.empty() ? recording.parent_path() / "run.mcap" : options.out;
+  RelivedRun run(options.run);
+  const std::filesystem::path out = options.out.empty() ? run.file().parent_path() / "run.mcap" : options.out;
   std::error_code missing;
-  if (std::filesystem::equivalent(recording, out, missing))
-    throw StartupError(recording.string() + ": would be overwritten", "choose another --out");
-  RecordingReader reader(recording.string());
-  ControlSetup setup = setup_from_text(reader.setup(), recording.string());
-  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;
-  TickRecord recorded;
-  if (!reader.next(recorded))
-    throw StartupError(recording.string() + ": no whole tick in it", "take an undamaged copy of the recording");
-  Exporter exporter(out.string(), setup.model);
-  RecordedHal devices(recorded);
-  ChosenPlanner chosen = make_planner(setup.planner(), setup.backend);
-  HeldPlanner planner(std::move(chosen.planner), recorded);
-  Recorder recorder({});
-  ControlLoop loop(setup, devices.hal(), planner, recorder);
+  if (std::filesystem::equivalent(run.file(), out, missing))
+    throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
+  Exporter exporter(out.string(), run.setup().model);
   Progress progress;
-  std::uint64_t different = 0;
-  do {
-    exporter.add(loop.tick(recorded.now), loop);
-    recorder.drain();
-    const WheelCommand& now = devices.commanded();
-    const bool same = now.left_radps == recorded.command.left_radps && now.right_radps == recorded.command.right_radps;
-    different += same ? 0 : 1;
-    if (progress.is_due()) progress.show(reader.share_read(), std::to_string(exporter.file().messages()) + " messages");
-  } while (reader.next(recorded));
+  while (run.step()) {
+    exporter.add(run.last(), run.loop());
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(exporter.file().messages()) + " messages");
+  }
   progress.make_way();
-  if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
-  if (different > 0)
-    std::fprintf(stderr, "jaywalk: %s: this program commands otherwise in %llu ticks; what is exported is its own\n",
-                 recording.c_str(), static_cast<unsigned long long>(different));
+  std::fputs(run.remarks().c_str(), stderr);
   exporter.file().close();
   write_metadata(out, exporter.file());
   std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),
