@@ -4,16 +4,18 @@
 The rule, blind to any tracker:
 1. Background: a beam's nearest range (in steps of 0.1 m) to which a sixth of its scans return. Whoever stands still
    for less than that is no background.
-2. Foreground: a hit more than 0.25 m before its beam's background, nearer than 5 m, in a piece of at least 3 beams.
+2. Foreground: a hit more than 0.25 m before its beam's background, nearer than --farthest, in a piece of at least 3
+   beams.
 3. A person: pieces whose centres lie within 0.55 m of one another (legs in stride). The label is the mean of the
    pieces' centres, each moved 5 cm back along its beams: a leg's axis lies behind the arc that is seen.
 4. A name holds from scan to scan while exactly one person continues exactly one (within 0.35 m of where its last six
-   places lead, after at most 3 scans unseen); where two come together names end.
+   places lead, after at most 0.3 s unseen); where two come together names end.
 5. Walking: at least 0.35 m between 0.5 s before and 0.5 s after, under one name, alone.
-Every fifth scan is written with all its people; those who stand, whose name has just begun or is about to end, or who
+Every --every-th scan is written with all its people; those who stand, whose name has just begun or is about to end, or who
 are wider than one person (0.85 m) are written with walks = 0: to find them is neither right nor wrong.
 
 label_walkers.py SCAN.txt.gz > LABELS.csv
+bench/tracking/labels: standing_robot_people_walk.csv as above, standing_robot_people_walk_2.csv with --farthest 8 --every 2.
 """
 import argparse
 import gzip
@@ -24,9 +26,9 @@ import sys
 sys.path.append(str(pathlib.Path(__file__).resolve().parent.parent))
 from command_line import at_line, reading, refuse
 
-STEP_M, SHARE, BEFORE_M, FARTHEST_M, FEWEST = 0.1, 1 / 6, 0.25, 5.0, 3
+STEP_M, SHARE, BEFORE_M, FEWEST = 0.1, 1 / 6, 0.25, 3
 LEG_JUMP_M, STRIDE_M, LEG_RADIUS_M, WIDEST_M = 0.12, 0.55, 0.05, 0.85
-FOLLOW_M, UNSEEN_SCANS, HALF_S_SCANS, WALKED_M, EVERY = 0.35, 3, 5, 0.35, 5
+FOLLOW_M, UNSEEN_S, HALF_S, WALKED_M = 0.35, 0.3, 0.5, 0.35
 
 
 def scan_of(words):
@@ -59,12 +61,12 @@ def background(scans):
     return [min((k * STEP_M for k in c if c[k] + c.get(k + 1, 0) >= need), default=math.inf) for c in counts]
 
 
-def pieces(scan, behind):
+def pieces(scan, behind, farthest_m):
     """Runs of neighbouring foreground beams: (x, y) of each."""
     _, first, step, ranges = scan
     runs, last = [], None
     for b, r in enumerate(ranges):
-        if not r < min(behind[b] - BEFORE_M, FARTHEST_M):
+        if not r < min(behind[b] - BEFORE_M, farthest_m):
             continue
         p = (r * math.cos(first + b * step), r * math.sin(first + b * step))
         if last is None or b - last[0] > 2 or math.dist(p, last[1]) > LEG_JUMP_M:
@@ -80,10 +82,10 @@ def centre(run):
     return x * back, y * back
 
 
-def people(scan, behind):
+def people(scan, behind, farthest_m):
     """Places and widths of those in one scan."""
     groups = []
-    for run in pieces(scan, behind):
+    for run in pieces(scan, behind, farthest_m):
         near = [g for g in groups if any(math.dist(centre(run), centre(r)) < STRIDE_M for r in g)]
         groups = [g for g in groups if g not in near] + [[run] + [r for g in near for r in g]]
     found = []
@@ -95,7 +97,7 @@ def people(scan, behind):
     return found
 
 
-def name_them(frames):
+def name_them(frames, unseen_scans):
     """A list a scan of (name, place, width): rule 4."""
     open_names, named, newest = {}, [], 0
     for k, found in enumerate(frames):
@@ -117,28 +119,36 @@ def name_them(frames):
                     open_names.pop(n, None)
             open_names.setdefault(name, []).append((k, p))
             row.append((name, p, width))
-        open_names = {n: t[-6:] for n, t in open_names.items() if k - t[-1][0] <= UNSEEN_SCANS}
+        open_names = {n: t[-6:] for n, t in open_names.items() if k - t[-1][0] <= unseen_scans}
         named.append(row)
     return named
 
 
-def walks(named, k, name, width):
-    ago, ahead = max(0, k - HALF_S_SCANS), min(len(named) - 1, k + HALF_S_SCANS)
+def walks(named, k, name, width, half_s_scans):
+    ago, ahead = max(0, k - half_s_scans), min(len(named) - 1, k + half_s_scans)
     ends = [[p for n, p, w in named[j] if n == name and w < WIDEST_M] for j in (ago, ahead)]
     return width < WIDEST_M and all(ends) and math.dist(ends[0][0], ends[1][0]) > WALKED_M
 
 
-def main(path):
+def main(path, farthest_m, every):
     scans = read_scans(path)
     behind = background(scans)
-    named = name_them([people(scan, behind) for scan in scans])
+    period_s = (scans[-1][0] - scans[0][0]) / max(1, len(scans) - 1)
+    if not period_s > 0.01:
+        refuse(f"{path}: no scans one after the other", "give a recording of a laser")
+    named = name_them([people(scan, behind, farthest_m) for scan in scans], round(UNSEEN_S / period_s))
     print("t_bag,id,x,y,walks")
-    for k in range(0, len(scans), EVERY):
+    for k in range(0, len(scans), every):
         for name, (x, y), width in named[k]:
-            print(f"{scans[k][0]:.6f},{name},{x:.3f},{y:.3f},{int(walks(named, k, name, width))}")
+            walking = walks(named, k, name, width, round(HALF_S / period_s))
+            print(f"{scans[k][0]:.6f},{name},{x:.3f},{y:.3f},{int(walking)}")
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("scans", help="SCAN.txt or SCAN.txt.gz")
-    main(parser.parse_args().scans)
+    parser.add_argument("--farthest", type=float, default=5.0, help="m: what is farther is not labelled (default: 5)")
+    parser.add_argument("--every", type=int, choices=range(1, 101), default=5, metavar="1-100",
+                        help="scans: one in so many is written (default: 5)")
+    options = parser.parse_args()
+    main(options.scans, options.farthest, options.every)
