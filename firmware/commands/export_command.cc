@@ -7,9 +7,9 @@
 
 #include "firmware/commands/progress.h"
 #include "firmware/commands/relived_run.h"
-#include "firmware/export/mcap_writer.h"
-#include "firmware/export/ros_messages.h"
-#include "firmware/export/ros_schemas.h"
+#include "firmware/exchange/mcap_writer.h"
+#include "firmware/exchange/ros_messages.h"
+#include "firmware/exchange/ros_schemas.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -24,35 +24,35 @@ class Exporter {
   Exporter(const std::string& file, const RobotModel& model) : file_(file), model_(model) {}
 
   void add(const TickRecord& t, const ControlLoop& loop) {
-    file_.write(tf_, t.now, mcap::transforms(t, model_.laser.robot_from_laser));
-    file_.write(odom_, t.now, mcap::odometry(t, model_.drive));
-    file_.write(cmd_vel_, t.now, mcap::command(t));
+    file_.write(tf_, t.now, exchange::transforms(t, model_.laser.robot_from_laser));
+    file_.write(odom_, t.now, exchange::odometry(t, model_.drive));
+    file_.write(cmd_vel_, t.now, exchange::command(t));
     if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, loop);
     if (loop.plan().sequence != plan_seen_ && loop.plan().status == PlanStatus::kOk) {
-      file_.write(plan_, t.now, mcap::path(loop.plan()));
+      file_.write(plan_, t.now, exchange::path(loop.plan()));
       plan_seen_ = loop.plan().sequence;
     }
     if (t.input.has_goal && (!has_goal_ || !same_goal(t.input))) {
-      file_.write(goal_, t.now, mcap::goal_pose(t));
+      file_.write(goal_, t.now, exchange::goal_pose(t));
       goal_seen_ = t.input;
     }
     has_goal_ = t.input.has_goal;
     if (reasons_ != t.verdict.reasons || age(told_, t.now) >= kDiagnosticsEvery) {
-      file_.write(diagnostics_, t.now, mcap::diagnostics(t));
+      file_.write(diagnostics_, t.now, exchange::diagnostics(t));
       reasons_ = t.verdict.reasons;
       told_ = t.now;
     }
   }
-  mcap::McapWriter& file() { return file_; }
+  exchange::McapWriter& file() { return file_; }
 
  private:
   void add_scan(const TickRecord& t, const ControlLoop& loop) {
     scan_seen_ = t.scan.sequence;
-    file_.write(scan_, t.now, mcap::laser_scan(t.scan));
-    file_.write(points_, t.now, mcap::points(t.scan));
-    file_.write(tracks_, t.now, mcap::tracks(loop.tracker().tracks(), t.now));
+    file_.write(scan_, t.now, exchange::laser_scan(t.scan));
+    file_.write(points_, t.now, exchange::points(t.scan));
+    file_.write(tracks_, t.now, exchange::tracks(loop.tracker().tracks(), t.now));
     if (mapped_ != kNever && age(mapped_, t.now) < kMapEvery) return;
-    file_.write(map_, t.now, mcap::occupancy(loop.tracker().still(), t.now));
+    file_.write(map_, t.now, exchange::occupancy(loop.tracker().still(), t.now));
     mapped_ = t.now;
   }
   [[nodiscard]] bool same_goal(const OperatorInput& input) const {
@@ -61,10 +61,10 @@ class Exporter {
     return input.goal_in_map == goal_seen_.goal_in_map && same_heading;
   }
   std::uint16_t channel(const char* topic, const char* type) {
-    return file_.add_channel(topic, type, mcap::ros_schema(type));
+    return file_.add_channel(topic, type, exchange::ros_schema(type));
   }
 
-  mcap::McapWriter file_;
+  exchange::McapWriter file_;
   RobotModel model_;
   std::uint16_t scan_ = channel("/scan", "sensor_msgs/msg/LaserScan"),
                 points_ = channel("/points", "sensor_msgs/msg/PointCloud2"),
@@ -82,7 +82,7 @@ class Exporter {
 };
 
 /// What `ros2 bag` wants beside the file (rosbag2's version 5 of it).
-void write_metadata(const std::filesystem::path& file, const mcap::McapWriter& mcap) {
+void write_metadata(const std::filesystem::path& file, const exchange::McapWriter& mcap) {
   std::string topics;
   for (const auto& topic : mcap.topics()) {
     topics += "    - topic_metadata:\n        name: " + topic.name + "\n        type: " + topic.type +

@@ -1,13 +1,13 @@
-#include "firmware/export/ros_messages.h"
+#include "firmware/exchange/ros_messages.h"
 
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <limits>
 
-#include "firmware/export/cdr_writer.h"
+#include "firmware/exchange/cdr_writer.h"
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 namespace {
 
 constexpr std::int64_t kBillion = 1'000'000'000;
@@ -196,4 +196,4 @@ std::string occupancy(const EvidenceMap& map, Time time) {
   return out.message();
 }
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange

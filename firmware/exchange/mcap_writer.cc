@@ -1,4 +1,4 @@
-#include "firmware/export/mcap_writer.h"
+#include "firmware/exchange/mcap_writer.h"
 
 #include <zlib.h>
 
@@ -7,7 +7,7 @@
 
 #include "hal/types/errors.h"
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 namespace {
 
 constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
@@ -134,4 +134,4 @@ void McapWriter::close() {
   if (!out_.flush()) throw StartupError(file_ + ": the disk did not take all of it", "free some space and run again");
 }
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange

@@ -9,7 +9,7 @@
 
 #include "hal/types/time.h"
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 
 /// Writes one file. What was written before a crash is read up to the last whole chunk. Thread: any, one at a time.
 class McapWriter {
@@ -56,4 +56,4 @@ class McapWriter {
   std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
 };
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange

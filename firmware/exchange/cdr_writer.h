@@ -5,7 +5,7 @@
 #include <string>
 #include <string_view>
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 
 /// Numbers stand at multiples of their size, counted from behind the encapsulation's four bytes.
 class CdrWriter {
@@ -41,4 +41,4 @@ class CdrWriter {
   std::string bytes_{"\0\1\0\0", kHead};
 };
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange

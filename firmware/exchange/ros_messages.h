@@ -9,7 +9,7 @@
 #include "planner/perception/track.h"
 #include "planner/planner.h"
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 
 /// sensor_msgs/LaserScan. A beam that measured and found nothing is +inf, one that knows nothing NaN (REP 117).
 [[nodiscard]] std::string laser_scan(const LaserScan& scan);
@@ -32,4 +32,4 @@ namespace jaywalk::mcap {
 /// nav_msgs/OccupancyGrid of what is known: 100 occupied, 0 seen free, -1 unknown.
 [[nodiscard]] std::string occupancy(const EvidenceMap& map, Time stamp);
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange

@@ -1,11 +1,11 @@
-#include "firmware/export/ros_schemas.h"
+#include "firmware/exchange/ros_schemas.h"
 
 #include <map>
 #include <set>
 #include <sstream>
 #include <vector>
 
-namespace jaywalk::mcap {
+namespace jaywalk::exchange {
 namespace {
 
 const std::map<std::string, std::string>& fields() {
@@ -91,4 +91,4 @@ std::string ros_schema(const std::string& type) {
   return text;
 }
 
-}  // namespace jaywalk::mcap
+}  // namespace jaywalk::exchange
