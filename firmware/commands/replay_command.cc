@@ -100,11 +100,11 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::string name = options.logs[0].filename().string();
   const bool whole = log.ended();
   runner.finish({.outcome = whole ? "replayed" : "interrupted", .success = whole, .scenario = name});
-  picture.save(options.out, name, runner, {});
+  const std::filesystem::path drawn = picture.save(options.out, name, runner, {});
   runner.require_recorded();
   const std::size_t scans = log.log().scans.size();
   std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
-              to_seconds(log.end_time() - log.start_time()), (options.out / "run.png").c_str());
+              to_seconds(log.end_time() - log.start_time()), drawn.c_str());
   return whole ? 0 : 1;
 }
 
@@ -173,11 +173,11 @@ int replay_recording(const ReplayOptions& options) {
   progress.make_way();
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
-  picture.save(options.out, "replay of " + file, runner, {});
+  const std::filesystem::path drawn = picture.save(options.out, "replay of " + file, runner, {});
   runner.require_recorded();
   std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
               static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
-              static_cast<unsigned long long>(lost), (options.out / "run.png").c_str());
+              static_cast<unsigned long long>(lost), drawn.c_str());
   return different == 0 ? 0 : 1;
 }
 

@@ -11,6 +11,7 @@
 
 #include "drivers/can/restart_link.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/robot/armed_mark.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
 #include "firmware/robot/no_pose_source.h"
@@ -19,6 +20,7 @@
 #include "firmware/robot/preflight.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
+#include "firmware/robot/service_manager.h"
 #include "firmware/robot/steady_clock.h"
 #include "firmware/setup/commissioned.h"
 #include "hal/shown_text.h"
@@ -88,6 +90,12 @@ class LoopReport {
   RunStatus last_;
 };
 
+/// The last run was killed or crashed on the way: this one waits for a person (SAFETY 6: no automatic restart).
+void latch_at_start(OperatorDesk& desk) {
+  static_cast<void>(desk.obey("stop now"));
+  remark("the last run ended without disarming the drives: latched; see to it, then jaywalk reset");
+}
+
 std::string outcome(const RunStatus& last) {
   if (last.latched) return "fault";
   return last.goal_reached ? "reached" : "stopped";
@@ -113,12 +121,15 @@ void print_json(const std::vector<CheckedPart>& parts) {
 
 }  // namespace
 
-int run_robot(const RunOptions& options) {
+int run_robot(RunOptions options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
   if (options.allow_no_realtime) file.realtime.required = false;
   const std::string not_commissioned = require_commissioned(options.robot, file);
   if (!not_commissioned.empty()) remark(not_commissioned);
+  if (!options.runs.empty()) options.out = new_run_folder(options.runs, options.kept, std::chrono::system_clock::now());
+  ServiceManager service = ServiceManager::from_environment();
+  ArmedMark armed(socket_for(options, file));
   SteadyClock clock;
   RobotDevices devices(file, clock);
   OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
@@ -141,19 +152,25 @@ int run_robot(const RunOptions& options) {
   require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
   controls.start(order_priority(file.realtime));
   devices.start();
+  armed.set();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
 
   const EndSignals signals;
+  if (armed.was_left()) latch_at_start(desk);
   guard.start(guard_priority(file.realtime));
   loop.start();
   for (const std::string& line : not_permitted) remark(line);
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
+  service.ready();
 
   LoopReport report(runner, loop);
   while (!loop.has_ended()) {
     report.follow();
-    if (signals.came()) loop.end();
+    service.alive(report.last().ticks, clock.now());
+    if (!signals.came()) continue;
+    service.stopping();
+    loop.end();
   }
   report.follow();
   const RunStatus& last = report.last();
@@ -166,9 +183,10 @@ int run_robot(const RunOptions& options) {
   write_devices(options.out, last, not_permitted);
   RunPicture picture;
   picture.consider(runner);
-  picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
+  const std::filesystem::path drawn =
+      picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
   runner.require_recorded();
-  remark("disarmed; " + outcome(last) + "; see " + (options.out / "run.png").string());
+  remark("disarmed; " + outcome(last) + "; see " + drawn.string());
   return last.latched ? 1 : 0;
 }
 

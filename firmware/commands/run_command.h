@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 
+#include "firmware/commands/run_folders.h"
 #include "firmware/control_setup.h"
 
 namespace jaywalk {
@@ -9,6 +10,8 @@ struct RunOptions {
   std::filesystem::path robot;  ///< ROBOT.toml
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/run";
+  std::filesystem::path runs;  ///< where each run gets a folder of its own, in place of `out`; empty: `out` it is
+  RunsKept kept;               ///< below `runs`
   std::filesystem::path control_socket;  ///< empty: the file's, else the default
   bool json = false;                     ///< of a check: for programs
   bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
@@ -17,7 +20,7 @@ struct RunOptions {
 /// The controller on the robot, until SIGINT or SIGTERM: then it ramps to rest, disarms and writes its summary.
 /// Returns the process's exit code: 0 when it ended without a fault that waits for a reset, else 1.
 /// Throws StartupError for what keeps it from starting, an arming proof that failed among it.
-[[nodiscard]] int run_robot(const RunOptions& options);
+[[nodiscard]] int run_robot(RunOptions options);
 
 /// Prints a line for each part that a run would need, with a remedy where it is not well. Nothing moves.
 /// Returns the process's exit code: 0 where all is well, else 1.

@@ -26,8 +26,8 @@ void RunPicture::consider(const LoopRunner& runner) {
   busiest_.consider(plan, runner.planner(), {tracks.begin(), tracks.end()}, runner.last().pose.map_from_robot);
 }
 
-void RunPicture::save(const std::filesystem::path& folder, const std::string& title, const LoopRunner& runner,
-                      std::span<const WallLine> walls) const {
+std::filesystem::path RunPicture::save(const std::filesystem::path& folder, const std::string& title,
+                                       const LoopRunner& runner, std::span<const WallLine> walls) const {
   const ControlSetup& setup = runner.setup();
   const EvidenceMap& map = runner.loop().tracker().still();
   PictureScene scene;
@@ -50,8 +50,10 @@ void RunPicture::save(const std::filesystem::path& folder, const std::string& ti
   if (wanted.wants_heading()) scene.goal_heading_rad = wanted.goal_heading_rad;
   scene.footprint = setup.model.footprint;
   scene.extent = extent_of(scene);
-  draw_picture(scene, (folder / "run.png").string());
   draw_svg(scene, (folder / "run.svg").string());
+  if (!can_draw_pictures()) return folder / "run.svg";
+  draw_picture(scene, (folder / "run.png").string());
+  return folder / "run.png";
 }
 
 }  // namespace jaywalk

@@ -13,10 +13,10 @@ class RunPicture {
  public:
   /// Looks at the step just lived through; keeps the plan of the busiest moment.
   void consider(const LoopRunner& runner);
-  /// Writes run.png and run.svg into `folder`. `walls` are the real ones; without them the picture shows what the robot
-  /// saw.
-  void save(const std::filesystem::path& folder, const std::string& title, const LoopRunner& runner,
-            std::span<const WallLine> walls) const;
+  /// Writes run.png and run.svg into `folder`; run.svg alone where pictures cannot be drawn. `walls` are the real ones;
+  /// without them the picture shows what the robot saw. Returns the one to look at.
+  std::filesystem::path save(const std::filesystem::path& folder, const std::string& title, const LoopRunner& runner,
+                             std::span<const WallLine> walls) const;
 
  private:
   BusiestMoment busiest_;

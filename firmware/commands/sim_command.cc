@@ -171,11 +171,11 @@ int run_sim(const SimOptions& options) {
                  .seed = seed,
                  .scenario = scenario.name,
                  .mover_rule = sim::Simulation::mover_rule()});
-  picture.save(options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner,
-               walls_of(simulation));
+  const std::filesystem::path drawn = picture.save(
+      options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
   runner.require_recorded();
   std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
-              lasted_s, lasted_s / took_s, (options.out / "run.png").c_str());
+              lasted_s, lasted_s / took_s, drawn.c_str());
   return ended == "reached" ? 0 : 1;
 }
 

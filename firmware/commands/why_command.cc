@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -81,11 +82,14 @@ PictureScene scene_of(const RelivedRun& run, const Past& past) {
   return scene;
 }
 
-void save(const PictureScene& scene, const std::filesystem::path& folder) {
+/// Returns the picture, or nothing where none can be drawn.
+std::optional<std::filesystem::path> save(const PictureScene& scene, const std::filesystem::path& folder) {
   std::error_code failed;
   std::filesystem::create_directories(folder, failed);
   if (failed) throw StartupError(folder.string() + ": cannot be made: " + failed.message(), "choose another --out");
+  if (!can_draw_pictures()) return std::nullopt;
   draw_picture(scene, (folder / "why.png").string());
+  return folder / "why.png";
 }
 
 }  // namespace
@@ -94,10 +98,10 @@ int run_why(const WhyOptions& options) {
   RelivedRun run(options.run);
   if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
   const Past past = relive(run, options.at_s);
-  save(scene_of(run, past), options.out);
+  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
   std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);
-  std::printf("See %s\n", (options.out / "why.png").c_str());
+  if (drawn) std::printf("See %s\n", drawn->c_str());
   return 0;
 }
 

@@ -3,6 +3,7 @@
 #include <cmath>
 #include <limits>
 
+#include "firmware/report/picture/cairo_library.h"
 #include "firmware/report/picture/canvas.h"
 #include "firmware/report/picture/field_layer.h"
 #include "firmware/report/picture/map_frame.h"
@@ -60,6 +61,12 @@ TEST_CASE("an empty scene, a scene of one point and a tower draw all the same") 
   scene.goal = Vec2{1, 40};
   scene.extent = extent_of(scene);
   CHECK(size_of(png(scratch, scene)).first >= 1600);
+}
+
+TEST_CASE("cairo that is not installed, or lacks a function, is none") {
+  CHECK(load_cairo("libno-such-cairo.so.2") == nullptr);
+  CHECK(load_cairo("libz.so.1") == nullptr);
+  CHECK(can_draw_pictures());
 }
 
 TEST_CASE("a picture that cannot be written is refused") {

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "firmware/report/picture/cairo_library.h"
 #include "firmware/report/picture/canvas.h"
 #include "firmware/report/picture/field_layer.h"
 #include "firmware/report/picture/map_frame.h"
@@ -63,6 +64,8 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
 }
 
 }  // namespace
+
+bool can_draw_pictures() { return cairo_library() != nullptr; }
 
 void draw_picture(const PictureScene& scene, const std::string& file) {
   const MapFrame to_sheet(filled_out(scene.extent), kMapCorner, kMapMost);

@@ -1,0 +1,52 @@
+#include "firmware/commands/run_folders.h"
+
+#include <fstream>
+
+#include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk {
+namespace {
+
+using std::filesystem::exists;
+
+/// 2026-11-24T20:15:00Z, and so many seconds.
+std::chrono::system_clock::time_point at(int seconds) {
+  return std::chrono::system_clock::from_time_t(1795551300 + seconds);
+}
+
+std::filesystem::path run_of(const Scratch& all, int at_s, std::size_t bytes, const RunsKept& kept = {}) {
+  const std::filesystem::path folder = new_run_folder(all.path("runs"), kept, at(at_s));
+  std::ofstream(folder / "recording.jwr") << std::string(bytes, 'x');
+  return folder;
+}
+
+TEST_CASE("a run's folder is named after its start; a second one of that second gets a number") {
+  const Scratch all;
+  CHECK(run_of(all, 0, 1).filename() == "2026-11-24T20-15-00Z");
+  CHECK(run_of(all, 0, 1).filename() == "2026-11-24T20-15-00Z-2");
+  CHECK(run_of(all, 1, 1).filename() == "2026-11-24T20-15-01Z");
+}
+
+TEST_CASE("the oldest runs give way, by number and by size; what is not a run stays") {
+  const Scratch all;
+  std::filesystem::create_directories(all.path("runs/notes"));
+  const auto first = run_of(all, 0, 100), second = run_of(all, 1, 100), third = run_of(all, 2, 100);
+  const auto fourth = run_of(all, 3, 100, {.runs = 3});
+  CHECK_FALSE(exists(first));
+  CHECK((exists(second) && exists(third) && exists(fourth)));
+  const auto fifth = run_of(all, 4, 100, {.runs = 100, .bytes = 250});  // 300 are there: the oldest goes
+  CHECK_FALSE(exists(second));
+  CHECK((exists(third) && exists(fourth) && exists(fifth)));
+  const auto sixth = run_of(all, 5, 100, {.runs = 1});
+  CHECK_FALSE(exists(fifth));
+  CHECK((exists(sixth) && exists(all.path("runs/notes"))));
+}
+
+TEST_CASE("a place where no folder can be made is refused") {
+  CHECK_THROWS_AS(new_run_folder("/proc/nothing/here", {}, at(0)), StartupError);
+}
+
+}  // namespace
+}  // namespace jaywalk
