@@ -42,6 +42,8 @@ void print(const char* who, const TrackScore& score, double minutes) {
   row("MOTA", 100.0 * score.mota(), "%");
   row("MOTP, mean distance", score.motp_m(), "m");
   row("velocity RMSE of tracks older than 1 s", score.velocity_rmse_mps(), "m/s");
+  row("steady targets' velocity off by over 0.3 m/s", 100.0 * score.steady_wrong(), "%");
+  row("steady targets within the claimed 95 %", 100.0 * score.covered(), "%");
   row("found within 0.6 s of moving in view", 100.0 * score.found_soon(), "%");
   row("the same, times hidden or standing counted", 100.0 * score.found_soon_by_clock(), "%");
   row("false moving tracks a minute", static_cast<double>(score.false_movers()) / minutes, "");

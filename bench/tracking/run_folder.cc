@@ -19,8 +19,9 @@ RunFolder::RunFolder(const std::filesystem::path& folder) {
   const auto id = tracks.names("id");
   const auto t = tracks.column("t_s"), x = tracks.column("x_m"), y = tracks.column("y_m"), vx = tracks.column("vx_mps"),
              vy = tracks.column("vy_mps"), moving = tracks.column("moving");
+  const auto std_m = tracks.has("std_m") ? tracks.column("std_m") : std::vector<double>(tracks.rows(), std::nan(""));
   for (std::size_t k = 0; k < tracks.rows(); ++k) {
-    tracks_[t[k]].push_back({id[k], {x[k], y[k]}, {vx[k], vy[k]}, moving[k] != 0.0});
+    tracks_[t[k]].push_back({id[k], {x[k], y[k]}, {vx[k], vy[k]}, moving[k] != 0.0, std_m[k]});
   }
   const NumberTable robot(folder / "robot.csv");
   const auto rt = robot.column("t_s"), ex = robot.column("est_x_m"), ey = robot.column("est_y_m"),

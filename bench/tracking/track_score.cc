@@ -10,6 +10,8 @@ namespace {
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAwayS = 1.0;  // whoever is out of view this long comes into view again
 constexpr double kRoundOffS = 1e-6;
+constexpr double kKeepsMps = 0.02;   // recorded velocities are rounded, and movers turn gently
+constexpr double kWithin95 = 5.991;  // chi-squared, two degrees of freedom: -2 ln 0.05
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? kNone : static_cast<double>(part) / static_cast<double>(whole);
@@ -56,6 +58,22 @@ void TrackScore::count(double t_s, const Target& target, const Hypothesis& track
   if (std::isnan(off) || t_s - born_s_[track.id] < rules_.settled_after_s) return;
   compared_ += 1;
   velocity_error2_sum_ += off * off;
+  compare_steady(t_s, target, track, distance_m);
+}
+
+void TrackScore::note_steady(double t_s, const Target& target) {
+  const auto known = steady_.find(target.id);
+  if (known != steady_.end() && distance(known->second.velocity_in_map, target.velocity_in_map) <= kKeepsMps) return;
+  steady_[target.id] = {t_s, target.velocity_in_map};  // NaN too: never steady
+}
+
+void TrackScore::compare_steady(double t_s, const Target& target, const Hypothesis& track, double distance_m) {
+  if (target.stands() || t_s - steady_[target.id].since_s < rules_.settled_after_s) return;
+  steady_compared_ += 1;
+  steady_wrong_ += distance(track.velocity_in_map, target.velocity_in_map) > rules_.steady_mps ? 1U : 0U;
+  if (std::isnan(track.std_m)) return;
+  claimed_ += 1;
+  covered_ += distance_m * distance_m <= kWithin95 * track.std_m * track.std_m ? 1U : 0U;
 }
 
 void TrackScore::InTime::note(bool found, bool over, bool& open) {
@@ -86,6 +104,7 @@ void TrackScore::add(double t_s, std::span<const Target> targets, std::span<cons
     born_s_.try_emplace(track.id, t_s);
     if (track.moving) moved_.insert(track.id);
   }
+  for (const Target& target : targets) note_steady(t_s, target);
   pair_up(targets, tracks);
   std::vector<bool> found(targets.size()), used(tracks.size());
   for (const Pair& p : pairs_) {
@@ -108,6 +127,8 @@ double TrackScore::velocity_rmse_mps() const {
   return compared_ == 0 ? kNone : std::sqrt(velocity_error2_sum_ / static_cast<double>(compared_));
 }
 
+double TrackScore::steady_wrong() const { return share(steady_wrong_, steady_compared_); }
+double TrackScore::covered() const { return share(covered_, claimed_); }
 std::size_t TrackScore::false_movers() const {
   return static_cast<std::size_t>(
       std::count_if(moved_.begin(), moved_.end(), [&](std::uint32_t id) { return right_.count(id) == 0; }));

@@ -3,6 +3,7 @@
 // them, what matters for driving: velocities, false movers, how soon a mover is known for one.
 #include <cstddef>
 #include <cstdint>
+#include <limits>
 #include <map>
 #include <set>
 #include <span>
@@ -29,14 +30,16 @@ struct Hypothesis {
   Vec2 position_in_map;
   Vec2 velocity_in_map;
   bool moving = true;  ///< false: it may find a target, and is no error where it finds none
+  double std_m = std::numeric_limits<double>::quiet_NaN();  ///< of the position, an axis; NaN: not told
 };
 
 struct ScoreRules {
   double match_m = 0.5;          ///< a hypothesis this near a target may be its
   double settled_after_s = 1.0;  ///< velocities are compared once a track is this old
   double kept_s = 1.0;           ///< a name is to be kept through so long unfound
-  double soon_s = 0.6;           ///< a target is found soon when it has moved in view for no longer until then
-  bool as_it_is = false;         ///< a track that stands may find only a target that stands
+  double steady_mps = 0.3;  ///< a velocity farther off is wrong, of a target that has kept its own for settled_after_s
+  double soon_s = 0.6;      ///< a target is found soon when it has moved in view for no longer until then
+  bool as_it_is = false;    ///< a track that stands may find only a target that stands
 };
 
 /// Adds up frame by frame. Pairs of the frame before stay pairs while they are near enough; the rest pair up nearest
@@ -61,6 +64,10 @@ class TrackScore {
   [[nodiscard]] double motp_m() const;
   /// Root of the mean squared length of the velocity's error, m/s; NaN where nothing could be compared.
   [[nodiscard]] double velocity_rmse_mps() const;
+  /// Of targets that kept their velocity, how many of the compared ones were wrong (ScoreRules::steady_mps); NaN: none.
+  [[nodiscard]] double steady_wrong() const;
+  /// Share of their positions within the 95 % bound of what the tracks claim; NaN where none claims anything.
+  [[nodiscard]] double covered() const;
   /// Tracks that moved and never were anybody's.
   [[nodiscard]] std::size_t false_movers() const;
   /// Share of the times a target moved in view, having come there, that it was found soon; NaN where none did. While it
@@ -73,6 +80,11 @@ class TrackScore {
   struct Pair {
     std::size_t target = 0, track = 0;
     double distance_m = 0.0;
+  };
+  /// Since when a target has kept its velocity.
+  struct Steady {
+    double since_s = 0.0;
+    Vec2 velocity_in_map;
   };
   /// How often something was in time, of all times that it was decided.
   struct InTime {
@@ -88,6 +100,8 @@ class TrackScore {
   };
   void pair_up(std::span<const Target> targets, std::span<const Hypothesis> tracks);
   void count(double t_s, const Target& target, const Hypothesis& track, double distance_m);
+  void note_steady(double t_s, const Target& target);
+  void compare_steady(double t_s, const Target& target, const Hypothesis& track, double distance_m);
   void note_stay(double t_s, const Target& target, bool found);
 
   ScoreRules rules_;
@@ -96,9 +110,10 @@ class TrackScore {
   std::map<std::uint32_t, double> found_s_;          ///< of each target, when
   std::map<std::uint32_t, double> born_s_;           ///< of each track
   std::map<std::uint32_t, Stay> stays_;
+  std::map<std::uint32_t, Steady> steady_;
   std::set<std::uint32_t> moved_, right_;  ///< tracks that moved; that were somebody's
   std::size_t targets_ = 0, matches_ = 0, false_positives_ = 0, switches_ = 0, quick_switches_ = 0;
-  std::size_t compared_ = 0;
+  std::size_t compared_ = 0, steady_compared_ = 0, steady_wrong_ = 0, claimed_ = 0, covered_ = 0;
   InTime soon_, soon_by_clock_;
   double frame_before_s_ = 0.0;
   double distance_sum_m_ = 0.0, velocity_error2_sum_ = 0.0;

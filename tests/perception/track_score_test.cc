@@ -141,3 +141,24 @@ TEST_CASE("where each is to be taken as it is a standing track finds only who st
   CHECK(score.matches() == 3);
   CHECK(score.false_positives() == 0);
 }
+
+TEST_CASE("a steady target's velocity is wrong beyond 0.3 m/s and its place within what is claimed up to 2.45 sigmas") {
+  Scored s;
+  for (int k = 0; k <= 30; ++k) {
+    const double t = 0.1 * k;
+    const double wrong_mps = k == 25 ? 0.31 : 0.29, off_m = k == 29 ? 0.25 : 0.24;  // 0.1 m times sqrt(5.99) is 0.245
+    s.frame(t, {Target{1, {t, 0.0}, {1.0, 0.0}}}, {Hypothesis{7, {t, off_m}, {1.0 + wrong_mps, 0.0}, true, 0.1}});
+  }
+  CHECK(s.score.steady_wrong() == Approx(1.0 / 21));  // frames from 1.0 s on: the track is settled, the target steady
+  CHECK(s.score.covered() == Approx(20.0 / 21));
+}
+
+TEST_CASE("a target that turned less than a second ago is not steady") {
+  Scored s;
+  for (int k = 0; k <= 30; ++k) {
+    const double vx = k % 8 < 4 ? 1.0 : -1.0;
+    s.frame(0.1 * k, {Target{1, {}, {vx, 0.0}}}, {Hypothesis{7, {}, {}, true, 0.1}});
+  }
+  CHECK(std::isnan(s.score.steady_wrong()));
+  CHECK(std::isnan(s.score.covered()));
+}

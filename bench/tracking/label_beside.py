@@ -1,0 +1,158 @@
+#!/usr/bin/env python3
+"""Labels people who walk in a recording of a laser that drives, by what the whole recording says of each place.
+
+The rule, blind to any tracker; poses come from the odometry and scans (`robot.csv` of a run):
+1. Every scan is laid into one map of cells of 0.1 m: how many scans end in a cell, and how many pass through it.
+2. Foreground: a hit within 5 m whose cell and its neighbours are passed through in at least 7 of 10 scans that say
+   anything of them.
+3. People and names as label_walkers.py has them, in the map.
+4. Walking: under one name for at least 1 s, and at least 0.35 m from 0.5 s before to 0.5 s after; others: walks = 0.
+
+label_beside.py SCAN.txt.gz ROBOT.csv --laser-mount X,Y,YAW > LABELS.csv     (t_bag,id,x,y in the laser's frame)
+"""
+import argparse
+import bisect
+import csv
+import math
+
+import label_walkers as lw
+
+CELL_M, PASSED, KNOWN_S, HALF_S = 0.1, 0.7, 1.0, 0.5
+
+
+def poses_at(path, mount, times):
+    with lw.reading(path, "robot.csv of a run"):
+        with open(path) as file:
+            rows = [(float(r["t_s"]), *(float(r[f"est_{k}"]) for k in ("x_m", "y_m", "heading_rad"))) for r in csv.DictReader(file)]
+    stamps = [row[0] for row in rows]
+    mx, my, myaw = mount
+    out = []
+    for t in times:
+        _, x, y, h = rows[min(bisect.bisect_left(stamps, t - 1e-6), len(rows) - 1)]
+        out.append((x + math.cos(h) * mx - math.sin(h) * my, y + math.sin(h) * mx + math.cos(h) * my, h + myaw))
+    return out
+
+
+def ends_of(scan, pose):
+    """(beam, place in the map) of each hit."""
+    _, first, step, ranges = scan
+    x, y, h = pose
+    return [(b, (x + r * math.cos(h + first + b * step), y + r * math.sin(h + first + b * step))) for b, r in enumerate(ranges) if r < math.inf]
+
+
+def cell(p):
+    return math.floor(p[0] / CELL_M), math.floor(p[1] / CELL_M)
+
+
+def ground(scans, poses):
+    """Of every cell: scans that end there, scans that pass."""
+    hits, passes = {}, {}
+    for scan, pose in zip(scans, poses):
+        ended = {cell(p) for _, p in ends_of(scan, pose)}
+        passed = set()
+        for _, (px, py) in ends_of(scan, pose):
+            length = math.dist(pose[:2], (px, py))
+            for k in range(int(min(length - 2 * CELL_M, lw.FARTHEST_M + 1) / CELL_M)):
+                share = k * CELL_M / length
+                passed.add(cell((pose[0] + share * (px - pose[0]), pose[1] + share * (py - pose[1]))))
+        for c in ended:
+            hits[c] = hits.get(c, 0) + 1
+        for c in passed - ended:
+            passes[c] = passes.get(c, 0) + 1
+    return hits, passes
+
+
+def foreground(scan, pose, hits, passes):
+    kept = []
+    for b, p in ends_of(scan, pose):
+        if math.dist(p, pose[:2]) > lw.FARTHEST_M:
+            continue
+        i, j = cell(p)
+        near = [(i + a, j + c) for a in (-1, 0, 1) for c in (-1, 0, 1)]
+        ended, passed = sum(hits.get(c, 0) for c in near), sum(passes.get(c, 0) for c in near)
+        if passed > PASSED * (ended + passed):
+            kept.append((b, p))
+    return kept
+
+
+def pieces(points):
+    runs, last = [], None
+    for b, p in points:
+        if last is None or b - last[0] > 2 or math.dist(p, last[1]) > lw.LEG_JUMP_M:
+            runs.append([])
+        runs[-1].append(p)
+        last = (b, p)
+    return [run for run in runs if len(run) >= lw.FEWEST]
+
+
+def centre(run, laser):
+    x, y = sum(p[0] for p in run) / len(run), sum(p[1] for p in run) / len(run)
+    away = max(math.dist((x, y), laser), 1e-3)
+    back = lw.LEG_RADIUS_M / away
+    return x + back * (x - laser[0]), y + back * (y - laser[1])
+
+
+def people(runs, laser):
+    groups = []
+    for run in runs:
+        c = centre(run, laser)
+        near = [g for g in groups if any(math.dist(c, centre(r, laser)) < lw.STRIDE_M for r in g)]
+        groups = [g for g in groups if g not in near] + [[run] + [r for g in near for r in g]]
+    found = []
+    for g in groups:
+        c = [centre(run, laser) for run in g]
+        ends = [p for run in g for p in (run[0], run[-1])]
+        found.append(((sum(p[0] for p in c) / len(c), sum(p[1] for p in c) / len(c)), max(math.dist(p, q) for p in ends for q in ends)))
+    return found
+
+
+def trails_of(named, times):
+    trails = {}
+    for k, row in enumerate(named):
+        for name, p, width in row:
+            if width < lw.WIDEST_M:
+                trails.setdefault(name, []).append((times[k], p))
+    return trails
+
+
+def walks(trail, t):
+    if trail[-1][0] - trail[0][0] < KNOWN_S:
+        return False
+    ago = [p for s, p in trail if t - HALF_S - 0.1 <= s <= t - HALF_S + 0.1] or [trail[0][1]]
+    ahead = [p for s, p in trail if t + HALF_S - 0.1 <= s <= t + HALF_S + 0.1] or [trail[-1][1]]
+    return math.dist(ago[0], ahead[0]) > lw.WALKED_M
+
+
+def labels_of(path, robot, mount):
+    """Of every scan: its time, the laser's pose, and (name, place in the map, walks)."""
+    scans = lw.read_scans(path)
+    poses = poses_at(robot, mount, [scan[0] for scan in scans])
+    hits, passes = ground(scans, poses)
+    found = [people(pieces(foreground(s, p, hits, passes)), p[:2]) for s, p in zip(scans, poses)]
+    named, times = lw.name_them(found), [scan[0] for scan in scans]
+    trails = trails_of(named, times)
+    for t, pose, row in zip(times, poses, named):
+        yield t, pose, [(name, p, width < lw.WIDEST_M and name in trails and walks(trails[name], t)) for name, p, width in row]
+
+
+def trails_who_walk(path, robot, mount):
+    """Places in the map of those who walk, by time."""
+    all_scans = {t: [p for _, p, walking in row if walking] for t, _, row in labels_of(path, robot, mount)}
+    return {t: places for t, places in all_scans.items() if places}
+
+
+def main(options):
+    print("t_bag,id,x,y,walks")
+    for t, (x, y, h), row in labels_of(options.scans, options.robot, options.laser_mount):
+        for name, (px, py), walking in row:
+            dx, dy = px - x, py - y
+            a, b = math.cos(h) * dx + math.sin(h) * dy, -math.sin(h) * dx + math.cos(h) * dy
+            print(f"{t:.6f},{name},{a:.3f},{b:.3f},{int(walking)}")
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("scans", help="SCAN.txt or SCAN.txt.gz")
+    parser.add_argument("robot", help="robot.csv of a run over it")
+    parser.add_argument("--laser-mount", type=lambda t: tuple(map(float, t.split(","))), default=(0.0, 0.0, 0.0), help="X,Y,YAW")
+    main(parser.parse_args())

@@ -1,0 +1,102 @@
+#include "bench/tracking/relive.h"
+
+#include <cctype>
+
+#include "bench/tracking/run_folder.h"
+#include "firmware/control_setup.h"
+#include "firmware/recording/recording_stream.h"
+#include "firmware/report/run_tables.h"
+#include "hal/sim/logs/line_file.h"
+#include "hal/sim/logs/log_replay.h"
+#include "planner/localization/localizer.h"
+#include "planner/perception/tracker.h"
+
+namespace jaywalk::bench {
+namespace {
+
+constexpr Duration kTick = std::chrono::milliseconds(20);
+
+/// Sees what the devices said, as ControlLoop::tick() does, and writes down what comes of it.
+class Watcher {
+ public:
+  Watcher(const ControlSetup& setup, const std::filesystem::path& out, const RunFolder* truth)
+      : localizer_({.map_from_robot_at_start = setup.start,
+                    .drive = setup.model.drive,
+                    .robot_from_laser = setup.model.laser.robot_from_laser}),
+        tracker_({.robot_from_laser = setup.model.laser.robot_from_laser,
+                  .cell_m = setup.planner().cell_m,
+                  .map_centre = (setup.start.position() + setup.goal) * 0.5,
+                  .body = setup.model.footprint}),
+        tables_(out),
+        truth_(truth) {}
+
+  void see(TickRecord& tick) {
+    tick.pose = localizer_.update(tick.wheels, tick.scan, tick.fix, tracker_.still(), tracker_.moving());
+    if (tick.scan.sequence != last_scan_)
+      tracker_.update(tick.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
+    last_scan_ = tick.scan.sequence;
+    TrueState state;
+    if (truth_ != nullptr) state.map_from_robot = *truth_->truth_at(to_seconds(tick.now));
+    tables_.add({.record = tick, .tracks = tracker_.tracks(), .truth = truth_ != nullptr ? &state : nullptr});
+  }
+  void close() { tables_.close(); }
+
+ private:
+  Localizer localizer_;
+  Tracker tracker_;
+  RunTables tables_;
+  const RunFolder* truth_;
+  std::uint32_t last_scan_ = 0;
+};
+
+void relive_simulation(const ReliveOptions& options) {
+  const std::filesystem::path folder = std::filesystem::path(options.recording).parent_path();
+  const RunFolder truth(folder);
+  RecordingReader reader(options.recording);
+  Watcher watcher(setup_from_text(reader.setup(), options.recording), options.out, &truth);
+  TickRecord tick;
+  while (reader.next(tick)) watcher.see(tick);
+  watcher.close();
+  for (const char* const file : {"movers.csv", "recording.jwr"}) {
+    std::filesystem::remove(options.out / file);
+    std::filesystem::create_symlink(std::filesystem::absolute(folder / file), options.out / file);
+  }
+}
+
+/// CARMEN's lines begin with a message's name, those of others with a number.
+sim::RecordedLog load(const ReliveOptions& options) {
+  sim::LineFile lines(options.recording);
+  const bool carmen = lines.next() && std::isalpha(static_cast<unsigned char>(lines.words()[0][0])) != 0;
+  if (carmen) return sim::load_carmen(options.recording, options.robot_from_laser);
+  return sim::load_scan_odom(options.recording, options.odometry, options.robot_from_laser);
+}
+
+void relive_log(const ReliveOptions& options) {
+  sim::LogReplay log(load(options));
+  ControlSetup setup;
+  setup.model = p3dx();
+  setup.model.laser = log.log().laser();
+  setup.model.drive = log.drive();
+  setup.start = log.start_pose();
+  setup.goal = log.last_pose().value_or(setup.start).position();
+  Watcher watcher(setup, options.out, nullptr);
+  Hal hal = log.hal();
+  TickRecord tick;
+  for (Time next = hal.clock.now() + kTick; !log.ended(); next += kTick) {
+    tick.now = hal.clock.now();
+    tick.scan = hal.laser.latest();
+    tick.wheels = hal.drive.latest();
+    watcher.see(tick);
+    hal.clock.sleep_until(next);
+  }
+  watcher.close();
+}
+
+}  // namespace
+
+void relive(const ReliveOptions& options) {
+  std::filesystem::create_directories(options.out);
+  is_recording(options.recording) ? relive_simulation(options) : relive_log(options);
+}
+
+}  // namespace jaywalk::bench
