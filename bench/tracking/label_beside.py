@@ -18,6 +18,7 @@ import math
 import label_walkers as lw
 
 CELL_M, PASSED, KNOWN_S, HALF_S = 0.1, 0.7, 1.0, 0.5
+FARTHEST_M, UNSEEN_SCANS = 5.0, 3
 
 
 def poses_at(path, mount, times):
@@ -52,7 +53,7 @@ def ground(scans, poses):
         passed = set()
         for _, (px, py) in ends_of(scan, pose):
             length = math.dist(pose[:2], (px, py))
-            for k in range(int(min(length - 2 * CELL_M, lw.FARTHEST_M + 1) / CELL_M)):
+            for k in range(int(min(length - 2 * CELL_M, FARTHEST_M + 1) / CELL_M)):
                 share = k * CELL_M / length
                 passed.add(cell((pose[0] + share * (px - pose[0]), pose[1] + share * (py - pose[1]))))
         for c in ended:
@@ -65,7 +66,7 @@ def ground(scans, poses):
 def foreground(scan, pose, hits, passes):
     kept = []
     for b, p in ends_of(scan, pose):
-        if math.dist(p, pose[:2]) > lw.FARTHEST_M:
+        if math.dist(p, pose[:2]) > FARTHEST_M:
             continue
         i, j = cell(p)
         near = [(i + a, j + c) for a in (-1, 0, 1) for c in (-1, 0, 1)]
@@ -129,7 +130,8 @@ def labels_of(path, robot, mount):
     poses = poses_at(robot, mount, [scan[0] for scan in scans])
     hits, passes = ground(scans, poses)
     found = [people(pieces(foreground(s, p, hits, passes)), p[:2]) for s, p in zip(scans, poses)]
-    named, times = lw.name_them(found), [scan[0] for scan in scans]
+    times = [scan[0] for scan in scans]
+    named = lw.name_them(found, UNSEEN_SCANS)
     trails = trails_of(named, times)
     for t, pose, row in zip(times, poses, named):
         yield t, pose, [(name, p, width < lw.WIDEST_M and name in trails and walks(trails[name], t)) for name, p, width in row]

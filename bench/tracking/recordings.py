@@ -26,7 +26,8 @@ MATCH_M, STANDS_M, LABELS_LATE_S = 0.5, 0.4, 0.13
 MOUNT = (0.850326, 0.235214, 0.734815)  # the wheelchair's laser, by the recording's own transform
 TURN_RAD = 0.2
 LEFT_M, APPROACH_M, HEAD_ON_RAD = 0.3, 2.5, 0.35
-FARTHEST_M = 8.0  # of who comes straight on
+HEAD_ON_FROM_M = 8.0
+LABELLED_M = {"standing_robot_people_walk": 5.0, "standing_robot_people_walk_2": 8.0}  # reach of the labels
 
 
 def relive(options, name, *files, mount=(0.0, 0.0, 0.0)):
@@ -81,15 +82,18 @@ def nobody(options):
         print(f"| no_people_{side}{', run backwards' if turned else ''}, {options.headings} headings | {false} | {false / minutes:.2f} |", flush=True)
 
 
-def dense_labels(options, name):
+def dense_labels(options, name, farthest_m):
     """Trails of those who walk, by name: [(t, place in the laser's frame, walks)], every scan."""
     scans = label_walkers.read_scans(str(options.data / f"static/{name}.scan.txt.gz"))
     behind = label_walkers.background(scans)
     trails = collections.defaultdict(list)
-    named = label_walkers.name_them([label_walkers.people(scan, behind) for scan in scans])
+    period_s = (scans[-1][0] - scans[0][0]) / (len(scans) - 1)
+    found = [label_walkers.people(scan, behind, farthest_m) for scan in scans]
+    named = label_walkers.name_them(found, round(label_walkers.UNSEEN_S / period_s))
+    half_s_scans = round(label_walkers.HALF_S / period_s)
     for k, row in enumerate(named):
         for person, place, width in row:
-            trails[person].append((scans[k][0], place, label_walkers.walks(named, k, person, width)))
+            trails[person].append((scans[k][0], place, label_walkers.walks(named, k, person, width, half_s_scans)))
     return [trail for trail in trails.values() if any(walks for _, _, walks in trail)]
 
 
@@ -105,9 +109,9 @@ def walk_figures(trail, scans):
 
 def walkers(options):
     print("\n| who walks round a standing robot | labels | recall of moving | walks with one name for 90 % | s to moving: median, 90 %, most |\n|---|---|---|---|---|")
-    for name in ("standing_robot_people_walk", "standing_robot_people_walk_2"):
+    for name, farthest_m in LABELLED_M.items():
         scans = tracks_of(relive(options, name, f"static/{name}.scan.txt.gz"))
-        figures = [walk_figures(trail, scans) for trail in dense_labels(options, name)]
+        figures = [walk_figures(trail, scans) for trail in dense_labels(options, name, farthest_m)]
         labels, found = sum(f[0] for f in figures), sum(f[1] for f in figures)
         whole = sum(f[2] >= 0.9 * f[0] for f in figures)
         late = sorted(f[3] for f in figures if f[3] is not None)
@@ -118,10 +122,9 @@ def walkers(options):
 def head_on(options):
     """Those who come straight towards a standing robot, from farther off than labels are counted elsewhere."""
     print("\n| who comes straight on | names | of them moving | moving from, m |\n|---|---|---|---|")
-    label_walkers.FARTHEST_M, before = FARTHEST_M, label_walkers.FARTHEST_M
-    for name in ("standing_robot_people_walk", "standing_robot_people_walk_2"):
+    for name in LABELLED_M:
         scans = tracks_of(relive(options, name, f"static/{name}.scan.txt.gz"))
-        for trail in dense_labels(options, name):
+        for trail in dense_labels(options, name, HEAD_ON_FROM_M):
             ranges = [math.hypot(*place) for _, place, _ in trail]
             bearings = [math.atan2(place[1], place[0]) for _, place, _ in trail]
             far, near = ranges.index(max(ranges)), ranges.index(min(ranges))
@@ -133,7 +136,6 @@ def head_on(options):
             first = next((math.hypot(*way[k][1]) for k, n in enumerate(moving) if n is not None), math.nan)
             print(f"| {name}, {way[0][0] - min(scans):.1f} s: {ranges[far]:.1f} to {ranges[near]:.1f} m in {way[-1][0] - way[0][0]:.1f} s | "
                   f"{len(set(names) - {None})} | {len(set(moving) - {None})} | {first:.1f} |", flush=True)
-    label_walkers.FARTHEST_M = before
 
 
 def robot_poses(out, times, mount):
