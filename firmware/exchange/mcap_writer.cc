@@ -1,31 +1,15 @@
 #include "firmware/exchange/mcap_writer.h"
 
-#include <zlib.h>
-
 #include <algorithm>
 #include <cstring>
 
+#include "firmware/exchange/mcap_format.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {
 namespace {
 
-constexpr std::string_view kMagic{"\x89MCAP0\r\n", 8};
 constexpr std::size_t kChunkBytes = 1U << 20U;
-
-enum Op : std::uint8_t {
-  kHeader = 1,
-  kFooter = 2,
-  kSchema = 3,
-  kChannel = 4,
-  kMessage = 5,
-  kChunk = 6,
-  kMessageIndex = 7,
-  kChunkIndex = 8,
-  kStatistics = 11,
-  kSummaryOffset = 14,
-  kDataEnd = 15
-};
 
 template <class T>
 std::string raw(T value) {
@@ -39,20 +23,15 @@ std::string u64(std::uint64_t v) { return raw(v); }
 /// A text or a table behind the number of its bytes.
 std::string sized(std::string_view s) { return u32(s.size()).append(s); }
 
-std::string record(Op op, std::string_view body) {
+std::string record(McapOp op, std::string_view body) {
   return std::string(1, static_cast<char>(op)).append(u64(body.size())).append(body);
-}
-
-std::uint32_t crc(std::string_view bytes) {
-  return static_cast<std::uint32_t>(
-      crc32(0, reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uInt>(bytes.size())));
 }
 
 }  // namespace
 
 McapWriter::McapWriter(const std::string& file) : file_(file), out_(file, std::ios::binary) {
   if (!out_) throw StartupError(file + ": cannot be written", "choose another --out");
-  put(kMagic);
+  put(kMcapMagic);
   put(record(kHeader, sized("ros2") + sized("jaywalk")));
 }
 
@@ -87,7 +66,7 @@ void McapWriter::put(std::string_view bytes) {
 void McapWriter::put_chunk() {
   if (chunk_.empty()) return;
   const std::string chunk = record(kChunk, u64(chunk_first_ns_) + u64(chunk_last_ns_) + u64(chunk_.size()) +
-                                               u32(crc(chunk_)) + sized("") + u64(chunk_.size()) + chunk_);
+                                               u32(crc_of(chunk_)) + sized("") + u64(chunk_.size()) + chunk_);
   ChunkIndex index{chunk_first_ns_, chunk_last_ns_, offset_, chunk.size(), 0, chunk_.size(), {}};
   put(chunk);
   const std::uint64_t behind = offset_;
@@ -129,8 +108,8 @@ void McapWriter::close() {
                                           u64(start + definitions_.size()) + u64(indexes.size()));
   const std::string footer = std::string(1, static_cast<char>(kFooter)) + u64(20) + u64(start) + u64(offsets);
   put(summary);
-  put(footer + u32(crc(summary + footer)));
-  put(kMagic);
+  put(footer + u32(crc_of(summary + footer)));
+  put(kMcapMagic);
   if (!out_.flush()) throw StartupError(file_ + ": the disk did not take all of it", "free some space and run again");
 }
 

@@ -49,7 +49,7 @@ void read_laser(RecordedLog& log, LaserPoses& poses, const LineFile& file) {
   const std::size_t words = file.words().size();
   const std::size_t beams = words > 1 ? file.count(1, 1'000'000) : 0;
   if (words != kLaserRanges + beams + kLaserTail) {
-    log.refuse(file.name(), file.line(), kWrongLength);
+    log.refuse(file.place(), kWrongLength);
     return;
   }
   if (beams == 0 || beams > kMaxBeams) {
@@ -73,12 +73,12 @@ void read_laser(RecordedLog& log, LaserPoses& poses, const LineFile& file) {
 
 void read_odometry(RecordedLog& log, const LineFile& file) {
   if (file.words().size() != kOdomWords) {
-    log.refuse(file.name(), file.line(), kWrongLength);
+    log.refuse(file.place(), kWrongLength);
     return;
   }
   const Time stamp = time_from_seconds(file.seconds(kOdomTime));
   if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
-    log.refuse(file.name(), file.line(), kOdomStands);
+    log.refuse(file.place(), kOdomStands);
     return;
   }
   log.odometry.push_back({stamp, pose_at(file, 1), std::nullopt});
@@ -103,7 +103,7 @@ RecordedLog load_carmen(const std::filesystem::path& path, const Pose2& robot_fr
     if (file.words().front() == "FLASER") read_laser(log, poses, file);
     if (file.words().front() == "ODOM") read_odometry(log, file);
   }
-  require_scans(log, file, "CARMEN messages, FLASER among them");
+  require_scans(log, file.name(), "CARMEN messages, FLASER among them");
   if (poses.were_corrected()) leave_out_odometry(log, poses, file.name());
   return log;
 }

@@ -3,6 +3,7 @@
 #include <string_view>
 #include <vector>
 
+#include "hal/sim/logs/recorded_log.h"
 #include "hal/sim/logs/text_lines.h"
 
 namespace jaywalk::sim {
@@ -27,6 +28,7 @@ class LineFile {
 
   [[nodiscard]] std::size_t line() const { return lines_.line(); }
   [[nodiscard]] std::string name() const { return lines_.name(); }
+  [[nodiscard]] LogPlace place() const { return {name(), line()}; }
   /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
   [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const { lines_.refuse(cause, remedy); }
 

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hal/types/errors.h"
+
 namespace jaywalk::sim {
 namespace {
 
@@ -18,21 +20,26 @@ Duration median_period(const std::vector<RecordedScan>& scans) {
 
 }  // namespace
 
-void RecordedLog::refuse(const std::string& file, std::size_t line, std::string_view cause) {
+void LogPlace::refuse(const std::string& cause, const std::string& remedy) const {
+  const std::string at = unit == "line" ? ":" : ": " + unit + " ";
+  throw StartupError(file + at + std::to_string(number) + ": " + cause, remedy);
+}
+
+void RecordedLog::refuse(const LogPlace& place, std::string_view cause) {
   const auto known = std::find_if(refused.begin(), refused.end(),
-                                  [&](const RefusedLines& r) { return r.file == file && r.cause == cause; });
+                                  [&](const RefusedLines& r) { return r.file == place.file && r.cause == cause; });
   if (known != refused.end()) {
     ++known->count;
   } else {
-    refused.push_back({file, std::string(cause), line, 1});
+    refused.push_back({place.file, std::string(cause), place.number, 1, place.unit});
   }
 }
 
 std::string RecordedLog::complaint() const {
   std::string text;
   for (const RefusedLines& r : refused) {
-    text += r.file + ": " + std::to_string(r.count) + (r.count == 1 ? " line" : " lines") +
-            " left out, the first is line " + std::to_string(r.first_line) + ": " + r.cause + "\n";
+    text += r.file + ": " + std::to_string(r.count) + " " + r.unit + (r.count == 1 ? "" : "s") +
+            " left out, the first is " + r.unit + " " + std::to_string(r.first_line) + ": " + r.cause + "\n";
   }
   return remark.empty() ? text : text + remark + "\n";
 }

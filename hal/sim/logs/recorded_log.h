@@ -26,12 +26,23 @@ struct RecordedScan {
   float range_max_m = 0.0F;
 };
 
-/// Lines of one file that were left out for one reason.
+/// Where in a recording something stands: a line of a text file, a message of a bag.
+struct LogPlace {
+  std::string file;        ///< "scan.txt", "drive.mcap: /scan"
+  std::size_t number = 0;  ///< from 1
+  std::string unit = "line";
+
+  /// Throws StartupError "scan.txt:17: cause; remedy" or "drive.mcap: /scan: message 17: cause; remedy".
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const;
+};
+
+/// Lines of one file, or messages of one topic, that were left out for one reason.
 struct RefusedLines {
   std::string file;
   std::string cause;
   std::size_t first_line = 0;
   std::size_t count = 0;
+  std::string unit = "line";
 };
 
 /// Stamps are seconds since the recording's own epoch; both lists rise strictly.
@@ -46,8 +57,8 @@ struct RecordedLog {
   std::size_t far_ranges = 0;    ///< over 100 m, and another than the last one over 100 m
   std::string remark;            ///< what else a person should know; or empty
 
-  /// Counts a line that is left out; the first of its kind is remembered.
-  void refuse(const std::string& file, std::size_t line, std::string_view cause);
+  /// Counts what is left out; the first of its kind is remembered.
+  void refuse(const LogPlace& place, std::string_view cause);
   /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason, and the remark.
   [[nodiscard]] std::string complaint() const;
   /// The recording's own time at `stamp`: `stamp` itself where its times could be taken as they are.

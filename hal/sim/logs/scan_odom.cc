@@ -1,8 +1,3 @@
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-
 #include "hal/sim/logs/line_clock.h"
 #include "hal/sim/logs/recorded_log.h"
 #include "hal/sim/logs/scan_lines.h"
@@ -13,11 +8,6 @@ namespace {
 
 /// Words before the ranges in the two forms; the last of them is the number of beams.
 constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
-constexpr float kTurn = static_cast<float>(2.0 * kPi);
-constexpr double kFastest = 1000.0;                     // m/s, rad/s
-constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
-constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
-constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
 enum class Form { kUnknown, kPlain, kMotion };
 
@@ -33,29 +23,6 @@ Form form_of(const LineFile& file) {
   return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kUnknown;
 }
 
-void check_scan(const LineFile& file, const RecordedScan& scan) {
-  if (scan.beams == 0 || scan.beams > kMaxBeams) {
-    file.refuse(std::to_string(scan.beams) + " beams",
-                "give scans of 1 to " + std::to_string(kMaxBeams) + " beams, or leave some out");
-  }
-  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
-  if (!fan || scan.angle_step_rad == 0.0F) file.refuse("beam angles that make no fan", "give angles in radians");
-  if (!(scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F)) {
-    file.refuse("range limits that hold nothing", "give 0 <= range_min < range_max, in metres");
-  }
-}
-
-/// The stamp of the one before the last, where there is one.
-template <class Stamped>
-std::optional<Time> before_last(const std::vector<Stamped>& list) {
-  return list.size() < 2 ? std::nullopt : std::optional(list[list.size() - 2].stamp);
-}
-
-template <class Stamped>
-bool last_leapt(const std::vector<Stamped>& list, Time now) {
-  return !list.empty() && leapt(before_last(list), list.back().stamp, now);
-}
-
 void read_plain(RecordedLog& log, const LineFile& file) {
   RecordedScan scan;
   scan.stamp = time_from_seconds(file.seconds(0));
@@ -64,12 +31,8 @@ void read_plain(RecordedLog& log, const LineFile& file) {
   scan.range_min_m = static_cast<float>(file.number(3));
   scan.range_max_m = static_cast<float>(file.number(4));
   scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
-  check_scan(file, scan);
-  if (last_leapt(log.scans, scan.stamp)) {
-    log.range_m.resize(log.scans.back().first_range);
-    log.scans.pop_back();
-    log.refuse(file.name(), file.line(), kTimeLeapt);
-  }
+  check_scan(file.place(), scan);
+  drop_leapt_scan(log, file.place(), scan.stamp);
   add_scan(log, file, scan, kPlainHead, kNoLimit);
 }
 
@@ -82,7 +45,7 @@ class MotionLines {
   void read(const LineFile& file) {
     const Time said = time_from_seconds(file.seconds(0));
     const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
-    odometry_ = sound_pose(file, odometry_ * moved);
+    odometry_ = sound_pose(file.place(), odometry_ * moved);
     RecordedScan scan = scan_of(file);
     scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
     clock_.see(said, moved);
@@ -103,7 +66,7 @@ class MotionLines {
     scan.first_angle_rad = fan.first_angle_rad;
     scan.angle_step_rad = fan.angle_step_rad;
     scan.range_max_m = static_cast<float>(file.number(5));
-    check_scan(file, scan);
+    check_scan(file.place(), scan);
     return scan;
   }
 
@@ -121,14 +84,14 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines
   while (file.next()) {
     if (form == Form::kUnknown) form = form_of(file);
     if (form == Form::kUnknown || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
-      log.refuse(file.name(), file.line(), kWrongLength);
+      log.refuse(file.place(), kWrongLength);
     } else if (form == Form::kPlain) {
       read_plain(log, file);
     } else {
       motion.read(file);
     }
   }
-  require_scans(log, file, "lines 't angle_min angle_inc range_min range_max n r1..rn'");
+  require_scans(log, file.name(), "lines 't angle_min angle_inc range_min range_max n r1..rn'");
   return motion.any();
 }
 
@@ -149,71 +112,18 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
   return true;
 }
 
-/// Odometry that may begin anew on its way.
-class OdometryLines {
- public:
-  explicit OdometryLines(RecordedLog& log) : log_(log) {}
-
-  void read(const LineFile& file) {
-    const OdometryPose said{time_from_seconds(file.seconds(0)), pose_at(file, 1), twist_of(file)};
-    if (last_leapt(log_.odometry, said.stamp)) {
-      log_.odometry.pop_back();
-      log_.refuse(file.name(), file.line(), kTimeLeapt);
-    }
-    if (!log_.odometry.empty() && said.stamp <= log_.odometry.back().stamp) {
-      log_.refuse(file.name(), file.line(), kTimeStands);
-    } else if (!log_.odometry.empty() && jumps(log_.odometry.back(), said)) {
-      here_from_said_ = log_.odometry.back().pose * inverse(said.pose);
-      log_.refuse(file.name(), file.line(), "it jumps farther than robots drive: taken to begin anew there");
-    } else {
-      log_.odometry.push_back({said.stamp, here_from_said_ * said.pose, said.twist});
-    }
-  }
-
- private:
-  static Twist2 twist_of(const LineFile& file) {
-    const Twist2 twist{file.number(4), file.number(5)};
-    if (!(std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)) {
-      file.refuse("a speed that is none", "give m/s and rad/s, or delete the line");
-    }
-    return twist;
-  }
-  [[nodiscard]] bool jumps(const OdometryPose& last, const OdometryPose& said) const {
-    const double drives_m = kJumpM + kFastestDriveMps * to_seconds(said.stamp - last.stamp);
-    return distance((here_from_said_ * said.pose).position(), last.pose.position()) > drives_m;
-  }
-
-  RecordedLog& log_;
-  Pose2 here_from_said_;  ///< from the frame of the lines at hand to that of the first
-};
-
 void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
   LineFile file(path);
-  OdometryLines lines(log);
+  OdometryPoses poses(log);
   while (file.next()) {
     if (file.words().size() == 6) {
-      lines.read(file);
+      const Twist2 twist{file.number(4), file.number(5)};
+      poses.add({time_from_seconds(file.seconds(0)), pose_at(file, 1), twist}, file.place());
     } else {
-      log.refuse(file.name(), file.line(), kWrongLength);
+      log.refuse(file.place(), kWrongLength);
     }
   }
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");
-}
-
-/// Two clocks that were never set by one another give times that do not meet.
-void compare_times(RecordedLog& log, const std::string& odom_file) {
-  const Time begin = std::max(log.scans.front().stamp, log.odometry.front().stamp);
-  const Time end = std::min(log.scans.back().stamp, log.odometry.back().stamp);
-  if (end < begin) {
-    throw StartupError(odom_file + ": all of it lies before the scans or after them",
-                       "give both by one clock, or the scans alone");
-  }
-  const double all_s = to_seconds(log.scans.back().stamp - log.scans.front().stamp);
-  const double without_s = all_s - to_seconds(end - begin);
-  if (without_s < kMostWithoutS) return;
-  char text[80];
-  std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
-  log.remark = odom_file + text;
 }
 
 }  // namespace
