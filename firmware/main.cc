@@ -76,10 +76,14 @@ void add_replay(CLI::App& app) {
   CLI::App* replay = app.add_subcommand("replay", "Run recorded laser and odometry through the pipeline");
   replay
       ->add_option("log", replay_options.logs,
-                   "SCAN.txt [ODOM.txt], a CARMEN log, or recording.jwr; .gz is read as it is")
+                   "SCAN.txt [ODOM.txt], a CARMEN log, a bag (.mcap, a ROS 2 bag's folder or .db3, a ROS 1 .bag), or "
+                   "recording.jwr; .gz is read as it is")
       ->required();
-  replay->add_option("--format", replay_options.format, "scan-odom, carmen or jaywalk (default: told from the file)")
-      ->check(CLI::IsMember({"scan-odom", "carmen", "jaywalk"}));
+  replay
+      ->add_option("--format", replay_options.format, "scan-odom, carmen, bag or jaywalk (default: told from the file)")
+      ->check(CLI::IsMember({"scan-odom", "carmen", "bag", "jaywalk"}));
+  replay->add_option("--scan-topic", replay_options.scan_topic, "A bag's scans (default: the only LaserScan topic)");
+  replay->add_option("--odom-topic", replay_options.odom_topic, "A bag's odometry (default: the only Odometry topic)");
   replay
       ->add_option_function<std::vector<double>>(
           "--goal",

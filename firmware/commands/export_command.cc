@@ -118,6 +118,7 @@ int run_export(const ExportOptions& options) {
   }
   progress.make_way();
   std::fputs(run.remarks().c_str(), stderr);
+  exporter.file().attach(run.file());  // so that `jaywalk replay` comes to the same commands
   exporter.file().close();
   write_metadata(out, exporter.file());
   std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),

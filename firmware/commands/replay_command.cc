@@ -11,6 +11,8 @@
 #include "firmware/commands/mount_check.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/exchange/bag_file.h"
+#include "firmware/exchange/bag_log.h"
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
@@ -33,18 +35,22 @@ bool begins_with_a_name(const std::filesystem::path& file) {
 
 std::string format_of(const ReplayOptions& options) {
   if (!options.format.empty()) return options.format;
+  if (exchange::is_bag(options.logs.front())) return "bag";
   if (is_recording(options.logs.front().string())) return "jaywalk";
   return begins_with_a_name(options.logs.front()) ? "carmen" : "scan-odom";
 }
 
 sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
-  const std::size_t most = format == "carmen" ? 1 : 2;
+  const std::size_t most = format == "scan-odom" ? 2 : 1;
   if (options.logs.size() > most) {
     throw StartupError(options.logs[most].string() + ": one file too many for " + format,
-                       format == "carmen" ? "give one log" : "give SCAN.txt and, where there is one, ODOM.txt");
+                       format == "scan-odom" ? "give SCAN.txt and, where there is one, ODOM.txt" : "give one log");
   }
-  const Pose2 mount =
-      options.laser_mount.value_or(options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser);
+  const Pose2 models = options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser;
+  if (format == "bag") {
+    return exchange::load_bag(options.logs[0], {options.scan_topic, options.odom_topic, options.laser_mount, models});
+  }
+  const Pose2 mount = options.laser_mount.value_or(models);
   if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
   return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
                              mount);
@@ -130,15 +136,15 @@ void refuse_own_folder(const std::filesystem::path& file, const std::filesystem:
 
 bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
 
-/// Replays our own recording and compares every command.
-int replay_recording(const ReplayOptions& options) {
+/// Replays our own recording and compares every command. `part`: where in the file it stands.
+int replay_recording(const ReplayOptions& options, FilePart part) {
   const std::string file = options.logs[0].string();
   if (options.logs.size() > 1) {
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
   }
   warn_of_options_of_logs(options);
   refuse_own_folder(options.logs[0], options.out);
-  RecordingReader reader(file);
+  RecordingReader reader(file, part);
   ControlSetup setup = setup_from_text(reader.setup(), file);
   if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;  // the bits are the same wherever it is replayed
   TickRecord recorded;
@@ -183,12 +189,19 @@ int replay_recording(const ReplayOptions& options) {
 
 }  // namespace
 
-int run_replay(const ReplayOptions& options) {
-  for (const std::filesystem::path& log : options.logs) {
-    require_readable(log, log.string() + ": ", "give a recording");
+int run_replay(ReplayOptions options) {
+  for (std::filesystem::path& log : options.logs) {
+    if (std::filesystem::exists(log / "recording.jwr")) log /= "recording.jwr";  // a run's folder
+    if (!std::filesystem::is_directory(log)) require_readable(log, log.string() + ": ", "give a recording");
   }
   const std::string format = format_of(options);
-  return format == "jaywalk" ? replay_recording(options) : replay_log(options, format);
+  if (format == "jaywalk") return replay_recording(options, {});
+  const bool picks_topics = !options.scan_topic.empty() || !options.odom_topic.empty();
+  if (format == "bag" && !picks_topics && exchange::is_mcap(options.logs[0])) {
+    const exchange::Attachment own = exchange::find_attachment(options.logs[0], "recording.jwr");
+    if (own.bytes > 0) return replay_recording(options, {own.at, own.bytes});
+  }
+  return replay_log(options, format);
 }
 
 }  // namespace jaywalk

@@ -10,15 +10,16 @@ namespace jaywalk {
 
 struct ReplayOptions {
   std::vector<std::filesystem::path> logs;
-  std::string format;                ///< scan-odom, carmen or jaywalk; empty: by what the file begins with
-  std::optional<Vec2> goal;          ///< default: the recording's last pose
-  std::optional<Pose2> laser_mount;  ///< robot_from_laser; default: the log's own word, else the robot's origin
-  std::string model;                 ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
+  std::string format;                  ///< scan-odom, carmen, bag or jaywalk; empty: by what the file begins with
+  std::string scan_topic, odom_topic;  ///< of a bag; empty: the only one of its type
+  std::optional<Vec2> goal;            ///< default: the recording's last pose
+  std::optional<Pose2> laser_mount;    ///< robot_from_laser; default: the log's own word, else the robot's origin
+  std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
   std::filesystem::path out = "out/replay";
 };
 
 /// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command
 /// is compared, bit for bit. Returns 0, or 1 when such a command differs. Throws StartupError for bad input.
-[[nodiscard]] int run_replay(const ReplayOptions& options);
+[[nodiscard]] int run_replay(ReplayOptions options);
 
 }  // namespace jaywalk

@@ -10,10 +10,10 @@
 namespace jaywalk::exchange {
 
 struct BagOptions {
-  std::string scan_topic;                 ///< empty: the only one of type LaserScan
-  std::string odom_topic;                 ///< empty: the only one of type Odometry, where there is one
-  std::optional<Pose2> robot_from_laser;  ///< in place of what the recording's frames say
-  Pose2 otherwise;                        ///< where neither says it
+  std::string scan_topic = {};                 ///< empty: the only one of type LaserScan
+  std::string odom_topic = {};                 ///< empty: the only one of type Odometry, where there is one
+  std::optional<Pose2> robot_from_laser = {};  ///< in place of what the recording's frames say
+  Pose2 otherwise = {};                        ///< where neither says it
 };
 
 /// Topics are told by their types; more than one of a type, and none of LaserScan, is an error that lists them. The

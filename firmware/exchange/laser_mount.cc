@@ -25,12 +25,12 @@ std::optional<SpatialFrame> FrameTree::find(const std::string& base, const std::
   std::map<std::string, SpatialFrame> above_frame;  // ancestor_from_frame, and of the frame itself
   std::string at = bare(frame);
   SpatialFrame here_from_frame = SpatialFrame::Identity();
-  above_frame[at] = here_from_frame;
-  for (auto up = parents_.find(at); up != parents_.end() && !up->second.moves && above_frame.size() < kDeepest;
-       up = parents_.find(at)) {
+  for (std::size_t depth = 0; depth < kDeepest; ++depth) {
+    above_frame.emplace(at, here_from_frame);
+    const auto up = parents_.find(at);
+    if (up == parents_.end() || up->second.moves) break;
     here_from_frame = up->second.parent_from_child * here_from_frame;
     at = up->second.parent;
-    above_frame.emplace(at, here_from_frame);
   }
   at = bare(base);
   SpatialFrame here_from_base = SpatialFrame::Identity();

@@ -91,8 +91,32 @@ std::string McapWriter::index_record(const ChunkIndex& chunk) const {
 std::string McapWriter::statistics() const {
   std::string counts;
   for (std::size_t k = 0; k < topics_.size(); ++k) counts += u16(k + 1) + u64(topics_[k].messages);
-  return record(kStatistics, u64(messages_) + u16(topics_.size()) + u32(topics_.size()) + u32(0) + u32(0) +
+  return record(kStatistics, u64(messages_) + u16(topics_.size()) + u32(topics_.size()) + u32(attachments_) + u32(0) +
                                  u32(chunks_.size()) + u64(first_ns()) + u64(last_ns_) + sized(counts));
+}
+
+void McapWriter::attach(const std::filesystem::path& file) {
+  put_chunk();
+  std::ifstream in(file, std::ios::binary);
+  const std::uint64_t bytes = std::filesystem::file_size(file);
+  const std::string name = sized(file.filename().string()), type = sized("application/octet-stream");
+  const std::string head = u64(0) + u64(0) + name + type + u64(bytes);
+  const std::uint64_t at = offset_, length = head.size() + bytes + sizeof(std::uint32_t);
+  put(std::string(1, static_cast<char>(kAttachment)) + u64(length) + head);
+  std::uint32_t crc = crc_of(head);
+  std::string block(kChunkBytes, '\0');
+  for (std::uint64_t left = bytes; left > 0;) {
+    const auto next = static_cast<std::size_t>(std::min<std::uint64_t>(left, block.size()));
+    if (!in.read(block.data(), static_cast<std::streamsize>(next)))
+      throw StartupError(file.string() + ": cannot be read", "check its permissions");
+    crc = crc_of(std::string_view(block).substr(0, next), crc);
+    put(std::string_view(block).substr(0, next));
+    left -= next;
+  }
+  put(u32(crc));
+  attachment_indexes_ +=
+      record(kAttachmentIndex, u64(at) + u64(9 + length) + u64(0) + u64(0) + u64(bytes) + name + type);
+  ++attachments_;
 }
 
 void McapWriter::close() {
@@ -101,11 +125,15 @@ void McapWriter::close() {
   std::string indexes;
   for (const ChunkIndex& chunk : chunks_) indexes += index_record(chunk);
   const std::uint64_t start = offset_;
-  std::string summary = definitions_ + indexes + statistics();
+  std::string summary = definitions_ + indexes + attachment_indexes_ + statistics();
   const std::uint64_t offsets = start + summary.size();
-  if (!chunks_.empty())
-    summary += record(kSummaryOffset, std::string(1, static_cast<char>(kChunkIndex)) +
-                                          u64(start + definitions_.size()) + u64(indexes.size()));
+  const auto group = [&](McapOp op, std::uint64_t before, const std::string& records) {
+    if (records.empty()) return;
+    summary +=
+        record(kSummaryOffset, std::string(1, static_cast<char>(op)) + u64(start + before) + u64(records.size()));
+  };
+  group(kChunkIndex, definitions_.size(), indexes);
+  group(kAttachmentIndex, definitions_.size() + indexes.size(), attachment_indexes_);
   const std::string footer = std::string(1, static_cast<char>(kFooter)) + u64(20) + u64(start) + u64(offsets);
   put(summary);
   put(footer + u32(crc_of(summary + footer)));

@@ -1,6 +1,7 @@
 #pragma once
 // MCAP files (mcap.dev/spec): records of messages in chunks, each with an index, a summary at the end.
 #include <cstdint>
+#include <filesystem>
 #include <fstream>
 #include <map>
 #include <string>
@@ -21,6 +22,8 @@ class McapWriter {
   std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& schema);
   /// One message, its stamp not before 0.
   void write(std::uint16_t channel, Time stamp, std::string_view message);
+  /// A whole file beside the messages, under its own name. Throws StartupError where it cannot be read.
+  void attach(const std::filesystem::path& file);
   /// Writes the summary. Throws StartupError when the disk did not take all of the file.
   void close();
 
@@ -53,6 +56,8 @@ class McapWriter {
   std::uint64_t chunk_first_ns_ = 0, chunk_last_ns_ = 0;
   std::map<std::uint16_t, std::string> message_index_;  ///< of the chunk at hand: time and offset of each message
   std::vector<ChunkIndex> chunks_;
+  std::string attachment_indexes_;
+  std::uint32_t attachments_ = 0;
   std::uint64_t messages_ = 0, first_ns_ = 0, last_ns_ = 0;
 };
 

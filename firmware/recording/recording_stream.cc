@@ -128,11 +128,12 @@ bool RecordingWriter::close() noexcept {
   return file_.close();
 }
 
-RecordingReader::RecordingReader(const std::string& file) : file_(file), stream_(file.c_str()), entry_(kMaxEntryBytes) {
+RecordingReader::RecordingReader(const std::string& file, FilePart part)
+    : file_(file), stream_(file.c_str(), part), entry_(kMaxEntryBytes) {
   if (!stream_.is_open())
     throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
   std::error_code unknown;  // the size then reads as the greatest: a bar that does not move
-  bytes_ = std::filesystem::file_size(file, unknown);
+  bytes_ = std::min(part.bytes, static_cast<std::uint64_t>(std::filesystem::file_size(file, unknown)));
   read_header();
 }
 

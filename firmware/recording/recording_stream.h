@@ -64,7 +64,8 @@ class RecordingWriter {
 class RecordingReader {
  public:
   /// Throws StartupError "FILE: byte N: cause" for what is no recording, another version's, or damaged.
-  explicit RecordingReader(const std::string& file);
+  /// `part`: where in the file the recording stands.
+  explicit RecordingReader(const std::string& file, FilePart part = {});
 
   [[nodiscard]] const std::string& setup() const { return setup_; }
   /// False at the end, cut or proper. Throws StartupError with the place for a damaged entry.

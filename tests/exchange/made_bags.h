@@ -1,0 +1,36 @@
+#pragma once
+// Small recordings in the formats of ROS's tools, made from their specifications and not with the writers of the
+// program.
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace jaywalk::tests {
+
+struct MadeMessage {
+  std::string topic, type;  ///< "sensor_msgs/LaserScan"
+  std::int64_t ns = 0;
+  std::string bytes;
+};
+
+/// `method`: "", "zstd", "lz4", "bz2".
+[[nodiscard]] std::string packed(const std::string& method, const std::string& bytes);
+
+/// Messages of three beams at 0, 90 and 180 degrees, one a tenth of a second from `first_ns` on.
+[[nodiscard]] std::string scan_bytes(bool ros1, std::int64_t ns, const std::string& frame, std::vector<float> ranges);
+[[nodiscard]] std::string odometry_bytes(bool ros1, std::int64_t ns, double x);
+struct MadeFrame {
+  std::string parent, child;
+  double x = 0.0, y = 0.0;
+  double quaternion[4] = {0.0, 0.0, 0.0, 1.0};  ///< x, y, z, w
+};
+[[nodiscard]] std::string frames_bytes(bool ros1, const std::vector<MadeFrame>& frames);
+
+/// Ten scans and ten poses 0.1 m apart, and the laser 0.2 m ahead of the robot's middle.
+[[nodiscard]] std::vector<MadeMessage> made_drive(bool ros1);
+
+[[nodiscard]] std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method);
+[[nodiscard]] std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method);
+void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messages, bool pack_each);
+
+}  // namespace jaywalk::tests
