@@ -8,6 +8,7 @@
 #include "firmware/report/run_tables.h"
 #include "hal/sim/logs/line_file.h"
 #include "hal/sim/logs/log_replay.h"
+#include "hal/types/errors.h"
 #include "planner/localization/localizer.h"
 #include "planner/perception/tracker.h"
 
@@ -57,10 +58,9 @@ void relive_simulation(const ReliveOptions& options) {
   TickRecord tick;
   while (reader.next(tick)) watcher.see(tick);
   watcher.close();
-  for (const char* const file : {"movers.csv", "recording.jwr"}) {
-    std::filesystem::remove(options.out / file);
+  std::filesystem::remove(options.out / "movers.csv");  // a header alone
+  for (const char* const file : {"movers.csv", "recording.jwr"})
     std::filesystem::create_symlink(std::filesystem::absolute(folder / file), options.out / file);
-  }
 }
 
 /// CARMEN's lines begin with a message's name, those of others with a number.
@@ -96,6 +96,10 @@ void relive_log(const ReliveOptions& options) {
 
 void relive(const ReliveOptions& options) {
   std::filesystem::create_directories(options.out);
+  if (std::filesystem::equivalent(options.out, std::filesystem::absolute(options.recording).parent_path())) {
+    throw StartupError("--out " + options.out.string() + ": the recording's own folder", "choose another --out");
+  }
+  for (const char* const file : {"movers.csv", "recording.jwr"}) std::filesystem::remove(options.out / file);  // links
   is_recording(options.recording) ? relive_simulation(options) : relive_log(options);
 }
 
