@@ -1,10 +1,12 @@
 #include "firmware/setup/scan_shift.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <vector>
 
-#include "planner/localization/symmetric3.h"
+#include "planner/localization/pose_belief.h"
 
 namespace jaywalk {
 namespace {
@@ -54,37 +56,37 @@ struct Fit {
 };
 
 /// The lesser eigenvalue of the normals' mean outer product.
-double least_across(const Symmetric3& information, double used) {
-  const double half = 0.5 * (information.xx - information.yy);
-  return (0.5 * (information.xx + information.yy) - norm({half, information.xy})) / used;
+double least_across(const Eigen::Matrix3d& information, double used) {
+  const Eigen::Matrix2d normals = information.topLeftCorner<2, 2>();
+  return Eigen::SelfAdjointEigenSolver<Eigen::Matrix2d>(normals, Eigen::EigenvaluesOnly).eigenvalues().x() / used;
 }
 
 Fit fit_from(Pose2 pose, const std::vector<Surfel>& before, const std::vector<Surfel>& after) {
   Fit fit;
   for (int k = 0; k < kIterations; ++k) {
     const double far_m = std::max(kLastFar_m, kFirstFar_m * (1.0 - 0.06 * k));
-    Symmetric3 information = diagonal(kRestPoints, kRestPoints, 1e-6);
-    Row3 pull{-kRestPoints * pose.x, -kRestPoints * pose.y, 0.0};
+    Eigen::Matrix3d information = diagonal(kRestPoints, kRestPoints, 1e-6);
+    Eigen::Vector3d gradient(-kRestPoints * pose.x, -kRestPoints * pose.y, 0.0);
     double used = 0.0, off_m = 0.0;
-    const Transform2 moved(pose);
+    const Transform2 to_before(pose);
     for (const Surfel& surfel : after) {
-      const Vec2 p = moved * surfel.at;
+      const Vec2 p = to_before * surfel.at;
       const Surfel& wall = nearest(before, p);
       const double off = dot(wall.normal, p - wall.at);
-      const bool alike = std::fabs(dot(wall.normal, moved.rotate(surfel.normal))) > kAlike;
+      const bool alike = std::fabs(dot(wall.normal, to_before.rotate(surfel.normal))) > kAlike;
       const bool pairs = alike && std::fabs(off) < far_m && norm(p - wall.at) < kFirstFar_m;
       off_m += pairs ? std::min(std::fabs(off), kFar_m) : kFar_m;
       if (!pairs) continue;
-      const Row3 by{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
-      information.add_outer(by, 1.0);
-      pull = {pull.x - by.x * off, pull.y - by.y * off, pull.heading - by.heading * off};
+      const Eigen::Vector3d jacobian(wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal));
+      information += jacobian * jacobian.transpose();
+      gradient -= off * jacobian;
       used += 1.0;
     }
     if (used < static_cast<double>(kLeastPoints)) return {};
-    const Row3 step = inverse(information) * pull;
-    pose = {pose.x + step.x, pose.y + step.y, wrap_angle(pose.heading + step.heading)};
+    const Eigen::Vector3d step = information.ldlt().solve(gradient);
+    pose = moved(pose, step);
     fit = {pose, off_m / static_cast<double>(after.size()), least_across(information, used)};
-    if (k > 16 && std::fabs(step.x) + std::fabs(step.y) + std::fabs(step.heading) < 1e-5) break;
+    if (k > 16 && step.cwiseAbs().sum() < 1e-5) break;
   }
   return fit;
 }
@@ -107,12 +109,12 @@ double misfit_m(const LaserScan& before, const LaserScan& after, const Pose2& be
   constexpr double kMostOff_m = 0.1;
   const std::vector<Surfel> walls = surfels_of(before), points = surfels_of(after);
   if (walls.empty() || points.empty()) return kMostOff_m;
-  const Transform2 moved(before_from_after);
+  const Transform2 to_before(before_from_after);
   double sum_m = 0.0;
   for (const Surfel& surfel : points) {
-    const Surfel& wall = nearest(walls, moved * surfel.at);
-    const bool alike = std::fabs(dot(wall.normal, moved.rotate(surfel.normal))) > kAlike;
-    const double off_m = std::fabs(dot(wall.normal, moved * surfel.at - wall.at));
+    const Surfel& wall = nearest(walls, to_before * surfel.at);
+    const bool alike = std::fabs(dot(wall.normal, to_before.rotate(surfel.normal))) > kAlike;
+    const double off_m = std::fabs(dot(wall.normal, to_before * surfel.at - wall.at));
     sum_m += alike ? std::min(off_m, kMostOff_m) : kMostOff_m;
   }
   return sum_m / static_cast<double>(points.size());

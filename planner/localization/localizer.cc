@@ -3,11 +3,11 @@
 #include <cmath>
 
 #include "planner/localization/coasting.h"
-#include "planner/localization/fix_blend.h"
+#include "planner/localization/fix_update.h"
 #include "planner/localization/odometry.h"
-#include "planner/localization/slip_watch.h"
-#include "planner/localization/walkers.h"
-#include "planner/localization/wheel_trust.h"
+#include "planner/localization/odometry_noise.h"
+#include "planner/localization/slip_detector.h"
+#include "planner/localization/track_mask.h"
 
 namespace jaywalk {
 namespace {
@@ -20,19 +20,15 @@ constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 // wheels know better. By trial; half does not do (docs/tracking-findings.md, "Nobody but walkers in view").
 constexpr double kAmongWalkers = 0.2;
 
-/// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T with
-/// F = I + (-dy, dx) in the heading's column.
-Symmetric3 carried(Symmetric3 p, double dx, double dy) {
-  p.xx += -2.0 * dy * p.xh + dy * dy * p.hh;
-  p.yy += 2.0 * dx * p.yh + dx * dx * p.hh;
-  p.xy += dx * p.xh - dy * p.yh - dx * dy * p.hh;
-  p.xh -= dy * p.hh;
-  p.yh += dx * p.hh;
-  return p;
+/// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T.
+Eigen::Matrix3d carried(const Eigen::Matrix3d& p, double dx, double dy) {
+  Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
+  f(0, 2) = -dy, f(1, 2) = dx;
+  return f * p * f.transpose();
 }
 
-Symmetric3 of_wheels(const WheelDoubt& doubt, double metres, double turns) {
-  return diagonal(metres * doubt.position_var, metres * doubt.position_var, turns * doubt.heading_var);
+Eigen::Matrix3d of_wheels(const OdometryNoise& noise, double metres, double turns) {
+  return diagonal(metres * noise.position_var, metres * noise.position_var, turns * noise.heading_var);
 }
 
 }  // namespace
@@ -64,12 +60,12 @@ struct Localizer::State {
   LocalizationConfig config;
   Odometry odometry;
   Pose2 map_from_odom;
-  Symmetric3 covariance;         ///< of (x, y, heading) in the map
-  Symmetric3 if_wheels_slipped;  ///< the same, had nothing been known of the wheels since the last match
+  Eigen::Matrix3d covariance;         ///< of (x, y, heading) in the map
+  Eigen::Matrix3d if_wheels_slipped;  ///< the same, had nothing been known of the wheels since the last match
 
-  WheelTrust trust;
-  SideDrift drift;
-  SlipWatch matcher;
+  OdometryNoiseEstimator odometry_noise;
+  WheelRadiusBias radius_bias;
+  SlipDetector matcher;
   ScanProjection projection;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
@@ -90,11 +86,11 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   const Pose2 after = map_from_odom * odometry.odom_from_robot();
   twist = odometry.twist();
   const double dx = after.x - before.x, dy = after.y - before.y;
-  const WheelDoubt doubt = doubt_of_unknown_wheels(step);
-  covariance = carried(covariance, dx, dy) + of_wheels(doubt, trust.metres(), trust.turns());
-  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(doubt, 1.0, 1.0);
-  trust.drove(step);
-  drift.drove(step);
+  const OdometryNoise noise = noise_of_unknown_wheels(step);
+  covariance = carried(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
+  odometry_noise.drove(step);
+  radius_bias.drove(step);
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {
@@ -111,12 +107,12 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
   if_wheels_slipped = covariance;
   if (!odometry.by_wheels()) {
-    drift.begin_anew();
+    radius_bias.begin_anew();
     return;
   }
-  trust.corrected(predicted, placed);
-  drift.corrected(wrap_angle(placed.heading - predicted.heading));
-  odometry.set_side_drift(drift.turn_per_m());
+  odometry_noise.corrected(predicted, placed);
+  radius_bias.corrected(wrap_angle(placed.heading - predicted.heading));
+  odometry.set_radius_bias(radius_bias.turn_per_m());
 }
 
 PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
@@ -131,11 +127,11 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
   projection.project(scan, config.robot_from_laser, twist, points);
   const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
   const auto seen = static_cast<double>(points.size());
-  leave_out_walkers(moving, predicted, scan.stamp, points);
+  mask_moving_tracks(moving, predicted, scan.stamp, points);
   const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
-  const bool earned = odometry.by_wheels() && !trust.nothing_known();
+  const bool learnt = odometry.by_wheels() && !odometry_noise.nothing_known();
   const MatchResult found =
-      matcher.match(points, still, {predicted, covariance, if_wheels_slipped, earned, coasted(scan.stamp)});
+      matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
   if (!found.matched || (among_walkers && odometry.by_wheels() && !found.known_for_long)) return false;
   take(found, predicted);
   return true;
@@ -163,11 +159,11 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const FixGate::Verdict verdict = fix_gate.judge(predicted, fix, odom_from_robot);
   if (verdict == FixGate::Verdict::kPassOver) return;
   const bool lost = verdict == FixGate::Verdict::kTake;
-  const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, doubt_of(fix)} : blended(predicted, fix);
+  const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
   if_wheels_slipped = covariance;
-  trust.begin_anew();
-  drift.begin_anew();
+  odometry_noise.begin_anew();
+  radius_bias.begin_anew();
   correct_to(now.map_from_robot, odom_from_robot);
 }
 
@@ -175,8 +171,8 @@ void Localizer::State::publish() noexcept {
   map_from_robot_at_scan = map_from_odom * odom_from_robot_at_scan;
   estimate = {.stamp = odometry.stamp(),
               .map_from_robot = map_from_odom * odometry.odom_from_robot(),
-              .position_std_m = std::sqrt(0.5 * (covariance.xx + covariance.yy)),
-              .heading_std_rad = std::sqrt(covariance.hh)};
+              .position_std_m = std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))),
+              .heading_std_rad = std::sqrt(covariance(2, 2))};
 }
 
 Localizer::Localizer(const LocalizationConfig& config) : state_(std::make_unique<State>(config)) {}

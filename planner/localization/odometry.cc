@@ -56,13 +56,13 @@ ArcStep Odometry::since_last(const WheelState& wheels) const noexcept {
 
 ArcStep Odometry::take(const WheelState& wheels) noexcept {
   ArcStep step = since_last(wheels);
-  step.turn_rad += side_drift_ * step.distance_m;
+  step.turn_rad += radius_bias_ * step.distance_m;
   if (last_.sequence != 0)
     period_s_ = std::clamp(to_seconds(wheels.stamp) - to_seconds(last_.stamp), 0.0, kLongestPeriodS);
   last_ = wheels;
   coasted_ = false;
   twist_ = twist_of(wheels, drive_);
-  twist_.w_radps += side_drift_ * twist_.v_mps;
+  twist_.w_radps += radius_bias_ * twist_.v_mps;
   remember({wheels.stamp, after_arc(odom_from_robot(), step)});
   return step;
 }

@@ -30,7 +30,7 @@ class Odometry {
   /// restarted), counts as standing.
   ArcStep take(const WheelState& wheels) noexcept;
   /// From now on the robot turns by so much more with every metre than its wheels say (rad / m, to the left).
-  void set_side_drift(double turn_per_m) noexcept { side_drift_ = turn_per_m; }
+  void set_radius_bias(double turn_per_m) noexcept { radius_bias_ = turn_per_m; }
   /// While wheels are silent: moves by a pose in the robot's own frame.
   void coast(const Pose2& before_from_after, Time stamp) noexcept;
 
@@ -67,7 +67,7 @@ class Odometry {
   WheelState last_;
   double period_s_ = 0.0;  ///< between the last two readings
   bool coasted_ = false;   ///< since the last reading
-  double side_drift_ = 0.0;
+  double radius_bias_ = 0.0;
   Twist2 twist_;
   std::array<Entry, kRemembered> entries_{};
   std::size_t count_ = 0;      ///< ever remembered

@@ -1,8 +1,10 @@
 #include "planner/localization/scan_matcher.h"
 
+#include <Eigen/Cholesky>
+#include <Eigen/LU>
 #include <cmath>
 
-#include "planner/localization/wall_piece.h"
+#include "planner/localization/line_feature.h"
 
 namespace jaywalk {
 namespace {
@@ -26,45 +28,45 @@ void ScanMatcher::sample(const ScanPoints& scan) noexcept {
 
 namespace {
 
-struct Pull {
-  Symmetric3 information;
-  Row3 gradient;
+struct NormalEquations {
+  Eigen::Matrix3d information;
+  Eigen::Vector3d gradient;
   std::uint32_t on_walls = 0, on_standing = 0, in_the_open = 0;
   double fit = 0.0;  ///< a point that lies on its wall adds one
 };
 
-Pull pull_of_walls(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
-  Pull pull;
+NormalEquations normal_equations(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
+  NormalEquations sum;
   const Transform2 to_map(pose);
   for (const Vec2& q : sample) {
     const Vec2 p = to_map * q;
-    WallPiece wall;
-    if (!wall_near(still, p, pose.position(), wall)) {
-      pull.in_the_open += still.seen_free(still.cell_at(p)) ? 1U : 0U;
+    LineFeature wall;
+    if (!line_feature_near(still, p, pose.position(), wall)) {
+      sum.in_the_open += still.seen_free(still.cell_at(p)) ? 1U : 0U;
       continue;
     }
-    pull.on_walls += 1;
-    pull.on_standing += wall.stands ? 1U : 0U;
+    sum.on_walls += 1;
+    sum.on_standing += wall.stands ? 1U : 0U;
     const double r = dot(wall.normal, p - wall.point);
-    const Row3 jacobian{wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal)};
+    const Eigen::Vector3d jacobian(wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal));
     const double doubt = 1.0 + r * r / (kDoubtM * kDoubtM);
-    pull.fit += 1.0 / doubt;
+    sum.fit += 1.0 / doubt;
     const double weight = kIndependent / (wall.variance * doubt * doubt);
-    pull.information.add_outer(jacobian, weight);
-    pull.gradient.x += weight * r * jacobian.x;
-    pull.gradient.y += weight * r * jacobian.y;
-    pull.gradient.heading += weight * r * jacobian.heading;
+    sum.information += weight * jacobian * jacobian.transpose();
+    sum.gradient += weight * r * jacobian;
   }
-  return pull;
+  return sum;
 }
 
 /// Points of which the map knows what is there.
-std::uint32_t known(const Pull& pull) { return pull.on_walls + pull.in_the_open; }
+std::uint32_t known(const NormalEquations& sum) { return sum.on_walls + sum.in_the_open; }
 
-bool enough(const Pull& pull) { return pull.on_walls >= kFewestOnWalls && pull.on_walls >= kLeastShare * known(pull); }
+bool enough(const NormalEquations& sum) {
+  return sum.on_walls >= kFewestOnWalls && sum.on_walls >= kLeastShare * known(sum);
+}
 
-bool contradicted(const Pull& pull) {
-  return kLeastShare * known(pull) >= kFewestOnWalls && pull.on_walls < kLeastShare * known(pull);
+bool contradicted(const NormalEquations& sum) {
+  return kLeastShare * known(sum) >= kFewestOnWalls && sum.on_walls < kLeastShare * known(sum);
 }
 
 }  // namespace
@@ -74,24 +76,23 @@ MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still,
   sample(scan);
   result.points_used = static_cast<std::uint32_t>(sample_.size());
   if (sample_.size() < kFewestOnWalls) return result;
-  const Symmetric3 prior = inverse(predicted.covariance);
-  Pose2 pose = search_about(predicted, prior, sample_, still);
-  Symmetric3 posterior;
+  const Eigen::Matrix3d prior = predicted.covariance.inverse();
+  Pose2 pose = correlative_search(predicted, prior, sample_, still);
+  Eigen::Matrix3d information;
   for (int k = 0; k < kMostIterations; ++k) {
-    const Pull pull = pull_of_walls(sample_, still, pose);
-    result.known_for_long = pull.on_standing >= kFewestOnWalls;
-    result.contradicted = contradicted(pull);
-    if (!enough(pull)) return result;
-    result.fit = pull.fit / known(pull);
-    const Row3 from_prior = prior * offset(predicted.map_from_robot, pose);
-    posterior = inverse(prior + pull.information);
-    const Row3 step = posterior * Row3{pull.gradient.x + from_prior.x, pull.gradient.y + from_prior.y,
-                                       pull.gradient.heading + from_prior.heading};
-    pose = moved(pose, {-step.x, -step.y, -step.heading});
-    if (std::fabs(step.x) + std::fabs(step.y) + std::fabs(step.heading) < 1e-4) break;
+    const NormalEquations walls = normal_equations(sample_, still, pose);
+    result.known_for_long = walls.on_standing >= kFewestOnWalls;
+    result.contradicted = contradicted(walls);
+    if (!enough(walls)) return result;
+    result.fit = walls.fit / known(walls);
+    information = prior + walls.information;
+    const Eigen::Vector3d gradient = walls.gradient + prior * offset(predicted.map_from_robot, pose);
+    const Eigen::Vector3d step = information.ldlt().solve(gradient);
+    pose = moved(pose, -step);
+    if (step.cwiseAbs().sum() < 1e-4) break;
   }
   result.matched = true;
-  result.belief = {pose, posterior};
+  result.belief = {pose, information.inverse()};
   return result;
 }
 

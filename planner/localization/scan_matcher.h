@@ -1,13 +1,13 @@
 #pragma once
 // Where the robot must stand for its scan to lie on the walls that the map holds.
 //
-// Two steps. A search over a small window of poses (pose_search.h) counts how much of the scan falls on occupied cells:
-// it finds the right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of wall
-// nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not tell,
-// as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
+// Two steps. A search over a small window of poses (correlative_search.h) counts how much of the scan falls on occupied
+// cells: it finds the right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of
+// wall nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not
+// tell, as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
 // nothing.
 #include "planner/grid/evidence_map.h"
-#include "planner/localization/pose_search.h"
+#include "planner/localization/correlative_search.h"
 #include "planner/perception/scan_points.h"
 
 namespace jaywalk {

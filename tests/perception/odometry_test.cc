@@ -94,7 +94,7 @@ TEST_CASE("encoders that restart or report nonsense do not move the robot") {
 
 TEST_CASE("wheels that are known to pull to the left are put right, and their speed as well") {
   Odometry odometry(kDrive);
-  odometry.set_side_drift(0.1);
+  odometry.set_radius_bias(0.1);
   WheelState wheels = reading(1, 0.0, 0.0, 0.0);
   (void)odometry.take(wheels);
   wheels = reading(2, 4.0, 20.0, 20.0);  // 2 m: 0.2 rad

@@ -1,5 +1,6 @@
-#include "planner/localization/fix_blend.h"
+#include "planner/localization/fix_update.h"
 
+#include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
 
@@ -8,17 +9,12 @@ namespace {
 
 constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
 constexpr double kMostTurnedRad = 100.0;  // whole turns may be in it
-constexpr double kMostSurprise = 16.3;    // chi-squared of three, 99.9 % (Bar-Shalom and others 2001, table 1.5.4-1)
+constexpr double kMostNis = 16.3;         // chi-squared of three, 99.9 % (Bar-Shalom and others 2001, table 1.5.4-1)
 constexpr int kEnough = 3;
-
-/// Mahalanobis distance, squared.
-double surprise(const Pose2& from, const Pose2& to, const Symmetric3& covariance) {
-  return inverse(covariance).quadratic(offset(from, to));
-}
 
 }  // namespace
 
-Symmetric3 doubt_of(const OutsideFix& fix) noexcept {
+Eigen::Matrix3d covariance_of(const OutsideFix& fix) noexcept {
   const double position_var = std::max(fix.position_std_m * fix.position_std_m, kLeastPositionVar);
   return diagonal(position_var, position_var, std::max(fix.heading_std_rad * fix.heading_std_rad, kLeastHeadingVar));
 }
@@ -32,13 +28,13 @@ bool is_usable(const OutsideFix& fix) noexcept {
 
 FixGate::Verdict FixGate::judge(const PoseBelief& predicted, const OutsideFix& fix,
                                 const Pose2& odom_from_robot) noexcept {
-  const Symmetric3 doubt = doubt_of(fix);
-  if (surprise(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kMostSurprise) {
+  const Eigen::Matrix3d doubt = covariance_of(fix);
+  if (nis(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kMostNis) {
     agreeing_ = 0;
     return Verdict::kBlend;
   }
   const Pose2 as_the_last_has_it = map_from_odom_ * odom_from_robot;
-  const bool agrees = agreeing_ > 0 && surprise(as_the_last_has_it, fix.map_from_robot, doubt + doubt) < kMostSurprise;
+  const bool agrees = agreeing_ > 0 && nis(as_the_last_has_it, fix.map_from_robot, doubt + doubt) < kMostNis;
   agreeing_ = agrees ? agreeing_ + 1 : 1;
   map_from_odom_ = fix.map_from_robot * inverse(odom_from_robot);
   if (agreeing_ < kEnough) return Verdict::kPassOver;
@@ -47,9 +43,9 @@ FixGate::Verdict FixGate::judge(const PoseBelief& predicted, const OutsideFix& f
 }
 
 PoseBelief blended(const PoseBelief& predicted, const OutsideFix& fix) noexcept {
-  const Symmetric3 information = inverse(doubt_of(fix));
-  const Symmetric3 covariance = inverse(inverse(predicted.covariance) + information);
-  const Row3 by = covariance * (information * offset(predicted.map_from_robot, fix.map_from_robot));
+  const Eigen::Matrix3d information = covariance_of(fix).inverse();
+  const Eigen::Matrix3d covariance = (predicted.covariance.inverse() + information).inverse();
+  const Eigen::Vector3d by = covariance * (information * offset(predicted.map_from_robot, fix.map_from_robot));
   return {moved(predicted.map_from_robot, by), covariance};
 }
 

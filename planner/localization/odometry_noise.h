@@ -6,13 +6,13 @@
 namespace jaywalk {
 
 /// By how much a drive may have gone wrong, as variances.
-struct WheelDoubt {
+struct OdometryNoise {
   double position_var = 0.0;  ///< m^2, an axis
   double heading_var = 0.0;   ///< rad^2
 };
 
 /// Of wheels that nothing is known of: a random walk, a generous one.
-[[nodiscard]] WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept;
+[[nodiscard]] OdometryNoise noise_of_unknown_wheels(const ArcStep& step) noexcept;
 
 /// Adds up by how much matches move and turn the robot from where its wheels had taken it. A window ends when unknown
 /// wheels would have turned wrong by 6 degrees: after 8 m straight on, or 2 rad. What that came to in it at most,
@@ -20,7 +20,7 @@ struct WheelDoubt {
 /// believed less at once, better ones more from window to window. Turns and metres are watched apart, since wheels that
 /// turn wrong may count metres right: a turn that was put right moves nobody. A window, not a scan: how little single
 /// matches correct is no proof of good wheels, since a match that trusts them corrects little. Thread: the loop's.
-class WheelTrust {
+class OdometryNoiseEstimator {
  public:
   /// These wheels' doubt over that of unknown ones: at most 1, which is where they start, and never less than
   /// kLeastShare. The better of the two is taken for worse than it seems, the geometric mean of both: what slips on its
@@ -52,14 +52,14 @@ class WheelTrust {
 
   Share metres_, turns_;
   bool begun_ = false;
-  WheelDoubt window_;
+  OdometryNoise window_;
   Vec2 moved_in_map_;  ///< by matches, in this window
   double turned_ = 0.0;
 };
 
 /// Wheels of unequal size turn the robot a little with every metre: learnt from the turns that matches put right.
 /// Turning itself is left alone: what is wrong there goes away when the robot turns back. Thread: the loop's.
-class SideDrift {
+class WheelRadiusBias {
  public:
   /// rad a metre, to be added to what the wheels say; at most kMost to either side.
   [[nodiscard]] double turn_per_m() const { return turn_per_m_; }

@@ -10,7 +10,7 @@ namespace jaywalk {
 /// Drops the points within a hand of where each of `moving` should be at `stamp`, as seen from `map_from_robot`. Ground
 /// that people walk on is free in the map: among many of them a scan would seem to contradict it, though the few walls
 /// in between say where the robot is.
-void leave_out_walkers(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
-                       ScanPoints& points) noexcept;
+void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
+                        ScanPoints& points) noexcept;
 
 }  // namespace jaywalk

@@ -1,4 +1,4 @@
-#include "planner/localization/walkers.h"
+#include "planner/localization/track_mask.h"
 
 #include <array>
 #include <memory>
@@ -31,7 +31,7 @@ const Pose2 kRobot{3.0, 4.0, kPi / 2};
 
 TEST_CASE("what lies on a walker where he is by now is left out and the rest keeps its order") {
   const auto points = points_ahead();
-  leave_out_walkers(std::array{walker()}, kRobot, time_from_seconds(5.2), *points);
+  mask_moving_tracks(std::array{walker()}, kRobot, time_from_seconds(5.2), *points);
   REQUIRE(points->size() == 5);  // he is 1.45 m ahead, 0.32 m with a hand on each side: 1.2 to 1.7 are his
   CHECK((*points)[1].in_robot.x == Approx(1.1));
   CHECK((*points)[2].in_robot.x == Approx(1.8));
@@ -39,11 +39,11 @@ TEST_CASE("what lies on a walker where he is by now is left out and the rest kee
 
 TEST_CASE("a walker seen long ago is not followed for longer than a quarter second, nor back in time") {
   auto points = points_ahead();
-  leave_out_walkers(std::array{walker()}, kRobot, time_from_seconds(9.0), *points);
+  mask_moving_tracks(std::array{walker()}, kRobot, time_from_seconds(9.0), *points);
   REQUIRE(points->size() == 4);  // 1.5 m: 1.2 to 1.8
   CHECK((*points)[2].in_robot.x == Approx(1.9));
   points = points_ahead();
-  leave_out_walkers(std::array{walker()}, kRobot, time_from_seconds(4.0), *points);
+  mask_moving_tracks(std::array{walker()}, kRobot, time_from_seconds(4.0), *points);
   REQUIRE(points->size() == 5);  // 1.25 m: 1.0 to 1.5
   CHECK((*points)[0].in_robot.x == Approx(1.6));
 }

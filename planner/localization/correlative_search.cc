@@ -1,4 +1,4 @@
-#include "planner/localization/pose_search.h"
+#include "planner/localization/correlative_search.h"
 
 #include <algorithm>
 #include <array>
@@ -69,21 +69,21 @@ class WorthOfShifts {
   int count_ = 0;
 };
 
-double price(const Symmetric3& information, const Row3& by) {
-  return kThreeSigmaPrice / 9.0 * information.quadratic(by);
+double price(const Eigen::Matrix3d& information, const Eigen::Vector3d& by) {
+  return kThreeSigmaPrice / 9.0 * by.dot(information * by);
 }
 
 /// The best offset from the prediction, in steps of a cell and of kCoarseRad.
-Row3 best_cell(const Window& window, const MatchSample& sample, const EvidenceMap& still, const Pose2& predicted,
-               const Symmetric3& information) {
+Eigen::Vector3d best_cell(const Window& window, const MatchSample& sample, const EvidenceMap& still,
+                          const Pose2& predicted, const Eigen::Matrix3d& information) {
   WorthOfShifts worth_of_shifts;
-  Row3 best;
+  Eigen::Vector3d best;
   double best_worth = -1e9;
   for (int h = -window.headings; h <= window.headings; ++h) {
     worth_of_shifts.add_up(sample, still, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
     for (int y = -window.cells; y <= window.cells; ++y) {
       for (int x = -window.cells; x <= window.cells; ++x) {
-        const Row3 by{x * window.cell_m, y * window.cell_m, h * kCoarseRad};
+        const Eigen::Vector3d by(x * window.cell_m, y * window.cell_m, h * kCoarseRad);
         const double worth = worth_of_shifts.share(x, y) - price(information, by);
         if (worth > best_worth) best_worth = worth, best = by;
       }
@@ -93,14 +93,14 @@ Row3 best_cell(const Window& window, const MatchSample& sample, const EvidenceMa
 }
 
 /// The best of the offsets half a step to each side of `centre`.
-Row3 best_half_step(const Row3& centre, const MatchSample& sample, const EvidenceMap& still, const Pose2& predicted,
-                    const Symmetric3& information) {
-  Row3 best = centre;
+Eigen::Vector3d best_half_step(const Eigen::Vector3d& centre, const MatchSample& sample, const EvidenceMap& still,
+                               const Pose2& predicted, const Eigen::Matrix3d& information) {
+  Eigen::Vector3d best = centre;
   double best_worth = -1e9;
   const double half_m = 0.5 * still.cell_m(), half_rad = 0.5 * kCoarseRad;
   for (int k = 0; k < 27; ++k) {
-    const Row3 by{centre.x + (k % 3 - 1) * half_m, centre.y + (k / 3 % 3 - 1) * half_m,
-                  centre.heading + (k / 9 - 1) * half_rad};
+    const Eigen::Vector3d by(centre.x() + (k % 3 - 1) * half_m, centre.y() + (k / 3 % 3 - 1) * half_m,
+                             centre.z() + (k / 9 - 1) * half_rad);
     const double worth = share_on_walls(sample, still, moved(predicted, by)) - price(information, by);
     if (worth > best_worth) best_worth = worth, best = by;
   }
@@ -113,22 +113,14 @@ int steps(double variance, double most, double step) {
 
 }  // namespace
 
-Pose2 moved(const Pose2& pose, const Row3& by) noexcept {
-  return {pose.x + by.x, pose.y + by.y, wrap_angle(pose.heading + by.heading)};
-}
-
-Row3 offset(const Pose2& from, const Pose2& to) noexcept {
-  return {to.x - from.x, to.y - from.y, wrap_angle(to.heading - from.heading)};
-}
-
-Pose2 search_about(const PoseBelief& predicted, const Symmetric3& information, const MatchSample& sample,
-                   const EvidenceMap& still) noexcept {
-  const Symmetric3& p = predicted.covariance;
+Pose2 correlative_search(const PoseBelief& predicted, const Eigen::Matrix3d& information, const MatchSample& sample,
+                         const EvidenceMap& still) noexcept {
+  const Eigen::Matrix3d& p = predicted.covariance;
   const double cell_m = still.cell_m();
-  const Window window{.cells = steps(std::max(p.xx, p.yy), kMostCells * cell_m, cell_m),
-                      .headings = steps(p.hh, kMostWindowRad, kCoarseRad),
+  const Window window{.cells = steps(std::max(p(0, 0), p(1, 1)), kMostCells * cell_m, cell_m),
+                      .headings = steps(p(2, 2), kMostWindowRad, kCoarseRad),
                       .cell_m = cell_m};
-  const Row3 valley = best_cell(window, sample, still, predicted.map_from_robot, information);
+  const Eigen::Vector3d valley = best_cell(window, sample, still, predicted.map_from_robot, information);
   return moved(predicted.map_from_robot, best_half_step(valley, sample, still, predicted.map_from_robot, information));
 }
 

@@ -6,10 +6,10 @@ namespace jaywalk {
 
 /// Where the wheels put the robot at a scan, and how sure of it one is, with wheels as they have been and had nothing
 /// been known of them since the last match.
-struct WheelBelief {
+struct OdometryPrior {
   Pose2 map_from_robot;
-  Symmetric3 covariance, if_slipped;
-  bool earned = false;  ///< what is believed of the wheels is learnt; else there is nothing to take back
+  Eigen::Matrix3d covariance, if_slipped;
+  bool learnt = false;  ///< what is believed of the wheels is learnt; else there is nothing to take back
   PoseBelief coasted;   ///< had it gone on as it went from scan to scan, whatever the wheels say
 };
 
@@ -18,18 +18,20 @@ struct WheelBelief {
 /// that the map contradicts, but none that sees next to nothing the map knows: that is no slip. Where neither fits as
 /// matches did lately a third is tried, without the wheels, if the last scan is not long ago: one that spins in the air
 /// turns the robot by more than any doubt of what it says. Thread: the loop's.
-class SlipWatch {
+class SlipDetector {
  public:
-  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
+  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
+                                  const OdometryPrior& wheels) noexcept;
 
  private:
-  [[nodiscard]] MatchResult best(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept;
+  [[nodiscard]] MatchResult best(const ScanPoints& scan, const EvidenceMap& still,
+                                 const OdometryPrior& wheels) noexcept;
   [[nodiscard]] MatchResult by_wheels(const ScanPoints& scan, const EvidenceMap& still,
-                                      const WheelBelief& wheels) noexcept;
+                                      const OdometryPrior& wheels) noexcept;
   /// `other` where it fits better `by` so much than what was found, or, where nothing was, nearly as matches did
   /// lately.
   [[nodiscard]] const MatchResult& better(const MatchResult& found, const MatchResult& other, double by) const noexcept;
-  [[nodiscard]] bool doubtful(const MatchResult& found, const WheelBelief& wheels) const noexcept;
+  [[nodiscard]] bool doubtful(const MatchResult& found, const OdometryPrior& wheels) const noexcept;
 
   ScanMatcher matcher_;
   bool contradicted_ = false;  ///< the last scan was

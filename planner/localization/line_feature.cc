@@ -1,4 +1,4 @@
-#include "planner/localization/wall_piece.h"
+#include "planner/localization/line_feature.h"
 
 #include <algorithm>
 #include <cmath>
@@ -91,7 +91,7 @@ bool drop_other_face(Surfaces& surfaces, Vec2 normal_to_viewer) {
 
 }  // namespace
 
-bool wall_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, WallPiece& out) noexcept {
+bool line_feature_near(const EvidenceMap& still, Vec2 p, Vec2 viewer, LineFeature& out) noexcept {
   CellIndex nearest;
   if (!anchor_near(still, p, nearest)) return false;
   const Vec2 anchor = still.surface(nearest);

@@ -1,4 +1,4 @@
-#include "planner/localization/slip_watch.h"
+#include "planner/localization/slip_detector.h"
 
 #include <cmath>
 #include <memory>
@@ -12,8 +12,8 @@ using namespace jaywalk::test;
 
 namespace {
 
-const Symmetric3 kSure = diagonal(1e-6, 1e-6, 1e-6);  // a millimetre, 0.06 degrees
-const Symmetric3 kUnknown = diagonal(0.01, 0.01, 0.01);
+const Eigen::Matrix3d kSure = diagonal(1e-6, 1e-6, 1e-6);  // a millimetre, 0.06 degrees
+const Eigen::Matrix3d kUnknown = diagonal(0.01, 0.01, 0.01);
 
 /// A room of 8 m by 6 m that was seen from its middle for two seconds; the robot is there, and its wheels say that it
 /// has come 0.15 m ahead and turned by 0.1 rad.
@@ -21,15 +21,15 @@ struct SpunWheels {
   SpunWheels() {
     for (std::uint32_t k = 1; k <= 30; ++k) tracker.update(scan_of(room, {}, k), {});
   }
-  MatchResult match(const Pose2& said, bool earned, std::uint32_t scan) {
+  MatchResult match(const Pose2& said, bool learnt, std::uint32_t scan) {
     ScanProjection().project(scan_of(room, {}, scan), {}, {}, points);
-    return watch.match(points, tracker.still(), {said, kSure, kUnknown, earned, coasted});
+    return watch.match(points, tracker.still(), {said, kSure, kUnknown, learnt, coasted});
   }
 
   Room room = rectangle(8.0, 6.0);
   Tracker tracker{{.robot_from_laser = {}, .map_side_cells = 256, .map_centre = {}}};
   ScanPoints points;
-  SlipWatch watch;
+  SlipDetector watch;
   PoseBelief coasted{{}, kSure};
 };
 
@@ -65,6 +65,6 @@ TEST_CASE("where the wheels are off by more than they may slip the way it went b
 TEST_CASE("a belief that no numbers can hold is no match") {
   const auto robot = std::make_unique<SpunWheels>();
   ScanProjection().project(scan_of(robot->room, {}, 31), {}, {}, robot->points);
-  const Symmetric3 none = diagonal(0.0, 0.0, 0.0);  // its inverse is infinite
+  const Eigen::Matrix3d none = diagonal(0.0, 0.0, 0.0);  // its inverse is infinite
   CHECK_FALSE(robot->watch.match(robot->points, robot->tracker.still(), {{}, none, none, true, {{}, none}}).matched);
 }

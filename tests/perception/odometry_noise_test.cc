@@ -1,4 +1,4 @@
-#include "planner/localization/wheel_trust.h"
+#include "planner/localization/odometry_noise.h"
 
 #include <cmath>
 
@@ -9,7 +9,7 @@ using namespace jaywalk;
 namespace {
 
 /// A metre at a time, each seen to be right.
-void drive_right(WheelTrust& trust, int metres) {
+void drive_right(OdometryNoiseEstimator& trust, int metres) {
   for (int k = 0; k < metres; ++k) trust.drove({1.0, 0.0}), trust.corrected({}, {});
 }
 
@@ -17,7 +17,7 @@ void drive_right(WheelTrust& trust, int metres) {
 
 TEST_CASE("wheels that the map never corrects are doubted half as much from window to window, down to a bound") {
   // Unknown wheels: (0.035 rad)^2 a metre, so that the ninth metre ends a window of (0.1 rad)^2.
-  WheelTrust trust;
+  OdometryNoiseEstimator trust;
   trust.corrected({}, {});
   drive_right(trust, 8);
   CHECK(trust.turns() == 1.0);
@@ -29,54 +29,55 @@ TEST_CASE("wheels that the map never corrects are doubted half as much from wind
   drive_right(trust, 9);
   CHECK(trust.turns() == Approx(0.25));
   drive_right(trust, 900);
-  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
-  CHECK(trust.metres() == Approx(WheelTrust::kLeastShare));
+  CHECK(trust.turns() == Approx(OdometryNoiseEstimator::kLeastShare));
+  CHECK(trust.metres() == Approx(OdometryNoiseEstimator::kLeastShare));
 }
 
 TEST_CASE("trusted wheels are doubted again as soon as the map turns them by more than it may be wrong itself") {
-  WheelTrust trust;
+  OdometryNoiseEstimator trust;
   trust.corrected({}, {});
   drive_right(trust, 120);
   trust.corrected({}, {0.0, 0.0, 0.0045});  // a quarter of a degree
-  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
+  CHECK(trust.turns() == Approx(OdometryNoiseEstimator::kLeastShare));
   trust.corrected({}, {0.0, 0.0, 0.0045});  // with the one before (0.009^2 - 0.005^2) / 0.1^2
   CHECK(trust.turns() == Approx(0.0056));
   trust.corrected({}, {0.0, 0.0, 0.091});  // (0.1^2 - 0.005^2) / 0.1^2
   CHECK(trust.turns() == Approx(0.9975));
-  CHECK(trust.metres() == Approx(std::sqrt(0.9975 * WheelTrust::kLeastShare)));  // as metres, they were right
+  CHECK(trust.metres() ==
+        Approx(std::sqrt(0.9975 * OdometryNoiseEstimator::kLeastShare)));  // as metres, they were right
 }
 
 TEST_CASE("wheels that count metres wrong are doubted for it, and less for their turns") {
-  WheelTrust trust;
+  OdometryNoiseEstimator trust;
   trust.corrected({}, {});
   drive_right(trust, 120);
   trust.corrected({3.0, 0.0, 0.0}, {3.1, 0.0, 0.0});
   trust.corrected({4.0, 0.0, 0.0}, {4.1, 0.0, 0.0});
   const double metres_alone = (0.2 * 0.2 - 0.03 * 0.03) / 2.0 / (0.14 * 0.14);
   CHECK(trust.metres() == Approx(metres_alone));
-  CHECK(trust.turns() == Approx(std::sqrt(metres_alone * WheelTrust::kLeastShare)));
+  CHECK(trust.turns() == Approx(std::sqrt(metres_alone * OdometryNoiseEstimator::kLeastShare)));
 }
 
 TEST_CASE("what a match puts right after the pose was moved by something else is not the wheels' fault") {
-  WheelTrust trust;
+  OdometryNoiseEstimator trust;
   trust.corrected({}, {});
   drive_right(trust, 120);
   trust.begin_anew();
   trust.corrected({}, {0.2, 0.0, 0.1});
-  CHECK(trust.turns() == Approx(WheelTrust::kLeastShare));
+  CHECK(trust.turns() == Approx(OdometryNoiseEstimator::kLeastShare));
   trust.corrected({}, {0.2, 0.0, 0.1});
   CHECK(trust.turns() > 0.9);
 }
 
 TEST_CASE("a pull to one side is learnt from what matches put right, and no more than is sensible") {
-  SideDrift drift;
+  WheelRadiusBias drift;
   for (int k = 0; k < 100; ++k) {  // 10 m; the robot turns right by 0.05 rad a metre where its wheels say straight on
     drift.drove({0.1, 0.0});
     drift.corrected(0.1 * (-0.05 - drift.turn_per_m()));
   }
   CHECK(drift.turn_per_m() == Approx(-0.05).margin(0.01));
   for (int k = 0; k < 1000; ++k) drift.drove({0.1, 0.0}), drift.corrected(0.02);
-  CHECK(drift.turn_per_m() == SideDrift::kMost);
+  CHECK(drift.turn_per_m() == WheelRadiusBias::kMost);
   const double before = drift.turn_per_m();
   drift.drove({0.0, 1.0});  // on the spot: says nothing of metres
   drift.corrected(0.5);
@@ -85,20 +86,20 @@ TEST_CASE("a pull to one side is learnt from what matches put right, and no more
 
 TEST_CASE("a wheel that spins in the air for a second pulls to no side afterwards") {
   for (const double turn_rad : {0.073, -0.04}) {  // a scan: five and three times what the greatest pull turns it by
-    SideDrift drift;
+    WheelRadiusBias drift;
     for (int k = 0; k < 15; ++k) drift.drove({0.04, 0.0}), drift.corrected(turn_rad);
     CHECK(drift.turn_per_m() == 0.0);
   }
 }
 
 TEST_CASE("metres before the pose was moved by something else say nothing of the side that wheels pull to") {
-  SideDrift drift, told;
-  const auto learn = [](SideDrift& d) {
+  WheelRadiusBias drift, told;
+  const auto learn = [](WheelRadiusBias& d) {
     for (int k = 0; k < 20; ++k) d.drove({0.1, 0.0}), d.corrected(0.1 * (0.05 - d.turn_per_m()));
   };
-  for (SideDrift* d : {&drift, &told}) learn(*d), d->drove({10.0, 0.0});
+  for (WheelRadiusBias* d : {&drift, &told}) learn(*d), d->drove({10.0, 0.0});
   told.begin_anew();  // a fix put the heading right: the next match finds nothing to turn
-  for (SideDrift* d : {&drift, &told}) d->corrected(0.0), learn(*d);
+  for (WheelRadiusBias* d : {&drift, &told}) d->corrected(0.0), learn(*d);
   CHECK(told.turn_per_m() > 0.04);
   CHECK(drift.turn_per_m() < 0.04);
 }

@@ -1,4 +1,4 @@
-#include "planner/localization/slip_watch.h"
+#include "planner/localization/slip_detector.h"
 
 namespace jaywalk {
 namespace {
@@ -12,7 +12,8 @@ constexpr double kMostCoastedVar = 0.1 * 0.1, kMuchBetterFit = 0.3;
 
 }  // namespace
 
-MatchResult SlipWatch::match(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept {
+MatchResult SlipDetector::match(const ScanPoints& scan, const EvidenceMap& still,
+                                const OdometryPrior& wheels) noexcept {
   MatchResult found = best(scan, still, wheels);
   found.matched = found.matched && finite(found.belief.map_from_robot);
   if (found.matched) usual_fit_ += kFitGain * (found.fit - usual_fit_);
@@ -20,31 +21,31 @@ MatchResult SlipWatch::match(const ScanPoints& scan, const EvidenceMap& still, c
   return found;
 }
 
-MatchResult SlipWatch::best(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept {
+MatchResult SlipDetector::best(const ScanPoints& scan, const EvidenceMap& still, const OdometryPrior& wheels) noexcept {
   const MatchResult found = by_wheels(scan, still, wheels);
   const bool fits = found.matched ? found.fit >= usual_fit_ - kDoubtfulFit : !found.contradicted;
-  if (fits || wheels.coasted.covariance.hh > kMostCoastedVar) return found;
+  if (fits || wheels.coasted.covariance(2, 2) > kMostCoastedVar) return found;
   return better(found, matcher_.match(scan, still, wheels.coasted), kMuchBetterFit);
 }
 
-MatchResult SlipWatch::by_wheels(const ScanPoints& scan, const EvidenceMap& still, const WheelBelief& wheels) noexcept {
+MatchResult SlipDetector::by_wheels(const ScanPoints& scan, const EvidenceMap& still,
+                                    const OdometryPrior& wheels) noexcept {
   const Pose2& predicted = wheels.map_from_robot;
-  if (contradicted_ || !wheels.earned) return matcher_.match(scan, still, {predicted, wheels.if_slipped});
+  if (contradicted_ || !wheels.learnt) return matcher_.match(scan, still, {predicted, wheels.if_slipped});
   const MatchResult found = matcher_.match(scan, still, {predicted, wheels.covariance});
   if (!doubtful(found, wheels)) return found;
   return better(found, matcher_.match(scan, still, {predicted, wheels.if_slipped}), kBetterFit);
 }
 
-const MatchResult& SlipWatch::better(const MatchResult& found, const MatchResult& other, double by) const noexcept {
+const MatchResult& SlipDetector::better(const MatchResult& found, const MatchResult& other, double by) const noexcept {
   const double least_fit = found.matched ? found.fit + by : usual_fit_ - kDoubtfulFit;
   return other.matched && other.fit > least_fit ? other : found;
 }
 
-bool SlipWatch::doubtful(const MatchResult& found, const WheelBelief& wheels) const noexcept {
+bool SlipDetector::doubtful(const MatchResult& found, const OdometryPrior& wheels) const noexcept {
   if (!found.matched) return found.contradicted;
   if (found.fit < usual_fit_ - kDoubtfulFit) return true;
-  const Row3 off = offset(wheels.map_from_robot, found.belief.map_from_robot);
-  return inverse(wheels.covariance).quadratic(off) > kDoubtfulSigmas * kDoubtfulSigmas;
+  return nis(wheels.map_from_robot, found.belief.map_from_robot, wheels.covariance) > kDoubtfulSigmas * kDoubtfulSigmas;
 }
 
 }  // namespace jaywalk

@@ -1,4 +1,4 @@
-#include "planner/localization/walkers.h"
+#include "planner/localization/track_mask.h"
 
 #include <algorithm>
 
@@ -19,8 +19,8 @@ void leave_out(Vec2 centre_in_robot, double radius_m, ScanPoints& points) {
 
 }  // namespace
 
-void leave_out_walkers(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
-                       ScanPoints& points) noexcept {
+void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
+                        ScanPoints& points) noexcept {
   const Pose2 robot_from_map = inverse(map_from_robot);
   for (const Track& walker : moving) {
     const double ahead_s = std::clamp(to_seconds(stamp - walker.stamp), 0.0, kLongestAheadS);

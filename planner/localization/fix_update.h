@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "hal/types/outside_fix.h"
-#include "planner/localization/pose_search.h"
+#include "planner/localization/pose_belief.h"
 
 namespace jaywalk {
 
@@ -13,7 +13,7 @@ inline constexpr double kLeastPositionVar = 0.005 * 0.005;  // m2
 inline constexpr double kLeastHeadingVar = 0.002 * 0.002;   // rad2
 
 /// Covariance of a fix that is_usable(), in the map.
-[[nodiscard]] Symmetric3 doubt_of(const OutsideFix& fix) noexcept;
+[[nodiscard]] Eigen::Matrix3d covariance_of(const OutsideFix& fix) noexcept;
 
 /// What is believed after a fix, each part by its variance. The fix's pose is as is_usable() wants it.
 [[nodiscard]] PoseBelief blended(const PoseBelief& predicted, const OutsideFix& fix) noexcept;

@@ -1,4 +1,4 @@
-#include "planner/localization/wheel_trust.h"
+#include "planner/localization/odometry_noise.h"
 
 #include <algorithm>
 #include <cmath>
@@ -18,7 +18,7 @@ constexpr double kWindowPositionVar = 0.14 * 0.14;
 constexpr double kMapHeading = 0.005, kMapM = 0.03;  // what the map may be off by: measured, docs/tracking.md
 constexpr double kWindowGain = 0.5;
 
-// Kalman filter for the one number that SideDrift learns.
+// Kalman filter for the one number that WheelRadiusBias learns.
 constexpr double kMatchHeadingVar = 0.015 * 0.015;
 constexpr double kWheelHeadingVar = 0.03 * 0.03;     // a metre or radian
 constexpr double kDriftChangeVar = 0.0005 * 0.0005;  // a metre or radian: tyres wear, loads shift
@@ -30,32 +30,32 @@ double way(const ArcStep& step) { return std::fabs(step.distance_m) + std::fabs(
 
 }  // namespace
 
-WheelDoubt doubt_of_unknown_wheels(const ArcStep& step) noexcept {
+OdometryNoise noise_of_unknown_wheels(const ArcStep& step) noexcept {
   const double metres = std::fabs(step.distance_m), radians = std::fabs(step.turn_rad);
   return {kPositionVarPerM * metres + kPositionVarPerRad * radians,
           kHeadingVarPerM * metres + kHeadingVarPerRad * radians};
 }
 
-void WheelTrust::Share::moved(double explained_by) noexcept {
+void OdometryNoiseEstimator::Share::moved(double explained_by) noexcept {
   worst = std::max(worst, explained_by);
   believed = std::clamp(std::max(believed, worst), kLeastShare, 1.0);
 }
 
-double WheelTrust::Share::beside(const Share& other) const noexcept {
+double OdometryNoiseEstimator::Share::beside(const Share& other) const noexcept {
   return std::sqrt(believed * std::max(believed, other.believed));
 }
 
-void WheelTrust::Share::end_window() noexcept {
+void OdometryNoiseEstimator::Share::end_window() noexcept {
   believed = std::clamp(believed + kWindowGain * (worst - believed), kLeastShare, 1.0);
 }
 
-void WheelTrust::drove(const ArcStep& step) noexcept {
-  const WheelDoubt more = doubt_of_unknown_wheels(step);
+void OdometryNoiseEstimator::drove(const ArcStep& step) noexcept {
+  const OdometryNoise more = noise_of_unknown_wheels(step);
   window_.position_var += more.position_var;
   window_.heading_var += more.heading_var;
 }
 
-void WheelTrust::corrected(const Pose2& predicted, const Pose2& placed) noexcept {
+void OdometryNoiseEstimator::corrected(const Pose2& predicted, const Pose2& placed) noexcept {
   if (!begun_) return begin();
   moved_in_map_ = moved_in_map_ + (placed.position() - predicted.position());
   turned_ += wrap_angle(placed.heading - predicted.heading);
@@ -67,19 +67,19 @@ void WheelTrust::corrected(const Pose2& predicted, const Pose2& placed) noexcept
   begin();
 }
 
-void WheelTrust::begin() noexcept {
+void OdometryNoiseEstimator::begin() noexcept {
   begun_ = true;
   window_ = {};
   moved_in_map_ = {};
   turned_ = metres_.worst = turns_.worst = 0.0;
 }
 
-void SideDrift::drove(const ArcStep& step) noexcept {
+void WheelRadiusBias::drove(const ArcStep& step) noexcept {
   since_.distance_m += step.distance_m;
   since_.turn_rad += step.turn_rad;
 }
 
-void SideDrift::corrected(double turn_rad) noexcept {
+void WheelRadiusBias::corrected(double turn_rad) noexcept {
   const double metres = since_.distance_m, driven = way(since_);
   since_ = {};
   variance_ = std::min(variance_ + kDriftChangeVar * driven, kMostDriftVar);
