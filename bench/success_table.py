@@ -14,7 +14,7 @@ import re
 import subprocess
 import sys
 
-from command_line import jobs_of, refuse, require_built, seeds_of
+from command_line import jobs_of, require_built, seeds_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 PROGRAM = ROOT / "build/firmware/jaywalk"
@@ -25,32 +25,49 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--seeds", type=seeds_of, default="101-120", help="one, or first-last")
     parser.add_argument("--maps", type=int, nargs="+", default=[1, 2, 3, 4], choices=[1, 2, 3, 4])
-    parser.add_argument("--movers", type=int, nargs="+", default=[0, 1, 4, 16])
+    parser.add_argument("--movers", type=mover_count, nargs="+", default=[0, 1, 4, 16])
     parser.add_argument("--mode", default="full", choices=["full", "paper"])
     parser.add_argument("--legs", action="store_true", help="movers are people on two legs to the laser, not discs")
     parser.add_argument("--speed", type=float, help="of the movers, m/s, instead of 0.4")
+    parser.add_argument("--turn-rate", type=float, help="at which movers turn, rad/s, instead of 1; the robot is not told")
+    parser.add_argument("--turns-hz", type=float, help="how often movers turn unasked, a second; the robot is not told")
+    parser.add_argument("--constant-speed", action="store_true", help="the robot keeps one speed from start to goal")
     parser.add_argument("--jobs", type=jobs_of, default=2)
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/success"))
     return parser.parse_args()
 
 
+def mover_count(text):
+    """As many as the scenarios with 16 have room for, or none."""
+    if not re.fullmatch(r"\d{1,2}", text) or int(text) > 64:
+        raise argparse.ArgumentTypeError(f"{text}: no number of movers; give 0 to 64")
+    return int(text)
+
+
 def variant(options):
     """What the runs' folder is called."""
-    return options.mode + options.legs * "_legs" + ("" if options.speed is None else f"_{options.speed}")
+    named = {"": options.speed, "turn": options.turn_rate, "turns": options.turns_hz}
+    others = "".join(f"_{name}{value}" for name, value in named.items() if value is not None)
+    return options.mode + options.legs * "_legs" + options.constant_speed * "_constant" + others
 
 
 def own_scenario(name):
     return ROOT / f"hal/sim/scenarios/{name}.toml"
 
 
-def scenario_of(options, name, folder):
+def scenario_of(options, map_number, movers, folder):
     """The project's own, or one like it in `folder` with other movers."""
-    own = own_scenario(name)
-    text = own.read_text()
+    own = own_scenario(f"map{map_number}_{movers:02d}")
+    if not own.exists():
+        own = own_scenario(f"map{map_number}_16")
+    text = re.sub(r"\ncount = .*", f"\ncount = {movers}", own.read_text())
     if options.legs:
         text = text.replace('kind = "wander"\n', 'kind = "wander"\nlegs = true\n')
     if options.speed is not None:
         text = re.sub(r"\nspeed_mps = .*", f"\nspeed_mps = {options.speed}", text)
+    for key, value in (("turn_rate_radps", options.turn_rate), ("spontaneous_turns_hz", options.turns_hz)):
+        if value is not None:
+            text = text.replace('kind = "wander"\n', f'kind = "wander"\n{key} = {value}\n')
     if text == own.read_text():
         return own
     folder.mkdir(parents=True, exist_ok=True)
@@ -65,7 +82,9 @@ def run(job):
     out = options.out / variant(options) / name / str(seed)
     summary = out / "summary.json"
     if not summary.exists() or summary.stat().st_mtime < PROGRAM.stat().st_mtime:  # goes on where it was interrupted
-        command = [PROGRAM, "sim", scenario_of(options, name, out), "--seed", str(seed), "--mode", options.mode, "--out", out]
+        scenario = scenario_of(options, map_number, movers, out)
+        command = [PROGRAM, "sim", scenario, "--seed", str(seed), "--mode", options.mode, "--out", out]
+        command += ["--constant-speed"] * options.constant_speed
         done = subprocess.run(command, capture_output=True, text=True)
         if done.returncode not in (0, 1):
             sys.exit(f"{' '.join(map(str, command))}: exit {done.returncode}: {done.stderr.strip()}")
@@ -91,9 +110,6 @@ def row(movers, runs):
 
 def main():
     options = arguments()
-    for movers in options.movers:
-        if not own_scenario(f"map1_{movers:02d}").exists():
-            refuse(f"--movers: no scenario has {movers}", "give some of 0, 1, 4 and 16")
     require_built(PROGRAM)
     jobs = [(options, m, n, s) for n in options.movers for m in options.maps for s in options.seeds]
     with concurrent.futures.ThreadPoolExecutor(options.jobs) as pool:

@@ -11,6 +11,7 @@
 
 #include "firmware/backends.h"
 #include "firmware/commands/bench_maps.h"
+#include "firmware/commands/bench_motion.h"
 #include "firmware/commands/bench_rivals.h"
 #include "firmware/commands/bench_tick.h"
 #include "firmware/commands/progress.h"
@@ -24,6 +25,7 @@ namespace {
 /// The exact field of 256 x 256 cells takes less.
 constexpr double kMostMultiplications = 4e9;
 constexpr double kCell_m = 0.1;
+constexpr int kDecisions = 101;
 constexpr std::int32_t kTickCells = 256;  // what a loop sees around it
 
 /// Movers that walk about, so that no two submissions are alike.
@@ -122,6 +124,8 @@ class Bench {
     if (map.cells.width <= 1024) own.push_back(time_plan(map, backend, repeats));
     if (map.cells.width <= kTickCells) {
       own.push_back(time_tick(map, kCell_m, walkers(map.cells.width * kCell_m), backend, repeats));
+      if (backend == Backend::kCpu)
+        for (const int movers : {16, 64}) own.push_back(time_decision(map, kCell_m, movers, kDecisions));
     }
     for (const Timing& timing : own) {
       for (const Timing& rival : rivals) add(map, timing, rival);

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "firmware/commands/relived_run.h"
+#include "firmware/commands/why_decision.h"
 #include "firmware/commands/why_words.h"
 #include "firmware/report/picture/picture.h"
 #include "firmware/report/picture/scene.h"
@@ -58,6 +59,16 @@ Past relive(RelivedRun& run, double until_s) {
   return past;
 }
 
+/// The last decision, and the guide in the place of potential and path, which motion did not look at.
+void show_decision(const RelivedRun& run, PictureScene& scene) {
+  const motion::MotionPlanner* motion = run.loop().motion();
+  if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
+  scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan().guide));
+  if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
+  scene.moment->band.clear();
+  scene.moment->field = raster_of(run.loop().plan().guide, run.setup().model.footprint.inscribed_radius_m());
+}
+
 PictureScene scene_of(const RelivedRun& run, const Past& past) {
   const TickRecord& t = run.last();
   const ControlLoop& loop = run.loop();
@@ -75,6 +86,7 @@ PictureScene scene_of(const RelivedRun& run, const Past& past) {
   scene.occupied = occupied_cells(loop.tracker().still(), scene.driven, kShown_m);
   scene.cell_m = loop.tracker().still().cell_m();
   scene.moment = moment.moment();
+  show_decision(run, scene);
   if (t.input.has_goal) scene.goal = t.input.goal_in_map;
   scene.footprint = run.setup().model.footprint;
   const Vec2 here = t.pose.map_from_robot.position(), reach{kShown_m, kShown_m};
@@ -99,6 +111,9 @@ int run_why(const WhyOptions& options) {
   if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
   const Past past = relive(run, options.at_s);
   const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
+  if (const motion::MotionPlanner* motion = run.loop().motion(); motion != nullptr && motion->decision().at != kNever) {
+    write_alternatives(motion->alternatives(run.loop().plan().guide), (options.out / "why.csv").string());
+  }
   std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);
   if (drawn) std::printf("See %s\n", drawn->c_str());

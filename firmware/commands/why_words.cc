@@ -8,12 +8,13 @@
 #include <utility>
 #include <vector>
 
+#include "firmware/commands/why_decision.h"
+
 namespace jaywalk {
 namespace {
 
 constexpr double kDegPerRad = 180.0 / kPi;
 constexpr double kLookAhead_s = 5.0;
-constexpr float kWorthSaying_s = 0.05F;
 
 [[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
   char words[256];
@@ -89,39 +90,12 @@ std::string expected(const TickRecord& t, std::span<const Track> tracks) {
       meeting.gap_m, meeting.at_s);
 }
 
-const char* name_of(motion::Attempt attempt) {
-  constexpr std::array kNames{"go on as decided before",
-                              "follow the way",
-                              "wait and then go",
-                              "go and then stop",
-                              "drive an arc",
-                              "back off in an arc",
-                              "drive an arc, then follow the way",
-                              "back off, then follow the way"};
-  return kNames[static_cast<std::size_t>(attempt)];
-}
-
-std::string costs(const motion::Cost& cost) {
-  const std::array<std::pair<const char*, float>, 7> terms{{{"of meeting somebody", cost.conflict},
-                                                            {"of touching", cost.touch},
-                                                            {"of being braked", cost.stop_zone},
-                                                            {"near walls", cost.clearance},
-                                                            {"over unseen ground", cost.unseen},
-                                                            {"near people", cost.nearness},
-                                                            {"of comfort", cost.comfort}}};
-  std::string words;
-  for (const auto& [what, seconds] : terms) {
-    if (seconds >= kWorthSaying_s) words += text(", %.1f s %s", static_cast<double>(seconds), what);
-  }
-  return text("%.1f s to the goal", static_cast<double>(cost.time)) + words;
-}
-
 std::string wanted(const TickRecord& t, const ControlLoop& loop) {
   std::string words = text("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
   if (!t.input.has_goal) return words + "; it has no goal.\n";
   if (loop.motion() != nullptr && loop.motion()->decision().at != kNever) {
     const motion::Decision& decision = loop.motion()->decision();
-    words += std::string(", to ") + name_of(decision.trajectory.attempt) + "; it counted " + costs(decision.cost);
+    words += std::string(", to ") + name_of(decision.trajectory.attempt) + "; it counted " + in_words(decision.cost);
   }
   return words + ".\n";
 }

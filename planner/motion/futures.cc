@@ -26,12 +26,13 @@ void Futures::draw(std::span<const MoverBelief> seen, std::span<const Walker> hi
       walkers_[movers_].in[k] = Walker::drawn(belief, turning, guide, cell::Draws({decision, kPurpose, belief.id, k}));
     }
     mapped_[movers_] = !belief.has_walked;
+    newcomer_[movers_] = belief.newcomer;
     stood_[movers_] = belief.stood_s > kLongPauseS;
     radius_[movers_++] = belief.radius_m;
   }
   for (std::size_t at = 0; at + kFutures <= hidden.size() && movers_ < kMostMovers; at += kFutures) {
     std::copy_n(hidden.begin() + static_cast<std::ptrdiff_t>(at), kFutures, walkers_[movers_].in);
-    mapped_[movers_] = stood_[movers_] = false;
+    mapped_[movers_] = newcomer_[movers_] = stood_[movers_] = false;
     radius_[movers_++] = hidden[at].radius;
   }
   for (int step = 0; step < kFutureSteps; ++step) {

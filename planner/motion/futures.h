@@ -35,6 +35,8 @@ class Futures {
   [[nodiscard]] std::size_t movers() const { return movers_; }
   /// The map holds it where it stands: it was never seen to walk.
   [[nodiscard]] bool is_mapped(std::size_t mover) const { return mapped_[mover]; }
+  /// Most likely no pedestrian: nothing is owed to it while it stands.
+  [[nodiscard]] bool is_newcomer(std::size_t mover) const { return newcomer_[mover]; }
   /// It has stood for long: should it set out, the robot sees that before it drives on.
   [[nodiscard]] bool has_stood(std::size_t mover) const { return stood_[mover]; }
   [[nodiscard]] float radius(std::size_t mover) const { return radius_[mover]; }
@@ -52,7 +54,7 @@ class Futures {
   };
   std::vector<Row> walkers_;
   float radius_[kMostMovers] = {};
-  bool mapped_[kMostMovers] = {}, stood_[kMostMovers] = {};
+  bool mapped_[kMostMovers] = {}, newcomer_[kMostMovers] = {}, stood_[kMostMovers] = {};
   std::uint32_t blocked_[kMostMovers] = {};  ///< a bit a future
   std::size_t movers_ = 0;
 };

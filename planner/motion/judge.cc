@@ -29,6 +29,8 @@ constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m
 constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
 constexpr float kBackward = 0.02F;                    ///< each step
 constexpr float kReversal = 1.5F;                     ///< turning to the other side; maps 1 to 4, seeds 9001 to 9005
+constexpr float kPricedAtMps =
+    0.6F;  ///< changes of speed and side are worth so much way: a faster robot drives it sooner
 constexpr float kImpatience = 0.25F, kMostStoodS = 4.0F;  ///< a second before it sets out, for each that it has stood
 constexpr float kArrivedEarly = 0.5F;
 constexpr float kFacing = 1.0F;  ///< the wrong way at the end
@@ -90,6 +92,7 @@ class Judge {
   Judge(const Situation& s) : s_(s), along_(cell::heading_at(s.start.heading)), turned_(s.turned) {
     waits_ = s.guide.time_to_go(s.start.x, s.start.y) < Guide::kNoWay_s;
     clearance_ = at_start_ = clearance_at(s.start);
+    change_price_ = std::min(1.0F, kPricedAtMps / s.body.bounds.speed);
   }
 
   /// After a step: what the robot is near. `t`: seconds from now.
@@ -144,17 +147,18 @@ class Judge {
 
   void comfort(const RobotState& before, const RobotState& now) {
     const float dv = now.v - before.v, dw = now.w - before.w, side = now.v * now.w;
-    cost.comfort += kAccel * dv * dv + kTurnAccel * dw * dw + kTurning * now.w * now.w + kSideways * side * side;
+    cost.comfort +=
+        change_price_ * (kAccel * dv * dv + kTurnAccel * dw * dw) + kTurning * now.w * now.w + kSideways * side * side;
     if (now.v < -0.01F) cost.comfort += kBackward;
     const float turns = turned_side(now.w, turned_);
-    if (turns * turned_ < 0.0F) cost.comfort += kReversal;
+    if (turns * turned_ < 0.0F) cost.comfort += change_price_ * kReversal;
     turned_ = turns;
   }
 
-  /// Waiting for a while may look best again and again: the longer it has stood, the dearer is to stand on.
+  /// Waiting for a while may look best again and again: the longer it has not got on, the dearer is to stay on.
   void wait(const RobotState& now) {
-    waits_ = waits_ && hardly_moves(now);
-    if (waits_) cost.time += kStepS * kImpatience * std::min(s_.stood_s, kMostStoodS);
+    waits_ = waits_ && s_.stay.holds(now);
+    if (waits_) cost.time += kStepS * kImpatience * std::min(s_.stay.for_s, kMostStoodS);
   }
 
   void movers(const RobotState& r, int step, float t) {
@@ -175,7 +179,7 @@ class Judge {
         const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed);
         (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
         all.nearness += meeting.nearness;
-        all.too_fast += meeting.too_fast;
+        if (!s_.futures.is_newcomer(m)) all.too_fast += meeting.too_fast;
       }
     }
     cost.nearness += (kNearMover * all.nearness + kTooFast * all.too_fast) / static_cast<float>(kFutures * discs.count);
@@ -196,7 +200,8 @@ class Judge {
   const Situation& s_;
   cell::Heading along_;
   float clearance_ = 0.0F, at_start_ = 0.0F;
-  float turned_ = 0.0F;    ///< to this side it turned last
+  float turned_ = 0.0F;  ///< to this side it turned last
+  float change_price_ = 1.0F;
   bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each

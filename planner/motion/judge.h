@@ -23,7 +23,7 @@ struct Situation {
   RobotState start;
   Place goal;
   float turned = 0.0F;            ///< the side that it turned to last: turned_side()
-  float stood_s = 0.0F;           ///< for so long it has hardly moved
+  Stay stay;                      ///< where it has been since it last got on
   float arrives_within_m = 0.0F;  ///< of the goal: there
 };
 

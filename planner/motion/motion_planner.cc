@@ -56,6 +56,28 @@ RobotBody body_of(const MotionConfig& config) {
   return body;
 }
 
+/// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
+template <class Look>
+void search(const Situation& situation, bool constant_speed, std::uint32_t number, const Trajectory& best,
+            Trajectory& trial, const Look& look) {
+  const Attempts attempts(situation, constant_speed ? situation.body.bounds.speed : 0.0F);
+  for (int n = 0; n < attempts.count(); ++n) {
+    attempts.make(n, trial);
+    look(trial);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    const Trajectory base = best;
+    for (const int half : kSmoothedOver) {
+      attempts.smooth(base, half, trial);
+      look(trial);
+    }
+    for (int n = 0; n < kPerturbed; ++n) {
+      attempts.perturb(base, number, round, n, trial);
+      look(trial);
+    }
+  }
+}
+
 }  // namespace
 
 MotionPlanner::MotionPlanner(const MotionConfig& config)
@@ -79,54 +101,58 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
                  0.0F};
   now = moved(now, {now.v, now.w}, body_.bounds, kLagS);
   now.accel = accel_;
-  const Situation situation{body_,
-                            seen.guide,
-                            *futures_,
-                            now,
-                            {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)},
-                            turned_,
-                            stood_s(seen.now),
-                            kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
+  decision_.start = now;
+  decision_.goal = {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)};
+  decision_.turned = turned_;
+  decision_.stay = stay(now, seen.now);
+  const Situation situation = this->situation(seen.guide);
   best_cost_ = {.time = 1e9F};
   float to_beat = 1e9F;
-  if (decision_.at != kNever && seen.now - decision_.at < kHoldsFor) {
-    best_ = shifted(seen.now);
+  decision_.went_on = decision_.at != kNever && seen.now - decision_.at < kHoldsFor;
+  if (decision_.went_on) {
+    decision_.last = best_ = shifted(seen.now);
     best_cost_ = judge(situation, best_, 1e9F);
     to_beat = best_cost_.total();
   }
-  const Trajectory last = best_;
   const Cost last_cost = best_cost_;
   choose(situation);
-  if (best_cost_.total() > to_beat - kLeastGain) best_ = last, best_cost_ = last_cost;
+  if (best_cost_.total() > to_beat - kLeastGain) best_ = decision_.last, best_cost_ = last_cost;
   decision_.at = seen.now;
   decision_.seen = seen.stamp;
   decision_.trajectory = best_;
   decision_.cost = judge(situation, best_, 1e9F, decision_.driven.data());
 }
 
-void MotionPlanner::try_out(const Situation& situation, const Trajectory& trajectory) noexcept {
-  const Cost cost = judge(situation, trajectory, best_cost_.total());
-  if (cost.total() < best_cost_.total()) best_ = trajectory, best_cost_ = cost;
+Situation MotionPlanner::situation(const Guide& guide) const noexcept {
+  return {body_,          guide,
+          *futures_,      decision_.start,
+          decision_.goal, decision_.turned,
+          decision_.stay, kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
 }
 
 void MotionPlanner::choose(const Situation& situation) noexcept {
-  const float constant = config_.constant_speed ? body_.bounds.speed : 0.0F;
-  const Attempts attempts(situation, constant);
-  for (int n = 0; n < attempts.count(); ++n) {
-    attempts.make(n, trial_);
-    try_out(situation, trial_);
-  }
-  for (int round = 0; round < kRounds; ++round) {
-    const Trajectory base = best_;
-    for (const int half : kSmoothedOver) {
-      attempts.smooth(base, half, trial_);
-      try_out(situation, trial_);
-    }
-    for (int n = 0; n < kPerturbed; ++n) {
-      attempts.perturb(base, decision_.number, round, n, trial_);
-      try_out(situation, trial_);
-    }
-  }
+  search(situation, config_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
+    const Cost cost = judge(situation, trial, best_cost_.total());
+    if (cost.total() < best_cost_.total()) best_ = trial, best_cost_ = cost;
+  });
+}
+
+std::vector<Alternative> MotionPlanner::alternatives(const Guide& guide) const {
+  const Situation situation = this->situation(guide);
+  std::vector<Alternative> all;
+  Trajectory best, trial;
+  float least = 1e9F;
+  const auto look = [&](const Trajectory& trajectory) {
+    Alternative a{trajectory, {}, {}};
+    a.cost = judge(situation, trajectory, 1e9F, a.driven.data());
+    if (a.cost.total() < least) least = a.cost.total(), best = trajectory;
+    all.push_back(a);
+  };
+  if (decision_.went_on) look(decision_.last);
+  search(situation, config_.constant_speed, decision_.number, best, trial, look);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.cost.total() < b.cost.total(); });
+  return all;
 }
 
 /// What is left of the last decision, in between its steps, its last command held.
@@ -146,8 +172,13 @@ Trajectory MotionPlanner::shifted(Time now) const noexcept {
   return out;
 }
 
-float MotionPlanner::stood_s(Time now) const noexcept {
-  return moved_at_ == kNever || now < moved_at_ ? 0.0F : static_cast<float>(to_seconds(now - moved_at_));
+Stay MotionPlanner::stay(const RobotState& here, Time now) noexcept {
+  if (stays_since_ == kNever || now < stays_since_ || !stay_.holds(here)) {
+    stay_ = {here.x, here.y, here.heading, 0.0F};
+    stays_since_ = now;
+  }
+  stay_.for_s = static_cast<float>(to_seconds(now - stays_since_));
+  return stay_;
 }
 
 Command MotionPlanner::command_at(Time now) const noexcept {
@@ -167,7 +198,7 @@ Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot
       moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, to, body_.bounds, static_cast<float>(config_.tick_s));
   accel_ = next.accel;
   turned_ = turned_side(next.w, turned_);
-  if (rests || moved_at_ == kNever || !hardly_moves(next)) moved_at_ = now;
+  if (rests) stays_since_ = kNever;
   wished_ = {next.v, next.w};
   if (rests && std::fabs(next.v) < 1e-6F && std::fabs(next.w) < 1e-6F) return wished_ = {}, Twist2{};
   return {static_cast<double>(next.v), static_cast<double>(next.w)};

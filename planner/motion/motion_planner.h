@@ -32,6 +32,20 @@ struct Decision {
   Trajectory trajectory;
   Cost cost;
   std::array<RobotState, kSteps> driven{};
+  // What it was decided for, beside futures and guide.
+  RobotState start;
+  Place goal;
+  float turned = 0.0F;
+  Stay stay;
+  bool went_on = false;  ///< `last` was tried: what was left of the decision before
+  Trajectory last;
+};
+
+/// A trajectory that was tried, for pictures.
+struct Alternative {
+  Trajectory trajectory;
+  Cost cost;
+  std::array<RobotState, kSteps> driven{};
 };
 
 /// Decides how to move: draws futures of everybody, drives trajectories through them in thought, and takes the one that
@@ -52,12 +66,15 @@ class MotionPlanner {
   [[nodiscard]] const MoverMemory& memory() const { return memory_; }
   [[nodiscard]] const Decision& decision() const { return decision_; }
   [[nodiscard]] const Futures& futures() const { return *futures_; }
+  /// Everything that the last decision tried, cheapest first. `guide`: the one that it was made with, still valid.
+  /// Allocates: for pictures, never in the loop.
+  [[nodiscard]] std::vector<Alternative> alternatives(const Guide& guide) const;
 
  private:
+  [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
   void choose(const Situation& situation) noexcept;
-  void try_out(const Situation& situation, const Trajectory& trajectory) noexcept;
   [[nodiscard]] Trajectory shifted(Time now) const noexcept;
-  [[nodiscard]] float stood_s(Time now) const noexcept;
+  [[nodiscard]] Stay stay(const RobotState& here, Time now) noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
 
@@ -68,10 +85,11 @@ class MotionPlanner {
   Decision decision_;
   Trajectory trial_, best_;
   Cost best_cost_;
-  Command wished_;          ///< last
-  float accel_ = 0.0F;      ///< of the ramp
-  Time moved_at_ = kNever;  ///< when it last moved, or had nowhere to go
-  float turned_ = 0.0F;     ///< the side that it turned to last
+  Command wished_;      ///< last
+  float accel_ = 0.0F;  ///< of the ramp
+  Stay stay_;           ///< where it was when it last got on, or had nowhere to go
+  Time stays_since_ = kNever;
+  float turned_ = 0.0F;  ///< the side that it turned to last
 };
 
 }  // namespace jaywalk::motion

@@ -6,10 +6,12 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr double kWithinM = 9.0;      ///< of the robot: more than both come in 6 s
-constexpr double kStillM = 0.25;      ///< who stays within it stands
-constexpr double kLastingS = 5.0;     ///< who has stood for longer is in the way for now
-constexpr double kUnknownForS = 4.0;  ///< what is new and as wide as a body may walk off
+constexpr double kWithinM = 9.0;   ///< of the robot: more than both come in 6 s
+constexpr double kStillM = 0.25;   ///< who stays within it stands
+constexpr double kLastingS = 5.0;  ///< who has stood for longer is in the way for now
+constexpr double kUnknownForS = static_cast<double>(TurningModel::kNewForS);  ///< a body that is new may walk off
+constexpr double kSeenForS = 0.5;                                             ///< shorter: noise, no newcomer
+constexpr double kWalksFromTheStartS = 1.0;  ///< known to walk sooner than this: it did not stand
 constexpr double kUnknownWithinM = 4.0;
 constexpr double kLeastBodyM = 0.15, kWidestBodyM = 0.7;
 constexpr double kLeastRadiusM = 0.2;
@@ -24,6 +26,8 @@ constexpr double kTurnSine = 0.43;  ///< of 0.45 rad, in half a second: it has t
 
 double speed_of(const Track& t) { return norm(t.velocity_in_map); }
 
+bool is_as_wide_as_a_body(const Track& t) { return t.radius_m > kLeastBodyM && t.radius_m < kWidestBodyM; }
+
 }  // namespace
 
 void MoverMemory::update(const Seen& seen) noexcept {
@@ -33,6 +37,7 @@ void MoverMemory::update(const Seen& seen) noexcept {
   for (const Track& track : seen.tracks) {
     Memory& m = memory_of(track, seen);
     note(m, track, seen);
+    count_newcomer(m, to_seconds(seen.now - m.first_seen), kUnknownForS);
     if (track.moving && track.covariance.vv < kSteadyVariance && speed_of(track) > 0.2) {
       m.usual_mps += (m.usual_mps == 0.0 ? 1.0 : 0.05) * (speed_of(track) - m.usual_mps);
       if (m.steady_s > 1.0) turning_.usual_mps += 0.01F * (static_cast<float>(speed_of(track)) - turning_.usual_mps);
@@ -79,6 +84,15 @@ void MoverMemory::note(Memory& m, const Track& track, const Seen& seen) noexcept
   m.here = true;
 }
 
+/// Once of each that was seen to stand first: has it walked off by now, or was it furniture?
+void MoverMemory::count_newcomer(Memory& m, double known_s, double enough_s) noexcept {
+  if (m.counted || !is_as_wide_as_a_body(m.track) || !(m.has_walked || known_s >= enough_s)) return;
+  m.counted = true;
+  if (m.has_walked && known_s < kWalksFromTheStartS) return;
+  turning_.newcomers += 1.0F;
+  turning_.walked_off += m.has_walked ? 1.0F : 0.0F;
+}
+
 /// Every half a second: did somebody who walked in the open turn, or stop?
 void MoverMemory::learn(Memory& m, const Seen& seen) noexcept {
   if (to_seconds(seen.now - m.looked) < kLookEveryS) return;
@@ -113,8 +127,9 @@ bool MoverMemory::in_the_open(const Memory& m, const Seen& seen) const noexcept 
 
 void MoverMemory::forget_gone(const Seen& seen) noexcept {
   for (std::size_t k = memories_.size(); k-- > 0;) {
-    const Memory& m = memories_[k];
+    Memory& m = memories_[k];
     if (m.here) continue;
+    count_newcomer(m, to_seconds(m.track.stamp - m.first_seen), kSeenForS);
     if (m.has_walked && m.usual_mps > 0.0) occluded_.add(belief_of(m, seen.now), turning_, seen.guide);
     memories_.swap_remove(k);
   }
@@ -123,8 +138,8 @@ void MoverMemory::forget_gone(const Seen& seen) noexcept {
 bool MoverMemory::may_walk(const Memory& m, const Seen& seen) const noexcept {
   if (m.has_walked) return true;
   const Vec2 place = m.track.position_in_map;
-  return to_seconds(seen.now - m.first_seen) < kUnknownForS && m.track.radius_m > kLeastBodyM &&
-         m.track.radius_m < kWidestBodyM && distance(place, seen.map_from_robot.position()) < kUnknownWithinM &&
+  return to_seconds(seen.now - m.first_seen) < kUnknownForS && is_as_wide_as_a_body(m.track) &&
+         distance(place, seen.map_from_robot.position()) < kUnknownWithinM &&
          !seen.still.stands(seen.still.cell_at(place));
 }
 
@@ -144,6 +159,7 @@ MoverBelief MoverMemory::belief_of(const Memory& m, Time now) const noexcept {
           .radius_m = f(std::clamp(t.radius_m, kLeastRadiusM, kWidestBodyM)),
           .usual_mps = m.usual_mps > 0.1 ? f(m.usual_mps) : turning_.usual_mps,
           .has_walked = m.has_walked,
+          .newcomer = !m.has_walked,
           .stood_s = f(to_seconds(now - m.still_since))};
 }
 

@@ -47,6 +47,7 @@ class MoverMemory {
   struct Memory {
     Track track;  ///< as last seen
     bool here = false, has_walked = false;
+    bool counted = false;  ///< among the newcomers
     Time first_seen{}, still_since{};
     Vec2 anchor;  ///< it has been within kStillM of there since then
     double usual_mps = 0.0, steady_s = 0.0;
@@ -60,6 +61,7 @@ class MoverMemory {
   Memory& memory_of(const Track& track, const Seen& seen) noexcept;
   void note(Memory& m, const Track& track, const Seen& seen) noexcept;
   void learn(Memory& m, const Seen& seen) noexcept;
+  void count_newcomer(Memory& m, double known_s, double enough_s) noexcept;
   [[nodiscard]] bool in_the_open(const Memory& m, const Seen& seen) const noexcept;
   void forget_gone(const Seen& seen) noexcept;
   void believe(const Seen& seen) noexcept;

@@ -31,8 +31,17 @@ JAYWALK_CELL float turned_side(float w, float last) {
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 
-/// Slower than a passenger would call driving.
-JAYWALK_CELL bool hardly_moves(const RobotState& s) { return std::fabs(s.v) < 0.05F && std::fabs(s.w) < 0.1F; }
+/// Where the robot has been for a while: it has not come farther from it than a passenger would call getting on.
+struct Stay {
+  float x = 0.0F, y = 0.0F, heading = 0.0F;
+  float for_s = 0.0F;
+
+  [[nodiscard]] JAYWALK_CELL bool holds(const RobotState& s) const {
+    constexpr float kNear_m = 0.25F, kNear_rad = 0.8F;
+    const float dx = s.x - x, dy = s.y - y;
+    return dx * dx + dy * dy < kNear_m * kNear_m && std::fabs(cell::wrapped(s.heading - heading)) < kNear_rad;
+  }
+};
 
 /// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk (the acceleration never exceeds
 /// what jerk takes back to zero in the speed left), the turn with bounded acceleration. A command that stays is not

@@ -19,7 +19,8 @@ struct MoverBelief {
   float radius_m = 0.0F;
   float usual_mps = 0.0F;  ///< its own when it walks, or that of others
   bool has_walked = false;
-  float stood_s = 0.0F;  ///< in one place
+  bool newcomer = false;  ///< neither seen to walk nor to have legs: furniture, most likely
+  float stood_s = 0.0F;   ///< in one place
 };
 
 inline constexpr float kStandsBelowMps = 0.2F;    ///< or half of its usual speed, if that is less
@@ -29,8 +30,6 @@ inline constexpr float kLookAheadM = 0.5F;        ///< what lies nearer than thi
 inline constexpr float kPausesForS = 2.0F;        ///< at most, who walked and stands now
 inline constexpr float kLongPauseS = 4.0F;        ///< who has stood for longer may stand for any time:
 inline constexpr float kStandsForS = 6.0F;        ///< on average, or as long again as it has stood
-inline constexpr float kUnknownStandsForS =
-    20.0F;  ///< the same of what was never seen to walk: most of it is furniture
 
 /// Whether a surface lies in the quarter circle of `reach` m ahead of a place: looked for in four discs that fill it.
 JAYWALK_ANYWHERE bool faces_surface(const Guide& guide, float x, float y, const cell::Heading& along, float reach) {
@@ -98,7 +97,7 @@ struct Walker {
     w.face(cell::kPiF * w.draws.either_way());
     (void)w.look_for_way(guide);
     const bool for_long = !b.has_walked || b.stood_s > kLongPauseS;
-    const float least = b.has_walked ? kStandsForS : kUnknownStandsForS;
+    const float least = b.has_walked ? kStandsForS : 1.0F / turning.walks_off_hz();
     const float expected = b.stood_s > least ? b.stood_s : least;
     w.wait_s = for_long ? w.draws.waiting_s(1.0F / expected) : kPausesForS * w.draws.uniform();
     return w;

@@ -4,6 +4,8 @@
 #include <bit>
 #include <cmath>
 #include <cstring>
+#include <memory>
+#include <vector>
 
 #include "planner/motion/mover_memory.h"
 #include "tests/motion/guided.h"
@@ -172,4 +174,43 @@ TEST_CASE("a walker out of sight lives on, until his places are seen to be empty
   update(3.1, {});
   update(3.2, {});
   CHECK(memory.hidden().empty());
+}
+
+namespace {
+
+/// What is remembered after five posts stood there for five seconds, the last of which walks off if it `leaves`.
+MoverMemory among_posts(bool leaves) {
+  test::Guided g;
+  (void)g.towards({0.0, -3.0}, {5.0, 5.0});
+  MoverMemory memory;
+  const LaserScan scan = open_scan();
+  for (int k = 0; k <= 50; ++k) {
+    const Time now = time_from_seconds(0.1 * k);
+    std::vector<Track> posts;
+    for (std::uint32_t id = 1; id <= 5; ++id) posts.push_back(track_at(id, {0.8 * id - 2.0, -1.0}, {}, now));
+    if (leaves && k > 20) posts.back() = track_at(5, {2.0, -1.0 + 0.05 * (k - 20)}, {0.0, 0.5}, now);
+    memory.update({.now = now,
+                   .stamp = now,
+                   .map_from_robot = {0.0, -3.0, 0.0},
+                   .tracks = posts,
+                   .standing = {},
+                   .still = g.map(),
+                   .scan = scan,
+                   .map_from_laser = {0.0, -3.0, 0.0},
+                   .guide = g.guide()});
+  }
+  return memory;
+}
+
+}  // namespace
+
+TEST_CASE("what is new and stands walks off as often as those before it did: a fifth at first, worth five of them") {
+  const TurningModel at_first;
+  CHECK(at_first.walks_off_hz() == Approx(0.05F));  // 1 of 5 in 4 s
+  const auto posts = std::make_unique<MoverMemory>(among_posts(false));
+  CHECK(posts->turning().newcomers == 5.0F);
+  CHECK(posts->turning().walks_off_hz() == Approx(0.025F));  // 1 of 10
+  const auto one_left = std::make_unique<MoverMemory>(among_posts(true));
+  CHECK(one_left->turning().newcomers == 5.0F);
+  CHECK(one_left->turning().walks_off_hz() == Approx(0.05F));  // 2 of 10
 }

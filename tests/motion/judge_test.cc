@@ -11,7 +11,8 @@ using namespace jaywalk::motion;
 namespace {
 
 /// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
-Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false) {
+Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
+             float full_speed = 0.6F) {
   test::Guided ground;
   if (walled_in)
     ground.wall({2.0, -4.0}, {2.0, 6.0})
@@ -21,12 +22,18 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
   const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
   RobotBody body;
   body.to_walls = body.to_movers = BodyDiscs::covering(p3dx().footprint, 0.02);
-  body.bounds = {
-      .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 0.75F};
+  body.bounds = {.speed = full_speed,
+                 .back = 0.3F,
+                 .turn = 1.2F,
+                 .turn_accel = 2.0F,
+                 .accel = 0.5F,
+                 .slowing = 0.8F,
+                 .jerk = 0.75F};
   const auto nobody = std::make_unique<Futures>();
   Trajectory held;
   held.commands.fill(command);
-  return judge({body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, stood_s, 0.24F}, held, 1e9F);
+  return judge({body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, {0.0F, 0.0F, 0.0F, stood_s}, 0.24F}, held,
+               1e9F);
 }
 
 }  // namespace
@@ -36,7 +43,9 @@ TEST_CASE("to stand on is the dearer the longer the robot has stood, up to four 
   CHECK(cost_of({}, 2.0F).total() == Approx(at_once + 3.0F).margin(0.01));  // 6 s at half a second each
   CHECK(cost_of({}, 4.0F).total() == Approx(at_once + 6.0F).margin(0.01));
   CHECK(cost_of({}, 60.0F).total() == cost_of({}, 4.0F).total());
-  CHECK(cost_of({0.6F, 0.0F}, 4.0F).total() < cost_of({0.6F, 0.0F}, 0.0F).total() + 0.5F);
+  const float on_the_way = cost_of({0.6F, 0.0F}, 4.0F).total() - cost_of({0.6F, 0.0F}, 0.0F).total();
+  CHECK(on_the_way == Approx(1.2F).margin(0.11));                // as long as it takes to get 0.25 m on, at 0.75 m/s3
+  CHECK(cost_of({0.0F, 0.05F}, 4.0F).total() > at_once + 5.0F);  // to sway is no getting on
 }
 
 TEST_CASE("where no way is known it may stand for ever") {
@@ -49,4 +58,9 @@ TEST_CASE("turning to the other side than before has its price, once") {
   const float left_again = cost_of({0.3F, 0.5F}, 0.0F, 1.0F).total();
   CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F).total() == Approx(left_again + 1.5F).margin(0.01));
   CHECK(cost_of({0.3F, 0.5F}, 0.0F, 0.0F).total() == Approx(left_again).margin(0.01));
+}
+
+TEST_CASE("a reversal is worth so much way: at three times the speed a third of the time") {
+  const float same_side = cost_of({0.3F, 0.5F}, 0.0F, 1.0F, false, 1.8F).total();
+  CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F, false, 1.8F).total() == Approx(same_side + 0.5F).margin(0.01));
 }

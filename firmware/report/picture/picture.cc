@@ -4,6 +4,7 @@
 
 #include "firmware/report/picture/cairo_library.h"
 #include "firmware/report/picture/canvas.h"
+#include "firmware/report/picture/decision_layer.h"
 #include "firmware/report/picture/field_layer.h"
 #include "firmware/report/picture/map_frame.h"
 #include "firmware/report/picture/run_layers.h"
@@ -59,6 +60,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
   if (scene.movers.empty()) draw_tracks(canvas, to_sheet, scene.tracks);
   draw_drive(canvas, to_sheet, scene);
   draw_moment(canvas, to_sheet, scene);
+  if (scene.decision) draw_decision(canvas, to_sheet, *scene.decision);
   draw_ends(canvas, to_sheet, scene);
   canvas.unclip();
 }

@@ -42,6 +42,25 @@ struct PlanMoment {
   FieldRaster field;
 };
 
+/// A way that was weighed.
+struct WeighedWay {
+  std::vector<Vec2> places;
+  float cost_s = 0.0F;
+};
+
+/// Where a mover is in one of the futures that were drawn, and when: 0 now, 1 at the horizon.
+struct FuturePlace {
+  Vec2 at;
+  double horizon_share = 0.0;
+};
+
+/// What one decision on motion rests on.
+struct DecisionScene {
+  std::vector<WeighedWay> ways;  ///< cheapest first
+  std::vector<Vec2> chosen;
+  std::vector<FuturePlace> futures;
+};
+
 /// Parts that are empty are left out of the picture and of its legend.
 struct PictureScene {
   std::string title;
@@ -54,6 +73,7 @@ struct PictureScene {
   std::vector<Trail> movers;  ///< as they really went
   std::vector<Trail> tracks;  ///< as the controller followed them; drawn where there are no movers
   std::optional<PlanMoment> moment;
+  std::optional<DecisionScene> decision;
   std::optional<Pose2> start;
   std::optional<Vec2> goal;
   double goal_tolerance_m = 0.3;

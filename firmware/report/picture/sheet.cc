@@ -1,10 +1,12 @@
 #include "firmware/report/picture/sheet.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <functional>
 #include <string>
 
+#include "firmware/report/picture/decision_layer.h"
 #include "firmware/report/picture/field_layer.h"
 #include "firmware/report/picture/run_layers.h"
 
@@ -87,13 +89,31 @@ void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const Picture
     };
     rows.push_back({white, "no room for the robot then"});
   }
-  rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kBand, 3.2, 10.0}); }, "plan at " + moment_time(scene)});
+  if (!scene.moment->band.empty()) {
+    rows.push_back({[&](Vec2 at) {
+                      line_sample(canvas, at, {ink::kBand, 3.2, 10.0});
+                    },
+                    "plan at " + moment_time(scene)});
+  }
   if (!scene.moment->predictions.empty()) {
     rows.push_back({[&](Vec2 at) {
                       canvas.fill_disc(at, 13.0, ink::kBand.faded(0.12));
                       canvas.stroke_circle(at, 13.0, {ink::kBand, 1.6, 6.0});
                     },
                     "expected there by then"});
+  }
+}
+
+void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureScene& scene) {
+  if (!scene.decision) return;
+  const auto line = [&canvas](const Colour& colour, double width) {
+    return [&canvas, colour, width](Vec2 at) { line_sample(canvas, at, {colour, width}); };
+  };
+  rows.push_back({line(ink::kBand, 3.6), "chosen, 6 s"});
+  const std::array<const char*, kCostColours.size()> kNames{"within 0.5 s of the cheapest", "within 3 s", "dearer"};
+  for (std::size_t k = 0; k < kNames.size(); ++k) rows.push_back({line(kCostColours[k].second, 2.4), kNames[k]});
+  if (!scene.decision->futures.empty()) {
+    rows.push_back({[&](Vec2 at) { canvas.fill_disc(at, 5.0, kFutureColour.faded(0.5)); }, "where bodies may be"});
   }
 }
 
@@ -107,13 +127,13 @@ double draw_facts(Canvas& canvas, const PictureScene& scene, Vec2 at, double wid
 }
 
 /// The field's colours from goal to far away.
-double draw_field_key(Canvas& canvas, Vec2 at, double width) {
+double draw_field_key(Canvas& canvas, Vec2 at, double width, const char* name) {
   constexpr std::int32_t kColumns = 64, kRows = 4;
   FieldRaster key{{0.0, 0.0}, kColumns, kRows, 1.0, {}};
   for (std::int32_t i = 0; i < kRows * kColumns; ++i) key.psi.push_back(static_cast<float>(i % kColumns));
   draw_field(canvas, MapFrame({{0.0, 0.0}, {kColumns, kRows}}, at, {width, width}), key);
   canvas.write(at + Vec2{0.0, 40.0}, "goal", {16.0, ink::kFaint});
-  canvas.write(at + Vec2{width / 2.0, 40.0}, "potential", {16.0, ink::kFaint, Align::kCentre});
+  canvas.write(at + Vec2{width / 2.0, 40.0}, name, {16.0, ink::kFaint, Align::kCentre});
   canvas.write(at + Vec2{width, 40.0}, "far", {16.0, ink::kFaint, Align::kRight});
   return at.y + 70.0;
 }
@@ -164,11 +184,14 @@ void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, doub
   Vec2 at = upper_left + Vec2{0.0, kFactSize};
   at.y = draw_facts(canvas, scene, at, width);
   at.y += 10.0;
-  if (scene.moment && !scene.moment->field.psi.empty()) at.y = draw_field_key(canvas, at, width);
+  if (scene.moment && !scene.moment->field.psi.empty()) {
+    at.y = draw_field_key(canvas, at, width, scene.decision ? "time to go" : "potential");
+  }
   std::vector<LegendRow> rows;
   add_map_rows(rows, canvas, scene);
   add_mover_rows(rows, canvas, scene);
   add_moment_rows(rows, canvas, scene);
+  add_decision_rows(rows, canvas, scene);
   for (const LegendRow& row : rows) {
     row.sample(at + Vec2{kSwatch / 2.0, -6.0});
     canvas.write(at + Vec2{kSwatch + 22.0, 0.0}, row.text, {19.0, ink::kText});
