@@ -19,6 +19,7 @@
 #include "firmware/commands/standard_streams.h"
 #include "firmware/commands/view_option.h"
 #include "firmware/commands/why_command.h"
+#include "firmware/report/run_words.h"
 #include "hal/nearest_word.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
@@ -37,6 +38,7 @@ BenchOptions bench_options;
 FaultsOptions faults_options;
 ExportOptions export_options;
 WhyOptions why_options;
+std::filesystem::path report_folder;
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
@@ -59,6 +61,7 @@ void add_sim(CLI::App& app) {
                 "One speed from start to goal, never stopping for a plan");
   add_backend(*sim, sim_options.backend);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
+  sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
   add_view(*sim, sim_options.view);
 }
@@ -106,6 +109,7 @@ void add_replay(CLI::App& app) {
   replay->add_option(
       "--model", replay_options.model,
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
+  replay->add_flag("--save-map", replay_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
 }
 
@@ -161,6 +165,11 @@ void add_why(CLI::App& app) {
   why->add_option("--out", why_options.out, "Folder for why.png")->capture_default_str();
 }
 
+void add_report(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("report", "A run in plain words: distance, stops and why, faults");
+  command->add_option("run", report_folder, "A run's folder")->required();
+}
+
 /// The parser would only say that one is missing.
 void require_command(const CLI::App& app, int argc, char** argv) {
   std::vector<std::string> names;
@@ -185,6 +194,7 @@ int run(int argc, char** argv) {
   add_faults(app);
   add_export(app);
   add_why(app);
+  add_report(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
   add_footers(app);
@@ -197,6 +207,7 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
   if (app.got_subcommand("faults")) return run_faults(faults_options);
+  if (app.got_subcommand("report")) return std::fputs(run_words(report_folder).c_str(), stdout), 0;
   if (app.got_subcommand("why")) return run_why(why_options);
   if (app.got_subcommand("export")) return run_export(export_options);
   if (app.got_subcommand("field")) return run_field(field_options);

@@ -13,7 +13,7 @@ struct Footer {
   const char* one;
 };
 
-constexpr std::array<Footer, 15> kFooters{{
+constexpr std::array<Footer, 16> kFooters{{
     {"sim", "jaywalk sim hal/sim/scenarios/crossing.toml --seed 2 --view",
      "the goal was reached, nobody touched or made to turn", "it was not"},
     {"replay", "jaywalk replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
@@ -21,6 +21,7 @@ constexpr std::array<Footer, 15> kFooters{{
     {"field", "jaywalk field hal/sim/maps/map1.yaml --goal 24,24", "the field is certified", "it is not"},
     {"export", "jaywalk export out/sim", "exported", "-"},
     {"why", "jaywalk why out/sim 12.5", "told", "-"},
+    {"report", "jaywalk report out/sim", "told", "-"},
     {"bench", "jaywalk bench --largest 256 --json rows.json", "measured", "-"},
     {"faults", "jaywalk faults --out out/faults", "every row is ok", "one is not"},
     {"run", "jaywalk run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},

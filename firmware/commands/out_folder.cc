@@ -12,8 +12,8 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::array kLeft{"recording.jwr", "robot.csv", "movers.csv", "tracks.csv",  "summary.json",
-                           "run.png",       "run.svg",   "arming.txt", "devices.json"};  // docs/outputs.md
+constexpr std::array kLeft{"recording.jwr", "robot.csv",  "movers.csv",   "tracks.csv", "summary.json", "run.png",
+                           "run.svg",       "arming.txt", "devices.json", "map.yaml",   "map.pgm"};  // docs/outputs.md
 
 }  // namespace
 

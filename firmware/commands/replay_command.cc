@@ -16,6 +16,7 @@
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
+#include "firmware/report/map_files.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/logs/line_file.h"
 #include "hal/sim/logs/log_replay.h"
@@ -107,6 +108,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const bool whole = log.ended();
   runner.finish({.outcome = whole ? "replayed" : "interrupted", .success = whole, .scenario = name});
   const std::filesystem::path drawn = picture.save(options.out, name, runner, {});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   const std::size_t scans = log.log().scans.size();
   std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
@@ -180,6 +182,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
   runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
   const std::filesystem::path drawn = picture.save(options.out, "replay of " + file, runner, {});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
               static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),

@@ -16,6 +16,7 @@ struct ReplayOptions {
   std::optional<Pose2> laser_mount;    ///< robot_from_laser; default: the log's own word, else the robot's origin
   std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
   std::filesystem::path out = "out/replay";
+  bool save_map = false;  ///< what the robot saw, as map_server files
 };
 
 /// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command

@@ -61,6 +61,7 @@ void add_run(CLI::App& app, int& exit_code) {
   run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
   add_backend(*run, run_options.backend);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
+  run->add_flag("--save-map", run_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   run->add_option("--runs", run_options.runs, "Folder in which each run gets one of its own, instead of --out");
   run->add_option("--keep-runs", run_options.kept.runs, "How many runs are kept below --runs, this one included")
       ->check(CLI::Range(1, 100'000))

@@ -11,6 +11,7 @@
 
 #include "drivers/can/restart_link.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/report/map_files.h"
 #include "firmware/robot/armed_mark.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
@@ -185,6 +186,7 @@ int run_robot(RunOptions options) {
   picture.consider(runner);
   const std::filesystem::path drawn =
       picture.save(options.out, options.robot.filename().string() + ": " + outcome(last), runner, {});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   remark("disarmed; " + outcome(last) + "; see " + drawn.string());
   return last.latched ? 1 : 0;

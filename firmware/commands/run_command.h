@@ -10,6 +10,7 @@ struct RunOptions {
   std::filesystem::path robot;  ///< ROBOT.toml
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/run";
+  bool save_map = false;       ///< what the robot saw, as map_server files
   std::filesystem::path runs;  ///< where each run gets a folder of its own, in place of `out`; empty: `out` it is
   RunsKept kept;               ///< below `runs`
   std::filesystem::path control_socket;  ///< empty: the file's, else the default

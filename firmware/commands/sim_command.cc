@@ -11,6 +11,7 @@
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/commands/sim_view.h"
+#include "firmware/report/map_files.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -173,6 +174,7 @@ int run_sim(const SimOptions& options) {
                  .mover_rule = sim::Simulation::mover_rule()});
   const std::filesystem::path drawn = picture.save(
       options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
               lasted_s, lasted_s / took_s, drawn.c_str());

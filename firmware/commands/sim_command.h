@@ -15,6 +15,7 @@ struct SimOptions {
   bool constant_speed = false;
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/sim";
+  bool save_map = false;  ///< what the robot saw, as map_server files
   bool realtime = false;
   std::optional<view::ViewAddress> view = {};  ///< serve the live page there
 };

@@ -1,0 +1,137 @@
+#include "firmware/report/run_words.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <map>
+#include <nlohmann/json.hpp>
+
+#include "firmware/report/run_log.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// Why a robot stands: the first of these that its reasons hold. Faults go before limits.
+struct Cause {
+  const char* reason;
+  const char* words;
+};
+constexpr std::array<Cause, 7> kCauses{{{"latched", "a fault waited for a reset"},
+                                        {"no_goal", "it had no goal"},
+                                        {"touched", "something touched it, or its scanner saw itself"},
+                                        {"stop_zone", "something stood in its way"},
+                                        {"turn_blocked", "no room to turn to the goal's heading"},
+                                        {"plan_stale", "no way was known"},
+                                        {"unwatched", "it could not see where it would have gone"}}};
+constexpr const char* kOwnWish = "it gave way or waited by its own choice";
+/// Shorter rests are changes of direction.
+constexpr double kShortestStop_s = 0.5;
+/// Reasons that are limits, or say only that a fault is latched.
+constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",     "unwatched",
+                               "no_goal",   "touched",    "turn_blocked", "not_recorded"};
+
+std::string text_of(const char* format, double value) {
+  char text[64];
+  std::snprintf(text, sizeof text, format, value);
+  return text;
+}
+
+bool holds(const RunRow& row, const char* reason) {
+  return std::find(row.reasons.begin(), row.reasons.end(), reason) != row.reasons.end();
+}
+
+std::string cause_of(const RunRow& row) {
+  for (const Cause& cause : kCauses) {
+    if (holds(row, cause.reason)) return cause.words;
+  }
+  return kOwnWish;
+}
+
+/// Everything that the words say, gathered row by row.
+class Day {
+ public:
+  void add(const RunRow& row) {
+    if (rows_ > 0) lived(row);
+    if (rows_ == 0) begin_s_ = row.t_s;
+    note_faults(row);
+    before_ = row;
+    ++rows_;
+  }
+  [[nodiscard]] std::string words() {
+    end_stop();
+    const double drove_s = before_.t_s - begin_s_ - stood_s_;
+    std::string text = text_of("Drove %.1f m", way_m_) + text_of(" in %.1f s", std::max(drove_s, 0.0));
+    if (drove_s > 0.0) text += text_of(" (%.2f m/s on average)", way_m_ / drove_s);
+    text += text_of("; stood %.1f s.\n", stood_s_);
+    for (const auto& [cause, stops] : stops_)
+      text += text_of("  %7.1f s", stops.seconds) + text_of(", %.0f times: ", stops.times) + cause + "\n";
+    if (faults_.empty()) return text + "Faults: none.\n";
+    text += "Faults:\n";
+    for (const auto& [fault, times] : faults_) text += "  " + fault + text_of(", %.0f times\n", times);
+    return text;
+  }
+
+ private:
+  struct Stops {
+    double seconds = 0.0, times = 0.0;
+  };
+
+  void lived(const RunRow& row) {
+    const double step_s = row.t_s - before_.t_s;
+    const double step_m = distance(row.map_from_robot.position(), before_.map_from_robot.position());
+    if (std::isfinite(step_m)) way_m_ += step_m;
+    if (!before_.stands) return;
+    in_stop_[cause_of(before_)] += step_s;
+    if (!row.stands) end_stop();
+  }
+  void end_stop() {
+    double whole_s = 0.0;
+    for (const auto& [cause, seconds] : in_stop_) whole_s += seconds;
+    if (whole_s >= kShortestStop_s) {
+      stood_s_ += whole_s;
+      for (const auto& [cause, seconds] : in_stop_) {
+        stops_[cause].seconds += seconds;
+        ++stops_[cause].times;
+      }
+    }
+    in_stop_.clear();
+  }
+  void note_faults(const RunRow& row) {
+    for (const std::string& reason : row.reasons) {
+      const bool is_fault = std::find(kNoFaults.begin(), kNoFaults.end(), reason) == kNoFaults.end();
+      if (is_fault && (rows_ == 0 || !holds(before_, reason.c_str()))) ++faults_[reason];
+    }
+  }
+
+  std::size_t rows_ = 0;
+  RunRow before_;
+  double begin_s_ = 0.0, way_m_ = 0.0, stood_s_ = 0.0;
+  std::map<std::string, double> in_stop_;  ///< seconds of the stop that goes on, by cause
+  std::map<std::string, Stops> stops_;
+  std::map<std::string, double> faults_;  ///< how often each began
+};
+
+/// "reached after 40.2 s", or that it has no summary.
+std::string outcome_of(const std::filesystem::path& folder) {
+  std::ifstream in(folder / "summary.json");
+  const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
+  if (!summary.is_object() || !summary.contains("outcome") || !summary["outcome"].is_string())
+    return "it left no summary: it was killed, or still runs";
+  const std::string outcome = summary["outcome"].get<std::string>();
+  if (!summary.contains("duration_s") || !summary["duration_s"].is_number()) return outcome;
+  return outcome + text_of(" after %.1f s", summary["duration_s"].get<double>());
+}
+
+}  // namespace
+
+std::string run_words(const std::filesystem::path& folder) {
+  RunLog log(folder / "robot.csv");
+  Day day;
+  for (RunRow row; log.next(row);) day.add(row);
+  return folder.string() + ": " + outcome_of(folder) + "\n" + day.words();
+}
+
+}  // namespace jaywalk

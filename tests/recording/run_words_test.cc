@@ -1,0 +1,88 @@
+#include "firmware/report/run_words.h"
+
+#include <cstdio>
+
+#include "firmware/report/map_files.h"
+#include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr const char* kHeader =
+    "t_s,x_m,y_m,heading_rad,v_mps,w_radps,est_x_m,est_y_m,est_heading_rad,wanted_v_mps,permitted_v_mps,left_radps,"
+    "right_radps,reasons\n";
+
+/// A row every second.
+std::string row(double t_s, double x_m, double wheels_radps, const std::string& reasons) {
+  char text[200];
+  std::snprintf(text, sizeof text, "%.6f,,,,,,%.6f,0.000000,0.000000,0,0,%.6f,%.6f,%s\n", t_s, x_m, wheels_radps,
+                wheels_radps, reasons.c_str());
+  return text;
+}
+
+TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latched fault for 2 s") {
+  const Scratch run;
+  std::string table = kHeader;
+  double t = 0.0, x = 0.0;
+  for (int k = 0; k < 4; ++k) table += row(t++, x++, 5.0, "");
+  for (int k = 0; k < 3; ++k) table += row(t++, x, 0.0, "stop_zone");
+  table += row(t++, x, 0.0, "scan_stale|latched");
+  table += row(t++, x, 0.0, "latched|no_goal");
+  table += row(t++, x, 0.0, "no_goal");
+  run.write("robot.csv", table);
+  run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0})");
+  CHECK(run_words(run.folder()) == run.folder().string() +
+                                       ": fault after 10.0 s\n"
+                                       "Drove 4.0 m in 4.0 s (1.00 m/s on average); stood 5.0 s.\n"
+                                       "      2.0 s, 1 times: a fault waited for a reset\n"
+                                       "      3.0 s, 1 times: something stood in its way\n"
+                                       "Faults:\n  scan_stale, 1 times\n");
+}
+
+TEST_CASE("a run that was killed is told by its table up to the last whole row") {
+  const Scratch run;
+  run.write("robot.csv", kHeader + row(0.0, 0.0, 5.0, "") + row(1.0, 1.0, 5.0, "") + "2.000000,,,,,,2.0");
+  CHECK(run_words(run.folder()) == run.folder().string() +
+                                       ": it left no summary: it was killed, or still runs\n"
+                                       "Drove 1.0 m in 1.0 s (1.00 m/s on average); stood 0.0 s.\nFaults: none.\n");
+}
+
+TEST_CASE("a folder without a run's table, and a table that is not one, are refused with their place") {
+  const Scratch run;
+  CHECK_THROWS_AS(run_words(run.folder()), StartupError);
+  run.write("robot.csv", "t_s,x_m\n");
+  CHECK_THROWS_AS(run_words(run.folder()), StartupError);
+  run.write("robot.csv", std::string(kHeader) + "one,two\n");
+  try {
+    static_cast<void>(run_words(run.folder()));
+    FAIL("not refused");
+  } catch (const StartupError& error) {
+    CHECK(std::string(error.what()).find("robot.csv:2: no row") != std::string::npos);
+  }
+}
+
+TEST_CASE("a map is saved as map_server files: rows from the top, the known cells alone") {
+  const Scratch out;
+  EvidenceMap map(64, 0.1, {0.0, 0.0});
+  map.add({2, 3}, EvidenceMap::kMax);  // occupied
+  map.add({4, 4}, EvidenceMap::kMin);  // free
+  save_map(map, out.folder());
+  // Cells 2 to 4 by 3 to 4: unknown, unknown, free; below: occupied, unknown, unknown.
+  CHECK(out.read("map.pgm") == std::string("P5\n3 2\n255\n\xCD\xCD\xFE") + '\0' + "\xCD\xCD");
+  CHECK(out.read("map.yaml") ==
+        "image: map.pgm\nresolution: 0.1\norigin: [0.200000, 0.300000, 0.0]\nmode: trinary\nnegate: 0\n"
+        "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+}
+
+TEST_CASE("a map of nothing is one unknown cell, and a folder that is not there is refused") {
+  const Scratch out;
+  const EvidenceMap map(64, 0.1, {0.0, 0.0});
+  save_map(map, out.folder());
+  CHECK(out.read("map.pgm") == "P5\n1 1\n255\n\xCD");
+  CHECK_THROWS_AS(save_map(map, out.folder() / "nowhere"), StartupError);
+}
+
+}  // namespace
+}  // namespace jaywalk
