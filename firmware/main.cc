@@ -63,6 +63,8 @@ void add_sim(CLI::App& app) {
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
+  sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
+  sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
   add_view(*sim, sim_options.view);
 }
 
@@ -111,6 +113,8 @@ void add_replay(CLI::App& app) {
       "Whose body it is: p3dx, wheelchair, or a robot model file (default: p3dx); its laser's mount too");
   replay->add_flag("--save-map", replay_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
+  replay->add_flag("--mcap", replay_options.mcap, "Leave run.mcap as well, as export would");
+  replay->add_flag("--json", replay_options.json, "Print the summary, in place of a line");
 }
 
 void add_field(CLI::App& app) {

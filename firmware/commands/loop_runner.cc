@@ -25,6 +25,7 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
       recorder_({.file = record ? out_.file("recording.jwr").string() : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       report_(out),
+      recording_(record ? std::optional(out / "recording.jwr") : std::nullopt),
       due_(hal.clock.now()) {}
 
 const TickRecord& LoopRunner::step_at(Time due) {
@@ -69,6 +70,11 @@ void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
   plan_reported_ = loop_.plan().sequence;
   if (own) sample.now = own(sample.now), sample.scanned = own(sample.scanned);
   report(sample);
+  if (exporter_) exporter_->add(*record_, loop_);
+}
+
+void LoopRunner::export_to(const std::filesystem::path& file) {
+  exporter_ = std::make_unique<RunExporter>(file, setup_.model);
 }
 
 void LoopRunner::finish(RunEnd end) {
@@ -80,6 +86,7 @@ void LoopRunner::finish(RunEnd end) {
   end.mode = name_of(setup_.mode);
   end.version = JAYWALK_VERSION;
   report_.finish(end);
+  if (exporter_) exporter_->finish(recording_);
   tell_losses();
 }
 

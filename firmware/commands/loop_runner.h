@@ -3,11 +3,13 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "firmware/backends.h"
 #include "firmware/commands/out_folder.h"
+#include "firmware/commands/run_exporter.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/report/run_report.h"
@@ -40,6 +42,9 @@ class LoopRunner {
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample);
+  /// From the next report() on the run is written as MCAP as well, as `jaywalk export` would. For loops whose thread
+  /// reports. Throws StartupError when the file cannot be made.
+  void export_to(const std::filesystem::path& file);
   /// Closes recording and tables, and writes the summary. Call once, after the last step. Throws StartupError where the
   /// disk does not take the summary.
   void finish(RunEnd end);
@@ -66,6 +71,8 @@ class LoopRunner {
   Recorder recorder_;
   ControlLoop loop_;
   RunReport report_;
+  std::unique_ptr<RunExporter> exporter_;
+  std::optional<std::filesystem::path> recording_;  ///< where one is made
   Time due_;
   const TickRecord* record_ = nullptr;
   Duration took_{0};

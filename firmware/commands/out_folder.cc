@@ -6,14 +6,19 @@
 
 #include <array>
 #include <cerrno>
+#include <cstdio>
+#include <fstream>
+#include <iterator>
+#include <string>
 
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-constexpr std::array kLeft{"recording.jwr", "robot.csv",  "movers.csv",   "tracks.csv", "summary.json", "run.png",
-                           "run.svg",       "arming.txt", "devices.json", "map.yaml",   "map.pgm"};  // docs/outputs.md
+constexpr std::array kLeft{"recording.jwr", "robot.csv", "movers.csv", "tracks.csv",    "summary.json",
+                           "run.png",       "run.svg",   "run.mcap",   "metadata.yaml", "arming.txt",
+                           "devices.json",  "map.yaml",  "map.pgm"};  // docs/outputs.md
 
 }  // namespace
 
@@ -29,6 +34,12 @@ OutFolder::OutFolder(const std::filesystem::path& path) : path_(path) {
 
 OutFolder::~OutFolder() {
   if (held_ >= 0) ::close(held_);
+}
+
+void print_summary(const std::filesystem::path& out) {
+  std::ifstream in(out / "summary.json");
+  const std::string text{std::istreambuf_iterator<char>(in), {}};
+  std::fputs(text.c_str(), stdout);
 }
 
 void refuse_to_overwrite(std::span<const std::filesystem::path> inputs, const std::filesystem::path& out) {

@@ -21,6 +21,9 @@ class OutFolder {
   int held_;
 };
 
+/// What summary.json in `out` says, on standard output.
+void print_summary(const std::filesystem::path& out);
+
 /// Throws StartupError where one of `inputs`, which may be missing, is a file that a run leaves in `out`.
 void refuse_to_overwrite(std::span<const std::filesystem::path> inputs, const std::filesystem::path& out);
 

@@ -74,12 +74,16 @@ ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) 
 
 int replay_log(const ReplayOptions& options, const std::string& format) {
   refuse_to_overwrite(options.logs, options.out);
+  std::error_code missing;
+  if (std::filesystem::equivalent(options.logs[0], options.out, missing))
+    throw StartupError(options.out.string() + ": the bag's own folder", "choose another --out");
   sim::LogReplay log(load(options, format));
   std::istringstream complaints(log.log().complaint());
   for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
   const ControlSetup setup = setup_for(log, options);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
+  if (options.mcap) runner.export_to(options.out / "run.mcap");
   RunPicture picture;
   MountCheck mount;
   Progress progress;
@@ -110,6 +114,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::filesystem::path drawn = picture.save(options.out, name, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
+  if (options.json) return print_summary(options.out), whole ? 0 : 1;
   const std::size_t scans = log.log().scans.size();
   std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
               to_seconds(log.end_time() - log.start_time()), drawn.c_str());
@@ -157,6 +162,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   LoopRunner runner(setup, devices.hal(), options.out, false, [&](std::unique_ptr<Planner> planner) {
     return std::make_unique<HeldPlanner>(std::move(planner), recorded);
   });
+  if (options.mcap) runner.export_to(options.out / "run.mcap");
   RunPicture picture;
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
@@ -184,6 +190,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   const std::filesystem::path drawn = picture.save(options.out, "replay of " + file, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
+  if (options.json) return print_summary(options.out), different == 0 ? 0 : 1;
   std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
               static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
               static_cast<unsigned long long>(lost), drawn.c_str());

@@ -17,6 +17,8 @@ struct ReplayOptions {
   std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
   std::filesystem::path out = "out/replay";
   bool save_map = false;  ///< what the robot saw, as map_server files
+  bool mcap = false;      ///< leave run.mcap as well
+  bool json = false;      ///< print the summary, in place of a line
 };
 
 /// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command

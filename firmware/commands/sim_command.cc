@@ -142,6 +142,7 @@ int run_sim(const SimOptions& options) {
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
   LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true);
+  if (options.mcap) runner.export_to(options.out / "run.mcap");
   RunPicture picture;
   Progress progress;
   TruthForReport truth_for_report;
@@ -176,6 +177,7 @@ int run_sim(const SimOptions& options) {
       options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
+  if (options.json) return print_summary(options.out), ended == "reached" ? 0 : 1;
   std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
               lasted_s, lasted_s / took_s, drawn.c_str());
   return ended == "reached" ? 0 : 1;

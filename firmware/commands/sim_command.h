@@ -17,6 +17,8 @@ struct SimOptions {
   std::filesystem::path out = "out/sim";
   bool save_map = false;  ///< what the robot saw, as map_server files
   bool realtime = false;
+  bool mcap = false;                           ///< leave run.mcap as well
+  bool json = false;                           ///< print the summary, in place of a line
   std::optional<view::ViewAddress> view = {};  ///< serve the live page there
 };
 

@@ -17,7 +17,7 @@ std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder) {
   if (folder.empty()) return nullptr;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
-  for (const char* last_written : {"summary.json", "run.png", "run.svg"}) {
+  for (const char* last_written : {"summary.json", "run.png", "run.svg", "run.mcap"}) {
     if (!error) std::filesystem::remove(folder / last_written, error);
   }
   if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
