@@ -133,6 +133,10 @@ void score(const Options& o) {
   if (o.reference.empty()) return;
   const ReferencePoses reference = reference_poses(o.reference, run);
   print("poses against the reference", reference.of_run);
+  const StepError step = greatest_step_error(reference.of_run);
+  row("from one to the next, off at most", step.translation_m, "m");
+  row("the same, heading", step.heading_deg, "deg");
+  std::printf("\n");
   print("wheels alone against the reference", reference.of_wheels);
 }
 
@@ -152,7 +156,8 @@ int main(int argc, char** argv) {
   app.add_option("--laser-mount", o.laser_mount, "X,Y,YAW as given to the replay, for labels in the laser's frame")
       ->delimiter(',')
       ->expected(3);
-  app.add_option("--reference", o.reference, "the CARMEN log that was replayed, its poses corrected by others");
+  app.add_option("--reference", o.reference,
+                 "the CARMEN log that was replayed, its poses corrected by others, or a table t,x,y,h");
   app.add_option("--match", o.rules.match_m, "m: a track this near is the target's")->capture_default_str();
   app.add_option("--range", o.view.range_m, "m: simulated movers farther off are not in view")->capture_default_str();
   app.add_option("--radius", o.view.radius_m, "m: of simulated movers")->capture_default_str();

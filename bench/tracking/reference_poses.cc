@@ -1,12 +1,30 @@
 #include "bench/tracking/reference_poses.h"
 
+#include "bench/tracking/number_table.h"
 #include "hal/sim/logs/scan_lines.h"
 #include "hal/types/errors.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk::bench {
+namespace {
+
+bool is_table(const std::filesystem::path& file) {
+  return (file.extension() == ".gz" ? file.stem() : file).extension() == ".csv";
+}
+
+ReferencePoses of_table(const std::filesystem::path& file, const RunFolder& run) {
+  const NumberTable table(file);
+  const auto t = table.column("t"), x = table.column("x"), y = table.column("y"), h = table.column("h");
+  run.require_own_times(file.string(), t);
+  ReferencePoses out;
+  for (std::size_t k = 0; k < table.rows(); ++k) out.of_run.push_back({run.estimate_at(t[k]), {x[k], y[k], h[k]}});
+  return out;
+}
+
+}  // namespace
 
 ReferencePoses reference_poses(const std::filesystem::path& log, const RunFolder& run) {
+  if (is_table(log)) return of_table(log, run);
   ReferencePoses out;
   std::vector<double> times;
   sim::LineFile file(log);

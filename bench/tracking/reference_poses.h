@@ -12,7 +12,8 @@ struct ReferencePoses {
   std::vector<PosePair> of_run, of_wheels;
 };
 
-/// From the FLASER lines of a corrected CARMEN log that the run replayed. Throws StartupError when there are none.
+/// From the FLASER lines of a corrected CARMEN log that the run replayed, or from a table `t,x,y,h` (.csv, .csv.gz; s,
+/// m, rad), which knows no wheels. Throws StartupError when there are none.
 [[nodiscard]] ReferencePoses reference_poses(const std::filesystem::path& log, const RunFolder& run);
 
 }  // namespace jaywalk::bench

@@ -29,7 +29,22 @@ double median(std::vector<double>& values) {
   return *middle;
 }
 
+/// The estimate's motion from `a` to `b`, seen from where the true one leads.
+Pose2 motion_error(const PosePair& a, const PosePair& b) {
+  return inverse(inverse(a.truth) * b.truth) * (inverse(a.estimate) * b.estimate);
+}
+
 }  // namespace
+
+StepError greatest_step_error(const std::vector<PosePair>& drive) {
+  StepError most;
+  for (std::size_t k = 1; k < drive.size(); ++k) {
+    const Pose2 off = motion_error(drive[k - 1], drive[k]);
+    most.translation_m = std::max(most.translation_m, norm(off.position()));
+    most.heading_deg = std::max(most.heading_deg, std::fabs(off.heading) * 180.0 / kPi);
+  }
+  return most;
+}
 
 RelativeError relative_error(const std::vector<PosePair>& drive, double length_m, double every_m) {
   const std::vector<double> way = way_m(drive);
@@ -41,9 +56,7 @@ RelativeError relative_error(const std::vector<PosePair>& drive, double length_m
     if (end == way.end()) break;
     next_start = way[a] + every_m;
     const auto b = static_cast<std::size_t>(end - way.begin());
-    const Pose2 truth = inverse(drive[a].truth) * drive[b].truth;
-    const Pose2 estimate = inverse(drive[a].estimate) * drive[b].estimate;
-    const Pose2 off = inverse(truth) * estimate;
+    const Pose2 off = motion_error(drive[a], drive[b]);
     percent.push_back(100.0 * norm(off.position()) / (way[b] - way[a]));
     degrees.push_back(std::fabs(off.heading) * 180.0 / kPi);
   }

@@ -23,4 +23,10 @@ struct RelativeError {
 /// measured from place to place at least 5 cm apart, so that a standing robot's noise is no way.
 [[nodiscard]] RelativeError relative_error(const std::vector<PosePair>& drive, double length_m, double every_m);
 
+/// From a pair to the next: by how much the estimate's motion differs from the true one at most.
+struct StepError {
+  double translation_m = 0.0, heading_deg = 0.0;
+};
+[[nodiscard]] StepError greatest_step_error(const std::vector<PosePair>& drive);
+
 }  // namespace jaywalk::bench

@@ -11,24 +11,22 @@ constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then ha
 constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
 constexpr int kMostCells = 4;             // to each side; then half a cell
 constexpr double kMostWindowRad = 0.42;
-// What a point is worth, in EvidenceMap::kMax: on a certain wall all. In unknown space as much as on a wall that was
-// hit once: were it less, a robot that drives on would seem to stay where its walls are known, and one whose laser
-// reaches a few metres did.
-constexpr int kUnknownWorth = 48, kWallWorth = 48;
+constexpr int kWallWorth = 48;  // of a point on a wall hit once, in EvidenceMap::kMax; on a certain one it is that
 constexpr double kWindowSigmas = 3.0;
 constexpr double kThreeSigmaPrice = 0.10;  // a pose three sigma out must put this share more on walls
 
-int worth_of(int evidence) {
-  if (evidence == 0) return kUnknownWorth;
+int worth_of(const ScanReference& reference, CellIndex cell) {
+  const int evidence = reference.map.evidence(cell);
+  if (evidence == 0) return reference.unknown_worth;
   return evidence < 0 ? 0 : kWallWorth + evidence * (EvidenceMap::kMax - kWallWorth) / EvidenceMap::kMax;
 }
 
 /// Share of the points that lies on walls, each weighed by how sure the map is of the wall.
-double share_on_walls(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
+double share_on_walls(const MatchSample& sample, const ScanReference& reference, const Pose2& pose) {
   const Transform2 to_map(pose);
   int sum = 0, count = 0;
   for (std::size_t k = 0; k < sample.size(); ++k, ++count) {
-    sum += worth_of(still.evidence(still.cell_at(to_map * sample[k])));
+    sum += worth_of(reference, reference.map.cell_at(to_map * sample[k]));
   }
   return static_cast<double>(sum) / (EvidenceMap::kMax * std::max(1, count));
 }
@@ -44,12 +42,12 @@ struct Window {
 /// into its cell once, and then looked up in the cells about it.
 class WorthOfShifts {
  public:
-  void add_up(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose, int reach) {
+  void add_up(const MatchSample& sample, const ScanReference& reference, const Pose2& pose, int reach) {
     sum_.fill(0);
     count_ = 0;
     const Transform2 to_map(pose);
     for (std::size_t k = 0; k < sample.size(); k += kCoarseStride, ++count_)
-      add(still, still.cell_at(to_map * sample[k]), reach);
+      add(reference, reference.map.cell_at(to_map * sample[k]), reach);
   }
   /// Of the pose moved by (x, y) cells: 0 to 1.
   [[nodiscard]] double share(int x, int y) const {
@@ -59,9 +57,9 @@ class WorthOfShifts {
  private:
   static constexpr int kSide = 2 * kMostCells + 1;
   static std::size_t place(int x, int y) { return static_cast<std::size_t>((y + kMostCells) * kSide + x + kMostCells); }
-  void add(const EvidenceMap& still, CellIndex cell, int reach) {
+  void add(const ScanReference& reference, CellIndex cell, int reach) {
     for (int y = -reach; y <= reach; ++y) {
-      for (int x = -reach; x <= reach; ++x) sum_[place(x, y)] += worth_of(still.evidence({cell.i + x, cell.j + y}));
+      for (int x = -reach; x <= reach; ++x) sum_[place(x, y)] += worth_of(reference, {cell.i + x, cell.j + y});
     }
   }
 
@@ -74,13 +72,13 @@ double price(const Eigen::Matrix3d& information, const Eigen::Vector3d& by) {
 }
 
 /// The best offset from the prediction, in steps of a cell and of kCoarseRad.
-Eigen::Vector3d best_cell(const Window& window, const MatchSample& sample, const EvidenceMap& still,
+Eigen::Vector3d best_cell(const Window& window, const MatchSample& sample, const ScanReference& reference,
                           const Pose2& predicted, const Eigen::Matrix3d& information) {
   WorthOfShifts worth_of_shifts;
   Eigen::Vector3d best;
   double best_worth = -1e9;
   for (int h = -window.headings; h <= window.headings; ++h) {
-    worth_of_shifts.add_up(sample, still, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
+    worth_of_shifts.add_up(sample, reference, moved(predicted, {0.0, 0.0, h * kCoarseRad}), window.cells);
     for (int y = -window.cells; y <= window.cells; ++y) {
       for (int x = -window.cells; x <= window.cells; ++x) {
         const Eigen::Vector3d by(x * window.cell_m, y * window.cell_m, h * kCoarseRad);
@@ -93,15 +91,15 @@ Eigen::Vector3d best_cell(const Window& window, const MatchSample& sample, const
 }
 
 /// The best of the offsets half a step to each side of `centre`.
-Eigen::Vector3d best_half_step(const Eigen::Vector3d& centre, const MatchSample& sample, const EvidenceMap& still,
+Eigen::Vector3d best_half_step(const Eigen::Vector3d& centre, const MatchSample& sample, const ScanReference& reference,
                                const Pose2& predicted, const Eigen::Matrix3d& information) {
   Eigen::Vector3d best = centre;
   double best_worth = -1e9;
-  const double half_m = 0.5 * still.cell_m(), half_rad = 0.5 * kCoarseRad;
+  const double half_m = 0.5 * reference.map.cell_m(), half_rad = 0.5 * kCoarseRad;
   for (int k = 0; k < 27; ++k) {
     const Eigen::Vector3d by(centre.x() + (k % 3 - 1) * half_m, centre.y() + (k / 3 % 3 - 1) * half_m,
                              centre.z() + (k / 9 - 1) * half_rad);
-    const double worth = share_on_walls(sample, still, moved(predicted, by)) - price(information, by);
+    const double worth = share_on_walls(sample, reference, moved(predicted, by)) - price(information, by);
     if (worth > best_worth) best_worth = worth, best = by;
   }
   return best;
@@ -114,14 +112,15 @@ int steps(double variance, double most, double step) {
 }  // namespace
 
 Pose2 correlative_search(const PoseBelief& predicted, const Eigen::Matrix3d& information, const MatchSample& sample,
-                         const EvidenceMap& still) noexcept {
+                         const ScanReference& reference) noexcept {
   const Eigen::Matrix3d& p = predicted.covariance;
-  const double cell_m = still.cell_m();
+  const double cell_m = reference.map.cell_m();
   const Window window{.cells = steps(std::max(p(0, 0), p(1, 1)), kMostCells * cell_m, cell_m),
                       .headings = steps(p(2, 2), kMostWindowRad, kCoarseRad),
                       .cell_m = cell_m};
-  const Eigen::Vector3d valley = best_cell(window, sample, still, predicted.map_from_robot, information);
-  return moved(predicted.map_from_robot, best_half_step(valley, sample, still, predicted.map_from_robot, information));
+  const Eigen::Vector3d valley = best_cell(window, sample, reference, predicted.map_from_robot, information);
+  return moved(predicted.map_from_robot,
+               best_half_step(valley, sample, reference, predicted.map_from_robot, information));
 }
 
 }  // namespace jaywalk

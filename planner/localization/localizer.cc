@@ -1,5 +1,6 @@
 #include "planner/localization/localizer.h"
 
+#include <algorithm>
 #include <cmath>
 
 #include "planner/localization/coasting.h"
@@ -7,6 +8,7 @@
 #include "planner/localization/odometry.h"
 #include "planner/localization/odometry_noise.h"
 #include "planner/localization/slip_detector.h"
+#include "planner/localization/submap.h"
 #include "planner/localization/track_mask.h"
 
 namespace jaywalk {
@@ -19,6 +21,13 @@ constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 // Share of the points: where so much lies on walkers the map holds those who have only come, or turn on the spot, and
 // wheels know better. By trial; half does not do (docs/tracking-findings.md, "Nobody but walkers in view").
 constexpr double kAmongWalkers = 0.2;
+
+// Mean fit of scans to the map over some metres: below the lower the map no longer explains them, above the upper it
+// does again. A robot that comes back to where its map was drawn long ago finds it off by the drift since. By trial on
+// Edmonton, where fits fall to 0.3; elsewhere they stay above 0.7 but for moments (docs/tracking.md).
+constexpr double kLostMapFit = 0.7, kFoundMapFit = 0.8, kMapFitWayM = 6.0;
+// Keyframes know no free space, and their points' errors are their own.
+constexpr double kSubmapKernelM = 0.2, kSubmapIndependentShare = 0.5;
 
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T.
 Eigen::Matrix3d carried(const Eigen::Matrix3d& p, double dx, double dy) {
@@ -39,6 +48,7 @@ struct Localizer::State {
         odometry(c.drive),
         map_from_odom(c.map_from_robot_at_start),
         covariance(diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar)),
+        since_last_match(covariance),
         if_wheels_slipped(covariance) {
     publish();
   }
@@ -50,6 +60,12 @@ struct Localizer::State {
   /// Where it would be had it gone on as it went.
   [[nodiscard]] PoseBelief coasted(Time stamp) const noexcept;
   void take(const MatchResult& found, const Pose2& predicted) noexcept;
+  /// How well the map explains scans, over the last metres.
+  void judge_map(const MatchResult& found, const Pose2& predicted) noexcept;
+  /// Where the map does not explain scans any more: by the last keyframes. False where they do not match either.
+  [[nodiscard]] bool match_submap(const Pose2& predicted) noexcept;
+  /// What matches put right, to those who learn of wheels.
+  void learn(const Pose2& predicted, const Pose2& placed) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
   void correct_to(const Pose2& map_from_robot, const Pose2& odom_from_robot) noexcept {
@@ -61,11 +77,17 @@ struct Localizer::State {
   Odometry odometry;
   Pose2 map_from_odom;
   Eigen::Matrix3d covariance;         ///< of (x, y, heading) in the map
+  Eigen::Matrix3d since_last_match;   ///< the same against the keyframes: what the wheels may have erred since
   Eigen::Matrix3d if_wheels_slipped;  ///< the same, had nothing been known of the wheels since the last match
 
   OdometryNoiseEstimator odometry_noise;
   WheelRadiusBias radius_bias;
   SlipDetector matcher;
+  Submap submap;
+  ScanMatcher submap_matcher;
+  double map_fit = 1.0;  ///< running mean
+  bool map_explains = true;
+  MatchSample sample;
   ScanProjection projection;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
@@ -88,6 +110,8 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   const double dx = after.x - before.x, dy = after.y - before.y;
   const OdometryNoise noise = noise_of_unknown_wheels(step);
   covariance = carried(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  since_last_match =
+      carried(since_last_match, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
   if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
   odometry_noise.drove(step);
   radius_bias.drove(step);
@@ -97,7 +121,9 @@ void Localizer::State::coast_to(Time stamp) noexcept {
   const Coasting::Step step = coasting.step(odometry.stamp(), stamp);
   odometry.coast(step.before_from_after, stamp);
   const double position_var = step.metres_std * step.metres_std;
-  covariance = covariance + diagonal(position_var, position_var, step.radians_std * step.radians_std);
+  const Eigen::Matrix3d more = diagonal(position_var, position_var, step.radians_std * step.radians_std);
+  covariance += more;
+  since_last_match += more;
   if_wheels_slipped = covariance;
 }
 
@@ -105,7 +131,11 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   const Pose2& placed = found.belief.map_from_robot;
   correct_to(placed, odom_from_robot_at_scan);
   covariance = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
-  if_wheels_slipped = covariance;
+  since_last_match = if_wheels_slipped = covariance;
+  learn(predicted, placed);
+}
+
+void Localizer::State::learn(const Pose2& predicted, const Pose2& placed) noexcept {
   if (!odometry.by_wheels()) {
     radius_bias.begin_anew();
     return;
@@ -113,6 +143,22 @@ void Localizer::State::take(const MatchResult& found, const Pose2& predicted) no
   odometry_noise.corrected(predicted, placed);
   radius_bias.corrected(wrap_angle(placed.heading - predicted.heading));
   odometry.set_radius_bias(radius_bias.turn_per_m());
+}
+
+void Localizer::State::judge_map(const MatchResult& found, const Pose2& predicted) noexcept {
+  const double way_m = distance(map_from_robot_at_scan.position(), predicted.position());
+  map_fit += std::min(1.0, way_m / kMapFitWayM) * ((found.matched ? found.fit : 0.0) - map_fit);
+  map_explains = map_fit > (map_explains ? kLostMapFit : kFoundMapFit);
+}
+
+bool Localizer::State::match_submap(const Pose2& predicted) noexcept {
+  const ScanReference keyframes{submap.about(predicted.position()), kSubmapKernelM, kSubmapIndependentShare, 0};
+  const MatchResult found = submap_matcher.match(points, keyframes, {predicted, since_last_match});
+  if (!found.matched || !finite(found.belief.map_from_robot)) return false;
+  correct_to(found.belief.map_from_robot, odom_from_robot_at_scan);
+  since_last_match = found.belief.covariance + diagonal(kMatchPositionVar, kMatchPositionVar, kMatchHeadingVar);
+  learn(predicted, found.belief.map_from_robot);
+  return true;
 }
 
 PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
@@ -132,7 +178,10 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
   const bool learnt = odometry.by_wheels() && !odometry_noise.nothing_known();
   const MatchResult found =
       matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
-  if (!found.matched || (among_walkers && odometry.by_wheels() && !found.known_for_long)) return false;
+  if (found.matched || found.contradicted) judge_map(found, predicted);
+  if (among_walkers && odometry.by_wheels() && !found.known_for_long) return false;
+  if (!map_explains && match_submap(predicted)) return true;
+  if (!found.matched) return false;
   take(found, predicted);
   return true;
 }
@@ -143,6 +192,8 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   const bool matched = match(scan, still, moving);
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
+  sample_of(points, sample);
+  submap.add(sample, there);
   if (matched) {
     coasting.placed(there, scan.stamp);
   } else {
@@ -161,7 +212,8 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const bool lost = verdict == FixGate::Verdict::kTake;
   const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
-  if_wheels_slipped = covariance;
+  since_last_match = if_wheels_slipped = covariance;
+  if (lost) submap.begin_anew();
   odometry_noise.begin_anew();
   radius_bias.begin_anew();
   correct_to(now.map_from_robot, odom_from_robot);

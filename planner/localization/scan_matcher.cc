@@ -14,16 +14,13 @@ namespace {
 constexpr std::uint32_t kFewestOnWalls = 15;
 constexpr double kLeastShare = 0.4;  // of the points that do not lie in unknown space
 constexpr int kMostIterations = 10;
-constexpr double kDoubtM = 0.08;  // residuals beyond count less and less
-// Share of points whose errors are their own: neighbours share the map's. By trial (docs/tracking-findings.md).
-constexpr double kIndependent = 0.06;
 
 }  // namespace
 
-void ScanMatcher::sample(const ScanPoints& scan) noexcept {
-  sample_.clear();
+void sample_of(const ScanPoints& scan, MatchSample& out) noexcept {
+  out.clear();
   const std::size_t stride = (scan.size() + kMostMatchPoints - 1) / kMostMatchPoints;
-  for (std::size_t k = 0; k < scan.size(); k += stride) (void)sample_.push_back(scan[k].in_robot);
+  for (std::size_t k = 0; k < scan.size(); k += stride) (void)out.push_back(scan[k].in_robot);
 }
 
 namespace {
@@ -35,23 +32,23 @@ struct NormalEquations {
   double fit = 0.0;  ///< a point that lies on its wall adds one
 };
 
-NormalEquations normal_equations(const MatchSample& sample, const EvidenceMap& still, const Pose2& pose) {
+NormalEquations normal_equations(const MatchSample& sample, const ScanReference& reference, const Pose2& pose) {
   NormalEquations sum;
   const Transform2 to_map(pose);
   for (const Vec2& q : sample) {
     const Vec2 p = to_map * q;
     LineFeature wall;
-    if (!line_feature_near(still, p, pose.position(), wall)) {
-      sum.in_the_open += still.seen_free(still.cell_at(p)) ? 1U : 0U;
+    if (!line_feature_near(reference.map, p, pose.position(), wall)) {
+      sum.in_the_open += reference.map.seen_free(reference.map.cell_at(p)) ? 1U : 0U;
       continue;
     }
     sum.on_walls += 1;
     sum.on_standing += wall.stands ? 1U : 0U;
     const double r = dot(wall.normal, p - wall.point);
     const Eigen::Vector3d jacobian(wall.normal.x, wall.normal.y, cross(p - pose.position(), wall.normal));
-    const double doubt = 1.0 + r * r / (kDoubtM * kDoubtM);
+    const double doubt = 1.0 + r * r / (reference.kernel_m * reference.kernel_m);
     sum.fit += 1.0 / doubt;
-    const double weight = kIndependent / (wall.variance * doubt * doubt);
+    const double weight = reference.independent_share / (wall.variance * doubt * doubt);
     sum.information += weight * jacobian * jacobian.transpose();
     sum.gradient += weight * r * jacobian;
   }
@@ -71,16 +68,17 @@ bool contradicted(const NormalEquations& sum) {
 
 }  // namespace
 
-MatchResult ScanMatcher::match(const ScanPoints& scan, const EvidenceMap& still, const PoseBelief& predicted) noexcept {
+MatchResult ScanMatcher::match(const ScanPoints& scan, const ScanReference& reference,
+                               const PoseBelief& predicted) noexcept {
   MatchResult result{.belief = predicted};
-  sample(scan);
+  sample_of(scan, sample_);
   result.points_used = static_cast<std::uint32_t>(sample_.size());
   if (sample_.size() < kFewestOnWalls) return result;
   const Eigen::Matrix3d prior = predicted.covariance.inverse();
-  Pose2 pose = correlative_search(predicted, prior, sample_, still);
+  Pose2 pose = correlative_search(predicted, prior, sample_, reference);
   Eigen::Matrix3d information;
   for (int k = 0; k < kMostIterations; ++k) {
-    const NormalEquations walls = normal_equations(sample_, still, pose);
+    const NormalEquations walls = normal_equations(sample_, reference, pose);
     result.known_for_long = walls.on_standing >= kFewestOnWalls;
     result.contradicted = contradicted(walls);
     if (!enough(walls)) return result;

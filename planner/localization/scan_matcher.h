@@ -21,14 +21,16 @@ struct MatchResult {
   std::uint32_t points_used = 0;
 };
 
+/// Every n-th of the scan's points, kMostMatchPoints at most.
+void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
+
 /// Thread: the loop's. No allocation after construction.
 class ScanMatcher {
  public:
-  [[nodiscard]] MatchResult match(const ScanPoints& scan, const EvidenceMap& still,
+  [[nodiscard]] MatchResult match(const ScanPoints& scan, const ScanReference& reference,
                                   const PoseBelief& predicted) noexcept;
 
  private:
-  void sample(const ScanPoints& scan) noexcept;
   MatchSample sample_;
 };
 

@@ -25,16 +25,16 @@ MatchResult SlipDetector::best(const ScanPoints& scan, const EvidenceMap& still,
   const MatchResult found = by_wheels(scan, still, wheels);
   const bool fits = found.matched ? found.fit >= usual_fit_ - kDoubtfulFit : !found.contradicted;
   if (fits || wheels.coasted.covariance(2, 2) > kMostCoastedVar) return found;
-  return better(found, matcher_.match(scan, still, wheels.coasted), kMuchBetterFit);
+  return better(found, matcher_.match(scan, {still}, wheels.coasted), kMuchBetterFit);
 }
 
 MatchResult SlipDetector::by_wheels(const ScanPoints& scan, const EvidenceMap& still,
                                     const OdometryPrior& wheels) noexcept {
   const Pose2& predicted = wheels.map_from_robot;
-  if (contradicted_ || !wheels.learnt) return matcher_.match(scan, still, {predicted, wheels.if_slipped});
-  const MatchResult found = matcher_.match(scan, still, {predicted, wheels.covariance});
+  if (contradicted_ || !wheels.learnt) return matcher_.match(scan, {still}, {predicted, wheels.if_slipped});
+  const MatchResult found = matcher_.match(scan, {still}, {predicted, wheels.covariance});
   if (!doubtful(found, wheels)) return found;
-  return better(found, matcher_.match(scan, still, {predicted, wheels.if_slipped}), kBetterFit);
+  return better(found, matcher_.match(scan, {still}, {predicted, wheels.if_slipped}), kBetterFit);
 }
 
 const MatchResult& SlipDetector::better(const MatchResult& found, const MatchResult& other, double by) const noexcept {

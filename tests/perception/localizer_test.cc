@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
+#include "planner/localization/odometry.h"
 #include "planner/perception/tracker.h"
 #include "tests/perception/recordings.h"
 #include "tests/perception/room.h"
@@ -309,4 +311,23 @@ TEST_CASE("a scan without returns leaves the pose to the wheels") {
   const Room nothing;
   for (int k = 0; k <= 15; ++k) drive.step(nothing, {}, {0.02 * k, 0.0, 0.0});
   CHECK(drive.estimate.map_from_robot.x == Approx(0.3));
+}
+
+TEST_CASE(
+    "where the map does not explain scans the last keyframes keep the robot from following wheels that turn wrong") {
+  const auto elsewhere = std::make_unique<Drive>(Pose2{});  // a larger hall: what the robot sees is free there
+  for (int k = 0; k < 30; ++k) elsewhere->step_without_wheels(rectangle(20.0, 16.0), {});
+  Localizer localizer({.map_from_robot_at_start = {-4.0, 0.0, 0.0}, .drive = kDrive, .robot_from_laser = {}});
+  recordings::WheelsFromPoses wheels_of(kDrive);
+  Pose2 truth{-4.0, 0.0, 0.0}, by_wheels = truth, at_half;
+  for (std::uint32_t k = 1; k <= 80; ++k) {
+    truth.x += 0.1;
+    by_wheels = after_arc(by_wheels, {0.1, 0.005});  // 0.4 rad in all
+    const LaserScan seen = scan_of(furnished(), truth, k, 0.01);
+    const WheelState wheels = wheels_of.reading({to_seconds(seen.stamp), by_wheels});
+    (void)localizer.update(wheels, seen, {}, elsewhere->tracker.still(), {});
+    if (k == 40) at_half = localizer.map_from_robot_at_scan();
+  }
+  CHECK(heading_error(by_wheels, truth) > 0.39);
+  CHECK(heading_error(localizer.map_from_robot_at_scan(), at_half) < 0.01);  // the wheels say 0.2
 }

@@ -44,3 +44,11 @@ TEST_CASE("standing noise is no way") {
   for (std::size_t k = 0; k < drive.size(); ++k) drive[k].truth.x = k % 2 == 0 ? 0.0 : 0.04;
   CHECK(relative_error(drive, 10.0, 1.0).stretches == 0);
 }
+
+TEST_CASE("the greatest step error is that of the worst step, seen from where the true one leads") {
+  // The second step turns by 0.1 rad and goes 0.3 m where the truth goes straight on for 0.5 m.
+  const std::vector<PosePair> drive = {
+      {{}, {}}, {{1.0, 0.0, 0.0}, {1.0, 0.0, 0.0}}, {{1.3, 0.0, 0.1}, {1.5, 0.0, 0.0}}};
+  CHECK(greatest_step_error(drive).translation_m == Approx(0.2));
+  CHECK(greatest_step_error(drive).heading_deg == Approx(5.7296));
+}

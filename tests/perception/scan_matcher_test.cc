@@ -23,7 +23,7 @@ MatchResult match(const Tracker& tracker, const Room& seen) {
   const auto matcher = std::make_unique<ScanMatcher>();
   const auto points = std::make_unique<ScanPoints>();
   ScanProjection().project(scan_of(seen, {}, 40), {}, {}, *points);
-  return matcher->match(*points, tracker.still(), {{}, diagonal(1e-4, 1e-4, 1e-5)});
+  return matcher->match(*points, {tracker.still()}, {{}, diagonal(1e-4, 1e-4, 1e-5)});
 }
 
 }  // namespace
