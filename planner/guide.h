@@ -11,6 +11,7 @@ namespace jaywalk {
 /// A place in the map in single precision, m: 0.1 mm a kilometre from the origin.
 struct Place {
   float x = 0.0F, y = 0.0F;
+  bool operator==(const Place&) const = default;
 };
 
 /// A look at what GuideField has computed; plain values, so that it goes to any processor. Empty (side 0) before the

@@ -27,7 +27,7 @@ PlannerThread::~PlannerThread() {
 void PlannerThread::submit(const PlanRequest& request) noexcept {
   request_ = request;
   assert(request.still->side() == still_.side());
-  still_ = *request.still;  // of the same size: no memory is taken
+  still_.follow(*request.still);  // of the same size: no memory is taken
   moving_.clear();
   for (const Track& track : request.moving) {
     if (!moving_.push_back(track)) break;

@@ -17,7 +17,8 @@ class PlannerThread final : public Planner {
   PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map);
   ~PlannerThread() override;
 
-  /// Copies the request (some 4 MB of map) and returns. Not to be called while busy.
+  /// Copies the request, of the map what has changed since the last one, and returns. Not to be called while busy. The
+  /// map is always the same object.
   void submit(const PlanRequest& request) noexcept override;
   [[nodiscard]] bool is_busy() const noexcept override { return busy_.load(std::memory_order_acquire); }
   [[nodiscard]] const Plan& collect() noexcept override { return plans_.latest(); }

@@ -7,11 +7,53 @@ namespace jaywalk::field {
 namespace {
 constexpr std::int32_t kNone = -1;  ///< end of a list of chunks; nothing queued
 
+/// Cells that have changed, as a share of all, from which on all is settled anew.
+constexpr std::size_t kFewOf = 4;
+/// Where a repair would have taken long, so many of the next are not tried.
+constexpr int kNotTried = 7;
+
 std::size_t at(std::int32_t n) { return static_cast<std::size_t>(n); }
 }  // namespace
 
 BucketQueue::BucketQueue(std::int32_t max_side, std::size_t entries)
-    : nodes_(static_cast<std::size_t>((max_side + 2) * (max_side + 2))), chunks_(entries / kChunk + kBuckets) {}
+    : nodes_(static_cast<std::size_t>((max_side + 2) * (max_side + 2))),
+      chunks_(entries / kChunk + kBuckets),
+      repair_(max_side == 0 ? 0 : nodes_.size(), max_side == 0 ? 0 : nodes_.size()) {
+  changed_.resize(nodes_.size() / kFewOf);  // touched, not only reserved: no page is to be fetched later
+  changed_.clear();
+}
+
+/// What a repair wants of these ways.
+struct BucketQueue::Ways {
+  static constexpr std::uint32_t kBucketShift = BucketQueue::kBucketShift;
+  Node* nodes;
+  std::int32_t width, goal;
+
+  [[nodiscard]] std::uint32_t& cost(std::int32_t n) const { return nodes[n].cost; }
+  [[nodiscard]] bool is_open(std::int32_t n) const { return n != goal && nodes[n].rate != 0; }
+  [[nodiscard]] static std::uint32_t limit() { return kFarthest; }
+
+  template <class Visit>
+  void for_each_step(std::int32_t n, const Visit& visit) const {
+    const Node* node = nodes + n;
+    const std::uint32_t here = node->rate;
+    const std::uint32_t east = node[1].rate, west = node[-1].rate, north = node[width].rate, south = node[-width].rate;
+    if (east != 0) visit(n + 1, cell::straight_step(here, east));
+    if (west != 0) visit(n - 1, cell::straight_step(here, west));
+    if (north != 0) visit(n + width, cell::straight_step(here, north));
+    if (south != 0) visit(n - width, cell::straight_step(here, south));
+    const auto across = [&](std::int32_t to, std::uint32_t a, std::uint32_t b) {
+      const std::uint32_t there = nodes[to].rate;
+      if (there != 0 && a != 0 && b != 0) visit(to, cell::diagonal_step(here, there, a, b));
+    };
+    across(n + width + 1, east, north), across(n + width - 1, west, north);
+    across(n - width + 1, east, south), across(n - width - 1, west, south);
+  }
+  template <class Visit>
+  void for_each_near(std::int32_t n, const Visit& visit) const {
+    for (const std::int32_t row : {n - width, n, n + width}) visit(row - 1), visit(row), visit(row + 1);
+  }
+};
 
 /// Cells that are not free cost nothing: no way to them is shorter.
 void BucketQueue::load(Grid grid, const std::uint16_t* rate) noexcept {
@@ -100,18 +142,55 @@ void BucketQueue::step_from(std::int32_t n, std::int32_t width, std::uint32_t bu
   across(n - width + 1, east, south), across(n - width - 1, west, south);
 }
 
-bool BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept {
-  const std::int32_t width = grid.side + 2;
+std::int32_t BucketQueue::place(Grid grid, std::int32_t c) noexcept {
+  return (c / grid.side + 1) * (grid.side + 2) + c % grid.side + 1;
+}
+
+bool BucketQueue::settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept {
+  const std::int32_t width = grid.side + 2, first = place(grid, goal);
   load(grid, rate);
-  const std::int32_t first = (goal / grid.side + 1) * width + goal % grid.side + 1;
   nodes_[at(first)].cost = 0;
   push(first, width, 0);
   for (std::uint32_t bucket = 0; chunks_in_use_ > 0; ++bucket) drain(width, bucket);
+  return !full_;
+}
+
+/// False where all is to be settled anew.
+bool BucketQueue::repair(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept {
+  if (grid.side != settled_grid_.side || goal != settled_goal_) return false;
+  if (not_tried_ > 0) return --not_tried_, false;
+  const auto most = static_cast<std::size_t>(grid.cells()) / kFewOf;
+  const std::int32_t width = grid.side + 2;
+  changed_.clear();
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    for (std::int32_t i = 0; i < grid.side; ++i) {
+      const std::int32_t n = (j + 1) * width + i + 1;
+      const std::uint32_t now = rate[grid.at(i, j)];
+      Node& node = nodes_[at(n)];
+      if (node.rate == now) continue;
+      if (changed_.size() == most) return not_tried_ = kNotTried, false;
+      changed_.push_back(n);
+      if (node.rate == 0) node.cost = kNoWay;
+      if (now == 0) node.cost = 0;
+      node.rate = now;
+    }
+  }
+  Ways ways{nodes_.data(), width, place(grid, goal)};
+  if (repair_.repair(ways, changed_)) return true;
+  not_tried_ = kNotTried;
+  return false;
+}
+
+bool BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept {
+  const bool is_settled = repair(grid, goal, rate) || settle_anew(grid, goal, rate);
+  settled_grid_ = is_settled ? grid : Grid{};
+  settled_goal_ = goal;
+  const std::int32_t width = grid.side + 2;
   for (std::int32_t j = 0; j < grid.side; ++j) {
     const Node* row = &nodes_[at((j + 1) * width + 1)];
     for (std::int32_t i = 0; i < grid.side; ++i) cost[grid.at(i, j)] = row[i].rate == 0 ? kNoWay : row[i].cost;
   }
-  return !full_;
+  return is_settled;
 }
 
 }  // namespace jaywalk::field

@@ -2,6 +2,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/field/cost_repair.h"
 #include "planner/field/start_field.h"
 
 namespace jaywalk::field {
@@ -9,6 +10,7 @@ namespace jaywalk::field {
 /// The start field's fixed point by a queue of buckets, Dial's, with costs within a bucket in any order: what one
 /// thread does best. A cell that improves is queued again and its old entry passed over. All that is known of a cell
 /// lies together, with a ring of cells round the grid that are not free, so that a step is one fetch and no question.
+/// Where few rates have changed since the last time, what depends on them is repaired, to the same bytes.
 class BucketQueue {
  public:
   /// Takes memory for grids up to `max_side` cells, and for `entries` of them queued at a time.
@@ -35,6 +37,11 @@ class BucketQueue {
     std::size_t filled;  ///< entries of the last
   };
 
+  struct Ways;
+
+  [[nodiscard]] bool repair(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept;
+  [[nodiscard]] bool settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept;
+  [[nodiscard]] static std::int32_t place(Grid grid, std::int32_t c) noexcept;
   void load(Grid grid, const std::uint16_t* rate) noexcept;
   void relax(std::int32_t to, std::int32_t width, std::uint32_t through, std::uint32_t bucket) noexcept;
   void push(std::int32_t n, std::int32_t width, std::uint32_t bucket) noexcept;
@@ -47,6 +54,11 @@ class BucketQueue {
   Bucket buckets_[kBuckets];
   std::size_t chunks_in_use_ = 0;
   bool full_ = false;
+  Grid settled_grid_;               ///< whose costs the nodes hold; side 0: none
+  std::int32_t settled_goal_ = -1;  ///< to which cell
+  int not_tried_ = 0;               ///< repairs, from now on
+  std::vector<std::int32_t> changed_;
+  CostRepair repair_;
 };
 
 }  // namespace jaywalk::field

@@ -40,7 +40,7 @@ struct ClearanceOfRow {
   std::int32_t width, height;  ///< cells of the grid that count; what lies beyond is outside
   const std::int32_t* rows_away;
   float inflation;         ///< cells
-  std::int32_t* envelope;  ///< room for a row: columns whose obstacle is the nearest of some stretch
+  std::int32_t* envelope;  ///< columns whose obstacle is the nearest of some stretch; in the end squared distances
   std::int32_t* stretch;   ///< room for a row: where each of those stretches begins
   float* clearance;
 
@@ -66,9 +66,14 @@ struct ClearanceOfRow {
     }
     for (std::int32_t i = grid.side - 1; i >= 0; --i) {
       const std::int32_t squared = cell::squared_distance(i, column[top], g[column[top]]);
-      clearance[row + i] = cell::clearance(squared, inflation, to_border(i, j));
       if (i == begin[top]) --top;
+      column[i] = squared;  // beyond what is left of the envelope
+      write(i, j, squared);
     }
+  }
+
+  JAYWALK_CELL void write(std::int32_t i, std::int32_t j, std::int32_t squared) const {
+    clearance[grid.at(i, j)] = cell::clearance(squared, inflation, to_border(i, j));
   }
 
  private:

@@ -57,6 +57,7 @@ struct FieldArrays {
   Counted *changed, *pits;  ///< by pieces of rows
   Counted* found;           ///< one; what a single visit has to say
   cell::Point *points, *raw_points;
+  std::int32_t* moved;         ///< in which step each of the band's points did last
   double *segments, *lengths;  ///< of the band; of the raw path and the band
   FieldQuality* quality;
   ShownArrays shown;
@@ -85,6 +86,7 @@ template <class Executor>
   take(a.changed, pieces), take(a.pits, pieces), take(a.found, 1);
   share(a.points, a.shown.points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.raw_points, static_cast<std::size_t>(kMaxBandPoints));
+  take(a.moved, static_cast<std::size_t>(kMaxBandPoints));
   take(a.segments, static_cast<std::size_t>(kMaxBandPoints)), take(a.lengths, 2);
   share(a.quality, a.shown.quality, 1);
   executor.fill(a.table, table.data(), table.size());

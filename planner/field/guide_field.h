@@ -3,6 +3,8 @@
 #include <span>
 #include <vector>
 
+#include "planner/field/cost_repair.h"
+#include "planner/field/guide_ways.h"
 #include "planner/field/nearest_surfaces.h"
 #include "planner/guide.h"
 #include "planner/planner.h"
@@ -21,13 +23,15 @@ struct GuideRequest {
 /// Nearest surfaces and the time to the goal, for a body of which `inscribed_m` is the narrowest half: nearer to a
 /// surface than that is no way, nearer than its corners reach is dear, and room of up to a metre is worth a detour.
 /// Costs are integers, so that the shortest way is the same whatever the order of the work: the fixed point of
-/// cost[n] = min(cost[c] + step) over sixteen neighbours.
+/// cost[n] = min(cost[c] + step) over sixteen neighbours. Where few cells have changed since the last time, what
+/// depends on them is repaired, to the same bytes.
 ///
 /// Memory for windows of up to `max_side` cells in the constructor. Thread: the planner's.
 class GuideField {
  public:
-  /// The arrays that a result needs; take one a result.
+  /// The arrays that a result needs; take one a result, for one GuideField.
   struct Memory {
+    std::uint64_t round = 0;  ///< in which it was filled last
     std::vector<Place> surface;
     std::vector<std::uint8_t> unseen;
     std::vector<float> to_go_s;
@@ -40,28 +44,34 @@ class GuideField {
   Guide settle(const GuideRequest& request, Memory& memory) noexcept;
 
  private:
-  struct Entry {
-    std::int32_t cell, next;
-  };
-
-  [[nodiscard]] CellBox box_of(const GuideRequest& request) const noexcept;
-  void weigh(const GuideRequest& request, const CellBox& box, const Memory& memory) noexcept;
+  [[nodiscard]] CellBox box_of(const GuideRequest& request) noexcept;
+  void weigh(const GuideRequest& request, const CellBox& box, bool same_ground, const std::uint8_t* unseen) noexcept;
+  void weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept;
+  void add_weight(std::int32_t c, float weight) noexcept;
+  void settle_costs(const GuideRequest& request, const CellBox& box, bool same_ground) noexcept;
+  [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
+  void settle_anew(const GuideRequest& request, const CellBox& box, std::int32_t robot) noexcept;
+  [[nodiscard]] std::int32_t goal_cell(const GuideRequest& request, const CellBox& box) const noexcept;
+  void seed_border(const GuideRequest& request, const CellBox& box) noexcept;
+  void write(const GuideRequest& request, const CellBox& box, Memory& memory) noexcept;
   [[nodiscard]] bool leads_through_unseen(const GuideRequest& request, const CellBox& box,
-                                          const Memory& memory) const noexcept;
-  void settle_costs(const GuideRequest& request, const CellBox& box) noexcept;
-  void seed(const GuideRequest& request, const CellBox& box) noexcept;
-  void relax_from(std::int32_t c, const CellBox& box, std::int32_t side) noexcept;
-  void push(std::int32_t c, std::uint32_t cost) noexcept;
+                                          const std::uint8_t* unseen) const noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
   float blocked_m_, tight_m_;
   NearestSurfaces surfaces_;
-  std::vector<std::uint16_t> rate_;  ///< 0: no way
-  std::vector<std::uint32_t> cost_;
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> heads_;
-  std::int32_t spare_ = -1;
-  std::size_t used_ = 0, queued_ = 0;
+  Window window_;  ///< of the last time
+  CellBox box_;
+  std::uint64_t round_ = 0;
+  std::vector<std::uint64_t> row_round_;         ///< in which a row's surfaces changed last
+  std::vector<std::uint16_t> surface_rate_;      ///< by surfaces alone; 0: no way
+  std::vector<std::uint16_t> rate_, last_rate_;  ///< with all that is added
+  std::vector<std::int32_t> changed_;            ///< cells whose rate is not that of the last time
+  std::vector<float> middle_x_m_;                ///< of a row's cells, in the map
+  std::vector<std::int8_t> evidence_;            ///< of a row
+  std::int32_t goal_ = -1;                       ///< cell that ways lead to; -1: none, or many
+  GuideWays ways_;
+  CostRepair repair_;
 };
 
 }  // namespace jaywalk::field

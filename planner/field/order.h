@@ -75,9 +75,12 @@ struct ClearOrder {
   JAYWALK_ORDER void clear(Executor& executor) const noexcept {
     constexpr std::int32_t kColumns = Executor::kColumns;
     executor.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a.occupants, wanted, a.rows_away});
-    executor.for_each(grid.side,
-                      ClearanceOfRow{grid, width, height, a.rows_away, inflation, a.envelope, a.stretch, a.clearance});
+    executor.for_each(grid.side, rows(a.rows_away));
     copy(executor, grid.cells(), a.clearance, a.shown.clearance);
+  }
+
+  [[nodiscard]] JAYWALK_CELL ClearanceOfRow rows(const std::int32_t* rows_away) const {
+    return {grid, width, height, rows_away, inflation, a.envelope, a.stretch, a.clearance};
   }
 };
 
@@ -246,28 +249,32 @@ struct PullOrder {
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
-    copy(executor, count, a.shown.points, a.points);
-    executor.for_each(count, Copy<cell::Point>{a.points, a.raw_points});
+    copy(executor, count, a.shown.points, a.raw_points);
+    executor.for_each(count, BeginBand{a.raw_points, a.points, a.moved});
     measure(executor, a.lengths);
-    drag(executor, kBandReach, kBandRounds);
+    std::int32_t step = 0;
+    drag(executor, kBandReach, kBandRounds, step, step);
     bool longer = is_longer(executor);
-    for (std::int32_t r = 0; r < kBandRounds && longer; r += kTautRounds) {
-      drag(executor, 0.0F, kTautRounds);
+    for (std::int32_t r = 0, begun = step; r < kBandRounds && longer; r += kTautRounds) {
+      drag(executor, 0.0F, kTautRounds, begun, step);
       longer = is_longer(executor);
     }
     if (longer) {
-      executor.for_each(count, Copy<cell::Point>{a.raw_points, a.points});
-      drag(executor, 0.0F, kBandRounds);
+      executor.for_each(count, BeginBand{a.raw_points, a.points, a.moved});
+      drag(executor, 0.0F, kBandRounds, step, step);
     }
     copy(executor, count, a.points, a.shown.points);
   }
 
  private:
+  /// Some rounds, from `step` on, of a force that began to act at step `begun`.
   template <class Executor>
-  JAYWALK_ORDER void drag(Executor& executor, float reach, std::int32_t rounds) const noexcept {
-    for (std::int32_t third = 0; third < 3 * rounds; ++third) {
-      const std::int32_t from = first + third % 3;
-      executor.for_each((count - from + 1) / 3, PullBand{grid, from, count, a.clearance, reach, a.points});
+  JAYWALK_ORDER void drag(Executor& executor, float reach, std::int32_t rounds, std::int32_t begun,
+                          std::int32_t& step) const noexcept {
+    for (const std::int32_t end = step + 3 * rounds; step < end; ++step) {
+      const std::int32_t from = first + step % 3;
+      executor.for_each((count - from + 1) / 3,
+                        PullBand{grid, from, count, a.clearance, reach, begun, step, a.points, a.moved});
     }
   }
 

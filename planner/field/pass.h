@@ -3,9 +3,11 @@
 // What a processor's own loops do better than stages is here, and what is remembered from order to order.
 #include <cstddef>
 #include <cstring>
+#include <utility>
 #include <vector>
 
 #include "planner/field/bucket_queue.h"
+#include "planner/field/clearance_repair.h"
 #include "planner/field/nearest_cell.h"
 #include "planner/field/order.h"
 
@@ -20,7 +22,10 @@ class Pass {
         a_(take_field(executor, max_side)),
         max_side_(max_side),
         queue_(Executor::kQueue ? max_side : 0, kQueuedPerCell * cells_looked_through(max_side)),
-        cleared_occupants_(cells_looked_through(max_side)) {}
+        cleared_occupants_(cells_looked_through(max_side)) {
+    if constexpr (Executor::kQueue)
+      last_rows_away_ = executor.template take<std::int32_t>(cells_looked_through(max_side));
+  }
 
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return a_; }
   /// What the host may read and write.
@@ -49,9 +54,16 @@ class Pass {
   }
   /// The same where only the lowest width x height cells count.
   bool clear(Grid grid, std::int32_t width, std::int32_t height, float inflation, std::uint8_t wanted) noexcept {
-    if (Executor::kQueue && is_cleared(grid, {grid.side, width, height, inflation, wanted})) return true;
+    const ClearOrder order{a_, grid, width, height, inflation, wanted};
+    if constexpr (Executor::kQueue) {
+      const Cleared now{grid.side, width, height, inflation, wanted};
+      const bool keeps = now == cleared_;
+      if (is_cleared(grid, now)) return true;
+      started_ = kNoCell;
+      if (keeps) return repair(order), true;
+    }
     started_ = kNoCell;
-    return executor_.run(ClearOrder{a_, grid, width, height, inflation, wanted});
+    return executor_.run(order);
   }
 
   /// The next clear and start are done anew though nothing has changed: for measuring.
@@ -115,6 +127,16 @@ class Pass {
     return static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0);
   }
 
+  /// Clearance of other occupants, from that of the last ones.
+  void repair(const ClearOrder& order) noexcept {
+    std::swap(a_.rows_away, last_rows_away_);
+    const Grid grid = order.grid;
+    constexpr std::int32_t kColumns = Executor::kColumns;
+    executor_.for_each(grid.side / kColumns,
+                       NearestInColumns{grid, kColumns, a_.occupants, order.wanted, a_.rows_away});
+    executor_.for_each(grid.side, RepairClearanceOfRow{order.rows(a_.rows_away), last_rows_away_});
+  }
+
   /// Whether clearance is that of these occupants already; from now on it is taken to be.
   bool is_cleared(Grid grid, const Cleared& wanted) noexcept {
     const auto bytes = static_cast<std::size_t>(grid.cells());
@@ -132,7 +154,8 @@ class Pass {
   BucketQueue queue_;
   std::vector<std::uint8_t> cleared_occupants_;
   Cleared cleared_;
-  std::int32_t started_ = kNoCell;  ///< goal of the start field that belongs to the clearance
+  std::int32_t* last_rows_away_ = nullptr;  ///< for repairs
+  std::int32_t started_ = kNoCell;          ///< goal of the start field that belongs to the clearance
 };
 
 }  // namespace jaywalk::field

@@ -56,6 +56,18 @@ struct IndexOfEachCell {
   };
 };
 
+/// The band as it is drawn: a copy of the raw path, none of whose points has moved yet.
+struct BeginBand {
+  const cell::Point* raw;
+  cell::Point* points;
+  std::int32_t* moved;
+
+  JAYWALK_CELL void operator()(std::int32_t k) const {
+    points[k] = raw[k];
+    moved[k] = -1;
+  }
+};
+
 /// Every third of the band's points, moved by its neighbours' tension and by what is near: the whole way, half, or a
 /// quarter of it, and else not at all. What a move keeps, whatever the force:
 /// - Free cells: all cells of the box that two neighbouring points span are free, so the segment between is in free
@@ -64,16 +76,20 @@ struct IndexOfEachCell {
 /// - No turning back: the sharpest turn, at the point and at its neighbours, is at most 45 degrees, or no sharper than
 ///   before.
 /// The turns at the neighbours reach two points to either side: hence thirds, for the same bits in any order.
+/// A point is left alone that did not move when it was looked at last, while nothing within two points has since.
 /// Points in cells from the window's low corner.
 struct PullBand {
   Grid grid;
   std::int32_t first, count;  ///< the first point that may move; points in all
   const float* clearance;
-  float reach;  ///< cells of clearance below which things push
+  float reach;              ///< cells of clearance below which things push
+  std::int32_t begun, now;  ///< step in which this force began to act, and this one; every third step is one point's
   cell::Point* points;
+  std::int32_t* moved;  ///< in which step each point did last
 
   JAYWALK_CELL void operator()(std::int32_t k) const {
     const std::int32_t p = first + 3 * k;
+    if (rests(p)) return;
     const cell::Point here = points[p];
     const cell::Point force = cell::clearance_force(clearance_at(here), slope_at(here), reach);
     const cell::Point pull = cell::tension(points[p - 1], here, points[p + 1]);
@@ -81,12 +97,22 @@ struct PullBand {
       const cell::Point there = cell::dragged(here, pull, force, give);
       if (!stays_free(p, there) || !stays_gentle(p, there)) continue;
       points[p] = there;
+      if (there.x != here.x || there.y != here.y) moved[p] = now;
       return;
     }
   }
 
  private:
   static constexpr float kGive = 0.8F;
+
+  JAYWALK_CELL bool rests(std::int32_t p) const {
+    const std::int32_t last_look = now - 3;
+    if (last_look < begun) return false;
+    const std::int32_t from = p > 2 ? p - 2 : 0, to = p + 2 < count ? p + 2 : count - 1;
+    bool any = false;
+    for (std::int32_t q = from; q <= to; ++q) any |= moved[q] >= last_look;
+    return !any;
+  }
 
   JAYWALK_CELL float clearance_of(std::int32_t i, std::int32_t j) const {
     return grid.holds(i, j) ? clearance[grid.at(i, j)] : 0.0F;

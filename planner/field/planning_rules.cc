@@ -1,6 +1,7 @@
 #include "planner/field/planning_rules.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <iterator>
 #include <string>
@@ -95,11 +96,19 @@ std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, M
 }
 
 void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept {
+  if (still == nullptr) {
+    std::fill_n(occupants, window.grid().cells(), std::uint8_t{0});
+    return;
+  }
+  constexpr std::int32_t kPiece = 64;  // divides every window's side
+  std::array<std::int8_t, kPiece> evidence;
   for (std::int32_t j = 0; j < window.side; ++j) {
-    std::uint8_t* row = occupants + window.grid().at(0, j);
-    for (std::int32_t i = 0; i < window.side; ++i) {
-      const bool wall = still != nullptr && still->occupied({window.low.i + i, window.low.j + j});
-      row[i] = wall ? std::uint8_t{kWall} : std::uint8_t{0};
+    for (std::int32_t i = 0; i < window.side; i += kPiece) {
+      still->copy_row({window.low.i + i, window.low.j + j}, kPiece, evidence.data());
+      std::uint8_t* piece = occupants + window.grid().at(i, j);
+      for (std::size_t k = 0; k < evidence.size(); ++k) {
+        piece[k] = evidence[k] > EvidenceMap::kOccupied ? std::uint8_t{kWall} : std::uint8_t{0};
+      }
     }
   }
 }

@@ -12,6 +12,7 @@ struct Window {
   std::int32_t side = 0;
   double cell_m = 0.1;
 
+  bool operator==(const Window&) const = default;
   [[nodiscard]] Grid grid() const { return {side}; }
   /// Cell of a point, counted from `low`; not necessarily inside.
   [[nodiscard]] CellIndex cell_at(Vec2 p_in_map) const;

@@ -23,19 +23,64 @@ EvidenceMap::EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_
       evidence_(static_cast<std::size_t>(side_cells) * static_cast<std::size_t>(side_cells), 0),
       seen_for_(evidence_.size(), 0),
       surface_(evidence_.size()),
-      to_laser_(evidence_.size()) {
+      to_laser_(evidence_.size()),
+      changed_(evidence_.size() / kPiece) {
   const CellIndex centre = cell_at(centre_in_map);
   low_ = {centre.i - side_ / 2, centre.j - side_ / 2};
 }
 
 Vec2 EvidenceMap::centre_of(CellIndex cell) const { return {(cell.i + 0.5) * cell_m_, (cell.j + 0.5) * cell_m_}; }
 
+template <class T>
+void EvidenceMap::copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept {
+  std::fill_n(to, n, T{});
+  if (!within(first.j, low_.j)) return;
+  const std::int32_t end = std::min(first.i + n, low_.i + side_);
+  for (std::int32_t i = std::max(first.i, low_.i); i < end;) {  // a piece up to where the torus closes
+    const std::size_t from = slot({i, first.j});
+    const std::int32_t to_seam = side_ - static_cast<std::int32_t>(from % static_cast<std::size_t>(side_));
+    const std::int32_t piece = std::min(end - i, to_seam);
+    std::copy_n(values.begin() + static_cast<std::ptrdiff_t>(from), piece, to + (i - first.i));
+    i += piece;
+  }
+}
+
+void EvidenceMap::copy_row(CellIndex first, std::int32_t n, std::int8_t* to) const noexcept {
+  copy_row_of(evidence_, first, n, to);
+}
+
+void EvidenceMap::copy_row_of_surfaces(CellIndex first, std::int32_t n, Offset* to) const noexcept {
+  copy_row_of(surface_, first, n, to);
+}
+
+void EvidenceMap::follow(const EvidenceMap& from) noexcept {
+  if (followed_ != &from || changes_ > from.changes_ || side_ != from.side_) {
+    *this = from;
+    followed_ = &from;
+    return;
+  }
+  for (std::size_t piece = 0; piece < changed_.size(); ++piece) {
+    if (from.changed_[piece] <= changes_) continue;
+    const auto begin = static_cast<std::ptrdiff_t>(piece * kPiece);
+    std::copy_n(from.evidence_.begin() + begin, kPiece, evidence_.begin() + begin);
+    std::copy_n(from.seen_for_.begin() + begin, kPiece, seen_for_.begin() + begin);
+    std::copy_n(from.surface_.begin() + begin, kPiece, surface_.begin() + begin);
+    std::copy_n(from.to_laser_.begin() + begin, kPiece, to_laser_.begin() + begin);
+    changed_[piece] = from.changed_[piece];
+  }
+  low_ = from.low_;
+  changes_ = from.changes_;
+}
+
 void EvidenceMap::add(CellIndex cell, int change) noexcept {
   if (!contains(cell)) return;
   const std::size_t k = slot(cell);
-  std::int8_t& e = evidence_[k];
-  e = static_cast<std::int8_t>(std::clamp(e + change, kMin, kMax));
-  if (e <= 0) seen_for_[k] = 0;
+  const auto now = static_cast<std::int8_t>(std::clamp(evidence_[k] + change, kMin, kMax));
+  const std::uint8_t seen_for = now <= 0 ? std::uint8_t{0} : seen_for_[k];
+  if (now == evidence_[k] && seen_for == seen_for_[k]) return;
+  evidence_[k] = now;
+  seen_for_[k] = seen_for;
+  note_change(k);
 }
 
 void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) noexcept {
@@ -53,6 +98,7 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) 
   const int units =
       seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5));
   seen_for_[k] = static_cast<std::uint8_t>(std::min(units, 255));
+  note_change(k);
 }
 
 Vec2 EvidenceMap::surface(CellIndex cell) const {
@@ -72,6 +118,7 @@ void EvidenceMap::forget(CellIndex cell) noexcept {
   seen_for_[k] = 0;
   surface_[k] = {};
   to_laser_[k] = {};
+  note_change(k);
 }
 
 void EvidenceMap::roll_to(Vec2 centre_in_map) noexcept {

@@ -22,9 +22,14 @@ struct CellIndex {
 /// surface also remembers where in it the laser's points fall, to 1/128 of half a cell: matching a
 /// scan needs better than a cell. It remembers from where the surface was seen: a wall has two faces. And for how long:
 /// something that walks slowly leaves a new surface in every cell, a wall an old one.
-/// Memory: 6 * side * side bytes, taken in the constructor. Not thread-safe.
+/// Memory: a little more than 6 * side * side bytes, taken in the constructor. Not thread-safe.
 class EvidenceMap {
  public:
+  struct Offset {
+    std::int8_t x = 0, y = 0;
+    constexpr bool operator==(const Offset&) const = default;
+  };
+
   /// `side_cells` is a power of two; `cell_m` > 0. The window is centred on `centre_in_map`.
   EvidenceMap(std::int32_t side_cells, double cell_m, Vec2 centre_in_map);
 
@@ -50,12 +55,22 @@ class EvidenceMap {
   [[nodiscard]] std::int8_t evidence(CellIndex cell) const {
     return contains(cell) ? evidence_[slot(cell)] : std::int8_t{0};
   }
+  /// The evidence of `n` cells from `first` on eastwards, as evidence() has it: many at a time.
+  void copy_row(CellIndex first, std::int32_t n, std::int8_t* to) const noexcept;
   [[nodiscard]] bool occupied(CellIndex cell) const { return evidence(cell) > kOccupied; }
   [[nodiscard]] bool seen_free(CellIndex cell) const { return evidence(cell) < kFree; }
   /// Occupied, and hits were seen for kStandsAfterS of scans: longer than a walker stays in a cell.
   [[nodiscard]] bool stands(CellIndex cell) const {
     return occupied(cell) && seen_for_[slot(cell)] >= kSeenUnitsPerS * kStandsAfterS;
   }
+
+  /// The same of where surfaces lie in their cells, as they are kept: for telling whether any has moved. Outside the
+  /// window 0; meaningless likewise for cells that are not occupied.
+  void copy_row_of_surfaces(CellIndex first, std::int32_t n, Offset* to) const noexcept;
+
+  /// Becomes as `from` is, of the same side. Where it is a copy that has followed the same map before, and nothing else
+  /// has changed it, what has changed since is copied, 64 cells at a time.
+  void follow(const EvidenceMap& from) noexcept;
 
   /// Adds to a cell's evidence, saturating in [kMin, kMax]; nothing happens outside the window.
   void add(CellIndex cell, int change) noexcept;
@@ -96,17 +111,21 @@ class EvidenceMap {
   [[nodiscard]] bool within(std::int32_t at, std::int32_t low) const {
     return static_cast<std::uint32_t>(at) - static_cast<std::uint32_t>(low) < static_cast<std::uint32_t>(side_);
   }
+  template <class T>
+  void copy_row_of(const std::vector<T>& values, CellIndex first, std::int32_t n, T* to) const noexcept;
+  void note_change(std::size_t k) noexcept { changed_[k / kPiece] = ++changes_; }
+
+  static constexpr std::size_t kPiece = 64;
   std::int32_t side_;
   double cell_m_;
   CellIndex low_;
-  struct Offset {
-    std::int8_t x = 0, y = 0;
-  };
-
   std::vector<std::int8_t> evidence_;
   std::vector<std::uint8_t> seen_for_;  ///< in 1/250 s, saturating; 0 where it is not held occupied
   std::vector<Offset> surface_;         ///< from the cell's centre, in 1/128 of half a cell
   std::vector<Offset> to_laser_;        ///< in 1/127
+  std::uint64_t changes_ = 0;           ///< so far
+  std::vector<std::uint64_t> changed_;  ///< at which change a piece of 64 cells did last
+  const EvidenceMap* followed_ = nullptr;
 };
 
 }  // namespace jaywalk

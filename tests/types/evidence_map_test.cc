@@ -2,6 +2,7 @@
 
 #include <cmath>
 
+#include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -48,4 +49,52 @@ TEST_CASE("a place that is farther off than integers count is in the last cell, 
   CHECK(map.cell_at({1e30, -1e30}) == CellIndex{500000000, -500000000});
   CHECK(map.cell_at({std::nan(""), -0.05}) == CellIndex{-500000000, -1});
   CHECK(map.cell_at({1e6, -1e6}) == CellIndex{10000000, -10000000});
+}
+
+TEST_CASE("a row of evidence is what its cells have, beyond the map and across the torus's seam too") {
+  EvidenceMap map(64, 0.1, {3.0, 3.0});
+  map.roll_to({9.0, -7.0});
+  test::Random random(3);
+  const CellIndex low = map.low();
+  for (std::int32_t k = 0; k < 64 * 64; ++k) map.add({low.i + k % 64, low.j + k / 64}, random.below(129) - 64);
+  for (std::int32_t j = low.j - 2; j < low.j + 66; ++j) {
+    const CellIndex first{low.i - 40 + random.below(60), j};
+    std::array<std::int8_t, 128> row{};
+    const std::int32_t count = 1 + random.below(128);
+    map.copy_row(first, count, row.data());
+    for (std::int32_t k = 0; k < count; ++k) {
+      REQUIRE(row[static_cast<std::size_t>(k)] == map.evidence({first.i + k, j}));
+    }
+  }
+}
+
+TEST_CASE("a map that follows another has all of it, whatever has been added, hit, forgotten and rolled since") {
+  EvidenceMap map(64, 0.1, {});
+  EvidenceMap follower = map;
+  test::Random random(5);
+  const auto any = [&] { return CellIndex{map.low().i + random.below(70) - 3, map.low().j + random.below(70) - 3}; };
+  for (int tick = 0; tick < 200; ++tick) {
+    for (std::int32_t k = random.below(9); k > 0; --k) {
+      const std::int32_t what = random.below(4);
+      const CellIndex cell = any();
+      if (what == 0) map.add(cell, random.below(100) - 50);
+      if (what == 1) map.add_hit(map.centre_of(cell) + Vec2{0.02, random.unit() * 0.04}, 20, 0.2, {1.0, 0.0});
+      if (what == 2) map.forget(cell);
+      if (what == 3 && random.below(20) == 0) map.roll_to(map.centre_of(cell));
+    }
+    if (tick % 3 == 0) continue;
+    follower.follow(map);
+    REQUIRE(follower.low() == map.low());
+    for (std::int32_t k = 0; k < 64 * 64; ++k) {
+      const CellIndex cell{map.low().i + k % 64, map.low().j + k / 64};
+      REQUIRE(follower.evidence(cell) == map.evidence(cell));
+      REQUIRE(follower.stands(cell) == map.stands(cell));
+      REQUIRE(follower.surface(cell) == map.surface(cell));
+      REQUIRE(follower.to_laser(cell) == map.to_laser(cell));
+    }
+  }
+  EvidenceMap other(64, 0.1, {3.0, 3.0});
+  other.add({30, 30}, 50);
+  follower.follow(other);
+  CHECK(follower.evidence({30, 30}) == 50);
 }
