@@ -8,7 +8,8 @@ The rule, blind to any tracker; poses come from the odometry and scans (`robot.c
 3. People and names as label_walkers.py has them, in the map.
 4. Walking: under one name for at least 1 s, and at least 0.35 m from 0.5 s before to 0.5 s after; others: walks = 0.
 
-label_beside.py SCAN.txt.gz ROBOT.csv --laser-mount X,Y,YAW > LABELS.csv     (t_bag,id,x,y in the laser's frame)
+label_beside.py SCAN.txt.gz ROBOT.csv --laser-mount X,Y,YAW > LABELS.csv     (t_bag,id,x,y,walks in the laser's frame)
+bench/tracking/labels/wheelchair_walk.csv: so, with the poses of commit d185322.
 """
 import argparse
 import bisect
@@ -135,12 +136,6 @@ def labels_of(path, robot, mount):
     trails = trails_of(named, times)
     for t, pose, row in zip(times, poses, named):
         yield t, pose, [(name, p, width < lw.WIDEST_M and name in trails and walks(trails[name], t)) for name, p, width in row]
-
-
-def trails_who_walk(path, robot, mount):
-    """Places in the map of those who walk, by time."""
-    all_scans = {t: [p for _, p, walking in row if walking] for t, _, row in labels_of(path, robot, mount)}
-    return {t: places for t, places in all_scans.items() if places}
 
 
 def main(options):

@@ -24,6 +24,7 @@ from drives import ROOT, all_of, call
 RELIVE = ROOT / "build/bench/tracking/jaywalk_relive"
 MATCH_M, STANDS_M, LABELS_LATE_S = 0.5, 0.4, 0.13
 MOUNT = (0.850326, 0.235214, 0.734815)  # the wheelchair's laser, by the recording's own transform
+WALK_BESIDE = ROOT / "bench/tracking/labels/wheelchair_walk.csv"
 TURN_RAD = 0.2
 LEFT_M, APPROACH_M, HEAD_ON_RAD = 0.3, 2.5, 0.35
 HEAD_ON_FROM_M = 8.0
@@ -151,9 +152,14 @@ def wheelchair(options):
     files = ("wheelchair/scan.txt.gz", "wheelchair/odom.txt.gz")
     out = relive(options, "wheelchair", *files, mount=MOUNT)
     scans = tracks_of(out)
-    walking = label_beside.trails_who_walk(str(options.data / files[0]), out / "robot.csv", MOUNT)
-    seen = {t: any(nearest(at(scans, t), p, MATCH_M) is not None for p in places) for t, places in walking.items()}
-    every = [nearest(at(scans, t), p, MATCH_M) is not None for t, places in walking.items() for p in places]
+    walking = collections.defaultdict(list)  # by time, in the laser's frame: another run's map lies elsewhere
+    with open(WALK_BESIDE) as file:
+        for r in csv.DictReader(file):
+            if r["walks"] == "1":
+                walking[float(r["t_bag"])].append((float(r["x"]), float(r["y"])))
+    poses = robot_poses(out, list(walking), MOUNT)
+    found = {t: [nearest(at(scans, t), in_map(poses[t], p), MATCH_M) is not None for p in places] for t, places in walking.items()}
+    seen, every = {t: any(row) for t, row in found.items()}, [one for row in found.values() for one in row]
     with gzip.open(options.data / "wheelchair/people.csv.gz", "rt") as file:
         labels = [(float(r["t_bag"]) - LABELS_LATE_S, (float(r["x"]), float(r["y"]))) for r in csv.DictReader(file)]
     poses = robot_poses(out, [t for t, _ in labels], MOUNT)
