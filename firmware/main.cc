@@ -115,6 +115,7 @@ void add_replay(CLI::App& app) {
   replay->add_option("--out", replay_options.out, "Folder for what the run leaves")->capture_default_str();
   replay->add_flag("--mcap", replay_options.mcap, "Leave run.mcap as well, as export would");
   replay->add_flag("--json", replay_options.json, "Print the summary, in place of a line");
+  add_view(*replay, replay_options.view);
 }
 
 void add_field(CLI::App& app) {

@@ -4,9 +4,12 @@
 #include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <memory>
 #include <sstream>
+#include <thread>
 
 #include "firmware/commands/interruption.h"
+#include "firmware/commands/live_view.h"
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
 #include "firmware/commands/progress.h"
@@ -72,6 +75,34 @@ ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) 
   return setup;
 }
 
+/// The page of a replay: any tick can be looked at; nobody steers.
+class ReplayView {
+ public:
+  ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
+    if (!options.view) return;
+    live_ = std::make_unique<LiveView>(*options.view, true, [](const view::ViewOrder&) { return std::string(); });
+    live_->begin({.title = options.logs[0].filename().string(),
+                  .model = runner.setup().model,
+                  .takes_goals = false,
+                  .takes_pauses = false},
+                 runner.setup().tick());
+  }
+  /// After a tick. A subscriber to the stream of messages gets it at the recording's own pace.
+  void follow() {
+    if (!live_) return;
+    live_->follow(runner_, "");
+    if (live_->has_subscribers()) std::this_thread::sleep_for(runner_.setup().tick());
+  }
+  void stay(const Interruption& interruption) const {
+    std::fflush(stdout);
+    if (live_) live_->stay(true, interruption);
+  }
+
+ private:
+  const LoopRunner& runner_;
+  std::unique_ptr<LiveView> live_;
+};
+
 int replay_log(const ReplayOptions& options, const std::string& format) {
   refuse_to_overwrite(options.logs, options.out);
   std::error_code missing;
@@ -84,6 +115,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
   if (options.mcap) runner.export_to(options.out / "run.mcap");
+  ReplayView view(options, runner);
   RunPicture picture;
   MountCheck mount;
   Progress progress;
@@ -93,6 +125,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
     picture.consider(runner);
+    view.follow();
     if (progress.is_due()) {
       const double lived_s = to_seconds(runner.last().now - log.start_time());
       const double whole_s = to_seconds(log.end_time() - log.start_time());
@@ -118,6 +151,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::size_t scans = log.log().scans.size();
   std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
               to_seconds(log.end_time() - log.start_time()), drawn.c_str());
+  view.stay(interruption);
   return whole ? 0 : 1;
 }
 
@@ -163,6 +197,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     return std::make_unique<HeldPlanner>(std::move(planner), recorded);
   });
   if (options.mcap) runner.export_to(options.out / "run.mcap");
+  ReplayView view(options, runner);
   RunPicture picture;
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
@@ -173,6 +208,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     runner.step_at(recorded.now);
     runner.report(nullptr);
     picture.consider(runner);
+    view.follow();
     const WheelCommand& now = devices.commanded();
     const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
                       same_bits(now.right_radps, recorded.command.right_radps);
@@ -194,6 +230,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
               static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
               static_cast<unsigned long long>(lost), drawn.c_str());
+  view.stay(interruption);
   return different == 0 ? 0 : 1;
 }
 

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/view/view_server.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
@@ -16,9 +17,10 @@ struct ReplayOptions {
   std::optional<Pose2> laser_mount;    ///< robot_from_laser; default: the log's own word, else the robot's origin
   std::string model;  ///< p3dx, wheelchair, or a robot model file; empty: p3dx, its laser at the origin
   std::filesystem::path out = "out/replay";
-  bool save_map = false;  ///< what the robot saw, as map_server files
-  bool mcap = false;      ///< leave run.mcap as well
-  bool json = false;      ///< print the summary, in place of a line
+  bool save_map = false;                  ///< what the robot saw, as map_server files
+  bool mcap = false;                      ///< leave run.mcap as well
+  bool json = false;                      ///< print the summary, in place of a line
+  std::optional<view::ViewAddress> view;  ///< serve the live page here, until an interruption
 };
 
 /// Recorded laser and odometry through the whole pipeline except the wheels. For a recording of our own every command

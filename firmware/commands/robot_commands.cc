@@ -11,6 +11,7 @@
 #include "firmware/commands/commission_command.h"
 #include "firmware/commands/config_command.h"
 #include "firmware/commands/run_command.h"
+#include "firmware/commands/view_option.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"
@@ -71,6 +72,7 @@ void add_run(CLI::App& app, int& exit_code) {
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
   run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
                 "Start although the kernel refuses real-time priority or locked memory");
+  add_view(*run, run_options.view);
   run->callback([&exit_code] { exit_code = run_robot(run_options); });
 }
 

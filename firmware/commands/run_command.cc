@@ -7,10 +7,12 @@
 #include <cmath>
 #include <cstdio>
 #include <fstream>
+#include <memory>
 #include <nlohmann/json.hpp>
 
 #include "drivers/can/restart_link.h"
 #include "firmware/commands/run_picture.h"
+#include "firmware/commands/run_view.h"
 #include "firmware/report/map_files.h"
 #include "firmware/robot/armed_mark.h"
 #include "firmware/robot/control_socket.h"
@@ -120,6 +122,16 @@ void print_json(const std::vector<CheckedPart>& parts) {
   std::printf("%s\n", rows.dump(1).c_str());
 }
 
+EvidenceMap map_like_the_loops(const RobotFile& file) {
+  return {PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m, {}};
+}
+
+std::unique_ptr<RunView> view_for(const RunOptions& options, const RobotFile& file) {
+  if (!options.view) return nullptr;
+  return std::make_unique<RunView>(*options.view, socket_for(options, file), options.robot.filename().string(),
+                                   file.setup, map_like_the_loops(file));
+}
+
 }  // namespace
 
 int run_robot(RunOptions options) {
@@ -138,17 +150,19 @@ int run_robot(RunOptions options) {
   const ControlSocket socket(
       socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
       order_priority(file.realtime));
+  const std::unique_ptr<RunView> view = view_for(options, file);
   NoPoseSource no_fixes;
   LoopRunner runner(file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out,
                     true, [&](std::unique_ptr<Planner> planner) {
-                      const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m,
-                                                       {});
-                      return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
+                      const EvidenceMap like_the_loops = map_like_the_loops(file);
+                      return std::make_unique<PlannerThread>(std::move(planner), like_the_loops,
+                                                             view ? &view->planner_tap() : nullptr);
                     });
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
   StallGuard guard(devices.brake(), clock, kLongestStall);
   RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard);
+  if (view) loop.show_to(view->snapshots());
   for (const std::string& line : loop.prepare(file.realtime)) not_permitted.push_back(line);
   require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
   controls.start(order_priority(file.realtime));
@@ -168,6 +182,7 @@ int run_robot(RunOptions options) {
   LoopReport report(runner, loop);
   while (!loop.has_ended()) {
     report.follow();
+    if (view) view->follow();
     service.alive(report.last().ticks, clock.now());
     if (!signals.came()) continue;
     service.stopping();

@@ -1,8 +1,10 @@
 #pragma once
 #include <filesystem>
+#include <optional>
 
 #include "firmware/commands/run_folders.h"
 #include "firmware/control_setup.h"
+#include "firmware/view/view_server.h"
 
 namespace jaywalk {
 
@@ -13,9 +15,10 @@ struct RunOptions {
   bool save_map = false;       ///< what the robot saw, as map_server files
   std::filesystem::path runs;  ///< where each run gets a folder of its own, in place of `out`; empty: `out` it is
   RunsKept kept;               ///< below `runs`
-  std::filesystem::path control_socket;  ///< empty: the file's, else the default
-  bool json = false;                     ///< of a check: for programs
-  bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
+  std::filesystem::path control_socket;   ///< empty: the file's, else the default
+  std::optional<view::ViewAddress> view;  ///< serve the live page here
+  bool json = false;                      ///< of a check: for programs
+  bool allow_no_realtime = false;         ///< start although the kernel refuses priority or locked memory
 };
 
 /// The controller on the robot, until SIGINT or SIGTERM: then it ramps to rest, disarms and writes its summary.

@@ -86,7 +86,7 @@ std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup&
   auto view = std::make_unique<SimView>(*options.view, simulation.hal().panel, !setup.keeps_speed());
   std::vector<view::WallPiece> walls;
   for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
-  view->begin(scenario.name, setup.model, walls);
+  view->begin(scenario.name, setup, walls);
   return view;
 }
 
@@ -156,7 +156,7 @@ int run_sim(const SimOptions& options) {
     tell(progress, scenario, simulation.truth());
     ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
     if (ended.empty() && interruption.came()) ended = "interrupted";
-    if (view) view->follow(runner, ended);
+    if (view) view->follow(runner, ended, interruption);
     if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());
   }
   progress.make_way();
@@ -180,6 +180,8 @@ int run_sim(const SimOptions& options) {
   if (options.json) return print_summary(options.out), ended == "reached" ? 0 : 1;
   std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
               lasted_s, lasted_s / took_s, drawn.c_str());
+  std::fflush(stdout);
+  if (view) view->stay(interruption);
   return ended == "reached" ? 0 : 1;
 }
 

@@ -1,12 +1,9 @@
 #pragma once
 #include <chrono>
-#include <memory>
 #include <string>
 
-#include "firmware/commands/loop_runner.h"
+#include "firmware/commands/live_view.h"
 #include "firmware/view/steered_panel.h"
-#include "firmware/view/view_scene.h"
-#include "firmware/view/view_server.h"
 
 namespace jaywalk {
 
@@ -18,23 +15,22 @@ class SimView {
   SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals);
 
   [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
-  void begin(const std::string& title, const RobotModel& model, std::span<const view::WallPiece> walls);
+  void begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls);
   /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
-  void follow(const LoopRunner& runner, const std::string& ended);
+  void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
+  /// After the run: see LiveView::stay.
+  void stay(const Interruption& interruption) const { live_.stay(false, interruption); }
 
  private:
-  void show(const LoopRunner& runner, const std::string& ended);
   void keep_pace(Duration tick);
-  void obey_while_paused();
+  void obey_while_paused(const Interruption& interruption);
 
   view::ViewOrders orders_;
   view::SteeredPanel panel_;
-  view::ViewServer server_;
   bool takes_goals_;
-  Pose2 robot_from_laser_;
-  Time shown_ = kNever, field_shown_ = kNever;
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
+  LiveView live_;
 };
 
 }  // namespace jaywalk

@@ -18,13 +18,13 @@ inline std::uint16_t port_of(const std::string& word) {
                      "give a whole number from 0 to 65535 (0: any that is free)");
 }
 
-/// --view [PORT] and --view-address. Parsing throws StartupError for what is no port.
+/// --view [PORT], --view-address and --view-origin. Parsing throws StartupError for what is no port.
 inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
   const auto here = [&chosen]() -> view::ViewAddress& { return chosen ? *chosen : chosen.emplace(); };
   command
       .add_option_function<std::string>(
           "--view", [here](const std::string& word) { here().port = word.empty() ? std::uint16_t{0} : port_of(word); },
-          "Serve the live page, in real time; its address is printed (default port: any that is free)")
+          "Serve the live page; its address is printed (default port: any that is free)")
       ->expected(0, 1)
       ->type_name("PORT");
   command
@@ -32,6 +32,11 @@ inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen
           "--view-address", [here](const std::string& word) { here().address = word; },
           "Serve it on this IPv4 address of the machine, with a token (default: 127.0.0.1, this machine alone)")
       ->type_name("ADDRESS");
+  command
+      .add_option_function<std::string>(
+          "--view-origin", [here](const std::string& word) { here().origin = word; },
+          "Pages of this site may look and steer too, such as a Foxglove that is served from there")
+      ->type_name("https://SITE");
 }
 
 }  // namespace jaywalk

@@ -7,8 +7,8 @@
 
 namespace jaywalk {
 
-PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map)
-    : planner_(std::move(planner)), still_(map) {
+PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, view::PlannerTap* tap)
+    : planner_(std::move(planner)), tap_(tap), still_(map) {
   sigset_t all, before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -55,6 +55,7 @@ void PlannerThread::run() noexcept {
     if (ending_) return;
     planner_->submit(request_);
     plans_.publish(planner_->collect());
+    if (tap_ != nullptr) tap_->offer(*planner_, still_, request_.stamp);
     busy_.store(false, std::memory_order_release);
   }
 }

@@ -4,6 +4,7 @@
 #include <thread>
 #include <vector>
 
+#include "firmware/view/planner_tap.h"
 #include "hal/mailbox.h"
 #include "planner/planner.h"
 
@@ -13,8 +14,8 @@ namespace jaywalk {
 /// it is being answered is_busy() says so, and the loop asks again with its next scan.
 class PlannerThread final : public Planner {
  public:
-  /// Takes the memory for a copy of the map as large as the loop's.
-  PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map);
+  /// Takes the memory for a copy of the map as large as the loop's. `tap`: for pictures, outlives it; null: none.
+  PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, view::PlannerTap* tap = nullptr);
   ~PlannerThread() override;
 
   /// Copies the request, of the map what has changed since the last one, and returns. Not to be called while busy. The
@@ -30,6 +31,7 @@ class PlannerThread final : public Planner {
   void run() noexcept;
 
   std::unique_ptr<Planner> planner_;
+  view::PlannerTap* tap_;
   PlanRequest request_;
   EvidenceMap still_;
   FixedVector<Track, kMaxTracks> moving_;

@@ -90,6 +90,7 @@ void RobotLoop::tick(Time due) noexcept {
   devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kRest_mps);
   tell(t);
   trace(t);
+  if (tap_ != nullptr) tap_->offer(t, runner_.loop());
   note_times(began);
 }
 

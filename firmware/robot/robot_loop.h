@@ -15,6 +15,7 @@
 #include "firmware/robot/reset_gate.h"
 #include "firmware/robot/ring.h"
 #include "firmware/robot/stall_guard.h"
+#include "firmware/view/view_snapshot.h"
 
 namespace jaywalk {
 
@@ -47,6 +48,8 @@ class RobotLoop {
   RobotLoop(const RobotLoop&) = delete;
   RobotLoop& operator=(const RobotLoop&) = delete;
 
+  /// Start-up only, before prepare(): offers each tick to the live page's tap, which outlives it.
+  void show_to(view::SnapshotTap& tap) noexcept { tap_ = &tap; }
   /// Start-up only, before the drives are armed: starts the thread, which asks the kernel for what is wished and then
   /// waits. Returns what was not permitted, a line each.
   [[nodiscard]] std::vector<std::string> prepare(const RealtimeWishes& wishes);
@@ -79,6 +82,7 @@ class RobotLoop {
 
   LoopRunner& runner_;
   LoopDevices devices_;
+  view::SnapshotTap* tap_ = nullptr;
   OperatorDesk& desk_;
   Clock& clock_;
   StallGuard& guard_;

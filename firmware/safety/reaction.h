@@ -47,4 +47,10 @@ inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSw
   return scan.stamp == kNever ? usual_s : std::max(usual_s, to_seconds(now - scan.stamp));
 }
 
+/// SAFETY 7's t_scan + t_control + t_drive (s), as the stop zone reckons with them now.
+[[nodiscard]] inline double reaction_s(const LaserScan& scan, Time now, double rate_hz, Duration tick,
+                                       const MeasuredLatency& measured) noexcept {
+  return reckoned_age_s(scan, now, rate_hz) + control_and_drive_s(tick, measured);
+}
+
 }  // namespace jaywalk

@@ -9,13 +9,6 @@
 namespace jaywalk {
 namespace {
 
-StopZoneConfig zone_config(const SupervisorConfig& config) {
-  return {.footprint = config.model.footprint,
-          .robot_from_laser = config.model.laser.robot_from_laser,
-          .brake_mps2 = config.model.limits.brake_mps2,
-          .look_ahead_m = std::min(longest_stop_m(config.model, config.tick), SweptPath::kLongest_m)};
-}
-
 Reason reason_for(DriveTrouble trouble) {
   if (trouble == DriveTrouble::kNone) return Reason::kNone;
   if (trouble == DriveTrouble::kForeignMaster) return Reason::kForeignMaster;
@@ -46,7 +39,7 @@ Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, 
 
 Supervisor::Supervisor(const SupervisorConfig& config)
     : config_(config),
-      stop_zone_(zone_config(config)),
+      stop_zone_(stop_zone_for(config.model, config.tick)),
       watch_(config.model.footprint, config.model.laser.robot_from_laser, StopZoneConfig{}.margin_m),
       gaps_(config.model.laser),
       scan_timing_(config.model.laser.rate_hz),
@@ -164,8 +157,7 @@ double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
 }
 
 double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return reckoned_age_s(input.scan, input.now, config_.model.laser.rate_hz) +
-         control_and_drive_s(config_.tick, input.latency);
+  return jaywalk::reaction_s(input.scan, input.now, config_.model.laser.rate_hz, config_.tick, input.latency);
 }
 
 /// Slowly where the laser never looks: each part of the body that goes there.

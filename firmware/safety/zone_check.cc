@@ -6,7 +6,6 @@
 #include <cstdio>
 
 #include "firmware/safety/reaction.h"
-#include "firmware/safety/stop_zone.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -37,6 +36,13 @@ double fastest_rim_mps(const RobotModel& model) noexcept {
 double longest_stop_m(const RobotModel& model, Duration tick) noexcept {
   const double v = fastest_rim_mps(model);
   return v * worst_reaction_s(model.laser.rate_hz, tick) + v * v / (2.0 * model.limits.brake_mps2);
+}
+
+StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
+  return {.footprint = model.footprint,
+          .robot_from_laser = model.laser.robot_from_laser,
+          .brake_mps2 = model.limits.brake_mps2,
+          .look_ahead_m = std::min(longest_stop_m(model, tick), SweptPath::kLongest_m)};
 }
 
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {

@@ -1,6 +1,5 @@
 #include "firmware/view/view_scene.h"
 
-#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
@@ -11,11 +10,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr std::int32_t kMostFieldSide = 128;
 constexpr std::size_t kPathStep = 2;  ///< every second of points 0.05 to 0.2 m apart
 
 /// To the millimetre: the page shows no more.
 Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1000.0) / 1000.0) : Json(nullptr); }
+Json cm(float value) { return Json(std::round(static_cast<double>(value) * 100.0) / 100.0); }
 Json place(Vec2 p) { return Json::array({mm(p.x), mm(p.y)}); }
 
 /// JSON has bytes of text from files in it: what is no UTF-8 is replaced.
@@ -33,14 +32,31 @@ Json hits_of(const TickRecord& t, const Pose2& robot_from_laser) {
   return hits;
 }
 
-/// Position, velocity, radius, moves, and variances of the axis for how far its future spreads.
+/// Position, radius, whether it moves.
 Json tracks_of(std::span<const Track> tracks) {
   Json out = Json::array();
-  for (const Track& k : tracks) {
-    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.velocity_in_map.x),
-                   mm(k.velocity_in_map.y), mm(k.radius_m), k.moving ? 1 : 0, k.covariance.pp, k.covariance.pv,
-                   k.covariance.vv});
+  for (const Track& k : tracks)
+    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0});
+  return out;
+}
+
+/// A row a mover: its radius, then x and y of the first future at each time, of the second, and so on.
+Json futures_of(std::span<const ShownMover> movers) {
+  Json out = Json::array();
+  for (const ShownMover& mover : movers) {
+    Json row = Json::array({cm(mover.radius_m)});
+    for (const auto& future : mover.at)
+      for (const Place& p : future) row.push_back(cm(p.x)), row.push_back(cm(p.y));
+    out.push_back(std::move(row));
   }
+  return out;
+}
+
+/// Where the plan of a robot without sampled futures expects movers.
+Json expected_of(const Plan& plan) {
+  Json out = Json::array();
+  for (const Prediction& p : plan.predictions)
+    out.push_back({mm(p.position_in_map.x), mm(p.position_in_map.y), mm(p.mark_radius_m)});
   return out;
 }
 
@@ -50,20 +66,14 @@ Json path_of(const Path& path) {
   return out;
 }
 
-std::string cell_bytes(const FieldView& field, std::int32_t step, double most) {
-  std::string bytes;
-  for (std::int32_t y = 0; y < field.height; y += step) {
-    for (std::int32_t x = 0; x < field.width; x += step) {
-      const float psi =
-          field.psi[static_cast<std::size_t>(y) * static_cast<std::size_t>(field.width) + static_cast<std::size_t>(x)];
-      const int byte = std::isnan(psi) ? 255
-                       : std::isinf(psi)
-                           ? 254
-                           : std::clamp(static_cast<int>(253.0 * static_cast<double>(psi) / most), 0, 253);
-      bytes += static_cast<char>(byte);
-    }
+Json zone_of(const ShownStopZone::Outlines& zone) {
+  Json out = Json::array();
+  for (const Corners& corners : zone) {
+    Json outline = Json::array();
+    for (const Vec2& corner : corners) outline.push_back(place(corner));
+    out.push_back(std::move(outline));
   }
-  return bytes;
+  return out;
 }
 
 }  // namespace
@@ -74,51 +84,59 @@ std::string to_json(const HelloScene& hello) {
   const Footprint& body = hello.model.footprint;
   return dumped({{"kind", "hello"},
                  {"title", hello.title},
+                 {"tick_s", hello.tick_s},
                  {"takes_goals", hello.takes_goals},
+                 {"takes_pauses", hello.takes_pauses},
+                 {"keeps_ticks", hello.keeps_ticks},
                  {"front_m", body.front_m},
                  {"rear_m", body.rear_m},
                  {"half_width_m", body.half_width_m},
                  {"max_speed_mps", hello.model.limits.max_speed_mps},
-                 {"brake_mps2", hello.model.limits.brake_mps2},
                  {"walls", walls}});
 }
 
-std::string to_json(const FrameScene& frame, const Pose2& robot_from_laser) {
+std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
+  Json standing = Json::array();
+  for (const Stander& s : snapshot.standing)
+    standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
+  const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
+  return dumped({{"hits", hits_of(snapshot.record, robot_from_laser)},
+                 {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
+                 {"standing", standing},
+                 {"futures", futures_of(movers)},
+                 {"expected", movers.empty() ? expected_of(snapshot.plan) : Json::array()},
+                 {"path", path_of(snapshot.plan.path)}});
+}
+
+std::string frame_head(const FrameScene& frame) {
   const TickRecord& t = frame.record;
   const Pose2& pose = t.pose.map_from_robot;
-  Json standing = Json::array();
-  for (const Stander& s : frame.standing)
-    standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
   Json out{{"kind", "frame"},
+           {"tick", frame.tick},
            {"t", mm(to_seconds(t.now))},
            {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
            {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
            {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
            {"gap_m", mm(t.verdict.gap_m)},
            {"reasons", to_string(t.verdict.reasons)},
-           {"hits", hits_of(t, robot_from_laser)},
-           {"tracks", tracks_of(frame.tracks)},
-           {"standing", standing},
-           {"path", path_of(frame.plan.path)},
+           {"zone", zone_of(frame.zone)},
            {"ended", frame.ended}};
   if (t.input.has_goal)
     out["goal"] = {mm(t.input.goal_in_map.x), mm(t.input.goal_in_map.y), mm(t.input.goal_heading_rad)};
-  return dumped(out);
+  std::string text = dumped(out);
+  text.back() = ',';  // for the closing brace
+  return text.append("\"scene\":");
 }
 
-std::string to_json(const FieldView& field) {
-  double most = 1e-6;
-  for (const float psi : field.psi)
-    if (std::isfinite(psi)) most = std::max(most, static_cast<double>(psi));
-  std::int32_t step = 1;
-  while (std::max(field.width, field.height) > step * kMostFieldSide) step *= 2;
-  const std::int32_t width = (field.width + step - 1) / step;
+std::string to_json(const FieldPicture& field, std::uint64_t number) {
+  const auto* const bytes = reinterpret_cast<const char*>(field.cells.data());
   return dumped({{"kind", "field"},
-                 {"x", mm(field.low.i * field.cell_m)},
-                 {"y", mm(field.low.j * field.cell_m)},
-                 {"cell_m", field.cell_m * step},
-                 {"width", width},
-                 {"cells", base64(cell_bytes(field, step, most))}});
+                 {"number", number},
+                 {"x", mm(field.low_x_m)},
+                 {"y", mm(field.low_y_m)},
+                 {"cell_m", field.cell_m},
+                 {"width", field.width},
+                 {"cells", base64({bytes, field.cells.size()})}});
 }
 
 }  // namespace jaywalk::view

@@ -1,13 +1,14 @@
 #pragma once
 // What the live page is told, as JSON: metres, seconds and radians in the map; numbers that are none are null.
+#include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 
-#include "firmware/recording/tick_record.h"
+#include "firmware/view/field_picture.h"
+#include "firmware/view/shown_stop_zone.h"
+#include "firmware/view/view_snapshot.h"
 #include "hal/types/robot_model.h"
-#include "planner/perception/stander.h"
-#include "planner/perception/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk::view {
 
@@ -20,22 +21,27 @@ struct HelloScene {
   std::string title;
   RobotModel model;
   std::span<const WallPiece> walls = {};  ///< the world's, where there is one
-  bool takes_goals = true;                ///< goal and stop; pause and step are for everything simulated
+  double tick_s = 0.02;
+  bool takes_goals = true;   ///< and the Stop button
+  bool takes_pauses = true;  ///< Pause and Step hold the program, not only the page
+  bool keeps_ticks = true;   ///< any tick can be asked for
 };
 [[nodiscard]] std::string to_json(const HelloScene& hello);
 
+/// What changes with a scan or a plan: hits, tracks, futures, path. Part of many frames.
+[[nodiscard]] std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser);
+
 /// One tick.
 struct FrameScene {
+  std::uint64_t tick = 0;  ///< from 0
   const TickRecord& record;
-  std::span<const Track> tracks;
-  std::span<const Stander> standing;
-  const Plan& plan;
-  std::string ended = {};  ///< the run's outcome, with its last frame
+  ShownStopZone::Outlines zone;
+  std::string_view ended{};  ///< the run's outcome, with its last frame
 };
-[[nodiscard]] std::string to_json(const FrameScene& frame, const Pose2& robot_from_laser);
+/// Ends in `"scene":`; the JSON of a snapshot and a closing brace follow.
+[[nodiscard]] std::string frame_head(const FrameScene& frame);
 
-/// The potential, thinned to at most 128 cells a side, a byte a cell: 0 at the goal to 253 farthest, 254 without a way
-/// to the goal, 255 not free; base64, row by row from the lowest y.
-[[nodiscard]] std::string to_json(const FieldView& field);
+/// `number` tells fields apart.
+[[nodiscard]] std::string to_json(const FieldPicture& field, std::uint64_t number);
 
 }  // namespace jaywalk::view

@@ -4,6 +4,7 @@
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <poll.h>
+#include <pthread.h>
 #include <signal.h>
 #include <sys/random.h>
 #include <sys/socket.h>
@@ -39,9 +40,10 @@ in_addr parsed(const std::string& address) {
 
 }  // namespace
 
-ViewServer::ViewServer(const ViewAddress& where, std::function<void(std::string_view)> on_order)
-    : address_(where.address) {
-  rules_.on_order = std::move(on_order);
+ViewServer::ViewServer(const ViewAddress& where, ViewDoor door) : address_(where.address), said_(door.channels.size()) {
+  rules_.on_order = std::move(door.on_order);
+  rules_.channels = std::move(door.channels);
+  rules_.origin = where.origin;
   rules_.loopback = where.address == "127.0.0.1";
   sockaddr_in at{};
   at.sin_family = AF_INET;
@@ -75,7 +77,14 @@ std::string ViewServer::url() const {
 void ViewServer::push(MessageKind kind, std::string text) {
   ViewMessage* const slot = ring_.draft();
   if (slot == nullptr) return;
-  *slot = {kind, std::move(text)};
+  *slot = {.kind = kind, .text = std::move(text)};
+  ring_.publish();
+}
+
+void ViewServer::push(std::size_t channel, Time stamp, std::string message) {
+  ViewMessage* const slot = ring_.draft();
+  if (slot == nullptr) return;
+  *slot = {.kind = MessageKind::kTopic, .text = std::move(message), .channel = channel, .stamp = stamp};
   ring_.publish();
 }
 
@@ -83,6 +92,9 @@ void ViewServer::run() {
   sigset_t all;
   sigfillset(&all);
   ::pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are for the thread that drives
+  const sched_param ordinary{};
+  static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary));  // whatever its maker has
+  static_cast<void>(::pthread_setname_np(::pthread_self(), "view"));
   while (!ends_) {
     std::vector<pollfd> watched{{listener_.get(), POLLIN, 0}};
     for (const ViewClient& client : clients_)
@@ -91,6 +103,7 @@ void ViewServer::run() {
     accept_newcomers();
     pass_on();
     serve_clients();
+    count_clients();
   }
   pass_on();
   serve_clients();
@@ -108,20 +121,48 @@ void ViewServer::pass_on() {
   for (const ViewMessage* m = ring_.front(); m != nullptr; m = ring_.front()) {
     if (m->kind == MessageKind::kHello) hello_ = m->text;
     if (m->kind == MessageKind::kField) field_ = m->text;
-    for (ViewClient& client : clients_) client.offer(m->text);
+    if (m->kind == MessageKind::kTopic) said_[m->channel] = *m;
+    for (ViewClient& client : clients_) hand(*m, client);
     ring_.pop();
   }
 }
 
+void ViewServer::hand(const ViewMessage& m, ViewClient& client) {
+  if (m.kind == MessageKind::kTopic) return client.offer(m.channel, m.stamp, m.text);
+  m.kind == MessageKind::kEnd ? client.queue(m.text) : client.offer(m.text);
+}
+
 void ViewServer::serve_clients() {
-  std::erase_if(clients_, [this](ViewClient& client) {
-    if (!client.serve()) return true;
-    if (client.has_joined()) {
-      for (const std::string* kept : {&hello_, &field_})
-        if (!kept->empty()) client.queue(*kept);
-    }
+  const auto now = ViewClient::Clock::now();
+  std::erase_if(clients_, [this, now](ViewClient& client) {
+    if (!client.serve(now)) return true;
+    welcome(client);
     return false;
   });
+}
+
+void ViewServer::welcome(ViewClient& client) {
+  if (client.has_joined()) {
+    for (const std::string* kept : {&hello_, &field_})
+      if (!kept->empty()) client.queue(*kept);
+  }
+  for (const std::size_t channel : client.subscribed()) {
+    if (const ViewMessage& said = said_[channel]; said.stamp != kNever) client.queue(channel, said.stamp, said.text);
+  }
+}
+
+void ViewServer::count_clients() {
+  int viewers = 0;
+  bool pages = false;
+  std::uint32_t wanted = 0;
+  for (const ViewClient& client : clients_) {
+    wanted |= client.wanted();
+    pages = pages || client.is_page();
+    viewers += client.is_page() || client.wanted() != 0 ? 1 : 0;
+  }
+  viewers_ = viewers;
+  has_pages_ = pages;
+  wanted_ = wanted;
 }
 
 }  // namespace jaywalk::view

@@ -31,6 +31,7 @@ enum class FrameState { kIncomplete, kWhole, kRefused };
 /// or longer than kMostPayload: the connection is to be closed then.
 [[nodiscard]] FrameState take_frame(std::string& received, ClientFrame& frame);
 
-inline constexpr std::size_t kMostPayload = 4096;  ///< bytes; orders have about 50
+inline constexpr std::size_t kMostPayload =
+    8192;  ///< bytes; orders have about 50, an advertisement with its schema some hundred
 
 }  // namespace jaywalk::view

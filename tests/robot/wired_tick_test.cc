@@ -2,6 +2,8 @@
 #include <sys/mman.h>
 
 #include <iostream>
+#include <utility>
+#include <vector>
 
 #include "tests/robot/wired_bench.h"
 #include "tests/support/file_size_limit.h"
@@ -111,6 +113,31 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
     // An LD19 has no word for "nothing within reach", and the hall is wider than its 12 m: what lies there is not
     // proven, and the supervisor holds the robot to 0.1 m/s there.
     CHECK(bench.speed_mps() > (std::string(robot) == "vesc_ld19" ? 0.05 : 0.3));
+  }
+}
+
+// A run without a page, one whose page is read, one whose page is not: the ring is full after four snapshots.
+TEST_CASE("a live page that looks, or that stops reading, asks nothing of the heap and changes no command") {
+  std::vector<std::vector<std::pair<double, double>>> commands;
+  for (const char* page : {"none", "reads", "stopped"}) {
+    Bench bench("robot");
+    view::SnapshotTap tap;
+    if (page != std::string("none")) bench.robot.loop().show_to(tap);
+    tap.want(true);
+    bench.tick(25);
+    CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+    bench.heap_calls = 0;
+    auto& sent = commands.emplace_back();
+    std::size_t shown = 0;
+    for (int k = 0; k < 100; ++k) {
+      bench.tick();
+      sent.emplace_back(bench.last().command.left_radps, bench.last().command.right_radps);
+      while (page == std::string("reads") && tap.snapshots().front() != nullptr) ++shown, tap.snapshots().pop();
+    }
+    CHECK(bench.heap_calls == 0);
+    CHECK(sent == commands.front());
+    CHECK(bench.speed_mps() > 0.3);
+    if (page == std::string("reads")) CHECK(shown >= 50);  // 25 a second, 2 s
   }
 }
 

@@ -3,6 +3,7 @@ import base64
 import json
 import os
 import re
+import signal
 import socket
 import struct
 import subprocess
@@ -19,11 +20,10 @@ def short_scenario(root, folder, timeout_s, name="short"):
 
 
 class Run:
-    """jaywalk sim with --view; `url` is the address that it printed."""
+    """A jaywalk command with --view; `url` is the address that it printed."""
 
-    def __init__(self, jaywalk, scenario, out, *options):
-        command = [jaywalk, "sim", scenario, "--backend", "cpu", "--out", out, "--view", *options]
-        self.program = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    def __init__(self, *command):
+        self.program = subprocess.Popen([*command, "--view"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         line = self.program.stdout.readline()
         if not line.startswith("view: "):
             raise AssertionError(f"{command}: the first line is {line!r}")
@@ -33,6 +33,14 @@ class Run:
     def wait(self, timeout_s=60):
         self.said = self.program.communicate(timeout=timeout_s)[0]
         return self.program.returncode
+
+    def interrupt(self):
+        self.program.send_signal(signal.SIGINT)
+        return self.wait()
+
+
+def simulation(jaywalk, scenario, out, *options):
+    return Run(jaywalk, "sim", scenario, "--backend", "cpu", "--out", out, *options)
 
 
 def http(port, path="/", **headers):
@@ -50,39 +58,70 @@ def http(port, path="/", **headers):
 
 
 class Client:
-    """A WebSocket to the page's server."""
+    """A WebSocket to the page's server; `protocol`: the subprotocols that it offers."""
 
-    def __init__(self, port, path="/ws"):
+    def __init__(self, port, path="/ws", protocol=None):
         self.link = socket.create_connection(("127.0.0.1", port), timeout=10)
         key = base64.b64encode(os.urandom(16)).decode()
+        offer = f"Sec-WebSocket-Protocol: {protocol}\r\n" if protocol else ""
         self.link.sendall((f"GET {path} HTTP/1.1\r\nHost: 127.0.0.1:{port}\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n"
-                           f"Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
+                           f"{offer}Sec-WebSocket-Key: {key}\r\nSec-WebSocket-Version: 13\r\n\r\n").encode())
         self.file = self.link.makefile("rb")
         assert b"101" in self.file.readline()
-        while self.file.readline() not in (b"\r\n", b""):
-            pass
+        self.protocol = None
+        for line in iter(self.file.readline, b"\r\n"):
+            if line.lower().startswith(b"sec-websocket-protocol:"):
+                self.protocol = line.split(b":")[1].strip().decode()
+
+    def send(self, opcode, payload):
+        mask = os.urandom(4)
+        size = bytes([0x80 | len(payload)]) if len(payload) < 126 else bytes([0x80 | 126]) + struct.pack(">H", len(payload))
+        self.link.sendall(bytes([0x80 | opcode]) + size + mask + bytes(byte ^ mask[i % 4] for i, byte in enumerate(payload)))
 
     def order(self, **order):
-        payload, mask = json.dumps(order).encode(), os.urandom(4)
-        assert len(payload) < 126
-        masked = bytes(byte ^ mask[i % 4] for i, byte in enumerate(payload))
-        self.link.sendall(bytes([0x81, 0x80 | len(payload)]) + mask + masked)
+        self.send(1, json.dumps(order).encode())
 
-    def message(self):
-        """The next message; None at the connection's end."""
-        head = self.file.read(2)
-        if len(head) < 2 or head[0] != 0x81:
-            return None
-        length = head[1]
-        if length == 126:
-            length = struct.unpack(">H", self.file.read(2))[0]
-        elif length == 127:
-            length = struct.unpack(">Q", self.file.read(8))[0]
-        return json.loads(self.file.read(length))
+    def frame_of_any_kind(self):
+        """Opcode and payload of the next one that is no ping, which is answered; None at the connection's end."""
+        while True:
+            head = self.file.read(2)
+            if len(head) < 2:
+                return None
+            length = head[1]
+            if length == 126:
+                length = struct.unpack(">H", self.file.read(2))[0]
+            elif length == 127:
+                length = struct.unpack(">Q", self.file.read(8))[0]
+            opcode, payload = head[0] & 15, self.file.read(length)
+            if opcode == 9:
+                self.send(10, payload)
+            elif opcode in (1, 2):
+                return opcode, payload
+            else:
+                return None
+
+    def message(self, *kinds):
+        """The page's next message, of these kinds alone where some are named; None at the connection's end."""
+        while True:
+            got = self.frame_of_any_kind()
+            if got is None:
+                return None
+            message = json.loads(got[1])
+            if not kinds or message["kind"] in kinds:
+                return message
 
     def frame(self):
         """The next frame of a tick; None at the connection's end."""
-        message = self.message()
-        while message and message["kind"] != "frame":
-            message = self.message()
-        return message
+        return self.message("frame")
+
+    def last_frame(self):
+        """The frame that tells the outcome; the run ends once this client is closed."""
+        frame = self.frame()
+        while frame and not frame["ended"]:
+            frame = self.frame()
+        self.close()
+        return frame
+
+    def close(self):
+        self.file.close()
+        self.link.close()

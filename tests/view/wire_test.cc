@@ -1,7 +1,11 @@
 // The wire between live page and program: handshake, frames, orders. Vectors are those of RFC 6455 and RFC 4648.
 #include <cmath>
 #include <string>
+#include <vector>
 
+#include "firmware/view/foxglove_session.h"
+#include "firmware/view/frame_store.h"
+#include "firmware/view/goal_message.h"
 #include "firmware/view/http.h"
 #include "firmware/view/view_orders.h"
 #include "firmware/view/view_scene.h"
@@ -99,7 +103,79 @@ TEST_CASE("a stop takes back a goal that waits, and a goal a stop") {
 TEST_CASE("the field's bytes are its potential in 253 steps, with codes for no way and not free") {
   const float nan = std::nanf(""), inf = HUGE_VALF;
   const float psi[] = {0.0F, 1.0F, nan, inf};  // the farthest is 1: byte 253
-  const FieldView field{.low = {10, 20}, .width = 2, .height = 2, .cell_m = 0.1, .psi = psi};
-  CHECK(to_json(field) ==
-        R"({"kind":"field","x":1.0,"y":2.0,"cell_m":0.1,"width":2,"cells":")" + base64("\x00\xFD\xFF\xFE"s) + "\"}");
+  FieldPicture picture;
+  draw(picture, {.low = {10, 20}, .width = 2, .height = 2, .cell_m = 0.1, .psi = psi});
+  CHECK(to_json(picture, 3) == R"({"kind":"field","number":3,"x":1.0,"y":2.0,"cell_m":0.1,"width":2,"cells":")" +
+                                   base64("\x00\xFD\xFF\xFE"s) + "\"}");
+}
+
+TEST_CASE("a field of 1,024 cells a side is thinned to 128") {
+  const std::vector<float> psi(1024 * 1024, 1.0F);
+  FieldPicture picture;
+  draw(picture, {.low = {}, .width = 1024, .height = 1024, .cell_m = 0.1, .psi = psi});
+  CHECK(picture.width == 128);
+  CHECK(picture.cells.size() == 128 * 128);
+  CHECK(picture.cell_m == 0.8);
+}
+
+TEST_CASE("any tick that was kept comes back with its scene and its field") {
+  FrameStore store;
+  CHECK(store.then(0).empty());
+  store.add_scene("{\"a\":1}");
+  store.add({.t_s = 0.5, .wanted_mps = 0.25, .permitted_mps = 0.125, .is_held = true}, "{\"tick\":0,\"scene\":");
+  store.add_field("{\"f\":2}");
+  store.add({.t_s = 1.0}, "{\"tick\":1,\"scene\":");
+  CHECK(store.then(0) == R"({"kind":"then","frame":{"tick":0,"scene":{"a":1}},"field":null})");
+  CHECK(store.then(1) == R"({"kind":"then","frame":{"tick":1,"scene":{"a":1}},"field":{"f":2}})");
+  CHECK(store.then(2).empty());
+  CHECK(store.past(9) == R"({"kind":"past","step":1,"ticks":[[0.50,0.250,0.125,1],[1.00,0.000,0.000,0]]})");
+  CHECK(store.past(1) == R"({"kind":"past","step":2,"ticks":[[0.50,0.250,0.125,1]]})");
+}
+
+TEST_CASE("a PoseStamped in JSON is a goal where it turns in the plane of the map") {
+  const auto goal = goal_from_json(
+      R"({"header":{"frame_id":"map"},"pose":{"position":{"x":1,"y":2,"z":0},"orientation":{"x":0,"y":0,"z":1,"w":0}}})");
+  REQUIRE(goal);
+  CHECK(goal->goal_in_map == Vec2{1.0, 2.0});
+  CHECK(std::fabs(goal->heading_rad - 3.14159265358979) < 1e-12);
+  CHECK(words_of({.goal_in_map = {1.5, -2.0}}) == R"({"goal":[1.5,-2]})");
+  CHECK(std::isnan(goal_from_json(R"({"pose":{"position":{"x":1,"y":2}}})")->heading_rad));
+  for (const char* text : {"", "{}", "[]", R"({"pose":{}})", R"({"pose":1})",
+                           R"({"header":{"frame_id":"odom"},"pose":{"position":{"x":1,"y":2}}})",
+                           R"({"header":{"frame_id":7},"pose":{"position":{"x":1,"y":2}}})",
+                           R"({"pose":{"position":{"x":1},"orientation":{"x":1}}})"}) {
+    INFO(text);
+    CHECK_FALSE(goal_from_json(text));
+  }
+}
+
+TEST_CASE("a PoseStamped in CDR that is cut anywhere is no goal") {
+  const double numbers[] = {3.0, 4.0, 0.0, 0.0, 0.0, 0.0, 1.0};
+  std::string whole("\0\1\0\0\0\0\0\0\0\0\0\0\4\0\0\0map\0", 20);  // its numbers begin at 16 of the body
+  whole.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
+  REQUIRE(goal_from_cdr(whole));
+  CHECK(goal_from_cdr(whole)->goal_in_map == Vec2{3.0, 4.0});
+  CHECK(goal_from_cdr(whole)->heading_rad == 0.0);
+  for (std::size_t size = 0; size < whole.size(); ++size) CHECK_FALSE(goal_from_cdr(whole.substr(0, size)));
+  whole[12] = '\xFF';  // a frame of 255 letters
+  CHECK_FALSE(goal_from_cdr(whole));
+}
+
+TEST_CASE("Foxglove's client messages that are none are told, and subscribe to nothing") {
+  FoxgloveSession session(3);
+  for (const char* text :
+       {"", "[]", "{}", R"({"op":"jump"})", R"({"op":"subscribe","subscriptions":[{"id":-1,"channelId":0}]})",
+        R"({"op":"subscribe","subscriptions":[{"id":1,"channelId":3}]})",
+        R"({"op":"subscribe","subscriptions":[7]})"}) {
+    INFO(text);
+    CHECK_FALSE(session.take_text(text).status.empty());
+  }
+  CHECK(session.wanted() == 0);
+  CHECK(session.take_text(R"({"op":"subscribe","subscriptions":[{"id":9,"channelId":2}]})").subscribed.size() == 1);
+  CHECK(session.wanted() == 4);
+  CHECK(session.subscription(2) == 9U);
+  CHECK(session.take_text(R"({"op":"unsubscribe","subscriptionIds":[9,"x"]})").status.empty());
+  CHECK(session.wanted() == 0);
+  CHECK(foxglove_subprotocol("a, foxglove.websocket.v1 ,b") == "foxglove.websocket.v1");
+  CHECK(foxglove_subprotocol("foxglove.websocket.v2").empty());
 }

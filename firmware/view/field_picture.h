@@ -1,0 +1,22 @@
+#pragma once
+#include <cstdint>
+
+#include "hal/types/fixed_vector.h"
+#include "planner/planner.h"
+
+namespace jaywalk::view {
+
+inline constexpr std::int32_t kMostFieldSide = 128;
+
+/// The potential, thinned to at most kMostFieldSide cells a side, a byte a cell, row by row from the lowest y: 0 at the
+/// goal to 253 farthest, 254 without a way to the goal, 255 not free. Memory of a fixed size.
+struct FieldPicture {
+  double low_x_m = 0.0, low_y_m = 0.0, cell_m = 0.0;  ///< in the map
+  std::int32_t width = 0;
+  FixedVector<std::uint8_t, static_cast<std::size_t>(kMostFieldSide) * kMostFieldSide> cells;
+};
+
+/// Allocates nothing. Thread: any that may look at the field.
+void draw(FieldPicture& into, const FieldView& field) noexcept;
+
+}  // namespace jaywalk::view

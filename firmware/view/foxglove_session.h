@@ -1,0 +1,60 @@
+#pragma once
+// The server's end of Foxglove's WebSocket protocol, version 1 (github.com/foxglove/ws-protocol, docs/spec.md):
+// channels are advertised, clients subscribe to them and may publish a goal.
+#include <cstdint>
+#include <map>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "hal/types/time.h"
+
+namespace jaywalk::view {
+
+/// A topic that is served: messages in CDR.
+struct FoxgloveChannel {
+  std::string topic;   ///< "/scan"
+  std::string type;    ///< "sensor_msgs/msg/LaserScan"
+  std::string schema;  ///< its definition as ROS 2 writes it
+};
+
+/// The first of a handshake's Sec-WebSocket-Protocol that is spoken here; empty where none is.
+[[nodiscard]] std::string foxglove_subprotocol(std::string_view offered);
+
+/// The texts that a newcomer is sent: serverInfo, and an advertisement of all channels, numbered from 0 in this order.
+[[nodiscard]] std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> channels);
+
+/// One client's subscriptions and what it publishes. Thread: the server's.
+class FoxgloveSession {
+ public:
+  explicit FoxgloveSession(std::size_t channels) : channels_(channels) {}
+
+  /// What a client's message asks for: an order of the live page's (view_orders.h), or what to tell it.
+  struct Outcome {
+    std::string order;                      ///< {"goal":[x,y,heading]}
+    std::string status;                     ///< JSON to send back
+    std::vector<std::size_t> subscribed{};  ///< channels that begin now
+  };
+  [[nodiscard]] Outcome take_text(std::string_view text);
+  [[nodiscard]] Outcome take_binary(std::string_view payload);
+
+  /// The client's number for a channel; nothing where it wants none of it.
+  [[nodiscard]] std::optional<std::uint32_t> subscription(std::size_t channel) const;
+  /// A bit a channel.
+  [[nodiscard]] std::uint32_t wanted() const;
+
+ private:
+  struct Published {
+    std::string topic, encoding;
+  };
+  std::size_t channels_;
+  std::map<std::uint32_t, std::size_t> subscriptions_;  ///< the client's number, the channel
+  std::map<std::uint32_t, Published> published_;        ///< by the client's number
+};
+
+/// Message Data: the payload of a binary frame.
+[[nodiscard]] std::string foxglove_message(std::uint32_t subscription, Time stamp, std::string_view message);
+
+}  // namespace jaywalk::view
