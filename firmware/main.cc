@@ -12,6 +12,7 @@
 #include "firmware/commands/faults_command.h"
 #include "firmware/commands/field_command.h"
 #include "firmware/commands/help_footers.h"
+#include "firmware/commands/man_page.h"
 #include "firmware/commands/parse_message.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/robot_commands.h"
@@ -203,6 +204,7 @@ int run(int argc, char** argv) {
   int exit_code = 0;
   add_robot_commands(app, exit_code);
   add_footers(app);
+  add_manual_options(app);
   refuse_empty_words(argc, argv);
   require_command(app, argc, argv);
   try {

@@ -147,10 +147,13 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const std::filesystem::path drawn = picture.save(options.out, name, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
-  if (options.json) return print_summary(options.out), whole ? 0 : 1;
   const std::size_t scans = log.log().scans.size();
-  std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
-              to_seconds(log.end_time() - log.start_time()), drawn.c_str());
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
+                to_seconds(log.end_time() - log.start_time()), drawn.c_str());
+  }
   view.stay(interruption);
   return whole ? 0 : 1;
 }
@@ -226,10 +229,13 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   const std::filesystem::path drawn = picture.save(options.out, "replay of " + file, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
-  if (options.json) return print_summary(options.out), different == 0 ? 0 : 1;
-  std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
-              static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
-              static_cast<unsigned long long>(lost), drawn.c_str());
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
+                static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
+                static_cast<unsigned long long>(lost), drawn.c_str());
+  }
   view.stay(interruption);
   return different == 0 ? 0 : 1;
 }

@@ -177,9 +177,12 @@ int run_sim(const SimOptions& options) {
       options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
-  if (options.json) return print_summary(options.out), ended == "reached" ? 0 : 1;
-  std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
-              lasted_s, lasted_s / took_s, drawn.c_str());
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
+                lasted_s, lasted_s / took_s, drawn.c_str());
+  }
   std::fflush(stdout);
   if (view) view->stay(interruption);
   return ended == "reached" ? 0 : 1;

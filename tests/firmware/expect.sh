@@ -13,6 +13,10 @@ expect() {
     cat "$out/said"
     failed=1
   fi
+  if [[ $code == 2 ]] && grep -qE ':0: |line 0\b' "$out/said"; then
+    echo "FAILED: $*: files begin with line 1: $(cat "$out/said")"
+    failed=1
+  fi
 }
 
 # refused PATTERN COMMAND...: exit code 2 and a single line that matches.

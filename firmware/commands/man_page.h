@@ -1,0 +1,16 @@
+#pragma once
+#include <CLI/CLI.hpp>
+#include <string>
+
+namespace jaywalk {
+
+/// --man and --completion: printed from what --help prints from, so that they cannot differ.
+void add_manual_options(CLI::App& app);
+
+/// The manual page of the program and all its commands, for man(1).
+[[nodiscard]] std::string man_page(const CLI::App& app);
+
+/// What bash offers to complete: commands, options, and the words of options that take one of a few.
+[[nodiscard]] std::string bash_completion(const CLI::App& app);
+
+}  // namespace jaywalk
