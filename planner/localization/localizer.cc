@@ -19,7 +19,7 @@ constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 
 // Share of the points: where so much lies on walkers the map holds those who have only come, or turn on the spot, and
-// wheels know better. By trial; half does not do (docs/tracking-findings.md, "Nobody but walkers in view").
+// wheels know better. By trial; half does not do (decision 53).
 constexpr double kAmongWalkers = 0.2;
 
 // Mean fit of scans to the map over some metres: below the lower the map no longer explains them, above the upper it

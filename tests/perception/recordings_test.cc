@@ -132,7 +132,7 @@ TEST_CASE("hardly anything moves where nobody is, wherever the recording begins"
 }
 
 // Where single starts end is chance: of 40 (five ranges of headings) 5 are more than 0.25 m off, 0.43 m at most, by
-// 0.10 m on average; of a version before 4, 0.53 m, 0.11 m (docs/tracking-findings.md, "Metres and turns apart").
+// 0.10 m on average; of a version before 4, 0.53 m, 0.11 m.
 TEST_CASE("after five minutes in Freiburg poses are a fifth of a metre right on average and hardly anything moves") {
   const auto file = find("carmen/freiburg-079-corrected.log.gz");
   if (!file) return;

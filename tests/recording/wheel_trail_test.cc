@@ -118,6 +118,16 @@ TEST_CASE("a robot that was seen seldom turned, drove and turned back") {
   CHECK(pose.heading == Approx(0.0).margin(1e-9));
 }
 
+TEST_CASE("a few centimetres aside of a robot that hardly drives are slip, not a turn there and back") {
+  // 2 cm to the left while it goes 1 cm ahead: the way there lies 63 degrees to the left.
+  const auto trail = wheel_trail({at(0, {0, 0, 0}), at(0.25, {0.01, 0.02, 0})}, nominal_drive());
+  REQUIRE(trail.size() == 2);
+  CHECK(trail[1].left_rad == Approx(0.1));
+  CHECK(trail[1].right_rad == Approx(0.1));
+  // 2 cm aside on 20 cm ahead are 6 degrees: it drove there.
+  CHECK(wheel_trail({at(0, {0, 0, 0}), at(0.25, {0.2, 0.02, 0})}, nominal_drive()).size() == 4);
+}
+
 TEST_CASE("recorded speeds are passed on, wheel by wheel") {
   // 1 m/s and 0.4 rad/s: (1 -+ 0.4 * 0.25) / 0.1 = 9 and 11 rad/s.
   const auto trail = wheel_trail({{time_from_seconds(0), {}, Twist2{1.0, 0.4}}}, nominal_drive());

@@ -29,6 +29,9 @@ void drive_arc(Driven& driven, const Pose2& to, const DriveModel& drive) {
 }
 
 constexpr double kAsideM = 0.01;  // an arc that ends this near is the way that was driven
+// A robot that hardly drives does not turn far to get a few centimetres aside: that is slip, or a hop of the
+// recording's.
+constexpr double kMostSlipM = 0.03, kMostBentRad = 0.26;
 constexpr Duration kOften = std::chrono::milliseconds(100), kLongestFilled = std::chrono::milliseconds(1500);
 constexpr Duration kSparse = std::chrono::milliseconds(150);  // in less a robot does not turn, drive and turn back
 
@@ -43,6 +46,13 @@ double heading_towards(const Driven& driven, const Pose2& to) {
   const Vec2 way = to.position() - driven.pose.position();
   const double ahead = atan2(way.y, way.x);
   return std::fabs(wrap_angle(ahead - driven.pose.heading)) <= kPi / 2 ? ahead : wrap_angle(ahead + kPi);
+}
+
+/// Whether it got to `to` by turning, driving straight and turning.
+bool turns_and_drives(const Driven& driven, const Pose2& to) {
+  const double miss_m = arc_misses_by(driven, to);
+  const double bent = wrap_angle(heading_towards(driven, to) - driven.pose.heading);
+  return miss_m > kMostSlipM || (miss_m > kAsideM && std::fabs(bent) < kMostBentRad);
 }
 
 /// Stamps a reading; its speeds, where the recording says none, are the mean ones since `before`.
@@ -73,7 +83,7 @@ std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, cons
   };
   for (const OdometryPose& next : poses) {
     const bool sparse = !trail.empty() && next.stamp - trail.back().stamp > kSparse;
-    if (sparse && arc_misses_by(driven, next.pose) > kAsideM) {
+    if (sparse && turns_and_drives(driven, next.pose)) {
       const Time since = trail.back().stamp;
       const Duration third = (next.stamp - since) / 3;
       const double heading = heading_towards(driven, next.pose);

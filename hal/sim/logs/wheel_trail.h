@@ -29,6 +29,7 @@ struct OdometryPose {
 /// across it (side slip, a SLAM correction) no such drive can do in a moment; it stays as an error of position
 /// and is made up for as soon as the robot has turned. Poses more than 0.15 s apart that no arc joins to 1 cm were
 /// joined by another way: the drive turns, drives straight and turns, in thirds of the time, with a reading after each.
+/// But not where up to 3 cm aside would take a turn of over 15 degrees: scans between would be seen that far turned.
 /// Heading is exact at every pose. Speeds are the recording's where it has them, else differences. `poses` has rising
 /// stamps.
 [[nodiscard]] std::vector<WheelState> wheel_trail(const std::vector<OdometryPose>& poses, const DriveModel& drive);
