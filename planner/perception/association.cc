@@ -11,7 +11,7 @@ namespace {
 constexpr double kGate2 = 11.8;     // chi-squared, two degrees of freedom, 99.7 %
 constexpr double kStrideM = 0.6;    // between a person's legs in mid-step
 constexpr double kBelongsM = 0.45;  // a cluster this near a body is part of it
-constexpr double kGateStdM = 0.12;  // whatever part of a body is seen
+constexpr double kGateStdM = 0.18;  // whatever part of a body is seen: a gate of 0.62 m, a stride, at the least
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// The leg nearest to leg `lead` among those given to track `owner`; -1: none within a stride.
