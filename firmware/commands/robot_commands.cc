@@ -54,6 +54,7 @@ int say_as_json(const std::string& line) {
 int say_goal() {
   std::string words;
   for (const std::string& word : goal) words += " " + word;
+  if (!goal.empty() && is_place_name(goal[0])) return say("goto" + words);
   return say("goto " + words_of(read_goal_order(words)));
 }
 
@@ -102,9 +103,11 @@ void add_robot_commands(CLI::App& app, int& exit_code) {
   add_commission(app, exit_code);
   add_config(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
-  go->add_option("goal", goal, "X,Y [HEADING] in the map (m, rad; any heading where none is given)")
+  go->add_option(
+        "goal", goal,
+        "X,Y [HEADING] in the map (m, rad; any heading where none is given), or names of places, one after the other")
       ->delimiter(',')
-      ->expected(2, 3)
+      ->expected(1, static_cast<int>(Route::capacity()))
       ->required();
   add_socket(go);
   go->callback([&exit_code] { exit_code = say_goal(); });

@@ -1,11 +1,15 @@
 #include "firmware/robot/goal_order.h"
 
+#include <algorithm>
 #include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdio>
 #include <vector>
 
+#include "hal/nearest_word.h"
+#include "hal/setting_keys.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -52,6 +56,35 @@ GoalOrder read_goal_order(std::string_view text) {
         wrap_angle(read_number(words[2], "HEADING", kTurn_rad, "give radians in the map, a turn (6.2832) at most"));
   }
   return order;
+}
+
+bool is_place_name(std::string_view word) {
+  if (word == "nan" || word == "inf") return false;  // what a goal's numbers may be by mistake
+  const char first = word.empty() ? '0' : word.front();
+  return (first >= 'a' && first <= 'z') || (first >= 'A' && first <= 'Z');
+}
+
+Route read_route(std::string_view text, std::span<const NamedPlace> places) {
+  const std::vector<std::string> words = split(text);
+  Route route;
+  if (words.empty() || !is_place_name(words[0])) {
+    static_cast<void>(route.push_back(read_goal_order(text)));
+    return route;
+  }
+  std::vector<std::string> names;
+  for (const NamedPlace& place : places) names.push_back(place.name);
+  for (const std::string& word : words) {
+    const auto found = std::find_if(places.begin(), places.end(), [&](const NamedPlace& p) { return p.name == word; });
+    if (found == places.end())
+      throw StartupError(
+          "goto: there is no place " + shown(word),
+          did_you_mean(word, names,
+                       names.empty() ? "name it in [[places]] of the robot file" : "there are " + joined(names)));
+    if (!route.push_back(found->order))
+      throw StartupError("goto: " + std::to_string(words.size()) + " places",
+                         "give at most " + std::to_string(Route::capacity()));
+  }
+  return route;
 }
 
 std::string words_of(const GoalOrder& order) {

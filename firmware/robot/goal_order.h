@@ -1,7 +1,9 @@
 #pragma once
+#include <span>
 #include <string>
 #include <string_view>
 
+#include "hal/types/fixed_vector.h"
 #include "hal/types/operator_input.h"
 
 namespace jaywalk {
@@ -15,6 +17,22 @@ struct GoalOrder {
 /// From "X Y" or "X Y HEADING", separated by spaces; metres, radians, at most a turn either way. Throws StartupError
 /// "goto: cause; remedy" for anything else. Not for the loop.
 [[nodiscard]] GoalOrder read_goal_order(std::string_view words);
+
+/// A place that has a name in the robot file.
+struct NamedPlace {
+  std::string name;
+  GoalOrder order;
+};
+
+/// Goals one after the other; at most 16, as many as a person gives in one line.
+using Route = FixedVector<GoalOrder, 16>;
+
+/// Whether an order begins with a place's name and not with a number: names begin with a letter.
+[[nodiscard]] bool is_place_name(std::string_view word);
+
+/// From "X Y", "X Y HEADING", or names of `places` in the order to go there, separated by spaces. Throws StartupError
+/// "goto: cause; remedy" for anything else. Not for the loop.
+[[nodiscard]] Route read_route(std::string_view words, std::span<const NamedPlace> places);
 
 /// Its words: read_goal_order() gives the same order.
 [[nodiscard]] std::string words_of(const GoalOrder& order);

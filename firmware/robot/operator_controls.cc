@@ -6,7 +6,7 @@ namespace jaywalk {
 
 OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock,
                                    OperatorDesk::RestartBus restart_bus)
-    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus)),
+    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus), file.places),
       wiring_(file.panel) {
   if (wiring_) {
     watch_.emplace(clock, wiring_->joystick);

@@ -30,16 +30,16 @@ RunStatus OperatorDesk::status() {
 std::string OperatorDesk::take_stop(bool now) {
   const std::lock_guard lock(asking_);
   ++wish_.number;
-  wish_.has_goal = false;
+  wish_.route.clear();
   if (now) ++wish_.emergencies;
   wishes_.publish(wish_);
   return "stopping\n";
 }
 
 std::string OperatorDesk::take_goal(std::string_view words) {
-  GoalOrder goal;
+  Route route;
   try {
-    goal = read_goal_order(words);
+    route = read_route(words, places_);
   } catch (const StartupError& error) {
     return std::string("refused: ") + error.what() + "\n";
   }
@@ -54,8 +54,7 @@ std::string OperatorDesk::take_goal(std::string_view words) {
     return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
   }
   ++wish_.number;
-  wish_.has_goal = true;
-  wish_.goal = goal;
+  wish_.route = route;
   wishes_.publish(wish_);
   return "going\n";
 }
@@ -97,29 +96,40 @@ void OperatorDesk::close() {
   const std::lock_guard lock(asking_);
   closed_ = true;
   ++wish_.number;
-  wish_.has_goal = false;
+  wish_.route.clear();
   wishes_.publish(wish_);
 }
 
 OperatorInput OperatorDesk::latest() noexcept {
   const Wish& wish = wishes_.latest();
-  if (wish.number != seen_.number) {
-    input_.has_goal = wish.has_goal;
-    input_.goal_in_map = wish.goal.position_in_map;
-    input_.goal_heading_rad = wish.goal.heading_rad;
-  }
+  const bool is_new = wish.number != seen_.number;
   input_.stamp = clock_.now();
   input_.goal_tolerance_m = tolerances_.place_m;
   input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
   input_.reset = wish.resets != seen_.resets;  // for one tick each
   input_.emergency_stop = wish.emergencies != seen_.emergencies;
   seen_ = wish;
+  if (is_new) {
+    leg_ = 0;
+    head_for_leg();
+  }
   return input_;
 }
 
+void OperatorDesk::head_for_leg() noexcept {
+  input_.has_goal = leg_ < seen_.route.size();
+  if (!input_.has_goal) return;
+  input_.goal_in_map = seen_.route[leg_].position_in_map;
+  input_.goal_heading_rad = seen_.route[leg_].heading_rad;
+}
+
 void OperatorDesk::tell(const RunStatus& status) noexcept {
-  if (status.latched || status.goal_reached) input_.has_goal = false;
-  statuses_.publish(status);
+  if (status.latched) leg_ = seen_.route.size();
+  if (status.goal_reached && input_.has_goal) ++leg_;
+  if (status.latched || status.goal_reached) head_for_leg();
+  RunStatus told = status;
+  told.goals_left = seen_.route.size() - leg_;
+  statuses_.publish(told);
 }
 
 }  // namespace jaywalk

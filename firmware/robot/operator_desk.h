@@ -4,6 +4,7 @@
 #include <string>
 #include <string_view>
 #include <utility>
+#include <vector>
 
 #include "firmware/robot/control_clients.h"
 #include "firmware/robot/goal_order.h"
@@ -22,6 +23,8 @@ struct GoalTolerances {
 /// Where what people ask for through the control socket becomes the loop's operator panel, and the loop's status
 /// their answer.
 ///
+/// Of a route it gives the loop one goal after the other, the next when one is reached.
+///
 /// A fault that is latched drops the goal: after a reset somebody has to say anew where to go. A goal that was reached
 /// is dropped too.
 class OperatorDesk final : public OperatorPanel {
@@ -29,8 +32,9 @@ class OperatorDesk final : public OperatorPanel {
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
   using RestartBus = std::function<std::string()>;
 
-  OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus)
-      : clock_(clock), tolerances_(tolerances), restart_bus_(std::move(restart_bus)) {}
+  OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus,
+               std::vector<NamedPlace> places = {})
+      : clock_(clock), tolerances_(tolerances), restart_bus_(std::move(restart_bus)), places_(std::move(places)) {}
 
   /// Any thread: obeys one line (control_socket.h) at once. A reset at bus-off waits for the bus: that is the reply's
   /// job, to be run in a thread that may wait; it holds up no other line.
@@ -48,14 +52,15 @@ class OperatorDesk final : public OperatorPanel {
  private:
   struct Wish {
     std::uint32_t number = 0;  ///< of goals and stops
-    bool has_goal = false;
-    GoalOrder goal;
+    Route route;               ///< empty: nowhere to go
     std::uint32_t resets = 0;
     std::uint32_t emergencies = 0;
   };
 
   [[nodiscard]] RunStatus status();
   [[nodiscard]] std::string take_stop(bool now);
+  /// Loop's thread: the route's goal `leg_`, or none after its last.
+  void head_for_leg() noexcept;
   [[nodiscard]] std::string take_goal(std::string_view words);
   [[nodiscard]] ControlReply take_reset();
   /// In a thread that may wait. `emergencies`: how many there were when the reset was asked for.
@@ -68,12 +73,14 @@ class OperatorDesk final : public OperatorPanel {
   Clock& clock_;
   GoalTolerances tolerances_;
   RestartBus restart_bus_;
+  std::vector<NamedPlace> places_;
   std::mutex asking_;  ///< never the loop's, and never held while something waits
   bool closed_ = false;
   Wish wish_;  ///< the askers'
   Mailbox<Wish> wishes_;
   Mailbox<RunStatus> statuses_;
-  Wish seen_;  ///< the loop's
+  Wish seen_;            ///< the loop's
+  std::size_t leg_ = 0;  ///< of the route that is driven
   OperatorInput input_;
 };
 

@@ -1,5 +1,8 @@
 #include "firmware/robot/robot_file.h"
 
+#include <algorithm>
+#include <cctype>
+
 #include "firmware/robot/distinct_keys.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
@@ -60,6 +63,22 @@ PanelWiring read_panel(TomlTable table) {
   return panel;
 }
 
+NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before) {
+  NamedPlace place{.name = table.text("name"), .order = {}};
+  const auto is_of_a_name = [](char c) {
+    return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
+  };
+  if (!is_place_name(place.name) || !std::all_of(place.name.begin(), place.name.end(), is_of_a_name))
+    table.refuse("name", "is no name for a place", "begin with a letter; letters, digits, _ and - go on");
+  for (const NamedPlace& other : before)
+    if (other.name == place.name) table.refuse("name", "is another place's already", "give each its own");
+  const auto at = table.place_in_map("at", 2);
+  place.order.position_in_map = {at[0], at[1]};
+  if (at.size() == 3) place.order.heading_rad = wrap_angle(at[2]);
+  table.finish();
+  return place;
+}
+
 }  // namespace
 
 RobotFile load_robot_file(const std::filesystem::path& path) {
@@ -86,6 +105,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
+  for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
   require_zone_in_reach(setup.model, setup.tick(), path.string());

@@ -4,11 +4,13 @@
 #include <filesystem>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/laser/scanner_setup.h"
 #include "drivers/panel/joystick.h"
 #include "firmware/control_setup.h"
 #include "firmware/robot/drive_wiring.h"
+#include "firmware/robot/goal_order.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/operator_input.h"
 
@@ -35,6 +37,7 @@ struct RobotFile {
   DriveWiring drive;
   RealtimeWishes realtime;
   std::optional<PanelWiring> panel;
+  std::vector<NamedPlace> places;        ///< where `goto NAME` leads
   std::filesystem::path control_socket;  ///< empty: the default
 };
 

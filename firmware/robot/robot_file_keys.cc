@@ -34,6 +34,7 @@ std::vector<SettingKey> top_keys() {
           {"", "laser", kTable, {}, "", kNeeded, "the scanner"},
           {"", "drive", kTable, {}, "", kNeeded, "the motor controllers"},
           {"", "panel", kTable, {}, "", "none", "a joystick or a box of buttons behind evdev"},
+          {"", "places", kTables, {}, "", "none", "where jaywalk goto NAME leads"},
           {"", "realtime", kTable, {}, "", "the defaults", "what the loop asks of the kernel"}};
 }
 
@@ -85,6 +86,11 @@ std::vector<SettingKey> panel_keys() {
           {"panel", "reset_button", kInteger, kButtons, "", static_cast<double>(joystick.reset), "reset, at rest"}};
 }
 
+std::vector<SettingKey> place_keys() {
+  return {{"places", "name", kText, {}, "", kNeeded, "begins with a letter; letters, digits, _ and -"},
+          {"places", "at", kNumbers, {}, "m, m, rad", kNeeded, "[x, y] or [x, y, heading] in the map"}};
+}
+
 std::vector<SettingKey> realtime_keys() {
   const RealtimeWishes wishes;
   return {
@@ -109,7 +115,7 @@ std::vector<SettingKey> realtime_keys() {
 FileKeys make_robot_file_keys() {
   FileKeys file{"Robot file", {}};
   for (const auto& keys :
-       {top_keys(), scanner_keys(), laser_keys("laser"), drive_keys(), panel_keys(), realtime_keys()})
+       {top_keys(), scanner_keys(), laser_keys("laser"), drive_keys(), panel_keys(), place_keys(), realtime_keys()})
     file.keys.insert(file.keys.end(), keys.begin(), keys.end());
   return file;
 }

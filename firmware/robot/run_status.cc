@@ -22,6 +22,7 @@ std::string describe(const RunStatus& status) {
       << "\nspeed_mps: " << status.speed_mps << "\nenabled: " << (status.enabled ? "yes" : "no") << "\ngoal: ";
   if (status.has_goal) out << status.goal_in_map.x << ' ' << status.goal_in_map.y;
   if (status.has_goal && !std::isnan(status.goal_heading_rad)) out << ' ' << status.goal_heading_rad;
+  out << "\ngoals_left: " << status.goals_left;
   out << "\nreasons: " << to_string(status.reasons) << "\nplan: " << name_of(status.plan)
       << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
       << "\ndrives_proved: " << (status.proved ? "yes" : "no")

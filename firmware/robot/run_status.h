@@ -23,6 +23,7 @@ struct RunStatus {
   std::optional<CanFrame> foreign_frame;  ///< of another master, while that is the trouble
   bool has_goal = false;
   bool turns_at_goal = false;  ///< has come to the goal and turns to the heading wanted there
+  std::size_t goals_left = 0;  ///< of the route, the one driven to among them
   bool goal_reached = false;   ///< the last one that there was
   Vec2 goal_in_map;
   double goal_heading_rad = kAnyHeading;   ///< wanted at the goal; NaN: any

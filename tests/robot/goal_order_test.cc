@@ -1,6 +1,8 @@
 #include "firmware/robot/goal_order.h"
 
 #include <cmath>
+#include <string>
+#include <vector>
 
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
@@ -34,6 +36,31 @@ TEST_CASE("a heading of up to a turn is the same one between -pi and pi") {
   CHECK(read_goal_order("0 0 -6.283").heading_rad == Approx(2.0 * kPi - 6.283).margin(1e-9));
   CHECK(complaint_about("0 0 6.29").rfind("goto: HEADING 6.29 is out of range; give radians", 0) == 0);
   CHECK(complaint_about("0 0 -90").rfind("goto: HEADING -90 is out of range; give radians", 0) == 0);
+}
+
+TEST_CASE("names of places make a route in the order to go; one that is not there is refused with what was meant") {
+  const std::vector<NamedPlace> places{{"kitchen", {{4.0, 1.5}, 1.57}}, {"hall", {{-1.0, 2.0}}}};
+  const Route route = read_route("hall kitchen hall", places);
+  REQUIRE(route.size() == 3);
+  CHECK(route[0].position_in_map == Vec2{-1.0, 2.0});
+  CHECK(std::isnan(route[0].heading_rad));
+  CHECK(route[1].position_in_map == Vec2{4.0, 1.5});
+  CHECK(route[1].heading_rad == 1.57);
+  CHECK(read_route("3 4", places)[0].position_in_map == Vec2{3.0, 4.0});
+  const auto complaint = [&](const std::string& words) {
+    try {
+      static_cast<void>(read_route(words, places));
+    } catch (const StartupError& error) {
+      return std::string(error.what());
+    }
+    return std::string();
+  };
+  CHECK(complaint("hall kitchn") == "goto: there is no place kitchn; did you mean kitchen?");
+  CHECK(complaint("attic") == "goto: there is no place attic; there are kitchen, hall");
+  std::string long_way = "hall";
+  for (int k = 1; k < 17; ++k) long_way += " hall";
+  CHECK(complaint(long_way) == "goto: 17 places; give at most 16");
+  CHECK_THROWS_AS(read_route("hall", {}), StartupError);
 }
 
 TEST_CASE("an order's words give the same order, to the last bit") {

@@ -55,6 +55,42 @@ TEST_CASE("a goal that was asked for is the loop's until somebody says stop") {
   CHECK_FALSE(bench.desk.latest().emergency_stop);
 }
 
+TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of it") {
+  tests::HandClock clock;
+  OperatorDesk desk(clock, {}, [] { return std::string(); },
+                    {{"a", {{1.0, 0.0}}}, {"b", {{2.0, 0.0}}}, {"c", {{3.0, 0.0}}}});
+  RunStatus status;
+  status.running = true;
+  desk.tell(status);
+  const auto goal_x = [&] { return desk.latest().has_goal ? desk.latest().goal_in_map.x : 0.0; };
+  const auto reach = [&](bool reached) { status.goal_reached = reached, desk.tell(status); };
+  CHECK(desk.obey("goto a b c") == "going\n");
+  CHECK(goal_x() == 1.0);
+  reach(true);
+  CHECK(goal_x() == 2.0);
+  reach(false);
+  CHECK(goal_x() == 2.0);
+  reach(true);
+  CHECK(goal_x() == 3.0);
+  CHECK(desk.obey("status").find("\ngoals_left: 1\n") != std::string::npos);
+  reach(true);
+  CHECK(goal_x() == 0.0);
+  reach(true);  // it goes on standing there
+  CHECK(goal_x() == 0.0);
+  reach(false);
+
+  CHECK(desk.obey("goto a b") == "going\n");
+  CHECK(goal_x() == 1.0);
+  CHECK(desk.obey("stop") == "stopping\n");
+  CHECK(goal_x() == 0.0);
+  CHECK(desk.obey("goto a b") == "going\n");
+  CHECK(goal_x() == 1.0);
+  status.latched = true, desk.tell(status);
+  status.latched = false, desk.tell(status);
+  CHECK(goal_x() == 0.0);
+  CHECK(desk.obey("goto attic").find("refused: goto: there is no place attic") == 0);
+}
+
 TEST_CASE("a goal's heading is the loop's as well, and the next goal may have none") {
   Bench bench;
   CHECK(std::isnan(bench.desk.latest().goal_heading_rad));

@@ -2,6 +2,7 @@
 
 #include <unistd.h>
 
+#include <cmath>
 #include <fstream>
 #include <string>
 
@@ -62,6 +63,23 @@ std::string refusal(const std::string& text) {
 }
 
 }  // namespace
+
+TEST_CASE("places have names of their own, with a heading or without") {
+  const std::string two = std::string(kGood) + "[[places]]\nname = \"kitchen\"\nat = [4.0, 1.5, 1.57]\n" +
+                          "[[places]]\nname = \"bed-2\"\nat = [-1.0, 2.0]\n";
+  const RobotFile robot = load(two);
+  REQUIRE(robot.places.size() == 2);
+  CHECK(robot.places[0].name == "kitchen");
+  CHECK(robot.places[0].order.position_in_map == Vec2{4.0, 1.5});
+  CHECK(robot.places[0].order.heading_rad == 1.57);
+  CHECK(robot.places[1].name == "bed-2");
+  CHECK(std::isnan(robot.places[1].order.heading_rad));
+  CHECK(refusal(two + "[[places]]\nname = \"kitchen\"\nat = [0, 0]\n").find("is another place's already") !=
+        std::string::npos);
+  CHECK(refusal(two + "[[places]]\nname = \"2nd bed\"\nat = [0, 0]\n").find("is no name for a place") !=
+        std::string::npos);
+  CHECK(refusal(two + "[[places]]\nname = \"far\"\nat = [1e300, 0]\n").find("at") != std::string::npos);
+}
 
 TEST_CASE("a robot file says how the devices are wired") {
   const RobotFile robot = load(kGood);

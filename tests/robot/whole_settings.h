@@ -78,6 +78,9 @@ dead_man_button = 0x136
 stop_button = 0x131
 stop_opens = false
 reset_button = 0x13B
+[[places]]
+name = "kitchen"
+at = [4.0, 1.5, 1.57]
 [realtime]
 priority = 80
 lock_memory = true
