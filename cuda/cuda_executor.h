@@ -12,6 +12,7 @@
 #include <stdexcept>
 #include <thread>
 #include <tuple>
+#include <type_traits>
 #include <vector>
 
 #include "cuda/crew_kernel.h"
@@ -56,7 +57,7 @@ class CudaExecutor {
     must(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest));
     must(cudaEventCreate(&begin_)), must(cudaEventCreate(&end_));
     std::apply([this](auto&... fit) { (look(fit), ...); }, fits_);
-    notes_ = {take<field::Counted>(field::CrewNotes::kRoom), take<field::Counted>(2)};
+    notes_ = {take<field::Counted>(field::CrewNotes::kRoom), take<field::Counted>(field::CrewNotes::kTold)};
   }
   /// What a kernel may still be using is left behind: to free it would wait for the kernel.
   ~CudaExecutor() {
@@ -99,6 +100,12 @@ class CudaExecutor {
 
   /// On a Jetson: one memory, which the host must not touch while a kernel runs.
   [[nodiscard]] bool is_one_memory() const noexcept { return is_one_memory_; }
+
+  /// Of any order.
+  [[nodiscard]] std::int32_t most_blocks() const noexcept {
+    const Fit<field::SolveOrder>& fit = std::get<Fit<field::SolveOrder>>(fits_);
+    return std::min(std::max(fit.cluster_blocks, fit.grid_blocks), field::kMostBlocks);
+  }
 
   /// Whether memory may be touched and an order run: nothing that was given up still runs, and the device works.
   [[nodiscard]] bool is_ready() noexcept {
@@ -150,15 +157,19 @@ class CudaExecutor {
   /// Between two looks at the device: what a plan may come later, and no core is kept busy.
   static constexpr std::chrono::microseconds kLook{20};
 
+  /// A host that was kept from its processor for a while looks so often before it gives the device up.
+  static constexpr int kFewestLooks = 10;
+
   /// Until the last launch has ended, at most `limit_`.
   DeviceFailure waited() noexcept {
     const auto end = std::chrono::steady_clock::now() + limit_;
-    for (;;) {
+    for (int looks = 1;; ++looks) {
       const cudaError_t state = cudaEventQuery(end_);
       if (state == cudaSuccess) return DeviceFailure::kNone;
       if (state != cudaErrorNotReady) return DeviceFailure::kBroken;
       (void)cudaGetLastError();  // "not ready" is remembered as an error
-      if (std::chrono::steady_clock::now() > end) return left_behind_ = true, DeviceFailure::kSilent;
+      if (looks > kFewestLooks && std::chrono::steady_clock::now() > end)
+        return left_behind_ = true, DeviceFailure::kSilent;
       std::this_thread::sleep_for(kLook);
     }
   }
@@ -175,14 +186,19 @@ class CudaExecutor {
     if (error != cudaSuccess) throw std::runtime_error(cudaGetErrorString(error));
   }
 
+  /// Of a block's own memory that an order needs.
+  template <class Order>
+  static constexpr std::size_t kBlockBytes = std::is_same_v<Order, field::SolveOrder> ? sizeof(field::StartTile) : 0;
+
   /// A launch with the one attribute that lets its blocks meet.
   struct Launch {
     cudaLaunchAttribute meets{};
     cudaLaunchConfig_t config{};
 
-    Launch(int blocks, cudaStream_t stream, bool in_cluster) {
+    Launch(int blocks, std::size_t block_bytes, cudaStream_t stream, bool in_cluster) {
       config.gridDim = dim3(static_cast<unsigned>(blocks));
       config.blockDim = dim3(kBlockThreads);
+      config.dynamicSmemBytes = block_bytes;
       config.stream = stream;
       config.attrs = &meets;
       config.numAttrs = 1;
@@ -201,7 +217,8 @@ class CudaExecutor {
   template <class Order>
   void look(Fit<Order>& fit) {
     int blocks_each = 0;
-    must(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks_each, run_order<PlaceInGrid, Order>, kBlockThreads, 0));
+    must(cudaOccupancyMaxActiveBlocksPerMultiprocessor(&blocks_each, run_order<PlaceInGrid, Order>, kBlockThreads,
+                                                       kBlockBytes<Order>));
     fit.grid_blocks = blocks_each * processors_;
     if (fit.grid_blocks == 0) throw std::runtime_error("a block needs more registers than it has");
     cudaFuncAttributes attributes{};
@@ -211,7 +228,7 @@ class CudaExecutor {
     const bool may_be_large =
         cudaFuncSetAttribute(kernel, cudaFuncAttributeNonPortableClusterSizeAllowed, 1) == cudaSuccess;
     for (int blocks = may_be_large ? 16 : 8; blocks >= 8 && fit.cluster_blocks == 0; blocks /= 2) {
-      const Launch launch(blocks, stream_, true);
+      const Launch launch(blocks, kBlockBytes<Order>, stream_, true);
       int clusters = 0;
       if (cudaOccupancyMaxActiveClusters(&clusters, kernel, &launch.config) == cudaSuccess && clusters > 0) {
         fit.cluster_blocks = blocks;
@@ -223,9 +240,12 @@ class CudaExecutor {
   template <class Order>
   cudaError_t launch(const Order& order) noexcept {
     const Fit<Order>& fit = std::get<Fit<Order>>(fits_);
-    const int wanted = static_cast<int>((order.visits() + kBlockThreads - 1) / kBlockThreads);
+    int wanted = static_cast<int>((order.visits() + kBlockThreads - 1) / kBlockThreads);
+    if constexpr (requires { order.most_blocks(); })
+      wanted = std::min(wanted, std::min(order.most_blocks(), field::kMostBlocks));
     const bool in_cluster = fit.cluster_blocks > 0 && wanted > 1 && order.visits() <= kMostInCluster;
-    const Launch with(in_cluster ? fit.cluster_blocks : std::min(wanted, fit.grid_blocks), stream_, in_cluster);
+    const Launch with(in_cluster ? fit.cluster_blocks : std::min(wanted, fit.grid_blocks), kBlockBytes<Order>, stream_,
+                      in_cluster);
     return in_cluster ? cudaLaunchKernelEx(&with.config, run_order<PlaceInCluster, Order>, order, notes_)
                       : cudaLaunchKernelEx(&with.config, run_order<PlaceInGrid, Order>, order, notes_);
   }

@@ -23,7 +23,7 @@ struct Properties {
   std::size_t bytes = std::size_t{4} << 30;
   int not_ready = 0;                     ///< times that each event is said to be still ahead
   std::uint64_t seed = 1;                ///< of the order in which threads run
-  std::int64_t most_barriers = 1 << 14;  ///< of one launch; beyond, it is ended as by a watchdog
+  std::int64_t most_barriers = 1 << 18;  ///< of one launch; beyond, it is ended as by a watchdog
 };
 
 /// What a launch can be ordered to come to.

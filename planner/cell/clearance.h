@@ -1,4 +1,5 @@
 #pragma once
+#include <bit>
 #include <cmath>
 
 #include "planner/cell/cell.h"
@@ -8,6 +9,22 @@ namespace jaywalk::cell {
 // Exact Euclidean distance transform in integers, separable as Meijster, Roerdink and Hesselink
 // (2000) have it: along a row, cell u sees the nearest obstacle of column i at squared distance
 // (u - i)^2 + g_i^2, where g_i is that column's distance to its own nearest obstacle.
+
+/// Numbers of the lowest and the highest bit that is set, 0 to 31; one is.
+JAYWALK_CELL std::int32_t lowest_bit(std::uint32_t bits) {
+#ifdef __CUDA_ARCH__
+  return __ffs(static_cast<int>(bits)) - 1;
+#else
+  return std::countr_zero(bits);
+#endif
+}
+JAYWALK_CELL std::int32_t highest_bit(std::uint32_t bits) {
+#ifdef __CUDA_ARCH__
+  return 31 - __clz(static_cast<int>(bits));
+#else
+  return 31 - std::countl_zero(bits);
+#endif
+}
 
 /// Squared distance from column `u` to the nearest obstacle of column `i`, `g` rows away.
 JAYWALK_CELL std::int32_t squared_distance(std::int32_t u, std::int32_t i, std::int32_t g) {

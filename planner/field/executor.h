@@ -5,6 +5,7 @@
 //   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
 //                                it gave, where they share theirs; elsewhere other memory, and orders copy
 //   fill(to, from, n)            n values from the host into memory for stages
+//   most_blocks()                of a crew: blocks that it may have
 //   run(order)                   order(executor); false: it failed. What was shown may then be read
 //   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
 //                                (start_field.h), looking whether anything has changed (pass.h)
@@ -19,7 +20,11 @@
 //                                of them row by row, each a row behind the one before (RowStep says what that asks)
 //   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
 //   total(n, counted)            the sums of n pairs of numbers, for the order to choose by
-//   kColumns                     columns that one visit should take where a stage goes down columns; divides 64
+//   hand_out(n, stage)           stage(k) for every k in [0, n): copies for the host, which the order reads no more
+//   settle(grid, goal, arrays)   rate and cost of the start field, where the executor does not go by stages' sweeps
+//   Solver                       what takes the place of multigrid.h's cycles, if there is one
+//   kColumns                     columns that one visit should take where a stage goes down columns; divides 64.
+//                                kOneCell: visits of one cell each, as many threads want them
 //   kCellsOfRow                  cells that one visit should take where a stage goes along rows; divides 64, or is
 //                                kWholeRow
 //   kInTurn                      whether visits come one after the other, so that many may write to the same place
@@ -41,11 +46,17 @@
 
 #define JAYWALK_INLINED [[gnu::always_inline]] inline
 
-/// Of functions that are an order or part of one: they run where their executor visits.
+/// Of functions that are an order or part of one: they run where their executor visits. Those apart are code once, and
+/// called: put into each of its callers a device's code would grow beyond its caches. So it would by loops of steps
+/// that are unrolled: a device has other threads to do meanwhile.
 #ifdef __CUDACC__
+#define JAYWALK_ROLLED _Pragma("unroll 1")
 #define JAYWALK_ORDER __device__
+#define JAYWALK_APART __device__ __noinline__
 #else
+#define JAYWALK_ROLLED
 #define JAYWALK_ORDER
+#define JAYWALK_APART [[gnu::noinline]]
 #endif
 
 #if defined(__x86_64__) && !defined(__CUDACC__)
@@ -90,7 +101,7 @@ struct Counted {
   std::int32_t joined = 0;  ///< those that it looks at
 };
 
-inline constexpr std::int32_t kWholeRow = 1 << 30;
+inline constexpr std::int32_t kWholeRow = 1 << 30, kOneCell = 0;
 
 /// Cells that a visit takes of a row of `side` cells, a power of two.
 template <class Executor>

@@ -4,6 +4,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "planner/field/clearance_stages.h"
 #include "planner/field/executor.h"
 #include "planner/field/mark_stages.h"
 #include "planner/field/path_stages.h"
@@ -48,11 +49,13 @@ struct FieldArrays {
   float* warp;
   Mover* movers;
   Mark* marks;
+  std::uint32_t* columns;  ///< a bit a cell
   std::int32_t *rows_away, *envelope, *stretch;
   float* clearance;
   float *start_psi, *correction;
   std::uint16_t *table, *rate;
   std::uint32_t* cost;
+  StartTiles tiles;  ///< a crew's
   std::uint8_t* index;
   Counted *changed, *pits;  ///< by pieces of rows
   Counted* found;           ///< one; what a single visit has to say
@@ -78,11 +81,14 @@ template <class Executor>
   share(a.occupants, a.shown.occupants, cells);
   take(a.warp, cells);
   share(a.movers, a.shown.movers, kMaxTracks), share(a.marks, a.shown.marks, kMaxTracks);
+  take(a.columns, cells / kRowsOfWord);
   take(a.rows_away, cells), take(a.envelope, cells), take(a.stretch, cells);
   share(a.clearance, a.shown.clearance, cells);
   take(a.start_psi, cells), take(a.correction, cells);
   take(a.table, table.size()), take(a.rate, cells), take(a.cost, cells);
   share(a.index, a.shown.index, cells);
+  const auto tiles = static_cast<std::size_t>(StartTiles::count({max_side}));
+  take(a.tiles.waits, tiles), take(a.tiles.pending, 1);
   take(a.changed, pieces), take(a.pits, pieces), take(a.found, 1);
   share(a.points, a.shown.points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.raw_points, static_cast<std::size_t>(kMaxBandPoints));

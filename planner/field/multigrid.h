@@ -1,6 +1,8 @@
 #pragma once
 // Solves the rebased potential by V-cycles over blocks of 2 x 2. Order only; no formula lives here.
 #include <cstddef>
+#include <iterator>
+#include <vector>
 
 #include "planner/field/coarse_stages.h"
 #include "planner/field/executor.h"
@@ -25,24 +27,48 @@ struct LevelArrays {
   float *psi, *diagonal, *source, *x;
   BlockRows rows;
   float* correction;  ///< by rows
+  float* handed[2];   ///< x, from a crew's block to its neighbours; in turn
 };
 
 struct MultigridArrays {
   LevelArrays levels[kMostLevels];  ///< finest first
   Counted* counted;                 ///< by pieces of the finest board's rows
+  const LevelArrays* of_blocks;     ///< a crew's, kMostLevels for each of its blocks: x and correction are its own
 };
 
 template <class Executor>
 [[nodiscard]] LevelArrays take_level(Executor& executor, std::int32_t side, bool finest) {
   const auto board = [&] { return executor.template take<float>(static_cast<std::size_t>(Board{side}.size())); };
   const auto rows = [&] { return take_rows<float>(executor, side); };
-  LevelArrays a{{board(), board(), board(), board()}, board(), nullptr, board(), board(), {}, nullptr};
+  LevelArrays a{{board(), board(), board(), board()}, board(), nullptr, board(), board(), {}, nullptr, {}};
   if (finest) return a;
   a.diagonal = board();
   a.rows = {{rows(), rows(), rows(), rows()},       rows(), rows(), rows(), rows(), rows(),
             take_rows<std::int32_t>(executor, side)};
   a.correction = rows();
   return a;
+}
+
+/// What a crew's blocks have of their own.
+template <class Executor>
+void take_for_blocks(Executor& executor, std::int32_t max_side, MultigridArrays& a) {
+  const std::int32_t blocks = executor.most_blocks();
+  std::vector<LevelArrays> tables;
+  for (std::int32_t depth = 0; max_side >> depth >= kCoarsestSide; ++depth) {
+    const auto n = static_cast<std::size_t>(Board{max_side >> depth}.size());
+    for (float*& handed : a.levels[depth].handed) handed = executor.template take<float>(n);
+  }
+  for (std::int32_t block = 0; block < blocks; ++block) {
+    tables.insert(tables.end(), std::begin(a.levels), std::end(a.levels));
+    for (std::int32_t depth = 0; max_side >> depth >= kCoarsestSide; ++depth) {
+      LevelArrays& own = tables[tables.size() - kMostLevels + static_cast<std::size_t>(depth)];
+      own.x = executor.template take<float>(static_cast<std::size_t>(Board{max_side >> depth}.size()));
+      if (depth > 0) own.correction = take_rows<float>(executor, max_side >> depth);
+    }
+  }
+  auto* of_blocks = executor.template take<LevelArrays>(tables.size());
+  executor.fill(of_blocks, tables.data(), tables.size());
+  a.of_blocks = of_blocks;
 }
 
 /// Memory for grids up to `max_side` cells, a power of two from kCoarsestSide on.
@@ -54,8 +80,40 @@ template <class Executor>
     a.levels[depth] = take_level(executor, side, depth == 0);
   }
   a.counted = executor.template take<Counted>(pieces_of_grid<Executor>(max_side));
+  if constexpr (requires { executor.most_blocks(); }) take_for_blocks(executor, max_side, a);
   return a;
 }
+
+/// How many sweeps, which levels and when it is enough.
+struct CycleRules {
+  static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
+  /// Further sweeps after a correction, by depth; even numbers. Blocks of 8 cells are the largest that still tell the
+  /// two sides of an ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep,
+  /// and they are few. Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
+  /// (docs/performance.md).
+  static constexpr JAYWALK_ORDER std::int32_t further_sweeps(std::int32_t depth) {
+    return depth == 1 ? 6 : (depth == 2 ? 24 : (depth == kBulkyDepth ? 64 : 0));
+  }
+  static constexpr std::int32_t kBulkyDepth = 3;  ///< whose blocks are 8 cells wide
+  /// Of the blocks below that have an equation, those that a level above these speaks for, at least, where it is used.
+  /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)
+  static constexpr float kSpokenShare = 0.8F;
+  /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: the
+  /// next would tilt a tenth of that, and 99.9 % of cells and more pick the exact field's best neighbour
+  /// (potential_test).
+  static constexpr float kTilt = 0.01F;
+  static constexpr std::int32_t kSettledShare = 128;
+
+  /// Whether a level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie across
+  /// walls, and what they find for one passage is wrong in the next. The level and all above it are then left out.
+  static constexpr JAYWALK_ORDER bool is_spoken_for(Counted spoken) {
+    return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
+  }
+  /// Whether a cycle has found hardly anything new.
+  static constexpr JAYWALK_ORDER bool is_settled(Counted tilted) {
+    return kSettledShare * tilted.cells <= tilted.joined;
+  }
+};
 
 /// The order of a solution's stages, for as long as one improvement takes.
 template <class Executor>
@@ -87,23 +145,7 @@ class Multigrid {
   }
 
  private:
-  static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
-  /// Further sweeps after a correction, by depth; even numbers. Blocks of 8 cells are the largest that still tell the
-  /// two sides of an ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep,
-  /// and they are few. Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
-  /// (docs/performance.md).
-  static constexpr JAYWALK_ORDER std::int32_t further_sweeps(std::int32_t depth) {
-    return depth == 1 ? 6 : (depth == 2 ? 24 : (depth == kBulkyDepth ? 64 : 0));
-  }
-  static constexpr std::int32_t kBulkyDepth = 3;  ///< whose blocks are 8 cells wide
-  /// Of the blocks below that have an equation, those that a level above these speaks for, at least, where it is used.
-  /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)
-  static constexpr float kSpokenShare = 0.8F;
-  /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: the
-  /// next would tilt a tenth of that, and 99.9 % of cells and more pick the exact field's best neighbour
-  /// (potential_test).
-  static constexpr float kTilt = 0.01F;
-  static constexpr std::int32_t kSettledShare = 128;
+  using Rules = CycleRules;
 
   template <class First>
   JAYWALK_ORDER void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
@@ -115,7 +157,7 @@ class Multigrid {
                            RowStep{half, CoupleAhead{board, 1, a.psi, a.couplings, sources, a.x}},
                            RowStep{half, CoupleBack{board, 0, a.couplings}},
                            RowStep{half, CoupleBack{board, 1, a.couplings}});
-    executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
+    executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source, 0, board.side});
   }
 
   /// Down and back. The first cycle finds out which levels are of use; the others carry over what the one before has
@@ -128,11 +170,11 @@ class Multigrid {
     for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
       const Board blocks{board.side / 2};
       depth == 0 ? go_down<true>(board, depth, !first) : go_down<false>(board, depth, false);
-      if (first && depth >= kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
+      if (first && depth >= Rules::kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
       if (depth + 1 >= used_) break;
     }
     const std::int32_t lowest = depth;
-    if (is_large && lowest > kBulkyDepth) {
+    if (is_large && lowest > Rules::kBulkyDepth) {
       climb(board, depth, 1);
       for (; depth < lowest; ++depth, board.side /= 2) go_down<false>(board, depth, /*rebase=*/false, /*build=*/false);
     }
@@ -141,11 +183,11 @@ class Multigrid {
 
   /// Relaxes the lowest level of use, and each above it, up to `top`, once it is corrected.
   JAYWALK_ORDER void climb(Board& board, std::int32_t& depth, std::int32_t top) noexcept {
-    relax(board, depth, board.side > kCoarsestSide ? further_sweeps(depth) : kCoarsestSweeps);
+    relax(board, depth, board.side > kCoarsestSide ? Rules::further_sweeps(depth) : Rules::kCoarsestSweeps);
     while (depth > top) {
       --depth, board.side *= 2;
       depth == 0 ? go_up<true>(board, depth) : go_up<false>(board, depth);
-      relax(board, depth, further_sweeps(depth));
+      relax(board, depth, Rules::further_sweeps(depth));
     }
   }
 
@@ -201,21 +243,18 @@ class Multigrid {
                            relaxed(board, depth, 0), relaxed(board, depth, 1));
   }
 
-  /// Whether this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie across
-  /// walls, and what they find for one passage is wrong in the next. It and all above it are then left out.
+  /// Whether this level's blocks speak for enough of those below.
   JAYWALK_ORDER bool speaks_for_most(Board board, std::int32_t depth) noexcept {
     executor_.for_each_cell(
         1, board.side, SpokenOfRow{board.side, levels_[depth - 1].rows.diagonal, levels_[depth].rows.ties, counted_});
-    const Counted spoken = executor_.total(board.side, counted_);
-    return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
+    return Rules::is_spoken_for(executor_.total(board.side, counted_));
   }
 
   /// Whether the last cycle has found hardly anything new.
   JAYWALK_ORDER bool is_settled(Board board) noexcept {
     const std::int32_t cells = cells_of_row<Executor>(board.side), pieces = board.side / cells;
-    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, kTilt, levels_[0].x, counted_});
-    const Counted tilted = executor_.total(pieces * board.side, counted_);
-    return kSettledShare * tilted.cells <= tilted.joined;
+    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, Rules::kTilt, levels_[0].x, counted_});
+    return Rules::is_settled(executor_.total(pieces * board.side, counted_));
   }
 
   Executor& executor_;

@@ -35,6 +35,17 @@ JAYWALK_ORDER void copy(Executor& executor, std::int32_t n, const T* from, T* to
   if (from != to) executor.for_each(n, Copy<T>{from, to});
 }
 
+/// What the host is to have and the order reads no more.
+template <class T, class Executor>
+JAYWALK_ORDER void show(Executor& executor, std::int32_t n, const T* from, T* to) noexcept {
+  if (from == to) return;
+  if constexpr (requires { executor.hand_out(n, Copy<T>{from, to}); }) {
+    executor.hand_out(n, Copy<T>{from, to});
+  } else {
+    executor.for_each(n, Copy<T>{from, to});
+  }
+}
+
 /// Warps, predicts, marks. The host has written walls into `occupants`, and `movers`.
 struct MarkOrder {
   FieldArrays a;
@@ -49,8 +60,8 @@ struct MarkOrder {
     executor.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, a.warp});
     executor.for_each(movers, PredictEachMover{grid, warping, a.warp, a.movers, a.marks});
     executor.for_each(grid.side, MarkRow{grid, warping, a.warp, a.movers, a.marks, movers, a.occupants});
-    copy(executor, grid.cells(), a.occupants, a.shown.occupants);
-    copy(executor, movers, a.marks, a.shown.marks);
+    show(executor, grid.cells(), a.occupants, a.shown.occupants);
+    show(executor, movers, a.marks, a.shown.marks);
   }
 };
 
@@ -74,9 +85,16 @@ struct ClearOrder {
   template <class Executor>
   JAYWALK_ORDER void clear(Executor& executor) const noexcept {
     constexpr std::int32_t kColumns = Executor::kColumns;
-    executor.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a.occupants, wanted, a.rows_away});
-    executor.for_each(grid.side, rows(a.rows_away));
-    copy(executor, grid.cells(), a.clearance, a.shown.clearance);
+    const std::int32_t side = grid.side;
+    if constexpr (kColumns == kOneCell) {
+      executor.for_each_cell(side, side / kRowsOfWord, OccupiedInColumn{grid, a.occupants, wanted, a.columns});
+      executor.for_each_cell(side, side, NearestInColumn{grid, a.columns, a.rows_away});
+      executor.for_each_cell(side, side, ClearanceOfCell{grid, width, height, a.rows_away, inflation, a.clearance});
+    } else {
+      executor.for_each(side / kColumns, NearestInColumns{grid, kColumns, a.occupants, wanted, a.rows_away});
+      executor.for_each(side, rows(a.rows_away));
+    }
+    show(executor, grid.cells(), a.clearance, a.shown.clearance);
   }
 
   [[nodiscard]] JAYWALK_CELL ClearanceOfRow rows(const std::int32_t* rows_away) const {
@@ -97,7 +115,7 @@ struct MarkAndClearOrder {
   }
 };
 
-/// The start field, in `cost` and `start_psi`, by sweeps.
+/// The start field, in `cost` and `start_psi`, by sweeps or as a crew settles it.
 struct StartOrder {
   FieldArrays a;
   Grid grid;
@@ -105,9 +123,13 @@ struct StartOrder {
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
-    rate(executor);
-    executor.for_each(grid.cells(), FarFromGoal{goal, a.cost});
-    while (!sweep(executor)) {
+    if constexpr (requires { executor.settle(grid, goal, a); }) {
+      executor.settle(grid, goal, a);
+    } else {
+      rate(executor);
+      executor.for_each(grid.cells(), FarFromGoal{goal, a.cost});
+      while (!sweep(executor)) {
+      }
     }
     carry_over(executor);
   }
@@ -150,6 +172,8 @@ struct SolveOrder {
   float *psi, *shown_psi;
 
   [[nodiscard]] std::int32_t visits() const noexcept { return begin.grid.cells(); }
+  /// Strips of fewer rows would mostly relax others'.
+  [[nodiscard]] std::int32_t most_blocks() const noexcept { return begin.grid.side / 8; }
 
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
@@ -162,6 +186,15 @@ struct SolveOrder {
   }
 
  private:
+  template <class Executor>
+  [[nodiscard]] JAYWALK_ORDER auto solver(Executor& executor) const noexcept {
+    if constexpr (requires { typename Executor::Solver; }) {
+      return typename Executor::Solver(executor, levels);
+    } else {
+      return Multigrid<Executor>(executor, levels);
+    }
+  }
+
   struct Attempt {
     From from;
     bool anew;  ///< from the start field, not from what the attempt before came to
@@ -186,14 +219,15 @@ struct SolveOrder {
                                 {From::kNothing, true, cold, kLifts},
                                 {From::kNothing, false, {cold.most, cold.most}, kLifts},
                                 {From::kStartOnly, true, {0, 0}, 2 * begin.grid.side}};
+    JAYWALK_ROLLED
     for (const Attempt& attempt : attempts) {
       if (attempt.from < from || quality.certified) continue;
       if (attempt.anew) executor.for_each(begin.grid.cells(), Fill<float>{a.correction, 0.0F});
       quality.cycles += improve(executor, attempt);
       lift(executor, attempt.lifts, quality);
     }
-    copy(executor, begin.grid.cells(), a.index, a.shown.index);
-    copy(executor, begin.grid.cells(), psi, shown_psi);
+    show(executor, begin.grid.cells(), a.index, a.shown.index);
+    show(executor, begin.grid.cells(), psi, shown_psi);
   }
 
   template <class Executor>
@@ -201,17 +235,16 @@ struct SolveOrder {
     const FieldArrays& a = begin.a;
     const Grid grid = begin.grid;
     const std::int32_t cells = cells_of_row<Executor>(grid.side);
-    return Multigrid<Executor>(executor, levels)
-        .improve(grid, begin.goal, psi, attempt.cycles,
-                 RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
-                 RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
-                 RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
-                 RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
+    return solver(executor).improve(grid, begin.goal, psi, attempt.cycles,
+                                    RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
+                                    RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
+                                    RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
+                                    RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
   }
 
   /// Reads the certificate; where there are pits, lifts them up to `most` times over, and keeps what that came to.
   template <class Executor>
-  JAYWALK_ORDER void lift(Executor& executor, std::int32_t most, FieldQuality& quality) const noexcept {
+  JAYWALK_APART void lift(Executor& executor, std::int32_t most, FieldQuality& quality) const noexcept {
     read_certificate(executor, quality);
     if (quality.certified) return;
     const FieldArrays& a = begin.a;
@@ -231,8 +264,13 @@ struct SolveOrder {
 
   template <class Executor>
   JAYWALK_ORDER void read_certificate(Executor& executor, FieldQuality& quality) const noexcept {
-    const std::int32_t side = begin.grid.side;
-    const Counted pits = executor.total(side * (side / cells_of_row<Executor>(side)), begin.a.pits);
+    const std::int32_t side = begin.grid.side, width = side / cells_of_row<Executor>(side);
+    Counted pits;
+    if constexpr (requires { executor.total_of_rows(side, width, begin.a.pits); }) {
+      pits = executor.total_of_rows(side, width, begin.a.pits);
+    } else {
+      pits = executor.total(side * width, begin.a.pits);
+    }
     quality.pits = pits.cells, quality.joined = pits.joined, quality.certified = pits.cells == 0;
   }
 };
@@ -263,7 +301,7 @@ struct PullOrder {
       executor.for_each(count, BeginBand{a.raw_points, a.points, a.moved});
       drag(executor, 0.0F, kBandRounds, step, step);
     }
-    copy(executor, count, a.points, a.shown.points);
+    show(executor, count, a.points, a.shown.points);
   }
 
  private:

@@ -88,20 +88,38 @@ struct CoupleBack {
   }
 };
 
+/// The same without what the cell to the south has, which may be another's to set: from psi.
+struct CoupleBackFromPsi {
+  Board board;
+  std::int32_t colour;
+  const float* psi;
+  CouplingArrays couplings;
+
+  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
+    const std::int32_t c = board.row(colour, j) + h;
+    const Neighbours n = board.neighbours(colour, h, j);
+    const bool has_west = h > 0 || Board::first_column(colour, j) > 0;
+    couplings.west[c] = has_west ? cell::coupling_back(couplings.east[n.west]) : 0.0F;
+    couplings.south[c] = j > 0 ? cell::coupling_back(cell::coupling(psi[n.south], psi[c], true)) : 0.0F;
+  }
+};
+
 /// Takes the goal out of the unknowns: what its neighbours take of it (v = 1) becomes their source, and it
-/// is uncoupled with source 1. One visit.
+/// is uncoupled with source 1. One visit, which changes cells of the rows [low, high) alone.
 struct SettleGoal {
   Board board;
   std::int32_t goal;  ///< numbered by rows
   CouplingArrays couplings;
   float* source;
+  std::int32_t low, high;
 
   JAYWALK_CELL void operator()(std::int32_t) const {
     const std::int32_t i = goal % board.side, j = goal / board.side;
+    if (j > low && j <= high) move(couplings.north, board.at(i, j - 1));
+    if (j + 1 >= low && j + 1 < high) move(couplings.south, board.at(i, j + 1));
+    if (j < low || j >= high) return;
     if (i > 0) move(couplings.east, board.at(i - 1, j));
     if (i < board.side - 1) move(couplings.west, board.at(i + 1, j));
-    if (j > 0) move(couplings.north, board.at(i, j - 1));
-    if (j < board.side - 1) move(couplings.south, board.at(i, j + 1));
     couplings.set(board.at(i, j), {0.0F, 0.0F, 0.0F, 0.0F});
     source[board.at(i, j)] = 1.0F;
   }

@@ -102,6 +102,22 @@ struct SweepPiece {
   }
 };
 
+/// Cells a side of the tiles that a crew's blocks settle by themselves (start_tiles.h).
+inline constexpr std::int32_t kStartTile = 64;
+
+/// What a crew's blocks tell one another of tiles.
+struct StartTiles {
+  std::int32_t* waits;    ///< of each tile, row by row: 1: a neighbour's border has changed
+  std::int32_t* pending;  ///< tiles that wait or are being looked at
+
+  [[nodiscard]] JAYWALK_CELL static std::int32_t count(Grid grid) {
+    return (grid.side / kStartTile) * (grid.side / kStartTile);
+  }
+  [[nodiscard]] JAYWALK_CELL static std::int32_t of_cell(Grid grid, std::int32_t c) {
+    return c / grid.side / kStartTile * (grid.side / kStartTile) + c % grid.side / kStartTile;
+  }
+};
+
 /// psi as the costs have it.
 struct PsiOfCost {
   const std::uint16_t* rate;

@@ -11,7 +11,7 @@ namespace jaywalk::test {
 
 class ShuffledExecutor : public OneMemory {
  public:
-  static constexpr std::int32_t kColumns = 1;
+  static constexpr std::int32_t kColumns = field::kOneCell;
   static constexpr std::int32_t kCellsOfRow = 16;
   static constexpr bool kInTurn = true;
 
