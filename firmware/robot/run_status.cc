@@ -22,10 +22,9 @@ std::string describe(const RunStatus& status) {
       << "\nspeed_mps: " << status.speed_mps << "\nenabled: " << (status.enabled ? "yes" : "no") << "\ngoal: ";
   if (status.has_goal) out << status.goal_in_map.x << ' ' << status.goal_in_map.y;
   if (status.has_goal && !std::isnan(status.goal_heading_rad)) out << ' ' << status.goal_heading_rad;
-  out << "\ngoals_left: " << status.goals_left;
   out << "\nreasons: " << to_string(status.reasons) << "\nplan: " << name_of(status.plan)
-      << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
-      << "\ndrives_proved: " << (status.proved ? "yes" : "no")
+      << "\ngoals_left: " << status.goals_left << "\nlatched_by: " << to_string(status.latched_by)
+      << "\ndrive: " << name(status.drive) << "\ndrives_proved: " << (status.proved ? "yes" : "no")
       << "\nforeign_frame: " << (status.foreign_frame ? to_text(*status.foreign_frame) : "")
       << "\nlaser: " << name(status.laser.trouble) << "\nlaser_last_trouble: " << name(status.laser.last_trouble)
       << "\nlaser_scans: " << status.laser.scans << "\nlaser_malformed: " << status.laser.malformed
