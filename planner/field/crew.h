@@ -89,7 +89,6 @@ template <class Place>
 class StripCycles;
 template <class Place>
 class TileSettler;
-struct BeginTiles;
 
 template <class Place>
 class Crew {
@@ -133,7 +132,7 @@ class Crew {
   /// By tiles.
   template <class Arrays>
   JAYWALK_ORDER void settle(Grid grid, std::int32_t goal, const Arrays& a) noexcept {
-    for_each_cell(grid.side, grid.side, BeginTiles{{grid, a.clearance, a.table, a.rate}, goal, a.cost, a.tiles});
+    for_each_cell(grid.side, grid.side, TileSettler<Place>::beginning(grid, goal, a));
     meet();
     TileSettler<Place>(place_, grid, goal, a).settle();
     // All has been settled: for processors whose caches hold older costs.

@@ -54,6 +54,10 @@ class TileSettler {
   JAYWALK_ORDER TileSettler(const Place& place, Grid grid, std::int32_t goal, const FieldArrays& a)
       : place_(place), grid_(grid), goal_(goal), a_(a), tile_(*static_cast<StartTile*>(place.memory())) {}
 
+  /// The stage before it, a cell each.
+  [[nodiscard]] JAYWALK_ORDER static BeginTiles beginning(Grid grid, std::int32_t goal, const FieldArrays& a) {
+    return {{grid, a.clearance, a.table, a.rate}, goal, a.cost, a.tiles};
+  }
   /// Until no tile waits anywhere. What others have settled is there once the crew has met.
   JAYWALK_APART void settle() const {
     for (;;) {
