@@ -2,13 +2,13 @@
 
 #include <dds/ddsi/ddsi_cdrstream.h>
 #include <dds/ddsi/q_protocol.h>
+#include <ros_topics.h>  // idlc writes it
 
 #include <array>
 #include <memory>
 
 #include "firmware/exchange/cdr_writer.h"
 #include "hal/types/errors.h"
-#include "ros_topics.h"
 
 namespace jaywalk::dds {
 namespace {

@@ -1,14 +1,6 @@
 // Another vendor's DDS (eProsima's Fast DDS) as the far end of jaywalk_dds, over loopback: every topic must come and be
 // what its type says, and a goal that this peer publishes must be driven to.
 // usage: fast_dds_peer DOMAIN GOAL_X GOAL_Y
-#include <fastdds/dds/domain/DomainParticipant.hpp>
-#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
-#include <fastdds/dds/publisher/DataWriter.hpp>
-#include <fastdds/dds/publisher/Publisher.hpp>
-#include <fastdds/dds/subscriber/DataReader.hpp>
-#include <fastdds/dds/subscriber/SampleInfo.hpp>
-#include <fastdds/dds/subscriber/Subscriber.hpp>
-#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
@@ -17,6 +9,14 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
+#include <fastdds/dds/domain/DomainParticipant.hpp>
+#include <fastdds/dds/domain/DomainParticipantFactory.hpp>
+#include <fastdds/dds/publisher/DataWriter.hpp>
+#include <fastdds/dds/publisher/Publisher.hpp>
+#include <fastdds/dds/subscriber/DataReader.hpp>
+#include <fastdds/dds/subscriber/SampleInfo.hpp>
+#include <fastdds/dds/subscriber/Subscriber.hpp>
+#include <fastdds/dds/topic/TopicDataType.hpp>
 #include <map>
 #include <string>
 #include <thread>
@@ -121,25 +121,26 @@ int main(int argc, char** argv) {
   if (participant == nullptr) return std::puts("no participant"), 1;
   Subscriber* subscriber = participant->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
   HeardTopic topics[] = {{"rt/scan", "sensor_msgs::msg::dds_::LaserScan_", "laser"},
-                    {"rt/odom", "nav_msgs::msg::dds_::Odometry_", "map"},
-                    {"rt/tf", "tf2_msgs::msg::dds_::TFMessage_", ""},
-                    {"rt/map", "nav_msgs::msg::dds_::OccupancyGrid_", "map"},
-                    {"rt/plan", "nav_msgs::msg::dds_::Path_", "map"},
-                    {"rt/tracks", "visualization_msgs::msg::dds_::MarkerArray_", ""}};
+                         {"rt/odom", "nav_msgs::msg::dds_::Odometry_", "map"},
+                         {"rt/tf", "tf2_msgs::msg::dds_::TFMessage_", ""},
+                         {"rt/map", "nav_msgs::msg::dds_::OccupancyGrid_", "map"},
+                         {"rt/plan", "nav_msgs::msg::dds_::Path_", "map"},
+                         {"rt/tracks", "visualization_msgs::msg::dds_::MarkerArray_", ""}};
   DataReaderQos reads = DATAREADER_QOS_DEFAULT;
   reads.reliability().kind = RELIABLE_RELIABILITY_QOS;
   reads.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
   for (HeardTopic& topic : topics) {
     TypeSupport(new Bytes(topic.type)).register_type(participant);
-    topic.reader = subscriber->create_datareader(
-        participant->create_topic(topic.name, topic.type, TOPIC_QOS_DEFAULT), reads);
+    topic.reader =
+        subscriber->create_datareader(participant->create_topic(topic.name, topic.type, TOPIC_QOS_DEFAULT), reads);
   }
   const std::string goal_type = "geometry_msgs::msg::dds_::PoseStamped_";
   TypeSupport(new Bytes(goal_type)).register_type(participant);
   DataWriterQos writes = DATAWRITER_QOS_DEFAULT;
   writes.endpoint().history_memory_policy = eprosima::fastrtps::rtps::DYNAMIC_RESERVE_MEMORY_MODE;
-  DataWriter* goals = participant->create_publisher(PUBLISHER_QOS_DEFAULT)
-                          ->create_datawriter(participant->create_topic("rt/goal_pose", goal_type, TOPIC_QOS_DEFAULT), writes);
+  DataWriter* goals =
+      participant->create_publisher(PUBLISHER_QOS_DEFAULT)
+          ->create_datawriter(participant->create_topic("rt/goal_pose", goal_type, TOPIC_QOS_DEFAULT), writes);
 
   int wrong = 0;
   bool all_came = false, arrived = false;
