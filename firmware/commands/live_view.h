@@ -38,7 +38,7 @@ class LiveView {
   [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_.wanted()); }
 
   [[nodiscard]] int viewers() const noexcept { return server_.viewers(); }
-  /// Somebody takes the stream of messages: ticks are wanted one by one.
+  /// Whether a client subscribes to messages: these want every tick.
   [[nodiscard]] bool has_subscribers() const noexcept { return server_.wanted() != 0; }
   /// The run is over: goes on to serve what was kept until all viewers have been gone for some seconds, or for as long
   /// as `until_told`, or until an interruption.

@@ -59,7 +59,7 @@ std::string long_names(const CLI::App& app) {
   return words;
 }
 
-/// Of options whose value is one of a few words: "full|paper".
+/// The allowed words of an option, "full|paper", where its value is one of a few.
 std::string choices_of(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* option : command.get_options()) {

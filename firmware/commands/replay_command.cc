@@ -75,7 +75,7 @@ ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) 
   return setup;
 }
 
-/// The page of a replay: any tick can be looked at; nobody steers.
+/// The page of a replay: it shows any tick and takes no goals.
 class ReplayView {
  public:
   ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {

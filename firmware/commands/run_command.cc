@@ -140,7 +140,8 @@ int run_robot(RunOptions options) {
   if (options.allow_no_realtime) file.realtime.required = false;
   const std::string not_commissioned = require_commissioned(options.robot, file);
   if (!not_commissioned.empty()) remark(not_commissioned);
-  if (!options.runs.empty()) options.out = new_run_folder(options.runs, options.kept, std::chrono::system_clock::now());
+  std::optional<RunFolder> folder;
+  if (!options.runs.empty()) options.out = folder.emplace(options.runs, std::chrono::system_clock::now()).path();
   ServiceManager service = ServiceManager::from_environment();
   ArmedMark armed(socket_for(options, file));
   SteadyClock clock;
@@ -170,6 +171,7 @@ int run_robot(RunOptions options) {
   armed.set();
   const std::vector<std::string> proof = devices.drive().arm();
   write_arming(options.out, proof);
+  if (folder) folder->keep(options.kept);
 
   const EndSignals signals;
   if (armed.was_left()) latch_at_start(desk);

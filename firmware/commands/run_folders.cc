@@ -44,30 +44,41 @@ std::vector<std::filesystem::path> past_runs(const std::filesystem::path& all) {
   return runs;
 }
 
-void remove_oldest(const std::filesystem::path& all, const RunsKept& kept) {
-  const std::vector<std::filesystem::path> runs = past_runs(all);
+/// Of `runs`, oldest first, how many of the newest may stay beside a new one.
+std::size_t number_kept(const std::vector<std::filesystem::path>& runs, const RunsKept& kept) {
   std::uintmax_t bytes = 0;
-  std::size_t newest_kept = 0;  // how many, counted from the newest
-  for (auto run = runs.rbegin(); run != runs.rend(); ++run, ++newest_kept) {
+  std::size_t newest = 0;
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run, ++newest) {
     bytes += bytes_in(*run);
-    if (bytes > kept.bytes || static_cast<int>(newest_kept) + 1 >= kept.runs) break;
+    if (bytes > kept.bytes || static_cast<int>(newest) + 1 >= kept.runs) break;
   }
-  std::error_code ignored;
-  for (std::size_t k = 0; k + newest_kept < runs.size(); ++k) std::filesystem::remove_all(runs[k], ignored);
+  return newest;
 }
 
 }  // namespace
 
-std::filesystem::path new_run_folder(const std::filesystem::path& all, const RunsKept& kept,
-                                     std::chrono::system_clock::time_point now) {
-  remove_oldest(all, kept);
+RunFolder::RunFolder(const std::filesystem::path& all, std::chrono::system_clock::time_point now) {
   const std::string name = name_of(now);
-  for (int k = 1;; ++k) {
+  std::error_code error;
+  for (int k = 1; path_.empty(); ++k) {
     const std::filesystem::path folder = all / (k == 1 ? name : name + "-" + std::to_string(k));
-    std::error_code error;
-    if (std::filesystem::create_directories(folder, error)) return folder;
+    if (std::filesystem::create_directories(folder, error)) path_ = folder;
     if (error) throw StartupError(folder.string() + ": " + error.message(), "give --runs a folder that can be written");
   }
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (!kept_) std::filesystem::remove_all(path_, ignored);
+}
+
+void RunFolder::keep(const RunsKept& kept) noexcept {
+  kept_ = true;
+  std::vector<std::filesystem::path> others = past_runs(path_.parent_path());
+  std::erase(others, path_);
+  const std::size_t too_many = others.size() - number_kept(others, kept);
+  std::error_code ignored;
+  for (std::size_t k = 0; k < too_many; ++k) std::filesystem::remove_all(others[k], ignored);
 }
 
 }  // namespace jaywalk

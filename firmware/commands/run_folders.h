@@ -11,10 +11,26 @@ struct RunsKept {
   std::uintmax_t bytes = 8'000'000'000;
 };
 
-/// The folder of a run that starts at `now`, below `all`: "2026-11-24T20-15-00Z", with "-2" and so on where that is
-/// there. Removes the oldest runs before, so that with this one at most `kept.runs` remain, and the others take at most
-/// `kept.bytes`; anything below `all` that is not named so stays. Throws StartupError where it cannot be made.
-[[nodiscard]] std::filesystem::path new_run_folder(const std::filesystem::path& all, const RunsKept& kept,
-                                                   std::chrono::system_clock::time_point now);
+/// The folder of a run below a folder for all of them, named after its start: "2026-11-24T20-15-00Z", with "-2" and so
+/// on where that is there. A start that fails leaves no folder, so that a robot which is started again and again
+/// without its scanner does not push the recordings of real runs out.
+class RunFolder {
+ public:
+  /// Throws StartupError where it cannot be made.
+  RunFolder(const std::filesystem::path& all, std::chrono::system_clock::time_point now);
+  /// Removes it, unless it is kept.
+  ~RunFolder();
+  RunFolder(const RunFolder&) = delete;
+  RunFolder& operator=(const RunFolder&) = delete;
+
+  [[nodiscard]] const std::filesystem::path& path() const noexcept { return path_; }
+  /// The run has begun: its folder stays. Removes the oldest runs, so that with this one at most `kept.runs` remain and
+  /// the others take at most `kept.bytes`; anything that is not named as runs are stays.
+  void keep(const RunsKept& kept) noexcept;
+
+ private:
+  std::filesystem::path path_;
+  bool kept_ = false;
+};
 
 }  // namespace jaywalk

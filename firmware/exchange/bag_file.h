@@ -14,7 +14,7 @@ namespace jaywalk::exchange {
 /// One message; what it refers to outlives the call only.
 struct BagMessage {
   std::string_view topic;
-  std::string_view type;  ///< "sensor_msgs/LaserScan": as ROS 1 writes it, whoever wrote the file
+  std::string_view type;  ///< "sensor_msgs/LaserScan": in the form of ROS 1, also from files of ROS 2
   Wire wire = Wire::kCdr;
   Time logged = kNever;  ///< when it was recorded
   std::string_view bytes;

@@ -1,5 +1,5 @@
 #pragma once
-// Numbers and texts in records whose bytes stand one behind the other, little endian.
+// Reads and writes packed little-endian records of numbers and texts.
 #include <cstdint>
 #include <cstring>
 #include <string_view>

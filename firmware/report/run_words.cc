@@ -39,6 +39,8 @@ std::string text_of(const char* format, double value) {
   return text;
 }
 
+std::string often(int times) { return times == 1 ? "once" : std::to_string(times) + " times"; }
+
 bool holds(const RunRow& row, const char* reason) {
   return std::find(row.reasons.begin(), row.reasons.end(), reason) != row.reasons.end();
 }
@@ -67,16 +69,17 @@ class Day {
     if (drove_s > 0.0) text += text_of(" (%.2f m/s on average)", way_m_ / drove_s);
     text += text_of("; stood %.1f s.\n", stood_s_);
     for (const auto& [cause, stops] : stops_)
-      text += text_of("  %7.1f s", stops.seconds) + text_of(", %.0f times: ", stops.times) + cause + "\n";
+      text += text_of("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
     if (faults_.empty()) return text + "Faults: none.\n";
     text += "Faults:\n";
-    for (const auto& [fault, times] : faults_) text += "  " + fault + text_of(", %.0f times\n", times);
+    for (const auto& [fault, times] : faults_) text += "  " + fault + ", " + often(times) + "\n";
     return text;
   }
 
  private:
   struct Stops {
-    double seconds = 0.0, times = 0.0;
+    double seconds = 0.0;
+    int times = 0;
   };
 
   void lived(const RunRow& row) {
@@ -111,7 +114,7 @@ class Day {
   double begin_s_ = 0.0, way_m_ = 0.0, stood_s_ = 0.0;
   std::map<std::string, double> in_stop_;  ///< seconds of the stop that goes on, by cause
   std::map<std::string, Stops> stops_;
-  std::map<std::string, double> faults_;  ///< how often each began
+  std::map<std::string, int> faults_;  ///< how often each began
 };
 
 /// "reached after 40.2 s", or that it has no summary.

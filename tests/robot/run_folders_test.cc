@@ -1,6 +1,7 @@
 #include "firmware/commands/run_folders.h"
 
 #include <fstream>
+#include <iterator>
 
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
@@ -17,9 +18,10 @@ std::chrono::system_clock::time_point at(int seconds) {
 }
 
 std::filesystem::path run_of(const Scratch& all, int at_s, std::size_t bytes, const RunsKept& kept = {}) {
-  const std::filesystem::path folder = new_run_folder(all.path("runs"), kept, at(at_s));
-  std::ofstream(folder / "recording.jwr") << std::string(bytes, 'x');
-  return folder;
+  RunFolder folder(all.path("runs"), at(at_s));
+  std::ofstream(folder.path() / "recording.jwr") << std::string(bytes, 'x');
+  folder.keep(kept);
+  return folder.path();
 }
 
 TEST_CASE("a run's folder is named after its start; a second one of that second gets a number") {
@@ -44,8 +46,19 @@ TEST_CASE("the oldest runs give way, by number and by size; what is not a run st
   CHECK((exists(sixth) && exists(all.path("runs/notes"))));
 }
 
+TEST_CASE("starts that fail, however many, leave no folder and push no run out") {
+  const Scratch all;
+  const auto run = run_of(all, 0, 100);
+  for (int k = 1; k < 40; ++k) {
+    const RunFolder failed(all.path("runs"), at(k));
+    CHECK(exists(failed.path()));
+  }
+  CHECK(exists(run));
+  CHECK(std::distance(std::filesystem::directory_iterator(all.path("runs")), {}) == 1);
+}
+
 TEST_CASE("a place where no folder can be made is refused") {
-  CHECK_THROWS_AS(new_run_folder("/proc/nothing/here", {}, at(0)), StartupError);
+  CHECK_THROWS_AS(RunFolder("/proc/nothing/here", at(0)), StartupError);
 }
 
 }  // namespace
