@@ -1,5 +1,6 @@
 #include "firmware/commands/robot_commands.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -54,7 +55,7 @@ int say_as_json(const std::string& line) {
 int say_goal() {
   std::string words;
   for (const std::string& word : goal) words += " " + word;
-  if (!goal.empty() && is_place_name(goal[0])) return say("goto" + words);
+  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say("goto" + words);
   return say("goto " + words_of(read_goal_order(words)));
 }
 

@@ -45,7 +45,8 @@ double read_number(const std::string& word, const std::string& what, double most
 GoalOrder read_goal_order(std::string_view text) {
   const std::vector<std::string> words = split(text);
   if (words.size() != 2 && words.size() != 3) {
-    throw StartupError("goto: " + std::to_string(words.size()) + " words", "give X Y, or X Y HEADING");
+    throw StartupError("goto: " + std::to_string(words.size()) + " words make no goal",
+                       "give X Y, X Y HEADING, or names of places");
   }
   const std::string metres = "give metres in the map, at most 100000";
   GoalOrder order;
@@ -67,7 +68,7 @@ bool is_place_name(std::string_view word) {
 Route read_route(std::string_view text, std::span<const NamedPlace> places) {
   const std::vector<std::string> words = split(text);
   Route route;
-  if (words.empty() || !is_place_name(words[0])) {
+  if (words.empty() || !std::all_of(words.begin(), words.end(), is_place_name)) {
     static_cast<void>(route.push_back(read_goal_order(text)));
     return route;
   }

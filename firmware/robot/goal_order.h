@@ -27,7 +27,8 @@ struct NamedPlace {
 /// Goals one after the other; at most 16, as many as a person gives in one line.
 using Route = FixedVector<GoalOrder, 16>;
 
-/// Whether an order begins with a place's name and not with a number: names begin with a letter.
+/// Whether a word may be a place's name and is no number: names begin with a letter. Only names make a route; one name
+/// among numbers is a number mistyped.
 [[nodiscard]] bool is_place_name(std::string_view word);
 
 /// From "X Y", "X Y HEADING", or names of `places` in the order to go there, separated by spaces. Throws StartupError

@@ -56,6 +56,7 @@ TEST_CASE("names of places make a route in the order to go; one that is not ther
     return std::string();
   };
   CHECK(complaint("hall kitchn") == "goto: there is no place kitchn; did you mean kitchen?");
+  CHECK(complaint("one 1.5") == "goto: X one is no number; give metres in the map, at most 100000");
   CHECK(complaint("attic") == "goto: there is no place attic; there are kitchen, hall");
   std::string long_way = "hall";
   for (int k = 1; k < 17; ++k) long_way += " hall";
@@ -74,9 +75,9 @@ TEST_CASE("an order's words give the same order, to the last bit") {
 }
 
 TEST_CASE("what is no goal is refused with its place, its cause and what to give") {
-  CHECK(complaint_about("") == "goto: 0 words; give X Y, or X Y HEADING");
-  CHECK(complaint_about("1") == "goto: 1 words; give X Y, or X Y HEADING");
-  CHECK(complaint_about("1 2 3 4") == "goto: 4 words; give X Y, or X Y HEADING");
+  CHECK(complaint_about("") == "goto: 0 words make no goal; give X Y, X Y HEADING, or names of places");
+  CHECK(complaint_about("1") == "goto: 1 words make no goal; give X Y, X Y HEADING, or names of places");
+  CHECK(complaint_about("1 2 3 4") == "goto: 4 words make no goal; give X Y, X Y HEADING, or names of places");
   CHECK(complaint_about("1 2m") == "goto: Y 2m is no number; give metres in the map, at most 100000");
   CHECK(complaint_about("nan 2") == "goto: X nan is not finite; give metres in the map, at most 100000");
   CHECK(complaint_about("1 -inf") == "goto: Y -inf is not finite; give metres in the map, at most 100000");

@@ -111,7 +111,8 @@ TEST_CASE("a heading in degrees, none, and a word too many are refused, and the 
   CHECK(bench.desk.obey("goto 3 4 nan") ==
         "refused: goto: HEADING nan is not finite; give radians in the map, a turn (6.2832) at most\n");
   CHECK(bench.desk.obey("goto 3 4 east").rfind("refused: goto: HEADING east is no number; ", 0) == 0);
-  CHECK(bench.desk.obey("goto 3 4 0 0") == "refused: goto: 4 words; give X Y, or X Y HEADING\n");
+  CHECK(bench.desk.obey("goto 3 4 0 0") ==
+        "refused: goto: 4 words make no goal; give X Y, X Y HEADING, or names of places\n");
   CHECK(bench.desk.latest().goal_in_map == Vec2{1.0, 2.0});
   CHECK(bench.desk.latest().goal_heading_rad == 0.5);
 }
