@@ -56,6 +56,9 @@ void add_sim(CLI::App& app) {
          "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
          "Seed of everything random, 0 or more (default: the scenario's)")
       ->type_name("N");
+  sim->add_option("--set", sim_options.settings, "A setting in place of the scenario's own: movers.count=16")
+      ->type_name("KEY=VALUE")
+      ->allow_extra_args(false);
   add_choice<PlanMode>(*sim, "--mode", sim_options.mode, {{"full", PlanMode::kFull}, {"paper", PlanMode::kPaper}},
                        "full: laser only, stops for people; paper: movers given, never stops");
   sim->add_flag("--constant-speed", sim_options.constant_speed,

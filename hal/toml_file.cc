@@ -10,6 +10,7 @@
 #include "hal/nearest_word.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
+#include "hal/toml_settings.h"
 #include "hal/types/errors.h"
 #include "hal/types/geometry.h"
 
@@ -106,8 +107,10 @@ const toml::value* look_up(const toml::value& table, const std::string& key) {
 
 }  // namespace
 
-TomlFile::TomlFile(const std::filesystem::path& file, const FileKeys& keys)
-    : keys_(&keys), file_(file), table_(parse(file)) {}
+TomlFile::TomlFile(const std::filesystem::path& file, const FileKeys& keys, const std::vector<std::string>& settings)
+    : keys_(&keys), file_(file), table_(parse(file)) {
+  for (const std::string& setting : settings) apply_setting(table_, keys, file, setting);
+}
 
 TomlTable::TomlTable(const std::filesystem::path& file, const FileKeys& keys, const toml::value& table,
                      std::string name)
@@ -117,7 +120,9 @@ std::string TomlTable::title(const std::string& key) const { return name_.empty(
 
 std::string TomlTable::place_of(const std::string& key) const {
   const toml::value* node = look_up(*table_, key);
-  return place(*file_, line_of(node != nullptr ? node->location() : table_->location()));
+  const auto where = node != nullptr ? node->location() : table_->location();
+  const std::string source = where.file_name();
+  return source.rfind(kGivenPlace, 0) == 0 ? source + ": " : place(*file_, line_of(where));
 }
 
 void TomlTable::refuse(const std::string& key, const std::string& cause, const std::string& remedy) const {

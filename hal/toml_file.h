@@ -82,8 +82,8 @@ class TomlTable {
 /// A parsed file. Throws StartupError when it cannot be read or is not TOML.
 class TomlFile {
  public:
-  /// `keys` outlives it.
-  TomlFile(const std::filesystem::path& file, const FileKeys& keys);
+  /// `keys` outlives it. `settings`, KEY=VALUE each (hal/toml_settings.h), stand in place of the file's own.
+  TomlFile(const std::filesystem::path& file, const FileKeys& keys, const std::vector<std::string>& settings = {});
   [[nodiscard]] TomlTable root() const { return {file_, *keys_, table_, ""}; }
 
  private:

@@ -48,7 +48,7 @@ class TruthForReport {
 };
 
 sim::Scenario scenario_for(const SimOptions& options) {
-  sim::Scenario scenario = sim::load_scenario(options.scenario);
+  sim::Scenario scenario = sim::load_scenario(options.scenario, options.settings);
   const bool never_stops = options.mode == PlanMode::kPaper || options.constant_speed;
   if (never_stops && std::isfinite(scenario.goal_heading_rad)) {
     throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
@@ -172,6 +172,7 @@ int run_sim(const SimOptions& options) {
                  .missed_ticks = options.realtime ? runner.overruns() : 0,
                  .seed = seed,
                  .scenario = scenario.name,
+                 .settings = options.settings,
                  .mover_rule = sim::Simulation::mover_rule()});
   const std::filesystem::path drawn = picture.save(
       options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));

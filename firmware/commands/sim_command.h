@@ -2,6 +2,8 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
+#include <vector>
 
 #include "firmware/control_setup.h"
 #include "firmware/view/view_server.h"
@@ -10,7 +12,8 @@ namespace jaywalk {
 
 struct SimOptions {
   std::filesystem::path scenario;
-  std::optional<std::uint64_t> seed;  ///< default: the scenario's
+  std::vector<std::string> settings = {};  ///< KEY=VALUE each, in place of the scenario's own
+  std::optional<std::uint64_t> seed;       ///< default: the scenario's
   PlanMode mode = PlanMode::kFull;
   bool constant_speed = false;
   Backend backend = Backend::kAuto;

@@ -151,6 +151,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["mode"] = end.mode;
   j["seed"] = known(end.seed);
   j["scenario"] = end.scenario;
+  j["settings"] = end.settings;
   j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
   j["measured_on"] = has_truth_ ? "truth" : "estimate";
   j["version"] = end.version;

@@ -61,6 +61,7 @@ struct RunEnd {
   std::string mode = {};
   std::optional<std::uint64_t> seed = {};
   std::string scenario = {};
+  std::vector<std::string> settings = {};  ///< KEY=VALUE each, given in place of the scenario's own
   std::string version = {};
   std::string mover_rule = {};  ///< empty where no wandering rule was in force
 };

@@ -100,7 +100,7 @@ struct Scenario {
 [[nodiscard]] const FileKeys& scenario_keys();
 
 /// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong: unreadable file, unknown key, wrong type,
-/// value out of range, missing key, missing map file.
-[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file);
+/// value out of range, missing key, missing map file. `settings`, KEY=VALUE each, stand in place of the file's own.
+[[nodiscard]] Scenario load_scenario(const std::filesystem::path& file, const std::vector<std::string>& settings = {});
 
 }  // namespace jaywalk::sim

@@ -116,8 +116,8 @@ FaultSpec read_fault(TomlTable& table) {
 
 }  // namespace
 
-Scenario load_scenario(const std::filesystem::path& path) {
-  const TomlFile file(path, scenario_keys());
+Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& settings) {
+  const TomlFile file(path, scenario_keys(), settings);
   TomlTable root = file.root();
   Scenario scenario;
   scenario.name = root.text("name", path.stem().string());

@@ -229,3 +229,36 @@ TEST_CASE("a bad robot file is refused with its own name and line") {
   CHECK(says(message("wheels = 4\n" + kBody), "robot.toml:1: wheels is not a known key"));
   CHECK(says(message(kBody.substr(0, kBody.find("beams"))), "laser.beams is missing"));
 }
+
+TEST_CASE("a setting beside the file stands in place of its own") {
+  const auto file = folder().write("s.toml", kMap + kRobot +
+                                                 "[[movers]]\nkind = \"wander\"\ncount = 3\n"
+                                                 "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\n");
+  const Scenario s = load_scenario(file, {"movers.count=16", "movers.legs=true", "robot.laser.fov_deg=180",
+                                          "robot.slip.mean=1e-2", "robot.goal=7,6.5", "robot.model=wheelchair"});
+  CHECK(s.wanderers.at(0).count == 16);
+  CHECK(s.wanderers.at(0).legs);
+  CHECK(s.recorded.at(0).legs);
+  CHECK(s.model.laser.fov_rad == Approx(kPi));
+  CHECK(s.slip.mean == 0.01);
+  CHECK(s.goal == Vec2{7.0, 6.5});
+  CHECK(s.model.name == "wheelchair");
+}
+
+TEST_CASE("a setting that nothing can take is refused with its own words") {
+  const auto file = folder().write("s.toml", kMap + kRobot + "[[movers]]\nkind = \"recorded\"\nfile = \"walk.csv\"\n");
+  const auto refusal = [&](const char* setting) {
+    try {
+      static_cast<void>(load_scenario(file, {setting}));
+    } catch (const StartupError& e) {
+      return std::string(e.what());
+    }
+    return std::string("taken");
+  };
+  CHECK(says(refusal("movers.count=4"), "s.toml has no [[movers]] that may hold it; "));
+  CHECK(says(refusal("movers.cuont=4"), "did you mean movers.count?"));
+  CHECK(says(refusal("timeout_s"), "is no KEY=VALUE; "));
+  CHECK(says(refusal("timeout_s=007"), "no value that TOML knows; "));
+  CHECK(says(refusal("timeout_s=0"), "--set timeout_s=0: timeout_s is 0; choose a value from 0.1 to 86400"));
+  CHECK(says(refusal("name=it's"), "holds a quote"));
+}

@@ -1,0 +1,133 @@
+#include "hal/toml_settings.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <sstream>
+#include <vector>
+
+#include "hal/nearest_word.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// "movers" of "movers:wander".
+std::string table_of(const SettingKey& key) { return key.section.substr(0, key.section.find(':')); }
+
+std::string path_of(const SettingKey& key) { return table_of(key).empty() ? key.key : table_of(key) + "." + key.key; }
+
+bool is_number(const std::string& word) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
+}
+
+/// TOML wants digits on both sides of a point.
+std::string number_in_toml(std::string word) {
+  if (word.find_first_of(".eE") == std::string::npos) return word;
+  double value = 0.0;
+  std::from_chars(word.data(), word.data() + word.size(), value);
+  char digits[64];
+  const auto end = std::to_chars(digits, digits + sizeof digits, value).ptr;
+  word.assign(digits, end);
+  return word.find_first_of(".e") == std::string::npos ? word + ".0" : word;
+}
+
+std::vector<std::string> parts_of(const std::string& text, char between) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, between);) parts.push_back(part);
+  return parts;
+}
+
+std::string in_toml(const SettingKey& key, const std::string& value) {
+  if (value == "true" || value == "false") return value;
+  if (is_number(value)) return number_in_toml(value);
+  const std::vector<std::string> parts = parts_of(value, ',');
+  if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(), is_number)) {
+    std::string list;
+    for (const std::string& part : parts) list += (list.empty() ? "[" : ", ") + number_in_toml(part);
+    return list + "]";
+  }
+  return "'" + (key.kind == KeyKind::kFile ? std::filesystem::absolute(value).string() : value) + "'";
+}
+
+/// The rows of `keys` that `path` names: one, or one for each kind of table.
+std::vector<const SettingKey*> rows_of(const FileKeys& keys, const std::string& path, const std::string& place) {
+  std::vector<const SettingKey*> rows;
+  std::vector<std::string> known;
+  for (const SettingKey& key : keys.keys) {
+    const bool holds_others = key.kind == KeyKind::kTable || key.kind == KeyKind::kTables;
+    if (!holds_others) known.push_back(path_of(key));
+    if (!holds_others && path_of(key) == path) rows.push_back(&key);
+  }
+  if (rows.empty())
+    throw StartupError(place + "is not a known key", did_you_mean(path, known, "see jaywalk config --explain"));
+  return rows;
+}
+
+/// Whether `table` may hold one of `rows`: those of a kind are for tables that say that kind.
+bool may_hold(const toml::value& table, const std::vector<const SettingKey*>& rows) {
+  return std::any_of(rows.begin(), rows.end(), [&](const SettingKey* row) {
+    const std::size_t colon = row->section.find(':');
+    if (colon == std::string::npos) return true;
+    return table.contains("kind") && table.at("kind").is_string() &&
+           toml::get<std::string>(table.at("kind")) == row->section.substr(colon + 1);
+  });
+}
+
+/// Puts `given`, a table with one way down to the value, into `into`. Returns how many values it put.
+int merge(toml::value& into, const toml::value& given, const std::vector<const SettingKey*>& rows) {
+  int put = 0;
+  for (const auto& [key, value] : given.as_table()) {
+    toml::value* const old = into.contains(key) ? &into.at(key) : nullptr;
+    if (value.is_table() && old != nullptr && old->is_array()) {
+      for (toml::value& table : old->as_array()) {
+        if (table.is_table() && may_hold(table, rows)) put += merge(table, value, rows);
+      }
+    } else if (value.is_table() && old != nullptr && old->is_table()) {
+      put += merge(*old, value, rows);
+    } else {
+      into.as_table()[key] = value, ++put;
+    }
+  }
+  return put;
+}
+
+toml::value parsed(const std::string& line, const std::string& setting) {
+  std::istringstream text(line);
+  try {
+    return toml::parse(text, kGivenPlace + shown(setting));
+  } catch (const std::exception&) {  // 007, say
+    throw StartupError(kGivenPlace + shown(setting) + ": has no value that TOML knows",
+                       "write true, false, a number or a name");
+  }
+}
+
+bool is_list(const FileKeys& keys, const std::string& table) {
+  return std::any_of(keys.keys.begin(), keys.keys.end(),
+                     [&](const SettingKey& key) { return key.kind == KeyKind::kTables && path_of(key) == table; });
+}
+
+}  // namespace
+
+void apply_setting(toml::value& root, const FileKeys& keys, const std::filesystem::path& file,
+                   const std::string& setting) {
+  const std::string place = kGivenPlace + shown(setting) + ": ";
+  const std::size_t equals = setting.find('=');
+  if (equals == std::string::npos || equals == 0 || equals + 1 == setting.size())
+    throw StartupError(place + "is no KEY=VALUE", "write it like movers.count=16");
+  if (setting.find('\'') != std::string::npos || setting != printable(setting))
+    throw StartupError(place + "holds a quote or a control character", "write letters that can be printed");
+  const std::string path = setting.substr(0, equals);
+  const std::vector<const SettingKey*> rows = rows_of(keys, path, place);
+  const toml::value given = parsed(path + " = " + in_toml(*rows.front(), setting.substr(equals + 1)) + "\n", setting);
+  const std::string table = table_of(*rows.front());
+  const bool none = is_list(keys, table) && !root.contains(table);
+  if (none || merge(root, given, rows) == 0)
+    throw StartupError(place + file.string() + " has no [[" + table + "]] that may hold it", "choose another scenario");
+}
+
+}  // namespace jaywalk
