@@ -27,11 +27,51 @@ constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
 
 constexpr int kSteerEvery = 3;  ///< steps
 constexpr float kLookM = 0.5F;  ///< the guide is asked this far off
-constexpr int kDirections = 16;
+constexpr std::size_t kDirections = 16;
 constexpr float kSharpness = 8.0F;  ///< of the choice between directions side by side, 1/s
 constexpr float kGain = 1.8F;       ///< rad/s a radian off
 constexpr float kTurnsFirstRad = 0.9F;
 constexpr float kWhileTurningMps = 0.1F;
+
+constexpr float kBetweenRad = 2.0F * cell::kPiF / static_cast<float>(kDirections);
+constexpr int kAside = 2;  ///< looks to either side of a direction, half a direction apart
+
+constexpr float off_rad(int aside) { return static_cast<float>(aside) * 0.5F * kBetweenRad; }
+
+/// Places about the robot at which the guide is asked, as vectors from it.
+template <std::size_t N>
+struct Looks {
+  float x[N], y[N];
+  void set(std::size_t n, float rad) {
+    const cell::Heading to = cell::heading_at(rad);
+    x[n] = kLookM * to.x, y[n] = kLookM * to.y;
+  }
+  /// Seconds to go from there.
+  void ask(const Guide& guide, float from_x, float from_y, float (&seconds)[N]) const {
+    float at_x[N], at_y[N];
+    for (std::size_t n = 0; n < N; ++n) at_x[n] = from_x + x[n], at_y[n] = from_y + y[n];
+    guide.times_to_go(at_x, at_y, seconds);
+  }
+};
+
+constexpr std::size_t kClose = 2 * kAside + 1;
+constexpr std::size_t close_at(int aside) { return static_cast<std::size_t>(aside + kAside); }
+
+struct Compass {
+  Looks<kDirections> round;
+  Looks<kClose> close[kDirections];  ///< about each
+};
+
+constexpr float direction_rad(std::size_t n) { return static_cast<float>(n) * kBetweenRad; }
+
+const Compass kCompass = [] {
+  Compass c;
+  for (std::size_t n = 0; n < kDirections; ++n) {
+    c.round.set(n, direction_rad(n));
+    for (int k = -kAside; k <= kAside; ++k) c.close[n].set(close_at(k), direction_rad(n) + off_rad(k));
+  }
+  return c;
+}();
 
 float at(const std::array<float, kTurns.size()>& values, int k) { return values[static_cast<std::size_t>(k)]; }
 
@@ -116,25 +156,19 @@ Command Attempts::permitted(const Command& command) const noexcept {
 
 /// Towards where, half a metre off, the goal is nearest in time.
 Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
-  static constexpr float kStepRad = 2.0F * cell::kPiF / kDirections;
-  const auto asked = [&](float rad) {
-    const cell::Heading to = cell::heading_at(rad);
-    return s_.guide.time_to_go(r.x + kLookM * to.x, r.y + kLookM * to.y);
-  };
-  float best = Guide::kNoWay_s, best_rad = 0.0F;
-  for (int k = 0; k < kDirections; ++k) {
-    const float rad = static_cast<float>(k) * kStepRad, t = asked(rad);
-    if (t < best) best = t, best_rad = rad;
-  }
-  if (best >= Guide::kNoWay_s) return {constant_, 0.0F};
+  float round[kDirections], close[kClose];
+  kCompass.round.ask(s_.guide, r.x, r.y, round);
+  const auto best = static_cast<std::size_t>(std::min_element(round, round + kDirections) - round);
+  if (round[best] >= Guide::kNoWay_s) return {constant_, 0.0F};
+  kCompass.close[best].ask(s_.guide, r.x, r.y, close);
   float sum = 0.0F, weights = 0.0F;
-  for (int k = -2; k <= 2; ++k) {
-    const float off = static_cast<float>(k) * 0.5F * kStepRad, t = asked(best_rad + off);
+  for (int k = -kAside; k <= kAside; ++k) {
+    const float t = close[close_at(k)];
     if (t >= Guide::kNoWay_s) continue;
-    const float weight = cell::exp((best - t) * kSharpness);
-    sum += weight * off, weights += weight;
+    const float weight = cell::exp((round[best] - t) * kSharpness);
+    sum += weight * off_rad(k), weights += weight;
   }
-  const float error = cell::wrapped(best_rad + (weights > 0.0F ? sum / weights : 0.0F) - r.heading);
+  const float error = cell::wrapped(direction_rad(best) + (weights > 0.0F ? sum / weights : 0.0F) - r.heading);
   const float turn = s_.body.bounds.turn, wanted = kGain * error;
   const bool turns_first = constant_ <= 0.0F && std::fabs(error) > kTurnsFirstRad;
   return {turns_first ? std::min(speed, kWhileTurningMps) : speed, std::clamp(wanted, -turn, turn)};

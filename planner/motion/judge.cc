@@ -91,17 +91,25 @@ class Judge {
  public:
   Judge(const Situation& s) : s_(s), along_(cell::heading_at(s.start.heading)), turned_(s.turned) {
     waits_ = s.guide.time_to_go(s.start.x, s.start.y) < Guide::kNoWay_s;
-    clearance_ = at_start_ = clearance_at(s.start);
     change_price_ = std::min(1.0F, kPricedAtMps / s.body.bounds.speed);
+    cost.time = kArrivedEarly;
   }
 
+  /// A step's own price, wherever it is.
+  void drive(const RobotState& before, const RobotState& now) {
+    comfort(before, now);
+    wait(now);
+    cost.time += kStepS;
+  }
+
+  /// Before the first look().
+  void stand_at_start() { clearance_ = at_start_ = clearance_at(s_.start); }
+
   /// After a step: what the robot is near. `t`: seconds from now.
-  void look(const RobotState& before, const RobotState& now, int step) {
+  void look(const RobotState& now, int step) {
     const float t = static_cast<float>(step + 1) * kStepS;
     along_ = cell::heading_at(now.heading);
     walls(now, t);
-    comfort(before, now);
-    wait(now);
     cost.stop_zone += kBlindRim * s_.body.blind.too_fast(now.v, now.w);
     unseen(now);
     if ((step & 1) != 0) movers(now, (step + 1) / 2, t);
@@ -218,27 +226,39 @@ float to_go(const Situation& s, const RobotState& end) {
   return there + kFacing * (1.0F - facing);
 }
 
+/// Rolls a trajectory out until it arrives or ends; returns how many states that are.
+int drive(const Situation& s, const Trajectory& trajectory, Judge& judge, RobotState* states) {
+  RobotState robot = s.start;
+  for (int step = 0; step < kSteps; ++step) {
+    const RobotState before = robot;
+    states[step] = robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
+    judge.drive(before, robot);
+    const float dx = robot.x - s.goal.x, dy = robot.y - s.goal.y;
+    if (dx * dx + dy * dy < s.arrives_within_m * s.arrives_within_m) {
+      judge.cost.time -= kArrivedEarly;
+      return step + 1;
+    }
+  }
+  judge.cost.time += to_go(s, robot);
+  return kSteps;
+}
+
 }  // namespace
 
 Cost judge(const Situation& s, const Trajectory& trajectory, float bound, RobotState* driven) noexcept {
   Judge judge(s);
-  RobotState robot = s.start;
-  judge.cost.time = kArrivedEarly;
-  for (int step = 0; step < kSteps; ++step) {
-    const RobotState before = robot;
-    robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
-    if (driven != nullptr) driven[step] = robot;
-    judge.look(before, robot, step);
-    judge.cost.time += kStepS;
-    const float dx = robot.x - s.goal.x, dy = robot.y - s.goal.y;
-    if (dx * dx + dy * dy < s.arrives_within_m * s.arrives_within_m) {
-      judge.cost.time -= kArrivedEarly;
-      for (int rest = step + 1; driven != nullptr && rest < kSteps; ++rest) driven[rest] = robot;
-      return judge.cost;
-    }
+  RobotState states[kSteps];
+  const int steps = drive(s, trajectory, judge, states);
+  if (driven != nullptr) {
+    std::copy_n(states, steps, driven);
+    std::fill(driven + steps, driven + kSteps, states[steps - 1]);
+  }
+  if (judge.cost.total() > bound) return judge.cost;  // what it meets can only add
+  judge.stand_at_start();
+  for (int step = 0; step < steps; ++step) {
+    judge.look(states[step], step);
     if ((step & 1) != 0 && judge.cost.total() > bound) return judge.cost;
   }
-  judge.cost.time += to_go(s, robot);
   return judge.cost;
 }
 

@@ -10,6 +10,19 @@ using namespace jaywalk::motion;
 
 namespace {
 
+RobotBody body_of(float full_speed) {
+  RobotBody body;
+  body.to_walls = body.to_movers = BodyDiscs::covering(p3dx().footprint, 0.02);
+  body.bounds = {.speed = full_speed,
+                 .back = 0.3F,
+                 .turn = 1.2F,
+                 .turn_accel = 2.0F,
+                 .accel = 0.5F,
+                 .slowing = 0.8F,
+                 .jerk = 0.75F};
+  return body;
+}
+
 /// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
 Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
              float full_speed = 0.6F) {
@@ -20,15 +33,7 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
         .wall({-2.0, -3.0}, {2.0, -3.0})
         .wall({-2.0, 3.0}, {2.0, 3.0});
   const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
-  RobotBody body;
-  body.to_walls = body.to_movers = BodyDiscs::covering(p3dx().footprint, 0.02);
-  body.bounds = {.speed = full_speed,
-                 .back = 0.3F,
-                 .turn = 1.2F,
-                 .turn_accel = 2.0F,
-                 .accel = 0.5F,
-                 .slowing = 0.8F,
-                 .jerk = 0.75F};
+  const RobotBody body = body_of(full_speed);
   const auto nobody = std::make_unique<Futures>();
   Trajectory held;
   held.commands.fill(command);
@@ -63,4 +68,18 @@ TEST_CASE("turning to the other side than before has its price, once") {
 TEST_CASE("a reversal is worth so much way: at three times the speed a third of the time") {
   const float same_side = cost_of({0.3F, 0.5F}, 0.0F, 1.0F, false, 1.8F).total();
   CHECK(cost_of({0.3F, 0.5F}, 0.0F, -1.0F, false, 1.8F).total() == Approx(same_side + 0.5F).margin(0.01));
+}
+
+TEST_CASE("a trajectory is given up only where its whole cost is above the bound: what its end takes back counts") {
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {1.6, 0.0});
+  const RobotBody body = body_of(0.6F);
+  const auto nobody = std::make_unique<Futures>();
+  const Situation arrives{body, guide, *nobody, RobotState{}, {1.6F, 0.0F}, 0.0F, {}, 0.24F};
+  Trajectory ahead;
+  ahead.commands.fill({0.6F, 0.0F});
+  const float whole = judge(arrives, ahead, 1e9F).total();
+  REQUIRE(whole < 4.0F);  // it arrives
+  CHECK(judge(arrives, ahead, whole + 0.01F).total() == whole);
+  CHECK(judge(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
 }
