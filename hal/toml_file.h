@@ -37,6 +37,8 @@ class TomlTable {
   [[nodiscard]] std::size_t choice(const std::string& key);
   /// The same; what else is read are this choice's own keys ("drive:vesc") and the table's.
   [[nodiscard]] std::size_t choose_keys(const std::string& key);
+  /// What else is read are the keys of that choice, which is known from elsewhere.
+  void take_keys_of(const std::string& choice) { section_ = name_ + ":" + choice; }
   /// An array of exactly `count` finite numbers.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t count) {
     return numbers(key, count, count);

@@ -8,6 +8,7 @@
 #include <sys/socket.h>
 #include <sys/time.h>
 
+#include <algorithm>
 #include <cstring>
 #include <span>
 #include <vector>
@@ -97,6 +98,17 @@ LinkFacts link_facts(const std::string& interface) {
   facts.bitrate = read_as<can_bittiming>(attribute(can, IFLA_CAN_BITTIMING)).bitrate;
   facts.state = state_of(attribute(can, IFLA_CAN_STATE));
   return facts;
+}
+
+std::vector<std::string> can_interfaces() {
+  std::vector<std::string> names;
+  struct if_nameindex* const all = ::if_nameindex();
+  for (const struct if_nameindex* at = all; at != nullptr && at->if_index != 0; ++at) {
+    if (link_facts(at->if_name).is_can) names.emplace_back(at->if_name);
+  }
+  if (all != nullptr) ::if_freenameindex(all);
+  std::sort(names.begin(), names.end());
+  return names;
 }
 
 }  // namespace jaywalk

@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "drivers/can/can_bus.h"
 
@@ -19,5 +20,8 @@ struct LinkFacts {
 
 /// Asks rtnetlink. Start-up only; needs no privilege.
 [[nodiscard]] LinkFacts link_facts(const std::string& interface);
+
+/// The names of this machine's CAN interfaces, sorted, up or down. Start-up only.
+[[nodiscard]] std::vector<std::string> can_interfaces();
 
 }  // namespace jaywalk

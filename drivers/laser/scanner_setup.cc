@@ -21,10 +21,6 @@ constexpr std::array<ScannerMake, 6> kKinds{{{"sick-cola-a", ScannerKind::kSickC
                                              {"lms200", ScannerKind::kLms200, 0, 9600},
                                              {"rplidar", ScannerKind::kRplidar, 0, 115200}}};
 
-const ScannerMake& kind_of(ScannerKind kind) noexcept {
-  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const ScannerMake& k) { return k.kind == kind; });
-}
-
 std::unique_ptr<wire::Endpoint> endpoint_of(const ScannerSetup& setup, const ScannerMake& kind, std::uint32_t baud) {
   const bool on_network = !setup.host.empty();
   if (on_network == !setup.device.empty()) {
@@ -64,6 +60,10 @@ std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uin
 
 std::span<const ScannerMake> scanner_makes() noexcept { return kKinds; }
 
+const ScannerMake& scanner_make(ScannerKind kind) noexcept {
+  return *std::find_if(kKinds.begin(), kKinds.end(), [kind](const ScannerMake& k) { return k.kind == kind; });
+}
+
 std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept {
   const auto* const found =
       std::find_if(kKinds.begin(), kKinds.end(), [name](const ScannerMake& k) { return k.name == name; });
@@ -71,7 +71,7 @@ std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept {
 }
 
 std::unique_ptr<ScannerConnection> make_scanner(const ScannerSetup& setup, Clock& clock) {
-  const ScannerMake& kind = kind_of(setup.kind);
+  const ScannerMake& kind = scanner_make(setup.kind);
   const std::uint32_t baud = setup.baud == 0 ? kind.baud : setup.baud;
   return std::make_unique<ScannerConnection>(endpoint_of(setup, kind, baud), protocol_of(setup, baud), clock);
 }

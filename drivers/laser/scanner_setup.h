@@ -21,6 +21,7 @@ struct ScannerMake {
 };
 
 [[nodiscard]] std::span<const ScannerMake> scanner_makes() noexcept;
+[[nodiscard]] const ScannerMake& scanner_make(ScannerKind kind) noexcept;
 
 /// "sick-cola-a", "sick-cola-b", "hokuyo", "ld19" (and LD06), "lms200", "rplidar"; nothing for other names.
 [[nodiscard]] std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept;

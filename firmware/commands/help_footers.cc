@@ -13,7 +13,7 @@ struct Footer {
   const char* one;
 };
 
-constexpr std::array<Footer, 16> kFooters{{
+constexpr std::array<Footer, 17> kFooters{{
     {"sim", "jaywalk sim hal/sim/scenarios/crossing.toml --seed 2 --view",
      "the goal was reached, nobody touched or made to turn", "it was not"},
     {"replay", "jaywalk replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
@@ -27,6 +27,8 @@ constexpr std::array<Footer, 16> kFooters{{
     {"run", "jaywalk run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},
     {"check", "jaywalk check deploy/config/wheelchair.toml", "all is well", "something is not"},
     {"commission", "jaywalk commission deploy/config/wheelchair.toml", "wired as the file says", "not so"},
+    {"setup", "jaywalk setup --answers answers.toml --out robot.toml", "written, and check finds all well",
+     "written, and something is not well"},
     {"config", "jaywalk config --explain laser.rate_hz", "explained", "-"},
     {"goto", "jaywalk goto 4.0,1.5 1.57", "the run goes", "it refuses"},
     {"stop", "jaywalk stop --now", "the run stops", "it refuses"},

@@ -12,6 +12,7 @@
 #include "firmware/commands/commission_command.h"
 #include "firmware/commands/config_command.h"
 #include "firmware/commands/run_command.h"
+#include "firmware/commands/setup_command.h"
 #include "firmware/commands/view_option.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
@@ -102,6 +103,7 @@ void add_robot_commands(CLI::App& app, int& exit_code) {
   add_run(app, exit_code);
   add_check(app, exit_code);
   add_commission(app, exit_code);
+  add_setup(app, exit_code);
   add_config(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
   go->add_option(

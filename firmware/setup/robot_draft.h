@@ -1,0 +1,46 @@
+#pragma once
+// A ROBOT.toml in the making: keys with their values as TOML writes them, each with a comment.
+#include <map>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "hal/toml_file.h"
+
+namespace jaywalk {
+
+class RobotDraft {
+ public:
+  /// `value` as TOML writes it; `note`: how it is known, "found" or "as answered", say. `section` without its ":kind".
+  void set(const std::string& section, const std::string& key, const std::string& value, const std::string& note);
+  [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
+  /// One [[name]] more, whose keys are these.
+  void add_table(const std::string& name, const std::vector<std::pair<std::string, std::string>>& keys);
+  /// A line of the file's head.
+  void remark(const std::string& line);
+
+  /// The whole file, keys in the order of the table of keys, each with its meaning, unit and note.
+  [[nodiscard]] std::string text() const;
+
+ private:
+  struct Value {
+    std::string value, note;
+  };
+  std::map<std::pair<std::string, std::string>, Value> values_;
+  std::map<std::string, std::string> tables_;  ///< whole blocks, by name
+  std::vector<std::string> remarks_;
+};
+
+/// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.
+[[nodiscard]] std::string literal_of(TomlTable& table, const SettingKey& row);
+
+/// A text as TOML writes it, and a number.
+[[nodiscard]] std::string literal(const std::string& text);
+[[nodiscard]] std::string literal(double number);
+
+/// The row of a robot file's key, whatever its kind; `kind` decides where several have it.
+[[nodiscard]] const SettingKey& robot_key(const std::string& section, const std::string& key,
+                                          const std::string& kind = "");
+
+}  // namespace jaywalk
