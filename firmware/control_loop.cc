@@ -5,23 +5,8 @@
 namespace jaywalk {
 namespace {
 
-constexpr LaserScan kNoScan{};
 constexpr Duration kPlanEvery = std::chrono::milliseconds(90);  // walls are no hurry: motion looks out for movers
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);    // as the supervisor's longest age of a plan
-constexpr Duration kNoWayFor = std::chrono::seconds(10);        // time for a person in the way to walk on
-
-LocalizationConfig localization_config(const ControlSetup& setup) {
-  return {.map_from_robot_at_start = setup.start,
-          .drive = setup.model.drive,
-          .robot_from_laser = setup.model.laser.robot_from_laser};
-}
-
-PerceptionConfig perception_config(const ControlSetup& setup) {
-  return {.robot_from_laser = setup.model.laser.robot_from_laser,
-          .cell_m = setup.planner().cell_m,
-          .map_centre = (setup.start.position() + setup.goal) * 0.5,
-          .body = setup.model.footprint};
-}
 
 FollowerConfig follower_config(const ControlSetup& setup) {
   return {.limits = setup.model.limits,
@@ -70,8 +55,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       hal_(hal),
       planner_(planner),
       recorder_(recorder),
-      localizer_(localization_config(setup)),
-      tracker_(perception_config(setup)),
+      estimator_(setup),
       follower_(follower_config(setup)),
       motion_(motion_for(setup)),
       guide_(guide_for(setup)),
@@ -89,16 +73,13 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
-  const bool new_scan = scans_.is_new(t.scan.sequence) && !scan_frozen_;
 
-  const LaserScan& seen = scan_frozen_ ? kNoScan : t.scan;
-  t.pose = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());  // Estimate
-  if (setup_.mode == PlanMode::kPaper && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
-  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
+  const bool new_scan = estimator_.update(t);  // Estimate
+  t.pose = estimator_.pose();
 
   plan_ = &planner_.collect();  // Plan: take what was asked for in an earlier tick.
   note_plan(t);
-  if (finds_no_way(t)) tracker_.forget_unseen();
+  estimator_.forget_where_stuck(t);
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wanted = drives_by_motion()
@@ -109,15 +90,15 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
       supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
-  scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);  // shows what was: not looked at from now on
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
   t.command = diff_drive_.wheel_speeds(driven_, now);
   hal_.drive.command(t.command);
   t.took = hal_.clock.now() - now;
   latency_.add(now, t.took, t.wheels, t.command);
   sent_ = t.command;
+  estimator_.end_tick(t);
 
-  if (t.input.has_goal && plans_.is_new(plan_->sequence)) look(t);
+  if (t.input.has_goal && std::exchange(plan_looked_at_, plan_->sequence) != plan_->sequence) look(t);
   if (new_scan && motion_) decide(t);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy() && (!motion_ || age(asked_, now) >= kPlanEvery);
   if (t.plan_asked) asked_ = now, planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
@@ -128,6 +109,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 void ControlLoop::note_plan(TickRecord& t) noexcept {
   t.plan_sequence = plan_->sequence;
   t.plan_status = plan_->status;
+  if (std::exchange(plan_noted_, plan_->sequence) != plan_->sequence) keep_path(*plan_, t.path);
   if (drives_by_motion()) {
     good_plan_stamp_ = std::min(motion_->decision().seen, plan_->stamp);
   } else if (plan_->status == PlanStatus::kOk) {
@@ -136,14 +118,6 @@ void ControlLoop::note_plan(TickRecord& t) noexcept {
   if (setup_.keeps_speed() && plan_->status != PlanStatus::kOk)
     good_plan_stamp_ = kNever;  // without a path it would go straight on; others ramp down by themselves
   t.plan_stamp = good_plan_stamp_;
-}
-
-bool ControlLoop::finds_no_way(const TickRecord& t) noexcept {
-  const bool no_path = t.plan_status == PlanStatus::kNoPath || t.plan_status == PlanStatus::kRobotBlocked;
-  const bool waits = t.input.has_goal && no_path && driven_ == Twist2{};
-  if (waits && age(had_way_, t.now) < kNoWayFor) return false;
-  had_way_ = t.now;
-  return waits;
 }
 
 bool ControlLoop::goal_for_motion(const TickRecord& t) const noexcept {
@@ -155,8 +129,8 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
           .has_goal = goal_for_motion(t),
-          .tracks = tracker_.tracks(),
-          .standing = tracker_.standing(),
+          .tracks = tracker().tracks(),
+          .standing = tracker().standing(),
           .permitted_before = driven_,
           .guide = guide_.get(),
           .turn = turn_.get()};
@@ -167,11 +141,11 @@ void ControlLoop::look(const TickRecord& t) noexcept {
                          .map_from_robot = t.pose.map_from_robot,
                          .wanted = t.wanted,
                          .driven = driven_,
-                         .still = tracker_.still(),
-                         .standing = tracker_.standing(),
-                         .moving = tracker_.moving(),
+                         .still = tracker().still(),
+                         .standing = tracker().standing(),
+                         .moving = tracker().moving(),
                          .goal_in_map = t.input.goal_in_map,
-                         .somebody_hidden = tracker_.hides_somebody(t.pose.map_from_robot.position(), kNear_m),
+                         .somebody_hidden = tracker().hides_somebody(t.pose.map_from_robot.position(), kNear_m),
                          .now = t.now};
   if (turns_at_goal()) {
     turn_->look(input);
@@ -185,11 +159,11 @@ void ControlLoop::decide(const TickRecord& t) noexcept {
   motion_->decide({.seen = {.now = t.now,
                             .stamp = t.scan.stamp,
                             .map_from_robot = t.pose.map_from_robot,
-                            .tracks = tracker_.tracks(),
-                            .standing = tracker_.standing(),
-                            .still = tracker_.still(),
+                            .tracks = tracker().tracks(),
+                            .standing = tracker().standing(),
+                            .still = tracker().still(),
                             .scan = t.scan,
-                            .map_from_laser = localizer_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
+                            .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
                             .guide = plan_->guide},
                    .goal_in_map = t.input.goal_in_map,
                    .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor},
@@ -202,16 +176,16 @@ PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
             .map_from_robot = t.pose.map_from_robot,
             .goal_in_map = t.input.goal_in_map,
             .speed_mps = setup_.model.limits.max_speed_mps,
-            .still = &tracker_.still(),
+            .still = &tracker().still(),
             .masked = motion_->memory().masked()};
   }
   return {.stamp = t.scan.stamp,
           .map_from_robot = t.pose.map_from_robot,
           .goal_in_map = t.input.goal_in_map,
           .speed_mps = setup_.model.limits.max_speed_mps,
-          .still = &tracker_.still(),
-          .moving = tracker_.moving(),
-          .standing = tracker_.standing(),
+          .still = &tracker().still(),
+          .moving = tracker().moving(),
+          .standing = tracker().standing(),
           .body = setup_.guides_body() ? &setup_.model.footprint : nullptr};
 }
 

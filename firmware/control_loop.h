@@ -5,15 +5,14 @@
 #include <utility>
 
 #include "firmware/control_setup.h"
+#include "firmware/estimator.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
-#include "planner/localization/localizer.h"
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/follower.h"
 #include "planner/motion/motion_planner.h"
-#include "planner/perception/tracker.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -27,7 +26,7 @@ class ControlLoop {
   /// Lives through one tick; call once a period with the clock's time. Returns the tick's record, valid until the next.
   const TickRecord& tick(Time now) noexcept;
 
-  [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
+  [[nodiscard]] const Tracker& tracker() const noexcept { return estimator_.tracker(); }
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }
   /// Null for a long body, and in mode paper.
   [[nodiscard]] const motion::MotionPlanner* motion() const noexcept { return motion_.get(); }
@@ -37,8 +36,6 @@ class ControlLoop {
 
  private:
   void note_plan(TickRecord& t) noexcept;
-  /// Whether it has stood for ten seconds with a goal and no path to it; then not for another ten.
-  [[nodiscard]] bool finds_no_way(const TickRecord& t) noexcept;
   /// There is a goal, and wishes count.
   [[nodiscard]] bool goal_for_motion(const TickRecord& t) const noexcept;
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
@@ -49,21 +46,11 @@ class ControlLoop {
   [[nodiscard]] bool drives_by_motion() const noexcept { return motion_ != nullptr && !turns_at_goal(); }
   [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
 
-  /// Tells a device's new reading from one seen before.
-  class Fresh {
-   public:
-    [[nodiscard]] bool is_new(std::uint32_t sequence) noexcept { return std::exchange(last_, sequence) != sequence; }
-
-   private:
-    std::uint32_t last_ = 0;
-  };
-
   ControlSetup setup_;
   Hal hal_;
   Planner& planner_;
   Recorder& recorder_;
-  Localizer localizer_;
-  Tracker tracker_;
+  Estimator estimator_;
   Follower follower_;
   std::unique_ptr<motion::MotionPlanner> motion_;  ///< null for a long body, and in mode paper
   std::unique_ptr<FootprintGuide> guide_;          ///< null for a body that is nearly round
@@ -71,14 +58,12 @@ class ControlLoop {
   Latency latency_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;
-  const Plan* plan_;               ///< what collect() last answered, never null
-  Time asked_ = kNever;            ///< when a plan was asked for last
-  Time good_plan_stamp_ = kNever;  ///< of the last that has a path
-  Time had_way_ = kNever;          ///< or moved, had no goal, or looked anew for one, last
-  Twist2 driven_;                  ///< what the wheels were last asked for
-  WheelCommand sent_;              ///< and what that was for the drive
-  bool scan_frozen_ = false;       ///< the supervisor said so of the tick before
-  Fresh scans_, fixes_, plans_;
+  const Plan* plan_;                                   ///< what collect() last answered, never null
+  Time asked_ = kNever;                                ///< when a plan was asked for last
+  Time good_plan_stamp_ = kNever;                      ///< of the last that has a path
+  Twist2 driven_;                                      ///< what the wheels were last asked for
+  WheelCommand sent_;                                  ///< and what that was for the drive
+  std::uint32_t plan_noted_ = 0, plan_looked_at_ = 0;  ///< their sequences
 };
 
 }  // namespace jaywalk

@@ -3,14 +3,12 @@
 #include <cctype>
 
 #include "bench/tracking/run_folder.h"
-#include "firmware/control_setup.h"
+#include "firmware/estimator.h"
 #include "firmware/recording/recording_stream.h"
 #include "firmware/report/run_tables.h"
 #include "hal/sim/logs/line_file.h"
 #include "hal/sim/logs/log_replay.h"
 #include "hal/types/errors.h"
-#include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
 
 namespace jaywalk::bench {
 namespace {
@@ -21,33 +19,24 @@ constexpr Duration kTick = std::chrono::milliseconds(20);
 class Watcher {
  public:
   Watcher(const ControlSetup& setup, const std::filesystem::path& out, const RunFolder* truth)
-      : localizer_({.map_from_robot_at_start = setup.start,
-                    .drive = setup.model.drive,
-                    .robot_from_laser = setup.model.laser.robot_from_laser}),
-        tracker_({.robot_from_laser = setup.model.laser.robot_from_laser,
-                  .cell_m = setup.planner().cell_m,
-                  .map_centre = (setup.start.position() + setup.goal) * 0.5,
-                  .body = setup.model.footprint}),
-        tables_(out),
-        truth_(truth) {}
+      : estimator_(setup), tables_(out), truth_(truth) {}
 
   void see(TickRecord& tick) {
-    tick.pose = localizer_.update(tick.wheels, tick.scan, tick.fix, tracker_.still(), tracker_.moving());
-    if (tick.scan.sequence != last_scan_)
-      tracker_.update(tick.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
-    last_scan_ = tick.scan.sequence;
+    (void)estimator_.update(tick);
+    estimator_.forget_where_stuck(tick);
+    estimator_.end_tick(tick);
+    tick.pose = estimator_.pose();
     TrueState state;
     if (truth_ != nullptr) state.map_from_robot = *truth_->truth_at(to_seconds(tick.now));
-    tables_.add({.record = tick, .tracks = tracker_.tracks(), .truth = truth_ != nullptr ? &state : nullptr});
+    tables_.add(
+        {.record = tick, .tracks = estimator_.tracker().tracks(), .truth = truth_ != nullptr ? &state : nullptr});
   }
   void close() { tables_.close(); }
 
  private:
-  Localizer localizer_;
-  Tracker tracker_;
+  Estimator estimator_;
   RunTables tables_;
   const RunFolder* truth_;
-  std::uint32_t last_scan_ = 0;
 };
 
 void relive_simulation(const ReliveOptions& options) {

@@ -9,20 +9,31 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk {
+namespace {
+
+/// `Again`: SeenRun or RelivedRun.
+template <class Again>
+void export_all(RecordedRun& run, RunExporter& exporter) {
+  Again again(run);
+  Progress progress;
+  while (again.step()) {
+    exporter.add(again.last(), again.tracker());
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(exporter.file().messages()) + " messages");
+  }
+  progress.make_way();
+  std::fputs(again.remarks().c_str(), stderr);
+}
+
+}  // namespace
+
 int run_export(const ExportOptions& options) {
-  RelivedRun run(options.run);
+  RecordedRun run(options.run);
   const std::filesystem::path out = options.out.empty() ? run.file().parent_path() / "run.mcap" : options.out;
   std::error_code missing;
   if (std::filesystem::equivalent(run.file(), out, missing))
     throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
   RunExporter exporter(out, run.setup().model);
-  Progress progress;
-  while (run.step()) {
-    exporter.add(run.last(), run.loop());
-    if (progress.is_due()) progress.show(run.share_read(), std::to_string(exporter.file().messages()) + " messages");
-  }
-  progress.make_way();
-  std::fputs(run.remarks().c_str(), stderr);
+  run.holds_paths() ? export_all<SeenRun>(run, exporter) : export_all<RelivedRun>(run, exporter);
   exporter.finish(run.file());
   std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),
               static_cast<unsigned long long>(exporter.file().messages()), exporter.file().topics().size(),

@@ -3,6 +3,9 @@
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
+#include <vector>
+
+#include "firmware/exchange/ros_schemas.h"
 
 namespace jaywalk {
 namespace {
@@ -13,13 +16,19 @@ constexpr auto kGone = std::chrono::seconds(3);                   // a page that
 constexpr auto kLookEvery = std::chrono::milliseconds(50);
 constexpr std::size_t kMostStripTicks = 2000;  // more than a screen has columns
 
+std::vector<view::FoxgloveChannel> channels() {
+  std::vector<view::FoxgloveChannel> all;
+  for (const exchange::RosTopic& topic : exchange::kRosTopics)
+    all.push_back({topic.name, topic.type, exchange::ros_schema(topic.type)});
+  return all;
+}
+
 }  // namespace
 
 LiveView::LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
-      server_(where, {.on_order = [this](std::string_view text) { return answer(text); },
-                      .channels = view::RosTopics::channels()}),
+      server_(where, {.on_order = [this](std::string_view text) { return answer(text); }, .channels = channels()}),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
         server_.push(channel, stamp, std::move(message));
       }) {
@@ -73,7 +82,8 @@ void LiveView::show(const view::FieldPicture& field) {
 
 void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once) {
   const TickRecord& t = snapshot.record;
-  topics_.add(snapshot, model_, server_.wanted());
+  if (path_.stamp != snapshot.plan.stamp) keep_path(snapshot.plan, path_);
+  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, server_.wanted());
   const auto now = std::chrono::steady_clock::now();
   const bool is_due = server_.has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);

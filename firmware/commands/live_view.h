@@ -7,8 +7,8 @@
 
 #include "firmware/commands/interruption.h"
 #include "firmware/commands/loop_runner.h"
+#include "firmware/exchange/ros_topics.h"
 #include "firmware/view/frame_store.h"
-#include "firmware/view/ros_topics.h"
 #include "firmware/view/view_orders.h"
 #include "firmware/view/view_scene.h"
 #include "firmware/view/view_server.h"
@@ -60,7 +60,8 @@ class LiveView {
   Time field_shown_ = kNever;
   std::chrono::steady_clock::time_point pushed_{};
   view::ViewServer server_;
-  view::RosTopics topics_;
+  exchange::RosTopics topics_;
+  PlannedPath path_;  ///< of the newest plan
 };
 
 }  // namespace jaywalk

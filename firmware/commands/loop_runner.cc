@@ -70,7 +70,7 @@ void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
   plan_reported_ = loop_.plan().sequence;
   if (own) sample.now = own(sample.now), sample.scanned = own(sample.scanned);
   report(sample);
-  if (exporter_) exporter_->add(*record_, loop_);
+  if (exporter_) exporter_->add(*record_, loop_.tracker());
 }
 
 void LoopRunner::export_to(const std::filesystem::path& file) {

@@ -4,38 +4,35 @@
 #include <string>
 
 #include "firmware/backends.h"
+#include "firmware/commands/recorded_run.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recorder.h"
-#include "firmware/recording/recording_stream.h"
 
 namespace jaywalk {
 
-/// A recording that the controller lives through again, a tick at a time: tracks, plans and map are not in it.
+/// A recording that the controller lives through again: how it decided is not in it.
 class RelivedRun {
  public:
-  /// A run's folder or its recording.jwr. Throws StartupError for what is no recording.
-  explicit RelivedRun(const std::filesystem::path& run);
+  /// `run`, at its beginning, outlives it.
+  explicit RelivedRun(RecordedRun& run);
 
-  /// Lives through the next tick; false at the recording's end. Throws StartupError for a damaged entry.
+  /// Lives through the next tick. RecordedRun's.
   [[nodiscard]] bool step();
   /// The tick just lived through.
   [[nodiscard]] const TickRecord& last() const { return *last_; }
   [[nodiscard]] const ControlLoop& loop() const { return loop_; }
+  [[nodiscard]] const Tracker& tracker() const { return loop_.tracker(); }
   [[nodiscard]] const Planner& planner() const { return planner_; }
-  [[nodiscard]] const ControlSetup& setup() const { return setup_; }
-  [[nodiscard]] const std::filesystem::path& file() const { return file_; }
-  [[nodiscard]] double share_read() const { return reader_.share_read(); }
-  /// What a person should know of it, a line each: commands that come out otherwise now, and where it was cut.
-  [[nodiscard]] std::string remarks() const;
+  [[nodiscard]] const ControlSetup& setup() const { return run_.setup(); }
+  [[nodiscard]] const std::filesystem::path& file() const { return run_.file(); }
+  /// RecordedRun's.
+  [[nodiscard]] std::string remarks() const { return run_.remarks(different_, "commands"); }
 
  private:
-  std::filesystem::path file_;
-  RecordingReader reader_;
-  ControlSetup setup_;
-  TickRecord recorded_;
-  RecordedHal devices_{recorded_};
+  RecordedRun& run_;
+  RecordedHal devices_;
   HeldPlanner planner_;
   Recorder recorder_{{}};
   ControlLoop loop_;

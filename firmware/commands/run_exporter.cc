@@ -1,16 +1,13 @@
 #include "firmware/commands/run_exporter.h"
 
 #include <fstream>
+#include <string>
 
-#include "firmware/exchange/ros_messages.h"
 #include "firmware/exchange/ros_schemas.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-constexpr Duration kMapEvery = std::chrono::seconds(2);
-constexpr Duration kDiagnosticsEvery = std::chrono::milliseconds(100);
 
 /// What `ros2 bag` wants beside the file (rosbag2's version 5 of it).
 void write_metadata(const std::filesystem::path& file, const exchange::McapWriter& mcap) {
@@ -36,47 +33,21 @@ void write_metadata(const std::filesystem::path& file, const exchange::McapWrite
 }  // namespace
 
 RunExporter::RunExporter(const std::filesystem::path& file, const RobotModel& model)
-    : path_(file), file_(file.string()), model_(model) {}
-
-void RunExporter::add(const TickRecord& t, const ControlLoop& loop) {
-  file_.write(tf_, t.now, exchange::transforms(t, model_.laser.robot_from_laser));
-  file_.write(odom_, t.now, exchange::odometry(t, model_.drive));
-  file_.write(cmd_vel_, t.now, exchange::command(t));
-  if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, loop);
-  if (loop.plan().sequence != plan_seen_ && loop.plan().status == PlanStatus::kOk) {
-    file_.write(plan_, t.now, exchange::path(loop.plan()));
-    plan_seen_ = loop.plan().sequence;
-  }
-  if (t.input.has_goal && (!has_goal_ || !same_goal(t.input))) {
-    file_.write(goal_, t.now, exchange::goal_pose(t));
-    goal_seen_ = t.input;
-  }
-  has_goal_ = t.input.has_goal;
-  if (reasons_ != t.verdict.reasons || age(told_, t.now) >= kDiagnosticsEvery) {
-    file_.write(diagnostics_, t.now, exchange::diagnostics(t));
-    reasons_ = t.verdict.reasons;
-    told_ = t.now;
+    : path_(file),
+      file_(file.string()),
+      model_(model),
+      topics_([this](std::size_t topic, Time stamp, const std::string& message) {
+        file_.write(channels_[topic], stamp, message);
+      }) {
+  for (std::size_t k = 0; k < channels_.size(); ++k) {
+    const auto& [name, type] = exchange::kRosTopics[k];
+    channels_[k] = file_.add_channel(name, type, exchange::ros_schema(type));
   }
 }
 
-void RunExporter::add_scan(const TickRecord& t, const ControlLoop& loop) {
-  scan_seen_ = t.scan.sequence;
-  file_.write(scan_, t.now, exchange::laser_scan(t.scan));
-  file_.write(points_, t.now, exchange::points(t.scan));
-  file_.write(tracks_, t.now, exchange::tracks(loop.tracker().tracks(), t.now));
-  if (mapped_ != kNever && age(mapped_, t.now) < kMapEvery) return;
-  file_.write(map_, t.now, exchange::occupancy(loop.tracker().still(), t.now));
-  mapped_ = t.now;
-}
-
-bool RunExporter::same_goal(const OperatorInput& input) const {
-  const bool same_heading = input.wants_heading() == goal_seen_.wants_heading() &&
-                            (!input.wants_heading() || input.goal_heading_rad == goal_seen_.goal_heading_rad);
-  return input.goal_in_map == goal_seen_.goal_in_map && same_heading;
-}
-
-std::uint16_t RunExporter::channel(const char* topic, const char* type) {
-  return file_.add_channel(topic, type, exchange::ros_schema(type));
+void RunExporter::add(const TickRecord& t, const Tracker& tracker) {
+  topics_.add(t, tracker.tracks(), t.path, model_);
+  if (t.scan.beam_count > 0 && topics_.is_map_due(t.now)) topics_.add_map(tracker.still(), t.now);
 }
 
 void RunExporter::finish(const std::optional<std::filesystem::path>& recording) {

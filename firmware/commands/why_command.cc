@@ -107,7 +107,8 @@ std::optional<std::filesystem::path> save(const PictureScene& scene, const std::
 }  // namespace
 
 int run_why(const WhyOptions& options) {
-  RelivedRun run(options.run);
+  RecordedRun recorded(options.run);
+  RelivedRun run(recorded);
   if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
   const Past past = relive(run, options.at_s);
   const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);

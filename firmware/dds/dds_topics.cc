@@ -8,22 +8,24 @@
 #include <memory>
 
 #include "firmware/exchange/cdr_writer.h"
+#include "firmware/exchange/ros_topics.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::dds {
 namespace {
 
 struct PassedOn {
-  const char* topic;
+  exchange::RosTopicNumber number;
   const dds_topic_descriptor_t* type;
   bool kept = false;  ///< for readers that come later
+  [[nodiscard]] const char* topic() const { return exchange::kRosTopics[number].name; }
 };
-const std::array<PassedOn, 6> kPassedOn{{{"/scan", &sensor_msgs_msg_dds__LaserScan__desc},
-                                         {"/odom", &nav_msgs_msg_dds__Odometry__desc},
-                                         {"/tf", &tf2_msgs_msg_dds__TFMessage__desc},
-                                         {"/map", &nav_msgs_msg_dds__OccupancyGrid__desc, true},
-                                         {"/plan", &nav_msgs_msg_dds__Path__desc},
-                                         {"/tracks", &visualization_msgs_msg_dds__MarkerArray__desc}}};
+const std::array<PassedOn, 6> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
+                                         {exchange::kOdom, &nav_msgs_msg_dds__Odometry__desc},
+                                         {exchange::kTf, &tf2_msgs_msg_dds__TFMessage__desc},
+                                         {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
+                                         {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
+                                         {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc}}};
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::int32_t kDepth = 10;
 
@@ -57,9 +59,9 @@ DdsTopics::DdsTopics(std::uint32_t domain)
     : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")) {
   for (const PassedOn& one : kPassedOn) {
     const auto qos = qos_of(one.kept);
-    const std::string name = "rt" + std::string(one.topic);
+    const std::string name = "rt" + std::string(one.topic());
     const dds_entity_t topic = checked(dds_create_topic(participant_, one.type, name.c_str(), nullptr, nullptr), name);
-    writers_[one.topic] = checked(dds_create_writer(participant_, topic, qos.get(), nullptr), name);
+    writers_[one.topic()] = checked(dds_create_writer(participant_, topic, qos.get(), nullptr), name);
   }
   const dds_entity_t topic = checked(
       dds_create_topic(participant_, &geometry_msgs_msg_dds__PoseStamped__desc, "rt/goal_pose", nullptr, nullptr),
@@ -71,14 +73,14 @@ DdsTopics::~DdsTopics() { dds_delete(participant_); }
 
 std::set<std::string> DdsTopics::topics() {
   std::set<std::string> all;
-  for (const PassedOn& one : kPassedOn) all.insert(one.topic);
+  for (const PassedOn& one : kPassedOn) all.insert(one.topic());
   return all;
 }
 
 bool DdsTopics::publish(const std::string& topic, std::string message) {
   const PassedOn* passed = nullptr;
   for (const PassedOn& one : kPassedOn)
-    if (topic == one.topic) passed = &one;
+    if (topic == one.topic()) passed = &one;
   if (passed == nullptr || message.size() < kEncapsulation) return false;
   char* const body = message.data() + kEncapsulation;
   const auto size = static_cast<std::uint32_t>(message.size() - kEncapsulation);

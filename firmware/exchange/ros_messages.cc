@@ -136,13 +136,14 @@ std::string goal_pose(const TickRecord& tick) {
   return out.message();
 }
 
-std::string path(const Plan& plan) {
+std::string path(const PlannedPath& path) {
   CdrWriter out;
-  header(out, plan.stamp, "map");
-  out.u32(plan.path.size());
-  for (std::size_t k = 0; k < plan.path.size(); ++k) {
-    const Vec2 here = plan.path[k], ahead = plan.path[std::min(k + 1, plan.path.size() - 1)];
-    header(out, plan.stamp, "map");
+  header(out, path.stamp, "map");
+  out.u32(path.points.size());
+  for (std::size_t k = 0; k < path.points.size(); ++k) {
+    const Vec2 here = in_metres(path.points[k]),
+               ahead = in_metres(path.points[std::min(k + 1, path.points.size() - 1)]);
+    header(out, path.stamp, "map");
     pose(out, {here.x, here.y, std::atan2(ahead.y - here.y, ahead.x - here.x)});
   }
   return out.message();

@@ -7,7 +7,6 @@
 #include "firmware/recording/tick_record.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/perception/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk::exchange {
 
@@ -24,7 +23,7 @@ namespace jaywalk::exchange {
 /// geometry_msgs/PoseStamped.
 [[nodiscard]] std::string goal_pose(const TickRecord& tick);
 /// nav_msgs/Path.
-[[nodiscard]] std::string path(const Plan& plan);
+[[nodiscard]] std::string path(const PlannedPath& path);
 /// visualization_msgs/MarkerArray: a cylinder a track, red where it moves.
 [[nodiscard]] std::string tracks(std::span<const Track> tracks, Time stamp);
 /// diagnostic_msgs/DiagnosticArray: reasons, plan, gap.

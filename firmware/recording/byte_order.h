@@ -35,6 +35,12 @@ class ByteSink {
       if constexpr (sizeof(T) > 1) bits = static_cast<decltype(bits)>(bits >> 8U);
     }
   }
+  /// A number that is mostly small: seven bits a byte, the lowest first; 0, -1, 1, -2 as 0, 1, 2, 3.
+  void small_number(std::int64_t value) noexcept {
+    auto bits = (static_cast<std::uint64_t>(value) << 1U) ^ static_cast<std::uint64_t>(value >> 63U);
+    for (; bits > 0x7FU; bits >>= 7U) number(static_cast<std::uint8_t>(bits | 0x80U));
+    number(static_cast<std::uint8_t>(bits));
+  }
   [[nodiscard]] std::size_t size() const noexcept { return size_; }
   [[nodiscard]] bool overflowed() const noexcept { return overflowed_; }
 
@@ -60,6 +66,16 @@ class ByteSource {
       }
     }
     value = std::bit_cast<T>(bits);
+  }
+  void small_number(std::int64_t& value) noexcept {
+    std::uint64_t bits = 0;
+    std::uint8_t byte = 0x80;
+    for (unsigned shift = 0; (byte & 0x80U) != 0; shift += 7) {
+      if (shift > 63) return refuse();
+      number(byte);
+      bits |= static_cast<std::uint64_t>(byte & 0x7FU) << shift;
+    }
+    value = static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
   }
   void refuse() noexcept { ok_ = false; }
   [[nodiscard]] bool ok() const noexcept { return ok_; }

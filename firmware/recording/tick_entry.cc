@@ -140,6 +140,52 @@ void transfer_rest(Archive& ar, Record& r) {
   if (ar.version >= 4) ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
 }
 
+/// Places as the change of the step from one to the next, mm: mostly a byte each.
+class Bends {
+ public:
+  /// What is to be written for the next place.
+  [[nodiscard]] std::int64_t bend(std::int64_t at) noexcept {
+    const std::int64_t bend = at - at_ - step_;
+    step_ += bend, at_ = at;
+    return bend;
+  }
+  /// The place that was written so; no sum overflows, whatever was read.
+  [[nodiscard]] std::int64_t place(std::int64_t bend) noexcept {
+    const auto sum = [](std::int64_t a, std::int64_t b) {
+      return static_cast<std::int64_t>(static_cast<std::uint64_t>(a) + static_cast<std::uint64_t>(b));
+    };
+    step_ = sum(step_, bend);
+    return at_ = sum(at_, step_);
+  }
+
+ private:
+  std::int64_t at_ = 0, step_ = 0;
+};
+
+void put_path(Put& put, const PlannedPath& path) {
+  put.count(path.points.size());
+  if (path.points.empty()) return;
+  put(path.stamp);
+  Bends x, y;
+  for (const PointMm& p : path.points) put.sink.small_number(x.bend(p.x)), put.sink.small_number(y.bend(p.y));
+}
+
+void get_path(Get& get, PlannedPath& path) {
+  path.points.clear();
+  path.stamp = kNever;
+  const std::uint32_t points = get.count(kMaxPathPoints);
+  if (points > 0) get(path.stamp);
+  Bends x, y;
+  for (std::uint32_t i = 0; i < points; ++i) {
+    std::int64_t dx = 0, dy = 0;
+    get.source.small_number(dx), get.source.small_number(dy);
+    const std::int64_t at_x = x.place(dx), at_y = y.place(dy);
+    const PointMm p{static_cast<std::int32_t>(at_x), static_cast<std::int32_t>(at_y)};
+    if (p.x != at_x || p.y != at_y) return get.source.refuse();
+    static_cast<void>(path.points.push_back(p));  // count() keeps within its capacity
+  }
+}
+
 void put_scan(Put& put, const LaserScan& scan) {
   transfer_scan_frame(put, scan);
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
@@ -182,6 +228,7 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
   put(new_scan);
   put(new_fix);
   transfer_rest(put, record);
+  put_path(put, record.path);
   if (new_scan) put_scan(put, record.scan);
   if (new_fix) put_fix(put, record.fix);
   first_ = false;
@@ -202,6 +249,8 @@ bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, 
   get(new_scan);
   get(new_fix);
   transfer_rest(get, record);
+  record.path.points.clear();
+  if (version_ >= kVersionWithPaths) get_path(get, record.path);
   if (new_scan) get_scan(get, scan_);
   if (new_fix) get_fix(get, fix_);
   record.scan = scan_;

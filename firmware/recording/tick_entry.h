@@ -9,11 +9,15 @@
 
 namespace jaywalk {
 
-/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies; both are read as well.
-inline constexpr std::uint32_t kRecordingVersion = 4, kOldestVersion = 2;
+/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies, version 4 no paths; all are
+/// read as well.
+inline constexpr std::uint32_t kRecordingVersion = 5, kOldestVersion = 2;
+/// From this one on a recording holds the paths of its plans.
+inline constexpr std::uint32_t kVersionWithPaths = 5;
 
-/// Most bytes that an encoded record takes: every beam and every mover in use, and room for the rest.
-inline constexpr std::size_t kMaxEntryBytes = 4 * kMaxBeams + 40 * kMaxObservedMovers + 1024;
+/// Most bytes that an encoded record takes: every beam, mover and point of a path in use (the change of a step between
+/// places of 32 bits has 34), and room for the rest.
+inline constexpr std::size_t kMaxEntryBytes = 4 * kMaxBeams + 40 * kMaxObservedMovers + 10 * kMaxPathPoints + 1024;
 
 /// Turns records into bytes; remembers which scan and fix it wrote last. Never allocates or throws.
 class TickEncoder {

@@ -3,6 +3,7 @@
 // enough to live through the tick again.
 #include <cstdint>
 
+#include "firmware/recording/planned_path.h"
 #include "firmware/safety/reaction.h"
 #include "firmware/safety/verdict.h"
 #include "hal/types/laser_scan.h"
@@ -28,6 +29,7 @@ struct TickRecord {
   std::uint32_t plan_sequence = 0;  ///< which submission collect() answered with
   Time plan_stamp = kNever;
   PlanStatus plan_status = PlanStatus::kNone;
+  PlannedPath path;  ///< with the tick that a plan is new in
   Twist2 wanted;
   MeasuredLatency latency;  ///< measured in the ticks before, for the stop zone
   Verdict verdict;

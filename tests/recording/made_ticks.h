@@ -1,5 +1,6 @@
 #pragma once
 // Ticks whose every field differs from every other's, and a comparison of all their bits.
+#include <algorithm>
 #include <bit>
 #include <cstdint>
 #include <limits>
@@ -47,6 +48,15 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.plan_sequence = n + 2;
   r.plan_stamp = Time{Duration{15 + n}};
   r.plan_status = PlanStatus::kNoPath;
+  if (n % 4 == 1) {  // a bend of a byte, of two, of five, and back
+    r.path.stamp = Time{Duration{18 + n}};
+    for (const PointMm p : {PointMm{1000, -2000},
+                            {1100, -2000},
+                            {1200 + static_cast<std::int32_t>(n), -1990},
+                            {2'147'483'647, -2'147'483'647},
+                            {-2'147'483'647, 5}})
+      static_cast<void>(r.path.points.push_back(p));
+  }
   r.wanted = {x * 12, x * 13};
   r.took = Duration{17 + n};
   r.latency = {x * 20, x * 21};
@@ -77,6 +87,10 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   return same;
 }
 
+[[nodiscard]] inline bool same_path(const PlannedPath& a, const PlannedPath& b) {
+  return a.stamp == b.stamp && std::equal(a.points.begin(), a.points.end(), b.points.begin(), b.points.end());
+}
+
 [[nodiscard]] inline bool same_inputs(const TickRecord& a, const TickRecord& b) {
   return a.now == b.now && a.took == b.took && same_scan(a.scan, b.scan) && same_fix(a.fix, b.fix) &&
          a.wheels.stamp == b.wheels.stamp && a.wheels.sequence == b.wheels.sequence &&
@@ -95,11 +109,11 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   return same_inputs(a, b) && a.pose.stamp == b.pose.stamp && a.pose.map_from_robot == b.pose.map_from_robot &&
          a.pose.position_std_m == b.pose.position_std_m && a.pose.heading_std_rad == b.pose.heading_std_rad &&
          a.plan_asked == b.plan_asked && a.plan_sequence == b.plan_sequence && a.plan_stamp == b.plan_stamp &&
-         a.plan_status == b.plan_status && a.wanted == b.wanted && a.latency.tick_s == b.latency.tick_s &&
-         a.latency.drive_s == b.latency.drive_s && a.verdict.permitted == b.verdict.permitted &&
-         a.verdict.reasons == b.verdict.reasons && a.verdict.gap_m == b.verdict.gap_m &&
-         a.command.stamp == b.command.stamp && a.command.left_radps == b.command.left_radps &&
-         a.command.right_radps == b.command.right_radps;
+         a.plan_status == b.plan_status && same_path(a.path, b.path) && a.wanted == b.wanted &&
+         a.latency.tick_s == b.latency.tick_s && a.latency.drive_s == b.latency.drive_s &&
+         a.verdict.permitted == b.verdict.permitted && a.verdict.reasons == b.verdict.reasons &&
+         a.verdict.gap_m == b.verdict.gap_m && a.command.stamp == b.command.stamp &&
+         a.command.left_radps == b.command.left_radps && a.command.right_radps == b.command.right_radps;
 }
 
 }  // namespace jaywalk

@@ -63,13 +63,13 @@ TEST_CASE("numbers lie little endian in the file") {
 }
 
 TEST_CASE("a scan is written once, however many ticks see it") {
-  // Both ticks hold scan 1 of 5 beams and fix 1 without movers. The first entry has, beyond the
+  // Both ticks hold scan 1 of 5 beams and fix 1 without movers, and no path. The first entry has, beyond the
   // second: the scan (stamp 8, sequence 4, four floats 16, two durations 16, count 4, 5 ranges 20:
   // 68) and the fix (stamp 8, sequence 4, flag 1, pose 24, three deviations 24, count 4: 65).
   TickEncoder encoder;
   std::vector<unsigned char> bytes(kMaxEntryBytes);
   const std::size_t first = encoder.encode(*made(0), 0, bytes);
-  const std::size_t second = encoder.encode(*made(1), 0, bytes);
+  const std::size_t second = encoder.encode(*made(2), 0, bytes);
   CHECK(first - second == 68 + 65);
 }
 
@@ -77,6 +77,9 @@ TEST_CASE("the largest record that there can be fits an entry") {
   const auto record = made(0);
   record->scan.beam_count = kMaxBeams;
   while (record->fix.movers.push_back({})) {
+  }
+  record->path.stamp = Time{Duration{1}};
+  for (std::int32_t k = 1; record->path.points.push_back({2'147'483'647 * k, -2'147'483'647 * k}); k = -k) {
   }
   std::vector<unsigned char> bytes(kMaxEntryBytes);
   const std::size_t size = TickEncoder().encode(*record, 0, bytes);
@@ -87,11 +90,47 @@ TEST_CASE("the largest record that there can be fits an entry") {
   CHECK(same_bits(*read, *record));
 }
 
-TEST_CASE("a tick of version 2, which had neither heading at the goal nor stage of a stop nor latencies, comes back") {
+TEST_CASE("a path takes two bytes a point where it is smooth, and comes back in whole millimetres") {
+  // 100 mm a step along x; y bends by 1 mm a step. After the first two points each number is a byte.
+  Plan plan;
+  plan.stamp = Time{Duration{7}};
+  for (int k = 0; k < 200; ++k) static_cast<void>(plan.path.push_back({0.1 * k + 0.0004, 1e-3 * 0.5 * k * (k - 1)}));
+  const auto record = made(0);
   std::vector<unsigned char> bytes(kMaxEntryBytes);
-  bytes.resize(TickEncoder().encode(*made(5), 0, bytes));
-  // Behind the latencies' 24 bytes stand a scan of five beams, 44 + 4 + 5 * 4, and a fix with a mover, 61 + 4 + 28.
-  bytes.erase(bytes.end() - 161 - 24, bytes.end() - 161);
+  const std::size_t without = TickEncoder().encode(*record, 0, bytes);
+  keep_path(plan, record->path);
+  const std::size_t with = TickEncoder().encode(*record, 0, bytes);
+  CHECK(with - without == 8 + 2 * 200 + 1);  // the stamp; the first step of x, 100, takes two bytes
+  const auto read = std::make_unique<TickRecord>();
+  std::uint64_t lost = 0;
+  REQUIRE(TickDecoder().decode(std::span<const unsigned char>(bytes).first(with), *read, lost));
+  CHECK(same_path(read->path, record->path));
+  CHECK(read->path.points[3] == PointMm{300, 3});
+  CHECK(in_metres(read->path.points[3]).x == 0.3);
+}
+
+TEST_CASE("a point beyond what a millimetre of 32 bits can say is no path") {
+  const auto record = made(1);
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  bytes.resize(TickEncoder().encode(*record, 0, bytes));
+  const auto read = std::make_unique<TickRecord>();
+  std::uint64_t lost = 0;
+  REQUIRE(TickDecoder().decode(bytes, *read, lost));
+  // The last point's x, behind 270 bytes, the count and the stamp: the bend from 2,147,483,647 by two and a half times
+  // as much back. One more in its highest seven bits carries it beyond.
+  std::size_t at = 270 + 4 + 8;
+  for (int numbers = 8; numbers > 0; ++at) numbers -= bytes[at] < 0x80 ? 1 : 0;
+  while (bytes[at] >= 0x80) ++at;
+  bytes[at] = static_cast<unsigned char>(bytes[at] + 1);
+  CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
+}
+
+TEST_CASE("a tick of version 2, which had no heading at the goal, stage of a stop, latencies and paths, comes back") {
+  std::vector<unsigned char> bytes(kMaxEntryBytes);
+  bytes.resize(TickEncoder().encode(*made(6), 0, bytes));
+  // Behind the latencies' 24 bytes and a path's count stand a scan of five beams, 44 + 4 + 5 * 4, and a fix with a
+  // mover, 61 + 4 + 28.
+  bytes.erase(bytes.end() - 161 - 28, bytes.end() - 161);
   // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage 1,
   // ready 1, the input's stamp 8, flag 1, point 16 and tolerance 8: 98 bytes.
   bytes.erase(bytes.begin() + 98, bytes.begin() + 114);
@@ -100,7 +139,7 @@ TEST_CASE("a tick of version 2, which had neither heading at the goal nor stage 
   read->input.goal_heading_rad = 1.0;
   std::uint64_t lost = 0;
   REQUIRE(TickDecoder(2).decode(bytes, *read, lost));
-  const auto expected = made(5);
+  const auto expected = made(6);
   expected->input.goal_heading_rad = kAnyHeading;
   expected->input.goal_heading_tolerance_rad = 0.1;
   expected->wheels.stop = StopStage::kNone;

@@ -1,0 +1,52 @@
+#pragma once
+// The tick's step "Estimate": where the robot is, what stands around it and what moves.
+#include <utility>
+
+#include "firmware/control_setup.h"
+#include "firmware/recording/tick_record.h"
+#include "planner/localization/localizer.h"
+#include "planner/perception/tracker.h"
+
+namespace jaywalk {
+
+/// Localizer and tracker with the rules that feed them: the same in the control loop and where a recording is seen
+/// again without planning. Of a tick: update(), then with its plan's status forget_where_stuck(), at its end
+/// end_tick(). Only the constructor allocates. Thread: the loop's.
+class Estimator {
+ public:
+  explicit Estimator(const ControlSetup& setup);
+
+  /// From what the devices said in this tick. True with a new scan, which the tracks then rest on.
+  [[nodiscard]] bool update(const TickRecord& t) noexcept;
+  /// Where it has stood for ten seconds with a goal and no path to it: what is mapped out of sight may have gone. Looks
+  /// at the tick's input and at what became of its plan.
+  void forget_where_stuck(const TickRecord& t) noexcept;
+  /// The tick is judged and commanded.
+  void end_tick(const TickRecord& t) noexcept;
+
+  [[nodiscard]] const PoseEstimate& pose() const noexcept { return pose_; }
+  [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
+  /// Localizer's.
+  [[nodiscard]] Pose2 map_from_robot_at_scan() const noexcept { return localizer_.map_from_robot_at_scan(); }
+
+ private:
+  /// Tells a device's new reading from one seen before.
+  class Fresh {
+   public:
+    [[nodiscard]] bool is_new(std::uint32_t sequence) noexcept { return std::exchange(last_, sequence) != sequence; }
+
+   private:
+    std::uint32_t last_ = 0;
+  };
+
+  bool sees_given_movers_;  ///< mode paper: they come with the fix
+  Localizer localizer_;
+  Tracker tracker_;
+  PoseEstimate pose_;
+  Fresh scans_, fixes_;
+  bool scan_frozen_ = false;  ///< the supervisor said so of the tick before
+  bool stood_ = true;         ///< the wheels were commanded nothing in the tick before
+  Time had_way_ = kNever;     ///< or moved, had no goal, or looked anew for one, last
+};
+
+}  // namespace jaywalk
