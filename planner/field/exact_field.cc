@@ -72,18 +72,19 @@ class Network {
 
   /// Star to mesh: takes node k out, joins those it was joined to. What is left of k is the share that each has in it.
   void eliminate(std::size_t k) {
-    joined_.clear();
+    const std::size_t first = k > band_ ? k - band_ : 0;
     double sum = ground_[k];
-    for (std::size_t n = k > band_ ? k - band_ : 0; n < k; ++n) {
-      if (joint(k, n) > 0.0) joined_.push_back(n), sum += joint(k, n);
-    }
-    for (std::size_t b = 0; b < joined_.size(); ++b) {
-      const std::size_t n = joined_[b];
+    for (std::size_t n = first; n < k; ++n) sum += joint(k, n);
+    for (std::size_t n = first; n < k; ++n) {
+      if (joint(k, n) <= 0.0) continue;
       const double share = joint(k, n) / sum;
-      for (std::size_t a = 0; a < b; ++a) joint(n, joined_[a]) += share * joint(k, joined_[a]);
+      // Rows run from the nearest node to the farthest: side by side in memory, so that vectors take them.
+      double* const theirs = joint_.data() + n * band_;
+      const double* const own = joint_.data() + k * band_ + (k - n);
+      for (std::size_t a = 0; a < n - first; ++a) theirs[a] += share * own[a];
       ground_[n] += share * ground_[k];
     }
-    for (const std::size_t n : joined_) joint(k, n) /= sum;
+    for (std::size_t n = first; n < k; ++n) joint(k, n) /= sum;
   }
 
   /// psi of node k from those of the nodes before it.
@@ -106,7 +107,6 @@ class Network {
 
   std::size_t band_;
   std::vector<double> joint_, ground_;
-  std::vector<std::size_t> joined_;
 };
 
 }  // namespace
