@@ -6,6 +6,7 @@
 
 #include "firmware/backends.h"
 #include "firmware/commands/bench_command.h"
+#include "firmware/commands/campaign_command.h"
 #include "firmware/commands/choice_option.h"
 #include "firmware/commands/command_words.h"
 #include "firmware/commands/export_command.h"
@@ -15,12 +16,12 @@
 #include "firmware/commands/man_page.h"
 #include "firmware/commands/parse_message.h"
 #include "firmware/commands/replay_command.h"
+#include "firmware/commands/report_command.h"
 #include "firmware/commands/robot_commands.h"
 #include "firmware/commands/sim_command.h"
 #include "firmware/commands/standard_streams.h"
 #include "firmware/commands/view_option.h"
 #include "firmware/commands/why_command.h"
-#include "firmware/report/run_words.h"
 #include "hal/nearest_word.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
@@ -39,7 +40,8 @@ BenchOptions bench_options;
 FaultsOptions faults_options;
 ExportOptions export_options;
 WhyOptions why_options;
-std::filesystem::path report_folder;
+ReportOptions report_options;
+CampaignOptions campaign_options;
 
 /// The parser's own numbers stop at the greatest without a word.
 std::uint64_t seed_of(const std::string& word) {
@@ -175,8 +177,23 @@ void add_why(CLI::App& app) {
 }
 
 void add_report(CLI::App& app) {
-  CLI::App* command = app.add_subcommand("report", "A run in plain words: distance, stops and why, faults");
-  command->add_option("run", report_folder, "A run's folder")->required();
+  CLI::App* command = app.add_subcommand("report", "A run in plain words, or a campaign's tables, charts and failures");
+  command->add_option("folders", report_options.folders, "A run's folder, or those of a campaign's shards")->required();
+  command->add_option("--out", report_options.out, "Folder of a campaign's report (default: report in the first)");
+}
+
+void add_campaign(CLI::App& app) {
+  CLI::App* command = app.add_subcommand("campaign", "Many simulated runs, as one experiment that can be interrupted");
+  command->add_option("campaign", campaign_options.file, "Campaign file (TOML; docs/campaigns.md)")->required();
+  command->add_option("--jobs", campaign_options.jobs, "Runs at a time (default: all processors)")
+      ->check(CLI::Range(1, 4096));
+  command
+      ->add_option_function<std::string>(
+          "--shard", [](const std::string& word) { campaign_options.shard = shard_from(word); },
+          "The I-th of N shares of the runs alone")
+      ->type_name("I/N");
+  command->add_option("--out", campaign_options.out, "Folder for the runs; shares may have one in common")
+      ->capture_default_str();
 }
 
 /// The parser would only say that one is missing.
@@ -203,6 +220,7 @@ int run(int argc, char** argv) {
   add_faults(app);
   add_export(app);
   add_why(app);
+  add_campaign(app);
   add_report(app);
   int exit_code = 0;
   add_robot_commands(app, exit_code);
@@ -217,7 +235,8 @@ int run(int argc, char** argv) {
   }
   if (app.got_subcommand("bench")) return run_bench(bench_options);
   if (app.got_subcommand("faults")) return run_faults(faults_options);
-  if (app.got_subcommand("report")) return std::fputs(run_words(report_folder).c_str(), stdout), 0;
+  if (app.got_subcommand("campaign")) return run_campaign(campaign_options);
+  if (app.got_subcommand("report")) return run_report(report_options);
   if (app.got_subcommand("why")) return run_why(why_options);
   if (app.got_subcommand("export")) return run_export(export_options);
   if (app.got_subcommand("field")) return run_field(field_options);

@@ -125,6 +125,8 @@ std::string TomlTable::place_of(const std::string& key) const {
   return source.rfind(kGivenPlace, 0) == 0 ? source + ": " : place(*file_, line_of(where));
 }
 
+std::size_t TomlTable::line(const std::string& key) const { return line_of(table_->at(key).location()); }
+
 void TomlTable::refuse(const std::string& key, const std::string& cause, const std::string& remedy) const {
   throw StartupError(place_of(key) + title(key) + " " + cause, remedy);
 }

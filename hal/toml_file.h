@@ -12,6 +12,14 @@
 
 namespace jaywalk {
 
+/// A key of a table whose keys no table of keys has: those of another file.
+struct ListedKey {
+  std::string name;                 ///< "movers.count"
+  std::vector<std::string> values;  ///< one, or those of its list
+  std::string place;                ///< "FILE:LINE: "
+  std::size_t line = 0;
+};
+
 /// One table of a file. Each key is asked for by name; `finish` refuses the keys that nobody asked for. Ranges and
 /// defaults are those of the file's table of keys. The table belongs to a TomlFile that outlives it.
 class TomlTable {
@@ -45,6 +53,11 @@ class TomlTable {
   }
   /// Of `least` or `most` of them.
   [[nodiscard]] std::vector<double> numbers(const std::string& key, std::size_t least, std::size_t most);
+  /// One text, or a list of at least one.
+  [[nodiscard]] std::vector<std::string> texts(const std::string& key);
+  /// All that stands in the table under `key`, in the file's order: texts, numbers and truth values, or lists of them.
+  /// Nothing where there is no such table.
+  [[nodiscard]] std::vector<ListedKey> listed(const std::string& key);
   /// A place in the map: [x, y] or [x, y, heading], within 100 km and one turn to either side; of `least` to 3 numbers.
   [[nodiscard]] std::vector<double> place_in_map(const std::string& key, std::size_t least);
   /// A table that must be there.
@@ -70,6 +83,8 @@ class TomlTable {
   /// As `find`, but one that is needed must be there.
   const toml::value* find_unless_needed(const std::string& key);
   [[nodiscard]] std::string title(const std::string& key) const;
+  [[nodiscard]] std::size_t line(const std::string& key) const;
+  [[nodiscard]] std::vector<ListedKey> all_listed(const std::string& before) const;
   [[nodiscard]] double number_from(const std::string& key, const toml::value& node, Range range) const;
   [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node) const;
 

@@ -4,6 +4,7 @@
 #include <cstdio>
 #include <string>
 
+#include "firmware/campaign/campaign.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
@@ -58,7 +59,8 @@ constexpr const char* kHead =
     "and line.\n";
 
 int explain() {
-  const std::array<const FileKeys*, 3> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys()};
+  const std::array<const FileKeys*, 4> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys(),
+                                             &campaign::campaign_keys()};
   std::string page = options.markdown ? kHead : "";
   bool found = false;
   for (const FileKeys* file : files) {
@@ -82,7 +84,7 @@ int explain() {
 }  // namespace
 
 void add_config(CLI::App& app, int& exit_code) {
-  CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model and scenario files");
+  CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model, scenario and campaign files");
   config->add_flag("--explain", options.explain, "Print keys with meaning, range, unit and default")->required();
   config->add_option("key", options.key, "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
   config->add_flag("--markdown", options.markdown, "As the tables of docs/configuration.md");

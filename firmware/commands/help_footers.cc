@@ -13,7 +13,7 @@ struct Footer {
   const char* one;
 };
 
-constexpr std::array<Footer, 17> kFooters{{
+constexpr std::array<Footer, 18> kFooters{{
     {"sim", "jaywalk sim hal/sim/scenarios/crossing.toml --seed 2 --view",
      "the goal was reached, nobody touched or made to turn", "it was not"},
     {"replay", "jaywalk replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
@@ -21,7 +21,9 @@ constexpr std::array<Footer, 17> kFooters{{
     {"field", "jaywalk field hal/sim/maps/map1.yaml --goal 24,24", "the field is certified", "it is not"},
     {"export", "jaywalk export out/sim", "exported", "-"},
     {"why", "jaywalk why out/sim 12.5", "told", "-"},
-    {"report", "jaywalk report out/sim", "told", "-"},
+    {"campaign", "jaywalk campaign deploy/campaigns/first.toml --out out/first", "all runs are finished",
+     "it was stopped, or runs crashed or were refused"},
+    {"report", "jaywalk report out/sim", "told", "runs of the campaign are missing"},
     {"bench", "jaywalk bench --largest 256 --json rows.json", "measured", "-"},
     {"faults", "jaywalk faults --out out/faults", "every row is ok", "one is not"},
     {"run", "jaywalk run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},

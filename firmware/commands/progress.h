@@ -15,6 +15,8 @@ class Progress {
   Progress(const Progress&) = delete;
   Progress& operator=(const Progress&) = delete;
 
+  /// Whether there is a terminal: elsewhere lines may be printed in place of the bar.
+  [[nodiscard]] bool is_seen() const { return seen_; }
   /// Whether anybody sees it: what show() is to say need not be made otherwise.
   [[nodiscard]] bool is_due() const;
   /// `share`: of the whole, held to 0 to 1 (NaN: 0); `what`: a few words beside the bar.

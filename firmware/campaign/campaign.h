@@ -1,0 +1,75 @@
+#pragma once
+// Many runs as one experiment: what a campaign file says, and the runs that it comes to.
+#include <cstdint>
+#include <filesystem>
+#include <set>
+#include <string>
+#include <vector>
+
+#include "hal/setting_keys.h"
+#include "hal/types/geometry.h"
+
+namespace jaywalk::campaign {
+
+/// One thing that is varied: a key of the scenario ("movers.count"), or "mode".
+struct Axis {
+  std::string name;
+  std::vector<std::string> values;
+  std::string place;  ///< "paper.toml:12: "
+};
+
+/// Every scenario with every seed, for each combination of the axes' values.
+struct Experiment {
+  std::string name;                    ///< of its folder, too
+  std::string title;                   ///< for the report
+  std::vector<std::string> scenarios;  ///< as the file has them: relative to its folder
+  std::uint64_t first_seed = 1, last_seed = 1;
+  bool constant_speed = false;
+  std::vector<Axis> axes;  ///< the first changes slowest
+  std::string place;       ///< "paper.toml:3: "
+};
+
+/// What of a run's folder is kept: figures alone; those, and everything of runs that failed; everything.
+enum class Keep { kFigures, kFailures, kAll };
+
+struct Campaign {
+  std::filesystem::path file;
+  std::string name, title;
+  Keep keep = Keep::kFailures;
+  std::vector<Experiment> experiments;
+};
+
+/// Its keys (hal/setting_keys.h).
+[[nodiscard]] const FileKeys& campaign_keys();
+
+/// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong with the file itself; plan_of judges what it
+/// says about scenarios.
+[[nodiscard]] Campaign load_campaign(const std::filesystem::path& file);
+
+/// One run of a campaign.
+struct PlannedRun {
+  std::string experiment;
+  std::string row;  ///< the values of the axes that vary, in words: "movers.count 16, mode paper"; else "all"
+  std::vector<std::string> values;  ///< of the experiment's axes
+  std::string scenario;             ///< the file's name without its end
+  std::uint64_t seed = 0;
+  std::string folder;                  ///< below the campaign's: "movers/movers.count=16/map1_16/101"
+  std::vector<std::string> arguments;  ///< of jaywalk in the campaign file's folder, without --out
+  Vec2 goal;                           ///< in the map, m
+  double cruise_mps = 0.0;             ///< the robot's greatest speed
+};
+
+struct Plan {
+  std::vector<PlannedRun> runs;
+  std::set<std::filesystem::path> inputs;  ///< scenarios, maps, recordings of movers
+};
+
+/// All runs in their fixed order: experiments as the file has them, then axes, then scenarios, then seeds. Each
+/// scenario is read with each combination of settings: throws StartupError, with the campaign file's place, for one
+/// that is refused, and where two runs would have the same folder.
+[[nodiscard]] Plan plan_of(const Campaign& campaign);
+
+/// "jaywalk sim ... --out DIR": what repeats a run, in the campaign file's folder.
+[[nodiscard]] std::string command_of(const PlannedRun& run);
+
+}  // namespace jaywalk::campaign

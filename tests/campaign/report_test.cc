@@ -1,0 +1,129 @@
+#include "firmware/campaign/report.h"
+
+#include "firmware/campaign/campaign_folder.h"
+#include "firmware/campaign/charts.h"
+#include "tests/campaign/made_campaigns.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk::campaign;
+
+namespace {
+
+Plan two_runs() {
+  Plan plan;
+  for (const std::uint64_t seed : {1U, 2U}) {
+    PlannedRun run;
+    run.experiment = "a";
+    run.row = "movers.count 4";
+    run.values = {"4"};
+    run.scenario = "room";
+    run.seed = seed;
+    run.folder = "a/movers.count=4/room/" + std::to_string(seed);
+    run.arguments = {"sim", "room.toml", "--seed", std::to_string(seed)};
+    run.cruise_mps = 0.5;
+    plan.runs.push_back(run);
+  }
+  return plan;
+}
+
+Campaign campaign() {
+  Campaign made;
+  made.title = "Made <up>";
+  Experiment experiment;
+  experiment.name = "a";
+  experiment.title = "A";
+  experiment.axes = {{"movers.count", {"4"}, ""}};
+  made.experiments.push_back(experiment);
+  return made;
+}
+
+RunResult result(const std::string& outcome) {
+  RunResult made;
+  made.outcome = outcome;
+  made.success = outcome == "reached";
+  made.reason = made.success ? "" : "mover 1 | had to turn";
+  made.at_s = 2.5;
+  made.figures = {{"path_length_m", 12.0}, {"static_shortest_path_m", 10.0}, {"duration_s", 25.0}, {"contacts", 0.0}};
+  made.turns[0] = 3, made.turns[17] = 1;
+  return made;
+}
+
+std::string text() { return plan_text(campaign(), two_runs(), "no such program"); }
+
+void finish(const CampaignFolder& folder, const PlannedRun& run, const std::string& outcome) {
+  std::filesystem::create_directories(folder.begin(run));
+  folder.finish(run, result(outcome), Keep::kFailures);
+}
+
+}  // namespace
+
+TEST_CASE("shards in folders of their own come to the report of one") {
+  const CampaignScratch scratch;
+  const Plan plan = two_runs();
+  {
+    const CampaignFolder one(scratch.path() / "one", text(), {1, 1});
+    const CampaignFolder first(scratch.path() / "s1", text(), {1, 2}), second(scratch.path() / "s2", text(), {2, 2});
+    finish(one, plan.runs[0], "reached"), finish(one, plan.runs[1], "forced_mover");
+    finish(first, plan.runs[0], "reached"), finish(second, plan.runs[1], "forced_mover");
+  }
+  const CampaignReport whole({scratch.path() / "one"}), merged({scratch.path() / "s2", scratch.path() / "s1"});
+  CHECK(whole.missing() == 0);
+  CHECK(html_of(whole.page()) == html_of(merged.page()));
+  CHECK(markdown_of(whole.page()) == markdown_of(merged.page()));
+  const std::string page = markdown_of(whole.page());
+  CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 0 |"));
+  CHECK(holds(page, "1.20 / 1.20 / 1.20 | 5.0 / 5.0 / 5.0"));  // 12 m over 10 m; 25 s less 10 m at 0.5 m/s
+  CHECK(holds(page, "| movers.count 4 | 75.00 | 0.00 | 0.00 | 0.00 | 0.00 | 25.00 |"));
+  CHECK(holds(page,
+              "1. a/movers.count=4/room/2: forced_mover at 2.50 s: mover 1 | had to turn\n   `jaywalk sim room.toml "
+              "--seed 2 --out "));
+  CHECK(holds(html_of(whole.page()), "Made &lt;up&gt;"));
+}
+
+TEST_CASE("a report says what is missing, and does not mix campaigns") {
+  const CampaignScratch scratch;
+  const Plan plan = two_runs();
+  { finish(CampaignFolder(scratch.path() / "one", text(), {1, 1}), plan.runs[0], "reached"); }
+  const CampaignReport report({scratch.path() / "one"});
+  CHECK(report.missing() == 1);
+  CHECK(holds(markdown_of(report.page()), "1 runs are missing"));
+  { const CampaignFolder other(scratch.path() / "two", text() + " ", {1, 1}); }
+  CHECK(holds(refusal_of([&] {
+                CampaignReport({scratch.path() / "one", scratch.path() / "two"});
+              }),
+              "holds another campaign"));
+  CHECK(holds(refusal_of([&] { CampaignReport({scratch.path()}); }), "holds no campaign"));
+  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.path() / "two", text(), {1, 1}); }), "holds another campaign"));
+}
+
+TEST_CASE("one share is one process's, and what it left half done is none") {
+  const CampaignScratch scratch;
+  const PlannedRun run = two_runs().runs[0];
+  const CampaignFolder folder(scratch.path(), text(), {1, 2});
+  CHECK(holds(refusal_of([&] { CampaignFolder(scratch.path(), text(), {1, 2}); }), "another process runs its share"));
+  scratch.write("runs/" + run.folder + ".part-1-of-2/run.json", "half");
+  CHECK_FALSE(folder.is_finished(run));
+  CHECK(std::filesystem::is_empty(folder.begin(run)));
+  folder.finish(run, result("reached"), Keep::kAll);
+  CHECK(folder.is_finished(run));
+  CHECK_FALSE(std::filesystem::exists(folder.work(run)));
+}
+
+TEST_CASE("a successful run keeps its figures, a failed one everything") {
+  const CampaignScratch scratch;
+  const Plan plan = two_runs();
+  const CampaignFolder folder(scratch.path(), text(), {1, 1});
+  for (const PlannedRun& run : plan.runs) std::ofstream(folder.begin(run) / "recording.jwr") << "long";
+  folder.finish(plan.runs[0], result("reached"), Keep::kFailures);
+  folder.finish(plan.runs[1], result("timeout"), Keep::kFailures);
+  CHECK_FALSE(std::filesystem::exists(place_of(scratch.path(), plan.runs[0]) / "recording.jwr"));
+  CHECK(std::filesystem::exists(place_of(scratch.path(), plan.runs[1]) / "recording.jwr"));
+}
+
+TEST_CASE("charts hold the lines and the paper's points") {
+  const std::string svg = success_chart({{"ours <1>", {{1.0, 1.0, {0.9, 1.0}}, {16.0, 0.5, {0.4, 0.6}}}}});
+  CHECK(holds(svg, "ours &lt;1>"));
+  std::size_t circles = 0;
+  for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
+  CHECK(circles == 2 + 6);
+}
