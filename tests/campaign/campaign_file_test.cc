@@ -81,4 +81,5 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   CHECK(plan_of(load_campaign(folder + "/first.toml")).runs.size() == 2);
   // four maps, ten seeds: 8 counts of movers in four rows, 9 in one, 7 on legs
   CHECK(plan_of(load_campaign(folder + "/paper.toml")).runs.size() == 40 * (4 * 8 + 9 + 7));
+  CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 4 * 10 * 3);
 }
