@@ -51,9 +51,9 @@ void simulated_frames(const std::filesystem::path& folder, const RunFolder& run,
     last = tick.scan.sequence;
     const double t_s = to_seconds(tick.scan.stamp);
     const std::optional<Pose2> robot = run.truth_at(t_s);
-    auto at = movers.lower_bound(t_s - 1e-6);
-    if (!robot || at == movers.end()) continue;
-    std::vector<Target> targets = at->second;
+    auto at = movers.upper_bound(t_s + 1e-6);  // a scan sees movers where they came to by then
+    if (!robot || at == movers.begin()) continue;
+    std::vector<Target> targets = std::prev(at)->second;
     const Transform2 map_from_laser(*robot * robot_from_laser);
     for (Target& target : targets) {
       target.in_view = distance(target.position_in_map, robot->position()) < rule.range_m &&

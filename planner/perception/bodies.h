@@ -15,9 +15,13 @@ struct Body {
   Track as_seen;  ///< the same when it was seen last
   MotionModels models;
   RecentPath path;
-  double noise = 1.0;          ///< variance of where it is seen, in units of what its kind of observation should have
-  double arc_m = 0.0;          ///< running mean of half its width where it was seen whole; 0: never, or only its legs
-  double legs_share = 0.0;     ///< running mean: how many of the sights showed two legs apart
+  double noise = 1.0;       ///< variance of where it is seen, in units of what its kind of observation should have
+  double arc_m = 0.0;       ///< running mean of half its width where it was seen whole; 0: never, or only its legs
+  double legs_share = 0.0;  ///< running mean: how many of the sights showed two legs apart
+  /// How far its middle may be from where it is seen, m an axis, scan after scan: its width is known to half a beam's
+  /// spacing, or not at all. A filter of places follows what is seen and cannot tell; it is added to what is published,
+  /// as a bias that is considered and not estimated (Schmidt 1966).
+  double off_std_m = 0.0;
   double late_s = 0.0;         ///< when it was seen last, after that scan's stamp
   bool whole = false;          ///< when it was seen last, nothing hid either side of it
   int hidden_side = 0;         ///< Cluster::hidden_side then

@@ -4,6 +4,9 @@
 #include <cmath>
 #include <cstddef>
 
+#include "hal/types/trig.h"
+#include "planner/perception/visible_arc.h"
+
 namespace jaywalk {
 namespace {
 
@@ -25,8 +28,16 @@ Outline outline_of(const Segment& segment, const PointsInMap& in_map) {
   return outline;
 }
 
-/// Mean of the segment's points, moved back along the beam by what the visible arc stands before its centre.
-Cluster cluster_of(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map, Vec2 laser) {
+/// The angle from `middle`, a unit vector, to an end of the segment, rad: it lies half a step beyond its last beam, on
+/// average.
+double angle_to(Vec2 end_from_laser, Vec2 middle, const Sweep& sweep) {
+  return std::fabs(atan2(cross(middle, end_from_laser), dot(middle, end_from_laser))) +
+         0.5 * std::fabs(sweep.angle_step_rad);
+}
+
+/// The disc whose visible arc the segment's points are.
+Cluster cluster_of(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map, const Sweep& sweep,
+                   Vec2 laser) {
   Vec2 sum;
   for (std::uint32_t k = segment.first; k <= segment.last; ++k) sum = sum + in_map.position[k];
   const Vec2 mean = sum * (1.0 / (segment.last - segment.first + 1));
@@ -35,18 +46,24 @@ Cluster cluster_of(const Segment& segment, const ScanPoints& points, const Point
   const double across = cross(along, in_map.position[segment.last] - in_map.position[segment.first]);
   const double width = std::fabs(across);
   const double spacing = width / std::max(1U, segment.last - segment.first);  // the arc's ends lie between beams
-  const double radius = 0.5 * (width + spacing);
+  const double low = angle_to(in_map.position[segment.first] - laser, along, sweep);
+  const double high = angle_to(in_map.position[segment.last] - laser, along, sweep);
+  const SeenDisc disc = seen_disc(range, low + high);
   const Vec2 chord_middle = (in_map.position[segment.first] + in_map.position[segment.last]) * 0.5;
   return {.segment = segment,
-          .centre_in_map = mean + along * (kArcMean * radius),
-          .radius_m = radius,
+          .centre_in_map = mean + along * (disc.range_m - range),
+          .radius_m = std::max(disc.radius_m, 0.5 * (width + spacing)),
+          .mean_in_map = mean,
+          .mean_range_m = range,
+          .low_rad = low,
+          .high_rad = high,
           .range_m = points[segment.first].range_m,
           .spacing_m = spacing,
           .sparse = segment.last - segment.first + 1 < kFewestPoints,
           .outline_in_map = outline_of(segment, in_map),
           .along = along,
           .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0),
-          .bulges = dot(chord_middle - mean, along) > kBulge * radius};
+          .bulges = dot(chord_middle - mean, along) > kBulge * disc.radius_m};
 }
 
 struct GroundShares {
@@ -149,7 +166,7 @@ void find_clusters(const ScanPoints& points, const PointsInMap& in_map, const Se
   for (std::size_t s = 0; s < segments.size(); ++s) {
     if (!body_sized(pieces, s)) continue;
     const GroundShares shares = shares_of(segments[s], in_map);
-    Cluster cluster = cluster_of(segments[s], points, in_map, laser);
+    Cluster cluster = cluster_of(segments[s], points, in_map, sweep, laser);
     cluster.on_wall = shares.wall > kMostWall;
     cluster.in_free_space = shares.free > kMostFree;
     note_ends(points, sweep, cluster);

@@ -24,14 +24,17 @@ enum class End : std::uint8_t {
 /// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.
 struct Cluster {
   Segment segment;
-  BeamRun beams{};          ///< that end on it, and those between
-  Vec2 centre_in_map;       ///< of the body: behind the visible arc
-  double radius_m = 0.0;    ///< half of the visible width
-  double range_m = 0.0;     ///< from the laser
-  double spacing_m = 0.0;   ///< from beam to beam, across them
-  double late_s = 0.0;      ///< when they were measured, after the scan's stamp: their mean
-  double late_std_s = 0.0;  ///< and standard deviation: half a sweep where they are its first and its last
-  bool sparse = false;      ///< two points, far off: a leg at most, and by itself nothing new
+  BeamRun beams{};                       ///< that end on it, and those between
+  Vec2 centre_in_map;                    ///< of the body: behind the visible arc
+  double radius_m = 0.0;                 ///< of the disc that is seen as wide
+  Vec2 mean_in_map;                      ///< of its points
+  double mean_range_m = 0.0;             ///< of that, from the laser
+  double low_rad = 0.0, high_rad = 0.0;  ///< from there to its sides, as the laser sees it
+  double range_m = 0.0;                  ///< from the laser
+  double spacing_m = 0.0;                ///< from beam to beam, across them
+  double late_s = 0.0;                   ///< when they were measured, after the scan's stamp: their mean
+  double late_std_s = 0.0;               ///< and standard deviation: half a sweep where they are its first and its last
+  bool sparse = false;                   ///< two points, far off: a leg at most, and by itself nothing new
   Outline outline_in_map;
   Vec2 along;                                             ///< unit vector of the beams, away from the laser
   Vec2 high_side;                                         ///< unit vector across the beams, from the first to the last

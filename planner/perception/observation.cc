@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "hal/types/trig.h"
+#include "planner/perception/visible_arc.h"
 
 namespace jaywalk {
 namespace {
@@ -22,14 +23,23 @@ constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
 // Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together
 // (docs/tracking-findings.md, "What is hidden of a body").
 constexpr double kHiddenStdPerM = 0.05;
-constexpr double kLeastShare = 1e-3;  // of a body's width that is seen: beams may be all one
+// Of a middle by both sides, each of which lies anywhere within half a step beyond its last beam: two of step^2 / 12,
+// halved twice.
+constexpr double kSidesVarPerSpacing2 = 1.0 / 24.0;
+constexpr double kRadiusStdM = 0.126;  // of a radius anywhere from 0.1 to 0.5 m about a person's
 
-/// Of a half circle of radius 1 that is seen from one side up to `share` of its width: how far its mean lies before
-/// its centre. With the angle a that is seen, (a - sin a cos a) / (2 (1 - cos a)); all of it, kArcMean.
-double arc_mean(double share) {
-  share = std::clamp(share, kLeastShare, 1.0);
-  const double c = 1.0 - 2.0 * share, s = std::sqrt(std::max(0.0, 1.0 - c * c));
-  return (atan2(s, c) - s * c) / (4.0 * share);
+double off_std_m(const Cluster& c, double arc_m) {
+  const double radius_std = c.whole() || arc_m > 0.0 ? 0.0 : kRadiusStdM;
+  return std::sqrt(kSidesVarPerSpacing2 * c.spacing_m * c.spacing_m + radius_std * radius_std);
+}
+
+/// The middle of a disc of `arc_m` one side of which is hidden, by the side that is seen.
+Vec2 middle_by_a_side(const Cluster& c, double arc_m) {
+  const double mean_bearing = c.hidden_side() > 0 ? c.low_rad : c.high_rad;
+  const SeenDisc disc = seen_side(arc_m, c.low_rad + c.high_rad, c.mean_range_m, mean_bearing);
+  const Vec2 laser = c.mean_in_map - c.along * c.mean_range_m;
+  const double aside = disc.bearing_rad - mean_bearing;
+  return laser + (c.along * cos(aside) + c.high_side * (c.hidden_side() * sin(aside))) * disc.range_m;
 }
 
 /// Moves what was taken for the middle of the cluster to the middle of its body, which is `arc_m` from the side that is
@@ -39,8 +49,7 @@ void be_told_by_a_side(const Cluster& c, double arc_m, Observation& seen) {
   const double hidden = arc_m - c.radius_m;
   seen.std_m += (c.hidden_side() == 0 ? 1.0 : kHiddenStdPerM) * std::max(0.0, hidden);
   if (c.hidden_side() == 0) return;
-  const double deeper = arc_m * arc_mean(c.radius_m / arc_m) - c.radius_m * kArcMean;
-  seen.position_in_map = seen.position_in_map + c.high_side * (c.hidden_side() * hidden) + c.along * deeper;
+  seen.position_in_map = middle_by_a_side(c, arc_m);
   if (hidden < 0.0) seen.radius_m = std::min(seen.radius_m - hidden, kMostRadiusM);  // what is seen reaches so far
 }
 
@@ -69,6 +78,7 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .late_s = c.late_s,
                    .late_std_s = c.late_std_s,
                    .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
+                   .off_std_m = off_std_m(c, arc_m),
                    .radius_m = std::clamp(half_m, kLeastRadiusM, kMostRadiusM),
                    .in_free_space = c.in_free_space,
                    .outline_in_map = c.outline_in_map,

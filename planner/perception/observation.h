@@ -9,6 +9,7 @@ struct Observation {
   Vec2 position_in_map;
   double late_s = 0.0, late_std_s = 0.0;  ///< Cluster's: when it was there
   double std_m = 0.0;                     ///< an axis, as expected of its kind; Body::noise tells what comes of it
+  double off_std_m = 0.0;                 ///< besides, an axis: Body's
   double radius_m = 0.0;
   bool in_free_space = false;
   Outline outline_in_map;  ///< of the nearest cluster

@@ -51,6 +51,7 @@ void correct_track(Body& body, const Observation& seen) {
 void note_sight(Body& body, const Observation& seen) noexcept {
   body.outline_in_map = seen.outline_in_map;
   body.beams = seen.beams;
+  body.off_std_m = seen.off_std_m;
   body.late_s = seen.late_s;
   body.whole = seen.whole;
   body.hidden_side = seen.hidden_side;

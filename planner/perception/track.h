@@ -23,14 +23,14 @@ struct AxisCovariance {
 
 /// Something that may move, as the controller believes it to be at `stamp`.
 struct Track {
-  std::uint32_t id = 0;  ///< from 1, never reused in a run
-  Time stamp = kNever;   ///< when position and velocity hold
-  Vec2 position_in_map;  ///< m, of the body's centre
-  Vec2 velocity_in_map;  ///< m/s
-  AxisCovariance covariance;
-  double radius_m = 0.0;   ///< of the body
-  bool moving = false;     ///< moving beyond reasonable doubt
-  std::uint32_t hits = 0;  ///< scans that saw it
+  std::uint32_t id = 0;       ///< from 1, never reused in a run
+  Time stamp = kNever;        ///< when position and velocity hold
+  Vec2 position_in_map;       ///< m, of the body's centre
+  Vec2 velocity_in_map;       ///< m/s
+  AxisCovariance covariance;  ///< of a published track honest: its middle lies within, whatever its radius
+  double radius_m = 0.0;      ///< of the body
+  bool moving = false;        ///< moving beyond reasonable doubt
+  std::uint32_t hits = 0;     ///< scans that saw it
   Time last_seen = kNever;
   /// The last innovation, squared and over its variance: how far from where it was expected the last scan saw it.
   /// Chi-squared with two degrees of freedom, 2 on average, where the covariance is honest.

@@ -160,8 +160,10 @@ void Tracker::State::publish() noexcept {
   moving.clear();
   for (const Body& body : bodies) {
     if (!body.confirmed()) continue;
-    (void)tracks.push_back(body.track);  // as many places as bodies
-    if (body.track.moving) (void)moving.push_back(body.track);
+    Track track = body.track;
+    track.covariance.pp += body.off_std_m * body.off_std_m;
+    (void)tracks.push_back(track);  // as many places as bodies
+    if (track.moving) (void)moving.push_back(track);
   }
 }
 

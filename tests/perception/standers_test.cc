@@ -63,7 +63,7 @@ TEST_CASE("who is hidden where he stood stands for eight seconds yet, and no lon
   for (int scan = 0; scan < 15; ++scan) watch.see(with_legs(kPlace));
   REQUIRE(watch.tracker.standing().size() == 1);
   Room screened = with_legs(kPlace);
-  screened.walls.push_back({{2.0, 0.3}, {2.0, 1.2}});
+  screened.walls.push_back({{1.8, 0.3}, {1.8, 1.2}});
   for (int scan = 0; scan < 15 * 15 / 2; ++scan) watch.see(screened);
   REQUIRE(watch.tracker.standing().size() == 1);
   CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
