@@ -13,7 +13,7 @@ struct Footer {
   const char* one;
 };
 
-constexpr std::array<Footer, 18> kFooters{{
+constexpr std::array<Footer, 19> kFooters{{
     {"sim", "jaywalk sim hal/sim/scenarios/crossing.toml --seed 2 --view",
      "the goal was reached, nobody touched or made to turn", "it was not"},
     {"replay", "jaywalk replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
@@ -29,6 +29,7 @@ constexpr std::array<Footer, 18> kFooters{{
     {"run", "jaywalk run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},
     {"check", "jaywalk check deploy/config/wheelchair.toml", "all is well", "something is not"},
     {"commission", "jaywalk commission deploy/config/wheelchair.toml", "wired as the file says", "not so"},
+    {"calibrate", "jaywalk calibrate out/sim", "calibrated", "the drive tells too little"},
     {"setup", "jaywalk setup --answers answers.toml --out robot.toml", "written, and check finds all well",
      "written, and something is not well"},
     {"config", "jaywalk config --explain laser.rate_hz", "explained", "-"},

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/commands/calibrate_command.h"
 #include "firmware/commands/choice_option.h"
 #include "firmware/commands/commission_command.h"
 #include "firmware/commands/config_command.h"
@@ -22,7 +23,7 @@ namespace jaywalk {
 namespace {
 
 RunOptions run_options;
-CommissionOptions commission_options;
+SessionOptions commission_options;
 std::filesystem::path socket_path;
 std::vector<std::string> goal;
 bool now = false, as_json = false;
@@ -103,6 +104,7 @@ void add_robot_commands(CLI::App& app, int& exit_code) {
   add_run(app, exit_code);
   add_check(app, exit_code);
   add_commission(app, exit_code);
+  add_calibrate(app, exit_code);
   add_setup(app, exit_code);
   add_config(app, exit_code);
   CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");

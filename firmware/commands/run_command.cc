@@ -198,7 +198,7 @@ int run_robot(RunOptions options) {
                  .missed_ticks = last.missed_ticks,
                  .loop_times = &loop.times(),
                  .scenario = options.robot.filename().string()});
-  write_devices(options.out, last, not_permitted);
+  write_devices(options.out, file.drive, last, not_permitted);
   RunPicture picture;
   picture.consider(runner);
   const std::filesystem::path drawn =

@@ -10,9 +10,10 @@ namespace {
 
 constexpr Duration kEncoderPeriod = std::chrono::milliseconds(10);
 
-/// Mounted and shaped as the controller believes, as noisy as the scenario says.
+/// Shaped as the controller believes, and mounted so where the scenario has no truth about it; as noisy as that says.
 LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring) {
   LaserModel laser = wiring.setup.model.laser;
+  laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
   laser.noise_m = scenario.model.laser.noise_m;
   return laser;
 }

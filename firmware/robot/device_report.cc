@@ -30,7 +30,7 @@ std::string in_short(const std::vector<std::string>& proof) {
   return open == 0 ? proved : proved + ", " + std::to_string(open) + " NOT PROVED";
 }
 
-void write_devices(const std::filesystem::path& folder, const RunStatus& last,
+void write_devices(const std::filesystem::path& folder, const DriveWiring& drive, const RunStatus& last,
                    const std::vector<std::string>& not_permitted) {
   nlohmann::ordered_json json;
   json["bus"] = {{"state", name(last.bus.state)},
@@ -51,6 +51,7 @@ void write_devices(const std::filesystem::path& folder, const RunStatus& last,
   json["ticks"] = last.ticks;
   json["missed_ticks"] = last.missed_ticks;
   json["stalls"] = last.stalls;
+  json["wheel_radii_m"] = drive.wheel_radii_m;
   json["not_permitted"] = not_permitted;
   write(folder / "devices.json", json.dump(2) + '\n');
 }

@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "firmware/robot/drive_wiring.h"
 #include "firmware/robot/run_status.h"
 
 namespace jaywalk {
@@ -14,8 +15,9 @@ void write_arming(const std::filesystem::path& folder, const std::vector<std::st
 /// "66 settings proved", "64 settings proved, 2 NOT PROVED".
 [[nodiscard]] std::string in_short(const std::vector<std::string>& proof);
 
-/// devices.json: frames, scans, ticks that were lost or bad, and what the kernel did not permit. Throws likewise.
-void write_devices(const std::filesystem::path& folder, const RunStatus& last,
+/// devices.json: wheel radii as the drives' scales have them, frames, scans, ticks that were lost or bad, and what the
+/// kernel did not permit. Throws likewise.
+void write_devices(const std::filesystem::path& folder, const DriveWiring& drive, const RunStatus& last,
                    const std::vector<std::string>& not_permitted);
 
 }  // namespace jaywalk

@@ -32,11 +32,21 @@ std::uint32_t ramp(double mps2, const DriveModel& model, double counts_per_rad) 
   return static_cast<std::uint32_t>(std::fmin(mps2 / model.wheel_radius_m * counts_per_rad + 0.5, kMost));
 }
 
-/// What a radian of a wheel is in the drive's own unit, `key` of them a turn; negative for a motor that is reversed.
-std::array<double, 2> read_scales(TomlTable& table, const std::string& key) {
+/// Left, right; the model's where the file has none.
+std::array<double, 2> read_radii(TomlTable& table, const DriveModel& model) {
+  return {table.number("left_wheel_radius_m", model.wheel_radius_m),
+          table.number("right_wheel_radius_m", model.wheel_radius_m)};
+}
+
+/// What a radian of a wheel as large as the model's is in the drive's own unit, `key` of them a turn; negative for a
+/// motor that is reversed. A larger wheel turns less for the same way.
+std::array<double, 2> read_scales(TomlTable& table, const std::string& key, const DriveModel& model) {
   const double per_rad = table.number(key) / (2.0 * kPi);
-  const bool left = table.boolean("left_reversed"), right = table.boolean("right_reversed");
-  return {left ? -per_rad : per_rad, right ? -per_rad : per_rad};
+  std::array<double, 2> scales = read_radii(table, model);
+  for (double& scale : scales) scale = per_rad * model.wheel_radius_m / scale;
+  if (table.boolean("left_reversed")) scales[0] = -scales[0];
+  if (table.boolean("right_reversed")) scales[1] = -scales[1];
+  return scales;
 }
 
 /// What every stop is held against: the model's braking, at the wheels.
@@ -69,7 +79,7 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.stop = stop;
   base.allow_unproved = table.boolean("allow_unproved");
-  const auto scales = read_scales(table, "counts_per_wheel_turn");
+  const auto scales = read_scales(table, "counts_per_wheel_turn", model.drive);
   const auto nodes = read_nodes(table);
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
@@ -81,8 +91,8 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
 
 /// Two motor controllers, one a wheel.
 template <typename Base>
-void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop, Base& base) {
-  const auto scales = read_scales(table, key);
+void read_axes(TomlTable& table, const std::string& key, const DriveModel& model, const StopLimits& stop, Base& base) {
+  const auto scales = read_scales(table, key, model);
   const auto nodes = read_nodes(table);
   for (std::size_t k = 0; k < nodes.size(); ++k) base.axes[k] = {nodes[k], scales[k]};
   base.allow_unproved = table.boolean("allow_unproved");
@@ -91,13 +101,15 @@ void read_axes(TomlTable& table, const std::string& key, const StopLimits& stop,
 
 }  // namespace
 
-DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) {
+DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   DriveWiring wiring;
   const StopLimits stop = stop_limits_of(model, tick);
   wiring.kind = static_cast<DriveKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
   wiring.can = table.text("can");
   if (wiring.can.empty() || wiring.can.size() >= kMostLetters || wiring.can.find_first_of("/ ") != std::string::npos)
     table.refuse("can", "is no interface's name", "give the one that ip link shows, at most 15 letters");
+  model.drive.track_width_m = table.number("track_width_m", model.drive.track_width_m);
+  wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
     case DriveKind::kCia402:
       wiring.cia402 = read_cia402(table, model, tick, stop);
@@ -105,12 +117,12 @@ DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick) 
     case DriveKind::kOdrive:
       require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
       wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);
-      read_axes(table, "motor_turns_per_wheel_turn", stop, wiring.odrive);
+      read_axes(table, "motor_turns_per_wheel_turn", model.drive, stop, wiring.odrive);
       break;
     case DriveKind::kVesc:
       require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
       wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
-      read_axes(table, "electrical_turns_per_wheel_turn", stop, wiring.vesc);
+      read_axes(table, "electrical_turns_per_wheel_turn", model.drive, stop, wiring.vesc);
       break;
   }
   table.finish();

@@ -1,5 +1,6 @@
 #pragma once
 // [drive] of ROBOT.toml: which drives turn the wheels, and on which bus.
+#include <array>
 #include <string>
 
 #include "drivers/canopen/drive_base.h"
@@ -15,13 +16,16 @@ enum class DriveKind { kCia402, kOdrive, kVesc };
 struct DriveWiring {
   DriveKind kind = DriveKind::kCia402;
   std::string can;  ///< interface
+  /// Left, right (m). The drives' scales hold what differs from the model's radius: to all else both wheels have that.
+  std::array<double, 2> wheel_radii_m{};
   canopen::DriveBaseSetup cia402;
   odrive::BaseSetup odrive;
   vesc::BaseSetup vesc;
 };
 
-/// Reads the table to its end. Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
-/// `tick`: the loop's period, two of which every drive's timeout outlasts, or one late tick would trip it.
-[[nodiscard]] DriveWiring read_drive(TomlTable table, const RobotModel& model, Duration tick);
+/// Reads the table to its end; a track width of its own goes into the model. Throws StartupError "FILE:LINE: cause;
+/// remedy" for anything wrong or unknown. `tick`: the loop's period, two of which every drive's timeout outlasts, or
+/// one late tick would trip it.
+[[nodiscard]] DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick);
 
 }  // namespace jaywalk

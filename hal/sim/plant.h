@@ -35,7 +35,8 @@ struct Miswiring {
 /// that count whole ticks of the wheels' turning. Equations in plant.cc.
 class Plant {
  public:
-  Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip = {});
+  Plant(const RobotModel& model, const Pose2& start, std::uint64_t seed, const SlipSpec& slip = {},
+        const TrueRobot& truth = {});
 
   /// A command that is not finite is no command.
   void command(const WheelCommand& command, Time now) noexcept;
@@ -54,7 +55,9 @@ class Plant {
   [[nodiscard]] const Pose2& map_from_robot() const noexcept { return map_from_robot_; }
   [[nodiscard]] const Twist2& twist() const noexcept { return twist_; }
   /// Mean speed (m/s) at the wheels' rims: forward speed without slip.
-  [[nodiscard]] double rim_speed() const noexcept { return 0.5 * radius_m_ * (left_.speed + right_.speed); }
+  [[nodiscard]] double rim_speed() const noexcept {
+    return 0.5 * (left_radius_m_ * left_.speed + right_radius_m_ * right_.speed);
+  }
 
  private:
   struct Wheel {
@@ -66,7 +69,7 @@ class Plant {
   /// Turns the wheel for one step and returns the angle (rad).
   double turn(Wheel& wheel, double step_s, bool alive) const noexcept;
 
-  double radius_m_, track_m_, max_speed_, max_accel_;
+  double left_radius_m_, right_radius_m_, track_m_, max_speed_, max_accel_;
   SlipSpec slip_;
   Pose2 map_from_robot_;
   Twist2 twist_;

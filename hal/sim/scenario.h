@@ -3,6 +3,7 @@
 // what goes wrong. Loading refuses everything it does not understand.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -67,6 +68,12 @@ struct SlipSpec {
   double std = 0.005;  ///< of each by itself, about the mean: Gaussian, correlated over kSlipTime (plant.h)
 };
 
+/// What the robot really is, where that differs from its model, which is all that the controller knows.
+struct TrueRobot {
+  std::optional<double> left_wheel_radius_m, right_wheel_radius_m, track_width_m;
+  std::optional<Pose2> robot_from_laser;
+};
+
 struct PoseSourceSpec {
   bool enabled = false;
   double rate_hz = 5.0;
@@ -90,6 +97,7 @@ struct Scenario {
   RobotModel model;          ///< with the scenario's own speed and laser already in it
   bool laser_turns = false;  ///< its beams are measured one after another; else all at once
   SlipSpec slip;
+  TrueRobot truth;
   PoseSourceSpec pose_source;
   std::vector<WanderSpec> wanderers;
   std::vector<RecordedSpec> recorded;

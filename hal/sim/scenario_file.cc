@@ -40,6 +40,22 @@ SlipSpec read_slip(TomlTable table) {
   return spec;
 }
 
+TrueRobot read_truth(TomlTable table) {
+  TrueRobot truth;
+  const auto read = [&table](const char* key, std::optional<double>& into) {
+    if (table.has(key)) into = table.number(key);
+  };
+  read("left_wheel_radius_m", truth.left_wheel_radius_m);
+  read("right_wheel_radius_m", truth.right_wheel_radius_m);
+  read("track_width_m", truth.track_width_m);
+  if (table.has("laser_mount")) {
+    const auto mount = table.place_in_map("laser_mount", 3);
+    truth.robot_from_laser = {mount[0], mount[1], wrap_angle(mount[2])};
+  }
+  table.finish();
+  return truth;
+}
+
 RobotModel read_model(TomlTable& table, bool& laser_turns) {
   RobotModel model = table.has("model") ? read_model_choice(table, "model") : p3dx();
   const double fastest = model.drive.max_wheel_speed_radps * model.drive.wheel_radius_m;
@@ -65,6 +81,7 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.goal_heading_tolerance_rad = table.number("goal_heading_tolerance_rad");
   scenario.model = read_model(table, scenario.laser_turns);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
+  if (table.has("truth")) scenario.truth = read_truth(table.table("truth"));
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
   table.finish();
 }

@@ -7,6 +7,8 @@ namespace {
 using enum KeyKind;
 
 constexpr Range kSeconds{0.0, 86400.0};
+constexpr Range kWheel{0.01, 1.0}, kTrack{0.05, 3.0};  // as a model's
+constexpr const char* kModels = "the model's";
 constexpr Range kRadius{0.01, 1.0};  // a mover wider than this could brush a wall that its zone does not see
 const Scenario kScenario{};
 const WanderSpec kWander{};
@@ -60,6 +62,7 @@ std::vector<SettingKey> robot_keys() {
            "cruising speed; at most what the wheels can do"},
           {"robot", "laser", kTable, {}, "", "the model's", "over the model's own"},
           {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
+          {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},
           {"robot", "pose_source", kTable, {}, "", "none", "a localisation system outside the robot, as the paper has"},
           {"robot.laser",
            "turns",
@@ -82,6 +85,10 @@ std::vector<SettingKey> robot_keys() {
            "",
            kSlip.std,
            "standard deviation of each wheel by itself, correlated over 1 s"},
+          {"robot.truth", "left_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the left wheel"},
+          {"robot.truth", "right_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the right wheel"},
+          {"robot.truth", "track_width_m", kNumber, kTrack, "m", kModels, "between the wheels' contact points"},
+          {"robot.truth", "laser_mount", kNumbers, {}, "m, m, rad", kModels, "[x, y, yaw] of the laser on the robot"},
           {"robot.pose_source", "enabled", kBoolean, {}, "", true, "false: as if the table were missing"},
           {"robot.pose_source", "rate_hz", kNumber, {0.1, 100.0}, "1/s", kPoseSource.rate_hz, "fixes a second"},
           {"robot.pose_source",

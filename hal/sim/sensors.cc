@@ -14,6 +14,12 @@ void lose(const BlankedSector& sector, LaserScan& scan) noexcept {
   }
 }
 
+LaserModel true_laser(const Scenario& scenario) {
+  LaserModel laser = scenario.model.laser;
+  laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
+  return laser;
+}
+
 }  // namespace
 
 bool Metronome::due(Time now) noexcept {
@@ -27,7 +33,7 @@ Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
       laser_beat_(scenario.model.laser.rate_hz),
       encoder_beat_(1.0 / to_seconds(kEncoderPeriod)),
       fix_beat_(scenario.pose_source.rate_hz),
-      laser_(scenario.model.laser, seed),
+      laser_(true_laser(scenario), seed),
       laser_turns_(scenario.laser_turns),
       fix_noise_(seed, Purpose::kFix) {}
 

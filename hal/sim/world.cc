@@ -26,7 +26,7 @@ World::World(const Scenario& scenario, std::uint64_t seed)
       footprint_(scenario.model.footprint),
       walls_(load_wall_map(scenario.map_kind, scenario.map_file)),
       grid_(walls_, footprint_.inscribed_radius_m(), with_free_places(scenario).start.position(), scenario.goal),
-      plant_(scenario.model, scenario.start, seed, scenario.slip),
+      plant_(scenario.model, scenario.start, seed, scenario.slip, scenario.truth),
       wanderers_(scenario, walls_, grid_, seed),
       recorded_(scenario.recorded, static_cast<std::uint32_t>(wanderers_.movers().size())) {
   movers_.reserve(wanderers_.movers().size() + recorded_.capacity());

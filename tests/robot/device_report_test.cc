@@ -28,8 +28,8 @@ struct FullDisk {
 TEST_CASE("what drives said and what was lost is never silently left out") {
   const FullDisk disk;
   CHECK_THROWS_AS(write_arming(disk.folder, {"left 0x6065: 10"}), StartupError);
-  CHECK_THROWS_AS(write_devices(disk.folder, {}, {}), StartupError);
-  CHECK_THROWS_AS(write_devices(disk.folder / "nowhere", {}, {}), StartupError);
+  CHECK_THROWS_AS(write_devices(disk.folder, {}, {}, {}), StartupError);
+  CHECK_THROWS_AS(write_devices(disk.folder / "nowhere", {}, {}, {}), StartupError);
 }
 
 TEST_CASE("settings that are not proved are counted by themselves") {

@@ -67,6 +67,9 @@ controller_node = 1
 counts_per_wheel_turn = 76600
 left_reversed = false
 right_reversed = true
+left_wheel_radius_m = 0.0981
+right_wheel_radius_m = 0.0974
+track_width_m = 0.332
 controller_timeout_ms = 100
 heartbeat_ms = 50
 allow_unproved = false
@@ -140,6 +143,11 @@ to_deg = 80.0
 [robot.slip]
 mean = 0.01
 std = 0.005
+[robot.truth]
+left_wheel_radius_m = 0.098
+right_wheel_radius_m = 0.097
+track_width_m = 0.335
+laser_mount = [0.11, 0.01, 0.02]
 [robot.pose_source]
 enabled = true
 rate_hz = 5.0

@@ -1,0 +1,42 @@
+#pragma once
+// A robot whose wheels a command turns by itself, not by the loop: consent, socket, devices, arming.
+#include <filesystem>
+#include <functional>
+#include <memory>
+#include <string>
+
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/robot_devices.h"
+#include "firmware/robot/steady_clock.h"
+
+namespace jaywalk {
+
+struct SessionOptions {
+  std::filesystem::path robot;           ///< ROBOT.toml
+  std::filesystem::path control_socket;  ///< empty: the file's
+  bool yes = false;                      ///< consent that the wheels may turn: the program does not ask for it
+  bool allow_no_realtime = false;        ///< goes on where the kernel refuses what the file asks for
+};
+
+/// Armed from its construction on. `jaywalk stop`, SIGINT and SIGTERM are told by stopped(). Once a process.
+class ArmedSession {
+ public:
+  /// `name`: the command's; `motion`: what a person is asked to allow, "The wheels will turn ... Is ... free?" Throws
+  /// StartupError where it may not begin.
+  ArmedSession(const SessionOptions& options, const std::string& name, const std::string& motion);
+  /// At rest already.
+  void disarm();
+
+  [[nodiscard]] const RobotFile& file() const { return file_; }
+  [[nodiscard]] RobotDevices& devices() { return *devices_; }
+  [[nodiscard]] Clock& clock() { return clock_; }
+  [[nodiscard]] static bool stopped();
+
+ private:
+  RobotFile file_;
+  SteadyClock clock_;
+  std::unique_ptr<ControlSocket> socket_;
+  std::unique_ptr<RobotDevices> devices_;
+};
+
+}  // namespace jaywalk

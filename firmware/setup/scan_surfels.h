@@ -1,0 +1,54 @@
+#pragma once
+// Scans as pieces of surfaces, and how one lies on another: for commissioning and calibration. Start-up only;
+// allocates.
+#include <Eigen/Core>
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk {
+
+/// Fewer than these are no scan to be matched.
+inline constexpr std::size_t kLeastSurfels = 40;
+
+/// A point of a surface and the surface's normal there, m, in the laser's frame.
+struct Surfel {
+  Vec2 at, normal;
+};
+
+/// Where each beam ends, in the laser's frame at the scan's stamp; nothing for one that hit nothing.
+using BeamEnds = std::vector<std::optional<Vec2>>;
+
+/// As of a laser that stood.
+[[nodiscard]] BeamEnds beam_ends(const LaserScan& scan);
+/// 400 at most; `step_rad` is from a beam to the next.
+[[nodiscard]] std::vector<Surfel> surfels_of(const BeamEnds& ends, double step_rad);
+[[nodiscard]] std::vector<Surfel> surfels_of(const LaserScan& scan);
+
+/// The one nearest to `p`; there is one.
+[[nodiscard]] const Surfel& nearest(const std::vector<Surfel>& surfels, Vec2 p);
+/// Whether normals are those of what may be one surface, looked at from either side.
+[[nodiscard]] bool are_alike(Vec2 normal, Vec2 other);
+
+/// How far off what does not lie on anything counts (m).
+inline constexpr double kFarOff_m = 0.2;
+
+struct SurfelFit {
+  Pose2 before_from_after;
+  double left_m = kFarOff_m;  ///< mean distance to the other's surfaces, each at most kFarOff_m
+  double across = 0.0;        ///< of the normals, the mean square in the direction that has least
+  /// Sum over matched points of the outer products of (normal, turn's lever): of a pose in `before`'s frame, m and rad,
+  /// in points; divided by the variance of a point it is the information.
+  Eigen::Matrix3d points;
+  double used = 0.0;  ///< points that were matched
+};
+
+/// Point to line (Chen and Medioni 1992) from `guess` on. `rest_points` points say that nothing moved. Where too little
+/// lies on the other, `used` is 0.
+[[nodiscard]] SurfelFit fit_surfels(const Pose2& guess, const std::vector<Surfel>& before,
+                                    const std::vector<Surfel>& after, double rest_points);
+
+}  // namespace jaywalk

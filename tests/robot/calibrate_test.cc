@@ -1,0 +1,156 @@
+// Calibration on a simulated robot that is not what its model says.
+#include <unistd.h>
+
+#include <filesystem>
+#include <fstream>
+
+#include "firmware/far_end/in_process_robot.h"
+#include "firmware/far_end/living_clock.h"
+#include "firmware/setup/calibration.h"
+#include "firmware/setup/guided_drive.h"
+#include "hal/sim/simulation.h"
+#include "hal/types/errors.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+sim::Scenario hall(const sim::TrueRobot& truth) {
+  sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml");
+  scenario.wanderers.clear();
+  scenario.truth = truth;
+  return scenario;
+}
+
+CalibrationLog guided(const sim::Scenario& scenario, std::uint64_t seed) {
+  sim::Simulation world(scenario, seed);
+  const Hal hal = world.hal();
+  const GuidedDriveSetup setup{.model = scenario.model};
+  return drive_guided(setup, hal.drive, hal.laser, hal.clock, [] { return false; });
+}
+
+RobotGeometry believed_of(const RobotModel& model) {
+  return {model.drive.wheel_radius_m, model.drive.wheel_radius_m, model.drive.track_width_m,
+          model.laser.robot_from_laser};
+}
+
+}  // namespace
+
+TEST_CASE("wheel radii, track width and mount come out, whatever the file says") {
+  const sim::TrueRobot larger{0.0985, 0.0968, 0.341, Pose2{0.12, 0.015, 0.05}},
+      smaller{0.0930, 0.0934, 0.318, Pose2{-0.03, -0.04, -0.08}};
+  for (const auto& [truth, turns] : {std::pair{larger, true}, std::pair{smaller, false}}) {
+    sim::Scenario scenario = hall(truth);
+    scenario.laser_turns = turns;
+    const Calibration result = calibrate(guided(scenario, 1), believed_of(scenario.model));
+    const RobotGeometry &found = result.found, &within = result.within;
+    const Pose2 &mount = found.robot_from_laser, &is = *truth.robot_from_laser;
+    CAPTURE(turns, found.left_radius_m, found.right_radius_m, found.track_width_m, mount.x, mount.y, mount.heading);
+    CHECK(std::fabs(found.left_radius_m / *truth.left_wheel_radius_m - 1.0) < 0.005);
+    CHECK(std::fabs(found.right_radius_m / *truth.right_wheel_radius_m - 1.0) < 0.005);
+    CHECK(std::fabs(found.track_width_m / *truth.track_width_m - 1.0) < 0.01);
+    CHECK(norm(mount.position() - is.position()) < 0.01);
+    CHECK(std::fabs(wrap_angle(mount.heading - is.heading)) < 0.5 * kPi / 180.0);
+    // The intervals hold the truth, and are no wider than the figures above.
+    CHECK(std::fabs(found.left_radius_m - *truth.left_wheel_radius_m) < within.left_radius_m);
+    CHECK(std::fabs(found.track_width_m - *truth.track_width_m) < within.track_width_m);
+    CHECK(within.left_radius_m < 0.005 * found.left_radius_m);
+    CHECK(within.track_width_m < 0.01 * found.track_width_m);
+    CHECK(within.robot_from_laser.x < 0.01);
+    CHECK(result.left_out < 4);
+  }
+}
+
+TEST_CASE("a way straight on tells no track width, and its interval says so") {
+  const sim::Scenario scenario = hall({});
+  sim::Simulation world(scenario, 1);
+  const Hal hal = world.hal();
+  CalibrationLog log(scenario.model.drive);
+  for (int tick = 0; tick < 1000; ++tick) {
+    const double speed = tick % 400 < 200 ? 4.0 : -4.0;  // rad/s, to and fro
+    hal.clock.sleep_until(hal.clock.now() + std::chrono::milliseconds(20));
+    hal.drive.command({hal.clock.now(), speed, speed});
+    log.take(hal.drive.latest(), hal.laser.latest());
+  }
+  const Calibration result = calibrate(log, believed_of(scenario.model));
+  CHECK(result.within.track_width_m > 0.05);
+  CHECK(result.within.robot_from_laser.x > 0.1);
+  CHECK(result.within.left_radius_m < 0.01 * result.found.left_radius_m);
+}
+
+TEST_CASE("the guided drive ends at rest where it is told to, where something is near, and where nothing moves") {
+  sim::Scenario scenario = hall({});
+  const auto complaint = [&scenario](const std::function<bool()>& stopped) {
+    sim::Simulation world(scenario, 1);
+    const Hal hal = world.hal();
+    const GuidedDriveSetup setup{.model = scenario.model};
+    std::string said;
+    try {
+      static_cast<void>(drive_guided(setup, hal.drive, hal.laser, hal.clock, stopped));
+    } catch (const StartupError& error) {
+      said = error.what();
+    }
+    hal.clock.sleep_until(hal.clock.now() + std::chrono::milliseconds(500));
+    CHECK(std::fabs(world.truth().twist.v_mps) < 0.01);
+    CHECK(world.truth().contacts == 0);
+    return said;
+  };
+  int asked = 0;
+  CHECK(complaint([&asked] { return ++asked > 150; }).rfind("calibration: broken off", 0) == 0);
+  scenario.faults = {{.at_s = 3.0, .for_s = 1000.0, .kind = sim::FaultKind::kLeftWheelStuck}};
+  CHECK(complaint([] { return false; }).rfind("calibration: a wheel does not turn as commanded", 0) == 0);
+  scenario.faults.clear();
+  scenario.start = {2.0, 3.0, kPi};  // 1.3 m to the wall: too near for the straight
+  CHECK(complaint([] { return false; }).rfind("calibration: something stands too near", 0) == 0);
+}
+
+TEST_CASE("a handful of scans is no drive") {
+  const CalibrationLog log(p3dx().drive);
+  CHECK_THROWS_AS(calibrate(log, believed_of(p3dx())), StartupError);
+}
+
+TEST_CASE("a robot on wires calibrates itself") {
+  const sim::TrueRobot truth{0.0985, 0.0968, 0.341, Pose2{0.12, 0.015, 0.05}};
+  const auto folder = std::filesystem::temp_directory_path() / ("jaywalk_calibrate_" + std::to_string(::getpid()));
+  RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  file.setup.backend = Backend::kCpu;
+  rig::HandLivingClock clock;
+  rig::InProcessRobot robot(file, hall(truth), 3, clock, folder);
+  clock.live = [&robot] {
+    robot.step_far_end();
+    robot.laser().step();
+  };
+  const Time limit = clock.now() + std::chrono::seconds(5);
+  while (robot.laser().latest().sequence == 0 && clock.now() < limit)
+    clock.sleep_until(clock.now() + std::chrono::milliseconds(1));
+  static_cast<void>(robot.drive().arm());
+  const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
+  const CalibrationLog log = drive_guided(setup, robot.drive(), robot.laser(), clock, [] { return false; });
+  std::filesystem::remove_all(folder);
+  CHECK(robot.far_end().rim_speed() < 0.001);
+  CHECK(robot.far_end().truth().contacts == 0);
+  const RobotGeometry found = calibrate(log, believed_of(file.setup.model)).found;
+  CAPTURE(found.left_radius_m, found.right_radius_m, found.track_width_m);
+  CHECK(std::fabs(found.left_radius_m / *truth.left_wheel_radius_m - 1.0) < 0.005);
+  CHECK(std::fabs(found.right_radius_m / *truth.right_wheel_radius_m - 1.0) < 0.005);
+  CHECK(std::fabs(found.track_width_m / *truth.track_width_m - 1.0) < 0.01);
+  CHECK(norm(found.robot_from_laser.position() - truth.robot_from_laser->position()) < 0.01);
+  CHECK(std::fabs(found.robot_from_laser.heading - truth.robot_from_laser->heading) < 0.5 * kPi / 180.0);
+}
+
+TEST_CASE("wheels that are not alike drive straight by a file that says so") {
+  const auto path = std::filesystem::temp_directory_path() / ("jaywalk_radii_" + std::to_string(::getpid()) + ".toml");
+  std::ifstream rig(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  std::ofstream(path) << rig.rdbuf() << "left_wheel_radius_m = 0.0985\nright_wheel_radius_m = 0.0968\n"
+                      << "track_width_m = 0.341\n";
+  const RobotFile file = load_robot_file(path);
+  std::filesystem::remove(path);
+  const auto& axes = file.drive.cia402.axes;
+  // 76600 counts a turn; a metre at the left rim is 1 / 0.0985 of the wheel's own radians, and 1 / 0.0975 of the
+  // loop's.
+  CHECK(axes[0].counts_per_rad == Approx(76600.0 / (2.0 * kPi) * 0.0975 / 0.0985));
+  CHECK(axes[1].counts_per_rad == Approx(-76600.0 / (2.0 * kPi) * 0.0975 / 0.0968));
+  CHECK(file.setup.model.drive.track_width_m == 0.341);
+  CHECK(file.setup.model.drive.wheel_radius_m == 0.0975);
+}
