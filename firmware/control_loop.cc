@@ -28,14 +28,23 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
   return std::make_unique<GoalTurn>(setup.model.footprint, setup.model.limits, !setup.guides_body());
 }
 
+motion::MotionConfig motion_config(const ControlSetup& setup) {
+  return {.footprint = setup.model.footprint,
+          .limits = setup.model.limits,
+          .laser = setup.model.laser,
+          .constant_speed = setup.constant_speed,
+          .goal_tolerance_m = setup.goal_tolerance_m,
+          .tick_s = to_seconds(setup.tick())};
+}
+
 std::unique_ptr<motion::MotionPlanner> motion_for(const ControlSetup& setup) {
   if (setup.guides_body() || setup.mode == PlanMode::kPaper) return nullptr;
-  return std::make_unique<motion::MotionPlanner>(motion::MotionConfig{.footprint = setup.model.footprint,
-                                                                      .limits = setup.model.limits,
-                                                                      .laser = setup.model.laser,
-                                                                      .constant_speed = setup.constant_speed,
-                                                                      .goal_tolerance_m = setup.goal_tolerance_m,
-                                                                      .tick_s = to_seconds(setup.tick())});
+  return std::make_unique<motion::MotionPlanner>(motion_config(setup));
+}
+
+std::unique_ptr<baseline::BaselinePlanner> baseline_for(const ControlSetup& setup) {
+  if (setup.baseline == baseline::Baseline::kOurs) return nullptr;
+  return std::make_unique<baseline::BaselinePlanner>(setup.baseline, motion_config(setup));
 }
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
@@ -58,6 +67,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       estimator_(setup),
       follower_(follower_config(setup)),
       motion_(motion_for(setup)),
+      baseline_(baseline_for(setup)),
       guide_(guide_for(setup)),
       turn_(turn_for(setup)),
       latency_(setup.model.drive),
@@ -82,11 +92,9 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   estimator_.forget_where_stuck(t);
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
-  t.wanted = drives_by_motion()
-                 ? motion_->twist(now, goal_for_motion(t), t.pose.map_from_robot, t.input.goal_in_map, driven_)
-                 : follower_.twist(follower_input(t));  // Act: the follower asks, the supervisor permits.
+  t.wanted = drives_by_motion() ? motion_twist(t) : follower_.twist(follower_input(t));  // Act: one asks,
   t.latency = latency_.measured();
-  t.verdict =
+  t.verdict =  // the supervisor permits.
       supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
@@ -155,19 +163,28 @@ void ControlLoop::look(const TickRecord& t) noexcept {
   }
 }
 
+Twist2 ControlLoop::motion_twist(const TickRecord& t) noexcept {
+  const auto wish = [&](auto& who) {
+    return who.twist(t.now, goal_for_motion(t), t.pose.map_from_robot, t.input.goal_in_map, driven_);
+  };
+  return baseline_ ? wish(*baseline_) : wish(*motion_);
+}
+
 void ControlLoop::decide(const TickRecord& t) noexcept {
-  motion_->decide({.seen = {.now = t.now,
-                            .stamp = t.scan.stamp,
-                            .map_from_robot = t.pose.map_from_robot,
-                            .tracks = tracker().tracks(),
-                            .standing = tracker().standing(),
-                            .still = tracker().still(),
-                            .scan = t.scan,
-                            .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
-                            .guide = plan_->guide},
-                   .goal_in_map = t.input.goal_in_map,
-                   .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor},
-                  driven_);
+  const motion::MotionInput input{
+      .seen = {.now = t.now,
+               .stamp = t.scan.stamp,
+               .map_from_robot = t.pose.map_from_robot,
+               .tracks = tracker().tracks(),
+               .standing = tracker().standing(),
+               .still = tracker().still(),
+               .scan = t.scan,
+               .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
+               .guide = plan_->guide},
+      .goal_in_map = t.input.goal_in_map,
+      .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor};
+  motion_->decide(input, driven_);  // also beside a baseline: walls are told from pedestrians there
+  if (baseline_) baseline_->decide(input, driven_);
 }
 
 PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {

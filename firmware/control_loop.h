@@ -10,6 +10,7 @@
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
+#include "planner/baseline/baseline.h"
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/follower.h"
 #include "planner/motion/motion_planner.h"
@@ -41,6 +42,8 @@ class ControlLoop {
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
   /// With a new plan, and after the wheels have their command: is there room for the body?
   void look(const TickRecord& t) noexcept;
+  /// Who decides on motion wishes.
+  [[nodiscard]] Twist2 motion_twist(const TickRecord& t) noexcept;
   /// With a new scan, and after the wheels have their command: how to move from the next tick on.
   void decide(const TickRecord& t) noexcept;
   [[nodiscard]] bool drives_by_motion() const noexcept { return motion_ != nullptr && !turns_at_goal(); }
@@ -53,8 +56,10 @@ class ControlLoop {
   Estimator estimator_;
   Follower follower_;
   std::unique_ptr<motion::MotionPlanner> motion_;  ///< null for a long body, and in mode paper
-  std::unique_ptr<FootprintGuide> guide_;          ///< null for a body that is nearly round
-  std::unique_ptr<GoalTurn> turn_;                 ///< null for a robot that keeps its speed
+  std::unique_ptr<baseline::BaselinePlanner>
+      baseline_;                           ///< null but in comparisons; then it wishes in place of motion_
+  std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round
+  std::unique_ptr<GoalTurn> turn_;         ///< null for a robot that keeps its speed
   Latency latency_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;

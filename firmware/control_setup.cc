@@ -7,6 +7,14 @@
 
 #include "hal/types/errors.h"
 
+namespace jaywalk::baseline {
+NLOHMANN_JSON_SERIALIZE_ENUM(Baseline, {{Baseline::kOurs, "ours"},
+                                        {Baseline::kNone, "none"},
+                                        {Baseline::kReplan, "replan"},
+                                        {Baseline::kDwa, "dwa"},
+                                        {Baseline::kOrca, "orca"}})
+}  // namespace jaywalk::baseline
+
 namespace jaywalk {
 
 // One macro a struct, both ways; field names are the file format's.
@@ -57,12 +65,15 @@ PlannerConfig ControlSetup::planner() const {
 
 const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" : "full"; }
 
+std::string name_of(baseline::Baseline which) { return nlohmann::json(which).get<std::string>(); }
+
 std::string to_text(const ControlSetup& setup) {
   nlohmann::json json(setup);
   // Not one of the fields above: setups that were written before it was one say nothing of it.
   for (const BlankedSector& sector : setup.model.laser.blanked)
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
   json["judges_motion"] = setup.judges_motion;
+  if (setup.baseline != baseline::Baseline::kOurs) json["planner"] = setup.baseline;
   return json.dump();
 }
 
@@ -73,6 +84,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
     setup.judges_motion = json.value("judges_motion", false);
+    setup.baseline = json.value("planner", baseline::Baseline::kOurs);
     return setup;
   } catch (const nlohmann::json::exception& error) {
     throw StartupError(place + ": not a controller's setup (" + error.what() + ")",

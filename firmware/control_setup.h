@@ -5,6 +5,7 @@
 
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
+#include "planner/baseline/choice.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -14,7 +15,8 @@ enum class Backend { kAuto, kCpu, kCuda };
 struct ControlSetup {
   RobotModel model;
   PlanMode mode = PlanMode::kFull;
-  bool constant_speed = false;  ///< the paper's constraint; mode paper implies it
+  bool constant_speed = false;                              ///< the paper's constraint; mode paper implies it
+  baseline::Baseline baseline = baseline::Baseline::kOurs;  ///< who decides on motion, for comparisons in simulation
   Backend backend = Backend::kAuto;
   Pose2 start;  ///< where the robot believes to be when the loop starts
   Vec2 goal;    ///< for sizing the grid; the goal itself comes from the operator panel
@@ -43,5 +45,7 @@ struct ControlSetup {
 [[nodiscard]] ControlSetup setup_from_text(const std::string& text, const std::string& place);
 
 [[nodiscard]] const char* name_of(PlanMode mode);
+/// "ours", "none", "replan", "dwa", "orca"
+[[nodiscard]] std::string name_of(baseline::Baseline which);
 
 }  // namespace jaywalk

@@ -65,6 +65,14 @@ void add_sim(CLI::App& app) {
                        "full: laser only, stops for people; paper: movers given, never stops");
   sim->add_flag("--constant-speed", sim_options.constant_speed,
                 "One speed from start to goal, never stopping for a plan");
+  using baseline::Baseline;
+  add_choice<Baseline>(*sim, "--planner", sim_options.planner,
+                       {{"ours", Baseline::kOurs},
+                        {"none", Baseline::kNone},
+                        {"replan", Baseline::kReplan},
+                        {"dwa", Baseline::kDwa},
+                        {"orca", Baseline::kOrca}},
+                       "Who decides on motion: ours, or a planner of others to hold it against");
   add_backend(*sim, sim_options.backend);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");

@@ -11,11 +11,12 @@
 
 namespace jaywalk::campaign {
 
-/// One thing that is varied: a key of the scenario ("movers.count"), or "mode".
+/// One thing that is varied: a key of the scenario ("movers.count"), or an option ("mode").
 struct Axis {
   std::string name;
   std::vector<std::string> values;
-  std::string place;  ///< "paper.toml:12: "
+  std::string place;       ///< "paper.toml:12: "
+  bool is_option = false;  ///< of jaywalk sim, not a key of the scenario
 };
 
 /// Every scenario with every seed, for each combination of the axes' values.

@@ -23,6 +23,13 @@ FileKeys make_campaign_keys() {
            {kIn, "title", kText, {}, "", "the name", "heading of its tables"},
            {kIn, "scenarios", kTexts, {}, "", kNeeded, "scenario files, relative to this file's folder"},
            {kIn, "seeds", kNumbers, {}, "", kNeeded, "[first, last]"},
+           {kIn,
+            "planner",
+            kTexts,
+            {},
+            "",
+            "ours",
+            "who decides on motion: ours, none, replan, dwa, orca; a list to vary it"},
            {kIn, "mode", kTexts, {}, "", "full", "full, paper, or both in a list"},
            {kIn, "constant_speed", kBoolean, {}, "", false, "one speed from start to goal, never stopping"},
            {kIn, "set", kTable, {}, "", "nothing", "keys of the scenario: a value, or a list to vary it"}}};
@@ -47,14 +54,21 @@ std::string read_name(TomlTable& table) {
   return name;
 }
 
+/// An option of jaywalk sim that may be varied: `choices`, of which the first is the usual one.
+Axis read_option(TomlTable& table, const std::string& key, const std::vector<std::string>& choices) {
+  std::vector<std::string> values = table.has(key) ? table.texts(key) : std::vector<std::string>{choices.front()};
+  for (const std::string& value : values) {
+    if (std::find(choices.begin(), choices.end(), value) == choices.end())
+      table.refuse(key, "is \"" + value + "\"", "choose of " + joined(choices) + ", several in a list");
+  }
+  return {key, std::move(values), table.place_of(key), true};
+}
+
 std::vector<Axis> read_axes(TomlTable& table) {
   std::vector<Axis> axes;
-  for (const ListedKey& key : table.listed("set")) axes.push_back({key.name, key.values, key.place});
-  std::vector<std::string> modes = table.has("mode") ? table.texts("mode") : std::vector<std::string>{"full"};
-  for (const std::string& mode : modes) {
-    if (mode != "full" && mode != "paper") table.refuse("mode", "is \"" + mode + "\"", "choose full, paper or both");
-  }
-  axes.push_back({"mode", std::move(modes), table.place_of("mode")});
+  for (const ListedKey& key : table.listed("set")) axes.push_back({key.name, key.values, key.place, false});
+  axes.push_back(read_option(table, "planner", {"ours", "none", "replan", "dwa", "orca"}));
+  axes.push_back(read_option(table, "mode", {"full", "paper"}));
   return axes;
 }
 

@@ -49,14 +49,34 @@ std::string row_of(const Experiment& experiment, const Combination& values, cons
 std::vector<std::string> settings_of(const Experiment& experiment, const Combination& values) {
   std::vector<std::string> settings;
   for (std::size_t k = 0; k < values.size(); ++k) {
-    if (experiment.axes[k].name != "mode") settings.push_back(experiment.axes[k].name + "=" + values[k]);
+    if (!experiment.axes[k].is_option) settings.push_back(experiment.axes[k].name + "=" + values[k]);
+  }
+  return settings;
+}
+
+bool names_file(const std::string& axis) {
+  const std::vector<SettingKey>& keys = sim::scenario_keys().keys;
+  return std::any_of(keys.begin(), keys.end(), [&](const SettingKey& key) {
+    return key.kind == KeyKind::kFile && key.section.substr(0, key.section.find(':')) + "." + key.key == axis;
+  });
+}
+
+/// As they are in the campaign file's folder, for a process that works elsewhere.
+std::vector<std::string> settings_from(const std::filesystem::path& folder, std::vector<std::string> settings) {
+  for (std::string& setting : settings) {
+    const std::size_t equals = setting.find('=');
+    const std::string axis = setting.substr(0, equals);
+    if (names_file(axis)) setting = axis + "=" + (folder / setting.substr(equals + 1)).string();
   }
   return settings;
 }
 
 std::vector<std::string> arguments_of(const Experiment& experiment, const Combination& values,
                                       const std::string& scenario) {
-  std::vector<std::string> arguments{"sim", scenario, "--mode", values.back()};
+  std::vector<std::string> arguments{"sim", scenario};
+  for (std::size_t k = 0; k < values.size(); ++k) {
+    if (experiment.axes[k].is_option) arguments.insert(arguments.end(), {"--" + experiment.axes[k].name, values[k]});
+  }
   if (experiment.constant_speed) arguments.push_back("--constant-speed");
   for (const std::string& setting : settings_of(experiment, values)) {
     arguments.push_back("--set");
@@ -76,7 +96,8 @@ std::string place_of(const Experiment& experiment, const std::string& refusal) {
 sim::Scenario scenario_for(const Campaign& campaign, const Experiment& experiment, const std::string& scenario,
                            const std::vector<std::string>& settings) {
   try {
-    return sim::load_scenario(campaign.file.parent_path() / scenario, settings);
+    const std::filesystem::path folder = campaign.file.parent_path();
+    return sim::load_scenario(folder / scenario, settings_from(folder, settings));
   } catch (const StartupError& refusal) {
     const std::string text = refusal.what(), place = place_of(experiment, text);
     const bool set = place != experiment.place;

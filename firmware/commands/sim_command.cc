@@ -54,6 +54,9 @@ sim::Scenario scenario_for(const SimOptions& options) {
     throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
                        "leave the third number out, or run without --mode paper and --constant-speed");
   }
+  if (options.planner != baseline::Baseline::kOurs && never_stops)
+    throw StartupError("--planner: the planners of others stop and turn on the spot",
+                       "run without --mode paper and --constant-speed");
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
   return scenario;
 }
@@ -68,6 +71,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
   return {.model = scenario.model,
           .mode = options.mode,
           .constant_speed = options.constant_speed,
+          .baseline = options.planner,
           .backend = options.backend,
           .start = scenario.start,
           .goal = scenario.goal,
@@ -139,6 +143,10 @@ int run_sim(const SimOptions& options) {
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
   remark_unreachable(scenario, simulation);
   const ControlSetup setup = setup_for(scenario, options);
+  if (setup.guides_body() && options.planner != baseline::Baseline::kOurs)
+    throw StartupError(
+        options.scenario.string() + ": --planner: the planners of others are for robots that are nearly round",
+        "choose another model");
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
   LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true);
@@ -173,6 +181,7 @@ int run_sim(const SimOptions& options) {
                  .seed = seed,
                  .scenario = scenario.name,
                  .settings = options.settings,
+                 .planner = name_of(options.planner),
                  .mover_rule = sim::Simulation::mover_rule()});
   const std::filesystem::path drawn = picture.save(
       options.out, scenario.name + ", seed " + std::to_string(seed) + ": " + ended, runner, walls_of(simulation));

@@ -16,6 +16,7 @@ struct SimOptions {
   std::optional<std::uint64_t> seed;       ///< default: the scenario's
   PlanMode mode = PlanMode::kFull;
   bool constant_speed = false;
+  baseline::Baseline planner = baseline::Baseline::kOurs;
   Backend backend = Backend::kAuto;
   std::filesystem::path out = "out/sim";
   bool save_map = false;  ///< what the robot saw, as map_server files

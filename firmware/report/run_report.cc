@@ -152,6 +152,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["seed"] = known(end.seed);
   j["scenario"] = end.scenario;
   j["settings"] = end.settings;
+  j["planner"] = known(!end.planner.empty(), end.planner);
   j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
   j["measured_on"] = has_truth_ ? "truth" : "estimate";
   j["version"] = end.version;

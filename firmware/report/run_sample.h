@@ -63,6 +63,7 @@ struct RunEnd {
   std::string scenario = {};
   std::vector<std::string> settings = {};  ///< KEY=VALUE each, given in place of the scenario's own
   std::string version = {};
+  std::string planner = {};     ///< empty but in a simulation
   std::string mover_rule = {};  ///< empty where no wandering rule was in force
 };
 

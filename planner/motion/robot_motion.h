@@ -27,7 +27,7 @@ struct Command {
 
 /// The side (1: left, -1: right) that a robot turns to at `w` rad/s; `last` while it turns to neither.
 JAYWALK_CELL float turned_side(float w, float last) {
-  constexpr float kLeast = 0.1F;  // rad/s, as bench/ride_figures.py counts
+  constexpr float kLeast = 0.1F;  // rad/s, as a campaign's report counts (docs/campaigns.md)
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 

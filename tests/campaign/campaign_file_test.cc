@@ -38,12 +38,27 @@ TEST_CASE("runs are scenarios times seeds times modes times settings, in the fil
   CHECK(plan.runs[2].folder == "a/movers.count=4,mode=paper/room/1");
   CHECK(plan.runs[4].row == "movers.count 2, mode full");
   CHECK(plan.runs[7].seed == 2);
-  CHECK(
-      command_of(plan.runs[7]) ==
-      "jaywalk sim room.toml --mode paper --constant-speed --set movers.count=2 --set robot.laser.fov_deg=180 --seed 2 "
-      "--out out/a/movers.count=2,mode=paper/room/2");
+  CHECK(command_of(plan.runs[7]) ==
+        "jaywalk sim room.toml --planner ours --mode paper --constant-speed --set movers.count=2 --set "
+        "robot.laser.fov_deg=180 --seed 2 "
+        "--out out/a/movers.count=2,mode=paper/room/2");
   CHECK(plan.runs[0].goal == jaywalk::Vec2{8.0, 8.0});
   CHECK(plan.inputs.size() == 2);
+}
+
+TEST_CASE("a campaign may name the maps, in its own folder") {
+  const Folder folder;
+  folder.write("other.map", kRoom);
+  folder.write("mapless.toml", kScenario.substr(kScenario.find("[robot]")));
+  const Plan plan = folder.plan(
+      "[[experiments]]\nname = \"a\"\nscenarios = \"mapless.toml\"\nseeds = [1, 1]\n"
+      "set.map.aria = [\"room.map\", \"other.map\"]\nplanner = [\"ours\", \"orca\"]\n");
+  REQUIRE(plan.runs.size() == 4);
+  CHECK(plan.runs[1].folder == "a/map.aria=room.map,planner=orca/mapless/1");
+  CHECK(command_of(plan.runs[1]) ==
+        "jaywalk sim mapless.toml --planner orca --mode full --set map.aria=room.map --seed 1 --out "
+        "out/a/map.aria=room.map,planner=orca/mapless/1");
+  CHECK(plan.inputs.size() == 3);
 }
 
 TEST_CASE("what does not vary is no part of a row's name") {
@@ -51,7 +66,7 @@ TEST_CASE("what does not vary is no part of a row's name") {
   const Plan plan = folder.plan(kHead + "set.movers.legs = true\n");
   REQUIRE(plan.runs.size() == 2);
   CHECK(plan.runs[0].folder == "a/all/room/1");
-  CHECK(plan.runs[0].arguments.at(5) == "movers.legs=true");
+  CHECK(plan.runs[0].arguments.at(7) == "movers.legs=true");
 }
 
 TEST_CASE("a campaign file is refused with place, cause and remedy") {
@@ -81,5 +96,6 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   CHECK(plan_of(load_campaign(folder + "/first.toml")).runs.size() == 2);
   // four maps, ten seeds: 8 counts of movers in four rows, 9 in one, 7 on legs
   CHECK(plan_of(load_campaign(folder + "/paper.toml")).runs.size() == 40 * (4 * 8 + 9 + 7));
-  CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 4 * 10 * 3);
+  CHECK(plan_of(load_campaign(folder + "/baselines.toml")).runs.size() == 4 * 5 * 5 * 3);
+  CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 4 * 5 * 3);
 }

@@ -1,0 +1,177 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "planner/baseline/baseline.h"
+#include "planner/baseline/way_down.h"
+
+namespace jaywalk::baseline {
+namespace {
+
+constexpr float kHorizon_s = 2.5F;      ///< tau, of movers
+constexpr float kWallHorizon_s = 1.0F;  ///< of walls
+constexpr float kStep_s = 0.07F;        ///< within which an overlap is to end: a scan's period
+constexpr int kWalls = 16;
+constexpr float kTolerance = 1e-4F;
+
+struct Velocity {
+  float x = 0.0F, y = 0.0F;
+};
+float dot(Velocity a, Velocity b) { return a.x * b.x + a.y * b.y; }
+Velocity operator-(Velocity a, Velocity b) { return {a.x - b.x, a.y - b.y}; }
+Velocity operator+(Velocity a, Velocity b) { return {a.x + b.x, a.y + b.y}; }
+Velocity operator*(float s, Velocity a) { return {s * a.x, s * a.y}; }
+float length(Velocity a) { return std::sqrt(dot(a, a)); }
+
+/// Velocities v with (v - point) . outward >= 0 are allowed.
+struct HalfPlane {
+  Velocity point, outward;
+  [[nodiscard]] float room(Velocity v) const { return dot(v - point, outward); }
+};
+
+struct Constraints {
+  std::array<HalfPlane, kMaxTracks + kWalls> planes{};
+  std::size_t count = 0;
+  float speed = 0.0F;
+
+  void add(const HalfPlane& plane) { planes[count++] = plane; }
+  [[nodiscard]] float least_room(Velocity v) const {
+    float least = speed - length(v);
+    for (std::size_t k = 0; k < count; ++k) least = std::min(least, planes[k].room(v));
+    return least;
+  }
+};
+
+/// The smallest change u of the relative velocity that leaves the velocity obstacle, equations (3) to (5): the cone of
+/// `apart` (m) with the disc of `radius` cut off at tau.
+HalfPlane plane_of(Velocity apart, Velocity relative, float radius, Velocity own) noexcept {
+  const float distance = length(apart);
+  const bool overlaps = distance < radius;
+  const float horizon = overlaps ? kStep_s : kHorizon_s;
+  const Velocity from_centre = relative - (1.0F / horizon) * apart;  // of the cut-off disc
+  const float along = dot(from_centre, apart), size = length(from_centre);
+  Velocity outward, change;
+  if (overlaps || (along < 0.0F && along * along > radius * radius * dot(from_centre, from_centre))) {
+    outward = size > 1e-6F ? (1.0F / size) * from_centre : (-1.0F / std::max(distance, 1e-6F)) * apart;
+    change = (radius / horizon - size) * outward;
+  } else {  // on the legs
+    const float leg = std::sqrt(std::max(distance * distance - radius * radius, 0.0F));
+    const bool left = apart.x * from_centre.y - apart.y * from_centre.x > 0.0F;
+    const float side = left ? 1.0F : -1.0F, squared = distance * distance;
+    const Velocity direction{(apart.x * leg - side * apart.y * radius) / squared,
+                             (side * apart.x * radius + apart.y * leg) / squared};
+    change = dot(relative, direction) * direction - relative;
+    outward = {-side * direction.y, side * direction.x};
+  }
+  return {own + change, outward};
+}
+
+void add_movers(const Scene& scene, Velocity own, Constraints& constraints) noexcept {
+  for (const Track& track : scene.tracks.first(std::min(scene.tracks.size(), kMaxTracks))) {
+    const Velocity apart{static_cast<float>(track.position_in_map.x) - scene.now.x,
+                         static_cast<float>(track.position_in_map.y) - scene.now.y};
+    Velocity walks{};
+    if (track.moving)
+      walks = {static_cast<float>(track.velocity_in_map.x), static_cast<float>(track.velocity_in_map.y)};
+    const float radius = scene.radius + static_cast<float>(track.radius_m) + kMargin_m;
+    constraints.add(plane_of(apart, own - walks, radius, own));
+  }
+}
+
+/// Free way to a wall in a direction, m.
+float free_way(const Scene& scene, cell::Heading d) noexcept {
+  float way = 0.0F;
+  for (int k = 0; k < 12 && way < Guide::kFar_m; ++k) {
+    const float left = scene.guide.distance(scene.now.x + way * d.x, scene.now.y + way * d.y);
+    if (left < 0.03F) break;
+    way += left;
+  }
+  return way;
+}
+
+/// Walls take no part in giving way: so fast that the circle reaches none within their tau.
+void add_walls(const Scene& scene, Constraints& constraints) noexcept {
+  for (int k = 0; k < kWalls; ++k) {
+    const cell::Heading d = cell::heading_at(2.0F * cell::kPiF * static_cast<float>(k) / kWalls);
+    const float most = std::max(0.0F, free_way(scene, d) - scene.radius) / kWallHorizon_s;
+    constraints.add({{most * d.x, most * d.y}, {-d.x, -d.y}});
+  }
+}
+
+/// The allowed velocity nearest to the wish: the wish, its foot on an edge, or a corner.
+class Nearest {
+ public:
+  Nearest(const Constraints& constraints, Velocity wish) : constraints_(constraints), wish_(wish) {
+    consider(wish);
+    for (std::size_t i = 0; i < constraints.count; ++i) {
+      const HalfPlane& edge = constraints.planes[i];
+      const Velocity foot = wish - edge.room(wish) * edge.outward, along{-edge.outward.y, edge.outward.x};
+      consider(foot);
+      consider_circle(foot, along);
+      for (std::size_t j = 0; j < i; ++j) consider_corner(foot, along, constraints.planes[j]);
+    }
+  }
+  [[nodiscard]] bool found() const { return found_; }
+  [[nodiscard]] Velocity best() const { return best_; }
+
+ private:
+  void consider(Velocity v) {
+    const float off = length(v - wish_);
+    if (found_ && off >= off_) return;
+    if (constraints_.least_room(v) < -kTolerance) return;
+    best_ = v, off_ = off, found_ = true;
+  }
+  void consider_circle(Velocity foot, Velocity along) {
+    const float b = dot(foot, along), c = dot(foot, foot) - constraints_.speed * constraints_.speed;
+    if (b * b < c) return;
+    const float root = std::sqrt(b * b - c);
+    consider(foot + (-b + root) * along);
+    consider(foot + (-b - root) * along);
+  }
+  void consider_corner(Velocity foot, Velocity along, const HalfPlane& other) {
+    const float slope = dot(along, other.outward);
+    if (std::fabs(slope) > 1e-5F) consider(foot - (other.room(foot) / slope) * along);
+  }
+
+  const Constraints& constraints_;
+  Velocity wish_, best_;
+  float off_ = 0.0F;
+  bool found_ = false;
+};
+
+/// Where nothing is allowed: the velocity that breaks the worst constraint least (their third linear programme), of a
+/// grid of directions and speeds.
+Velocity least_bad(const Constraints& constraints) noexcept {
+  constexpr int kDirections = 32, kSpeeds = 6;
+  Velocity best{};
+  float most = constraints.least_room(best);
+  for (int i = 0; i < kDirections; ++i) {
+    const cell::Heading d = cell::heading_at(2.0F * cell::kPiF * static_cast<float>(i) / kDirections);
+    for (int j = 1; j <= kSpeeds; ++j) {
+      const float speed = constraints.speed * static_cast<float>(j) / kSpeeds;
+      const Velocity v{speed * d.x, speed * d.y};
+      const float room = constraints.least_room(v);
+      if (room > most) most = room, best = v;
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+motion::Command orca(const Scene& scene) noexcept {
+  const cell::Heading ahead = cell::heading_at(scene.now.heading), down = way_down(scene);
+  const Velocity own{scene.now.v * ahead.x, scene.now.v * ahead.y};
+  const float speed = speed_to_goal(scene);
+  Constraints constraints;
+  constraints.speed = scene.bounds.speed;
+  add_movers(scene, own, constraints);
+  add_walls(scene, constraints);
+  const Nearest nearest(constraints, {speed * down.x, speed * down.y});
+  const Velocity chosen = nearest.found() ? nearest.best() : least_bad(constraints);
+  const float size = length(chosen);
+  if (size < 0.01F) return {0.0F, driven_along(scene, down, 0.0F).w};
+  return driven_along(scene, {chosen.x / size, chosen.y / size}, size);
+}
+
+}  // namespace jaywalk::baseline
