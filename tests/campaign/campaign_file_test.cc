@@ -97,5 +97,6 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   // four maps, ten seeds: 8 counts of movers in four rows, 9 in one, 7 on legs
   CHECK(plan_of(load_campaign(folder + "/paper.toml")).runs.size() == 40 * (4 * 8 + 9 + 7));
   CHECK(plan_of(load_campaign(folder + "/baselines.toml")).runs.size() == 4 * 5 * 5 * 3);
+  CHECK(plan_of(load_campaign(folder + "/hall_baselines.toml")).runs.size() == 5 * 8);
   CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 4 * 5 * 3);
 }
