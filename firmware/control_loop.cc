@@ -32,6 +32,7 @@ motion::MotionConfig motion_config(const ControlSetup& setup) {
   return {.footprint = setup.model.footprint,
           .limits = setup.model.limits,
           .laser = setup.model.laser,
+          .berth_m = setup.berth_m,
           .constant_speed = setup.constant_speed,
           .goal_tolerance_m = setup.goal_tolerance_m,
           .tick_s = to_seconds(setup.tick())};

@@ -74,6 +74,7 @@ std::string to_text(const ControlSetup& setup) {
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
   json["judges_motion"] = setup.judges_motion;
   if (setup.baseline != baseline::Baseline::kOurs) json["planner"] = setup.baseline;
+  json["berth_m"] = setup.berth_m;
   return json.dump();
 }
 
@@ -85,6 +86,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
     setup.judges_motion = json.value("judges_motion", false);
     setup.baseline = json.value("planner", baseline::Baseline::kOurs);
+    setup.berth_m = json.value("berth_m", setup.berth_m);
     return setup;
   } catch (const nlohmann::json::exception& error) {
     throw StartupError(place + ": not a controller's setup (" + error.what() + ")",

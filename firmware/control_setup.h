@@ -26,6 +26,7 @@ struct ControlSetup {
   /// Commanded, felt and seen motion are compared; false for a log whose wheels obeyed another controller.
   bool judges_motion = true;
   double rate_hz = 50.0;
+  double berth_m = 1.0;  ///< people nearer than this cost; hal/comfort.h
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
   /// one with the circle inside it and a FootprintGuide. At constant speed nothing can be guided.

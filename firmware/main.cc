@@ -22,6 +22,7 @@
 #include "firmware/commands/standard_streams.h"
 #include "firmware/commands/view_option.h"
 #include "firmware/commands/why_command.h"
+#include "hal/comfort.h"
 #include "hal/nearest_word.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
@@ -73,6 +74,10 @@ void add_sim(CLI::App& app) {
                         {"dwa", Baseline::kDwa},
                         {"orca", Baseline::kOrca}},
                        "Who decides on motion: ours, or a planner of others to hold it against");
+  sim->add_option_function<std::string>(
+         "--comfort", [](const std::string& word) { sim_options.settings.push_back("robot.comfort=" + word); },
+         "How the ride is to feel, in place of the scenario's own")
+      ->check(CLI::IsMember(comfort_names()));
   add_backend(*sim, sim_options.backend);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");

@@ -80,6 +80,10 @@ void read_laser(TomlTable& table, LaserModel& laser) {
   if (!(laser.range_min_m < laser.range_max_m)) table.refuse("range_min_m", "is not below range_m", "lower it");
 }
 
+Comfort read_comfort(TomlTable& table) {
+  return table.has("comfort") ? static_cast<Comfort>(table.choice("comfort")) : Comfort::kNormal;
+}
+
 RobotModel load_robot_model(const std::filesystem::path& path) {
   const TomlFile file(path, robot_model_keys());
   TomlTable root = file.root();

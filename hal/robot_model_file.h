@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/comfort.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
 
@@ -22,6 +23,10 @@ namespace jaywalk {
 
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
+
+/// The row of the key `comfort` in a table `section`, and its value: normal where it is absent.
+[[nodiscard]] SettingKey comfort_key(const std::string& section);
+[[nodiscard]] Comfort read_comfort(TomlTable& table);
 
 /// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.
 [[nodiscard]] BlankedSector read_sector(TomlTable& table);

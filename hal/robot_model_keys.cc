@@ -85,6 +85,17 @@ FileKeys make_robot_model_keys() {
 
 }  // namespace
 
+SettingKey comfort_key(const std::string& section) {
+  return {section,
+          "comfort",
+          KeyKind::kChoice,
+          {},
+          "",
+          "\"normal\"",
+          "speed, acceleration, jerk and distance from people, from the model's limits (scenarios.md)",
+          comfort_names()};
+}
+
 std::vector<SettingKey> laser_keys(const std::string& section) { return laser_keys_with(section, kModels, kModels); }
 
 const FileKeys& robot_model_keys() {

@@ -75,7 +75,8 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .backend = options.backend,
           .start = scenario.start,
           .goal = scenario.goal,
-          .goal_tolerance_m = scenario.goal_tolerance_m};
+          .goal_tolerance_m = scenario.goal_tolerance_m,
+          .berth_m = profile_of(scenario.comfort).berth_m};
 }
 
 std::vector<WallLine> walls_of(const sim::Simulation& simulation) {

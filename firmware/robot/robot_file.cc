@@ -90,6 +90,9 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   setup.model = read_model_choice(root, "model");
   setup.model.limits.max_speed_mps =
       root.number("max_speed_mps", setup.model.limits.max_speed_mps, setup.model.limits.max_speed_mps);
+  const Comfort comfort = read_comfort(root);
+  setup.model.limits = limits_for(comfort, setup.model);
+  setup.berth_m = profile_of(comfort).berth_m;
   if (root.has("start")) {
     const auto start = root.place_in_map("start", 3);
     setup.start = {start[0], start[1], wrap_angle(start[2])};

@@ -14,6 +14,7 @@ std::vector<SettingKey> top_keys() {
   const RobotFile robot;
   return {{"", "model", kText, {}, "", kNeeded, "\"p3dx\", \"wheelchair\", or a robot model file"},
           {"", "max_speed_mps", kNumber, {0.05, 10.0}, "m/s", "the model's", "cruising speed; at most the model's"},
+          comfort_key(""),
           {"", "start", kNumbers, {}, "m, m, rad", "[0, 0, 0]", "[x, y, heading] in the map when the program starts"},
           {"",
            "goal_tolerance_m",

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "hal/comfort.h"
 #include "hal/setting_keys.h"
 #include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
@@ -94,7 +95,8 @@ struct Scenario {
   double goal_tolerance_m = 0.3;
   double goal_heading_rad = kAnyHeading;  ///< wanted at the goal, in the map; NaN: any
   double goal_heading_tolerance_rad = 0.1;
-  RobotModel model;          ///< with the scenario's own speed and laser already in it
+  RobotModel model;  ///< with the scenario's own speed, comfort and laser already in it
+  Comfort comfort = Comfort::kNormal;
   bool laser_turns = false;  ///< its beams are measured one after another; else all at once
   SlipSpec slip;
   TrueRobot truth;

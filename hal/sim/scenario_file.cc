@@ -80,6 +80,8 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.goal_tolerance_m = table.number("goal_tolerance_m");
   scenario.goal_heading_tolerance_rad = table.number("goal_heading_tolerance_rad");
   scenario.model = read_model(table, scenario.laser_turns);
+  scenario.comfort = read_comfort(table);
+  scenario.model.limits = limits_for(scenario.comfort, scenario.model);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
   if (table.has("truth")) scenario.truth = read_truth(table.table("truth"));
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));

@@ -60,6 +60,7 @@ std::vector<SettingKey> robot_keys() {
            "m/s",
            "the model's",
            "cruising speed; at most what the wheels can do"},
+          comfort_key("robot"),
           {"robot", "laser", kTable, {}, "", "the model's", "over the model's own"},
           {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
           {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},

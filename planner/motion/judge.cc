@@ -22,7 +22,6 @@ constexpr float kUnseen = 40.0F;                              ///< a second, wit
 constexpr float kUnseenFadesM = 0.6F;                         ///< after driving on so far it has been seen, most likely
 constexpr float kUnseenDared = 0.15F, kUnseenTurned = 10.0F;  ///< where the only way leads there; and a rad/s
 constexpr float kNearMover = 0.15F;                           ///< a look, each
-constexpr float kNearMoverM = 1.0F;
 constexpr float kTooFast = 1.6F;    ///< a m/s, each look, faster beside who stands than the gap within a second,
 constexpr float kPoliteMps = 0.2F;  ///< or than this: decision 15
 constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m/s, rad/s in a step
@@ -52,9 +51,11 @@ struct Meeting {
   float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
 };
 
-Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m, float speed) {
+Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m, float speed,
+             float berth_m) {
   const float touch = mover_m + disc_m + kMoverMarginM, touch2 = touch * touch;
   const float zone = mover_m + kZoneM, edge = disc_m + kZoneSideM;
+  const float berth2 = berth_m * berth_m;
   const float reach2 = (zone + edge) * (zone + edge), edge2 = edge * edge;
   alignas(32) std::int32_t hit[kFutures], faced[kFutures];
   alignas(32) float near[kFutures], fast[kFutures];
@@ -70,7 +71,7 @@ Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y,
     const std::int32_t beside = (aside > ahead) & (along > 0.0F) & (over > 0.0F) & (first < zone);
     hit[k] = d2 < touch2 ? 1 : 0;
     faced[k] = inside | beside;
-    near[k] = d2 < kNearMoverM * kNearMoverM ? kNearMoverM * kNearMoverM - d2 : 0.0F;
+    near[k] = d2 < berth2 ? berth2 - d2 : 0.0F;
     const float gap = std::sqrt(d2) - mover_m - disc_m;  // it may set out, and be there within a second
     const float polite = gap < kPoliteMps ? kPoliteMps : gap;
     fast[k] = speed > polite ? speed - polite : 0.0F;
@@ -178,13 +179,14 @@ class Judge {
     for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
       const MoverAt& at = s_.futures.at(at_step, m);
       const bool mapped = s_.futures.is_mapped(m);  // while it stands it is a surface like others
-      const float radius = s_.futures.radius(m), most = at.spread + radius + kZoneM + discs.radius + 0.1F;
+      const float radius = s_.futures.radius(m);
+      const float most = std::max(at.spread + radius + kZoneM + discs.radius + 0.1F, at.spread + s_.body.berth_m);
       for (int k = 0; k < discs.count; ++k) {
         const float x = r.x + discs.ahead[static_cast<std::size_t>(k)] * along_.x;
         const float y = r.y + discs.ahead[static_cast<std::size_t>(k)] * along_.y;
         const float dx = x - at.mid_x, dy = y - at.mid_y;
         if (dx * dx + dy * dy >= most * most) continue;
-        const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed);
+        const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed, s_.body.berth_m);
         (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
         all.nearness += meeting.nearness;
         if (!s_.futures.is_newcomer(m)) all.too_fast += meeting.too_fast;

@@ -11,6 +11,7 @@ struct RobotBody {
   BodyDiscs to_walls, to_movers;
   std::array<Place, 8> rim{};  ///< corners and the sides' middles, in the robot's frame
   float rim_m = 0.0F;          ///< farthest point from the axle
+  float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;              ///< where the supervisor lets it go slowly
   MotionBounds bounds;
 };

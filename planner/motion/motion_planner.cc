@@ -34,6 +34,7 @@ RobotBody body_of(const MotionConfig& config) {
     body.to_movers.radius = static_cast<float>(outer);
   }
   body.rim_m = static_cast<float>(outer);
+  body.berth_m = static_cast<float>(config.berth_m);
   body.blind = BlindRim(f, config.laser);
   const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
              side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);

@@ -12,6 +12,7 @@ struct MotionConfig {
   Footprint footprint;
   MotionLimits limits;
   LaserModel laser;
+  double berth_m = 1.0;         ///< a mover's middle nearer than this to the body's discs costs
   bool constant_speed = false;  ///< one speed from start to goal, never stopping
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;

@@ -37,6 +37,7 @@ to_deg = 110.0
 inline constexpr std::array kWholeRobots{
     R"(model = "p3dx"
 max_speed_mps = 0.5
+comfort = "gentle"
 start = [0.0, 0.0, 0.0]
 goal_tolerance_m = 0.3
 goal_heading_tolerance_rad = 0.1
@@ -127,6 +128,7 @@ goal_tolerance_m = 0.3
 goal_heading_tolerance_rad = 0.1
 model = "p3dx"
 max_speed_mps = 0.6
+comfort = "brisk"
 [robot.laser]
 turns = true
 fov_deg = 180.0
