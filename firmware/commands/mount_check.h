@@ -11,9 +11,13 @@ class MountCheck {
  public:
   /// The estimated pose at each tick, in order.
   void add(const Pose2& map_from_robot);
-  /// The yaw (rad) that robot_from_laser lacks, when the robot drove at least 5 m and slid by more than 0.1 rad; its
-  /// estimate rests on poses that the wrong mount had a part in, so it is a hint: run again with it.
+  /// The direction (rad) that it slid to, 0 ahead and rising to the left, when it drove at least 5 m.
+  [[nodiscard]] std::optional<double> slide() const;
+  /// The yaw (rad) that robot_from_laser lacks, when it slid by more than kTells_rad; its estimate rests on poses that
+  /// the wrong mount had a part in: more may be missing once it is added.
   [[nodiscard]] std::optional<double> missing_yaw() const;
+
+  static constexpr double kTells_rad = 0.1;
 
  private:
   bool begun_ = false;

@@ -12,6 +12,7 @@
 #include "firmware/commands/live_view.h"
 #include "firmware/commands/loop_runner.h"
 #include "firmware/commands/mount_check.h"
+#include "firmware/commands/mount_search.h"
 #include "firmware/commands/progress.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/exchange/bag_file.h"
@@ -103,14 +104,30 @@ class ReplayView {
   std::unique_ptr<LiveView> live_;
 };
 
+/// Where nobody says how the laser is mounted: as matching has it.
+std::optional<double> find_mount(const ReplayOptions& options, sim::RecordedLog& log) {
+  const bool said = options.laser_mount || !options.model.empty() || log.robot_from_laser != Pose2{};
+  const std::optional<double> yaw = said ? std::nullopt : found_mount_yaw(log);
+  if (!yaw) return std::nullopt;
+  log.robot_from_laser.heading = *yaw;
+  std::fprintf(
+      stderr,
+      "jaywalk: the laser is mounted turned by %.2f rad, as scans and wheels agree; --laser-mount X,Y,YAW says "
+      "otherwise\n",
+      *yaw);
+  return yaw;
+}
+
 int replay_log(const ReplayOptions& options, const std::string& format) {
   refuse_to_overwrite(options.logs, options.out);
   std::error_code missing;
   if (std::filesystem::equivalent(options.logs[0], options.out, missing))
     throw StartupError(options.out.string() + ": the bag's own folder", "choose another --out");
-  sim::LogReplay log(load(options, format));
-  std::istringstream complaints(log.log().complaint());
+  sim::RecordedLog recorded = load(options, format);
+  std::istringstream complaints(recorded.complaint());
   for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
+  const std::optional<double> found_yaw = find_mount(options, recorded);
+  sim::LogReplay log(std::move(recorded));
   const ControlSetup setup = setup_for(log, options);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   LoopRunner runner(setup, log.hal(), options.out, false);
@@ -143,7 +160,10 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   }
   const std::string name = options.logs[0].filename().string();
   const bool whole = log.ended();
-  runner.finish({.outcome = whole ? "replayed" : "interrupted", .success = whole, .scenario = name});
+  runner.finish({.outcome = whole ? "replayed" : "interrupted",
+                 .success = whole,
+                 .found_mount_yaw_rad = found_yaw,
+                 .scenario = name});
   const std::filesystem::path drawn = picture.save(options.out, name, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();

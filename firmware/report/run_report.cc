@@ -124,6 +124,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["path_length_m"] = shape_.length_m();
   j["static_shortest_path_m"] = known(end.static_shortest_path_m);
   j["heading_error_rad"] = known(end.heading_error_rad);
+  j["found_mount_yaw_rad"] = known(end.found_mount_yaw_rad);
   j["duration_s"] = ticks_ == 0 ? 0.0 : to_seconds(last_ - first_);
   j["min_clearance_m"] = known(has_truth_, min_clearance_m_);
   j["min_mover_clearance_m"] = known(has_truth_, min_mover_clearance_m_);

@@ -27,11 +27,20 @@ constexpr double kMayStand = 0.5;               // probability that it stands, a
 // to 2.0 in the simulation (docs/tracking-findings.md, "Setting out").
 constexpr double kStoodS = 0.4, kSetsOutSigmas = 10.0, kNoiseSettingOut = 2.5;
 constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
+constexpr double kRound = 0.1;                  // half of what a quarter of a circle has
 constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
 constexpr double kRidesWithinM = 1.2;
 constexpr double kRidesShare = 0.6;  // of its way in the map is all that it moved before the laser
 
-/// A piece of wall seen at a slant seems to slide along the wall when the robot drives.
+/// Some of its points, as it was seen last, stand off the line through its ends by kRound of its length.
+bool round(const Body& body) {
+  const Vec2 first = body.outline_in_map[0], chord = body.outline_in_map.back() - first;
+  return std::any_of(body.outline_in_map.begin(), body.outline_in_map.end(),
+                     [&](Vec2 p) { return std::fabs(cross(chord, p - first)) > kRound * dot(chord, chord); });
+}
+
+/// A piece of wall seen at a slant seems to slide along the wall when the robot drives. Then beams pass over where it
+/// was, too, and one of its ends is seen: that tells nothing but of round things.
 bool slides_along_itself(const Body& body, Vec2 laser) {
   const Vec2 chord = body.outline_in_map.back() - body.outline_in_map[0];
   const Vec2 way = body.track.position_in_map - body.anchor_in_map, beam = body.track.position_in_map - laser;
@@ -57,7 +66,8 @@ bool walks(const Body& body, const StraightWalk& walk, const Surroundings& aroun
   const OldPlace old = old_place(body, around);
   if (old.taken) return false;
   const bool came = came_to_free_space(body), left = old.through;
-  if (!left && !edge_walks(body, walk) && slides_along_itself(body, around.laser_in_map())) return false;
+  const bool told = left || edge_walks(body, walk);
+  if (!(told && round(body)) && slides_along_itself(body, around.laser_in_map())) return false;
   if (steady(body, walk) && borne_out(body, walk, around, old)) return true;
   if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
   const double range_m = distance(around.laser_in_map(), body.track.position_in_map);
@@ -119,7 +129,8 @@ bool sets_out(const Body& body, const Surroundings& around) {
   if (!keeps_its_width(walk, walk.width_change_m - walk.spacing_m)) return false;
   if (!at_a_walk(walk) || walk.longest_hop_m > kHopM) return false;
   const OldPlace old = old_place(body, around);
-  if (old.taken || (!old.through && slides_along_itself(body, around.laser_in_map()))) return false;
+  const bool told = old.through && round(body);
+  if (old.taken || (!told && slides_along_itself(body, around.laser_in_map()))) return false;
   return ground_says_so(body, around, old);
 }
 

@@ -1,0 +1,64 @@
+#include "firmware/commands/mount_search.h"
+
+#include "tests/perception/room.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+constexpr double kMps = 0.6, kRadps = 0.6, kScan_s = 1.0 / 15.0;
+constexpr Fan kFan{.beams = 361, .first_rad = -0.75 * kPi, .step_rad = 1.5 * kPi / 360};
+
+Room hall() {
+  Room room = rectangle(16.0, 12.0);
+  room.walls.push_back({{-2.0, -6.0}, {-2.0, -3.0}});
+  room.walls.push_back({{3.0, 6.0}, {3.0, 4.5}});
+  room.discs = {{{6.0, -3.0}, 0.4}, {{-6.0, 3.0}, 0.3}};
+  return room;
+}
+
+/// 6 m ahead, a quarter turn to the left, 4 m on.
+Pose2 pose_after(double s) {
+  const double turns_s = 6.0 / kMps, turned_s = turns_s + kPi / 2.0 / kRadps;
+  if (s < turns_s) return {-4.0 + kMps * s, -1.0, 0.0};
+  if (s < turned_s) return {2.0, -1.0, kRadps * (s - turns_s)};
+  return {2.0, -1.0 + kMps * (s - turned_s), kPi / 2.0};
+}
+
+/// What a laser turned by `yaw` records of `lasts_s` of that way, and nobody says so.
+sim::RecordedLog recorded_with(double yaw, double lasts_s = 19.0) {
+  sim::RecordedLog log;
+  for (std::uint32_t k = 0; k * kScan_s < lasts_s; ++k) {
+    const Pose2 robot = pose_after(k * kScan_s);
+    const LaserScan scan = scan_of(hall(), robot * Pose2{0.0, 0.0, yaw}, k + 1, 0.01, kFan);
+    log.scans.push_back({scan.stamp, log.range_m.size(), scan.beam_count, scan.first_angle_rad, scan.angle_step_rad,
+                         scan.range_min_m, scan.range_max_m});
+    log.range_m.insert(log.range_m.end(), scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
+    log.odometry.push_back({scan.stamp, robot, std::nullopt});
+  }
+  return log;
+}
+
+}  // namespace
+
+TEST_CASE("the yaw of a laser of which nobody says how it is mounted is found") {
+  for (const double yaw : {0.7, -0.3}) {
+    INFO("yaw " << yaw);
+    const auto found = found_mount_yaw(recorded_with(yaw));
+    REQUIRE(found.has_value());
+    CHECK(*found == Approx(yaw).margin(0.03));
+  }
+}
+
+TEST_CASE("a laser that looks where the wheels drive is left as it is, and so is one of too short a way") {
+  CHECK_FALSE(found_mount_yaw(recorded_with(0.0)).has_value());
+  CHECK_FALSE(found_mount_yaw(recorded_with(0.7, 6.0)).has_value());  // 3.6 m
+}
+
+TEST_CASE("without wheels no yaw is found") {
+  sim::RecordedLog log = recorded_with(0.7);
+  log.odometry.clear();
+  CHECK_FALSE(found_mount_yaw(log).has_value());
+}
