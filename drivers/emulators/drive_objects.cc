@@ -36,6 +36,7 @@ CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t c
 DriveObjects::DriveObjects() noexcept {
   add({0x1000, 0}, 4, 0x00020192, false);  // a servo drive of CiA 402
   add({0x6502, 0}, 4, 1U << 2U, false);    // profile velocity, and nothing else
+  add({0x1018, 0}, 1, kIdentity.size(), false);
   for (std::uint8_t sub = 1; sub <= 4; ++sub) add({0x1018, sub}, 4, kIdentity[sub - 1], false);
   add({0x1016, 1}, 4, 0, true);
   add({0x1017, 0}, 2, 0, true);
