@@ -155,8 +155,8 @@ class Multigrid {
     executor_.for_each_row(board.side, first, RowStep{half, ToBoard{board, psi, a.psi}},
                            RowStep{half, CoupleAhead{board, 0, a.psi, a.couplings, sources, a.x}},
                            RowStep{half, CoupleAhead{board, 1, a.psi, a.couplings, sources, a.x}},
-                           RowStep{half, CoupleBack{board, 0, a.couplings}},
-                           RowStep{half, CoupleBack{board, 1, a.couplings}});
+                           RowStep{half, CoupleBack<>{board, 0, a.psi, a.couplings}},
+                           RowStep{half, CoupleBack<>{board, 1, a.psi, a.couplings}});
     executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source, 0, board.side});
   }
 

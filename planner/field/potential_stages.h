@@ -73,23 +73,10 @@ struct CoupleAhead {
   }
 };
 
-/// The couplings west and south, from what those neighbours have east and north.
+/// The couplings west and south, from what those neighbours have east and north. `kSouthFromPsi`: the latter from psi,
+/// where the cell to the south may be another's to set.
+template <bool kSouthFromPsi = false>
 struct CoupleBack {
-  Board board;
-  std::int32_t colour;
-  CouplingArrays couplings;
-
-  JAYWALK_CELL void operator()(std::int32_t h, std::int32_t j) const {
-    const std::int32_t c = board.row(colour, j) + h;
-    const Neighbours n = board.neighbours(colour, h, j);
-    const bool has_west = h > 0 || Board::first_column(colour, j) > 0;
-    couplings.west[c] = has_west ? cell::coupling_back(couplings.east[n.west]) : 0.0F;
-    couplings.south[c] = j > 0 ? cell::coupling_back(couplings.north[n.south]) : 0.0F;
-  }
-};
-
-/// The same without what the cell to the south has, which may be another's to set: from psi.
-struct CoupleBackFromPsi {
   Board board;
   std::int32_t colour;
   const float* psi;
@@ -100,7 +87,14 @@ struct CoupleBackFromPsi {
     const Neighbours n = board.neighbours(colour, h, j);
     const bool has_west = h > 0 || Board::first_column(colour, j) > 0;
     couplings.west[c] = has_west ? cell::coupling_back(couplings.east[n.west]) : 0.0F;
-    couplings.south[c] = j > 0 ? cell::coupling_back(cell::coupling(psi[n.south], psi[c], true)) : 0.0F;
+    couplings.south[c] = j > 0 ? cell::coupling_back(north_of(n.south, c)) : 0.0F;
+  }
+
+ private:
+  /// What the cell `south` of `c` has to its north.
+  [[nodiscard]] JAYWALK_CELL float north_of(std::int32_t south, std::int32_t c) const {
+    if constexpr (kSouthFromPsi) return cell::coupling(psi[south], psi[c], true);
+    return couplings.north[south];
   }
 };
 

@@ -139,8 +139,8 @@ class StripCycles {
       visit(half, mine, CoupleAhead{board, colour, a.psi, a.couplings, sources_of(a, side_), a.x});
     for (std::int32_t colour = 0; colour < 2; ++colour) {
       // What lies south of the first row is another block's, and may not be there yet.
-      visit(half, {mine.low, mine.low + 1}, CoupleBackFromPsi{board, colour, a.psi, a.couplings});
-      visit(half, {mine.low + 1, mine.high}, CoupleBack{board, colour, a.couplings});
+      visit(half, {mine.low, mine.low + 1}, CoupleBack<true>{board, colour, a.psi, a.couplings});
+      visit(half, {mine.low + 1, mine.high}, CoupleBack<>{board, colour, a.psi, a.couplings});
     }
     if (place_.block_thread() == 0) SettleGoal{board, goal, a.couplings, a.source, mine.low, mine.high}(0);
     place_.meet_block();
