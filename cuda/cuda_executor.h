@@ -42,11 +42,11 @@ class CudaExecutor {
   static constexpr std::int32_t kColumns = field::Crew<PlaceInGrid>::kColumns;
   static constexpr std::int32_t kCellsOfRow = field::Crew<PlaceInGrid>::kCellsOfRow;
 
-  /// An order that has not ended by `limit` has failed. Throws std::runtime_error with the driver's own words, or why
-  /// the device does not do.
-  explicit CudaExecutor(std::chrono::milliseconds limit) : limit_(limit) {
-    int device = 0, cooperates = 0, integrated = 0, managed = 0, least = 0, greatest = 0;
-    must(cudaGetDevice(&device));
+  /// On the device of that number. An order that has not ended by `limit` has failed. Throws std::runtime_error with
+  /// the driver's own words, or why the device does not do.
+  CudaExecutor(int device, std::chrono::milliseconds limit) : device_(device), limit_(limit) {
+    int cooperates = 0, integrated = 0, managed = 0, least = 0, greatest = 0;
+    must(cudaSetDevice(device));
     must(cudaDeviceGetAttribute(&cooperates, cudaDevAttrCooperativeLaunch, device));
     must(cudaDeviceGetAttribute(&processors_, cudaDevAttrMultiProcessorCount, device));
     must(cudaDeviceGetAttribute(&integrated, cudaDevAttrIntegrated, device));
@@ -116,6 +116,7 @@ class CudaExecutor {
   template <class Order>
   bool run(const Order& order) noexcept {
     if (!is_ready()) return false;
+    (void)cudaSetDevice(device_);  // each thread of the host has its own, at first device 0
     cudaEventRecord(begin_, stream_);
     const cudaError_t launched = launch(order);
     cudaEventRecord(end_, stream_);
@@ -252,6 +253,7 @@ class CudaExecutor {
 
   static inline std::atomic<bool> left_behind_{false};
 
+  int device_;
   std::chrono::milliseconds limit_;
   DeviceFailure failure_ = DeviceFailure::kNone;
   bool is_one_memory_ = false;

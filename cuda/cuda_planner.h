@@ -12,17 +12,22 @@ namespace jaywalk {
 /// is none to wait for. A plan is then still as old as two scans at 15 Hz at most.
 inline constexpr std::chrono::milliseconds kLongestKernel{50};
 
-/// A planner on the first CUDA device: the same stages in the same order as make_cpu_planner's, and the
-/// same bits, which a small field shows before it is handed out. Null with one clear line in `why_not` where there is
-/// no device or its driver or memory does not do, or where the bits differ. Throws StartupError for a configuration
-/// that makes no sense.
+/// A planner on the CUDA device of that number, from 0: the same stages in the same order as make_cpu_planner's, and
+/// the same bits. Null with one clear line in `why_not` where there is no such device or its driver or memory does not
+/// do. Throws StartupError for a configuration that makes no sense.
 ///
 /// submit() returns when the plan is made: it waits for the device, asleep. A kernel that takes longer than
 /// kLongestKernel is given up: PlanStatus::kBackendFailed, and failure() says why. Thread: the loop's.
-[[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, std::string& why_not);
+[[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not);
 
 /// The same for a map alone.
-[[nodiscard]] std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, std::string& why_not);
+[[nodiscard]] std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, int device,
+                                                                   std::string& why_not);
+
+/// Self-test: plans twice across a small room with the device and with the CPU, which takes all kernels. False with one
+/// clear line in `why_not` where there is no such device, it fails, or the bits differ. Takes up to a second where the
+/// driver has to compile for the device.
+[[nodiscard]] bool passes_cuda_trial(int device, std::string& why_not);
 
 /// Whether a kernel that was given up may still run. The process must then end by std::_Exit: exit() would wait for it
 /// in the driver.

@@ -18,14 +18,15 @@ namespace jaywalk {
 const char* built_backends() { return "cpu, cuda"; }
 #else
 namespace {
-std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig&, std::string& why_not) {
+std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig&, int, std::string& why_not) {
   why_not = "cuda: not in this build";
   return nullptr;
 }
-std::unique_ptr<field::MapField> make_cuda_map_field(const field::CellMap&, std::string& why_not) {
+std::unique_ptr<field::MapField> make_cuda_map_field(const field::CellMap&, int, std::string& why_not) {
   why_not = "cuda: not in this build";
   return nullptr;
 }
+bool passes_cuda_trial(int, std::string& why_not) { return why_not = "cuda: not in this build", false; }
 bool has_cuda_left_behind() { return false; }
 }  // namespace
 const char* built_backends() { return "cpu"; }
@@ -37,20 +38,28 @@ namespace {
 }
 }  // namespace
 
-ChosenPlanner make_planner(const PlannerConfig& config, Backend backend) {
+ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device) {
   if (backend == Backend::kCpu) return {make_cpu_planner(config), ""};
   std::string why_not;
-  if (auto planner = make_cuda_planner(config, why_not)) {
-    return {std::make_unique<FallbackPlanner>(std::move(planner), make_cpu_planner(config)), ""};
-  }
+  auto planner = passes_cuda_trial(device, why_not) ? make_cuda_planner(config, device, why_not) : nullptr;
+  if (planner) return {std::make_unique<FallbackPlanner>(std::move(planner), make_cpu_planner(config)), ""};
   if (backend == Backend::kCuda) refuse_cuda(why_not);
   return {make_cpu_planner(config), JAYWALK_HAS_CUDA ? why_not : ""};
 }
 
-std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend) {
+std::string tried_backend(Backend backend, int device) {
+  std::string why_not;
+  if (backend == Backend::kCpu) return "plans on the CPU";
+  if (passes_cuda_trial(device, why_not))
+    return "plans on CUDA device " + std::to_string(device) + ": trial plans have the CPU's bits";
+  if (backend == Backend::kCuda) refuse_cuda(why_not);
+  return "plans on the CPU (" + why_not + ")";
+}
+
+std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend, int device) {
   if (backend == Backend::kCpu) return field::make_cpu_map_field(map);
   std::string why_not;
-  if (auto solver = make_cuda_map_field(map, why_not)) return solver;
+  if (auto solver = make_cuda_map_field(map, device, why_not)) return solver;
   if (backend == Backend::kCuda) refuse_cuda(why_not);
   return field::make_cpu_map_field(map);
 }

@@ -14,12 +14,17 @@ struct ChosenPlanner {
   std::string why_not_cuda;  ///< for the summary, where this build could but this machine cannot; else empty
 };
 
-/// kAuto takes the GPU where build and machine have one, the CPU elsewhere. A GPU that fails while it plans gives way
-/// to the CPU (FallbackPlanner). Throws StartupError where kCuda cannot be had.
-[[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend);
+/// kAuto takes the GPU where build and machine have one, the CPU elsewhere. A GPU is tried first: plans of a small room
+/// that have not the CPU's bits are a reason not to take it. One that fails while it plans gives way to the CPU
+/// (FallbackPlanner). `device`: CUDA's number. Throws StartupError where kCuda cannot be had.
+[[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device = 0);
 
-/// The same for a map alone, without a fall-back.
-[[nodiscard]] std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend);
+/// Tries what make_planner() would take, and says in a few words what that is. Throws StartupError like it.
+[[nodiscard]] std::string tried_backend(Backend backend, int device = 0);
+
+/// The same as make_planner() for a map alone, without trial and fall-back.
+[[nodiscard]] std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend,
+                                                              int device = 0);
 
 /// Whether this process has given up work of a device that may still run: it then ends by std::_Exit.
 [[nodiscard]] bool has_device_left_behind();

@@ -18,8 +18,9 @@ struct ControlSetup {
   bool constant_speed = false;                              ///< the paper's constraint; mode paper implies it
   baseline::Baseline baseline = baseline::Baseline::kOurs;  ///< who decides on motion, for comparisons in simulation
   Backend backend = Backend::kAuto;
-  Pose2 start;  ///< where the robot believes to be when the loop starts
-  Vec2 goal;    ///< for sizing the grid; the goal itself comes from the operator panel
+  int device = 0;  ///< of backend cuda, and of auto: CUDA's number; not in a recording, the bits are the same
+  Pose2 start;     ///< where the robot believes to be when the loop starts
+  Vec2 goal;       ///< for sizing the grid; the goal itself comes from the operator panel
   double goal_tolerance_m = 0.3;
   bool wheels = true;  ///< false: a recording without odometry
   bool wired = false;  ///< devices on wires: every fault waits for a reset

@@ -78,7 +78,7 @@ void add_sim(CLI::App& app) {
          "--comfort", [](const std::string& word) { sim_options.settings.push_back("robot.comfort=" + word); },
          "How the ride is to feel, in place of the scenario's own")
       ->check(CLI::IsMember(comfort_names()));
-  add_backend(*sim, sim_options.backend);
+  add_backend(*sim, sim_options.backend, sim_options.device);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
   sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
@@ -152,7 +152,7 @@ void add_field(CLI::App& app) {
   field->add_option("--inflation,--inflation_m", field_options.inflation_m, "Walls grow by this (m)")
       ->capture_default_str();
   field->add_option("--resolution", field_options.cell_m, "Metres a cell: of a picture, of lines or cylinders");
-  add_backend(*field, field_options.backend);
+  add_backend(*field, field_options.backend, field_options.device);
   field->add_flag("--start-field", field_options.start_only,
                   "The start field alone: shortest ways, no potential solved");
   field->add_option("--out", field_options.out, "Folder for field.npy and field.json")->capture_default_str();

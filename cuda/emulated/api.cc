@@ -54,6 +54,7 @@ cudaError_t launch(const cudaLaunchConfig_t& config, const void* function, std::
       if (attribute.id == cudaLaunchAttributeCooperative) shape.cooperative = attribute.val.cooperative != 0;
       if (attribute.id == cudaLaunchAttributeClusterDimension) shape.cluster_blocks = attribute.val.clusterDim.x;
     }
+    if (stream_or_default(config.stream)->of_device != Device::current()) return cudaErrorInvalidResourceHandle;
     const std::size_t blocks = shape.grid.count(), threads = shape.block.count();
     if (blocks == 0 || threads == 0 || threads > 1024) return cudaErrorInvalidConfiguration;
     if (shape.dynamic_bytes > device().functions[function].dynamic_bytes) return cudaErrorInvalidValue;
@@ -125,6 +126,8 @@ const char* cudaGetErrorName(cudaError_t error) {
       return "cudaErrorNoDevice";
     case cudaErrorInvalidDevice:
       return "cudaErrorInvalidDevice";
+    case cudaErrorInvalidResourceHandle:
+      return "cudaErrorInvalidResourceHandle";
     case cudaErrorNotReady:
       return "cudaErrorNotReady";
     case cudaErrorIllegalAddress:
@@ -158,11 +161,16 @@ cudaError_t cudaGetDeviceCount(int* count) {
   });
 }
 cudaError_t cudaGetDevice(int* number) {
-  return call([&] { return *number = 0, device().properties().devices > 0 ? cudaSuccess : cudaErrorNoDevice; });
+  return call([&] {
+    *number = Device::current();
+    return device().properties().devices > 0 ? cudaSuccess : cudaErrorNoDevice;
+  });
 }
 cudaError_t cudaSetDevice(int number) {
-  return call(
-      [&] { return number >= 0 && number < device().properties().devices ? cudaSuccess : cudaErrorInvalidDevice; });
+  return call([&] {
+    if (number < 0 || number >= device().properties().devices) return cudaErrorInvalidDevice;
+    return Device::current() = number, cudaSuccess;
+  });
 }
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
   return call([&] {

@@ -33,6 +33,11 @@ Device& device() {
   return *only;
 }
 
+int& Device::current() {
+  thread_local int number = 0;
+  return number;
+}
+
 void Device::power_on(const Properties& properties) {
   const std::lock_guard lock(mutex);
   properties_ = properties;
@@ -42,6 +47,7 @@ void Device::power_on(const Properties& properties) {
   memory_.set_busy(false);
   memory_.begin_anew(properties.guarded);
   streams_.clear(), events_.clear(), functions.clear();
+  current() = 0;
   default_stream_ = make_stream(true);
   fault_ = Fault::kNone;
   sticky_ = last_error = 0;

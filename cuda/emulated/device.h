@@ -14,7 +14,7 @@
 namespace jaywalk::emulated {
 
 struct Properties {
-  int devices = 1;              ///< 0: none is there
+  int devices = 1;              ///< all alike; 0: none is there
   int processors = 3;           ///< each holds one block at a time
   int compute_capability = 90;  ///< 87: an AGX Orin, without clusters
   int cluster_blocks = 16;      ///< of the largest cluster; 8: no larger than every such device has; 0: none
@@ -66,6 +66,8 @@ class Device {
   [[nodiscard]] int sticky() const { return sticky_; }
   [[nodiscard]] Memory& memory() { return memory_; }
   [[nodiscard]] Stream* default_stream() { return default_stream_; }
+  /// The device that the calling thread works on, as cudaSetDevice() has it: each begins with 0.
+  [[nodiscard]] static int& current();
 
   std::recursive_mutex mutex;  ///< of all calls
   int last_error = 0;
@@ -102,6 +104,7 @@ struct Device::Stream {
   };
   std::deque<Work> line;
   bool waits_for_default, is_stuck = false;
+  int of_device = current();
 };
 
 struct Device::Event {

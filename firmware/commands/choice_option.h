@@ -35,9 +35,12 @@ void add_choice(CLI::App& command, const std::string& option, T& chosen, const s
   command.add_option_function<std::string>(option, choose, about)->type_name(words)->default_str(usual);
 }
 
-inline void add_backend(CLI::App& command, Backend& chosen) {
+inline void add_backend(CLI::App& command, Backend& chosen, int& device) {
   add_choice<Backend>(command, "--backend", chosen,
                       {{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}, "Who plans");
+  command.add_option("--device", device, "Number of the GPU that plans, as CUDA counts them from 0")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
 }
 
 }  // namespace jaywalk

@@ -95,7 +95,7 @@ int run_field(const FieldOptions& options) {
     throw StartupError("--inflation: outside 0 to 5 m", "give the robot's radius and a margin");
   }
   const MapCells map = load_map_cells(options.map, options.cell_m);
-  const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend);
+  const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend, options.device);
   MapField& solver = *chosen;
   solver.inflate(static_cast<float>(options.inflation_m / map.cell_m));
   const CellIndex goal = goal_cell(options, map, solver);

@@ -12,6 +12,7 @@ struct FieldOptions {
   double inflation_m = 0.3;      ///< walls grow by this
   std::optional<double> cell_m;  ///< of a picture without a YAML file, or of what has no cells (default there: 0.1 m)
   Backend backend = Backend::kAuto;
+  int device = 0;           ///< CUDA's number
   bool start_only = false;  ///< the start field alone: shortest ways, no potential solved
   std::filesystem::path out = "out/field";
 };

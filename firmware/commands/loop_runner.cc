@@ -21,7 +21,7 @@ LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem
     : setup_(setup),
       clock_(hal.clock),
       out_(out),
-      chosen_(wrapped(make_planner(setup.planner(), setup.backend), wrap)),
+      chosen_(wrapped(make_planner(setup.planner(), setup.backend, setup.device), wrap)),
       recorder_({.file = record ? out_.file("recording.jwr").string() : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       report_(out),

@@ -64,7 +64,7 @@ int say_goal() {
 void add_run(CLI::App& app, int& exit_code) {
   CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
   run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
-  add_backend(*run, run_options.backend);
+  add_backend(*run, run_options.backend, run_options.device);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
   run->add_flag("--save-map", run_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   run->add_option("--runs", run_options.runs, "Folder in which each run gets one of its own, instead of --out");
@@ -84,6 +84,7 @@ void add_check(CLI::App& app, int& exit_code) {
   CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
   check->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
   check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  add_backend(*check, run_options.backend, run_options.device);
   check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, said");
   check->callback([&exit_code] { exit_code = check_robot(run_options); });
 }

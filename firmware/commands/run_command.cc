@@ -137,6 +137,7 @@ std::unique_ptr<RunView> view_for(const RunOptions& options, const RobotFile& fi
 int run_robot(RunOptions options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
+  file.setup.device = options.device;
   if (options.allow_no_realtime) file.realtime.required = false;
   const std::string not_commissioned = require_commissioned(options.robot, file);
   if (!not_commissioned.empty()) remark(not_commissioned);
@@ -210,7 +211,9 @@ int run_robot(RunOptions options) {
 }
 
 int check_robot(const RunOptions& options) {
-  const RobotFile file = load_robot_file(options.robot);
+  RobotFile file = load_robot_file(options.robot);
+  file.setup.backend = options.backend;
+  file.setup.device = options.device;
   const CommissioningRecord record = read_commissioned(options.robot, file);
   std::vector<CheckedPart> parts{{"file", true, options.robot.string()},
                                  {"commissioned", record.state != Commissioned::kFailed, record.said}};

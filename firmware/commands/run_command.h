@@ -11,6 +11,7 @@ namespace jaywalk {
 struct RunOptions {
   std::filesystem::path robot;  ///< ROBOT.toml
   Backend backend = Backend::kAuto;
+  int device = 0;  ///< CUDA's number
   std::filesystem::path out = "out/run";
   bool save_map = false;       ///< what the robot saw, as map_server files
   std::filesystem::path runs;  ///< where each run gets a folder of its own, in place of `out`; empty: `out` it is

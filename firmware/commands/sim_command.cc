@@ -73,6 +73,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .constant_speed = options.constant_speed,
           .baseline = options.planner,
           .backend = options.backend,
+          .device = options.device,
           .start = scenario.start,
           .goal = scenario.goal,
           .goal_tolerance_m = scenario.goal_tolerance_m,

@@ -18,6 +18,7 @@ struct SimOptions {
   bool constant_speed = false;
   baseline::Baseline planner = baseline::Baseline::kOurs;
   Backend backend = Backend::kAuto;
+  int device = 0;  ///< CUDA's number
   std::filesystem::path out = "out/sim";
   bool save_map = false;  ///< what the robot saw, as map_server files
   bool realtime = false;

@@ -11,6 +11,7 @@
 #include <thread>
 
 #include "drivers/can/link_facts.h"
+#include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_devices.h"
@@ -138,6 +139,7 @@ std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem:
   inspection.look("memory", [&] { return check_memory(file.realtime); });
   inspection.look("control socket", [&] { return check_socket(control_socket); });
   if (!inspection.last_is_well() && a_run_listens(control_socket)) return std::move(inspection).parts();
+  inspection.look("planner", [&] { return tried_backend(file.setup.backend, file.setup.device); });
   inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
   if (inspection.last_is_well()) {
     inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });

@@ -15,7 +15,8 @@ struct CheckedPart {
   std::string said;  ///< what it is; where it is not well, the cause and what to do about it
 };
 
-/// Looks at all that a run needs: clock, real-time rights, memory, control socket, CAN interface, both drives, scanner,
+/// Looks at all that a run needs: clock, real-time rights, memory, planner (a trial
+/// of its GPU), control socket, CAN interface, both drives, scanner,
 /// joystick. Nothing moves, no setting of a device is changed but what makes a scanner send. Where a run has the robot
 /// already, that is said and its devices are left alone. Takes some seconds.
 [[nodiscard]] std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket,

@@ -27,7 +27,7 @@ inline emulated::Properties properties_of(Kind kind, std::uint64_t seed) {
 
 inline std::unique_ptr<field::MapField> cuda_field(const field::CellMap& map) {
   std::string why_not;
-  auto field = make_cuda_map_field(map, why_not);
+  auto field = make_cuda_map_field(map, 0, why_not);
   INFO(why_not);
   REQUIRE(field != nullptr);
   return field;
@@ -35,7 +35,7 @@ inline std::unique_ptr<field::MapField> cuda_field(const field::CellMap& map) {
 
 inline std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
   std::string why_not;
-  auto planner = make_cuda_planner(config, why_not);
+  auto planner = make_cuda_planner(config, 0, why_not);
   INFO(why_not);
   REQUIRE(planner != nullptr);
   return planner;

@@ -3,6 +3,7 @@
 #include <unistd.h>
 
 #include <string>
+#include <thread>
 
 #include "planner/field/fallback_planner.h"
 #include "tests/cuda/cuda_rig.h"
@@ -62,14 +63,18 @@ TEST_CASE("emulated: each way to fail, in each launch of a plan, is answered by 
     Fault fault;
     const char* backend;
   };
+  const std::size_t points = [] {
+    Drive drive;
+    device().order(Fault::kRefused);
+    return drive.plan().path.size();  // the CPU's
+  }();
   for (const Case& c : {Case{Fault::kRefused, "cpu (cuda: a launch was refused)"},
                         Case{Fault::kBroken, "cpu (cuda: the device failed)"},
                         Case{Fault::kHangs, "cpu (cuda: a kernel did not end in time)"}}) {
     for (int launch = 0; launch < kLaunchesOfPlan; ++launch) {
       Drive drive({.integrated = launch % 2 == 0, .guarded = true});
-      const std::size_t points = drive.plan().path.size();
       device().order(c.fault, launch);
-      for (std::uint32_t sequence = 2; sequence <= 4; ++sequence) {
+      for (std::uint32_t sequence = 1; sequence <= 3; ++sequence) {
         const Plan& plan = drive.plan();
         CHECK(plan.status == PlanStatus::kOk);
         CHECK(plan.certified);
@@ -147,25 +152,44 @@ TEST_CASE("emulated: a process with a kernel that never ends ends, with the code
   CHECK(WEXITSTATUS(status) == 7);
 }
 
-TEST_CASE(
-    "emulated: no device, one that refuses, breaks or hangs at the start, and one without memory: none is made, and "
-    "why") {
+TEST_CASE("emulated: the trial is passed by a device that serves") {
+  device().power_on(properties_of(Kind::kGrid, 3));
+  std::string why;
+  CHECK(passes_cuda_trial(0, why));
+  CHECK(why.empty());
+  device().power_on();
+}
+
+TEST_CASE("emulated: no device, none of that number, one that fails at the start: the trial is not passed, and why") {
   struct Case {
     emulated::Properties properties;
+    int number;
     Fault fault;
     const char* why;
   };
   for (const Case& c :
-       {Case{{.devices = 0}, Fault::kNone, "cuda: no device (cudaErrorNoDevice)"},
-        Case{{.bytes = 1 << 20}, Fault::kNone, "cuda: the device does not serve (cudaErrorMemoryAllocation)"},
-        Case{{}, Fault::kRefused, "cuda: a trial field could not be solved"},
-        Case{{}, Fault::kBroken, "cuda: a trial field could not be solved"},
-        Case{{}, Fault::kHangs, "cuda: a trial field could not be solved"}}) {
+       {Case{{.devices = 0}, 0, Fault::kNone, "cuda: no device (cudaErrorNoDevice)"},
+        Case{{.devices = 2}, 2, Fault::kNone, "cuda: no device 2 (2 there, numbered from 0)"},
+        Case{{.bytes = 1 << 20}, 0, Fault::kNone, "cuda: the device does not serve (cudaErrorMemoryAllocation)"},
+        Case{{}, 0, Fault::kRefused, "cuda: a trial plan failed (a launch was refused)"},
+        Case{{}, 0, Fault::kBroken, "cuda: a trial plan failed (the device failed)"},
+        Case{{}, 0, Fault::kHangs, "cuda: a trial plan failed (a kernel did not end in time)"}}) {
     device().power_on(c.properties);
     device().order(c.fault, 0, 100);
     std::string why;
-    CHECK(make_cuda_planner(small_window(), why) == nullptr);
+    CHECK_FALSE(passes_cuda_trial(c.number, why));
     CHECK(why == c.why);
   }
   device().power_on();
+}
+
+TEST_CASE("emulated: the second device plans, from another thread than the one that made the planner, too") {
+  device().power_on({.devices = 2, .guarded = true});
+  std::string why;
+  const auto gpu = make_cuda_planner(small_window(), 1, why);
+  REQUIRE(gpu != nullptr);
+  const auto cpu = make_cpu_planner(small_window());
+  const EvidenceMap room = evidence_of({"room", 64});
+  std::thread([&] { CHECK(check_plan(*cpu, *gpu, across(room))); }).join();
+  CHECK(check_plan(*cpu, *gpu, across(room)));
 }

@@ -61,7 +61,7 @@ std::vector<std::unique_ptr<Planner>> every_executor(const PlannerConfig& config
       std::make_unique<field::GridPlanner<test::ShuffledExecutor>>(config, std::make_unique<test::ShuffledExecutor>()));
 #if JAYWALK_HAS_CUDA
   std::string why_not;
-  auto gpu = make_cuda_planner(config, why_not);
+  auto gpu = make_cuda_planner(config, 0, why_not);
   gpu ? planners.push_back(std::move(gpu)) : void(std::printf("not compared with a GPU (%s)\n", why_not.c_str()));
 #endif
   return planners;

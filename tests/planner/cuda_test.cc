@@ -31,12 +31,12 @@ Made or_skipped(Made made, const std::string& why_not) {
 
 std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
   std::string why_not;
-  auto planner = make_cuda_planner(config, why_not);
+  auto planner = make_cuda_planner(config, 0, why_not);
   return or_skipped(std::move(planner), why_not);
 }
 std::unique_ptr<field::MapField> cuda_map_field(const field::CellMap& map) {
   std::string why_not;
-  auto field = make_cuda_map_field(map, why_not);
+  auto field = make_cuda_map_field(map, 0, why_not);
   return or_skipped(std::move(field), why_not);
 }
 #else

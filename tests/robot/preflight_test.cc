@@ -43,7 +43,7 @@ TEST_CASE("each part that is missing is told with what to do about it, and the o
   RobotFile file = nothing_connected();
   file.panel = PanelWiring{.joystick = {.path = "/dev/input/by-id/none"}};
   const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
-  REQUIRE(parts.size() == 7);  // no drives where there is no bus
+  REQUIRE(parts.size() == 8);  // no drives where there is no bus
   REQUIRE(find(parts, "clock") != nullptr);
   REQUIRE(find(parts, "control socket") != nullptr);
   CHECK(find(parts, "control socket")->is_well);
@@ -100,6 +100,24 @@ TEST_CASE("a scanner that sees the robot's own body is told, for the robot would
   const std::string before_it = said_of(0.60F);
   CHECK(before_it.find("811 beams") != std::string::npos);  // a scan was looked at
   CHECK(before_it.find("outline") == std::string::npos);
+}
+
+TEST_CASE("who would plan is tried: a GPU that was asked for and is not there is a failure, otherwise the CPU plans") {
+  SteadyClock clock;
+  RobotFile file = nothing_connected();
+  const auto planner = [&](Backend backend) {
+    file.setup.backend = backend;
+    file.setup.device = 255;  // no machine has so many
+    const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+    const CheckedPart* const part = find(parts, "planner");
+    return part == nullptr ? CheckedPart{} : *part;
+  };
+  CHECK(planner(Backend::kCpu).is_well);
+  CHECK(planner(Backend::kCpu).said == "plans on the CPU");
+  CHECK(planner(Backend::kAuto).is_well);
+  CHECK(planner(Backend::kAuto).said.find("plans on the CPU (cuda: no") == 0);
+  CHECK_FALSE(planner(Backend::kCuda).is_well);
+  CHECK(planner(Backend::kCuda).said.find("--backend cuda: no") == 0);
 }
 
 TEST_CASE("the devices of a robot that runs are left alone") {
