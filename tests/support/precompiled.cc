@@ -1,1 +1,0 @@
-// Nothing: its target holds the header that all tests' executables have precompiled (tests/CMakeLists.txt).
