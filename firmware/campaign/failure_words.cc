@@ -65,7 +65,7 @@ FailureWords forced_words(const std::filesystem::path& folder, const std::vector
   return words;
 }
 
-/// The mover whose middle is nearest at the end.
+/// The mover nearest to the robot at the end of the run, by their centres.
 std::string nearest_mover(const std::filesystem::path& folder, const RobotRow& end) {
   CsvRows rows(folder / "movers.csv", {"t_s", "id", "x_m", "y_m"});
   std::string nearest;

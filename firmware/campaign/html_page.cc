@@ -1,4 +1,5 @@
 #include "firmware/campaign/report_page.h"
+#include "firmware/report/markup.h"
 
 namespace jaywalk::campaign {
 namespace {
@@ -14,18 +15,7 @@ constexpr const char* kStyle =
 
 std::string escaped(const std::string& text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c;
-  }
+  for (const char c : text) out += as_markup(c);
   return out;
 }
 

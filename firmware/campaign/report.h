@@ -34,7 +34,8 @@ struct ReportedTables {
 /// Whether `folder` holds a campaign.
 [[nodiscard]] bool is_campaign(const std::filesystem::path& folder);
 
-/// Reads the folders, whose plans must be the same. Throws StartupError where one holds no campaign or another one.
+/// Reads the folders of one campaign's shards. Throws StartupError where a folder holds no campaign, or a shard of
+/// another one.
 class CampaignReport {
  public:
   explicit CampaignReport(const std::vector<std::filesystem::path>& folders);

@@ -28,7 +28,7 @@ std::string text_in(const std::filesystem::path& file) {
   return {std::istreambuf_iterator<char>(in), {}};
 }
 
-/// The last line that the program said of itself, without the folder, whose name differs from shard to shard.
+/// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {
   const std::string said = text_in(folder / "said.txt"), own = folder.string();
   const std::size_t begin = said.rfind("jaywalk: ");

@@ -19,7 +19,7 @@ struct RunResult {
   std::map<std::string, double> figures;  ///< those of summary.json and of Ride that are numbers, by name
   std::array<std::uint32_t, kTurnBins> turns{};
 
-  /// Whether the goal was reached, somebody made to turn or not.
+  /// The robot reached the goal; it may have forced a mover on the way.
   [[nodiscard]] bool arrived() const { return outcome == "reached" || outcome == "forced_mover"; }
   /// Whether there was a run at all.
   [[nodiscard]] bool ran() const { return outcome != "crashed" && outcome != "refused"; }

@@ -1,5 +1,6 @@
 #pragma once
-// A robot whose wheels a command turns by itself, not by the loop: consent, socket, devices, arming.
+// What commissioning and calibration share: the user's consent, the control socket, the devices, and arming. The
+// command drives the wheels itself; the control loop does not run.
 #include <filesystem>
 #include <functional>
 #include <memory>

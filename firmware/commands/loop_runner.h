@@ -42,8 +42,8 @@ class LoopRunner {
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample);
-  /// Writes the run as MCAP too, from the next report() on, as `jaywalk export` would. For loops whose thread
-  /// reports. Throws StartupError when the file cannot be made.
+  /// From the next report() on, writes the run as MCAP too, with the bytes of `jaywalk export`. Only for a loop that
+  /// calls report() in its own thread. Throws StartupError when the file cannot be made.
   void export_to(const std::filesystem::path& file);
   /// Closes recording and tables, and writes the summary. Call once, after the last step. Throws StartupError where the
   /// disk does not take the summary.

@@ -4,6 +4,7 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/report/markup.h"
 #include "firmware/report/picture/canvas.h"
 #include "firmware/report/picture/map_frame.h"
 
@@ -17,18 +18,7 @@ inline std::string pair(Vec2 p) { return whole(p.x) + " " + whole(p.y); }
 /// `text` as XML's characters: '?' for each byte outside printable ASCII.
 inline std::string escaped(std::string_view text) {
   std::string out;
-  for (const char c : text) {
-    if (c == '&')
-      out += "&amp;";
-    else if (c == '<')
-      out += "&lt;";
-    else if (c == '>')
-      out += "&gt;";
-    else if (c == '"')
-      out += "&quot;";
-    else
-      out += c < ' ' || c > '~' ? '?' : c;
-  }
+  for (const char c : text) out += c < ' ' || c > '~' ? "?" : as_markup(c);
   return out;
 }
 
