@@ -33,21 +33,24 @@ struct BucketQueue::Ways {
   [[nodiscard]] bool is_open(std::int32_t n) const { return n != goal && nodes[n].rate != 0; }
   [[nodiscard]] static std::uint32_t limit() { return kFarthest; }
 
-  template <class Visit>
-  void for_each_step(std::int32_t n, const Visit& visit) const {
+  /// A diagonal step costs no less than a straight one among the same rates.
+  template <class May, class Visit>
+  void for_each_step(std::int32_t n, const May& may, const Visit& visit) const {
     const Node* node = nodes + n;
     const std::uint32_t here = node->rate;
-    const std::uint32_t east = node[1].rate, west = node[-1].rate, north = node[width].rate, south = node[-width].rate;
-    if (east != 0) visit(n + 1, cell::straight_step(here, east));
-    if (west != 0) visit(n - 1, cell::straight_step(here, west));
-    if (north != 0) visit(n + width, cell::straight_step(here, north));
-    if (south != 0) visit(n - width, cell::straight_step(here, south));
-    const auto across = [&](std::int32_t to, std::uint32_t a, std::uint32_t b) {
-      const std::uint32_t there = nodes[to].rate;
-      if (there != 0 && a != 0 && b != 0) visit(to, cell::diagonal_step(here, there, a, b));
+    const auto along = [&](std::int32_t away) {
+      const Node there = node[away];
+      const std::uint32_t step = cell::straight_step(here, there.rate);
+      if (may(there.cost, step) && there.rate != 0) visit(n + away, step);
     };
-    across(n + width + 1, east, north), across(n + width - 1, west, north);
-    across(n - width + 1, east, south), across(n - width - 1, west, south);
+    along(1), along(-1), along(width), along(-width);
+    const auto across = [&](std::int32_t di, std::int32_t dj) {
+      const Node there = node[di + dj];
+      if (!may(there.cost, cell::straight_step(here, there.rate)) || there.rate == 0) return;
+      const std::uint32_t a = node[di].rate, b = node[dj].rate;
+      if (a != 0 && b != 0) visit(n + di + dj, cell::diagonal_step(here, there.rate, a, b));
+    };
+    across(1, width), across(-1, width), across(1, -width), across(-1, -width);
   }
   template <class Visit>
   void for_each_near(std::int32_t n, const Visit& visit) const {

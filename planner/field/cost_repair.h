@@ -11,7 +11,9 @@
 //   cost(n)                      reference; kNoWay where there is none
 //   is_open(n)                   whether n may be passed and its cost is not given
 //   limit()                      cells at this cost or beyond it are not stepped from
-//   for_each_step(n, visit)      visit(to, step) for the cells that n may be left for; steps are the same both ways
+//   for_each_step(n, may, visit) visit(to, step) for the cells that n may be left for; steps are the same both ways.
+//                                may(cost, least) is asked first, with what the cell costs now and what the step costs
+//                                at least: most are of no interest, and what a step costs is the dearer question
 //   for_each_near(n, visit)      visit(to) for the cells to which a step depends on what n is
 #include <algorithm>
 #include <cstddef>
@@ -101,28 +103,37 @@ class CostRepair {
   template <class Ways>
   void forget_unless_held_up(Ways& ways, std::int32_t n) noexcept {
     const std::uint32_t old = ways.cost(n);
-    if (!ways.is_open(n) || old == kNoWay) return;
-    bool held_up = false;
-    ways.for_each_step(n, [&](std::int32_t from, std::uint32_t step) {
-      const std::uint32_t cost = ways.cost(from);
-      held_up |= cost < ways.limit() && cost + step == old;
-    });
-    if (held_up) return;
+    if (!ways.is_open(n) || old == kNoWay || is_held_up(ways, n, old)) return;
     ways.cost(n) = kNoWay;
     forgotten_[forgotten_count_++] = n;
-    ways.for_each_step(n, [&](std::int32_t to, std::uint32_t step) {
-      if (ways.cost(to) == old + step) open_[open_count_++] = to;
-    });
+    ways.for_each_step(
+        n, [old](std::uint32_t cost, std::uint32_t least) { return cost >= old + least && cost != kNoWay; },
+        [&](std::int32_t to, std::uint32_t step) {
+          if (ways.cost(to) == old + step) open_[open_count_++] = to;
+        });
+  }
+
+  template <class Ways>
+  [[nodiscard]] static bool is_held_up(const Ways& ways, std::int32_t n, std::uint32_t old) noexcept {
+    const std::uint32_t limit = ways.limit();
+    bool held_up = false;
+    ways.for_each_step(
+        n,
+        [&](std::uint32_t cost, std::uint32_t least) {
+          return !held_up && cost < old && cost + least <= old && cost < limit;
+        },
+        [&](std::int32_t from, std::uint32_t step) { held_up |= ways.cost(from) + step == old; });
+    return held_up;
   }
 
   template <class Ways>
   void offer_best(Ways& ways, std::int32_t n) noexcept {
     if (!ways.is_open(n)) return;
+    const std::uint32_t limit = ways.limit();
     std::uint32_t best = kNoWay;
-    ways.for_each_step(n, [&](std::int32_t from, std::uint32_t step) {
-      const std::uint32_t cost = ways.cost(from);
-      if (cost < ways.limit() && cost + step < best) best = cost + step;
-    });
+    ways.for_each_step(
+        n, [&](std::uint32_t cost, std::uint32_t least) { return cost < limit && cost + least < best; },
+        [&](std::int32_t from, std::uint32_t step) { best = std::min(best, ways.cost(from) + step); });
     offer(ways, n, best);
   }
 
@@ -142,7 +153,9 @@ class CostRepair {
       if (waits) continue;
       --queued_;
       if (now != bucket || cost >= ways.limit()) continue;
-      ways.for_each_step(n, [&](std::int32_t to, std::uint32_t step) { offer(ways, to, cost + step); });
+      ways.for_each_step(
+          n, [cost](std::uint32_t there, std::uint32_t least) { return there > cost + least; },
+          [&](std::int32_t to, std::uint32_t step) { offer(ways, to, cost + step); });
     }
     head = later;
   }

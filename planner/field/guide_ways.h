@@ -83,20 +83,21 @@ class GuideWays {
     return there < kEverywhere - more ? there + more : kEverywhere;
   }
 
-  template <class Visit>
-  void for_each_step(std::int32_t n, const Visit& visit) const noexcept {
+  template <class May, class Visit>
+  void for_each_step(std::int32_t n, const May& may, const Visit& visit) const noexcept {
     const Node* here = &nodes_[static_cast<std::size_t>(n)];
     const std::uint32_t own = here->rate;
     if (own == 0) return;
     for (const Neighbour& step : kNeighbours) {
       const std::int32_t away = step.dj * width_ + step.di;
-      const std::uint32_t theirs = here[away].rate;
-      if (theirs == 0) continue;
+      const Node there = here[away];
+      const std::uint32_t cost = (own + there.rate) * step.length;
+      if (there.rate == 0 || !may(there.cost, cost)) continue;
       if (step.length == kKnightLength) {  // passes between two cells
         const std::int32_t a = step.dj / 2 * width_ + step.di / 2, b = away - a;
         if (here[a].rate == 0 || here[b].rate == 0) continue;
       }
-      visit(n + away, (own + theirs) * step.length);
+      visit(n + away, cost);
     }
   }
   template <class Visit>
