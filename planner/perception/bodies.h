@@ -39,7 +39,6 @@ struct Body {
   bool anchor_high_seen = false;  ///< nor its last beams'
   Vec2 anchor_in_laser;           ///< the same, seen from where the laser was then
   Time slow_since = kNever;       ///< since when a moving one has been too slow to be called so; kNever: it is not
-  Time returned = kNever;         ///< when it came back as a hidden walker, until its own walk is proof; kNever: else
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
   Outline outline_in_map;         ///< points of it that were seen last
   BeamRun beams;                  ///< that ended on it then

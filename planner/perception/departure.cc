@@ -15,7 +15,6 @@ constexpr double kGoneSigmas = 3.0;
 constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
 constexpr double kSpeedSigmas = 2.5;
 constexpr double kFastMps = 1.8;  // faster than people walk: more often a hop between two like things
-constexpr std::size_t kPlacesWhenFast = 8;
 constexpr std::size_t kFewestPlaces = 5, kFewestSteady = 4;
 constexpr double kHopM = 0.3;              // half of a stride: one leg is seen, then the other
 constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
@@ -78,7 +77,6 @@ bool walks(const Body& body, const StraightWalk& walk, const Surroundings& aroun
 double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
 
 bool far_from_anchor(const Body& body, const StraightWalk& walk) {
-  if (edge_walks(body, walk)) return true;
   const double least_m = steady(body, walk) ? least_steady_m(body, walk) : kGoneM;
   return gone(body) > std::max(least_m, kGoneSigmas * std::sqrt(body.track.covariance.pp));
 }
@@ -101,9 +99,7 @@ bool filter_walks(const Body& body) {
 bool beyond_doubt(const Body& body, const StraightWalk& walk) {
   if (edge_walks(body, walk) && at_a_walk(walk)) return true;
   if (!filter_walks(body)) return false;
-  const double speed = norm(body.track.velocity_in_map);
-  if (speed > kFastMps && walk.places < kPlacesWhenFast) return false;
-  return steady(body, walk) || speed > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
+  return steady(body, walk) || norm(body.track.velocity_in_map) > kSpeedSigmas * std::sqrt(body.track.covariance.vv);
 }
 
 bool places_enough(const Body& body, const StraightWalk& walk) {

@@ -57,13 +57,12 @@ bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
   track.covariance.vv = kSpeedStd * kSpeedStd;
   track.radius_m = walker.as_seen.radius_m;
   track.hits += walker.as_seen.hits;
-  track.moving = as_wide_as_a_body(walker.arc_m);
+  track.moving = true;
   track.position_in_map = track.position_in_map - track.velocity_in_map * newcomer.late_by(newcomer.late_s);
   newcomer.as_seen = track;
   newcomer.models = MotionModels(track);
   newcomer.arc_m = walker.arc_m;
   newcomer.born = walker.born;
-  newcomer.returned = track.moving ? now : kNever;
   return true;
 }
 

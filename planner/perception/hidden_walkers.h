@@ -22,9 +22,9 @@ class HiddenWalkers {
   /// over that place.
   void wait(const LineOfSight& sight, Time now, double step_s) noexcept;
 
-  /// `newcomer`, seen for the first time, takes the name, the speed and the width of who should be where it is, and
-  /// moves (Body::returned) if he is as wide as a body; who is known by his legs alone must show that it is he. How
-  /// noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing changes, when there is nobody.
+  /// `newcomer`, seen for the first time, takes the name, the speed and the width of the walker that should be where
+  /// it is, and moves. How noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing changes,
+  /// when there is none.
   bool return_as(Body& newcomer, Time now) noexcept;
 
   /// Whether one of them was within `within_m` of a place when he was seen last.

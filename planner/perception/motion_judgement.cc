@@ -8,47 +8,24 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::size_t kFewestPlaces = 5;
 constexpr std::uint32_t kWalkedScans = 2;  // in a row: a hop is over by the next scan
 // Who turns on the spot walks on. Less than the 5 s in which who stays is to be in the map.
 constexpr Duration kSlowFor = duration_from_seconds(4.3);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
-constexpr double kSettledM = 0.25;                             // has not gone farther
-constexpr Duration kProofWithin = duration_from_seconds(1.5);  // that he who came back is who he was taken for
-constexpr double kAlongM = 0.5;                                // a body's own width
+constexpr double kSettledM = 0.25;  // has not gone farther
+constexpr double kAlongM = 0.5;     // a body's own width
 constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
 
-/// Slow by its filtered speed, or by its places: jitter has speed and goes nowhere.
-bool slow(const Body& body) {
-  const StraightWalk walk = body.path.fit();
-  const bool goes_nowhere =
-      body.misses == 0 && walk.places >= kFewestPlaces && walk.length_m < kStoppedMps * walk.duration_s;
-  return goes_nowhere || norm(body.track.velocity_in_map) < kStoppedMps;
-}
-
-void call_still(Body& body, const Pose2& map_from_laser, Time now) {
-  body.track.moving = false;
-  anchor_here(body, map_from_laser, now);
-}
-
 void judge_mover(Body& body, const Surroundings& around, Time now) {
-  if (!slow(body)) {
+  if (norm(body.track.velocity_in_map) >= kStoppedMps) {
     body.slow_since = kNever;
     return;
   }
   if (body.slow_since == kNever) body.slow_since = now;
   if (now - body.slow_since < kSlowFor) return;
-  call_still(body, around.map_from_laser, now);
+  body.track.moving = false;
+  anchor_here(body, around.map_from_laser, now);
   body.still_since = std::exchange(body.slow_since, kNever);  // it has stood here for as long as it was slow
-}
-
-/// Who came back should walk on: what does not was taken for him.
-void judge_returned(Body& body, const Surroundings& around, Time now) {
-  if (body.misses > 0) return;
-  const bool walks = departure(body, around) != Departure::kNone;
-  if (!walks && now - body.returned <= kProofWithin) return;
-  body.returned = kNever;
-  if (!walks) call_still(body, around.map_from_laser, now);
 }
 
 void note_departure(Body& body, Departure seen) {
@@ -90,9 +67,7 @@ bool may_be_somebody(const Body& body) {
 
 void judge_motion(Body& body, const Surroundings& around, Time now) noexcept {
   if (body.given) return;
-  if (body.returned != kNever) {
-    judge_returned(body, around, now);
-  } else if (body.track.moving) {
+  if (body.track.moving) {
     judge_mover(body, around, now);
   } else {
     judge_stander(body, around, now);

@@ -38,10 +38,8 @@ bool went_along(const Body& body, Vec2 then, Vec2 now) {
   return dot(now - then, way) > kSideShare * dot(way, way);
 }
 
-/// Each side that is seen and was seen where it set out went along. Legs take turns in being seen, and so do their
-/// sides: of who is seen whole they tell nothing.
+/// Each side that is seen and was seen where it set out went along.
 bool seen_sides_went(const Body& body) {
-  if (body.whole && !as_wide_as_a_body(body.arc_m)) return true;
   if (body.anchor_outline.empty() || body.outline_in_map.empty()) return true;
   const bool low = body.low_seen() && body.anchor_low_seen, high = body.high_seen() && body.anchor_high_seen;
   return (!low || went_along(body, body.anchor_outline[0], body.outline_in_map[0])) &&

@@ -16,7 +16,7 @@ inline constexpr double kSteadyM = 0.10;
 /// Whether `walk`, of the places of `body`, is so many of its standard deviations long that it is one, and longer than
 /// growing or shrinking explains. The more the body and the ground tell, the shorter it may be. A side that is seen,
 /// and was seen where the walk began, must have gone along: what comes into view of a thing that stands leaves it
-/// there. Of who is seen whole that is asked where he is as wide as a body.
+/// there.
 [[nodiscard]] bool steady(const Body& body, const StraightWalk& walk) noexcept;
 
 /// The shortest walk of `body` that is steady, m.

@@ -267,21 +267,6 @@ TEST_CASE("whose place still returns beams has not set out") {
   CHECK_FALSE(sees_it_set_out(walker({3.0, -0.5}, {3.0, 0.5}), room));
 }
 
-TEST_CASE(
-    "what returns where he stood, but stood beside him for long, does not hold who is seen whole on free ground") {
-  Room room = rectangle(12.0, 10.0);
-  const Vec2 box{3.0, -0.63};
-  room.discs = {{{3.0, 0.5}, 0.1}, {box, 0.1}};
-  Body body = walker({3.0, -0.5}, {3.0, 0.5});
-  CHECK_FALSE(sees_it_set_out(body, room));
-  EvidenceMap known = nothing_known();
-  for (int k = 0; k < 8; ++k) known.add_hit(box + Vec2{-0.08, 0.0}, 10, 0.2);
-  body.arc_m = 0.1;
-  CHECK(Judge(room, known)(body) != Departure::kNone);
-  body.whole = false;
-  CHECK(Judge(room, known)(body) == Departure::kNone);
-}
-
 TEST_CASE("who came the whole way in one hop has not set out") {
   Room room = rectangle(12.0, 10.0);
   room.discs = {{{3.0, 0.5}, 0.1}};

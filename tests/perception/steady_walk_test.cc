@@ -31,9 +31,6 @@ TEST_CASE("of a body that is seen whole both sides must have gone, but not one t
   const Body both_went = body;
   body.outline_in_map[0] = body.anchor_outline[0];  // its other side came into view, and its middle went that way
   CHECK_FALSE(steady(body, body.path.fit()));
-  body.arc_m = 0.0;  // two legs, one of which stands for a step
-  CHECK(steady(body, body.path.fit()));
-  body.arc_m = 0.25;
   body.anchor_low_seen = false;  // it was what hid that side that ended there
   CHECK(steady(body, body.path.fit()));
   body = both_went;
