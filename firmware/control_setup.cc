@@ -74,6 +74,7 @@ std::string to_text(const ControlSetup& setup) {
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
   json["judges_motion"] = setup.judges_motion;
   if (setup.baseline != baseline::Baseline::kOurs) json["planner"] = setup.baseline;
+  if (setup.given_movers) json["given_movers"] = true;
   json["berth_m"] = setup.berth_m;
   return json.dump();
 }
@@ -86,6 +87,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
     setup.judges_motion = json.value("judges_motion", false);
     setup.baseline = json.value("planner", baseline::Baseline::kOurs);
+    setup.given_movers = json.value("given_movers", false);
     setup.berth_m = json.value("berth_m", setup.berth_m);
     return setup;
   } catch (const nlohmann::json::exception& error) {

@@ -18,6 +18,7 @@ struct ControlSetup {
   bool constant_speed = false;                              ///< the paper's constraint; mode paper implies it
   baseline::Baseline baseline = baseline::Baseline::kOurs;  ///< who decides on motion, for comparisons in simulation
   Backend backend = Backend::kAuto;
+  bool given_movers = false;  ///< they come with the fix from outside; mode paper implies it
   int device = 0;  ///< of backend cuda, and of auto: CUDA's number; not in a recording, the bits are the same
   Pose2 start;     ///< where the robot believes to be when the loop starts
   Vec2 goal;       ///< for sizing the grid; the goal itself comes from the operator panel
@@ -36,6 +37,7 @@ struct ControlSetup {
   [[nodiscard]] double mover_radius_m() const;
   [[nodiscard]] PlannerConfig planner() const;
   [[nodiscard]] bool keeps_speed() const { return constant_speed || mode == PlanMode::kPaper; }
+  [[nodiscard]] bool sees_given_movers() const { return given_movers || mode == PlanMode::kPaper; }
   /// In mode paper verdicts are recorded and not applied: the paper never stops.
   [[nodiscard]] bool applies_verdict() const { return mode != PlanMode::kPaper; }
   [[nodiscard]] Duration tick() const { return duration_from_seconds(1.0 / rate_hz); }

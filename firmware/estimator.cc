@@ -22,7 +22,7 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
 }  // namespace
 
 Estimator::Estimator(const ControlSetup& setup)
-    : sees_given_movers_(setup.mode == PlanMode::kPaper),
+    : sees_given_movers_(setup.sees_given_movers()),
       localizer_(localization_config(setup)),
       tracker_(perception_config(setup)) {}
 

@@ -39,7 +39,7 @@ class Estimator {
     std::uint32_t last_ = 0;
   };
 
-  bool sees_given_movers_;  ///< mode paper: they come with the fix
+  bool sees_given_movers_;  ///< they come with the fix
   Localizer localizer_;
   Tracker tracker_;
   PoseEstimate pose_;

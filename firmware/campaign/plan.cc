@@ -4,6 +4,7 @@
 
 #include "firmware/campaign/campaign.h"
 #include "hal/sim/scenario.h"
+#include "hal/sim/wall_map.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::campaign {
@@ -122,7 +123,7 @@ void add_seeds(const Experiment& experiment, const PlannedRun& without_seed, std
 void note_inputs(const std::filesystem::path& file, const sim::Scenario& scenario,
                  std::set<std::filesystem::path>& inputs) {
   inputs.insert(file);
-  inputs.insert(scenario.map_file);
+  for (const std::filesystem::path& part : sim::files_of_map(scenario.map_kind, scenario.map_file)) inputs.insert(part);
   for (const sim::RecordedSpec& movers : scenario.recorded) inputs.insert(movers.file);
 }
 

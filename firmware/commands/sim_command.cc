@@ -73,6 +73,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .constant_speed = options.constant_speed,
           .baseline = options.planner,
           .backend = options.backend,
+          .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
           .device = options.device,
           .start = scenario.start,
           .goal = scenario.goal,

@@ -158,6 +158,10 @@ std::vector<WallSegment> edges_of(const Raster& raster) {
   return edges;
 }
 
+std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file) {
+  return read_settings(yaml_file).image;
+}
+
 WallMap load_raster_map(const std::filesystem::path& yaml_file) {
   const RasterSettings settings = read_settings(yaml_file);
   WallMap map;

@@ -81,6 +81,7 @@ struct PoseSourceSpec {
   double position_std_m = 0.03;
   double heading_std_rad = 0.01;
   double mover_std_m = 0.05;
+  bool gives_movers = false;  ///< the robot takes movers from it, not from its laser; in mode paper always
 };
 
 struct Scenario {

@@ -28,6 +28,7 @@ PoseSourceSpec read_pose_source(TomlTable table) {
   spec.position_std_m = table.number("position_std_m");
   spec.heading_std_rad = table.number("heading_std_rad");
   spec.mover_std_m = table.number("mover_std_m");
+  spec.gives_movers = table.boolean("gives_movers");
   table.finish();
   return spec;
 }

@@ -112,7 +112,14 @@ std::vector<SettingKey> robot_keys() {
            {0.0, 10.0},
            "m",
            kPoseSource.mover_std_m,
-           "noise of each mover's x and y"}};
+           "noise of each mover's x and y"},
+          {"robot.pose_source",
+           "gives_movers",
+           kBoolean,
+           {},
+           "",
+           kPoseSource.gives_movers,
+           "the robot takes movers from it, not from its laser; --mode paper always does"}};
 }
 
 std::vector<SettingKey> mover_keys() {

@@ -14,4 +14,9 @@ WallMap load_wall_map(MapKind kind, const std::filesystem::path& file) {
   return load_raster_map(file);
 }
 
+std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file) {
+  if (kind != MapKind::kYaml) return {file};
+  return {file, picture_of_raster_map(file)};
+}
+
 }  // namespace jaywalk::sim

@@ -33,9 +33,14 @@ struct WallMap {
 /// Throws StartupError "FILE:LINE: cause; remedy" for a file that cannot be read or makes no sense.
 [[nodiscard]] WallMap load_wall_map(MapKind kind, const std::filesystem::path& file);
 
+/// What a map is read from: the file itself and, of a raster map, its picture. Throws as load_wall_map() does.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file);
+
 /// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode trinary. A cell is a
 /// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls.
 [[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file);
+/// The picture that such a file names.
+[[nodiscard]] std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file);
 /// MobileSim's text map in millimetres: its LINES are walls; when it has none, its DATA points are, as discs.
 [[nodiscard]] WallMap load_aria_map(const std::filesystem::path& file);
 /// One cylinder a line: x y radius (m); # starts a comment.

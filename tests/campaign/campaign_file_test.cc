@@ -61,6 +61,16 @@ TEST_CASE("a campaign may name the maps, in its own folder") {
   CHECK(plan.inputs.size() == 3);
 }
 
+TEST_CASE("a raster map's picture is an input too") {
+  const Folder folder;
+  folder.write("hall.pgm", "P5 1 1 255\n\xff");
+  folder.write("hall.yaml", "image: hall.pgm\nresolution: 8.0\norigin: [0.0, 0.0, 0.0]\n");
+  folder.write("mapless.toml", kScenario.substr(kScenario.find("[robot]")));
+  const std::string rows = "[[experiments]]\nname = \"a\"\nscenarios = \"mapless.toml\"\nseeds = [1, 1]\n";
+  const Plan plan = folder.plan(rows + "set.map.yaml = \"hall.yaml\"\n");
+  CHECK(plan.inputs.size() == 3);  // scenario, YAML, picture
+}
+
 TEST_CASE("what does not vary is no part of a row's name") {
   const Folder folder;
   const Plan plan = folder.plan(kHead + "set.movers.legs = true\n");
@@ -95,8 +105,9 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   const std::string folder = JAYWALK_CAMPAIGNS;
   CHECK(plan_of(load_campaign(folder + "/first.toml")).runs.size() == 2);
   // four maps, ten seeds: 8 counts of movers in four rows, 9 in one, 7 on legs
-  CHECK(plan_of(load_campaign(folder + "/paper.toml")).runs.size() == 40 * (4 * 8 + 9 + 7));
+  CHECK(plan_of(load_campaign(folder + "/paper.toml")).runs.size() == 40 * (5 * 8 + 9 + 7));
   CHECK(plan_of(load_campaign(folder + "/baselines.toml")).runs.size() == 4 * 5 * 5 * 3);
   CHECK(plan_of(load_campaign(folder + "/hall_baselines.toml")).runs.size() == 5 * 8);
-  CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 4 * 5 * 3);
+  CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 100 * 4);
+  CHECK(plan_of(load_campaign(folder + "/harder.toml")).runs.size() == 100 * 4);
 }

@@ -16,6 +16,7 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   setup.goal = {1e-17, 12345.678901234567};
   setup.wheels = false;
   setup.berth_m = 1.5;
+  setup.given_movers = true;
   const ControlSetup back = setup_from_text(to_text(setup), "here");
   CHECK(to_text(back) == to_text(setup));
   CHECK(back.start == setup.start);
@@ -23,6 +24,17 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   CHECK(back.mode == PlanMode::kPaper);
   CHECK_FALSE(back.wheels);
   CHECK(back.berth_m == 1.5);
+  CHECK(back.given_movers);
+}
+
+TEST_CASE("movers come from outside where the setup says so, and in mode paper") {
+  ControlSetup setup;
+  CHECK_FALSE(setup.sees_given_movers());
+  setup.given_movers = true;
+  CHECK(setup.sees_given_movers());
+  setup = {};
+  setup.mode = PlanMode::kPaper;
+  CHECK(setup.sees_given_movers());
 }
 
 TEST_CASE("blanked sectors are part of a setup's text, and one without them has none") {

@@ -156,6 +156,7 @@ rate_hz = 5.0
 position_std_m = 0.03
 heading_std_rad = 0.01
 mover_std_m = 0.05
+gives_movers = true
 [[movers]]
 kind = "wander"
 count = 2
