@@ -3,8 +3,6 @@
 
 namespace jaywalk {
 
-inline constexpr double kGivenUnseenForS = 1.0;  ///< one from outside is believed in this long after its last report
-
 /// Whether a body that is not seen is no track any more: beams have passed through where it should be, or it has been
 /// away for longer than somebody who walked, stood or was not believed yet may be.
 [[nodiscard]] bool gone(const Body& body, Time now) noexcept;

@@ -67,6 +67,19 @@ struct Body {
 
 /// Beams that all pass over so much of a body's place pass through it, and for so long: it is gone.
 inline constexpr double kEmptyWithinM = 0.1, kLookedThroughForS = 0.3;
+/// Of running means over sights, a scan: the last three make half of one.
+inline constexpr double kMeanGain = 0.2;
+/// A body known for less is believed in no longer when it is not seen for as long, s: dark cloth returns nothing for
+/// half a second, and its speed is not worth going by.
+inline constexpr double kTentativeS = 0.6;
+/// Unseen for longer, s, a body may be another; and one that stood for as long has walked only since.
+inline constexpr double kPauseS = 0.4;
+/// What has not gone farther than half of a step stands, m: more than a pedestrian sways.
+inline constexpr double kStandsWithinM = 0.25;
+/// What turns on the spot has walked on by then, and 5 s are what a body that stays may take to become still.
+inline constexpr Duration kMayGoOnWithin = duration_from_seconds(3.0);
+/// A body that is not seen is predicted for so long, s: then it may have turned or stopped.
+inline constexpr double kForeseenS = 1.0;
 /// Points this near a body's outline are its own.
 inline constexpr double kSkinM = 0.15;
 

@@ -11,7 +11,6 @@ namespace jaywalk {
 namespace {
 
 constexpr double kPieceM = 1.1;      // wider things that may go on unseen are walls
-constexpr double kWidestM = 1.6;     // wider things are: a trolley and who pushes it, from the side
 constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
 constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
 constexpr double kMostFree = 0.6;    // of its points in free space: it came there
@@ -153,8 +152,8 @@ std::uint32_t fewest_points(const Pieces& pieces, std::size_t s) {
 bool body_sized(const Pieces& pieces, std::size_t s) {
   const auto& [first, last] = pieces.segments[s];
   const Vec2 middle = pieces.in_map.position[first + (last - first) / 2];
-  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestM && pieces.width(s) < kWidestM &&
-         distance(pieces.in_map.position[first], middle) < kWidestM;
+  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestM &&
+         pieces.width(s) < kWidestBodyM && distance(pieces.in_map.position[first], middle) < kWidestBodyM;
 }
 
 }  // namespace

@@ -11,6 +11,18 @@ namespace jaywalk {
 /// Some of the points that something was seen by, spread over its width.
 using Outline = FixedVector<Vec2, 5>;
 
+/// Wider things are walls, m: a trolley and the pedestrian who pushes it, from the side, are not.
+inline constexpr double kWidestBodyM = 1.6;
+
+/// Of a body that was not seen whole yet, m.
+inline constexpr double kPersonRadiusM = 0.25;
+
+/// Legs reach so far from their middle, m: shins 0.16 (hal/sim/legs.cc). What a pedestrian leans on is farther.
+inline constexpr double kLegsReachM = 0.2;
+
+/// One of a pedestrian's legs is at most so far from the other, m, in mid-step.
+inline constexpr double kStrideM = 0.6;
+
 /// As wide as people and robots are, by half the width of what is seen whole: no post. What is too wide is no cluster.
 [[nodiscard]] constexpr bool as_wide_as_a_body(double half_width_m) { return half_width_m > 0.18; }
 
@@ -63,9 +75,6 @@ struct Cluster {
   /// Too narrow for two of 0.1 m across.
   [[nodiscard]] bool one_leg() const { return radius_m < 0.09; }
 };
-
-/// The mean of the half circle that parallel beams see lies pi/4 of the radius before its centre.
-inline constexpr double kArcMean = kPi / 4.0;
 
 /// Most clusters followed in a scan, two legs of each of 64 people and as much besides; when full, later ones (in the
 /// order of the beams) are not looked at.

@@ -10,21 +10,18 @@ namespace jaywalk {
 namespace {
 
 constexpr double kMostlySeen = 0.6;  // of the scans; what flickers is clutter
-constexpr double kGoneM = 0.25;      // from the anchor: half of a step, more than a person's swaying
 constexpr double kGoneSigmas = 3.0;
-constexpr double kMovingMps = 0.15;  // slower than this is noise of the legs' mean
 constexpr double kSpeedSigmas = 2.5;
 constexpr double kFastMps = 1.8;  // faster than people walk: more often a hop between two like things
-constexpr std::size_t kFewestPlaces = 5, kFewestSteady = 4;
-constexpr double kHopM = 0.3;              // half of a stride: one leg is seen, then the other
-constexpr double kExplainedSwaying = 0.6;  // legs take turns in being seen
-constexpr double kStrideM = 0.5;
+constexpr std::size_t kFewestPlaces = 5;
+constexpr double kHopM = 0.5 * kStrideM;        // one leg is seen, then the other
+constexpr double kExplainedSwaying = 0.6;       // legs take turns in being seen
 constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
 constexpr double kMayStand = 0.5;               // probability that it stands, at most
 // Of one who stood: in no_people_left nothing that did came to more than 9.0 by its newest places, at 8.5 nine more of
 // 125 starts set something off. Who need not have stood: a thing in Freiburg does. The noise of who sets out came
-// to 2.0 in the simulation (docs/tracking-findings.md, "Setting out").
-constexpr double kStoodS = 0.4, kSetsOutSigmas = 10.0, kNoiseSettingOut = 2.5;
+// to 2.0 in the simulation.
+constexpr double kSetsOutSigmas = 10.0, kNoiseSettingOut = 2.5;
 constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
 constexpr double kRound = 0.1;                  // half of what a quarter of a circle has
 constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
@@ -53,9 +50,9 @@ bool ground_says_so(const Body& body, const Surroundings& around, const OldPlace
 }
 
 /// Of a steady walk, whether anything else says that it is one: the ground, or both sides of a body that went along for
-/// longer than the middle of a heap of posts goes as it shows another side (0.16 m: docs/tracking-findings.md).
+/// longer than the middle of a heap of posts goes as it shows another side (0.16 m, in BARN).
 bool borne_out(const Body& body, const StraightWalk& walk, const Surroundings& around, const OldPlace& old) {
-  return ground_says_so(body, around, old) || (rigid(body, walk) && walk.length_m > kGoneM);
+  return ground_says_so(body, around, old) || (rigid(body, walk) && walk.length_m > kStandsWithinM);
 }
 
 /// A walk without hops, of a thing whose place is not still taken: steady, where something else bears that out, or
@@ -68,16 +65,16 @@ bool walks(const Body& body, const StraightWalk& walk, const Surroundings& aroun
   const bool told = left || edge_walks(body, walk);
   if (!(told && round(body)) && slides_along_itself(body, around.laser_in_map())) return false;
   if (steady(body, walk) && borne_out(body, walk, around, old)) return true;
-  if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kGoneM;
+  if (came && left) return walk.explained > kExplainedSwaying && walk.length_m > kStandsWithinM;
   const double range_m = distance(around.laser_in_map(), body.track.position_in_map);
-  const double far = std::max(kStrideM, (came ? kCamePerM : kPerM) * range_m);
+  const double far = std::max(2.0 * kPersonRadiusM, (came ? kCamePerM : kPerM) * range_m);
   return (came || body.whole) && walk.explained > kStraightExplains && walk.length_m - walk.width_change_m > far;
 }
 
 double gone(const Body& body) { return distance(body.track.position_in_map, body.anchor_in_map); }
 
 bool far_from_anchor(const Body& body, const StraightWalk& walk) {
-  const double least_m = steady(body, walk) ? least_steady_m(body, walk) : kGoneM;
+  const double least_m = steady(body, walk) ? least_steady_m(body, walk) : kStandsWithinM;
   return gone(body) > std::max(least_m, kGoneSigmas * std::sqrt(body.track.covariance.pp));
 }
 
@@ -87,12 +84,12 @@ bool rides_along(const Body& body, Vec2 in_laser) {
 }
 
 bool at_a_walk(const StraightWalk& walk) {
-  return walk.length_m > kMovingMps * walk.duration_s && walk.length_m < kFastMps * walk.duration_s;
+  return walk.length_m > kStoppedMps * walk.duration_s && walk.length_m < kFastMps * walk.duration_s;
 }
 
 /// The filter has it walk rather than stand.
 bool filter_walks(const Body& body) {
-  return norm(body.track.velocity_in_map) > kMovingMps && body.models.weight(MotionModels::kStands) <= kMayStand;
+  return norm(body.track.velocity_in_map) > kStoppedMps && body.models.weight(MotionModels::kStands) <= kMayStand;
 }
 
 /// Fast against what the filter is unsure of, or steady.
@@ -120,7 +117,7 @@ bool sets_out(const Body& body, const Surroundings& around) {
   if (!body.whole || !as_wide_as_a_body(body.arc_m) || body.noise > kNoiseSettingOut || !filter_walks(body))
     return false;
   const StraightWalk walk = body.path.latest_walk(kFewestPlaces);
-  if (body.path.fit().duration_s - walk.duration_s < kStoodS) return false;
+  if (body.path.fit().duration_s - walk.duration_s < kPauseS) return false;
   if (walk.sigmas < kSetsOutSigmas || walk.length_m < kSteadyM) return false;
   if (!keeps_its_width(walk, walk.width_change_m - walk.spacing_m)) return false;
   if (!at_a_walk(walk) || walk.longest_hop_m > kHopM) return false;

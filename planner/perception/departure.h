@@ -22,7 +22,7 @@ enum class Departure : std::uint8_t {
 /// seen whole, and stood is judged by his newest places alone as well; what is taken for a wall, by nothing else.
 ///
 /// The thresholds are the smallest at which hardly anything set out in 27 passes over a minute of scans that were taken
-/// where nobody was (`no_people_left`, each from another scan on, with three sweep times): docs/tracking-findings.md.
+/// where nobody was (`no_people_left`, each from another scan on, with three sweep times).
 [[nodiscard]] Departure departure(const Body& body, const Surroundings& around) noexcept;
 
 }  // namespace jaywalk

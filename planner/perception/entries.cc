@@ -7,15 +7,12 @@
 namespace jaywalk {
 namespace {
 
-// Who turns on the spot has walked on by then, and 5 s are what whoever stays may take to become still.
-constexpr Duration kMayWalkOnWithin = std::chrono::seconds(3);
-
 Becomes entry_of(const Bodies& bodies, const Cluster& cluster, Time now) {
   const auto body =
       std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.track.id == cluster.track_id; });
   if (body == bodies.end()) return Becomes::kWall;
   if (body->track.moving || (cluster.in_free_space && body->confirmed() && !body->settled)) return Becomes::kNothing;
-  const bool may_walk_on = !cluster.on_wall && body->whole && body->solid() && now - body->born < kMayWalkOnWithin;
+  const bool may_walk_on = !cluster.on_wall && body->whole && body->solid() && now - body->born < kMayGoOnWithin;
   return may_walk_on ? Becomes::kObstacle : Becomes::kWall;
 }
 

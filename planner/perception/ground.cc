@@ -8,9 +8,11 @@ constexpr double kWallNoisePerM = 0.012;  // and this much more a metre of range
 
 }  // namespace
 
+double wall_noise_m(double range) noexcept { return kWallNoiseM + kWallNoisePerM * range; }
+
 Ground ground_at(const EvidenceMap& still, Vec2 p, double range) noexcept {
   const CellIndex cell = still.cell_at(p);
-  const double near = kWallNoiseM + kWallNoisePerM * range;
+  const double near = wall_noise_m(range);
   const std::int32_t reach = near > still.cell_m() ? 2 : 1;
   for (std::int32_t j = -reach; j <= reach; ++j) {
     for (std::int32_t i = -reach; i <= reach; ++i) {

@@ -21,8 +21,11 @@ struct PointsInMap {
   std::array<Ground, kMaxBeams> ground;
 };
 
-/// The ground under a point that was seen from `range_m` away. A wall's points scatter by noise and by errors of the
-/// pose: 0.10 m, and 0.012 m more a metre of range, about the surface that the map remembers are still its own.
+/// So far about where the map remembers a surface what is seen from `range_m` away is still it, m: points scatter by
+/// noise and by errors of the pose.
+[[nodiscard]] double wall_noise_m(double range_m) noexcept;
+
+/// The ground under a point that was seen from `range_m` away.
 [[nodiscard]] Ground ground_at(const EvidenceMap& still, Vec2 p_in_map, double range_m) noexcept;
 
 }  // namespace jaywalk

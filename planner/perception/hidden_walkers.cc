@@ -5,11 +5,7 @@
 namespace jaywalk {
 namespace {
 
-// Numbers by trial on simulated seeds 1 to 6, kOffM on 1 to 4: 0.5 m loses four names, 0.75 m makes others of some
-// (docs/tracking-findings.md, "Out of view and back").
-constexpr double kLeastKnownS = 0.5;  // seen for less, its speed is not worth going by
-constexpr double kOffM = 0.6;         // from where he should be: half a step, and what is still hidden of him
-constexpr double kSpeedStd = 0.1;     // m/s an axis, of one who comes out where he should
+constexpr double kSpeedStd = 0.1;  // m/s an axis, of one that comes out where it should; by trial, seeds 1 to 6
 
 }  // namespace
 
@@ -18,7 +14,7 @@ Vec2 HiddenWalkers::Walker::place_at(Time now) const {
 }
 
 void HiddenWalkers::remember(const Body& body) noexcept {
-  if (to_seconds(body.as_seen.last_seen - body.born) < kLeastKnownS) return;
+  if (to_seconds(body.as_seen.last_seen - body.born) < kTentativeS) return;
   if (walkers_.full()) {
     const auto earlier = [](const Walker& a, const Walker& b) { return a.as_seen.last_seen < b.as_seen.last_seen; };
     const Walker* first = std::min_element(walkers_.begin(), walkers_.end(), earlier);
@@ -43,7 +39,7 @@ bool HiddenWalkers::lost_near(Vec2 place, double within_m) const noexcept {
 
 bool HiddenWalkers::return_as(Body& newcomer, Time now) noexcept {
   std::size_t who = walkers_.size();
-  double nearest = kOffM;
+  double nearest = kStrideM;  // simulated seeds 1 to 4: 0.5 m loses four names, 0.75 m makes others of some
   for (std::size_t k = 0; k < walkers_.size(); ++k) {
     const double off = distance(walkers_[k].place_at(now), newcomer.track.position_in_map);
     if (off < nearest) nearest = off, who = k;

@@ -3,10 +3,10 @@
 #include <algorithm>
 #include <cstdlib>
 
+#include "planner/perception/clusters.h"
+
 namespace jaywalk {
 namespace {
-
-constexpr double kWidestM = 1.6;  // wider things are no bodies (find_clusters())
 
 /// Calls `each` with the cell and the eight about it, until it says no; whether it never did.
 template <class Each>
@@ -41,7 +41,7 @@ bool LooseThings::take(const EvidenceMap& map, CellIndex cell) noexcept {
   if (mark != kNew || !thing_.push_back(cell)) return false;
   mark = kGathered;
   const std::int32_t off = std::max(std::abs(cell.i - thing_[0].i), std::abs(cell.j - thing_[0].j));
-  return off * map.cell_m() < kWidestM;
+  return off * map.cell_m() < kWidestBodyM;
 }
 
 /// All that hangs together with `first`; false where that stays.

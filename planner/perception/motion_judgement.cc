@@ -12,9 +12,6 @@ constexpr std::uint32_t kWalkedScans = 2;  // in a row: a hop is over by the nex
 // Who turns on the spot walks on. Less than the 5 s in which who stays is to be in the map.
 constexpr Duration kSlowFor = duration_from_seconds(4.3);
 constexpr Duration kSettleAfter = duration_from_seconds(1.2);
-constexpr double kSettledM = 0.25;  // has not gone farther
-constexpr double kAlongM = 0.5;     // a body's own width
-constexpr Duration kAnchorHolds = duration_from_seconds(3.0);
 
 void judge_mover(Body& body, const Surroundings& around, Time now) {
   if (norm(body.track.velocity_in_map) >= kStoppedMps) {
@@ -46,14 +43,15 @@ void judge_stander(Body& body, const Surroundings& around, Time now) {
     return;
   }
   const Duration stood = now - body.still_since;
-  if (stood > kSettleAfter && distance(body.track.position_in_map, body.anchor_in_map) < kSettledM) body.settled = true;
-  if (stood > kAnchorHolds) anchor_here(body, around.map_from_laser, now);  // creeping is not walking
+  if (stood > kSettleAfter && distance(body.track.position_in_map, body.anchor_in_map) < kStandsWithinM)
+    body.settled = true;
+  if (stood > kMayGoOnWithin) anchor_here(body, around.map_from_laser, now);  // creeping is not walking
 }
 
 /// Not called moving, and no wall: who goes along beside the robot.
 bool came_along(const Body& body) {
   return body.solid() && body.whole && came_to_free_space(body) &&
-         distance(body.track.position_in_map, body.anchor_in_map) > kAlongM;
+         distance(body.track.position_in_map, body.anchor_in_map) > 2.0 * kPersonRadiusM;
 }
 
 /// As thin as a leg, and stands where nothing stood: the other leg may be behind it.

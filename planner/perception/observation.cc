@@ -9,19 +9,14 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kPersonRadiusM = 0.25;  // of whoever was not seen whole yet
-constexpr double kLeastRadiusM = 0.2;    // whatever stands on legs is wider than they are
-constexpr double kMostRadiusM = 0.8;     // half of the widest cluster's (clusters.cc)
-
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle,
-// and does so for several scans, for which it counts double: by trial (docs/tracking-findings.md, "The foot that
-// stands"); two together have innovations of 2 of real people ("People have legs"). An arc's ends lie somewhere between
-// beams; an arc's are what simulated discs turned out to have.
+// and does so for several scans, for which it counts double: by trial (at 0.17 twice as many things move where
+// nobody is, at 0.25 fewer walkers are found); two together have innovations of 2 of real people. An arc's ends lie
+// somewhere between beams; an arc's are what simulated discs turned out to have.
 constexpr double kOneLegStdM = 0.21, kTwoLegsStdM = 0.07;
 constexpr double kDeeperM = 0.08;  // than a leg that hides the other one: half of what is from one to the other
 constexpr double kArcStdM = 0.0035, kArcStdPerSpacing = 0.17;
-// Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together
-// (docs/tracking-findings.md, "What is hidden of a body").
+// Of what is hidden of a body whose width is known: with it innovations are 2 on average, all bodies together.
 constexpr double kHiddenStdPerM = 0.05;
 // Of a middle by both sides, each of which lies anywhere within half a step beyond its last beam: two of step^2 / 12,
 // halved twice.
@@ -50,7 +45,8 @@ void be_told_by_a_side(const Cluster& c, double arc_m, Observation& seen) {
   seen.std_m += (c.hidden_side() == 0 ? 1.0 : kHiddenStdPerM) * std::max(0.0, hidden);
   if (c.hidden_side() == 0) return;
   seen.position_in_map = middle_by_a_side(c, arc_m);
-  if (hidden < 0.0) seen.radius_m = std::min(seen.radius_m - hidden, kMostRadiusM);  // what is seen reaches so far
+  if (hidden < 0.0)
+    seen.radius_m = std::min(seen.radius_m - hidden, 0.5 * kWidestBodyM);  // what is seen reaches so far
 }
 
 void be_legs(const Clusters& clusters, std::size_t lead, std::int32_t fellow, Observation& seen) {
@@ -79,7 +75,7 @@ Observation observation_of(const Clusters& clusters, std::size_t lead, std::int3
                    .late_std_s = c.late_std_s,
                    .std_m = kArcStdM + kArcStdPerSpacing * c.spacing_m,
                    .off_std_m = off_std_m(c, arc_m),
-                   .radius_m = std::clamp(half_m, kLeastRadiusM, kMostRadiusM),
+                   .radius_m = std::clamp(half_m, kLegsReachM, 0.5 * kWidestBodyM),
                    .in_free_space = c.in_free_space,
                    .outline_in_map = c.outline_in_map,
                    .beams = c.beams,

@@ -5,8 +5,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kSameM = 0.08, kSamePerM = 0.015;  // about a point of the anchor, what ends there is still it
-
 bool covers(const Outline& outline, Vec2 place, double within) {
   return std::any_of(outline.begin(), outline.end(), [&](Vec2 p) { return distance(p, place) < within; });
 }
@@ -15,7 +13,7 @@ bool covers(const Outline& outline, Vec2 place, double within) {
 
 OldPlace old_place(const Body& body, const Surroundings& around) noexcept {
   OldPlace old;
-  const double tolerance = kSameM + kSamePerM * distance(around.laser_in_map(), body.track.position_in_map);
+  const double tolerance = wall_noise_m(distance(around.laser_in_map(), body.track.position_in_map));
   const Vec2 way = body.track.position_in_map - body.anchor_in_map;
   const Outline& outline = body.anchor_outline;  // in the order of the beams, so that it has two ends
   if (outline.empty()) return old;

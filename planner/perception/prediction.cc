@@ -8,13 +8,12 @@ namespace jaywalk {
 namespace {
 
 constexpr double kGivenAccelStd = 0.5;  // m/s2: the paper's movers keep their speed and seldom turn
-constexpr double kLongestStepS = 1.0;
 
 }  // namespace
 
 double step_seconds(Time from, Time to) noexcept {
   if (from == kNever || to <= from) return 0.0;
-  return std::min(to_seconds(to - from), kLongestStepS);
+  return std::min(to_seconds(to - from), kForeseenS);
 }
 
 void predict_to(Body& body, Time stamp) noexcept {

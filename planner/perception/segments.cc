@@ -9,7 +9,7 @@ namespace {
 constexpr double kJumpM = 0.12;     // surfaces closer than this are one thing: a leg is 0.1 m across
 constexpr double kJumpSteps = 3.0;  // or than this many beam spacings: a surface seen at 70 degrees
 // At a greater slant: the steps on both sides of the jump go within 18 degrees of it and are a third as long at least,
-// which ranges noisy by a centimetre keep to. 0.9 to 0.97 and 2 to 3 told nothing apart (docs/tracking-findings.md).
+// which ranges noisy by a centimetre keep to. 0.9 to 0.97 and 2 to 3 told nothing apart.
 constexpr double kSameWay = 0.95, kLongestJump = 3.0;
 
 /// From point `k` to the next, round the list's end.

@@ -8,13 +8,10 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kPathBreaksS = 0.4;    // unseen so long, a body may be another
 constexpr double kFreeGain = 0.3;       // of the running mean of how free the ground under a body was
 constexpr double kNoiseGain = 0.075;    // a scan: a second teaches how noisy a body is
 constexpr double kMostNoise = 25.0;     // times the variance expected, or as small a part of it
 constexpr double kMostSurprise = 16.0;  // that one scan teaches: more is another's place
-constexpr double kRadiusGain = 0.2;     // of the running mean of a body's radius
-constexpr double kLegsGain = 0.1;       // of the running mean of how often it showed two legs; chosen
 
 /// Steers the measurement noise to where surprises are 2 on average, whatever the body is: a disc is seen to a
 /// centimetre, a pair of legs sways.
@@ -24,10 +21,10 @@ void learn_noise(Body& body) {
 }
 
 void learn_size(Body& body, const Observation& seen) {
-  body.track.radius_m += kRadiusGain * (seen.radius_m - body.track.radius_m);
-  body.legs_share += kLegsGain * ((seen.two_legs ? 1.0 : 0.0) - body.legs_share);
+  body.track.radius_m += kMeanGain * (seen.radius_m - body.track.radius_m);
+  body.legs_share += kMeanGain * ((seen.two_legs ? 1.0 : 0.0) - body.legs_share);
   if (body.on_legs()) body.arc_m = 0.0;
-  if (seen.arc_m > 0.0) body.arc_m += (body.arc_m > 0.0 ? kRadiusGain : 1.0) * (seen.arc_m - body.arc_m);
+  if (seen.arc_m > 0.0) body.arc_m += (body.arc_m > 0.0 ? kMeanGain : 1.0) * (seen.arc_m - body.arc_m);
 }
 
 /// Where both legs are seen their middle may be known to a centimetre. That says nothing of one leg alone: for a step
@@ -65,7 +62,7 @@ void take_sight(Body& body, const Observation& seen, const Pose2& map_from_laser
   learn_size(body, seen);
   track.hits += 1;
   body.misses = 0;
-  const bool after_a_gap = to_seconds(now - track.last_seen) > kPathBreaksS;
+  const bool after_a_gap = to_seconds(now - track.last_seen) > kPauseS;
   if (after_a_gap) body.path.clear();
   track.last_seen = now;
   body.path.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});

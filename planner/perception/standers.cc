@@ -7,9 +7,6 @@
 namespace jaywalk {
 namespace {
 
-// Of the middle: shins reach 0.16 m (hal/sim/legs.cc), and what he leans on is farther.
-constexpr double kLegsWithinM = 0.2;
-
 /// Whether he is one of the bodies, standing or about to go on.
 bool is_followed(const Stander& stander, const Bodies& bodies) {
   return std::any_of(bodies.begin(), bodies.end(), [&](const Body& body) {
@@ -18,13 +15,13 @@ bool is_followed(const Stander& stander, const Bodies& bodies) {
 }
 
 bool something_stands(const Stander& stander, const EvidenceMap& still) {
-  const Vec2 reach{kLegsWithinM, kLegsWithinM};
+  const Vec2 reach{kLegsReachM, kLegsReachM};
   const CellIndex low = still.cell_at(stander.position_in_map - reach);
   const CellIndex high = still.cell_at(stander.position_in_map + reach);
   for (std::int32_t j = low.j; j <= high.j; ++j) {
     for (std::int32_t i = low.i; i <= high.i; ++i) {
       if (!still.occupied({i, j})) continue;
-      if (distance(still.surface({i, j}), stander.position_in_map) < kLegsWithinM) return true;
+      if (distance(still.surface({i, j}), stander.position_in_map) < kLegsReachM) return true;
     }
   }
   return false;
@@ -33,7 +30,7 @@ bool something_stands(const Stander& stander, const EvidenceMap& still) {
 /// No beam passes over his place, and it is not long since he was seen there.
 bool may_be_hidden(const Stander& stander, const LineOfSight& sight, Time now) {
   const double unseen_s = to_seconds(now - stander.last_seen);
-  return unseen_s < kRememberedS && sight.at(stander.position_in_map, kLegsWithinM) != Sight::kThrough;
+  return unseen_s < kRememberedS && sight.at(stander.position_in_map, kLegsReachM) != Sight::kThrough;
 }
 
 /// When something was seen last where he stands: who comes into view again is born anew, and may show a leg alone.
@@ -41,7 +38,7 @@ Time last_seen(const Stander& stander, const Bodies& bodies, Time now) {
   Time last = stander.last_seen;
   for (const Body& body : bodies) {
     const Track& seen = body.as_seen;
-    if (distance(seen.position_in_map, stander.position_in_map) < kLegsWithinM) last = std::max(last, seen.last_seen);
+    if (distance(seen.position_in_map, stander.position_in_map) < kLegsReachM) last = std::max(last, seen.last_seen);
   }
   return std::min(last, now);  // a clock may be set back
 }

@@ -9,11 +9,10 @@ constexpr double kMostlyFree = 0.7;  // of its places in free space
 constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
 // The same of bodies that came to free space: no false mover in no_people_left.
 constexpr double kCameSigmas = 4.5, kCameM = 0.06;
-constexpr double kRigidShare = 0.3;        // of its walk is all that its width changes by
-constexpr std::size_t kBothSidesSeen = 4;  // places: seen whole once, what came into view on one side seems to go along
-constexpr double kSideShare = 0.4;         // of its way is the least that a seen side went: 0.3 and 0.5 tell as much
+constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kSideShare = 0.4;   // of its way is the least that a seen side went: 0.3 and 0.5 tell as much
 // Of what it grew by, where nobody says that it came: a surface that comes into view on one side and goes out of it on
-// the other. 1.5 to 3 tell as much (docs/tracking-findings.md, "What grows as it goes").
+// the other: at a quarter of the headings of no_people_left. 1.5 to 3 tell as much.
 constexpr double kGrewUnfree = 2.0;
 constexpr double kEdges = 1.5;  // beam spacings: where its seen side is, is known to one
 
@@ -64,7 +63,7 @@ bool keeps_its_width(const StraightWalk& walk, double change_m) noexcept {
 }
 
 bool rigid(const Body& body, const StraightWalk& walk) noexcept {
-  const bool both_sides = body.whole && walk.whole_places >= kBothSidesSeen;
+  const bool both_sides = body.whole && walk.whole_places >= kFewestSteady;
   return both_sides && body.solid() && steady(body, walk) && keeps_its_width(walk, walk.width_change_m);
 }
 

@@ -10,6 +10,10 @@ inline constexpr double kStraightExplains = 0.8;
 /// The shortest steady walk, where nothing more is known.
 inline constexpr double kSteadyM = 0.10;
 
+/// Places of a steady walk, and of those at which both its sides must have been seen: of what was seen whole once, the
+/// side that came into view seems to go along.
+inline constexpr std::size_t kFewestSteady = 4;
+
 /// It was seen where nothing stood before, most of the time.
 [[nodiscard]] bool came_to_free_space(const Body& body) noexcept;
 

@@ -20,10 +20,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kSeenGain = 0.15;      // of the running mean of how often a body was seen
-constexpr double kOutOfSightS = 0.3;    // dark cloth is, for a scan or three
-constexpr double kClockSetBackS = 1.0;  // by more: nothing that was seen is as old as it says
-
 void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
   for (Cluster& c : clusters) {
     if (c.track_id == from) c.track_id = to;
@@ -78,7 +74,7 @@ void Tracker::State::forget_bodies() noexcept {
 }
 
 void Tracker::State::predict_all_to(Time stamp) noexcept {
-  if (now != kNever && to_seconds(now) - to_seconds(stamp) > kClockSetBackS) forget_bodies();
+  if (now != kNever && to_seconds(now) - to_seconds(stamp) > kForeseenS) forget_bodies();
   step_s = step_seconds(now, stamp);
   unreported_s += step_s;
   now = stamp;
@@ -90,7 +86,7 @@ void Tracker::State::associate_and_correct() noexcept {
   for (Body& body : bodies) {
     Observation seen;
     const bool found = observe(body, scene.clusters, seen);
-    body.seen_share += kSeenGain * ((found ? 1.0 : 0.0) - body.seen_share);
+    body.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - body.seen_share);
     if (found) {
       take_sight(body, seen, scene.map_from_laser, now);
     } else {
@@ -129,7 +125,7 @@ void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
 }
 
 void Tracker::State::birth() noexcept {
-  if (unreported_s < kGivenUnseenForS) return;  // it knows them all; where it falls silent the laser has to do
+  if (unreported_s < kForeseenS) return;  // it knows them all; where it falls silent the laser has to do
   Clusters& clusters = scene.clusters;
   for (std::size_t k = 0; k < clusters.size(); ++k) {
     if (clusters[k].track_id != 0) continue;
@@ -206,7 +202,7 @@ bool Tracker::hides_somebody(Vec2 place, double within_m) const noexcept {
   const State& s = *state_;
   const auto lost_near = [&](Vec2 seen_at, Time last_seen) {
     const double unseen_s = to_seconds(s.now - last_seen);  // of who is in the map by now nobody keeps count
-    return unseen_s > kOutOfSightS && unseen_s < kRememberedS && distance(seen_at, place) < within_m;
+    return unseen_s > kLookedThroughForS && unseen_s < kRememberedS && distance(seen_at, place) < within_m;
   };
   return std::any_of(s.standing.begin(), s.standing.end(),
                      [&](const Stander& him) { return lost_near(him.position_in_map, him.last_seen); }) ||

@@ -9,8 +9,6 @@ namespace jaywalk {
 namespace {
 
 constexpr double kWidestHalfRad = 0.6, kNarrowestRad = 1e-6;
-constexpr double kFarMean =
-    kPi / 4.0;             // of a half circle of radius 1, far off: how far its mean lies before its centre
 constexpr int kSteps = 4;  // of the fixed point: a millimetre of a disc of 0.5 m at 1 m
 
 double asin(double x) {
@@ -36,7 +34,7 @@ SeenDisc seen_disc(double mean_range, double angle) noexcept {
 }
 
 SeenDisc seen_side(double radius, double angle, double mean_range, double mean_bearing) noexcept {
-  SeenDisc disc{mean_range + kFarMean * radius, radius, 0.0};
+  SeenDisc disc{mean_range + kArcMean * radius, radius, 0.0};
   for (int k = 0; k < kSteps; ++k) {
     const double s = std::min(radius / disc.range_m, sin(kWidestHalfRad)), half = asin(s);
     const double seen = std::clamp(angle, kNarrowestRad, 2.0 * half);

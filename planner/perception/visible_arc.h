@@ -4,8 +4,12 @@
 // Beams at equal angles t from the centre's bearing end on a disc of radius r, its centre d away, at the ranges
 // d cos t - sqrt(r^2 - d^2 sin^2 t). Their points' mean from t0 to t1, along that bearing, is d (F(t1) - F(t0)) / (t1 -
 // t0) with s = r / d and 2 F(t) = t + sin t cos t - sin t sqrt(s^2 - sin^2 t) - s^2 asin(sin t / s).
+#include "hal/types/geometry.h"
 
 namespace jaywalk {
+
+/// The mean of the half circle that parallel beams see lies so much of the radius before its centre: a disc far off.
+inline constexpr double kArcMean = kPi / 4.0;
 
 /// A disc as a laser sees it.
 struct SeenDisc {
