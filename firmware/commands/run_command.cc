@@ -191,6 +191,7 @@ int run_robot(RunOptions options) {
     service.stopping();
     loop.end();
   }
+  service.loop_has_ended();
   report.follow();
   const RunStatus& last = report.last();
   runner.finish({.outcome = outcome(last),

@@ -20,6 +20,9 @@ class ServiceManager {
   /// The drives are armed and the loop ticks.
   void ready() const { say("READY=1\nSTATUS=armed"); }
   void stopping() const { say("STOPPING=1"); }
+  /// The drives are disarmed and no loop ticks any more: writing tables and picture may take longer than the watchdog
+  /// waits, and has the limit of a stop (TimeoutStopSec).
+  void loop_has_ended() const { say("STOPPING=1\nWATCHDOG_USEC=0"); }
   /// Passes on, four times in the watchdog's time, that the loop has ticked since: a loop that hangs is not alive.
   void alive(std::uint64_t ticks, Time now);
 

@@ -14,8 +14,9 @@ fail() {
 command -v debootstrap >/dev/null || skip "no debootstrap"
 scratch=$(mktemp -d)
 root=$scratch/root
+leave_chroot() { umount -l "$root/proc" "$root/dev" 2>/dev/null || true; }
 leave_root() {
-  umount -l "$root/proc" "$root/dev" 2>/dev/null || true
+  leave_chroot
   rm -rf "$scratch"
 }
 trap leave_root EXIT

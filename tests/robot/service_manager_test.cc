@@ -35,7 +35,7 @@ class Listener {
 
 Time at(double seconds) { return time_from_seconds(seconds); }
 
-TEST_CASE("systemd is told ready and stopping") {
+TEST_CASE("systemd is told ready, stopping, and that no loop is to be watched any more") {
   const Scratch scratch;
   const Listener systemd(scratch.path("notify"));
   const ServiceManager run(scratch.path("notify"), {});
@@ -43,6 +43,8 @@ TEST_CASE("systemd is told ready and stopping") {
   CHECK(systemd.next() == "READY=1\nSTATUS=armed");
   run.stopping();
   CHECK(systemd.next() == "STOPPING=1");
+  run.loop_has_ended();
+  CHECK(systemd.next() == "STOPPING=1\nWATCHDOG_USEC=0");
 }
 
 TEST_CASE("the watchdog hears a loop that ticks, four times in its time, and none that hangs") {
