@@ -13,6 +13,8 @@ missing_packages() {
   command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
   command -v pkg-config >/dev/null || echo pkg-config
   command -v ip >/dev/null || echo iproute2 # for the tests over wires
+  command -v file >/dev/null || echo file # these two for packages
+  command -v dpkg-shlibdeps >/dev/null || echo dpkg-dev
   for library in "${kLibraries[@]}"; do
     [ "$(dpkg-query -W -f '${db:Status-Status}' "$library" 2>/dev/null)" = installed ] || echo "$library"
   done
