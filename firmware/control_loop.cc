@@ -43,6 +43,11 @@ std::unique_ptr<motion::MotionPlanner> motion_for(const ControlSetup& setup) {
   return std::make_unique<motion::MotionPlanner>(motion_config(setup));
 }
 
+std::unique_ptr<motion::SharedControl> shared_for(const ControlSetup& setup) {
+  if (setup.steering == StickUse::kNone) return nullptr;
+  return std::make_unique<motion::SharedControl>(motion_config(setup), setup.steering == StickUse::kShared);
+}
+
 std::unique_ptr<baseline::BaselinePlanner> baseline_for(const ControlSetup& setup) {
   if (setup.baseline == baseline::Baseline::kOurs) return nullptr;
   return std::make_unique<baseline::BaselinePlanner>(setup.baseline, motion_config(setup));
@@ -68,6 +73,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       estimator_(setup),
       follower_(follower_config(setup)),
       motion_(motion_for(setup)),
+      shared_(shared_for(setup)),
       baseline_(baseline_for(setup)),
       guide_(guide_for(setup)),
       turn_(turn_for(setup)),
@@ -93,7 +99,10 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   estimator_.forget_where_stuck(t);
 
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
-  t.wanted = drives_by_motion() ? motion_twist(t) : follower_.twist(follower_input(t));  // Act: one asks,
+  t.wished = is_steered(t) ? shared_->asked(t.input.stick) : Twist2{};
+  t.wanted = is_steered(t)        ? shared_->twist(now, stick_for_motion(t), driven_)
+             : drives_by_motion() ? motion_twist(t)
+                                  : follower_.twist(follower_input(t));  // Act: one asks,
   t.latency = latency_.measured();
   t.verdict =  // the supervisor permits.
       supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
@@ -109,6 +118,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
   if (t.input.has_goal && std::exchange(plan_looked_at_, plan_->sequence) != plan_->sequence) look(t);
   if (new_scan && motion_) decide(t);
+  if (new_scan && shared_) shared_->decide(seen(t), stick_for_motion(t), driven_);
   t.plan_asked = new_scan && t.input.has_goal && !planner_.is_busy() && (!motion_ || age(asked_, now) >= kPlanEvery);
   if (t.plan_asked) asked_ = now, planner_.submit(request(t));  // Ask for the next, now that the wheels have theirs.
   recorder_.commit();
@@ -119,7 +129,9 @@ void ControlLoop::note_plan(TickRecord& t) noexcept {
   t.plan_sequence = plan_->sequence;
   t.plan_status = plan_->status;
   if (std::exchange(plan_noted_, plan_->sequence) != plan_->sequence) keep_path(*plan_, t.path);
-  if (drives_by_motion()) {
+  if (is_steered(t)) {
+    good_plan_stamp_ = shared_->seen();
+  } else if (drives_by_motion()) {
     good_plan_stamp_ = std::min(motion_->decision().seen, plan_->stamp);
   } else if (plan_->status == PlanStatus::kOk) {
     good_plan_stamp_ = plan_->stamp;
@@ -131,6 +143,10 @@ void ControlLoop::note_plan(TickRecord& t) noexcept {
 
 bool ControlLoop::goal_for_motion(const TickRecord& t) const noexcept {
   return t.input.has_goal && (supervisor_.takes_wishes() || !setup_.applies_verdict());
+}
+
+Stick ControlLoop::stick_for_motion(const TickRecord& t) const noexcept {
+  return supervisor_.takes_wishes() ? t.input.stick : Stick{};
 }
 
 FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
@@ -172,20 +188,23 @@ Twist2 ControlLoop::motion_twist(const TickRecord& t) noexcept {
 }
 
 void ControlLoop::decide(const TickRecord& t) noexcept {
-  const motion::MotionInput input{
-      .seen = {.now = t.now,
-               .stamp = t.scan.stamp,
-               .map_from_robot = t.pose.map_from_robot,
-               .tracks = tracker().tracks(),
-               .standing = tracker().standing(),
-               .still = tracker().still(),
-               .scan = t.scan,
-               .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
-               .guide = plan_->guide},
-      .goal_in_map = t.input.goal_in_map,
-      .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor};
+  const motion::MotionInput input{.seen = seen(t),
+                                  .goal_in_map = t.input.goal_in_map,
+                                  .has_goal = goal_for_motion(t) && age(plan_->stamp, t.now) < kGuideHoldsFor};
   motion_->decide(input, driven_);  // also beside a baseline: walls are told from pedestrians there
   if (baseline_) baseline_->decide(input, driven_);
+}
+
+motion::Seen ControlLoop::seen(const TickRecord& t) const noexcept {
+  return {.now = t.now,
+          .stamp = t.scan.stamp,
+          .map_from_robot = t.pose.map_from_robot,
+          .tracks = tracker().tracks(),
+          .standing = tracker().standing(),
+          .still = tracker().still(),
+          .scan = t.scan,
+          .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
+          .guide = plan_->guide};
 }
 
 PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {

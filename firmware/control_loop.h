@@ -14,6 +14,7 @@
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/follower.h"
 #include "planner/motion/motion_planner.h"
+#include "planner/motion/shared_control.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -47,6 +48,11 @@ class ControlLoop {
   /// With a new scan, and after the wheels have their command: how to move from the next tick on.
   void decide(const TickRecord& t) noexcept;
   [[nodiscard]] bool drives_by_motion() const noexcept { return motion_ != nullptr && !turns_at_goal(); }
+  /// A person steers, and this robot is made for it.
+  [[nodiscard]] bool is_steered(const TickRecord& t) const noexcept { return t.input.steers && shared_ != nullptr; }
+  /// The stick, while wishes count.
+  [[nodiscard]] Stick stick_for_motion(const TickRecord& t) const noexcept;
+  [[nodiscard]] motion::Seen seen(const TickRecord& t) const noexcept;
   [[nodiscard]] PlanRequest request(const TickRecord& t) const noexcept;
 
   ControlSetup setup_;
@@ -56,6 +62,7 @@ class ControlLoop {
   Estimator estimator_;
   Follower follower_;
   std::unique_ptr<motion::MotionPlanner> motion_;  ///< null for a long body, and in mode paper
+  std::unique_ptr<motion::SharedControl> shared_;  ///< null where no stick steers
   std::unique_ptr<baseline::BaselinePlanner>
       baseline_;                           ///< null but in comparisons; then it wishes in place of motion_
   std::unique_ptr<FootprintGuide> guide_;  ///< null for a body that is nearly round

@@ -28,6 +28,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LaserModel, robot_from_laser, fov_rad, beams,
                                    noise_m, drop_out)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotModel, name, footprint, drive, limits, laser)
 NLOHMANN_JSON_SERIALIZE_ENUM(PlanMode, {{PlanMode::kFull, "full"}, {PlanMode::kPaper, "paper"}})
+NLOHMANN_JSON_SERIALIZE_ENUM(StickUse,
+                             {{StickUse::kNone, "none"}, {StickUse::kShared, "shared"}, {StickUse::kByHand, "by_hand"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(Backend, {{Backend::kAuto, "auto"}, {Backend::kCpu, "cpu"}, {Backend::kCuda, "cuda"}})
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(ControlSetup, model, mode, constant_speed, backend, start, goal, goal_tolerance_m,
                                    wheels, wired, rate_hz)
@@ -75,6 +77,7 @@ std::string to_text(const ControlSetup& setup) {
   json["judges_motion"] = setup.judges_motion;
   if (setup.baseline != baseline::Baseline::kOurs) json["planner"] = setup.baseline;
   if (setup.given_movers) json["given_movers"] = true;
+  if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
   json["berth_m"] = setup.berth_m;
   return json.dump();
 }
@@ -88,6 +91,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.judges_motion = json.value("judges_motion", false);
     setup.baseline = json.value("planner", baseline::Baseline::kOurs);
     setup.given_movers = json.value("given_movers", false);
+    setup.steering = json.value("steering", StickUse::kNone);
     setup.berth_m = json.value("berth_m", setup.berth_m);
     return setup;
   } catch (const nlohmann::json::exception& error) {

@@ -4,6 +4,7 @@
 #include <string>
 
 #include "hal/types/geometry.h"
+#include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "planner/baseline/choice.h"
 #include "planner/planner.h"
@@ -17,6 +18,7 @@ struct ControlSetup {
   PlanMode mode = PlanMode::kFull;
   bool constant_speed = false;                              ///< the paper's constraint; mode paper implies it
   baseline::Baseline baseline = baseline::Baseline::kOurs;  ///< who decides on motion, for comparisons in simulation
+  StickUse steering = StickUse::kNone;
   Backend backend = Backend::kAuto;
   bool given_movers = false;  ///< they come with the fix from outside; mode paper implies it
   int device = 0;  ///< of backend cuda, and of auto: CUDA's number; not in a recording, the bits are the same

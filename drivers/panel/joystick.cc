@@ -47,6 +47,7 @@ void Joystick::poll(Time now) noexcept {
   }
   read();
   expire_dead_man(now);
+  note_centred();
   count_stop();
 }
 
@@ -58,6 +59,16 @@ void Joystick::expire_dead_man(Time now) noexcept {
       dead_man_ == Button::kPressed) {
     seen_released_ = false;
   }
+}
+
+void Joystick::note_centred() noexcept {
+  const bool centred = forward_.share() == 0.0 && left_.share() == 0.0;
+  seen_centred_ = is_held() && (seen_centred_ || centred);
+}
+
+bool Joystick::is_held() const noexcept {
+  const bool needs_renewal = on_bluetooth_ && setup_.dead_man_renew == Duration{0};
+  return dead_man_ == Button::kPressed && seen_released_ && !needs_renewal;
 }
 
 bool Joystick::stops() const noexcept {
@@ -75,16 +86,15 @@ JoystickState Joystick::state() const noexcept {
   JoystickState gone;
   gone.stops = stops_;
   if (device_.get() < 0) return gone;
-  const bool needs_renewal = on_bluetooth_ && setup_.dead_man_renew == Duration{0};
-  const bool held = dead_man_ == Button::kPressed && seen_released_ && !needs_renewal;
+  const bool steers = is_held() && seen_centred_;
   return {.connected = true,
-          .dead_man = held,
+          .dead_man = is_held(),
           .stop = stops(),
           .stops = stops_,
           .reset = reset_ == Button::kPressed,
-          .needs_renewal = needs_renewal,
-          .forward = held ? -forward_.share() : 0.0,
-          .left = held ? -left_.share() : 0.0};
+          .needs_renewal = on_bluetooth_ && setup_.dead_man_renew == Duration{0},
+          .forward = steers ? -forward_.share() : 0.0,
+          .left = steers ? -left_.share() : 0.0};
 }
 
 void Joystick::open() noexcept {

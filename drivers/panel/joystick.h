@@ -33,8 +33,10 @@ struct JoystickState {
   bool reset = false;
   /// On Bluetooth and without dead_man_renew: a link that dies would leave the dead man held. It counts as released.
   bool needs_renewal = false;
-  double forward = 0.0;  ///< -1 to 1; 0 near the middle and without the dead man
-  double left = 0.0;     ///< the same
+  /// -1 to 1; 0 near the middle, without the dead man, and until both were in the middle while it was held: a stick
+  /// that is pushed when the dead man is pressed moves nothing.
+  double forward = 0.0;
+  double left = 0.0;  ///< the same
 };
 
 /// Asks an open device on which bus it is, by the numbers of <linux/input.h>; nothing where it does not answer.
@@ -67,6 +69,8 @@ class Joystick {
   void take_button(std::uint16_t code, bool pressed) noexcept;
   void count_stop() noexcept;
   void expire_dead_man(Time now) noexcept;
+  void note_centred() noexcept;
+  [[nodiscard]] bool is_held() const noexcept;
   [[nodiscard]] bool stops() const noexcept;
 
   JoystickSetup setup_;
@@ -78,7 +82,8 @@ class Joystick {
   std::array<std::uint8_t, 1536> room_{};  // 64 events
   Button dead_man_ = Button::kUnknown, stop_ = Button::kUnknown, reset_ = Button::kUnknown;
   bool seen_released_ = false;
-  bool heard_ = false;  ///< an event of a button or an axis since the last poll()
+  bool seen_centred_ = false;  ///< since the dead man is held
+  bool heard_ = false;         ///< an event of a button or an axis since the last poll()
   Time heard_at_ = kNever;
   bool stopped_before_ = true;
   std::uint32_t stops_ = 0;

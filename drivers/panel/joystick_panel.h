@@ -5,12 +5,14 @@
 namespace jaywalk::panel {
 
 /// A joystick in front of whatever else tells the robot what to do: it adds its stop and its reset, and lets the goal
-/// through only while the dead man's button is held. A joystick that is gone is an emergency stop.
+/// through only while the dead man's button is held. A joystick that is gone is an emergency stop. Where the stick
+/// drives, it does so when it leaves its middle, goal or no goal, and goes on while there is none; after an order to
+/// stop it has to come back to its middle first.
 class JoystickPanel final : public OperatorPanel {
  public:
-  /// Both outlive it. Without `needs_dead_man` the goal always passes.
-  JoystickPanel(OperatorPanel& goals, JoystickWatch& joystick, bool needs_dead_man) noexcept
-      : goals_(goals), joystick_(joystick), needs_dead_man_(needs_dead_man) {}
+  /// Both outlive it. Without `needs_dead_man` the goal always passes, and no stick drives.
+  JoystickPanel(OperatorPanel& goals, JoystickWatch& joystick, bool needs_dead_man, bool stick_drives = false) noexcept
+      : goals_(goals), joystick_(joystick), needs_dead_man_(needs_dead_man), stick_drives_(stick_drives) {}
 
   [[nodiscard]] OperatorInput latest() noexcept override;
   /// As of the last call of latest().
@@ -20,7 +22,9 @@ class JoystickPanel final : public OperatorPanel {
   OperatorPanel& goals_;
   JoystickWatch& joystick_;
   JoystickState state_;
-  bool needs_dead_man_;
+  bool needs_dead_man_, stick_drives_;
+  std::uint32_t stops_obeyed_ = 0;
+  bool waits_for_middle_ = false;
 };
 
 }  // namespace jaywalk::panel

@@ -122,6 +122,24 @@ ReportTable ride_table(const ReportedTables& tables) {
   return table;
 }
 
+/// Of runs that a person steered; without any there is no such table.
+std::vector<ReportTable> stick_table(const ReportedTables& tables) {
+  ReportTable table{"Driving by the stick", {""}, {}};
+  for (const char* head : {"runs", "touched something while it moved", "least clearance, m",
+                           "of the wish granted, %, mean", "least of a run"})
+    table.head.emplace_back(head);
+  for (const ReportedRow& row : tables.rows) {
+    const std::vector<double> granted = values_of(row.runs, plain("granted_share"));
+    if (std::all_of(granted.begin(), granted.end(), [](double share) { return std::isnan(share); })) continue;
+    table.rows.push_back(
+        {row.name, std::to_string(row.runs.size()),
+         std::to_string(count_if(row.runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
+         fixed(quantile(values_of(row.runs, plain("min_clearance_m")), 0.0), 3), fixed(100.0 * mean(granted), 1),
+         fixed(100.0 * quantile(granted, 0.0), 1)});
+  }
+  return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
+}
+
 /// A cell for each scenario, of the runs that the row has there.
 ReportTable by_scenario(const ReportedTables& tables, const std::string& title,
                         const std::function<std::string(const std::vector<ReportedRun>&)>& cell) {
@@ -174,9 +192,11 @@ ReportTable turn_table(const ReportedTables& tables) {
 }  // namespace
 
 std::vector<ReportTable> tables_of(const ReportedTables& tables) {
-  return {success_table(tables), by_scenario(tables, "Success by scenario", success_cell), ride_table(tables),
-          by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell),
-          turn_table(tables)};
+  std::vector<ReportTable> all{
+      success_table(tables), by_scenario(tables, "Success by scenario", success_cell), ride_table(tables),
+      by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell), turn_table(tables)};
+  for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
+  return all;
 }
 
 }  // namespace jaywalk::campaign

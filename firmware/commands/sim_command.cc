@@ -57,6 +57,9 @@ sim::Scenario scenario_for(const SimOptions& options) {
   if (options.planner != baseline::Baseline::kOurs && never_stops)
     throw StartupError("--planner: the planners of others stop and turn on the spot",
                        "run without --mode paper and --constant-speed");
+  if (scenario.stick && (never_stops || options.planner != baseline::Baseline::kOurs))
+    throw StartupError(options.scenario.string() + ": [stick]: a person who steers is obeyed by no other planner",
+                       "run without --mode paper, --constant-speed and --planner");
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
   return scenario;
 }
@@ -64,6 +67,7 @@ sim::Scenario scenario_for(const SimOptions& options) {
 std::vector<std::filesystem::path> files_of(const sim::Scenario& scenario, const std::filesystem::path& file) {
   std::vector<std::filesystem::path> files{file, scenario.map_file};
   for (const sim::RecordedSpec& movers : scenario.recorded) files.push_back(movers.file);
+  if (scenario.stick && scenario.stick->kind == sim::StickKind::kTable) files.push_back(scenario.stick->file);
   return files;
 }
 
@@ -72,6 +76,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .mode = options.mode,
           .constant_speed = options.constant_speed,
           .baseline = options.planner,
+          .steering = scenario.stick ? scenario.stick->steering : StickUse::kNone,
           .backend = options.backend,
           .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
           .device = options.device,
@@ -105,6 +110,13 @@ Hal hal_for(sim::Simulation& simulation, SimView* view) {
 /// At a goal with a heading the robot is to stand.
 bool rests(const Twist2& twist) { return std::fabs(twist.v_mps) < 0.01 && std::fabs(twist.w_radps) < 0.02; }
 
+/// A person who steers has the goal in mind.
+OperatorInput with_goal(const OperatorInput& input) {
+  OperatorInput wanted = input;
+  wanted.has_goal = input.has_goal || input.steers;
+  return wanted;
+}
+
 /// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth
 /// reaching.
 /// A stop that waits for a reset does: nobody is there to press it.
@@ -112,8 +124,9 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (truth.contacts > 0) return "collision";
   const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
-  if (t.input.has_goal && t.input.is_reached_at(truth.map_from_robot) &&
-      (!t.input.wants_heading() || rests(truth.twist))) {
+  const OperatorInput wanted = with_goal(t.input);
+  if (wanted.has_goal && wanted.is_reached_at(truth.map_from_robot) &&
+      (!wanted.wants_heading() || rests(truth.twist))) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
@@ -172,7 +185,7 @@ int run_sim(const SimOptions& options) {
   }
   progress.make_way();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const OperatorInput& wanted = runner.last().input;
+  const OperatorInput wanted = with_goal(runner.last().input);
   std::optional<double> heading_error;
   if (wanted.wants_heading()) heading_error = wanted.heading_error_rad(simulation.truth().map_from_robot);
   const double lasted_s = to_seconds(simulation.truth().now);

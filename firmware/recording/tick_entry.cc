@@ -129,6 +129,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.input.goal_tolerance_m);
   if (ar.version >= 3) ar(r.input.goal_heading_rad), ar(r.input.goal_heading_tolerance_rad);
   ar(r.input.emergency_stop), ar(r.input.reset);
+  if (ar.version >= kVersionWithStick) ar(r.input.steers), ar(r.input.stick.forward), ar(r.input.stick.left);
   ar(r.pose.stamp);
   transfer_pose(ar, r.pose.map_from_robot);
   ar(r.pose.position_std_m), ar(r.pose.heading_std_rad);

@@ -9,11 +9,11 @@
 
 namespace jaywalk {
 
-/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies, version 4 no paths; all are
-/// read as well.
-inline constexpr std::uint32_t kRecordingVersion = 5, kOldestVersion = 2;
-/// From this one on a recording holds the paths of its plans.
-inline constexpr std::uint32_t kVersionWithPaths = 5;
+/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies, version 4 no paths, version 5
+/// no stick; all are read as well.
+inline constexpr std::uint32_t kRecordingVersion = 6, kOldestVersion = 2;
+/// From these on a recording holds the paths of its plans, and the stick.
+inline constexpr std::uint32_t kVersionWithPaths = 5, kVersionWithStick = 6;
 
 /// Most bytes that an encoded record takes: every beam, mover and point of a path in use (the change of a step between
 /// places of 32 bits has 34), and room for the rest.

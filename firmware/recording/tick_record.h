@@ -30,6 +30,7 @@ struct TickRecord {
   Time plan_stamp = kNever;
   PlanStatus plan_status = PlanStatus::kNone;
   PlannedPath path;  ///< with the tick that a plan is new in
+  Twist2 wished;     ///< what a person's stick asks for; not in a recording, the stick is
   Twist2 wanted;
   MeasuredLatency latency;  ///< measured in the ticks before, for the stop zone
   Verdict verdict;

@@ -76,6 +76,7 @@ void RunReport::add(const RunSample& sample) {
   shape_.add(pose.position());
   driven_.add(now, pose);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
+  granted_.add(sample.record);
   add_tracks(sample);
 }
 
@@ -137,6 +138,8 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["accel_max_mps2"] = smoothness_.accel_max_mps2();
   j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
   j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);
+  j["granted_share"] = granted_.mean();
+  j["steered_s"] = granted_.steered_s();
   j["ticks"] = ticks_;
   j["missed_ticks"] = end.missed_ticks;
   j["dropped_records"] = end.dropped_records;

@@ -9,6 +9,7 @@
 #include "firmware/report/disk_reserve.h"
 #include "firmware/report/distribution.h"
 #include "firmware/report/drive_metrics.h"
+#include "firmware/report/granted_share.h"
 #include "firmware/report/run_sample.h"
 #include "firmware/report/run_tables.h"
 #include "firmware/report/trails.h"
@@ -56,6 +57,7 @@ class RunReport {
   Distribution plan_ms_, tick_ms_;
   DrivenWay driven_;
   TrailBook movers_, tracks_;
+  GrantedShare granted_;
   std::uint64_t ticks_ = 0;
   Time first_ = kNever, last_ = kNever;
   bool has_truth_ = false;

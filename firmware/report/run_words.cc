@@ -117,15 +117,30 @@ class Day {
   std::map<std::string, int> faults_;  ///< how often each began
 };
 
-/// "reached after 40.2 s", or that it has no summary.
-std::string outcome_of(const std::filesystem::path& folder) {
+/// The run's; no object where there is none.
+nlohmann::json summary_of(const std::filesystem::path& folder) {
   std::ifstream in(folder / "summary.json");
-  const nlohmann::json summary = nlohmann::json::parse(in, nullptr, false);
+  return nlohmann::json::parse(in, nullptr, false);
+}
+
+/// "reached after 40.2 s", or that it has no summary.
+std::string outcome_of(const nlohmann::json& summary) {
   if (!summary.is_object() || !summary.contains("outcome") || !summary["outcome"].is_string())
     return "it left no summary: it was killed, or still runs";
   const std::string outcome = summary["outcome"].get<std::string>();
   if (!summary.contains("duration_s") || !summary["duration_s"].is_number()) return outcome;
   return outcome + text_of(" after %.1f s", summary["duration_s"].get<double>());
+}
+
+/// How long a person drove by the stick, and how much of the wish was granted; nothing where nobody did.
+std::string steering_of(const nlohmann::json& summary) {
+  const auto number = [&](const char* key) {
+    return summary.is_object() && summary.contains(key) && summary[key].is_number() ? summary[key].get<double>() : 0.0;
+  };
+  const double steered_s = number("steered_s");
+  if (steered_s <= 0.0) return "";
+  return text_of("By the stick %.1f s", steered_s) + text_of(", by itself %.1f s", number("duration_s") - steered_s) +
+         text_of("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
 }
 
 }  // namespace
@@ -134,7 +149,8 @@ std::string run_words(const std::filesystem::path& folder) {
   RunLog log(folder / "robot.csv");
   Day day;
   for (RunRow row; log.next(row);) day.add(row);
-  return folder.string() + ": " + outcome_of(folder) + "\n" + day.words();
+  const nlohmann::json summary = summary_of(folder);
+  return folder.string() + ": " + outcome_of(summary) + "\n" + day.words() + steering_of(summary);
 }
 
 }  // namespace jaywalk

@@ -10,7 +10,7 @@ OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clo
       wiring_(file.panel) {
   if (wiring_) {
     watch_.emplace(clock, wiring_->joystick);
-    joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man);
+    joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man, file.setup.steering != StickUse::kNone);
   }
   gate_.emplace(joystick_ ? static_cast<OperatorPanel&>(*joystick_) : desk_, drive);
 }

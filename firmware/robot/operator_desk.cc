@@ -30,6 +30,7 @@ RunStatus OperatorDesk::status() {
 std::string OperatorDesk::take_stop(bool now) {
   const std::lock_guard lock(asking_);
   ++wish_.number;
+  ++wish_.stops;
   wish_.route.clear();
   if (now) ++wish_.emergencies;
   wishes_.publish(wish_);
@@ -96,6 +97,7 @@ void OperatorDesk::close() {
   const std::lock_guard lock(asking_);
   closed_ = true;
   ++wish_.number;
+  ++wish_.stops;
   wish_.route.clear();
   wishes_.publish(wish_);
 }
@@ -106,6 +108,7 @@ OperatorInput OperatorDesk::latest() noexcept {
   input_.stamp = clock_.now();
   input_.goal_tolerance_m = tolerances_.place_m;
   input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
+  input_.stop_orders = wish.stops;
   input_.reset = wish.resets != seen_.resets;  // for one tick each
   input_.emergency_stop = wish.emergencies != seen_.emergencies;
   seen_ = wish;
@@ -124,9 +127,10 @@ void OperatorDesk::head_for_leg() noexcept {
 }
 
 void OperatorDesk::tell(const RunStatus& status) noexcept {
-  if (status.latched) leg_ = seen_.route.size();
+  const bool drops = status.latched || status.steered;
+  if (drops) leg_ = seen_.route.size();
   if (status.goal_reached && input_.has_goal) ++leg_;
-  if (status.latched || status.goal_reached) head_for_leg();
+  if (drops || status.goal_reached) head_for_leg();
   RunStatus told = status;
   told.goals_left = seen_.route.size() - leg_;
   statuses_.publish(told);

@@ -26,7 +26,7 @@ struct GoalTolerances {
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
 /// A fault that is latched drops the goal: after a reset somebody has to say anew where to go. A goal that was reached
-/// is dropped too.
+/// is dropped too, and so is one when a person takes the stick.
 class OperatorDesk final : public OperatorPanel {
  public:
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
@@ -52,7 +52,8 @@ class OperatorDesk final : public OperatorPanel {
  private:
   struct Wish {
     std::uint32_t number = 0;  ///< of goals and stops
-    Route route;               ///< empty: nowhere to go
+    std::uint32_t stops = 0;
+    Route route;  ///< empty: nowhere to go
     std::uint32_t resets = 0;
     std::uint32_t emergencies = 0;
   };

@@ -42,7 +42,7 @@ RealtimeWishes read_realtime(TomlTable table) {
   return wishes;
 }
 
-PanelWiring read_panel(TomlTable table) {
+PanelWiring read_panel(TomlTable table, StickUse& steering) {
   PanelWiring panel;
   panel::JoystickSetup& joystick = panel.joystick;
   const auto button = [&table](const char* key) { return static_cast<std::uint16_t>(table.integer(key)); };
@@ -51,6 +51,10 @@ PanelWiring read_panel(TomlTable table) {
   joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
   if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
+  }
+  if (table.has("steering")) steering = static_cast<StickUse>(table.choice("steering"));  // in the enumeration's order
+  if (steering != StickUse::kNone && !panel.needs_dead_man) {
+    table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
   }
   joystick.dead_man = button("dead_man_button");
   joystick.stop = button("stop_button");
@@ -107,7 +111,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   laser.finish();
   robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
-  if (root.has("panel")) robot.panel = read_panel(root.table("panel"));
+  if (root.has("panel")) robot.panel = read_panel(root.table("panel"), setup.steering);
   for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places));
   robot.control_socket = root.text("control_socket", "");
   root.finish();

@@ -127,6 +127,8 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
     status_.goal_reached = t.input.is_reached_at(t.pose.map_from_robot) && (stands || !t.input.wants_heading());
     status_.heading_error_rad = t.input.heading_error_rad(t.pose.map_from_robot);
   }
+  status_.steered = t.input.steers && !t.input.stick.is_centred();
+  if (status_.steered) status_.goal_reached = false;
   status_.has_goal = t.input.has_goal && !status_.goal_reached;
   status_.goal_in_map = t.input.goal_in_map;
   status_.goal_heading_rad = t.input.goal_heading_rad;

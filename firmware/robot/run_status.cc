@@ -9,6 +9,7 @@ namespace {
 const char* state_of(const RunStatus& status) {
   if (!status.running) return "starting";
   if (status.latched) return "latched";
+  if (status.steered) return "steered";
   if (status.has_goal) return status.turns_at_goal ? "turning" : "driving";
   return status.goal_reached ? "reached" : "waiting";
 }

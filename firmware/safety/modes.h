@@ -52,11 +52,11 @@ struct ModeInput {
   bool latches = false;       ///< and it waits for a reset when it is gone
   bool stop_pressed = false;  ///< the emergency stop's button, now
   bool reset_edge = false;    ///< a person's reset, its rising edge
-  bool wants_zero = false;    ///< the wanted twist is zero
+  bool wants_zero = false;    ///< the wanted twist is zero, and a stick in its middle
   bool drives_ready = false;  ///< both proved and enabled, without trouble
-  bool has_goal = false;
-  bool at_goal = false;  ///< where only the heading is left to be reached
-  bool at_rest = false;  ///< nothing is permitted any more, that is: the ramp has ended
+  bool has_goal = false;      ///< or a stick that is not in its middle
+  bool at_goal = false;       ///< where only the heading is left to be reached
+  bool at_rest = false;       ///< nothing is permitted any more, that is: the ramp has ended
 };
 
 /// The mode after this tick's input. Latched is left by a reset's edge with the button released and a wanted twist of

@@ -59,7 +59,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
   update_mode(verdict.reasons, wanted, input);
   if (mode_ == Mode::kLatched) verdict.reasons |= Reason::kLatched;
   const bool stop = verdict.reasons != Reason::kNone || !takes_wishes();
-  if (!input.input.has_goal) verdict.reasons |= Reason::kNoGoal;
+  if (!input.input.wants_motion()) verdict.reasons |= Reason::kNoGoal;
   const Twist2 target = stop ? Twist2{} : limited(wanted, input, verdict);
   permitted_ = braked(target);
   verdict.permitted = permitted_;
@@ -121,9 +121,9 @@ void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyIn
                         .latches = has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone),
                         .stop_pressed = input.input.emergency_stop,
                         .reset_edge = reset_edge,
-                        .wants_zero = wanted == Twist2{},
+                        .wants_zero = wanted == Twist2{} && input.input.stick.is_centred(),
                         .drives_ready = input.wheels.ready,
-                        .has_goal = input.input.has_goal,
+                        .has_goal = input.input.wants_motion(),
                         .at_goal = input.at_goal,
                         .at_rest = permitted_ == Twist2{}});
 }

@@ -13,6 +13,7 @@ class SteeredPanel final : public OperatorPanel {
   explicit SteeredPanel(OperatorPanel& inner) : inner_(inner) {}
   [[nodiscard]] OperatorInput latest() noexcept override {
     OperatorInput input = inner_.latest();
+    if (stopped_ || goal_) input.steers = false, input.stick = {};
     if (stopped_) input.has_goal = false;
     if (!goal_) return input;
     input.has_goal = true;

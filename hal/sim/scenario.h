@@ -84,6 +84,18 @@ struct PoseSourceSpec {
   bool gives_movers = false;  ///< the robot takes movers from it, not from its laser; in mode paper always
 };
 
+enum class StickKind { kStraight, kToGoal, kTable };
+
+/// A scripted person who drives by a stick (stick.h).
+struct StickSpec {
+  StickKind kind = StickKind::kStraight;
+  StickUse steering = StickUse::kShared;
+  double forward = 1.0;          ///< how far it is pushed, 0 to 1
+  double noise_std = 0.0;        ///< of the hand, a share of the stick's way, both ways
+  double delay_s = 0.2;          ///< from what is so to what the hand does
+  std::filesystem::path file{};  ///< of a table
+};
+
 struct Scenario {
   std::string name;
   std::uint64_t seed = 1;
@@ -102,6 +114,7 @@ struct Scenario {
   SlipSpec slip;
   TrueRobot truth;
   PoseSourceSpec pose_source;
+  std::optional<StickSpec> stick;
   std::vector<WanderSpec> wanderers;
   std::vector<RecordedSpec> recorded;
   std::vector<FaultSpec> faults;

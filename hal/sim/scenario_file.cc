@@ -89,6 +89,21 @@ void read_robot(TomlTable table, Scenario& scenario) {
   table.finish();
 }
 
+StickSpec read_stick(TomlTable table) {
+  StickSpec spec;
+  spec.kind = static_cast<StickKind>(table.choose_keys("kind"));  // choices in the enumerations' orders
+  if (table.has("steering")) spec.steering = table.choice("steering") == 0 ? StickUse::kShared : StickUse::kByHand;
+  spec.delay_s = table.number("delay_s");
+  spec.noise_std = table.number("noise_std");
+  if (spec.kind == StickKind::kTable) {
+    spec.file = table.existing_file("file");
+  } else {
+    spec.forward = table.number("forward");
+  }
+  table.finish();
+  return spec;
+}
+
 WanderSpec read_wanderers(TomlTable& table) {
   WanderSpec spec;
   spec.count = static_cast<int>(table.integer("count"));
@@ -145,6 +160,7 @@ Scenario load_scenario(const std::filesystem::path& path, const std::vector<std:
   scenario.timeout_s = root.number("timeout_s");
   read_map(root.table("map"), scenario);
   read_robot(root.table("robot"), scenario);
+  if (root.has("stick")) scenario.stick = read_stick(root.table("stick"));
   for (TomlTable& table : root.tables("movers")) read_movers(table, scenario);
   for (TomlTable& table : root.tables("faults")) scenario.faults.push_back(read_fault(table));
   root.finish();

@@ -15,6 +15,7 @@ const WanderSpec kWander{};
 const RecordedSpec kRecorded{};
 const PoseSourceSpec kPoseSource{};
 const SlipSpec kSlip{};
+const StickSpec kStick{};
 
 std::vector<SettingKey> world_keys() {
   return {{"", "name", kText, {}, "", "the file's name", "for reports"},
@@ -28,6 +29,13 @@ std::vector<SettingKey> world_keys() {
           {"", "timeout_s", kNumber, {0.1, 86400.0}, "s", kScenario.timeout_s, "the run ends then"},
           {"", "map", kTable, {}, "", kNeeded, "the world: one of yaml, aria, cylinders"},
           {"", "robot", kTable, {}, "", kNeeded, "the robot in it"},
+          {"",
+           "stick",
+           kTable,
+           {},
+           "",
+           "none",
+           "a scripted person who drives by a stick; the goal is where it should lead"},
           {"", "movers", kTables, {}, "", "none", "what moves"},
           {"", "faults", kTables, {}, "", "none", "what goes wrong"},
           {"map", "yaml", kFile, {}, "", "another kind", "ROS map_server file"},
@@ -122,6 +130,32 @@ std::vector<SettingKey> robot_keys() {
            "the robot takes movers from it, not from its laser; --mode paper always does"}};
 }
 
+std::vector<SettingKey> stick_keys() {
+  std::vector<SettingKey> keys{
+      {"stick",
+       "kind",
+       kChoice,
+       {},
+       "",
+       kNeeded,
+       "ahead whatever comes, pointed at the goal, or by rows",
+       {"straight", "to_goal", "table"}},
+      {"stick",
+       "steering",
+       kChoice,
+       {},
+       "",
+       "shared",
+       "shared: the robot steers clear and stops by itself; by_hand: the supervisor alone does",
+       {"shared", "by_hand"}},
+      {"stick", "delay_s", kNumber, {0.0, 2.0}, "s", kStick.delay_s, "from what is so to what the hand does"},
+      {"stick", "noise_std", kNumber, {0.0, 1.0}, "", kStick.noise_std, "of the hand, a share of the stick's way"},
+      {"stick:table", "file", kFile, {}, "", kNeeded, "rows of t_s,forward,left below a line that says so"}};
+  for (const char* kind : {"stick:straight", "stick:to_goal"})
+    keys.push_back({kind, "forward", kNumber, {0.0, 1.0}, "", kStick.forward, "how far it is pushed"});
+  return keys;
+}
+
 std::vector<SettingKey> mover_keys() {
   return {
       {"movers", "kind", kChoice, {}, "", kNeeded, "walk about, or walk as somebody once did", {"wander", "recorded"}},
@@ -174,7 +208,8 @@ std::vector<SettingKey> fault_keys() {
 
 FileKeys make_scenario_keys() {
   FileKeys file{"Scenario", {}};
-  for (const auto& keys : {world_keys(), robot_keys(), laser_keys("robot.laser"), mover_keys(), fault_keys()})
+  for (const auto& keys :
+       {world_keys(), robot_keys(), laser_keys("robot.laser"), stick_keys(), mover_keys(), fault_keys()})
     file.keys.insert(file.keys.end(), keys.begin(), keys.end());
   return file;
 }

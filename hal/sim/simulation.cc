@@ -1,6 +1,9 @@
 #include "hal/sim/simulation.h"
 
+#include <optional>
+
 #include "hal/sim/sensors.h"
+#include "hal/sim/stick.h"
 #include "hal/sim/world.h"
 
 namespace jaywalk::sim {
@@ -32,22 +35,27 @@ class SimDrive final : public DriveBase {
 
 class SimPanel final : public OperatorPanel {
  public:
-  SimPanel(const World& world, const Scenario& scenario)
+  SimPanel(const World& world, const Scenario& scenario, std::uint64_t seed)
       : world_(world),
-        input_{.has_goal = true,
+        input_{.has_goal = !scenario.stick,
                .goal_in_map = scenario.goal,
                .goal_tolerance_m = scenario.goal_tolerance_m,
                .goal_heading_rad = scenario.goal_heading_rad,
-               .goal_heading_tolerance_rad = scenario.goal_heading_tolerance_rad} {}
+               .goal_heading_tolerance_rad = scenario.goal_heading_tolerance_rad,
+               .steers = scenario.stick.has_value()} {
+    if (scenario.stick) stick_.emplace(*scenario.stick, scenario, seed);
+  }
   OperatorInput latest() noexcept override {
     input_.stamp = world_.now();
+    if (stick_) input_.stick = stick_->at(world_.truth());
     input_.emergency_stop = world_.fault_active(FaultKind::kEmergencyStop);
     return input_;
   }
 
  private:
   const World& world_;
-  OperatorInput input_;
+  OperatorInput input_;  ///< of a stick's robot the goal is that of the person, and has_goal is false
+  std::optional<ScriptedStick> stick_;
 };
 
 class SimPoseSource final : public PoseSource {
@@ -103,7 +111,10 @@ struct Simulation::State {
   std::vector<WallSegment> drawn_walls;
 
   State(const Scenario& scenario, std::uint64_t seed)
-      : world(scenario, seed), sensors(scenario, seed), panel(world, scenario), drawn_walls(drawn(world.walls())) {
+      : world(scenario, seed),
+        sensors(scenario, seed),
+        panel(world, scenario, seed),
+        drawn_walls(drawn(world.walls())) {
     sensors.sense(world);
   }
 };

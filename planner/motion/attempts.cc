@@ -212,4 +212,20 @@ void Attempts::smooth(const Trajectory& base, int half, Trajectory& out) const n
   }
 }
 
+Trajectory shifted(const Trajectory& trajectory, float by_s) noexcept {
+  Trajectory out = trajectory;
+  const float steps = by_s / kStepS;
+  const auto& old = trajectory.commands;
+  for (int k = 0; k < kSteps; ++k) {
+    const float at = static_cast<float>(k) + steps;
+    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(at), kSteps - 1));
+    const std::size_t j = std::min(i + 1, old.size() - 1);
+    const float share = at - static_cast<float>(static_cast<int>(at));
+    out.commands[static_cast<std::size_t>(k)] = {old[i].v + share * (old[j].v - old[i].v),
+                                                 old[i].w + share * (old[j].w - old[i].w)};
+  }
+  out.attempt = Attempt::kLast;
+  return out;
+}
+
 }  // namespace jaywalk::motion

@@ -30,4 +30,7 @@ class Attempts {
   float constant_;
 };
 
+/// What is left of a trajectory `by_s` seconds after its start, in between its steps, its last command held.
+[[nodiscard]] Trajectory shifted(const Trajectory& trajectory, float by_s) noexcept;
+
 }  // namespace jaywalk::motion

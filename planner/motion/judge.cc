@@ -98,7 +98,7 @@ class Judge {
 
   /// A step's own price, wherever it is.
   void drive(const RobotState& before, const RobotState& now) {
-    comfort(before, now);
+    if (s_.wish == nullptr) comfort(before, now);  // a person who steers turns and speeds up at will
     wait(now);
     cost.time += kStepS;
   }
@@ -120,7 +120,8 @@ class Judge {
 
  private:
   [[nodiscard]] float clearance_at(const RobotState& r) const {
-    return s_.body.to_walls.clearance(s_.guide, r.x, r.y, along_);
+    const float least = s_.body.to_walls.clearance(s_.guide, r.x, r.y, along_);
+    return s_.wish == nullptr || least >= kByWallM ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along_);
   }
 
   void walls(const RobotState& r, float t) {
@@ -138,7 +139,9 @@ class Judge {
       cost.stop_zone = kStopZone * cell::exp(-t / kStopZoneFadesS);
     }
     const float close = c < kNearWallM ? (kNearWallM - c) / kNearWallM : 0.0F;
-    cost.clearance += kStepS * (kNearWall * close * close + kByWall * (kByWallM - c) / kByWallM);
+    // Steered, the robot may stand as near as is wished: the price is for the way then, not for the time.
+    const float most = s_.body.bounds.speed, paid = s_.wish == nullptr || rim > most ? 1.0F : rim / most;
+    cost.clearance += kStepS * paid * (kNearWall * close * close + kByWall * (kByWallM - c) / kByWallM);
   }
 
   void unseen(const RobotState& r) {
@@ -231,7 +234,8 @@ float to_go(const Situation& s, const RobotState& end) {
 /// Rolls a trajectory out until it arrives or ends; returns how many states that are.
 int drive(const Situation& s, const Trajectory& trajectory, Judge& judge, RobotState* states) {
   RobotState robot = s.start;
-  for (int step = 0; step < kSteps; ++step) {
+  const int last = s.wish != nullptr ? kWishedSteps : kSteps;
+  for (int step = 0; step < last; ++step) {
     const RobotState before = robot;
     states[step] = robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
     judge.drive(before, robot);
@@ -241,8 +245,8 @@ int drive(const Situation& s, const Trajectory& trajectory, Judge& judge, RobotS
       return step + 1;
     }
   }
-  judge.cost.time += to_go(s, robot);
-  return kSteps;
+  judge.cost.time += s.wish != nullptr ? seconds_off(*s.wish, states, s.body.bounds) : to_go(s, robot);
+  return last;
 }
 
 }  // namespace

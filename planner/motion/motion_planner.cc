@@ -12,50 +12,7 @@ constexpr std::array<int, 2> kSmoothedOver{3, 8};               ///< steps to ei
 constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
 constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 constexpr double kStopWithin = 2.0 / 3.0;                       ///< of the tolerance
-constexpr double kJustBelow = 1.0 - 1e-6;                       ///< single precision must not round a limit up
 constexpr float kArriveWithin = 0.8F;                           ///< the same, for roll-outs
-constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;        ///< comfort: a passenger's
-constexpr float kSlowing = 0.8F;
-constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
-constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
-constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
-constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
-
-RobotBody body_of(const MotionConfig& config) {
-  const Footprint& f = config.footprint;
-  const MotionLimits& l = config.limits;
-  const double outer = f.circumscribed_radius_m();
-  RobotBody body;
-  body.to_walls = BodyDiscs::covering(f, kOverSides_m);
-  body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
-  if (outer < f.inscribed_radius_m() + kNearlyRound_m) {
-    body.to_movers = {};
-    body.to_movers.count = 1;
-    body.to_movers.radius = static_cast<float>(outer);
-  }
-  body.rim_m = static_cast<float>(outer);
-  body.berth_m = static_cast<float>(config.berth_m);
-  body.blind = BlindRim(f, config.laser);
-  const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
-             side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);
-  body.rim = {{{front, side},
-               {front, 0.0F},
-               {front, -side},
-               {middle, side},
-               {middle, -side},
-               {rear, side},
-               {rear, 0.0F},
-               {rear, -side}}};
-  const auto at_most = [](double limit, float most) { return std::min(static_cast<float>(limit), most); };
-  body.bounds = {.speed = static_cast<float>(l.max_speed_mps * kJustBelow),
-                 .back = at_most(l.max_speed_mps, kBackMps),
-                 .turn = at_most(l.max_turn_radps, kMostTurn),
-                 .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
-                 .accel = static_cast<float>(l.max_accel_mps2),
-                 .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
-                 .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
-  return body;
-}
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
 template <class Look>
@@ -82,7 +39,9 @@ void search(const Situation& situation, bool constant_speed, std::uint32_t numbe
 }  // namespace
 
 MotionPlanner::MotionPlanner(const MotionConfig& config)
-    : config_(config), body_(body_of(config)), futures_(std::make_unique<Futures>()) {}
+    : config_(config),
+      body_(robot_body(config.footprint, config.limits, config.laser, config.berth_m)),
+      futures_(std::make_unique<Futures>()) {}
 
 bool MotionPlanner::is_there(const Pose2& here, Vec2 goal) const noexcept {
   return !config_.constant_speed && distance(here.position(), goal) < config_.goal_tolerance_m * kStopWithin;
@@ -111,7 +70,7 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
   float to_beat = 1e9F;
   decision_.went_on = decision_.at != kNever && seen.now - decision_.at < kHoldsFor;
   if (decision_.went_on) {
-    decision_.last = best_ = shifted(seen.now);
+    decision_.last = best_ = shifted(decision_.trajectory, static_cast<float>(to_seconds(seen.now - decision_.at)));
     best_cost_ = judge(situation, best_, 1e9F);
     to_beat = best_cost_.total();
   }
@@ -154,23 +113,6 @@ std::vector<Alternative> MotionPlanner::alternatives(const Guide& guide) const {
   std::stable_sort(all.begin(), all.end(),
                    [](const Alternative& a, const Alternative& b) { return a.cost.total() < b.cost.total(); });
   return all;
-}
-
-/// What is left of the last decision, in between its steps, its last command held.
-Trajectory MotionPlanner::shifted(Time now) const noexcept {
-  Trajectory out = decision_.trajectory;
-  const float steps = static_cast<float>(to_seconds(now - decision_.at)) / kStepS;
-  const auto& old = decision_.trajectory.commands;
-  for (int k = 0; k < kSteps; ++k) {
-    const float at = static_cast<float>(k) + steps;
-    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(at), kSteps - 1));
-    const std::size_t j = std::min(i + 1, old.size() - 1);
-    const float share = at - static_cast<float>(static_cast<int>(at));
-    out.commands[static_cast<std::size_t>(k)] = {old[i].v + share * (old[j].v - old[i].v),
-                                                 old[i].w + share * (old[j].w - old[i].w)};
-  }
-  out.attempt = Attempt::kLast;
-  return out;
 }
 
 Stay MotionPlanner::stay(const RobotState& here, Time now) noexcept {

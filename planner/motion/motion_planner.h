@@ -74,7 +74,6 @@ class MotionPlanner {
  private:
   [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
   void choose(const Situation& situation) noexcept;
-  [[nodiscard]] Trajectory shifted(Time now) const noexcept;
   [[nodiscard]] Stay stay(const RobotState& here, Time now) noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;

@@ -19,6 +19,7 @@ enum class Attempt : std::uint8_t {
   kArcBack,
   kArcThenFollow,
   kBackThenFollow,
+  kWish,  ///< what a stick asks for, or nearly
 };
 
 /// Timed commands; what comes of them is up to robot_motion.h.

@@ -1,108 +1,15 @@
-#include <fcntl.h>
 #include <linux/input.h>
-#include <sys/stat.h>
-#include <unistd.h>
 
 #include <array>
 #include <cmath>
-#include <filesystem>
-#include <string>
-#include <thread>
 #include <tuple>
-#include <vector>
 
-#include "drivers/panel/joystick_panel.h"
-#include "tests/drivers/hand_clock.h"
+#include "tests/drivers/panel_bench.h"
 #include "tests/drivers/random_bytes.h"
-#include "tests/support/allocation_guard.h"
-#include "tests/support/catch.h"
 
 using namespace jaywalk;
 using namespace jaywalk::panel;
-using namespace std::chrono_literals;
-using Octets = std::vector<std::uint8_t>;
-
-namespace {
-
-constexpr std::uint16_t kDeadMan = 0x136, kStop = 0x131, kReset = 0x13B, kX = 0, kY = 1;
-
-/// An event as the kernel lays it out where time takes two longs: both of them, type, code, value.
-Octets event(std::uint8_t type, std::uint16_t code, std::int32_t value) {
-  Octets made(2 * sizeof(long), 0xA5);
-  made.push_back(type);
-  made.push_back(0);
-  made.push_back(static_cast<std::uint8_t>(code));
-  made.push_back(static_cast<std::uint8_t>(code >> 8U));
-  for (int shift = 0; shift < 32; shift += 8) {
-    made.push_back(static_cast<std::uint8_t>(static_cast<std::uint32_t>(value) >> shift));
-  }
-  return made;
-}
-
-struct GoalAtOne final : OperatorPanel {
-  [[nodiscard]] OperatorInput latest() noexcept override {
-    OperatorInput input;
-    input.has_goal = true;
-    input.goal_in_map = {1.0, 0.0};
-    return input;
-  }
-};
-
-/// This machine's.
-struct SleepingClock final : Clock {
-  [[nodiscard]] Time now() noexcept override { return Time{std::chrono::steady_clock::now().time_since_epoch()}; }
-  void sleep_until(Time wake) noexcept override { std::this_thread::sleep_for(wake - now()); }
-};
-
-/// A named pipe in the place of a device: it says what a test writes, and nothing when asked how things stand.
-class Bench {
- public:
-  explicit Bench(bool stop_opens = false, Duration renew = 0s, BusOf bus = bus_of)
-      : path_((std::filesystem::temp_directory_path() / ("jaywalk_panel_" + std::to_string(::getpid()))).string()),
-        watch(clock, {.path = path_, .stop_opens = stop_opens, .dead_man_renew = renew}, bus),
-        panel(goals_, watch, true) {
-    std::filesystem::remove(path_);
-  }
-  ~Bench() { std::filesystem::remove(path_); }
-
-  [[nodiscard]] const std::string& path() const { return path_; }
-  void plug_in() {
-    REQUIRE(::mkfifo(path_.c_str(), 0600) == 0);
-    writer_ = wire::FileDescriptor(::open(path_.c_str(), O_RDWR | O_NONBLOCK));
-  }
-  void pull() {
-    std::filesystem::remove(path_);
-    writer_ = wire::FileDescriptor();
-  }
-  void write(const Octets& bytes) {
-    REQUIRE(::write(writer_.get(), bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size()));
-  }
-  void press(std::uint16_t code, bool pressed = true) { write(event(EV_KEY, code, pressed ? 1 : 0)); }
-  OperatorInput after(Duration time) {
-    clock.sleep_until(clock.now() + time);
-    watch.step();
-    return tick();
-  }
-  OperatorInput tick() {
-    const AllocationGuard guard;
-    const OperatorInput input = panel.latest();
-    heap_calls += guard.calls();
-    return input;
-  }
-
- private:
-  std::string path_;
-  GoalAtOne goals_;
-  wire::FileDescriptor writer_;
-
- public:
-  tests::HandClock clock;
-  JoystickWatch watch;
-  JoystickPanel panel;
-  std::uint64_t heap_calls = 0;
-};
-
-}  // namespace
+using namespace jaywalk::panel::tests;
 
 TEST_CASE("input events are cut out of what was read in pieces of any size") {
   // BTN_TL pressed: type 1, code 0136h, value 1. ABS_Y at -300: type 3, code 1, FFFFFED4h.
@@ -308,29 +215,11 @@ TEST_CASE("a joystick whose events were lost is asked again how it stands") {
   CHECK_FALSE(input.has_goal);
 }
 
-TEST_CASE("sticks count from a dead zone to the end while the dead man's button is held") {
-  Bench bench;
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.write(event(EV_ABS, kY, -32767));
-  static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().forward == 0.0);
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
-  bench.write(event(EV_ABS, kX, 3276));  // a tenth to the right: at rest
-  static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().forward == Approx(1.0));
-  CHECK(bench.panel.joystick().left == 0.0);
-  bench.write(event(EV_ABS, kX, -18022));  // 0.55 to the left: (0.55 - 0.1) / 0.9
-  static_cast<void>(bench.after(20ms));
-  CHECK(bench.panel.joystick().left == Approx(0.5).margin(1e-4));
-}
-
 TEST_CASE("whatever a device says its state stays within its limits") {
   Bench bench;
   bench.plug_in();
   static_cast<void>(bench.after(0ms));
-  tests::RandomBytes random(91);
+  jaywalk::tests::RandomBytes random(91);
   for (int k = 0; k < 3000; ++k) {
     constexpr std::array<std::uint16_t, 5> kCodes{kDeadMan, kStop, kReset, kX, kY};
     const std::uint8_t type = static_cast<std::uint8_t>(random.below(5));

@@ -9,6 +9,7 @@ SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, cons
   if (edit) edit(scenario);
   setup_.model = scenario.model;
   setup_.mode = mode;
+  setup_.steering = scenario.stick ? scenario.stick->steering : StickUse::kNone;
   setup_.backend = Backend::kCpu;
   setup_.start = scenario.start;
   setup_.goal = scenario.goal;

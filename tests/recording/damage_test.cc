@@ -100,7 +100,7 @@ TEST_CASE("noise, an empty file and another version are refused by name") {
   std::string newer = good_recording(scratch, 1);
   newer[8] = 9;
   CHECK(
-      read_all(scratch.write("newer.jwr", newer)).error.find("version 9, this program reads 2 to 5; replay it with") !=
+      read_all(scratch.write("newer.jwr", newer)).error.find("version 9, this program reads 2 to 6; replay it with") !=
       std::string::npos);
 }
 

@@ -31,7 +31,8 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.scan.range_m[3] = -0.0F;
   r.scan.range_m[4] = std::numeric_limits<float>::denorm_min();
   r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, StopStage::kSilent, false};
-  r.input = {Time{Duration{12}}, true, {x * 5, x * 6}, x * 7, x * 18, x * 19, n % 2 == 1, n % 2 == 0};
+  r.input = {Time{Duration{12}}, true, {x * 5, x * 6},   x * 7, x * 18, x * 19, n % 2 == 1,
+             n % 2 == 0,         true, {x * 20, -x * 21}};
   if (n % 7 == 3) r.input.goal_heading_rad = kAnyHeading;
   r.fix.stamp = Time{Duration{13}};
   r.fix.sequence = 1 + n / 5;

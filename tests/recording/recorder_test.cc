@@ -116,16 +116,17 @@ TEST_CASE("a point beyond what a millimetre of 32 bits can say is no path") {
   const auto read = std::make_unique<TickRecord>();
   std::uint64_t lost = 0;
   REQUIRE(TickDecoder().decode(bytes, *read, lost));
-  // The last point's x, behind 270 bytes, the count and the stamp: the bend from 2,147,483,647 by two and a half times
+  // The last point's x, behind 287 bytes, the count and the stamp: the bend from 2,147,483,647 by two and a half times
   // as much back. One more in its highest seven bits carries it beyond.
-  std::size_t at = 270 + 4 + 8;
+  std::size_t at = 287 + 4 + 8;
   for (int numbers = 8; numbers > 0; ++at) numbers -= bytes[at] < 0x80 ? 1 : 0;
   while (bytes[at] >= 0x80) ++at;
   bytes[at] = static_cast<unsigned char>(bytes[at] + 1);
   CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
 }
 
-TEST_CASE("a tick of version 2, which had no heading at the goal, stage of a stop, latencies and paths, comes back") {
+TEST_CASE(
+    "a tick of version 2, which had no heading at the goal, stage of a stop, latencies, paths and stick, comes back") {
   std::vector<unsigned char> bytes(kMaxEntryBytes);
   bytes.resize(TickEncoder().encode(*made(6), 0, bytes));
   // Behind the latencies' 24 bytes and a path's count stand a scan of five beams, 44 + 4 + 5 * 4, and a fix with a
@@ -133,6 +134,8 @@ TEST_CASE("a tick of version 2, which had no heading at the goal, stage of a sto
   bytes.erase(bytes.end() - 161 - 28, bytes.end() - 161);
   // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage 1,
   // ready 1, the input's stamp 8, flag 1, point 16 and tolerance 8: 98 bytes.
+  // Behind them stand two flags, and then the stick: a flag and two numbers.
+  bytes.erase(bytes.begin() + 116, bytes.begin() + 133);
   bytes.erase(bytes.begin() + 98, bytes.begin() + 114);
   bytes.erase(bytes.begin() + 63, bytes.begin() + 65);
   const auto read = std::make_unique<TickRecord>();
@@ -142,6 +145,8 @@ TEST_CASE("a tick of version 2, which had no heading at the goal, stage of a sto
   const auto expected = made(6);
   expected->input.goal_heading_rad = kAnyHeading;
   expected->input.goal_heading_tolerance_rad = 0.1;
+  expected->input.steers = false;
+  expected->input.stick = {};
   expected->wheels.stop = StopStage::kNone;
   expected->wheels.ready = true;
   expected->took = Duration{0};

@@ -1,6 +1,7 @@
 #include "firmware/report/run_report.h"
 
 #include <array>
+#include <cmath>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -150,6 +151,25 @@ TEST_CASE("a table that the disk did not take whole stands in the summary by its
           std::string::npos);
     CHECK(j["ticks"] == 101);
   }
+}
+
+TEST_CASE("the granted share is the permitted twist's part along the wished one, a rad/s worth half a m/s") {
+  CHECK(GrantedShare::share_of({0.6, 0.0}, {0.3, 0.0}) == Approx(0.5));
+  CHECK(GrantedShare::share_of({0.6, 0.4}, {0.6, 0.0}) == Approx(0.9));  // 0.36 of 0.36 + 0.25 * 0.16
+  CHECK(GrantedShare::share_of({0.0, 0.5}, {0.1, 0.5}) == 1.0);
+  CHECK(GrantedShare::share_of({0.6, 0.0}, {-0.2, 0.0}) == 0.0);
+  GrantedShare granted;
+  CHECK(std::isnan(granted.mean()));
+  const auto record = std::make_unique<TickRecord>();
+  record->input.steers = true;
+  for (int k = 0; k < 5; ++k) {  // in its middle twice, then granted whole, and half twice
+    record->now = Time{Duration{20'000'000LL * k}};
+    record->wished = {k < 2 ? 0.0 : 0.6, 0.0};
+    record->verdict.permitted = {k < 3 ? 0.6 : 0.3, 0.0};
+    granted.add(*record);
+  }
+  CHECK(granted.mean() == Approx(2.0 / 3.0));  // 1, 1/2, 1/2
+  CHECK(granted.steered_s() == Approx(0.08));
 }
 
 TEST_CASE("a summary that the disk does not take ends the run with its name") {

@@ -22,6 +22,15 @@ std::string row(double t_s, double x_m, double wheels_radps, const std::string& 
   return text;
 }
 
+TEST_CASE("a run by the stick says for how long, and how much of the wish was granted") {
+  const Scratch run;
+  run.write("robot.csv", kHeader + row(0.0, 0.0, 5.0, "") + row(1.0, 1.0, 5.0, ""));
+  run.write("summary.json", R"({"outcome": "stopped", "duration_s": 9.0, "steered_s": 6.0, "granted_share": 0.875})");
+  CHECK(run_words(run.folder())
+            .find("By the stick 6.0 s, by itself 3.0 s; 88 % of what the stick asked for was granted.\n") !=
+        std::string::npos);
+}
+
 TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latched fault for 2 s") {
   const Scratch run;
   std::string table = kHeader;

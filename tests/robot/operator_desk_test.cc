@@ -91,6 +91,23 @@ TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of i
   CHECK(desk.obey("goto attic").find("refused: goto: there is no place attic") == 0);
 }
 
+TEST_CASE("a person who takes the stick drops the goal, and every order to stop is told to the stick") {
+  Bench bench;
+  CHECK(bench.desk.obey("goto 1 2") == "going\n");
+  CHECK(bench.desk.latest().has_goal);
+  const std::uint32_t orders = bench.desk.latest().stop_orders;
+  bench.tell([](RunStatus& s) { s.steered = true; });
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.obey("status").find("state: steered\n") != std::string::npos);
+  bench.tell([](RunStatus& s) { s.steered = false; });
+  CHECK_FALSE(bench.desk.latest().has_goal);
+  CHECK(bench.desk.latest().stop_orders == orders);
+  CHECK(bench.desk.obey("stop") == "stopping\n");
+  CHECK(bench.desk.latest().stop_orders == orders + 1);
+  bench.desk.close();
+  CHECK(bench.desk.latest().stop_orders == orders + 2);
+}
+
 TEST_CASE("a goal's heading is the loop's as well, and the next goal may have none") {
   Bench bench;
   CHECK(std::isnan(bench.desk.latest().goal_heading_rad));

@@ -195,6 +195,15 @@ TEST_CASE("a joystick is read from the file with its buttons") {
   CHECK(refusal(kGood + panel + "throttle = 1\n").find("throttle") != std::string::npos);
 }
 
+TEST_CASE("a stick is for nothing unless the file says so, and drives only with a dead man") {
+  const std::string panel = std::string(kGood) + "\n[panel]\njoystick = \"/dev/null\"\n";
+  CHECK(load(panel).setup.steering == StickUse::kNone);
+  CHECK(load(panel + "steering = \"shared\"\n").setup.steering == StickUse::kShared);
+  CHECK(load(panel + "steering = \"by_hand\"\n").setup.steering == StickUse::kByHand);
+  CHECK(refusal(panel + "steering = \"shared\"\nneeds_dead_man = false\n").find("panel.steering has no dead man") !=
+        std::string::npos);
+}
+
 TEST_CASE("two drives, or two buttons, are not one") {
   const auto with_node = [](const std::string& line) { return with("can = \"can0\"", "can = \"can0\"\n" + line); };
   CHECK(refusal(with_node("left_node = 3")).find("drive.right_node is left_node too; ") != std::string::npos);

@@ -27,13 +27,16 @@ class SettingsBench {
   SettingsBench() {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "posts.txt") << "-8 -8 0.2\n8 -8 0.2\n8 8 0.2\n-8 8 0.2\n";
+    std::ofstream(folder_ / "stick.csv") << "t_s,forward,left\n0,1,0\n";
     std::ofstream(folder_ / "rows.csv") << "t_s,id,x_m,y_m\n0,1,0,4\n5,1,1,4\n";
   }
   ~SettingsBench() { std::filesystem::remove_all(folder_); }
 
   [[nodiscard]] std::vector<SettingsKind> kinds() const {
     std::vector<std::string> scenarios;
-    for (const char* map : {"yaml", "aria", "cylinders"}) scenarios.push_back(scenario(map));
+    scenarios.push_back(scenario("yaml", "kind = \"straight\"\nforward = 0.9"));
+    scenarios.push_back(scenario("aria", "kind = \"to_goal\"\nforward = 0.9"));
+    scenarios.push_back(scenario("cylinders", "kind = \"table\"\nfile = \"stick.csv\""));
     return {{robot_file_keys(),
              [](const auto& f) { static_cast<void>(load_robot_file(f)); },
              {kWholeRobots.begin(), kWholeRobots.end()}},
@@ -47,9 +50,10 @@ class SettingsBench {
   }
 
  private:
-  [[nodiscard]] static std::string scenario(const std::string& map) {
+  [[nodiscard]] static std::string scenario(const std::string& map, const std::string& stick) {
     std::string text = kWholeScenario;
     text.replace(text.find("MAP"), 3, map + " = \"posts.txt\"");
+    text.replace(text.find("STICK"), 5, stick);
     return text.replace(text.find("ROWS"), 4, "rows.csv");
   }
 

@@ -78,6 +78,7 @@ allow_unproved = false
 joystick = "/dev/input/event0"
 needs_dead_man = true
 dead_man_renew_s = 2.0
+steering = "shared"
 dead_man_button = 0x136
 stop_button = 0x131
 stop_opens = false
@@ -115,7 +116,8 @@ right_node = 2
 electrical_turns_per_wheel_turn = 160.0
 )"};
 
-/// MAP is to be replaced by a whole [map] line, ROWS by a file of recorded movers.
+/// MAP is to be replaced by a whole [map] line, STICK by lines that say a kind of stick, ROWS by a file of recorded
+/// movers.
 inline constexpr const char* kWholeScenario = R"(name = "whole"
 seed = 7
 timeout_s = 20.0
@@ -157,6 +159,11 @@ position_std_m = 0.03
 heading_std_rad = 0.01
 mover_std_m = 0.05
 gives_movers = true
+[stick]
+STICK
+steering = "by_hand"
+noise_std = 0.1
+delay_s = 0.3
 [[movers]]
 kind = "wander"
 count = 2

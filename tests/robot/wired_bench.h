@@ -24,12 +24,13 @@ using namespace std::chrono_literals;
 
 /// A robot of tools/rig/drive with the simulated robot at its far end; armed.
 struct WiredBench {
-  explicit WiredBench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {}, int rate_hz = 50)
+  explicit WiredBench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {}, int rate_hz = 50,
+                      StickUse steering = StickUse::kNone)
       : folder(std::filesystem::temp_directory_path() /
                ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
         period(duration_from_seconds(1.0 / rate_hz)),
-        robot(file(robot_name, panel, rate_hz), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3,
-              clock, folder) {
+        robot(file(robot_name, panel, rate_hz, steering),
+              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, folder) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;
@@ -41,7 +42,8 @@ struct WiredBench {
     due = clock.now();
   }
   ~WiredBench() { std::filesystem::remove_all(folder); }
-  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel, int rate_hz) const {
+  [[nodiscard]] RobotFile file(const std::string& name, const std::optional<PanelWiring>& panel, int rate_hz,
+                               StickUse steering) const {
     std::filesystem::create_directories(folder);
     const std::filesystem::path mine = folder / "robot.toml";
     std::ofstream(mine) << "rate_hz = " << rate_hz << ".0\n"
@@ -49,6 +51,7 @@ struct WiredBench {
     RobotFile wiring = load_robot_file(mine);
     wiring.setup.backend = Backend::kCpu;
     wiring.panel = panel;
+    wiring.setup.steering = steering;
     if (wiring.laser.host.empty()) wiring.laser.device = folder / "scanner";
     return wiring;
   }

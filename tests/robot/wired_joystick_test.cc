@@ -20,11 +20,14 @@ class Joystick {
     pipe_ = wire::FileDescriptor(::open(path.c_str(), O_RDWR | O_NONBLOCK));
   }
   ~Joystick() { std::filesystem::remove(path); }
-  void press(std::uint16_t button, bool pressed = true) {
+  void press(std::uint16_t button, bool pressed = true) { write(EV_KEY, button, pressed ? 1 : 0); }
+  /// Of 32767 from the middle to the end; ahead counts down.
+  void push(std::int32_t forward) { write(EV_ABS, ABS_Y, -forward); }
+  void write(std::uint16_t type, std::uint16_t code, std::int32_t value) {
     input_event event{};
-    event.type = EV_KEY;
-    event.code = button;
-    event.value = pressed ? 1 : 0;
+    event.type = type;
+    event.code = code;
+    event.value = value;
     REQUIRE(::write(pipe_.get(), &event, sizeof event) == sizeof event);
   }
   void pull() {
@@ -76,4 +79,77 @@ TEST_CASE("with a joystick the robot drives while its dead man is held, and its 
   bench.tick(100);
   CHECK(bench.speed_mps() == 0.0);
   CHECK(has(bench.last().verdict.reasons, Reason::kEmergencyStop));
+}
+
+TEST_CASE("by the stick, shared or by hand, the robot drives while its dead man is held; in the middle it stands") {
+  for (const StickUse steering : {StickUse::kShared, StickUse::kByHand}) {
+    Joystick joystick;
+    Bench bench("robot", PanelWiring{.joystick = {.path = joystick.path}}, 50, steering);
+    bench.tick(10);
+    joystick.push(32767);
+    bench.tick(50);
+    CHECK(bench.speed_mps() == 0.0);
+    joystick.press(BTN_TL, false);
+    joystick.press(BTN_TL);
+    bench.tick(100);
+    CHECK(bench.speed_mps() == 0.0);  // the stick was pushed before: it counts from its middle on
+    joystick.push(0);
+    bench.tick(5);
+    joystick.push(32767);
+    bench.tick(120);
+    CHECK(bench.speed_mps() > 0.4);
+    CHECK(bench.robot.desk().obey("status").find("state: steered\n") != std::string::npos);
+    joystick.push(0);
+    bench.tick(120);
+    CHECK(bench.speed_mps() == 0.0);
+    joystick.push(32767);
+    bench.tick(100);
+    CHECK(bench.speed_mps() > 0.3);
+    joystick.press(BTN_TL, false);
+    bench.tick(120);
+    CHECK(bench.speed_mps() == 0.0);
+    CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+    CHECK(bench.heap_calls == 0);
+  }
+}
+
+TEST_CASE("who takes the stick drops the goal; jaywalk stop and a latched fault hold the stick until its middle") {
+  Joystick joystick;
+  Bench bench("robot", PanelWiring{.joystick = {.path = joystick.path}}, 50, StickUse::kShared);
+  bench.tick(10);
+  joystick.press(BTN_TL, false);
+  joystick.press(BTN_TL);
+  CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+  joystick.push(16000);
+  bench.tick(5);
+  joystick.push(0);
+  bench.tick(120);
+  CHECK(bench.speed_mps() == 0.0);  // it goes on to nowhere
+  joystick.push(32767);
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
+  CHECK(bench.robot.desk().obey("stop") == "stopping\n");
+  bench.tick(120);
+  CHECK(bench.speed_mps() == 0.0);
+  joystick.press(BTN_EAST);
+  bench.tick(5);
+  joystick.press(BTN_EAST, false);
+  joystick.push(0);
+  bench.tick(5);
+  joystick.push(32767);
+  bench.tick(5);
+  joystick.press(BTN_START);
+  bench.tick(50);
+  CHECK(bench.speed_mps() == 0.0);
+  CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+  joystick.press(BTN_START, false);
+  joystick.push(0);
+  bench.tick(5);
+  joystick.press(BTN_START);
+  bench.tick(5);
+  joystick.push(32767);
+  bench.tick(100);
+  CHECK(bench.speed_mps() > 0.3);
 }

@@ -1,58 +1,7 @@
-#include "firmware/safety/supervisor.h"
-
-#include <cmath>
-#include <limits>
-
-#include "tests/support/catch.h"
+#include "tests/safety/supervisor_bench.h"
 
 using namespace jaywalk;
-
-namespace {
-
-/// A bench for the supervisor: everything fresh and free unless a test spoils it; time in ticks of 20 ms.
-struct Bench {
-  LaserScan scan;
-  WheelState wheels;
-  OperatorInput input;
-  Time now = time_from_seconds(1.0);
-  Time plan_stamp = now;
-  bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
-  MeasuredLatency latency;
-  Supervisor supervisor;
-
-  explicit Bench(bool latches_all = false, const RobotModel& model = p3dx())
-      : supervisor({.model = model, .latches_all = latches_all}) {
-    scan.sequence = wheels.sequence = 1;
-    scan.beam_count = 811;
-    scan.first_angle_rad = static_cast<float>(-0.75 * kPi);
-    scan.angle_step_rad = static_cast<float>(1.5 * kPi / 810);
-    scan.range_min_m = 0.05F;
-    scan.range_max_m = 25.0F;
-    scan.range_m.fill(10.0F);
-    scan.stamp = wheels.stamp = now;
-    input.has_goal = true;
-  }
-  Verdict tick(const Twist2& wanted) {
-    now += std::chrono::milliseconds(20);
-    if (scan_fresh) scan.stamp = now;
-    if (wheels_fresh) wheels.stamp = now;
-    if (plan_fresh) plan_stamp = now;
-    return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now, latency});
-  }
-  /// A press of the reset button at rest.
-  void reset() {
-    input.reset = true;
-    tick({});
-    input.reset = false;
-  }
-  Verdict ticks(int count, const Twist2& wanted) {
-    Verdict verdict;
-    for (int k = 0; k < count; ++k) verdict = tick(wanted);
-    return verdict;
-  }
-};
-
-}  // namespace
+using namespace jaywalk::supervised;
 
 TEST_CASE("what is safe is permitted as it is, without a reason") {
   Bench bench;
@@ -78,26 +27,6 @@ TEST_CASE("stopping never brakes harder than the drive: 1 m/s2 is 0.02 m/s a tic
   bench.input.emergency_stop = true;
   CHECK(bench.tick({0.5, 0.0}).permitted.v_mps == Approx(0.48));
   CHECK(bench.tick({0.5, 0.0}).permitted.v_mps == Approx(0.46));
-}
-
-TEST_CASE("an emergency stop is latched until a reset edge at zero setpoint with the button out") {
-  Bench bench;
-  bench.input.emergency_stop = true;
-  bench.ticks(3, {0.5, 0.0});
-  bench.input.reset = true;  // pressed while the button is in: no edge later counts from this
-  bench.tick({});
-  bench.input.emergency_stop = false;
-  CHECK(has(bench.ticks(3, {0.5, 0.0}).reasons, Reason::kLatched));
-  bench.input.reset = false;
-  bench.tick({});
-  bench.input.reset = true;
-  CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kLatched));  // an edge, but not at zero
-  bench.input.reset = false;
-  bench.tick({});
-  bench.input.reset = true;
-  bench.tick({});
-  CHECK(bench.supervisor.mode() != Mode::kLatched);
-  CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
 }
 
 TEST_CASE("old wheels, no wheels and a twist that is no number stop") {

@@ -83,6 +83,26 @@ TEST_CASE("a short scenario gets a P3-DX, nobody moving and no outside fixes") {
   CHECK(std::isnan(s.goal_heading_rad));
 }
 
+TEST_CASE("a stick drives straight, to the goal or by a table") {
+  folder().write("stick.csv", "t_s,forward,left\n0,0.5,0\n2,0,-1\n");
+  CHECK_FALSE(parsed(kMap + kRobot).stick);
+  const Scenario straight = parsed(kMap + kRobot + "[stick]\nkind = \"straight\"\nforward = 0.5\nnoise_std = 0.1\n");
+  REQUIRE(straight.stick);
+  CHECK(straight.stick->kind == StickKind::kStraight);
+  CHECK(straight.stick->steering == StickUse::kShared);
+  CHECK(straight.stick->forward == 0.5);
+  CHECK(straight.stick->noise_std == 0.1);
+  const Scenario table =
+      parsed(kMap + kRobot + "[stick]\nkind = \"table\"\nfile = \"stick.csv\"\nsteering = \"by_hand\"\n");
+  CHECK(table.stick->kind == StickKind::kTable);
+  CHECK(table.stick->steering == StickUse::kByHand);
+  CHECK(says(refusal([] { static_cast<void>(parsed(kMap + kRobot + "[stick]\nkind = \"loop\"\n")); }), "stick.kind"));
+  CHECK(says(refusal([] {
+               static_cast<void>(parsed(kMap + kRobot + "[stick]\nkind = \"straight\"\nfile = \"stick.csv\"\n"));
+             }),
+             "stick.file is not a known key"));
+}
+
 TEST_CASE("a goal may have a heading, and a tolerance for it") {
   const Scenario s = parsed(kMap + "[robot]\nstart = [5, 5, 0]\ngoal = [8, 8, -4]\ngoal_heading_tolerance_rad = 0.2\n");
   CHECK(s.goal == Vec2{8, 8});

@@ -1,0 +1,53 @@
+#include "planner/motion/robot_body.h"
+
+#include <algorithm>
+
+namespace jaywalk::motion {
+namespace {
+
+constexpr double kJustBelow = 1.0 - 1e-6;                 ///< single precision must not round a limit up
+constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passenger's
+constexpr float kSlowing = 0.8F;
+constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
+constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
+constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
+constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
+
+}  // namespace
+
+RobotBody robot_body(const Footprint& f, const MotionLimits& l, const LaserModel& laser, double berth_m) {
+  const double outer = f.circumscribed_radius_m();
+  RobotBody body;
+  body.outline = BodyOutline::of(f);
+  body.to_walls = BodyDiscs::covering(f, kOverSides_m);
+  body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
+  if (outer < f.inscribed_radius_m() + kNearlyRound_m) {
+    body.to_movers = {};
+    body.to_movers.count = 1;
+    body.to_movers.radius = static_cast<float>(outer);
+  }
+  body.rim_m = static_cast<float>(outer);
+  body.berth_m = static_cast<float>(berth_m);
+  body.blind = BlindRim(f, laser);
+  const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
+             side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);
+  body.rim = {{{front, side},
+               {front, 0.0F},
+               {front, -side},
+               {middle, side},
+               {middle, -side},
+               {rear, side},
+               {rear, 0.0F},
+               {rear, -side}}};
+  const auto at_most = [](double limit, float most) { return std::min(static_cast<float>(limit), most); };
+  body.bounds = {.speed = static_cast<float>(l.max_speed_mps * kJustBelow),
+                 .back = at_most(l.max_speed_mps, kBackMps),
+                 .turn = at_most(l.max_turn_radps, kMostTurn),
+                 .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
+                 .accel = static_cast<float>(l.max_accel_mps2),
+                 .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
+                 .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
+  return body;
+}
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,27 @@
+#pragma once
+#include <array>
+
+#include "hal/types/robot_model.h"
+#include "planner/motion/blind_rim.h"
+#include "planner/motion/body_discs.h"
+#include "planner/motion/body_outline.h"
+#include "planner/motion/robot_motion.h"
+
+namespace jaywalk::motion {
+
+/// The robot, as roll-outs need it.
+struct RobotBody {
+  BodyDiscs to_walls, to_movers;
+  BodyOutline outline;         ///< to walls, where a person steers: discs reach beyond a long body's ends
+  std::array<Place, 8> rim{};  ///< corners and the sides' middles, in the robot's frame
+  float rim_m = 0.0F;          ///< farthest point from the axle
+  float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
+  BlindRim blind;              ///< where the supervisor lets it go slowly
+  MotionBounds bounds;
+};
+
+/// `berth_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.
+[[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits, const LaserModel& laser,
+                                   double berth_m);
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,124 @@
+#include "planner/motion/wish.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "planner/cell/draws.h"
+
+namespace jaywalk::motion {
+namespace {
+
+constexpr std::uint32_t kPurpose = 4;  ///< of the draws
+constexpr float kWeight = 2.0F;        ///< of a second off
+
+constexpr std::array<float, 5> kStops{0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as wished before it slows down
+constexpr std::array<float, 3> kShares{1.0F, 0.667F, 0.333F};
+constexpr std::array<float, 10> kAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
+                                       -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
+constexpr std::array<float, 4> kAsideSteps{4.0F, 8.0F, 14.0F, 22.0F};
+constexpr std::array<float, 2> kBack{0.0F, 1.0F};
+constexpr int kStopCount = static_cast<int>(kStops.size()), kShareCount = static_cast<int>(kShares.size());
+constexpr int kStepCount = static_cast<int>(kAsideSteps.size()), kBackCount = static_cast<int>(kBack.size());
+constexpr int kBent = static_cast<int>(kAside.size()) * kStepCount * kBackCount;
+
+template <std::size_t N>
+float of(const std::array<float, N>& values, int n) {
+  return values[static_cast<std::size_t>(n)];
+}
+
+Command command_of(const WishShape& shape, const Command& wish, float step, const MotionBounds& bounds) {
+  const float back_until = shape.aside_steps * (1.0F + shape.back);
+  const float aside = step < shape.aside_steps ? shape.aside : step < back_until ? -shape.aside : 0.0F;
+  return {shape.share * wish.v, std::clamp(wish.w + aside, -bounds.turn, bounds.turn)};
+}
+
+}  // namespace
+
+Command wished(const Stick& stick, const MotionBounds& bounds) noexcept {
+  if (!std::isfinite(stick.forward) || !std::isfinite(stick.left)) return {};
+  const auto forward = static_cast<float>(std::clamp(stick.forward, -1.0, 1.0));
+  const auto left = static_cast<float>(std::clamp(stick.left, -1.0, 1.0));
+  return {forward * (forward > 0.0F ? bounds.speed : bounds.back), left * bounds.turn};
+}
+
+RobotState slowed(const RobotState& from, const MotionBounds& bounds, float dt) noexcept {
+  constexpr float kRests_mps = 1e-3F;
+  RobotState s = moved(from, {}, bounds, dt);
+  const float on_arc = std::fabs(from.v) > kRests_mps ? from.w * s.v / from.v : 0.0F;
+  if (std::fabs(on_arc) > std::fabs(s.w)) s.w = on_arc;
+  return s;
+}
+
+WishedWay drive_wish(const RobotState& start, const Command& command, const MotionBounds& bounds) noexcept {
+  WishedWay way{command, {}};
+  RobotState robot = start;
+  for (RobotState& state : way.states) state = robot = moved(robot, command, bounds, kStepS);
+  return way;
+}
+
+float seconds_off(const WishedWay& wish, const RobotState* states, const MotionBounds& bounds) noexcept {
+  float sum_m = 0.0F;
+  for (int k = 0; k < kFollowedSteps; ++k) {
+    const RobotState& to = wish.states[static_cast<std::size_t>(k)];
+    const float dx = states[k].x - to.x, dy = states[k].y - to.y;
+    sum_m += std::sqrt(dx * dx + dy * dy) + kTurnArm_m * std::fabs(states[k].heading - to.heading);
+  }
+  return kWeight * sum_m / (bounds.speed * static_cast<float>(kFollowedSteps));
+}
+
+void make(const WishShape& shape, const Command& wish, const RobotState& start, const MotionBounds& bounds,
+          Trajectory& out) noexcept {
+  out.attempt = Attempt::kWish;
+  out.perturbed = false;
+  RobotState robot = start;
+  for (int step = 0; step < kWishedSteps; ++step) {
+    const auto at = static_cast<float>(step);
+    Command& command = out.commands[static_cast<std::size_t>(step)];
+    if (at < shape.steps) {
+      command = command_of(shape, wish, at, bounds);
+      robot = moved(robot, command, bounds, kStepS);
+    } else {
+      robot = slowed(robot, bounds, kStepS);
+      command = {0.0F, robot.w};
+    }
+  }
+  std::fill(out.commands.begin() + kWishedSteps, out.commands.end(), Command{});
+}
+
+int shape_count() noexcept { return 1 + kStopCount + (kShareCount - 1) + kShareCount * kBent; }
+
+WishShape shape_at(int n, const MotionBounds& bounds) noexcept {
+  WishShape shape;
+  if (n == 0) return shape;
+  if (--n < kStopCount) {
+    shape.steps = of(kStops, n);
+    return shape;
+  }
+  n -= kStopCount;
+  if (n < kShareCount - 1) {
+    shape.share = of(kShares, n + 1);
+    return shape;
+  }
+  n -= kShareCount - 1;
+  shape.share = of(kShares, n / kBent);
+  n %= kBent;
+  shape.back = of(kBack, n % kBackCount);
+  shape.aside_steps = of(kAsideSteps, n / kBackCount % kStepCount);
+  shape.aside = of(kAside, n / (kBackCount * kStepCount)) * bounds.turn;
+  return shape;
+}
+
+WishShape perturbed(const WishShape& shape, std::uint32_t decision, int round, int number,
+                    const MotionBounds& bounds) noexcept {
+  constexpr auto kMost = static_cast<float>(kFollowedSteps);
+  cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
+  WishShape out;
+  out.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F);
+  out.aside = std::clamp(shape.aside + 0.15F * bounds.turn * draws.normal(), -bounds.turn, bounds.turn);
+  out.aside_steps = std::clamp(shape.aside_steps + 4.0F * draws.normal(), 0.0F, kMost);
+  out.back = std::clamp(shape.back + 0.4F * draws.normal(), 0.0F, 1.0F);
+  out.steps = std::clamp(shape.steps + 5.0F * draws.normal(), 0.0F, kMost);
+  return out;
+}
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,244 @@
+// A stick and what is made of it: in worlds small enough to say what is right.
+#include "planner/motion/shared_control.h"
+
+#include <cmath>
+#include <limits>
+
+#include "tests/motion/ground.h"
+#include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::motion;
+
+namespace {
+
+constexpr double kTick = 0.02;
+
+/// A robot that does what it is told.
+class Ride {
+ public:
+  Ride(const tests::Ground& ground, const RobotModel& model, bool assisted = true)
+      : ground_(ground),
+        footprint_(model.footprint),
+        shared_({.footprint = model.footprint, .limits = model.limits, .laser = model.laser, .tick_s = kTick},
+                assisted) {
+    scan_.beam_count = 3;
+    scan_.range_max_m = 25.0F;
+  }
+
+  Pose2 pose{0.0, 0.0, 0.0};
+  Twist2 twist;
+  Stick stick;
+  bool has_mover = false;
+  Vec2 mover{}, walks{};
+  std::uint64_t heap_calls = 0;
+
+  void run(double for_s) {
+    const double until = t_ + for_s;
+    for (; t_ < until; t_ += kTick) {
+      const AllocationGuard guard;
+      const Time now = time_from_seconds(t_ + 1.0);
+      twist = shared_.twist(now, stick, twist);
+      const Vec2 along = direction(pose.heading + 0.5 * twist.w_radps * kTick);
+      pose = {pose.x + twist.v_mps * kTick * along.x, pose.y + twist.v_mps * kTick * along.y,
+              wrap_angle(pose.heading + twist.w_radps * kTick)};
+      mover = mover + walks * kTick;
+      if (static_cast<int>(t_ / kTick + 0.5) % 4 == 0) decide(now);
+      heap_calls += guard.calls();
+    }
+  }
+  /// From the outline to a point of the map, m.
+  [[nodiscard]] double gap_to(Vec2 point) const { return footprint_.distance_to(Transform2(inverse(pose)) * point); }
+
+ private:
+  void decide(Time now) {
+    const Track track{.id = 1,
+                      .stamp = now,
+                      .position_in_map = mover,
+                      .velocity_in_map = walks,
+                      .covariance = {1e-4, 1e-5, 1e-3},
+                      .radius_m = 0.27,
+                      .moving = norm(walks) > 0.1,
+                      .hits = 20,
+                      .last_seen = now};
+    const Guide none;
+    shared_.decide({.now = now,
+                    .stamp = now,
+                    .map_from_robot = pose,
+                    .tracks = {&track, has_mover ? 1U : 0U},
+                    .standing = {},
+                    .still = ground_.map(),
+                    .scan = scan_,
+                    .map_from_laser = pose,
+                    .guide = none},
+                   stick, twist);
+  }
+
+  const tests::Ground& ground_;
+  Footprint footprint_;
+  SharedControl shared_;
+  LaserScan scan_;
+  double t_ = 0.0;
+};
+
+}  // namespace
+
+TEST_CASE("away from everything a stick's wish is granted whole, turns and all") {
+  const tests::Ground open;
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    Ride ride(open, model), by_hand(open, model, false);
+    for (const Stick stick : {Stick{1.0, 0.0}, Stick{0.5, 0.3}, Stick{0.0, -0.6}, Stick{-0.5, 0.0}}) {
+      ride.stick = by_hand.stick = stick;
+      ride.run(2.5), by_hand.run(2.5);
+      CHECK(ride.twist.v_mps == Approx(by_hand.twist.v_mps).margin(1e-6));
+      CHECK(ride.twist.w_radps == Approx(by_hand.twist.w_radps).margin(1e-6));
+    }
+    CHECK(ride.heap_calls == 0);
+  }
+}
+
+TEST_CASE("full ahead is the robot's fastest, by either mode; half the stick is half of it") {
+  const tests::Ground open;
+  Ride ride(open, p3dx());
+  ride.stick = {1.0, 0.0};
+  ride.run(3.0);
+  CHECK(ride.twist.v_mps == Approx(0.6).margin(1e-3));
+  ride.stick = {0.5, 0.0};
+  ride.run(3.0);
+  CHECK(ride.twist.v_mps == Approx(0.3).margin(1e-3));
+}
+
+TEST_CASE("a stick in the middle brings the robot to rest at once, on its arc") {
+  const tests::Ground open;
+  Ride ride(open, p3dx());
+  ride.stick = {1.0, 0.25};  // 0.3 rad/s: a circle of 2 m
+  ride.run(2.5);
+  const Pose2 before = ride.pose;
+  const double curvature = ride.twist.w_radps / ride.twist.v_mps;
+  ride.stick = {};
+  ride.run(1.0);
+  CHECK(ride.twist.w_radps / ride.twist.v_mps == Approx(curvature).margin(0.02));
+  ride.run(1.5);  // from 0.6 m/s at 0.75 m/s3 and 0.67 m/s2 at most: 1.8 s
+  CHECK(ride.twist == Twist2{});
+  CHECK(distance(ride.pose.position(), before.position()) < 0.6);  // 0.6 m/s * 1.8 s / 2, and a tick
+  ride.run(2.0);
+  CHECK(ride.twist == Twist2{});
+}
+
+TEST_CASE("a wall ahead is never touched, however long the stick is pushed") {
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    for (const double slant : {0.0, 0.5, 1.0}) {
+      tests::Ground ground;
+      ground.wall({3.0 - 2.5 * slant, -2.5}, {3.0 + 2.5 * slant, 2.5});
+      Ride ride(ground, model);
+      ride.stick = {1.0, 0.0};
+      double least = 10.0, nearest = 10.0;
+      for (int k = 0; k < 400; ++k) {
+        ride.run(kTick * 1.5);
+        for (double y = -2.5; y <= 2.5; y += 0.02) nearest = std::min(nearest, ride.gap_to({3.0 + slant * y, y}));
+        least = std::min(least, nearest);
+      }
+      CAPTURE(model.name, slant, ride.pose.x, ride.pose.y, ride.pose.heading);
+      CHECK(least > 0.02);
+      CHECK(least < 0.25);  // it goes as far as it may
+      if (slant == 0.0) CHECK(ride.twist.v_mps < 0.02);
+    }
+  }
+}
+
+TEST_CASE("it steers round a post that it would clip, and on; one straight ahead it stands before") {
+  tests::Ground ground;
+  ground.wall({2.5, 0.1}, {2.5, 0.35});
+  Ride ride(ground, p3dx());
+  ride.stick = {1.0, 0.0};
+  ride.run(9.0);
+  CHECK(ride.pose.x > 3.5);
+  CHECK(std::fabs(ride.pose.y) < 1.5);
+  tests::Ground other;
+  other.wall({2.5, -0.15}, {2.5, 0.15});
+  Ride straight(other, p3dx());
+  straight.stick = {1.0, 0.0};
+  straight.run(9.0);
+  CHECK(straight.gap_to({2.5, 0.0}) > 0.02);
+  CHECK(straight.twist.v_mps < 0.02);
+}
+
+TEST_CASE("it does not drive into somebody who comes") {
+  const tests::Ground open;
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    Ride ride(open, model);
+    ride.stick = {1.0, 0.0};
+    ride.has_mover = true;
+    ride.mover = {3.0, -3.0}, ride.walks = {0.0, 0.8};  // crosses at 3 m after 3.75 s
+    double least = 10.0;
+    for (int k = 0; k < 400; ++k) {
+      ride.run(kTick);
+      least = std::min(least, ride.gap_to(ride.mover) - 0.27);
+    }
+    CAPTURE(model.name);
+    CHECK(least > 0.1);
+    CHECK(ride.pose.x > 2.0);  // and goes on
+  }
+}
+
+TEST_CASE("half a second without a decision stops it") {
+  const tests::Ground open;
+  SharedControl shared({.footprint = p3dx().footprint, .limits = p3dx().limits, .laser = p3dx().laser, .tick_s = kTick},
+                       true);
+  CHECK(shared.twist(time_from_seconds(1.0), {1.0, 0.0}, {}) == Twist2{});  // before the first
+  CHECK(shared.twist(time_from_seconds(1.0), {1.0, 0.0}, {0.3, 0.0}).v_mps < 0.3);
+}
+
+TEST_CASE("a stick that is no number asks for nothing") {
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  const MotionBounds bounds{.speed = 0.6F, .back = 0.3F, .turn = 1.2F};
+  CHECK(wished({nan, 1.0}, bounds).w == 0.0F);
+  CHECK(wished({1.0, nan}, bounds).v == 0.0F);
+  CHECK(wished({7.0, 0.0}, bounds).v == 0.6F);
+  CHECK(wished({-1.0, 0.5}, bounds).v == -0.3F);
+  CHECK(wished({-1.0, 0.5}, bounds).w == Approx(0.6F));
+}
+
+TEST_CASE("to stand in place of full speed costs some three seconds; the wish itself costs none") {
+  // At 0.6 m/s: 0.06 m, 0.12 m ... 1.8 m off, 0.93 m on average, times 2 over 0.6 m/s: 3.1 s.
+  const MotionBounds bounds{
+      .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 0.75F};
+  const RobotState driving{0.0F, 0.0F, 0.0F, 0.6F, 0.0F, 0.0F};
+  const WishedWay way = drive_wish(driving, {0.6F, 0.0F}, bounds);
+  std::array<RobotState, kFollowedSteps> stands{};
+  CHECK(seconds_off(way, stands.data(), bounds) == Approx(3.1F).margin(0.01));
+  CHECK(seconds_off(way, way.states.data(), bounds) == 0.0F);
+}
+
+TEST_CASE("an outline is as far from a wall as the body, ahead, beside and at its corners") {
+  tests::Ground ground;
+  ground.wall({2.0, -2.0}, {2.0, 2.0});
+  LocalGround local;
+  const Guide& guide = local.look(ground.map(), {0.0, 0.0}, {});
+  const BodyOutline body = BodyOutline::of(wheelchair().footprint);
+  CHECK(body.clearance(guide, 1.0F, 0.0F, {1.0F, 0.0F}) == Approx(0.25F).margin(0.01));   // 2 - 1 - 0.75
+  CHECK(body.clearance(guide, 1.0F, 0.0F, {0.0F, 1.0F}) == Approx(0.675F).margin(0.01));  // 2 - 1 - 0.325
+  CHECK(body.clearance(guide, 1.0F, 0.0F, {-1.0F, 0.0F}) == Approx(0.65F).margin(0.01));  // 2 - 1 - 0.35
+  // Turned by 45 degrees a front corner is (0.75 + 0.325) / sqrt 2 = 0.76 ahead.
+  CHECK(body.clearance(guide, 1.0F, 0.0F, {0.70710678F, 0.70710678F}) == Approx(0.24F).margin(0.01));
+  CHECK(body.clearance(guide, 1.8F, 0.0F, {1.0F, 0.0F}) < -0.1F);
+}
+
+TEST_CASE("every shape is at rest within five seconds, and none drives faster than wished or the other way") {
+  const RobotBody body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
+  const Command wish{0.4F, 0.3F};
+  for (int n = 0; n < shape_count(); ++n) {
+    Trajectory trajectory;
+    RobotState robot{0.0F, 0.0F, 0.0F, 0.6F, 0.0F, 0.0F};
+    make(shape_at(n, body.bounds), wish, robot, body.bounds, trajectory);
+    for (int step = 0; step < kWishedSteps; ++step) {
+      const Command command = trajectory.commands[static_cast<std::size_t>(step)];
+      REQUIRE(command.v >= 0.0F);
+      REQUIRE(command.v <= 0.4F);
+      robot = moved(robot, command, body.bounds, kStepS);
+    }
+    REQUIRE(std::fabs(robot.v) < 0.02F);
+    REQUIRE(std::fabs(robot.w) < 0.02F);
+  }
+}
