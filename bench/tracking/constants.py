@@ -6,6 +6,7 @@
 
 One row each: file, name, value, and the comment beside it.
 """
+import argparse
 import pathlib
 import re
 import sys
@@ -24,7 +25,9 @@ def constants(folder):
 
 
 def main():
-    folder = pathlib.Path(sys.argv[1]) if len(sys.argv) > 1 else ROOT / "planner/perception"
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "planner/perception")
+    folder = parser.parse_args().folder
     rows = list(constants(folder))
     if not rows:
         sys.exit(f"{folder}: no constant in its *.h and *.cc: give a folder of sources")
