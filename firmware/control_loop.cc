@@ -28,6 +28,8 @@ std::unique_ptr<GoalTurn> turn_for(const ControlSetup& setup) {
   return std::make_unique<GoalTurn>(setup.model.footprint, setup.model.limits, !setup.guides_body());
 }
 
+KeepOut view_of(const std::shared_ptr<const KeepOutField>& field) { return field ? field->view() : KeepOut{}; }
+
 motion::MotionConfig motion_config(const ControlSetup& setup) {
   return {.footprint = setup.model.footprint,
           .limits = setup.model.limits,
@@ -43,9 +45,11 @@ std::unique_ptr<motion::MotionPlanner> motion_for(const ControlSetup& setup) {
   return std::make_unique<motion::MotionPlanner>(motion_config(setup));
 }
 
-std::unique_ptr<motion::SharedControl> shared_for(const ControlSetup& setup) {
+std::unique_ptr<motion::SharedControl> shared_for(const ControlSetup& setup, const KeepOut& keep_out) {
   if (setup.steering == StickUse::kNone) return nullptr;
-  return std::make_unique<motion::SharedControl>(motion_config(setup), setup.steering == StickUse::kShared);
+  motion::MotionConfig config = motion_config(setup);
+  config.keep_out = keep_out;
+  return std::make_unique<motion::SharedControl>(config, setup.steering == StickUse::kShared);
 }
 
 std::unique_ptr<baseline::BaselinePlanner> baseline_for(const ControlSetup& setup) {
@@ -70,10 +74,12 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       hal_(hal),
       planner_(planner),
       recorder_(recorder),
+      keep_out_(setup.keep_out()),
+      speed_zones_(setup.zones, setup.model),
       estimator_(setup),
       follower_(follower_config(setup)),
       motion_(motion_for(setup)),
-      shared_(shared_for(setup)),
+      shared_(shared_for(setup, view_of(keep_out_))),
       baseline_(baseline_for(setup)),
       guide_(guide_for(setup)),
       turn_(turn_for(setup)),
@@ -98,6 +104,8 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   note_plan(t);
   estimator_.forget_where_stuck(t);
 
+  zone_speed_ = speed_zones_.at(t.pose.map_from_robot.position());
+  limit_wishes(zone_speed_.ahead_mps);
   if (turn_) turn_->aim(t.input, t.pose.map_from_robot, driven_);
   t.wished = is_steered(t) ? shared_->asked(t.input.stick) : Twist2{};
   t.wanted = is_steered(t)        ? shared_->twist(now, stick_for_motion(t), driven_)
@@ -105,7 +113,8 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
                                   : follower_.twist(follower_input(t));  // Act: one asks,
   t.latency = latency_.measured();
   t.verdict =  // the supervisor permits.
-      supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(), sent_});
+      supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, now, t.latency, turns_at_goal(),
+                                   zone_speed_.here_mps, sent_});
   if (turn_ && turn_->blocked()) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
@@ -156,6 +165,7 @@ FollowerInput ControlLoop::follower_input(const TickRecord& t) const noexcept {
           .has_goal = goal_for_motion(t),
           .tracks = tracker().tracks(),
           .standing = tracker().standing(),
+          .most_speed_mps = zone_speed_.ahead_mps,
           .permitted_before = driven_,
           .guide = guide_.get(),
           .turn = turn_.get()};
@@ -170,6 +180,7 @@ void ControlLoop::look(const TickRecord& t) noexcept {
                          .standing = tracker().standing(),
                          .moving = tracker().moving(),
                          .goal_in_map = t.input.goal_in_map,
+                         .keep_out = view_of(keep_out_),
                          .somebody_hidden = tracker().hides_somebody(t.pose.map_from_robot.position(), kNear_m),
                          .now = t.now};
   if (turns_at_goal()) {
@@ -178,6 +189,11 @@ void ControlLoop::look(const TickRecord& t) noexcept {
   } else if (guide_) {
     guide_->look(input);
   }
+}
+
+void ControlLoop::limit_wishes(double most_mps) noexcept {
+  if (motion_) motion_->limit_speed(most_mps);
+  if (shared_) shared_->limit_speed(most_mps);
 }
 
 Twist2 ControlLoop::motion_twist(const TickRecord& t) noexcept {

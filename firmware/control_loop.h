@@ -15,6 +15,7 @@
 #include "planner/motion/follower.h"
 #include "planner/motion/motion_planner.h"
 #include "planner/motion/shared_control.h"
+#include "planner/motion/speed_zones.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -43,6 +44,8 @@ class ControlLoop {
   [[nodiscard]] FollowerInput follower_input(const TickRecord& t) const noexcept;
   /// With a new plan, and after the wheels have their command: is there room for the body?
   void look(const TickRecord& t) noexcept;
+  /// What is wished for is to keep to speed zones by itself.
+  void limit_wishes(double most_mps) noexcept;
   /// Who decides on motion wishes.
   [[nodiscard]] Twist2 motion_twist(const TickRecord& t) noexcept;
   /// With a new scan, and after the wheels have their command: how to move from the next tick on.
@@ -59,6 +62,9 @@ class ControlLoop {
   Hal hal_;
   Planner& planner_;
   Recorder& recorder_;
+  std::shared_ptr<const KeepOutField> keep_out_;  ///< null: no such zones
+  motion::SpeedZones speed_zones_;
+  motion::ZoneSpeed zone_speed_{};  ///< this tick's
   Estimator estimator_;
   Follower follower_;
   std::unique_ptr<motion::MotionPlanner> motion_;  ///< null for a long body, and in mode paper

@@ -27,6 +27,8 @@ NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MotionLimits, max_speed_mps, max_turn_radps, 
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(LaserModel, robot_from_laser, fov_rad, beams, rate_hz, range_min_m, range_max_m,
                                    noise_m, drop_out)
 NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(RobotModel, name, footprint, drive, limits, laser)
+NLOHMANN_JSON_SERIALIZE_ENUM(ZoneKind, {{ZoneKind::kKeepOut, "keep_out"}, {ZoneKind::kSpeed, "speed"}})
+NLOHMANN_DEFINE_TYPE_NON_INTRUSIVE(MapZone, kind, corners, speed_mps)
 NLOHMANN_JSON_SERIALIZE_ENUM(PlanMode, {{PlanMode::kFull, "full"}, {PlanMode::kPaper, "paper"}})
 NLOHMANN_JSON_SERIALIZE_ENUM(StickUse,
                              {{StickUse::kNone, "none"}, {StickUse::kShared, "shared"}, {StickUse::kByHand, "by_hand"}})
@@ -39,7 +41,7 @@ namespace {
 constexpr double kCell_m = 0.1;  // the paper's
 /// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
-constexpr double kMoverMargin_m = PlannerConfig{}.mover_margin_m;
+const double kMoverMargin_m = PlannerConfig{}.mover_margin_m;
 
 }  // namespace
 
@@ -62,7 +64,14 @@ PlannerConfig ControlSetup::planner() const {
   config.circumscribed_m = model.footprint.circumscribed_radius_m();
   config.inflation_m = guides_body() ? model.footprint.inscribed_radius_m() : mover_radius_m();
   config.mover_margin_m = kMoverMargin_m + mover_radius_m() - config.inflation_m;
+  config.keep_out = keep_out();
   return config;
+}
+
+std::shared_ptr<const KeepOutField> ControlSetup::keep_out() const {
+  const bool any =
+      std::any_of(zones.begin(), zones.end(), [](const MapZone& z) { return z.kind == ZoneKind::kKeepOut; });
+  return any ? std::make_shared<const KeepOutField>(zones) : nullptr;
 }
 
 const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" : "full"; }
@@ -79,6 +88,7 @@ std::string to_text(const ControlSetup& setup) {
   if (setup.given_movers) json["given_movers"] = true;
   if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
   json["berth_m"] = setup.berth_m;
+  if (!setup.zones.empty()) json["zones"] = setup.zones;
   return json.dump();
 }
 
@@ -93,6 +103,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.given_movers = json.value("given_movers", false);
     setup.steering = json.value("steering", StickUse::kNone);
     setup.berth_m = json.value("berth_m", setup.berth_m);
+    setup.zones = json.value("zones", setup.zones);
     return setup;
   } catch (const nlohmann::json::exception& error) {
     throw StartupError(place + ": not a controller's setup (" + error.what() + ")",

@@ -1,9 +1,12 @@
 #pragma once
 // Everything that decides how the controller behaves: with the same setup and the same readings it gives the same
 // commands. A recording carries it as text.
+#include <memory>
 #include <string>
+#include <vector>
 
 #include "hal/types/geometry.h"
+#include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "planner/baseline/choice.h"
@@ -30,7 +33,8 @@ struct ControlSetup {
   /// Commanded, felt and seen motion are compared; false for a log whose wheels obeyed another controller.
   bool judges_motion = true;
   double rate_hz = 50.0;
-  double berth_m = 1.0;  ///< people nearer than this cost; hal/comfort.h
+  std::vector<MapZone> zones{};  ///< where not to drive, and where slowly
+  double berth_m = 1.0;          ///< people nearer than this cost; hal/comfort.h
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
   /// one with the circle inside it and a FootprintGuide. At constant speed nothing can be guided.
@@ -38,6 +42,8 @@ struct ControlSetup {
   /// The robot's radius where movers are concerned, and walls for a nearly round one.
   [[nodiscard]] double mover_radius_m() const;
   [[nodiscard]] PlannerConfig planner() const;
+  /// Null where there are no such zones. Computed anew with each call.
+  [[nodiscard]] std::shared_ptr<const KeepOutField> keep_out() const;
   [[nodiscard]] bool keeps_speed() const { return constant_speed || mode == PlanMode::kPaper; }
   [[nodiscard]] bool sees_given_movers() const { return given_movers || mode == PlanMode::kPaper; }
   /// In mode paper verdicts are recorded and not applied: the paper never stops.

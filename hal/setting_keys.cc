@@ -50,6 +50,8 @@ std::string allowed(const SettingKey& key) {
       return "path, relative to this file";
     case KeyKind::kNumbers:
       return "list of numbers";
+    case KeyKind::kPoints:
+      return "list of [x, y]";
     case KeyKind::kTexts:
       return "text, or a list of texts";
     case KeyKind::kTable:

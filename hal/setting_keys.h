@@ -13,7 +13,7 @@ struct Range {
   double high = 0.0;
 };
 
-enum class KeyKind { kNumber, kInteger, kBoolean, kText, kChoice, kFile, kNumbers, kTexts, kTable, kTables };
+enum class KeyKind { kNumber, kInteger, kBoolean, kText, kChoice, kFile, kNumbers, kPoints, kTexts, kTable, kTables };
 
 /// What holds where a key is absent: nothing (the key is needed), a value, or something that these words tell.
 using Otherwise = std::variant<std::monostate, double, bool, const char*>;

@@ -230,7 +230,11 @@ std::string TomlTable::text(const std::string& key, const std::string& otherwise
 }
 
 std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least, std::size_t most) {
-  const toml::value& node = need(key);
+  return numbers_from(key, need(key), least, most);
+}
+
+std::vector<double> TomlTable::numbers_from(const std::string& key, const toml::value& node, std::size_t least,
+                                            std::size_t most) const {
   const std::string counts = std::to_string(least) + (most > least ? " or " + std::to_string(most) : "");
   const std::string remedy = "write [ ] with " + counts + " numbers";
   if (!node.is_array()) refuse(key, "is not an array", remedy);
@@ -245,13 +249,18 @@ std::vector<double> TomlTable::numbers(const std::string& key, std::size_t least
   return values;
 }
 
-std::vector<double> TomlTable::place_in_map(const std::string& key, std::size_t least) {
-  constexpr double kFarthest_m = 1e5, kOneTurn_rad = 2.0 * kPi;
-  const std::vector<double> values = numbers(key, least, 3);
+void TomlTable::require_in_map(const std::string& key, const std::vector<double>& values) const {
+  constexpr double kFarthest_m = 1e5;
   for (std::size_t k = 0; k < 2; ++k) {
     if (std::fabs(values[k]) > kFarthest_m)
       refuse(key, "lies at " + written(values[k]) + " m", "give metres in the map's frame, at most 100000");
   }
+}
+
+std::vector<double> TomlTable::place_in_map(const std::string& key, std::size_t least) {
+  constexpr double kOneTurn_rad = 2.0 * kPi;
+  const std::vector<double> values = numbers(key, least, 3);
+  require_in_map(key, values);
   if (values.size() == 3 && std::fabs(values[2]) > kOneTurn_rad)
     refuse(key, "has the heading " + written(values[2]) + " rad",
            "give radians: " + written(values[2]) + " degrees are " + written(wrap_angle(values[2] * kPi / 180.0)));

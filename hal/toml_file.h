@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "hal/setting_keys.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk {
 
@@ -60,6 +61,8 @@ class TomlTable {
   [[nodiscard]] std::vector<ListedKey> listed(const std::string& key);
   /// A place in the map: [x, y] or [x, y, heading], within 100 km and one turn to either side; of `least` to 3 numbers.
   [[nodiscard]] std::vector<double> place_in_map(const std::string& key, std::size_t least);
+  /// A list of `least` to `most` places [x, y] in the map, each within 100 km.
+  [[nodiscard]] std::vector<Vec2> points_in_map(const std::string& key, std::size_t least, std::size_t most);
   /// A table that must be there.
   [[nodiscard]] TomlTable table(const std::string& key);
   /// The tables written as [[key]]; none when the key is absent.
@@ -86,6 +89,9 @@ class TomlTable {
   [[nodiscard]] std::size_t line(const std::string& key) const;
   [[nodiscard]] std::vector<ListedKey> all_listed(const std::string& before) const;
   [[nodiscard]] double number_from(const std::string& key, const toml::value& node, Range range) const;
+  [[nodiscard]] std::vector<double> numbers_from(const std::string& key, const toml::value& node, std::size_t least,
+                                                 std::size_t most) const;
+  void require_in_map(const std::string& key, const std::vector<double>& values) const;
   [[nodiscard]] std::int64_t integer_from(const std::string& key, const toml::value& node) const;
 
   const std::filesystem::path* file_;

@@ -47,6 +47,22 @@ std::vector<std::string> TomlTable::texts(const std::string& key) {
   return all;
 }
 
+std::vector<Vec2> TomlTable::points_in_map(const std::string& key, std::size_t least, std::size_t most) {
+  const toml::value& node = need(key);
+  const std::string remedy = "write [[x, y], [x, y], ...]: " + std::to_string(least) + " to " + std::to_string(most);
+  if (!node.is_array()) refuse(key, "is not an array", remedy);
+  const toml::array& array = node.as_array();
+  if (array.size() < least || array.size() > most)
+    refuse(key, "has " + std::to_string(array.size()) + " points", remedy);
+  std::vector<Vec2> points;
+  for (const toml::value& item : array) {
+    const std::vector<double> p = numbers_from(key, item, 2, 2);
+    require_in_map(key, p);
+    points.push_back({p[0], p[1]});
+  }
+  return points;
+}
+
 std::vector<ListedKey> TomlTable::listed(const std::string& key) {
   if (find(key) == nullptr) return {};
   std::vector<ListedKey> all = table(key).all_listed("");

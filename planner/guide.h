@@ -6,6 +6,7 @@
 #include <span>
 
 #include "planner/cell/cell.h"
+#include "planner/keep_out.h"
 
 namespace jaywalk {
 
@@ -30,6 +31,7 @@ struct Guide {
   const Place* surface = nullptr;  ///< nearest surface to each cell's middle, in the map; very far where none is near
   const std::uint8_t* unseen = nullptr;  ///< 1: nothing was ever seen in that cell
   const float* to_go_s = nullptr;        ///< from each cell's middle at full speed; kNoWay_s where there is no way
+  KeepOut keep_out{};                    ///< what is no surface, but no place for the body
 
   [[nodiscard]] JAYWALK_CELL bool known() const { return side > 0; }
 
@@ -44,6 +46,13 @@ struct Guide {
                 d = squared(s[side + 1], x, y);
     const float ab = a < b ? a : b, cd = c < d ? c : d, least = ab < cd ? ab : cd;
     return least < kFar_m * kFar_m ? std::sqrt(least) : kFar_m;
+  }
+
+  /// The same to what the robot's body must keep clear of: a surface or a keep-out zone; below 0 in one. Of no concern
+  /// to those who walk.
+  [[nodiscard]] JAYWALK_CELL float room(float x, float y) const {
+    const float to_surface = distance(x, y), to_zone = keep_out.known() ? keep_out.distance(x, y) : kFar_m;
+    return to_zone < to_surface ? to_zone : to_surface;
   }
 
   /// Seconds to the goal, between the cells round a place that have a way; kNoWay_s where none has.

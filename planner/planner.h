@@ -12,6 +12,7 @@
 #include "hal/types/time.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/guide.h"
+#include "planner/keep_out.h"
 #include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
@@ -101,6 +102,7 @@ struct PlannerConfig {
   double inscribed_m = 0.2, circumscribed_m = 0.3;  ///< the body's, for the guide
   double mover_margin_m = 0.3;                      ///< the "safety distance" round a mover's predicted body
   double horizon_cap_s = 5.0;                       ///< predictions go no further
+  std::shared_ptr<const KeepOutField> keep_out{};   ///< where the robot must not be; null: nowhere
 };
 
 /// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024.

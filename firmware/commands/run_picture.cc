@@ -40,6 +40,7 @@ std::filesystem::path RunPicture::save(const std::filesystem::path& folder, cons
   scene.driven = runner.figures().driven();
   scene.occupied = occupied_cells(map, scene.driven, kSeenAround_m);
   scene.cell_m = map.cell_m();
+  scene.zones = setup.zones;
   scene.movers = runner.figures().mover_trails();
   scene.tracks = runner.figures().track_trails();
   scene.moment = busiest_.moment();

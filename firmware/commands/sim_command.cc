@@ -1,5 +1,6 @@
 #include "firmware/commands/sim_command.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <cstdio>
@@ -54,6 +55,11 @@ sim::Scenario scenario_for(const SimOptions& options) {
     throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
                        "leave the third number out, or run without --mode paper and --constant-speed");
   }
+  const auto is_slow = [](const MapZone& zone) { return zone.kind == ZoneKind::kSpeed; };
+  if (never_stops && std::any_of(scenario.zones.begin(), scenario.zones.end(), is_slow))
+    throw StartupError(
+        options.scenario.string() + ": [[zones]]: a robot that keeps its speed cannot slow down in a zone",
+        "leave the speed zones out, or run without --mode paper and --constant-speed");
   if (options.planner != baseline::Baseline::kOurs && never_stops)
     throw StartupError("--planner: the planners of others stop and turn on the spot",
                        "run without --mode paper and --constant-speed");
@@ -83,6 +89,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .start = scenario.start,
           .goal = scenario.goal,
           .goal_tolerance_m = scenario.goal_tolerance_m,
+          .zones = scenario.zones,
           .berth_m = profile_of(scenario.comfort).berth_m};
 }
 

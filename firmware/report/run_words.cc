@@ -30,8 +30,8 @@ constexpr const char* kOwnWish = "it gave way or waited by its own choice";
 /// Shorter rests are changes of direction.
 constexpr double kShortestStop_s = 0.5;
 /// Reasons that are limits, or say only that a fault is latched.
-constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",     "unwatched",
-                               "no_goal",   "touched",    "turn_blocked", "not_recorded"};
+constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",      "unwatched",
+                               "no_goal",   "touched",    "turn_blocked", "not_recorded", "speed_zone"};
 
 std::string text_of(const char* format, double value) {
   char text[64];

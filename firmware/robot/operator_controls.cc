@@ -6,7 +6,8 @@ namespace jaywalk {
 
 OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clock& clock,
                                    OperatorDesk::RestartBus restart_bus)
-    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus), file.places),
+    : desk_(clock, {file.setup.goal_tolerance_m, file.goal_heading_tolerance_rad}, std::move(restart_bus), file.places,
+            {file.setup.zones, file.setup.model.footprint.inscribed_radius_m()}),
       wiring_(file.panel) {
   if (wiring_) {
     watch_.emplace(clock, wiring_->joystick);

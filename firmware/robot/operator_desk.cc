@@ -44,6 +44,10 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   } catch (const StartupError& error) {
     return std::string("refused: ") + error.what() + "\n";
   }
+  for (const GoalOrder& order : route) {
+    if (is_kept_out(closed_ground_.zones, order.position_in_map, closed_ground_.body_m + kZoneMargin_m))
+      return "refused: goto: " + words_of(order) + " lies in a keep-out zone or too near one; choose another place\n";
+  }
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
   if (closed_) return "refused: the run is ending\n";

@@ -11,6 +11,7 @@
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
+#include "hal/types/map_zones.h"
 
 namespace jaywalk {
 
@@ -18,6 +19,12 @@ namespace jaywalk {
 struct GoalTolerances {
   double place_m = OperatorInput{}.goal_tolerance_m;
   double heading_rad = OperatorInput{}.goal_heading_tolerance_rad;
+};
+
+/// Where no goal may lie: in keep-out zones, and nearer to one than a body stands.
+struct ClosedGround {
+  std::vector<MapZone> zones;
+  double body_m = 0.0;
 };
 
 /// Where what people ask for through the control socket becomes the loop's operator panel, and the loop's status
@@ -33,8 +40,12 @@ class OperatorDesk final : public OperatorPanel {
   using RestartBus = std::function<std::string()>;
 
   OperatorDesk(Clock& clock, const GoalTolerances& tolerances, RestartBus restart_bus,
-               std::vector<NamedPlace> places = {})
-      : clock_(clock), tolerances_(tolerances), restart_bus_(std::move(restart_bus)), places_(std::move(places)) {}
+               std::vector<NamedPlace> places = {}, ClosedGround closed_ground = {})
+      : clock_(clock),
+        tolerances_(tolerances),
+        restart_bus_(std::move(restart_bus)),
+        places_(std::move(places)),
+        closed_ground_(std::move(closed_ground)) {}
 
   /// Any thread: obeys one line (control_socket.h) at once. A reset at bus-off waits for the bus: that is the reply's
   /// job, to be run in a thread that may wait; it holds up no other line.
@@ -75,6 +86,7 @@ class OperatorDesk final : public OperatorPanel {
   GoalTolerances tolerances_;
   RestartBus restart_bus_;
   std::vector<NamedPlace> places_;
+  ClosedGround closed_ground_;
   std::mutex asking_;  ///< never the loop's, and never held while something waits
   bool closed_ = false;
   Wish wish_;  ///< the askers'

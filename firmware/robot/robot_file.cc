@@ -6,6 +6,7 @@
 #include "firmware/robot/distinct_keys.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
+#include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"
 
@@ -67,7 +68,7 @@ PanelWiring read_panel(TomlTable table, StickUse& steering) {
   return panel;
 }
 
-NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before) {
+NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before, const ControlSetup& setup) {
   NamedPlace place{.name = table.text("name"), .order = {}};
   const auto is_of_a_name = [](char c) {
     return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '-';
@@ -78,6 +79,7 @@ NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before) {
     if (other.name == place.name) table.refuse("name", "is another place's already", "give each its own");
   const auto at = table.place_in_map("at", 2);
   place.order.position_in_map = {at[0], at[1]};
+  require_goal_outside(setup.zones, {at[0], at[1]}, setup.model.footprint.inscribed_radius_m(), table.place_of("at"));
   if (at.size() == 3) place.order.heading_rad = wrap_angle(at[2]);
   table.finish();
   return place;
@@ -112,7 +114,8 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"), setup.steering);
-  for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places));
+  setup.zones = read_zones(root);
+  for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places, setup));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
   require_zone_in_reach(setup.model, setup.tick(), path.string());

@@ -1,6 +1,7 @@
 #include "firmware/robot/robot_file_keys.h"
 
 #include "firmware/robot/robot_file.h"
+#include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 
 namespace jaywalk {
@@ -124,8 +125,8 @@ std::vector<SettingKey> realtime_keys() {
 
 FileKeys make_robot_file_keys() {
   FileKeys file{"Robot file", {}};
-  for (const auto& keys :
-       {top_keys(), scanner_keys(), laser_keys("laser"), drive_keys(), panel_keys(), place_keys(), realtime_keys()})
+  for (const auto& keys : {top_keys(), scanner_keys(), laser_keys("laser"), drive_keys(), panel_keys(), place_keys(),
+                           zone_keys(), realtime_keys()})
     file.keys.insert(file.keys.end(), keys.begin(), keys.end());
   return file;
 }

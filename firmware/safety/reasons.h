@@ -31,6 +31,7 @@ enum class Reason : std::uint32_t {
   kStopUnconfirmed = 1U << 21,  ///< fault, latched: the wheels' feedback does not confirm a stop; it was escalated
   kForeignMaster = 1U << 22,    ///< fault, latched: another program commands the drives
   kNotRecorded = 1U << 23,      ///< remark: the disk takes no more of the recording or the tables
+  kSpeedZone = 1U << 24,        ///< limit: faster than the zone in the map where the robot is
 };
 
 constexpr Reason operator|(Reason a, Reason b) {

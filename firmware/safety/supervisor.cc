@@ -136,6 +136,7 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
     verdict.reasons |= reason;
   };
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
+  at_most(input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9), Reason::kSpeedZone);
   const double reaction = reaction_s(input);
   at_most(watched_share(twist, reaction), Reason::kUnwatched);
   at_most(proven_share(twist, reaction), Reason::kUnwatched);

@@ -1,4 +1,6 @@
 #pragma once
+#include <limits>
+
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/felt_motion.h"
 #include "firmware/safety/frozen_scan.h"
@@ -37,8 +39,9 @@ struct SafetyInput {
   Time plan_stamp = kNever;
   Time now = kNever;
   MeasuredLatency latency{};
-  bool at_goal = false;  ///< only the heading is left to be reached
-  WheelCommand sent{};   ///< what the drive was sent in the tick before
+  bool at_goal = false;                                             ///< only the heading is left to be reached
+  double most_speed_mps = std::numeric_limits<double>::infinity();  ///< where it is; a person's rule, not a danger
+  WheelCommand sent{};                                              ///< what the drive was sent in the tick before
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted

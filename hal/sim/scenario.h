@@ -11,6 +11,7 @@
 #include "hal/setting_keys.h"
 #include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
+#include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 
@@ -115,6 +116,7 @@ struct Scenario {
   TrueRobot truth;
   PoseSourceSpec pose_source;
   std::optional<StickSpec> stick;
+  std::vector<MapZone> zones;
   std::vector<WanderSpec> wanderers;
   std::vector<RecordedSpec> recorded;
   std::vector<FaultSpec> faults;

@@ -1,6 +1,7 @@
 #include <array>
 #include <utility>
 
+#include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/scenario.h"
 
@@ -160,6 +161,9 @@ Scenario load_scenario(const std::filesystem::path& path, const std::vector<std:
   scenario.timeout_s = root.number("timeout_s");
   read_map(root.table("map"), scenario);
   read_robot(root.table("robot"), scenario);
+  scenario.zones = read_zones(root);
+  require_goal_outside(scenario.zones, scenario.goal, scenario.model.footprint.inscribed_radius_m(),
+                       scenario.goal_place);
   if (root.has("stick")) scenario.stick = read_stick(root.table("stick"));
   for (TomlTable& table : root.tables("movers")) read_movers(table, scenario);
   for (TomlTable& table : root.tables("faults")) scenario.faults.push_back(read_fault(table));

@@ -1,3 +1,4 @@
+#include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/scenario.h"
 
@@ -209,7 +210,7 @@ std::vector<SettingKey> fault_keys() {
 FileKeys make_scenario_keys() {
   FileKeys file{"Scenario", {}};
   for (const auto& keys :
-       {world_keys(), robot_keys(), laser_keys("robot.laser"), stick_keys(), mover_keys(), fault_keys()})
+       {world_keys(), robot_keys(), laser_keys("robot.laser"), zone_keys(), stick_keys(), mover_keys(), fault_keys()})
     file.keys.insert(file.keys.end(), keys.begin(), keys.end());
   return file;
 }

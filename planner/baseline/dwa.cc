@@ -15,7 +15,7 @@ constexpr float kFar_m = 1.5F;                                                  
 
 /// From the robot's circle to the nearest wall or to the nearest track where it is now.
 float clearance(const Scene& scene, float x, float y) noexcept {
-  float least = scene.guide.distance(x, y);
+  float least = scene.guide.room(x, y);
   for (const Track& track : scene.tracks) {
     const float dx = static_cast<float>(track.position_in_map.x) - x,
                 dy = static_cast<float>(track.position_in_map.y) - y;

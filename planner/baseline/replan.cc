@@ -53,7 +53,7 @@ class LocalField {
   [[nodiscard]] float y_of(int j) const { return scene_.now.y + kCell_m * static_cast<float>(j - kSide / 2); }
 
   [[nodiscard]] bool is_blocked(float x, float y) const {
-    if (scene_.guide.distance(x, y) < scene_.radius) return true;
+    if (scene_.guide.room(x, y) < scene_.radius) return true;
     return std::any_of(scene_.tracks.begin(), scene_.tracks.end(), [&](const Track& track) {
       const float dx = static_cast<float>(track.position_in_map.x) - x,
                   dy = static_cast<float>(track.position_in_map.y) - y;

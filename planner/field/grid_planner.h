@@ -24,7 +24,8 @@ class GridPlanner final : public Planner {
         pass_(*executor_, config.max_side_cells),
         flood_(Grid{config.max_side_cells}.cells()),
         window_{{0, 0}, config.side_cells, config.cell_m},
-        guide_(config.inscribed_m, config.circumscribed_m, config.max_side_cells) {
+        guide_(config.inscribed_m, config.circumscribed_m, config.max_side_cells, config.keep_out),
+        keep_out_(config.keep_out ? config.keep_out->view() : KeepOut{}) {
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>(config.max_side_cells);
       answer->psi = pass_.take_psi();
@@ -140,6 +141,7 @@ class GridPlanner final : public Planner {
                         Result& result) noexcept {
     const Grid grid = window_.grid();
     fetch_walls(window_, request.still, pass_.shown().occupants);
+    fetch_keep_out(window_, keep_out_, request.map_from_robot.position(), pass_.shown().occupants);
     fetch_standing(window_, request, warping.reach, pass_.shown().occupants);
     if (minds_unseen) fetch_unseen(window_, request, pass_.shown().occupants);
     if (!pass_.mark_and_clear(grid, warping, movers, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
@@ -257,6 +259,7 @@ class GridPlanner final : public Planner {
   Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
   std::int32_t solved_goal_ = kNoCell;
   GuideField guide_;
+  KeepOut keep_out_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Answer, 2> answers_;  ///< collected, and being made
   bool is_new_ = false;

@@ -31,6 +31,12 @@ constexpr float kLastingWeight = 8.0F;  ///< where a body has stood for long: it
 constexpr float kUnseenWeight = 8.0F;   ///< near the robot, what it has not seen yet
 constexpr double kBesideLasting_m = 0.4;
 
+/// Then none counts: the robot may leave.
+bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
+  const Place robot = place_of(robot_in_map);
+  return zones.distance(robot.x, robot.y) < 0.0F;
+}
+
 }  // namespace
 
 GuideField::Memory::Memory(std::int32_t max_side)
@@ -38,14 +44,18 @@ GuideField::Memory::Memory(std::int32_t max_side)
       unseen(static_cast<std::size_t>(Grid{max_side}.cells())),
       to_go_s(static_cast<std::size_t>(Grid{max_side}.cells()), Guide::kNoWay_s) {}
 
-GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side)
+GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
+                       std::shared_ptr<const KeepOutField> keep_out)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
+      keep_out_field_(std::move(keep_out)),
+      keep_out_(keep_out_field_ ? keep_out_field_->view() : KeepOut{}),
       surfaces_(max_side),
       row_round_(static_cast<std::size_t>(max_side)),
       surface_rate_(static_cast<std::size_t>(Grid{max_side}.cells())),
       rate_(surface_rate_.size()),
       last_rate_(rate_.size()),
+      keep_out_rate_(keep_out_.known() ? rate_.size() : 0),
       middle_x_m_(row_round_.size()),
       evidence_(row_round_.size()),
       ways_(max_side),
@@ -73,10 +83,11 @@ Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
           leads_through_unseen(request, box, memory.unseen.data()),
           memory.surface.data(),
           memory.unseen.data(),
-          memory.to_go_s.data()};
+          memory.to_go_s.data(),
+          is_in(keep_out_, request.robot_in_map) ? KeepOut{} : keep_out_};
 }
 
-/// Everything that is known, robot and goal, and three metres about them: room enough to walk round.
+/// Everything that is known, keep-out zones, robot and goal, and three metres about them: room enough to walk round.
 CellBox GuideField::box_of(const GuideRequest& request) noexcept {
   const Window& window = request.window;
   const std::int32_t last = window.side - 1, margin = static_cast<std::int32_t>(3.0 / window.cell_m);
@@ -93,6 +104,14 @@ CellBox GuideField::box_of(const GuideRequest& request) noexcept {
     const auto after = std::find_if(std::make_reverse_iterator(row_end), evidence_.rend(), is_wall).base();
     box = {std::min(box.i0, static_cast<std::int32_t>(first - evidence_.begin())), std::min(box.j0, j),
            std::max(box.i1, static_cast<std::int32_t>(after - evidence_.begin()) - 1), std::max(box.j1, j)};
+  }
+  if (keep_out_.known()) {
+    const CellIndex low = window.cell_at({static_cast<double>(keep_out_.low_x), static_cast<double>(keep_out_.low_y)});
+    const auto cells = [&](std::int32_t nodes) {
+      return static_cast<std::int32_t>(static_cast<double>(keep_out_.node_m) * nodes / window.cell_m);
+    };
+    box = {std::min(box.i0, low.i), std::min(box.j0, low.j), std::max(box.i1, low.i + cells(keep_out_.width)),
+           std::max(box.j1, low.j + cells(keep_out_.height))};
   }
   return {std::clamp(box.i0 - margin, 0, last), std::clamp(box.j0 - margin, 0, last),
           std::clamp(box.i1 + margin, 0, last), std::clamp(box.j1 + margin, 0, last)};
@@ -141,8 +160,10 @@ void GuideField::weigh(const GuideRequest& request, const CellBox& box, bool sam
     row_round_[static_cast<std::size_t>(j)] = round_;
     if (j >= box.j0 && j <= box.j1) weigh_surfaces(window, box, j);
   }
+  if (!same_ground && keep_out_.known()) weigh_keep_out(window, box);
   rate_.swap(last_rate_);
   std::copy_n(surface_rate_.begin(), cells, rate_.begin());
+  if (keep_out_.known()) add_keep_out(window, box, request.robot_in_map);
   for_each_in_disc(window, box, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
     if (unseen[c] != 0) add_weight(c, kUnseenWeight);
   });
@@ -160,6 +181,28 @@ void GuideField::weigh_surfaces(const Window& window, const CellBox& box, std::i
     const auto c = static_cast<std::size_t>(window.grid().at(i, j));
     const float dx = surface[c].x - middle_x_m_[static_cast<std::size_t>(i)], dy = surface[c].y - middle_y_m;
     surface_rate_[c] = rate_at(std::sqrt(dx * dx + dy * dy));
+  }
+}
+
+void GuideField::weigh_keep_out(const Window& window, const CellBox& box) noexcept {
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      keep_out_rate_[static_cast<std::size_t>(window.grid().at(i, j))] =
+          rate_at(keep_out_.distance(middle_x_m_[static_cast<std::size_t>(i)], middle_y_m));
+    }
+  }
+}
+
+/// The dearer of both holds: what is nearer. To a robot in a zone none is closed, or it would have no way out.
+void GuideField::add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept {
+  const auto closed = static_cast<std::uint16_t>(is_in(keep_out_, robot_in_map) ? kRates * kDearest : 0.0F);
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      const auto c = static_cast<std::size_t>(window.grid().at(i, j));
+      const std::uint16_t zone = keep_out_rate_[c] == 0 ? closed : keep_out_rate_[c];
+      rate_[c] = rate_[c] == 0 || zone == 0 ? std::uint16_t{0} : std::max(rate_[c], zone);
+    }
   }
 }
 

@@ -113,6 +113,25 @@ void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* o
   }
 }
 
+void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot, std::uint8_t* occupants) noexcept {
+  if (!keep_out.known()) return;
+  const auto distance_at = [&keep_out](Vec2 p) {
+    return static_cast<double>(keep_out.distance(static_cast<float>(p.x), static_cast<float>(p.y)));
+  };
+  const double deep_m = -distance_at(robot);
+  const double open_m = deep_m > 0.0 ? deep_m + kWayOut_m : 0.0;
+  const Vec2 first{static_cast<double>(keep_out.low_x), static_cast<double>(keep_out.low_y)};
+  const double node_m = static_cast<double>(keep_out.node_m);
+  const CellIndex low = window.cell_at(first),
+                  high = window.cell_at(first + Vec2{keep_out.width * node_m, keep_out.height * node_m});
+  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
+      const Vec2 middle = window.in_map({i + 0.5, j + 0.5});
+      if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[window.grid().at(i, j)] |= kWall;
+    }
+  }
+}
+
 void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept {
   const Vec2 robot = request.map_from_robot.position();
   for (const Stander& stander : request.standing) {

@@ -12,6 +12,8 @@ inline constexpr double kStartRadius_m = 1.0;
 inline constexpr double kGoalRadius_m = 0.5;
 /// The same for a goal beside which a mover is marked: it will move on, the robot may come closer.
 inline constexpr double kGoalRadiusBesideMover_m = 2.0;
+/// About a robot in a keep-out zone, beyond the way to the nearest edge: room for its body to leave through.
+inline constexpr double kWayOut_m = 1.0;
 /// How far unseen places count as walls for a body that must not back into them.
 inline constexpr double kUnseenRadius_m = 2.0;
 /// Submissions in a row that walls alone keep from the goal before the window doubles: a second at 15 scans a
@@ -40,6 +42,10 @@ void check(const PlannerConfig& config);
 
 /// Walls of the map as occupants; everything else empty.
 void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept;
+
+/// Adds as walls what lies in keep-out zones. Of a robot in one the way to the zone's nearest edge and what is as near
+/// stays open.
+void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot_in_map, std::uint8_t* occupants) noexcept;
 
 /// Adds as movers all that is of those who stand within `reach` cells of the robot; of numbers within reason.
 void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept;

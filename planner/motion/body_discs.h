@@ -33,13 +33,13 @@ struct BodyDiscs {
     return discs;
   }
 
-  /// From the body at (x, y), looking along `ahead_of`, to the nearest surface, m; below 0 inside one.
+  /// From the body at (x, y), looking along `ahead_of`, to the nearest surface or keep-out zone, m; below 0 inside one.
   [[nodiscard]] JAYWALK_ANYWHERE float clearance(const Guide& guide, float x, float y,
                                                  const cell::Heading& along) const {
     float least = Guide::kFar_m;
     for (int k = 0; k < count; ++k) {
       const float s = ahead[static_cast<std::size_t>(k)];
-      const float d = guide.distance(x + s * along.x, y + s * along.y);
+      const float d = guide.room(x + s * along.x, y + s * along.y);
       least = d < least ? d : least;
     }
     return least - radius;

@@ -38,7 +38,7 @@ BodyMap::BodyMap(const Footprint& footprint)
 }
 
 void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing,
-                   std::span<const Track> moving) noexcept {
+                   std::span<const Track> moving, const KeepOut& keep_out) noexcept {
   const Vec2 centre = map_from_robot.position();
   std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
   low_ = centre - Vec2{kReach_m, kReach_m};
@@ -61,6 +61,8 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
   for (const Track& track : moving) {
     if (norm(track.velocity_in_map) < kMayStop_mps) stamp_round(track.position_in_map, track.radius_m + kCoat_m);
   }
+  const bool is_in_one = keep_out.distance(static_cast<float>(centre.x), static_cast<float>(centre.y)) < 0.0F;
+  if (keep_out.known() && !is_in_one) stamp_zones(keep_out);
   note_unseen(still, map_from_robot);
   for (float& d : distance_) d = std::sqrt(d);
 }
@@ -104,6 +106,17 @@ void BodyMap::stamp(Vec2 surface) noexcept {
     for (std::int32_t i = node(x - kReachNodes); i <= node(x + kReachNodes); ++i) {
       const float dx = static_cast<float>(i) - x;
       row[i] = std::min(row[i], (dx * dx + dy * dy) * kSquare);
+    }
+  }
+}
+
+void BodyMap::stamp_zones(const KeepOut& keep_out) noexcept {
+  for (std::int32_t j = 0; j < kSide; ++j) {
+    for (std::int32_t i = 0; i < kSide; ++i) {
+      const Vec2 p = low_ + Vec2{i * kNode_m, j * kNode_m};
+      const float d = std::max(keep_out.distance(static_cast<float>(p.x), static_cast<float>(p.y)), 0.0F);
+      float& least = distance_[static_cast<std::size_t>(j * kSide + i)];
+      least = std::min(least, d * d);
     }
   }
 }

@@ -7,6 +7,7 @@
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/keep_out.h"
 #include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
@@ -24,9 +25,10 @@ class BodyMap {
   /// Draws what stands within kReach_m (each axis) of the robot, and somebody 5 cm wider than he is taken for; of those
   /// who walk too
   /// (`moving`) who has stopped for now or may well, slower than 0.3 m/s.
+  /// Keep-out zones are like surfaces, unless the robot's axle is in one: then it may leave.
   /// Costs about 100 ns a node near a surface.
   void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing = {},
-            std::span<const Track> moving = {}) noexcept;
+            std::span<const Track> moving = {}, const KeepOut& keep_out = {}) noexcept;
 
   /// From the outline to the nearest surface (m): 0 when it lies on the outline, kFar_m at most, and that as well
   /// beyond the drawn square. Of a surface more than 5 cm inside minus its depth, corners apart. The outline is sampled
@@ -58,6 +60,7 @@ class BodyMap {
 
   void note_unseen(const EvidenceMap& still, const Pose2& map_from_robot) noexcept;
   void stamp(Vec2 surface_in_map) noexcept;
+  void stamp_zones(const KeepOut& keep_out) noexcept;
   void stamp_round(Vec2 centre_in_map, double radius_m) noexcept;
 
   Footprint footprint_;

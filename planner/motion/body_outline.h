@@ -42,17 +42,18 @@ struct BodyOutline {
     return outline;
   }
 
-  /// From the body at (x, y), looking along `along`, to the nearest surface, m; below 0 where one is inside.
+  /// From the body at (x, y), looking along `along`, to the nearest surface or keep-out zone, m; below 0 where one
+  /// is inside.
   [[nodiscard]] JAYWALK_ANYWHERE float clearance(const Guide& guide, float x, float y,
                                                  const cell::Heading& along) const {
     float least = Guide::kFar_m;
     for (std::size_t k = 0; k < circle_count; ++k) {
-      const float depth = circle_m - guide.distance(x + ahead[k] * along.x, y + ahead[k] * along.y);
+      const float depth = circle_m - guide.room(x + ahead[k] * along.x, y + ahead[k] * along.y);
       if (depth > 0.0F && -depth < least) least = -depth;
     }
     for (std::size_t k = 0; k < point_count; ++k) {
       const Place p = points[k];
-      const float d = guide.distance(x + p.x * along.x - p.y * along.y, y + p.x * along.y + p.y * along.x);
+      const float d = guide.room(x + p.x * along.x - p.y * along.y, y + p.x * along.y + p.y * along.x);
       least = d < least ? d : least;
     }
     return least;

@@ -63,7 +63,8 @@ Twist2 Follower::at_goal(const FollowerInput& input) const noexcept {
 /// Slower, or not at all, where somebody is about to come by, or stands.
 Twist2 Follower::manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept {
   const Twist2 twist = drive.wish(input.map_from_robot);
-  const double share = std::min(1.0, among_people(drive.way(), input) / config_.limits.max_speed_mps);
+  const double among = among_people(drive.way(), input) / config_.limits.max_speed_mps;
+  const double share = std::min({1.0, among, input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9)});
   return {twist.v_mps * share, twist.w_radps * share};
 }
 
@@ -79,8 +80,8 @@ double Follower::speed_for(const FollowerInput& input, double curvature_per_m) c
   const double in_curve = curve_speed(curvature_per_m, config_.limits.max_turn_radps);
   const double for_body = input.guide != nullptr ? input.guide->most_speed_mps() : in_curve;
   const double arrival_speed = slowing_speed(0.0, distance(robot, input.goal_in_map), config_.limits.max_accel_mps2);
-  return std::min(
-      {config_.limits.max_speed_mps, in_curve, for_body, arrival_speed, among_people({.places = input.path}, input)});
+  return std::min({config_.limits.max_speed_mps, input.most_speed_mps, in_curve, for_body, arrival_speed,
+                   among_people({.places = input.path}, input)});
 }
 
 }  // namespace jaywalk

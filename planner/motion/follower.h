@@ -1,4 +1,5 @@
 #pragma once
+#include <limits>
 #include <span>
 
 #include "hal/types/geometry.h"
@@ -29,11 +30,12 @@ struct FollowerInput {
   Pose2 map_from_robot;
   Vec2 goal_in_map;
   bool has_goal = false;
-  std::span<const Track> tracks;           ///< all of them: see choose_speed
-  std::span<const Stander> standing = {};  ///< see passing_speed
-  Twist2 permitted_before;                 ///< what the supervisor made of the last wish
-  FootprintGuide* guide = nullptr;         ///< of a body that is longer than wide; null: the path fits everywhere
-  GoalTurn* turn = nullptr;                ///< to the heading wanted at the goal; null: none can be
+  std::span<const Track> tracks;                                    ///< all of them: see choose_speed
+  std::span<const Stander> standing = {};                           ///< see passing_speed
+  double most_speed_mps = std::numeric_limits<double>::infinity();  ///< beside the robot's own limit
+  Twist2 permitted_before;                                          ///< what the supervisor made of the last wish
+  FootprintGuide* guide = nullptr;  ///< of a body that is longer than wide; null: the path fits everywhere
+  GoalTurn* turn = nullptr;         ///< to the heading wanted at the goal; null: none can be
 };
 
 /// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and people

@@ -50,7 +50,7 @@ void FootprintGuide::look(const GuideInput& input) noexcept {
     unfit_.pause();
     return;
   }
-  map_.draw(input.still, input.map_from_robot, input.standing, input.moving);
+  map_.draw(input.still, input.map_from_robot, input.standing, input.moving, input.keep_out);
   if (refused && may_back_off(input)) {
     refused_.forget();
     unfit_.pause();

@@ -20,6 +20,7 @@ struct GuideInput {
   std::span<const Stander> standing = {};  ///< PlanRequest's
   std::span<const Track> moving = {};      ///< the same
   Vec2 goal_in_map{};
+  KeepOut keep_out{};            ///< where the body must not be though nothing stands there
   bool somebody_hidden = false;  ///< went out of sight within kNear_m lately: nothing backs at once
   Time now{};                    ///< the tick's: waits are counted by it
 };

@@ -12,17 +12,23 @@ std::int32_t block_below(std::int32_t cell) { return (cell >= 0 ? cell : cell - 
 
 }  // namespace
 
-LocalGround::LocalGround()
-    : surfaces_(kSide), found_unseen_(kCells), unseen_(kCells), to_go_s_(kCells, Guide::kNoWay_s) {}
+LocalGround::LocalGround(const KeepOut& keep_out)
+    : keep_out_(keep_out),
+      surfaces_(kSide),
+      found_unseen_(kCells),
+      unseen_(kCells),
+      to_go_s_(kCells, Guide::kNoWay_s) {}
 
 const Guide& LocalGround::look(const EvidenceMap& still, Vec2 robot, std::span<const MoverDisc> movers) noexcept {
   const CellIndex at = still.cell_at(robot);
   constexpr std::int32_t kBefore = (kSide - kBlock) / 2;
   const field::Window window{{block_below(at.i) - kBefore, block_below(at.j) - kBefore}, kSide, kCell_m};
   surfaces_.find(window, {0, 0, kSide - 1, kSide - 1}, &still, movers, found_unseen_.data());
+  const Place at_m = field::place_of(robot);
+  const bool is_in_one = keep_out_.distance(at_m.x, at_m.y) < 0.0F;  // then none counts: it may leave
   const Place low = field::place_of(window.in_map({0.0, 0.0}));
-  guide_ = {low.x,          low.y,          static_cast<float>(kCell_m), kSide, false, surfaces_.surface(),
-            unseen_.data(), to_go_s_.data()};
+  guide_ = {low.x,          low.y,           static_cast<float>(kCell_m),      kSide, false, surfaces_.surface(),
+            unseen_.data(), to_go_s_.data(), is_in_one ? KeepOut{} : keep_out_};
   return guide_;
 }
 

@@ -135,7 +135,7 @@ Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot
   const Command was{static_cast<float>(permitted.v_mps), static_cast<float>(permitted.w_radps)};
   if (std::fabs(was.v - wished_.v) > 1e-4F) accel_ = 0.0F;  // somebody else has set the speed
   const bool rests = !has_goal || is_there(map_from_robot, goal);
-  Command to = rests ? Command{} : command_at(now);
+  Command to = rests ? Command{} : within(body_.bounds, command_at(now));
   if (config_.constant_speed && has_goal) to.v = body_.bounds.speed;
   const RobotState next =
       moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, to, body_.bounds, static_cast<float>(config_.tick_s));

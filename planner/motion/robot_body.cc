@@ -40,14 +40,19 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const LaserModel
                {rear, 0.0F},
                {rear, -side}}};
   const auto at_most = [](double limit, float most) { return std::min(static_cast<float>(limit), most); };
-  body.bounds = {.speed = static_cast<float>(l.max_speed_mps * kJustBelow),
-                 .back = at_most(l.max_speed_mps, kBackMps),
-                 .turn = at_most(l.max_turn_radps, kMostTurn),
+  body.bounds = {.turn = at_most(l.max_turn_radps, kMostTurn),
                  .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
                  .accel = static_cast<float>(l.max_accel_mps2),
                  .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
                  .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
+  limit_speed_of(body.bounds, l, l.max_speed_mps);
   return body;
+}
+
+void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept {
+  const double most = std::min(limits.max_speed_mps, most_mps);
+  bounds.speed = static_cast<float>(most * kJustBelow);
+  bounds.back = std::min(static_cast<float>(most), kBackMps);
 }
 
 }  // namespace jaywalk::motion

@@ -24,4 +24,7 @@ struct RobotBody {
 [[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits, const LaserModel& laser,
                                    double berth_m);
 
+/// No faster than `most_mps` either way, nor than robot_body() has it.
+void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept;
+
 }  // namespace jaywalk::motion

@@ -25,6 +25,14 @@ struct Command {
   float v = 0.0F, w = 0.0F;
 };
 
+/// The same arc, within the bounds' speeds.
+JAYWALK_CELL Command within(const MotionBounds& bounds, const Command& command) {
+  const float most = command.v < 0.0F ? bounds.back : bounds.speed, size = std::fabs(command.v);
+  if (size <= most) return command;
+  const float share = most / size;
+  return {command.v * share, command.w * share};
+}
+
 /// The side (1: left, -1: right) that a robot turns to at `w` rad/s; `last` while it turns to neither.
 JAYWALK_CELL float turned_side(float w, float last) {
   constexpr float kLeast = 0.1F;  // rad/s, as a campaign's report counts (docs/campaigns.md)

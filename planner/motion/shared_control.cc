@@ -22,9 +22,11 @@ float at_most(float speed, float asked) { return std::clamp(speed, std::min(aske
 }  // namespace
 
 SharedControl::SharedControl(const MotionConfig& config, bool assisted)
-    : body_(robot_body(config.footprint, config.limits, config.laser, config.berth_m)),
+    : limits_(config.limits),
+      body_(robot_body(config.footprint, config.limits, config.laser, config.berth_m)),
       assisted_(assisted),
       tick_s_(static_cast<float>(config.tick_s)),
+      ground_(config.keep_out),
       futures_(std::make_unique<Futures>()) {}
 
 void SharedControl::decide(const Seen& seen, const Stick& stick, const Twist2& driven) noexcept {
@@ -79,7 +81,7 @@ Command SharedControl::decided_at(Time now, const Command& asked) const noexcept
   if (decided_ == kNever || now - decided_ > kHoldsFor) return {};
   const auto step = static_cast<int>(to_seconds(now - decided_) / static_cast<double>(kStepS));
   const Command command = chosen_.commands[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
-  return {at_most(command.v, asked.v), command.w};
+  return within(body_.bounds, {at_most(command.v, asked.v), command.w});
 }
 
 Twist2 SharedControl::asked(const Stick& stick) const noexcept {

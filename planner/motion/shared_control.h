@@ -21,6 +21,8 @@ class SharedControl {
   /// With each new scan, after the wheels have their command. `seen.guide` is not looked at: walls come from
   /// `seen.still`.
   void decide(const Seen& seen, const Stick& stick, const Twist2& driven) noexcept;
+  /// MotionPlanner's: what a stick that is pushed all the way asks for from now on.
+  void limit_speed(double most_mps) noexcept { limit_speed_of(body_.bounds, limits_, most_mps); }
   /// This tick's wish. `permitted_before`: what became of the last one.
   [[nodiscard]] Twist2 twist(Time now, const Stick& stick, const Twist2& permitted_before) noexcept;
 
@@ -34,6 +36,7 @@ class SharedControl {
   void try_shape(const Situation& situation, const WishShape& shape) noexcept;
   [[nodiscard]] Command decided_at(Time now, const Command& asked) const noexcept;
 
+  MotionLimits limits_;
   RobotBody body_;
   bool assisted_;
   float tick_s_;

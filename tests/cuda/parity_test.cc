@@ -91,6 +91,20 @@ TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and
   }
 }
 
+TEST_CASE("emulated: plans round a keep-out zone, and out of one, have the CPU's bytes") {
+  device().power_on(properties_of(Kind::kSmallClusters, 8));
+  const MapZone zone{ZoneKind::kKeepOut, {{2.0, 1.0}, {4.0, 1.0}, {4.0, 4.5}, {2.0, 4.5}}, 0.0};
+  PlannerConfig config = small_window();
+  config.keep_out = std::make_shared<const KeepOutField>(std::span(&zone, 1));
+  const auto cpu = make_cpu_planner(config), gpu = cuda_planner(config);
+  const EvidenceMap map = evidence_of({"room", 64});
+  PlanRequest request = across(map);
+  CHECK(check_plan(*cpu, *gpu, request));
+  for (const Vec2 p : gpu->collect().path) CHECK(signed_distance(zone, p) > 0.0);
+  request.map_from_robot = {3.0, 2.5, 0.6};
+  CHECK(check_plan(*cpu, *gpu, request));
+}
+
 TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: the host sees the mover's mark") {
   device().power_on(properties_of(Kind::kSmallClusters, 6));
   const auto cpu = make_cpu_planner(small_window()), gpu = cuda_planner(small_window());

@@ -13,6 +13,7 @@ SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, cons
   setup_.backend = Backend::kCpu;
   setup_.start = scenario.start;
   setup_.goal = scenario.goal;
+  setup_.zones = scenario.zones;
   simulation_ = std::make_unique<sim::Simulation>(scenario, seed);
   planner_ = make_planner(setup_.planner(), setup_.backend);
   recorder_ = std::make_unique<Recorder>(RecorderConfig{.file = recording, .setup = to_text(setup_)});

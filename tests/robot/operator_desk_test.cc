@@ -91,6 +91,21 @@ TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of i
   CHECK(desk.obey("goto attic").find("refused: goto: there is no place attic") == 0);
 }
 
+TEST_CASE("a route with a goal in a keep-out zone, or too near one, is refused") {
+  tests::HandClock clock;
+  const MapZone zone{ZoneKind::kKeepOut, {{1.0, 1.0}, {2.0, 1.0}, {2.0, 2.0}, {1.0, 2.0}}, 0.0};
+  OperatorDesk desk(clock, {}, [] { return std::string(); }, {{"a", {{0.0, 0.0}}}, {"b", {{1.5, 1.5}}}}, {{zone}, 0.2});
+  RunStatus status;
+  status.running = true;
+  desk.tell(status);
+  CHECK(desk.obey("goto 1.5 1.2") ==
+        "refused: goto: 1.5 1.2 lies in a keep-out zone or too near one; choose another place\n");
+  CHECK(desk.obey("goto 2.2 1.5").find("refused: goto: ") == 0);  // 0.2 m off, and 0.25 are kept
+  CHECK(desk.obey("goto a b").find("refused: goto: 1.5 1.5 lies in a keep-out zone") == 0);
+  CHECK_FALSE(desk.latest().has_goal);
+  CHECK(desk.obey("goto 2.5 1.5") == "going\n");
+}
+
 TEST_CASE("a person who takes the stick drops the goal, and every order to stop is told to the stick") {
   Bench bench;
   CHECK(bench.desk.obey("goto 1 2") == "going\n");

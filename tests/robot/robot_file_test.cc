@@ -81,6 +81,15 @@ TEST_CASE("places have names of their own, with a heading or without") {
   CHECK(refusal(two + "[[places]]\nname = \"far\"\nat = [1e300, 0]\n").find("at") != std::string::npos);
 }
 
+TEST_CASE("zones are the controller's; a place in a keep-out zone is refused") {
+  const std::string zoned =
+      std::string(kGood) + "[[zones]]\nkind = \"keep_out\"\npoints = [[3, 0], [5, 0], [5, 3], [3, 3]]\n";
+  REQUIRE(load(zoned).setup.zones.size() == 1);
+  CHECK(load(zoned).setup.zones[0].corners[2] == Vec2{5.0, 3.0});
+  CHECK(refusal(zoned + "[[places]]\nname = \"kitchen\"\nat = [4.0, 1.5]\n")
+            .rfind("20: the goal lies in a keep-out", 0) == 0);
+}
+
 TEST_CASE("a robot file says how the devices are wired") {
   const RobotFile robot = load(kGood);
   CHECK(robot.setup.wired);

@@ -91,6 +91,13 @@ priority = 80
 lock_memory = true
 cpu = 3
 required = true
+[[zones]]
+kind = "keep_out"
+points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]
+[[zones]]
+kind = "speed"
+points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
+speed_mps = 0.2
 )",
     R"(model = "wheelchair"
 [laser]
@@ -186,6 +193,13 @@ at_s = 5.0
 for_s = 1.0
 from_deg = -20.0
 to_deg = 20.0
+[[zones]]
+kind = "keep_out"
+points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]
+[[zones]]
+kind = "speed"
+points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
+speed_mps = 0.2
 )";
 
 }  // namespace jaywalk

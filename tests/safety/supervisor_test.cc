@@ -10,6 +10,18 @@ TEST_CASE("what is safe is permitted as it is, without a reason") {
   CHECK(verdict.reasons == Reason::kNone);
 }
 
+TEST_CASE("a speed zone's limit holds either way, on the same arc, with its reason") {
+  Bench bench;
+  bench.most_speed_mps = 0.2;
+  const Verdict ahead = bench.tick({0.5, 0.3});
+  CHECK(ahead.permitted == Twist2{0.2, 0.3 * 0.2 / 0.5});
+  CHECK(ahead.reasons == Reason::kSpeedZone);
+  Bench back;
+  back.most_speed_mps = 0.1;
+  CHECK(back.tick({-0.2, 0.0}).permitted == Twist2{-0.1, 0.0});
+  CHECK(back.tick({0.0, 0.5}).reasons == Reason::kNone);  // turning on the spot is not driving through
+}
+
 TEST_CASE("a scan older than two and a half periods, two that were lost, stops the robot") {
   Bench bench;
   bench.tick({0.5, 0.0});

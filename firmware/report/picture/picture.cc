@@ -55,6 +55,7 @@ void draw_map(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scen
   if (scene.moment) {
     draw_field(canvas, to_sheet, cropped(scene.moment->field, field_extent(scene, to_sheet.extent())));
   }
+  draw_zones(canvas, to_sheet, scene);
   draw_walls(canvas, to_sheet, scene);
   draw_movers(canvas, to_sheet, scene.movers, shown_time(scene));
   if (scene.movers.empty()) draw_tracks(canvas, to_sheet, scene.tracks);

@@ -125,6 +125,16 @@ Colour colour_of(std::uint32_t id) {
 
 double weight_of(const MapFrame& to_sheet) { return std::clamp(to_sheet.pixels(1.0) / 50.0, 0.6, 1.6); }
 
+Colour colour_of(ZoneKind kind) { return kind == ZoneKind::kKeepOut ? ink::kKeepOut : ink::kSlow; }
+
+void draw_zones(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
+  for (const MapZone& zone : scene.zones) {
+    const Polyline corners = on_sheet(zone.corners, to_sheet);
+    canvas.fill(corners, colour_of(zone.kind).faded(0.18));
+    canvas.stroke(corners, {colour_of(zone.kind), 2.0 * weight_of(to_sheet), 8.0}, true);
+  }
+}
+
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
   const double seen = to_sheet.pixels(scene.cell_m);
   const double drawn = seen + 0.6;  // neighbours overlap, else light shines through between them

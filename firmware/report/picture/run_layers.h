@@ -17,6 +17,8 @@ inline constexpr Colour kSeen = colour(0x3A3F47);
 inline constexpr Colour kRobot = colour(0x17406D);
 inline constexpr Colour kGoal = colour(0x1B8A4B);
 inline constexpr Colour kBand = colour(0xE0641E);
+inline constexpr Colour kKeepOut = colour(0xB3261E);
+inline constexpr Colour kSlow = colour(0xC79A00);
 inline constexpr Colour kForced = colour(0xC2182B);
 }  // namespace ink
 
@@ -26,6 +28,8 @@ inline constexpr Colour kForced = colour(0xC2182B);
 /// How thick lines are: 1 where the map is shown at 50 pixels a metre, more or less with its size.
 [[nodiscard]] double weight_of(const MapFrame& to_sheet);
 
+[[nodiscard]] Colour colour_of(ZoneKind kind);
+void draw_zones(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene);
 /// Trails up to time `t`, older parts fainter; a disc shows the body at `t`, ringed where it was forced at some time.
 void draw_movers(Canvas& canvas, const MapFrame& to_sheet, const std::vector<Trail>& movers, Time t);

@@ -36,6 +36,7 @@ class Drawing {
 
   std::string text() {
     begin();
+    zones();
     walls();
     goal();
     way();
@@ -76,6 +77,14 @@ class Drawing {
            "\" font-family=\"DejaVu Sans,sans-serif\" font-size=\"30\" fill=\"" + svg::hex(ink::kText) + "\">\n" +
            "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fff\"/>\n<text x=\"20\" y=\"50\">" +
            svg::escaped(scene_.title) + "</text>\n";
+  }
+
+  void zones() {
+    for (const MapZone& zone : scene_.zones) {
+      const std::string colour = svg::hex(colour_of(zone.kind));
+      out_ += "<path class=\"zone\" d=\"" + svg::path_of(zone.corners, to_sheet_) + "Z\" fill=\"" + colour +
+              "\" fill-opacity=\".18\" stroke=\"" + colour + "\" stroke-width=\"3\" stroke-dasharray=\"12\"/>\n";
+    }
   }
 
   /// Rows of neighbouring cells as one stroke each; coarser where these are too many.

@@ -9,6 +9,7 @@
 
 #include "firmware/report/trails.h"
 #include "hal/types/geometry.h"
+#include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
 #include "planner/perception/track.h"
@@ -69,6 +70,7 @@ struct PictureScene {
   std::vector<WallLine> walls;                             ///< as they really are
   std::vector<Vec2> occupied;                              ///< centres of cells that the robot saw occupied
   double cell_m = 0.1;
+  std::vector<MapZone> zones;  ///< that a person drew
   std::vector<DrivenPose> driven;
   std::vector<Trail> movers;  ///< as they really went
   std::vector<Trail> tracks;  ///< as the controller followed them; drawn where there are no movers

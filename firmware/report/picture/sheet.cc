@@ -53,6 +53,13 @@ void add_map_rows(std::vector<LegendRow>& rows, Canvas& canvas, const PictureSce
   if (!scene.walls.empty()) {
     rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kWall, 5.0}); }, "walls"});
   }
+  const auto add_zones = [&](ZoneKind kind, const char* text) {
+    const auto is_one = [kind](const MapZone& zone) { return zone.kind == kind; };
+    if (std::none_of(scene.zones.begin(), scene.zones.end(), is_one)) return;
+    rows.push_back({[&canvas, kind](Vec2 at) { line_sample(canvas, at, {colour_of(kind), 3.0, 8.0}); }, text});
+  };
+  add_zones(ZoneKind::kKeepOut, "keep-out zone");
+  add_zones(ZoneKind::kSpeed, "speed zone");
   if (!scene.driven.empty()) {
     rows.push_back({[&](Vec2 at) { line_sample(canvas, at, {ink::kRobot, 4.0}); }, "driven, with the time"});
   }

@@ -1,0 +1,150 @@
+#include "planner/keep_out.h"
+
+#include <memory>
+
+#include "planner/field/guide_field.h"
+#include "planner/motion/body_discs.h"
+#include "planner/motion/body_map.h"
+#include "planner/motion/speed_zones.h"
+#include "tests/motion/ground.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+MapZone box(Vec2 low, Vec2 high, ZoneKind kind = ZoneKind::kKeepOut, double speed_mps = 0.0) {
+  return {kind, {low, {high.x, low.y}, high, {low.x, high.y}}, speed_mps};
+}
+
+/// Open ground, and the guide of a P3-DX with a zone on it.
+struct Zoned {
+  explicit Zoned(const MapZone& zone) : field(std::make_shared<const KeepOutField>(std::span(&zone, 1))) {}
+
+  const Guide& from(Vec2 robot) {
+    const field::Window window{{-118, -118}, 256, 0.1};
+    guide = guides.settle({.window = window,
+                           .still = &ground.map(),
+                           .movers = {},
+                           .robot_in_map = robot,
+                           .goal_in_map = {4.0, 0.0},
+                           .speed_mps = 0.6},
+                          memory);
+    return guide;
+  }
+
+  std::shared_ptr<const KeepOutField> field;
+  tests::Ground ground;
+  field::GuideField guides{0.1905, 0.297, 256, field};
+  field::GuideField::Memory memory{256};
+  Guide guide;
+};
+
+/// The way from a place to where the guide has no time left, 0.2 m at a time to the nearest in time of 16 directions;
+/// `visit` each place. False when that takes more than `most_m`.
+template <class Visit>
+bool goes(const Guide& guide, Vec2 at, double most_m, const Visit& visit) {
+  for (double gone = 0.0; gone < most_m; gone += 0.2) {
+    Vec2 best = at;
+    for (int k = 0; k < 16; ++k) {
+      const Vec2 p = at + direction(2.0 * kPi * k / 16.0) * 0.2;
+      const auto seconds = [&guide](Vec2 q) {
+        return guide.time_to_go(static_cast<float>(q.x), static_cast<float>(q.y));
+      };
+      if (seconds(p) < seconds(best)) best = p;
+    }
+    if (best == at) return false;
+    visit(at = best);
+    if (distance(at, {4.0, 0.0}) < 0.3) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TEST_CASE("distances to keep-out zones are to a zone 5 cm wider than drawn, between nodes too") {
+  const std::vector<MapZone> zones{box({0, 0}, {2, 1}), box({5, 0}, {6, 1}, ZoneKind::kSpeed, 0.3)};
+  const KeepOutField field(zones);
+  const KeepOut view = field.view();
+  CHECK(view.distance(3.0F, 0.52F) == Approx(0.95F).margin(1e-4));
+  CHECK(view.distance(2.33F, 0.5F) == Approx(0.28F).margin(1e-4));
+  CHECK(view.distance(1.0F, 0.3F) == Approx(-0.35F).margin(1e-4));
+  CHECK(view.distance(2.3F, 1.4F) == Approx(0.45F).margin(0.005));  // to the corner, 0.5 m: curved between nodes
+  CHECK(view.distance(5.5F, 0.5F) == KeepOut::kFar_m);              // a speed zone
+  CHECK(view.distance(-50.0F, 80.0F) == KeepOut::kFar_m);
+  CHECK(KeepOut{}.distance(0.0F, 0.0F) == KeepOut::kFar_m);
+}
+
+TEST_CASE("the way to the goal leads round a keep-out zone, and what walks may walk through it") {
+  Zoned zoned(box({0.0, -2.0}, {1.0, 2.0}));
+  const Guide& guide = zoned.from({-2.0, 0.0});
+  double nearest = 1e9;
+  REQUIRE(goes(guide, {-2.0, 0.0}, 15.0, [&](Vec2 p) {
+    nearest = std::min(nearest, signed_distance(box({0.0, -2.0}, {1.0, 2.0}), p));
+  }));
+  CHECK(nearest > 0.2);  // the body's narrowest half
+  CHECK(guide.distance(0.5F, 0.0F) == Guide::kFar_m);
+  CHECK(guide.room(0.5F, 0.0F) == Approx(-0.55F).margin(1e-4));
+  const motion::BodyDiscs body = motion::BodyDiscs::covering(p3dx().footprint, 0.02);
+  // The foremost of three discs: its middle is 0.1517 m ahead of the axle, its radius 0.2050 m.
+  CHECK(body.clearance(guide, -0.5F, 0.0F, {1.0F, 0.0F}) == Approx(0.45 - 0.1517 - 0.2050).margin(1e-3));
+}
+
+TEST_CASE("a robot in a keep-out zone has a way out of it; from outside none leads in") {
+  Zoned zoned(box({-3.0, -2.0}, {1.0, 2.0}));
+  const Guide& inside = zoned.from({0.0, 0.0});
+  bool came_out = false, went_back = false;
+  CHECK(goes(inside, {0.0, 0.0}, 8.0, [&](Vec2 p) {
+    const bool out = signed_distance(box({-3.0, -2.0}, {1.0, 2.0}), p) > 0.0;
+    went_back = went_back || (came_out && !out);
+    came_out = came_out || out;
+  }));
+  CHECK(came_out);
+  CHECK_FALSE(went_back);
+  const Guide& outside = zoned.from({2.0, 0.0});
+  CHECK(outside.time_to_go(0.0F, 0.0F) == Guide::kNoWay_s);
+}
+
+TEST_CASE("a guide whose zones are far away has the bytes of one without") {
+  Zoned zoned(box({60.0, 60.0}, {61.0, 61.0}));
+  const Guide& with = zoned.from({-2.0, 0.0});
+  field::GuideField plain(0.1905, 0.297, 256);
+  field::GuideField::Memory memory(256);
+  const Guide without = plain.settle({.window = {{-118, -118}, 256, 0.1},
+                                      .still = &zoned.ground.map(),
+                                      .movers = {},
+                                      .robot_in_map = {-2.0, 0.0},
+                                      .goal_in_map = {4.0, 0.0},
+                                      .speed_mps = 0.6},
+                                     memory);
+  for (float x = -3.5F; x < 5.5F; x += 0.25F) {
+    CHECK(with.time_to_go(x, 1.0F) == without.time_to_go(x, 1.0F));
+    CHECK(with.room(x, 1.0F) == without.room(x, 1.0F));
+  }
+}
+
+TEST_CASE("a long body's map has keep-out zones as surfaces unless its axle is in one") {
+  const MapZone zone = box({1.0, -1.0}, {2.0, 1.0});
+  const KeepOutField field(std::span(&zone, 1));
+  tests::Ground ground;
+  BodyMap map(wheelchair().footprint);
+  map.draw(ground.map(), {0.0, 0.0, 0.0}, {}, {}, field.view());
+  const double front = wheelchair().footprint.front_m;
+  CHECK(map.clearance({0.95 - front - 0.3, 0.0, 0.0}) == Approx(0.3).margin(0.01));
+  CHECK(map.clearance({0.95 - front + 0.2, 0.0, 0.0}) < 0.0);
+  map.draw(ground.map(), {1.5, 0.0, 0.0}, {}, {}, field.view());
+  CHECK(map.clearance({1.5, 0.0, 0.0}) == BodyMap::kFar_m);
+}
+
+TEST_CASE("a speed zone holds where the circle about the body touches it, and slows down before") {
+  const std::vector<MapZone> zones{box({3.0, -1.0}, {5.0, 1.0}, ZoneKind::kSpeed, 0.2), box({8.0, 0.0}, {9.0, 1.0})};
+  const motion::SpeedZones speed(zones, p3dx());
+  // The circle has 0.2967 m, and 0.05 m are added: it touches from x = 2.6533 on.
+  CHECK(speed.at({2.6, 0.0}).here_mps > 100.0);
+  CHECK(speed.at({2.7, 0.0}).here_mps == 0.2);
+  CHECK(speed.at({4.0, 0.9}).here_mps == 0.2);
+  CHECK(speed.at({2.6, 0.0}).ahead_mps == 0.2);  // nearer than 0.1 m
+  // 1 m before it touches, 0.1 m off: v^2 = 0.04 + 0.5 * 0.9 = 0.49.
+  CHECK(speed.at({1.6533, 0.0}).ahead_mps == Approx(0.7).margin(1e-3));
+  CHECK(speed.at({8.5, 0.5}).here_mps > 100.0);
+}
