@@ -37,7 +37,7 @@ class RecordingWriter {
   RecordingWriter(const RecordingWriter&) = delete;
   RecordingWriter& operator=(const RecordingWriter&) = delete;
 
-  static constexpr Duration kLongestWait = std::chrono::milliseconds(250);
+  static constexpr Duration kLongestWait = std::chrono::milliseconds(100);
 
   /// False when the disk took no more, of this or of what came before.
   bool write(const TickRecord& record, std::uint64_t lost_before) noexcept;

@@ -63,9 +63,9 @@ TEST_CASE("a recording on a full disk is read up to the last tick that it took w
   std::uint32_t ticks = 0;
   while (reader.next(*read)) REQUIRE(read->now == at(ticks++));
   CHECK(reader.warning().find("cut short after") != std::string::npos);
-  // Told within a quarter of a second, 13 ticks, of the first tick that is missing.
+  // Told within 0.1 s, 6 ticks, of the first tick that is missing.
   CHECK(refused_from >= ticks);
-  CHECK(refused_from <= ticks + 13);
+  CHECK(refused_from <= ticks + 6);
   // No entry that would have fitted is missing: the largest here has 1 kB.
   CHECK(std::filesystem::file_size(file) > 19'000);
 }

@@ -51,6 +51,24 @@ TEST_CASE("every field of every tick comes back bit for bit, NaN payloads too") 
   CHECK(reader.warning().empty());
 }
 
+TEST_CASE("no more than 0.1 s of ticks wait for the disk: so much is lost when the program is killed") {
+  const Scratch scratch;
+  const std::string file = scratch.path("recording.jwr");
+  Recorder recorder({file, "setup", 8});
+  const auto on_disk = [&file] {
+    RecordingReader reader(file);
+    const auto read = std::make_unique<TickRecord>();
+    std::uint32_t ticks = 0;
+    while (reader.next(*read)) ++ticks;
+    return ticks;
+  };
+  for (std::uint32_t n = 0; n < 60; ++n) {
+    tick(recorder, n);
+    REQUIRE(recorder.drain());
+    CHECK(n + 1 - on_disk() <= 5);  // of 20 ms each
+  }
+}
+
 TEST_CASE("numbers lie little endian in the file") {
   // 0x11223344 begins with its lowest byte; 1.0F is 0x3F800000.
   std::vector<unsigned char> bytes(8);
