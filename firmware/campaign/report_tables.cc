@@ -125,17 +125,19 @@ ReportTable ride_table(const ReportedTables& tables) {
 /// Of runs that a person steered; without any there is no such table.
 std::vector<ReportTable> stick_table(const ReportedTables& tables) {
   ReportTable table{"Driving by the stick", {""}, {}};
-  for (const char* head : {"runs", "touched something while it moved", "least clearance, m",
+  for (const char* head : {"runs", "touched something", "at over 0.05 m/s", "least clearance, m",
                            "of the wish granted, %, mean", "least of a run"})
     table.head.emplace_back(head);
+  const auto touched_by = [](const ReportedRow& row, const char* figure) {
+    return std::to_string(count_if(row.runs, [figure](const RunResult& r) { return r.figure(figure) > 0.0; }));
+  };
   for (const ReportedRow& row : tables.rows) {
     const std::vector<double> granted = values_of(row.runs, plain("granted_share"));
     if (std::all_of(granted.begin(), granted.end(), [](double share) { return std::isnan(share); })) continue;
-    table.rows.push_back(
-        {row.name, std::to_string(row.runs.size()),
-         std::to_string(count_if(row.runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
-         fixed(quantile(values_of(row.runs, plain("min_clearance_m")), 0.0), 3), fixed(100.0 * mean(granted), 1),
-         fixed(100.0 * quantile(granted, 0.0), 1)});
+    table.rows.push_back({row.name, std::to_string(row.runs.size()), touched_by(row, "contacts"),
+                          touched_by(row, "contacts_caused"),
+                          fixed(quantile(values_of(row.runs, plain("min_clearance_m")), 0.0), 3),
+                          fixed(100.0 * mean(granted), 1), fixed(100.0 * quantile(granted, 0.0), 1)});
   }
   return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
 }

@@ -40,6 +40,7 @@ constexpr float kMarginM = 0.04F, kFullMarginM = 0.08F;  ///< StopZoneConfig's, 
 constexpr float kFullMarginMps = 0.4F;                   ///< at this rim speed
 constexpr float kZoneEdgeM = 0.01F;
 constexpr float kMoverMarginM = 0.035F;
+constexpr float kRestsMps = 0.02F;     ///< slower it is walked into, and touches nobody
 constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn away, and a margin
 constexpr float kZoneSideM = 0.013F;
 constexpr float kMostTimeToGoS = 500.0F;
@@ -47,8 +48,9 @@ constexpr float kMostTimeToGoS = 500.0F;
 /// What a disc of the robot has to do with one mover, in all futures.
 struct Meeting {
   std::uint32_t met = 0;  ///< in which it touches the mover, or stands in the quarter circle before it while it walks
-  float nearness = 0.0F;  ///< a sum over futures
-  float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
+  std::uint32_t touched = 0;  ///< of these: in which it touches the mover
+  float nearness = 0.0F;      ///< a sum over futures
+  float too_fast = 0.0F;      ///< beside it while it stands: m/s over what is polite, a sum over futures
 };
 
 Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m, float speed,
@@ -84,8 +86,27 @@ Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y,
     m.nearness += near[k];
     m.too_fast += (at.walks >> k & 1U) != 0 ? 0.0F : fast[k];
   }
-  m.met = is_mapped ? (touched | in_zone) & at.walks : touched | (in_zone & at.walks);
+  m.touched = is_mapped ? touched & at.walks : touched;
+  m.met = m.touched | (in_zone & at.walks);
   return m;
+}
+
+/// A disc of the robot, and a mover, in all futures.
+struct Pair {
+  Place disc;
+  const MoverAt& at;
+  [[nodiscard]] float distance2(int future) const {
+    const float dx = disc.x - at.x[future], dy = disc.y - at.y[future];
+    return dx * dx + dy * dy;
+  }
+};
+
+/// Those of `futures` in which the two are nearer than before.
+std::uint32_t nearer(std::uint32_t futures, const Pair& now, const Pair& before) {
+  std::uint32_t are = 0;
+  for (int k = 0; k < kFutures; ++k)
+    are |= static_cast<std::uint32_t>(now.distance2(k) < before.distance2(k) ? 1 : 0) << k;
+  return futures & are;
 }
 
 class Judge {
@@ -139,9 +160,11 @@ class Judge {
       cost.stop_zone = kStopZone * cell::exp(-t / kStopZoneFadesS);
     }
     const float close = c < kNearWallM ? (kNearWallM - c) / kNearWallM : 0.0F;
-    // Steered, the robot may stand as near as is wished: the price is for the way then, not for the time.
-    const float most = s_.body.bounds.speed, paid = s_.wish == nullptr || rim > most ? 1.0F : rim / most;
-    cost.clearance += kStepS * paid * (kNearWall * close * close + kByWall * (kByWallM - c) / kByWallM);
+    // Steered, it passes and stands as near as is wished: the price is for the way very near, not for the time.
+    const bool steered = s_.wish != nullptr;
+    const float paid = steered ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
+    const float by_wall = steered ? 0.0F : kByWall * (kByWallM - c) / kByWallM;
+    cost.clearance += kStepS * paid * (kNearWall * close * close + by_wall);
   }
 
   void unseen(const RobotState& r) {
@@ -191,19 +214,32 @@ class Judge {
         if (dx * dx + dy * dy >= most * most) continue;
         const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed, s_.body.berth_m);
         (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
+        if (meeting.touched != 0 && s_.wish != nullptr && moves(r))
+          all.touched |= nearer(meeting.touched, {{x, y}, at}, {disc_at(s_.start, k), s_.futures.at(0, m)});
         all.nearness += meeting.nearness;
         if (!s_.futures.is_newcomer(m)) all.too_fast += meeting.too_fast;
       }
     }
     cost.nearness += (kNearMover * all.nearness + kTooFast * all.too_fast) / static_cast<float>(kFutures * discs.count);
-    count_first(all.met, 1.0F, t);
-    count_first(stood, kWhoStands, t);
+    count_first(all.met, met_, 1.0F, t);
+    count_first(stood, met_, kWhoStands, t);
+    count_first(all.touched, touched_, 1.0F, t);
   }
 
-  /// Somebody is met for the first time in these futures.
-  void count_first(std::uint32_t met, float weight, float t) {
-    const std::uint32_t first = met & ~met_;
-    met_ |= met;
+  [[nodiscard]] bool moves(const RobotState& r) const {
+    return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m > kRestsMps;
+  }
+
+  [[nodiscard]] Place disc_at(const RobotState& r, int k) const {
+    const cell::Heading along = cell::heading_at(r.heading);
+    const float ahead = s_.body.to_movers.ahead[static_cast<std::size_t>(k)];
+    return {r.x + ahead * along.x, r.y + ahead * along.y};
+  }
+
+  /// For the first time in these futures.
+  void count_first(std::uint32_t met, std::uint32_t& before, float weight, float t) {
+    const std::uint32_t first = met & ~before;
+    before |= met;
     if (first != 0) {
       const float share = static_cast<float>(std::popcount(first)) / kFutures;
       cost.conflict += kConflict * weight * share * cell::exp(-t / kConflictFadesS);
@@ -218,6 +254,8 @@ class Judge {
   bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
+  /// Steered: in which the robot moved and touched somebody. Who is in a walker's way already must not touch it.
+  std::uint32_t touched_ = 0;
 };
 
 /// Seconds from where a trajectory ends, and half a second for facing the wrong way there.

@@ -63,7 +63,7 @@ void SharedControl::choose(const Situation& situation, bool may_go_on, float gon
     const WishShape base = best_shape_;
     for (int n = 0; n < kPerturbed; ++n) try_shape(situation, perturbed(base, number_, round, n, body_.bounds));
   }
-  const bool is_wish = best_shape_.aside == 0.0F && best_shape_.share == 1.0F;
+  const bool is_wish = best_shape_.aside == 0.0F && best_shape_.share == 1.0F && best_shape_.turn_share == 1.0F;
   if (may_go_on && !is_wish) {
     trial_ = shifted(chosen_, gone_s);
     if (judge(situation, trial_, best_cost_ + kLeastGain).total() < best_cost_ + kLeastGain) best_ = trial_;

@@ -16,10 +16,11 @@ constexpr std::array<float, 3> kShares{1.0F, 0.667F, 0.333F};
 constexpr std::array<float, 10> kAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
                                        -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
 constexpr std::array<float, 4> kAsideSteps{4.0F, 8.0F, 14.0F, 22.0F};
-constexpr std::array<float, 2> kBack{0.0F, 1.0F};
+constexpr std::array<float, 2> kBack{0.0F, 1.0F}, kTurnShares{1.0F, 0.0F};
 constexpr int kStopCount = static_cast<int>(kStops.size()), kShareCount = static_cast<int>(kShares.size());
 constexpr int kStepCount = static_cast<int>(kAsideSteps.size()), kBackCount = static_cast<int>(kBack.size());
-constexpr int kBent = static_cast<int>(kAside.size()) * kStepCount * kBackCount;
+constexpr int kTurnShareCount = static_cast<int>(kTurnShares.size());
+constexpr int kBent = static_cast<int>(kAside.size()) * kStepCount * kBackCount * kTurnShareCount;
 
 template <std::size_t N>
 float of(const std::array<float, N>& values, int n) {
@@ -29,7 +30,7 @@ float of(const std::array<float, N>& values, int n) {
 Command command_of(const WishShape& shape, const Command& wish, float step, const MotionBounds& bounds) {
   const float back_until = shape.aside_steps * (1.0F + shape.back);
   const float aside = step < shape.aside_steps ? shape.aside : step < back_until ? -shape.aside : 0.0F;
-  return {shape.share * wish.v, std::clamp(wish.w + aside, -bounds.turn, bounds.turn)};
+  return {shape.share * wish.v, std::clamp(shape.turn_share * wish.w + aside, -bounds.turn, bounds.turn)};
 }
 
 }  // namespace
@@ -102,6 +103,8 @@ WishShape shape_at(int n, const MotionBounds& bounds) noexcept {
   n -= kShareCount - 1;
   shape.share = of(kShares, n / kBent);
   n %= kBent;
+  shape.turn_share = of(kTurnShares, n % kTurnShareCount);
+  n /= kTurnShareCount;
   shape.back = of(kBack, n % kBackCount);
   shape.aside_steps = of(kAsideSteps, n / kBackCount % kStepCount);
   shape.aside = of(kAside, n / (kBackCount * kStepCount)) * bounds.turn;
@@ -114,6 +117,7 @@ WishShape perturbed(const WishShape& shape, std::uint32_t decision, int round, i
   cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
   WishShape out;
   out.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F);
+  out.turn_share = std::clamp(shape.turn_share + 0.25F * draws.normal(), 0.0F, 1.0F);
   out.aside = std::clamp(shape.aside + 0.15F * bounds.turn * draws.normal(), -bounds.turn, bounds.turn);
   out.aside_steps = std::clamp(shape.aside_steps + 4.0F * draws.normal(), 0.0F, kMost);
   out.back = std::clamp(shape.back + 0.4F * draws.normal(), 0.0F, 1.0F);

@@ -35,9 +35,10 @@ struct WishedWay {
 [[nodiscard]] float seconds_off(const WishedWay& wish, const RobotState* states, const MotionBounds& bounds) noexcept;
 
 /// One way of nearly obeying: a share of the wish, turned aside for some steps, then back, then as wished; then to
-/// rest.
+/// rest. None of the wished turn goes straight on: a hand that trembles asks for no circle.
 struct WishShape {
   float share = 1.0F;                                ///< of the wished speed, 0 to 1
+  float turn_share = 1.0F;                           ///< of the wished turn, 0 to 1
   float aside = 0.0F;                                ///< rad/s more than wished
   float aside_steps = 0.0F;                          ///< for so many steps
   float back = 0.0F;                                 ///< and for this share of them as much less

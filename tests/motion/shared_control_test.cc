@@ -182,6 +182,39 @@ TEST_CASE("it does not drive into somebody who comes") {
   }
 }
 
+TEST_CASE("in a walker's way already, with nothing left to lose by that, it still stops before it touches the walker") {
+  const tests::Ground open;
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    for (const double aside : {0.0, 0.2}) {
+      Ride ride(open, model);
+      ride.stick = {1.0, 0.0};
+      ride.has_mover = true;
+      ride.mover = {model.footprint.front_m + 1.6, aside}, ride.walks = {-0.4, 0.0};  // head-on; heeds nobody
+      for (int k = 0; k < 300 && ride.gap_to(ride.mover) > 0.27 + 0.02; ++k) ride.run(kTick * 0.5);
+      CAPTURE(model.name, aside, ride.pose.x, ride.twist.v_mps);
+      const bool met = ride.gap_to(ride.mover) < 0.3;  // or it has let it pass
+      CHECK((!met || std::fabs(ride.twist.v_mps) < 0.02));
+    }
+  }
+}
+
+TEST_CASE("through a door by a hand that trembles: the turn that is asked for now is not asked for to the end") {
+  tests::Ground ground;
+  ground.wall({2.5, -3.0}, {2.5, -0.35}).wall({2.5, 0.55}, {2.5, 3.0});  // 0.90 m, its middle 0.10 m to the left
+  for (const double turn : {-0.3, -0.2, 0.2, 0.3}) {
+    for (const double hold_s : {0.3, 0.5, 0.8, 1.2}) {
+      Ride ride(ground, wheelchair());
+      for (int k = 0; k * hold_s < 20.0 && ride.pose.x < 3.2; ++k) {
+        const double off = std::atan2(-ride.pose.y, 5.0 - ride.pose.x) - ride.pose.heading;
+        ride.stick = {1.0, 1.2 * off + (k % 2 == 0 ? turn : -turn)};
+        ride.run(hold_s);
+      }
+      CAPTURE(turn, hold_s, ride.pose.x, ride.pose.y);
+      CHECK(ride.pose.x > 3.2);
+    }
+  }
+}
+
 TEST_CASE("half a second without a decision stops it") {
   const tests::Ground open;
   SharedControl shared({.footprint = p3dx().footprint, .limits = p3dx().limits, .laser = p3dx().laser, .tick_s = kTick},
