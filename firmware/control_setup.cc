@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
+#include <utility>
 #include <vector>
 
 #include "hal/types/errors.h"
@@ -42,6 +44,58 @@ constexpr double kCell_m = 0.1;  // the paper's
 /// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
 const double kMoverMargin_m = PlannerConfig{}.mover_margin_m;
+
+/// Runs of equal cells: "12u3f1w".
+std::string runs_of(const std::vector<KnownCell>& cells) {
+  std::string text;
+  for (std::size_t k = 0; k < cells.size();) {
+    const std::size_t first = k;
+    while (k < cells.size() && cells[k] == cells[first]) ++k;
+    text += std::to_string(k - first) + "ufw"[static_cast<std::size_t>(cells[first])];
+  }
+  return text;
+}
+
+/// Throws std::invalid_argument where these are no runs of so many cells.
+std::vector<KnownCell> cells_of(const std::string& runs, std::size_t count) {
+  std::vector<KnownCell> cells;
+  std::size_t length = 0;
+  for (const char c : runs) {
+    if (c >= '0' && c <= '9') length = 10 * length + static_cast<std::size_t>(c - '0');
+    if (length > count) throw std::invalid_argument("runs of too many cells");
+    if (c >= '0' && c <= '9') continue;
+    const std::size_t kind = std::string("ufw").find(c);
+    if (kind == std::string::npos || cells.size() + length > count) throw std::invalid_argument("no runs of cells");
+    cells.insert(cells.end(), length, static_cast<KnownCell>(kind));
+    length = 0;
+  }
+  if (cells.size() != count) throw std::invalid_argument("runs of too few cells");
+  return cells;
+}
+
+nlohmann::json json_of(const KnownMap& map) {
+  return {{"cell_m", map.cell_m},
+          {"low", {map.low.i, map.low.j}},
+          {"size", {map.width, map.height}},
+          {"cells", runs_of(map.cells)}};
+}
+
+std::shared_ptr<const KnownMap> known_map_of(const nlohmann::json& json) {
+  constexpr std::int32_t kMostCells = 4096;
+  const auto low = json.at("low").get<std::array<std::int32_t, 2>>();
+  const auto size = json.at("size").get<std::array<std::int32_t, 2>>();
+  if (size[0] < 1 || size[1] < 1 || size[0] > kMostCells || size[1] > kMostCells)
+    throw std::invalid_argument("a map of no size");
+  KnownMap map{json.at("cell_m").get<double>(), {low[0], low[1]}, size[0], size[1], {}};
+  map.cells = cells_of(json.at("cells").get<std::string>(),
+                       static_cast<std::size_t>(size[0]) * static_cast<std::size_t>(size[1]));
+  return std::make_shared<const KnownMap>(std::move(map));
+}
+
+[[noreturn]] void refuse_setup(const std::string& place, const std::exception& error) {
+  throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
+                     "give a recording that this program wrote");
+}
 
 }  // namespace
 
@@ -89,6 +143,7 @@ std::string to_text(const ControlSetup& setup) {
   if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
   json["berth_m"] = setup.berth_m;
   if (!setup.zones.empty()) json["zones"] = setup.zones;
+  if (setup.known_map) json["known_map"] = json_of(*setup.known_map);
   return json.dump();
 }
 
@@ -104,10 +159,12 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.steering = json.value("steering", StickUse::kNone);
     setup.berth_m = json.value("berth_m", setup.berth_m);
     setup.zones = json.value("zones", setup.zones);
+    if (json.contains("known_map")) setup.known_map = known_map_of(json["known_map"]);
     return setup;
   } catch (const nlohmann::json::exception& error) {
-    throw StartupError(place + ": not a controller's setup (" + error.what() + ")",
-                       "give a recording that this program wrote");
+    refuse_setup(place, error);
+  } catch (const std::invalid_argument& error) {
+    refuse_setup(place, error);
   }
 }
 

@@ -10,6 +10,7 @@
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "planner/baseline/choice.h"
+#include "planner/grid/known_map.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -33,8 +34,9 @@ struct ControlSetup {
   /// Commanded, felt and seen motion are compared; false for a log whose wheels obeyed another controller.
   bool judges_motion = true;
   double rate_hz = 50.0;
-  std::vector<MapZone> zones{};  ///< where not to drive, and where slowly
-  double berth_m = 1.0;          ///< people nearer than this cost; hal/comfort.h
+  std::shared_ptr<const KnownMap> known_map{};  ///< what is known before the first scan; null: nothing
+  std::vector<MapZone> zones{};                 ///< where not to drive, and where slowly
+  double berth_m = 1.0;                         ///< people nearer than this cost; hal/comfort.h
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
   /// one with the circle inside it and a FootprintGuide. At constant speed nothing can be guided.

@@ -16,7 +16,8 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
   return {.robot_from_laser = setup.model.laser.robot_from_laser,
           .cell_m = setup.planner().cell_m,
           .map_centre = (setup.start.position() + setup.goal) * 0.5,
-          .body = setup.model.footprint};
+          .body = setup.model.footprint,
+          .known_map = setup.known_map.get()};
 }
 
 }  // namespace

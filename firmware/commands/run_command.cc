@@ -17,6 +17,7 @@
 #include "firmware/robot/armed_mark.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
+#include "firmware/robot/known_map_file.h"
 #include "firmware/robot/no_pose_source.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/planner_thread.h"
@@ -126,6 +127,21 @@ EvidenceMap map_like_the_loops(const RobotFile& file) {
   return {PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m, {}};
 }
 
+/// With a map and no start: where the first scan was taken.
+void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& clock) {
+  if (!file.setup.known_map || file.knows_start) return;
+  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock);
+  await_first_scan(*laser, file, clock);
+  LaserScan scan = laser->latest();
+  blank(file.setup.model.laser.blanked, scan);
+  file.setup.start = located_on(*file.setup.known_map, scan, file.setup.model.laser, path.string() + ": map: ");
+  file.setup.goal = file.setup.start.position();
+  const Pose2& start = file.setup.start;
+  char words[80];
+  std::snprintf(words, sizeof words, "found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
+  remark(words);
+}
+
 std::unique_ptr<RunView> view_for(const RunOptions& options, const RobotFile& file) {
   if (!options.view) return nullptr;
   return std::make_unique<RunView>(*options.view, socket_for(options, file), options.robot.filename().string(),
@@ -146,6 +162,7 @@ int run_robot(RunOptions options) {
   ServiceManager service = ServiceManager::from_environment();
   ArmedMark armed(socket_for(options, file));
   SteadyClock clock;
+  locate_on_map(options.robot, file, clock);
   RobotDevices devices(file, clock);
   OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();

@@ -4,6 +4,7 @@
 #include <cctype>
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/robot/known_map_file.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"
@@ -68,6 +69,11 @@ PanelWiring read_panel(TomlTable table, StickUse& steering) {
   return panel;
 }
 
+void read_map(TomlTable table, ControlSetup& setup) {
+  setup.known_map = load_known_map(table.existing_file("yaml"), setup.planner().cell_m);
+  table.finish();
+}
+
 NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before, const ControlSetup& setup) {
   NamedPlace place{.name = table.text("name"), .order = {}};
   const auto is_of_a_name = [](char c) {
@@ -102,6 +108,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   if (root.has("start")) {
     const auto start = root.place_in_map("start", 3);
     setup.start = {start[0], start[1], wrap_angle(start[2])};
+    robot.knows_start = true;
   }
   setup.goal = setup.start.position();
   setup.goal_tolerance_m = root.number("goal_tolerance_m");
@@ -115,6 +122,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"), setup.steering);
   setup.zones = read_zones(root);
+  if (root.has("map")) read_map(root.table("map"), setup);
   for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places, setup));
   robot.control_socket = root.text("control_socket", "");
   root.finish();

@@ -31,7 +31,8 @@ struct PanelWiring {
 };
 
 struct RobotFile {
-  ControlSetup setup;  ///< start pose: where the robot stands when the program starts
+  ControlSetup setup;        ///< start pose: where the robot stands when the program starts
+  bool knows_start = false;  ///< the file says where; with a map and without it the first scan is looked for on the map
   double goal_heading_tolerance_rad = OperatorInput{}.goal_heading_tolerance_rad;
   LaserWiring laser;
   DriveWiring drive;

@@ -17,7 +17,7 @@ struct RasterSettings {
   double cell_m = 0.0;
   Pose2 origin;  ///< the picture's lower left corner in the map
   bool negate = false;
-  double occupied_above = 0.65;
+  double occupied_above = 0.65, free_below = 0.196;
 };
 
 /// The YAML file's keys, each refused with its line when it is wrong.
@@ -105,7 +105,8 @@ RasterSettings read_settings(const std::filesystem::path& file) {
   settings.origin = read_origin(yaml);
   settings.negate = yaml.get<int>("negate", 0) != 0;
   settings.occupied_above = yaml.share("occupied_thresh", 0.65);
-  if (yaml.share("free_thresh", 0.196) > settings.occupied_above) yaml.refuse("free_thresh", "is over occupied_thresh");
+  settings.free_below = yaml.share("free_thresh", 0.196);
+  if (settings.free_below > settings.occupied_above) yaml.refuse("free_thresh", "is over occupied_thresh");
   if (yaml.get<std::string>("mode", "trinary") != "trinary") yaml.refuse("mode", "is not trinary");
   return settings;
 }
@@ -119,6 +120,7 @@ Raster rasterise(const RasterSettings& settings, const GreyImage& image) {
       const int grey = image.grey[top_down * static_cast<std::size_t>(image.width) + column];
       const double occupancy = (settings.negate ? grey : 255 - grey) / 255.0;
       raster.solid.push_back(occupancy > settings.occupied_above);
+      raster.free.push_back(occupancy < settings.free_below);
     }
   }
   return raster;

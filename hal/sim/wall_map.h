@@ -15,12 +15,19 @@ struct Raster {
   double cell_m = 0.0;
   std::int32_t width = 0;
   std::int32_t height = 0;
-  std::vector<std::uint8_t> solid;  ///< width x height, row by row; 1: wall
+  std::vector<std::uint8_t> solid;   ///< width x height, row by row; 1: wall
+  std::vector<std::uint8_t> free{};  ///< the same; 1: known to be none, below free_thresh. Empty for a bare picture
 
   /// False outside the raster.
   [[nodiscard]] bool solid_cell(std::int32_t column, std::int32_t row) const noexcept {
     if (column < 0 || row < 0 || column >= width || row >= height) return false;
     return solid[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+  }
+  /// Of a cell inside.
+  [[nodiscard]] bool free_cell(std::int32_t column, std::int32_t row) const noexcept {
+    const std::size_t cell =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+    return cell < free.size() && free[cell] != 0;
   }
 };
 

@@ -87,7 +87,7 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) 
   const CellIndex cell = cell_at(p);
   if (!contains(cell)) return;
   const std::size_t k = slot(cell);
-  const bool fresh = evidence_[k] <= 0;
+  const bool fresh = evidence_[k] <= 0 || to_laser_[k].x == kToldOnly;
   const Vec2 offset = (p - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
   // What is certain stays where it was first seen: a wall that followed every scan would drift along with the pose.
   if (evidence_[k] < kMax)
@@ -101,6 +101,17 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) 
   note_change(k);
 }
 
+void EvidenceMap::tell(CellIndex cell, int evidence, Vec2 surface) noexcept {
+  if (!contains(cell)) return;
+  const std::size_t k = slot(cell);
+  const Vec2 offset = (surface - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
+  evidence_[k] = static_cast<std::int8_t>(std::clamp(evidence, kMin, kMax));
+  seen_for_[k] = evidence > 0 ? static_cast<std::uint8_t>(kSeenUnitsPerS * kStandsAfterS) : std::uint8_t{0};
+  surface_[k] = {moved_offset(0, offset.x, true), moved_offset(0, offset.y, true)};
+  to_laser_[k] = {kToldOnly, 0};
+  note_change(k);
+}
+
 Vec2 EvidenceMap::surface(CellIndex cell) const {
   const Offset& offset = surface_[slot(cell)];
   return centre_of(cell) + Vec2{offset.x * 1.0, offset.y * 1.0} * (0.5 * cell_m_ / 128.0);
@@ -108,6 +119,7 @@ Vec2 EvidenceMap::surface(CellIndex cell) const {
 
 Vec2 EvidenceMap::to_laser(CellIndex cell) const {
   const Offset& towards = to_laser_[slot(cell)];
+  if (towards.x == kToldOnly) return {};
   return {towards.x / kUnit, towards.y / kUnit};
 }
 

@@ -35,7 +35,9 @@ struct Tracker::State {
         still(c.map_side_cells, c.cell_m, c.map_centre),
         entry(still),
         loose(still),
-        scene(c.robot_from_laser) {}
+        scene(c.robot_from_laser) {
+    if (c.known_map != nullptr) enter(*c.known_map, still);
+  }
 
   void predict_all_to(Time stamp) noexcept;
   void forget_bodies() noexcept;

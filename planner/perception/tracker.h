@@ -7,6 +7,7 @@
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
 #include "planner/grid/evidence_map.h"
+#include "planner/grid/known_map.h"
 #include "planner/perception/stander.h"
 #include "planner/perception/track.h"
 
@@ -18,6 +19,7 @@ struct PerceptionConfig {
   std::int32_t map_side_cells = 1024;
   Vec2 map_centre;   ///< where the evidence map is centred at start
   Footprint body{};  ///< of the robot: where it stands nothing else does. Without size: nothing is said of that
+  const KnownMap* known_map = nullptr;  ///< what stands before the first scan; the constructor reads it
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.

@@ -3,7 +3,7 @@
 namespace jaywalk {
 
 SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, const Edit& edit, PlanMode mode,
-                               const std::string& recording) {
+                               const std::string& recording, const std::function<void(ControlSetup&)>& edit_setup) {
   sim::Scenario scenario = sim::load_scenario(std::string(JAYWALK_SCENARIOS) + "/" + name + ".toml");
   scenario.pose_source.enabled = mode == PlanMode::kPaper;
   if (edit) edit(scenario);
@@ -14,6 +14,7 @@ SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, cons
   setup_.start = scenario.start;
   setup_.goal = scenario.goal;
   setup_.zones = scenario.zones;
+  if (edit_setup) edit_setup(setup_);
   simulation_ = std::make_unique<sim::Simulation>(scenario, seed);
   planner_ = make_planner(setup_.planner(), setup_.backend);
   recorder_ = std::make_unique<Recorder>(RecorderConfig{.file = recording, .setup = to_text(setup_)});

@@ -16,7 +16,8 @@ class SimulatedDrive {
   /// `edit` may change the scenario (add a fault, move the goal) before the world is built.
   using Edit = std::function<void(sim::Scenario&)>;
   SimulatedDrive(const std::string& scenario, std::uint64_t seed, const Edit& edit = {},
-                 PlanMode mode = PlanMode::kFull, const std::string& recording = "");
+                 PlanMode mode = PlanMode::kFull, const std::string& recording = "",
+                 const std::function<void(ControlSetup&)>& edit_setup = {});
 
   const TickRecord& tick();
   /// Sleeps until the next tick is due without ticking: what an allocation guard must not see.

@@ -27,6 +27,9 @@ class SettingsBench {
   SettingsBench() {
     std::filesystem::create_directories(folder_);
     std::ofstream(folder_ / "posts.txt") << "-8 -8 0.2\n8 -8 0.2\n8 8 0.2\n-8 8 0.2\n";
+    std::ofstream(folder_ / "hall.pgm") << "P5\n1 1\n255\n\xFE";
+    std::ofstream(folder_ / "hall.yaml") << "image: hall.pgm\nresolution: 0.1\norigin: [0.0, 0.0, 0.0]\nnegate: 0\n"
+                                            "occupied_thresh: 0.65\nfree_thresh: 0.196\n";
     std::ofstream(folder_ / "stick.csv") << "t_s,forward,left\n0,1,0\n";
     std::ofstream(folder_ / "rows.csv") << "t_s,id,x_m,y_m\n0,1,0,4\n5,1,1,4\n";
   }

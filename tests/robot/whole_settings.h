@@ -91,6 +91,8 @@ priority = 80
 lock_memory = true
 cpu = 3
 required = true
+[map]
+yaml = "hall.yaml"
 [[zones]]
 kind = "keep_out"
 points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]

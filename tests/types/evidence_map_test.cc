@@ -98,3 +98,20 @@ TEST_CASE("a map that follows another has all of it, whatever has been added, hi
   follower.follow(other);
   CHECK(follower.evidence({30, 30}) == 50);
 }
+
+TEST_CASE("what a map tells of a cell is believed; where its surface lies the first hit says") {
+  EvidenceMap map(64, 0.1, {0.0, 0.0});
+  map.tell({0, 0}, 40, {0.09, 0.05});
+  map.tell({1, 0}, -40, {0.15, 0.05});
+  CHECK(map.occupied({0, 0}));
+  CHECK(map.stands({0, 0}));
+  CHECK(map.seen_free({1, 0}));
+  CHECK(map.surface({0, 0}).x == Approx(0.09).margin(0.0005));  // to 1/128 of half a cell
+  CHECK(map.to_laser({0, 0}) == Vec2{});
+  map.add_hit({0.02, 0.06}, 10, 0.05, {1.0, 0.0});
+  CHECK(map.evidence({0, 0}) == 50);
+  CHECK(map.surface({0, 0}).x == Approx(0.02).margin(0.0005));
+  CHECK(map.to_laser({0, 0}).x == 1.0);
+  map.add_hit({0.10 - 1e-9, 0.06}, 10, 0.05, {1.0, 0.0});  // and from then on a mean
+  CHECK(map.surface({0, 0}).x == Approx(0.03).margin(0.0005));
+}

@@ -1,0 +1,102 @@
+#include "firmware/robot/known_map_file.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+
+#include "hal/sim/wall_map.h"
+#include "hal/types/errors.h"
+#include "planner/localization/global_search.h"
+#include "planner/localization/scan_matcher.h"
+#include "planner/perception/scan_points.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr std::int32_t kMostCells = 2048;
+constexpr double kLeastShare = 0.6;  ///< of a scan's points that lie on walls where it was taken; the rest are people
+constexpr double kNearlyAsWell = 0.97;  ///< of the best place's share
+constexpr std::size_t kFewestPoints = 30;
+
+struct Box {
+  Vec2 low{1e9, 1e9}, high{-1e9, -1e9};
+};
+
+Box box_of(const sim::Raster& raster) {
+  Box box;
+  const double width = raster.width * raster.cell_m, height = raster.height * raster.cell_m;
+  for (const Vec2 corner : {Vec2{0.0, 0.0}, Vec2{width, 0.0}, Vec2{0.0, height}, Vec2{width, height}}) {
+    const Vec2 p = raster.map_from_raster * corner;
+    box.low = {std::min(box.low.x, p.x), std::min(box.low.y, p.y)};
+    box.high = {std::max(box.high.x, p.x), std::max(box.high.y, p.y)};
+  }
+  return box;
+}
+
+std::int32_t cell_of(double metres, double cell_m) { return static_cast<std::int32_t>(std::floor(metres / cell_m)); }
+
+/// Marks the cells of the map under each part of a raster's cell: parts no larger than half a cell of the map.
+void draw(const sim::Raster& raster, KnownMap& map) {
+  const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * raster.cell_m / map.cell_m)));
+  const Transform2 map_from_raster(raster.map_from_raster);
+  for (std::int32_t row = 0; row < raster.height; ++row) {
+    for (std::int32_t column = 0; column < raster.width; ++column) {
+      const bool wall = raster.solid_cell(column, row);
+      if (!wall && !raster.free_cell(column, row)) continue;
+      for (int k = 0; k < parts * parts; ++k) {
+        const Vec2 part{column + (k % parts + 0.5) / parts, row + (k / parts + 0.5) / parts};
+        const Vec2 p = map_from_raster * (part * raster.cell_m);
+        const CellIndex at{cell_of(p.x, map.cell_m), cell_of(p.y, map.cell_m)};
+        if (map.holds(at)) map.mark(at, wall ? KnownCell::kWall : KnownCell::kFree);
+      }
+    }
+  }
+}
+
+std::string text_of(const Pose2& pose) {
+  char text[80];
+  std::snprintf(text, sizeof text, "[%.1f, %.1f, %.2f]", pose.x, pose.y, pose.heading);
+  return text;
+}
+
+}  // namespace
+
+std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml, double cell_m) {
+  const sim::Raster raster = sim::load_raster_map(yaml).raster;
+  const Box box = box_of(raster);
+  auto map = std::make_shared<KnownMap>();
+  map->cell_m = cell_m;
+  map->low = {cell_of(box.low.x, cell_m), cell_of(box.low.y, cell_m)};
+  map->width = cell_of(box.high.x, cell_m) - map->low.i + 1;
+  map->height = cell_of(box.high.y, cell_m) - map->low.j + 1;
+  if (map->width > kMostCells || map->height > kMostCells)
+    throw StartupError(yaml.string() + ": more than " + std::to_string(kMostCells) + " cells of " +
+                           std::to_string(cell_m) + " m a side",
+                       "cut the map to where the robot drives");
+  map->cells.assign(static_cast<std::size_t>(map->width) * static_cast<std::size_t>(map->height), KnownCell::kUnknown);
+  draw(raster, *map);
+  return map;
+}
+
+Pose2 located_on(const KnownMap& map, const LaserScan& scan, const LaserModel& laser, const std::string& place) {
+  ScanProjection projection;
+  ScanPoints points;
+  projection.project(scan, laser.robot_from_laser, {}, points);
+  MatchSample sample;
+  sample_of(points, sample);
+  const std::string remedy = "give start = [x, y, heading]";
+  if (sample.size() < kFewestPoints)
+    throw StartupError(place + "the scan has too few points to find its place", remedy);
+  const GlobalMatch match = search_everywhere(map, sample);
+  char share[40];
+  std::snprintf(share, sizeof share, "%.0f %% of the scan", 100.0 * match.share);
+  if (match.share < kLeastShare)
+    throw StartupError(place + "the scan fits nowhere on the map: " + share + " at most", remedy);
+  if (match.other && match.other_share > kNearlyAsWell * match.share)
+    throw StartupError(
+        place + "the scan fits at " + text_of(match.map_from_robot) + " and nearly as well at " + text_of(*match.other),
+        remedy);
+  return match.map_from_robot;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,143 @@
+#include "planner/localization/global_search.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+namespace jaywalk {
+namespace {
+
+constexpr std::int32_t kStepCells = 2;
+constexpr int kHeadings = 90;                       ///< in a turn
+constexpr std::size_t kCoarsePoints = 60;           ///< of the sample
+constexpr std::int32_t kRoughly = 3;                ///< cells: what half a coarse step moves points 8 m off
+constexpr int kFineSteps = 6;                       ///< of 5 cm to each side
+constexpr int kFineTurns = 5;                       ///< of a degree
+constexpr std::size_t kKept = 400, kLookedAt = 40;  ///< coarse poses; of these, apart from each other, closely
+constexpr double kApart_m = 1.0, kApart_rad = 0.52;
+constexpr std::uint8_t kOnWall = 10, kBesideWall = 9;  ///< tenths of a point's worth
+
+struct Scored {
+  Pose2 pose;
+  double share = 0.0;
+};
+
+/// What a point is worth in each cell.
+class Worth {
+ public:
+  /// Up to `beside` cells off counts as beside a wall.
+  Worth(const KnownMap& map, std::int32_t beside) : map_(map), worth_(map.cells.size(), 0) {
+    for (std::int32_t j = 0; j < map.height; ++j) {
+      for (std::int32_t i = 0; i < map.width; ++i) {
+        if (map.at({map.low.i + i, map.low.j + j}) == KnownCell::kWall) mark(i, j, beside);
+      }
+    }
+  }
+  [[nodiscard]] double share(const MatchSample& sample, std::size_t stride, const Pose2& pose) const {
+    const Transform2 to_map(pose);
+    std::uint32_t sum = 0, count = 0;
+    for (std::size_t k = 0; k < sample.size(); k += stride, ++count) sum += at(to_map * sample[k]);
+    return static_cast<double>(sum) / (kOnWall * std::max(count, 1U));
+  }
+
+ private:
+  void mark(std::int32_t i, std::int32_t j, std::int32_t beside) {
+    for (std::int32_t y = std::max(j - beside, 0); y <= std::min(j + beside, map_.height - 1); ++y) {
+      for (std::int32_t x = std::max(i - beside, 0); x <= std::min(i + beside, map_.width - 1); ++x) {
+        std::uint8_t& worth =
+            worth_[static_cast<std::size_t>(y) * static_cast<std::size_t>(map_.width) + static_cast<std::size_t>(x)];
+        worth = std::max(worth, x == i && y == j ? kOnWall : kBesideWall);
+      }
+    }
+  }
+  [[nodiscard]] std::uint8_t at(Vec2 p) const {
+    const double i = std::floor(p.x / map_.cell_m) - map_.low.i, j = std::floor(p.y / map_.cell_m) - map_.low.j;
+    if (!(i >= 0.0 && j >= 0.0 && i < map_.width && j < map_.height)) return 0;
+    return worth_[static_cast<std::size_t>(j) * static_cast<std::size_t>(map_.width) + static_cast<std::size_t>(i)];
+  }
+
+  const KnownMap& map_;
+  std::vector<std::uint8_t> worth_;
+};
+
+bool are_apart(const Pose2& a, const Pose2& b) {
+  return distance(a.position(), b.position()) > kApart_m || std::fabs(wrap_angle(a.heading - b.heading)) > kApart_rad;
+}
+
+bool is_better(const Scored& a, const Scored& b) { return a.share > b.share; }
+
+/// The best of `poses`, best first, that are apart from each other.
+std::vector<Scored> best_apart(const std::vector<Scored>& poses) {
+  std::vector<Scored> chosen;
+  for (const Scored& one : poses) {
+    const auto is_near = [&one](const Scored& better) { return !are_apart(one.pose, better.pose); };
+    if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(one);
+    if (chosen.size() == kLookedAt) break;
+  }
+  return chosen;
+}
+
+/// Coarse poses, the best ones among them, best first.
+std::vector<Scored> look_everywhere(const KnownMap& map, const Worth& worth, const MatchSample& sample) {
+  const std::size_t stride = sample.size() / kCoarsePoints + 1;
+  std::vector<Scored> kept;
+  for (std::int32_t j = 0; j < map.height; j += kStepCells) {
+    for (std::int32_t i = 0; i < map.width; i += kStepCells) {
+      if (map.at({map.low.i + i, map.low.j + j}) != KnownCell::kFree) continue;
+      const Vec2 p{(map.low.i + i + 0.5) * map.cell_m, (map.low.j + j + 0.5) * map.cell_m};
+      Scored best, other;  // of each place: the best heading, and the best that is another
+      std::array<Scored, kHeadings> all;
+      for (int k = 0; k < kHeadings; ++k) {
+        const Pose2 pose{p.x, p.y, wrap_angle(2.0 * kPi * k / kHeadings)};
+        all[static_cast<std::size_t>(k)] = {pose, worth.share(sample, stride, pose)};
+      }
+      for (const Scored& one : all)
+        if (one.share > best.share) best = one;
+      for (const Scored& one : all)
+        if (one.share > other.share && are_apart(one.pose, best.pose)) other = one;
+      kept.push_back(best);
+      kept.push_back(other);
+      if (kept.size() < 16 * kKept) continue;
+      std::partial_sort(kept.begin(), kept.begin() + kKept, kept.end(), is_better);
+      kept.resize(kKept);
+    }
+  }
+  std::sort(kept.begin(), kept.end(), is_better);
+  return kept;
+}
+
+Scored looked_at_closely(const Worth& worth, const MatchSample& sample, const Scored& coarse) {
+  Scored best = coarse;
+  best.share = 0.0;
+  for (int h = -kFineTurns; h <= kFineTurns; ++h) {
+    for (int y = -kFineSteps; y <= kFineSteps; ++y) {
+      for (int x = -kFineSteps; x <= kFineSteps; ++x) {
+        const Pose2 pose{coarse.pose.x + 0.05 * x, coarse.pose.y + 0.05 * y,
+                         wrap_angle(coarse.pose.heading + h * kPi / 180.0)};
+        const double share = worth.share(sample, 1, pose);
+        if (share > best.share) best = {pose, share};
+      }
+    }
+  }
+  return best;
+}
+
+}  // namespace
+
+GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample) {
+  const Worth roughly(map, kRoughly), worth(map, 1);
+  std::vector<Scored> found;
+  for (const Scored& coarse : best_apart(look_everywhere(map, roughly, sample)))
+    found.push_back(looked_at_closely(worth, sample, coarse));
+  if (found.empty()) return {};
+  const Scored best = *std::min_element(found.begin(), found.end(), is_better);
+  GlobalMatch match{best.pose, best.share, std::nullopt, 0.0};
+  for (const Scored& other : found) {
+    if (are_apart(other.pose, best.pose) && other.share > match.other_share)
+      match.other = other.pose, match.other_share = other.share;
+  }
+  return match;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,100 @@
+// A map that a run begins with, read from a ROS map_server file, and a scan's place on it.
+#include <fstream>
+
+#include "firmware/robot/known_map_file.h"
+#include "hal/sim/simulation.h"
+#include "hal/types/errors.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+const std::string kMaps = JAYWALK_OWN_MAPS;
+
+/// What the laser of a P3-DX sees from a pose on one of the project's maps.
+LaserScan scan_on(const std::string& map, const Pose2& pose) {
+  sim::Scenario scenario;
+  scenario.map_file = kMaps + "/" + map + ".yaml";
+  scenario.start = pose;
+  scenario.goal = pose.position();
+  scenario.model = p3dx();
+  sim::Simulation simulation(scenario, 3);
+  simulation.hal().clock.sleep_until(Time{std::chrono::milliseconds(200)});
+  return simulation.hal().laser.latest();
+}
+
+Pose2 located(const std::string& map, const Pose2& pose) {
+  return located_on(*load_known_map(kMaps + "/" + map + ".yaml", 0.1), scan_on(map, pose), p3dx().laser,
+                    "robot.toml: ");
+}
+
+std::string refusal(const std::string& map, const Pose2& pose) {
+  try {
+    static_cast<void>(located(map, pose));
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+  return "found";
+}
+
+}  // namespace
+
+TEST_CASE("a map's cells are walls, free or unknown, in cells of 0.1 m whatever its own") {
+  const Scratch scratch;
+  // Two columns and one row of 0.2 m from (-0.4, 0): a wall, then free; above them unknown and free.
+  scratch.write("m.pgm", std::string("P5\n2 2\n255\n") + '\xCD' + '\xFE' + '\x00' + '\xFE');
+  const auto yaml = scratch.write("m.yaml",
+                                  "image: m.pgm\nresolution: 0.2\norigin: [-0.4, 0.0, 0.0]\nnegate: 0\n"
+                                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const auto map = load_known_map(yaml, 0.1);
+  for (const std::int32_t j : {0, 1}) {
+    CHECK(map->at({-4, j}) == KnownCell::kWall);
+    CHECK(map->at({-3, j}) == KnownCell::kWall);
+    CHECK(map->at({-2, j}) == KnownCell::kFree);
+    CHECK(map->at({-1, j}) == KnownCell::kFree);
+  }
+  CHECK(map->at({-4, 3}) == KnownCell::kUnknown);
+  CHECK(map->at({-1, 3}) == KnownCell::kFree);
+  CHECK(map->at({-5, 0}) == KnownCell::kUnknown);
+}
+
+TEST_CASE("a map that is turned lies where its origin says") {
+  const Scratch scratch;
+  // A row of three cells of 0.1 m that runs up the y axis: free, free, wall.
+  scratch.write("m.pgm", std::string("P5\n3 1\n255\n") + '\xFE' + '\xFE' + '\x00');
+  const auto yaml = scratch.write("m.yaml",
+                                  "image: m.pgm\nresolution: 0.1\norigin: [1.0, 2.0, 1.5707963267948966]\nnegate: 0\n"
+                                  "occupied_thresh: 0.65\nfree_thresh: 0.196\n");
+  const auto map = load_known_map(yaml, 0.1);
+  CHECK(map->at({9, 20}) == KnownCell::kFree);
+  CHECK(map->at({9, 22}) == KnownCell::kWall);
+}
+
+TEST_CASE("a scan is found on the map, wherever it was taken and however turned") {
+  const std::pair<const char*, Pose2> places[] = {
+      {"map4", {3.0, 4.0, 0.3}}, {"map4", {13.0, 13.0, -2.0}}, {"map2", {12.0, 12.0, 2.0}}, {"map3", {4.0, 9.0, 1.0}}};
+  for (const auto& [map, pose] : places) {
+    INFO(map << " " << pose.x << " " << pose.y << " " << pose.heading);
+    const Pose2 found = located(map, pose);
+    CHECK(distance(found.position(), pose.position()) < 0.1);
+    CHECK(std::fabs(wrap_angle(found.heading - pose.heading)) < 0.03);
+  }
+}
+
+TEST_CASE("a place that has a twin is refused, and so is a scan of another place; both say what to give") {
+  // The hall of crossing.yaml is the same turned by half a turn about (10, 7).
+  const std::string twin = refusal("crossing", {10.0, 7.0, 0.4});
+  CHECK(twin.find("robot.toml: the scan fits at [") == 0);
+  CHECK(twin.find("and nearly as well at [") != std::string::npos);
+  CHECK(twin.find("give start = [x, y, heading]") != std::string::npos);
+  const auto other = load_known_map(kMaps + "/door.yaml", 0.1);
+  std::string said;
+  try {
+    static_cast<void>(located_on(*other, scan_on("map1", {5.0, 20.0, 0.0}), p3dx().laser, "robot.toml: "));
+  } catch (const StartupError& error) {
+    said = error.what();
+  }
+  CHECK(said.find("robot.toml: the scan fits nowhere on the map") == 0);
+}
