@@ -91,3 +91,25 @@ TEST_CASE("where a keep-out zone closes the only way the robot stays outside") {
     CHECK(done.nearest_m > 0.0);
   }
 }
+
+TEST_CASE("a robot that is driven by a stick stops before a keep-out zone, and is as slow as a speed zone wants") {
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    INFO(model.name);
+    const MapZone closed = box({2.9, 0.0}, {3.4, 2.6}), slow = box({0.0, 0.0}, {2.9, 2.6}, ZoneKind::kSpeed, 0.2);
+    SimulatedDrive drive("stick_wall", 1, [&](sim::Scenario& s) {
+      s.model = model;
+      s.zones = {closed, slow};
+    });
+    double nearest_m = 1e9, fastest_mps = 0.0;
+    drive.drive(12.0, [&](const TickRecord&) {
+      const sim::Truth& truth = drive.truth();
+      nearest_m = std::min(nearest_m, body_to_zone_m(closed, truth.map_from_robot, model.footprint));
+      fastest_mps = std::max(fastest_mps, std::fabs(truth.twist.v_mps));
+      return false;
+    });
+    CHECK(nearest_m > 0.0);
+    CHECK(nearest_m < 0.4);  // it came there
+    CHECK(fastest_mps > 0.15);
+    CHECK(fastest_mps < 0.21);
+  }
+}
