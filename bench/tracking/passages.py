@@ -53,6 +53,7 @@ WALK = """t_s,id,x_m,y_m
 def arguments():
     made = parser(__doc__, "passages", "302-303")
     made.add_argument("--from-the-start", action="store_true", help="he stands there before the robot looks")
+    made.add_argument("--model", choices=MODELS, help="this one alone")
     return made.parse_args()
 
 
@@ -94,7 +95,7 @@ def row(model, width, runs):
 
 def main():
     options = arguments()
-    kinds = [(model, width) for model in MODELS for width in WIDTHS]
+    kinds = [(model, width) for model in MODELS if options.model in (None, model) for width in WIDTHS]
     jobs = [(options, *kind, seed + k, way) for kind in kinds for seed in options.seeds for k, way in enumerate(ways(seed))]
     results = all_of(run, jobs, options.jobs)
     print_head("robot, passage", "got past", "waited", "touched him", "nearest, of those that got past", "their speed there, at most")

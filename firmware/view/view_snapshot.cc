@@ -33,7 +33,7 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   if (loop.motion() == nullptr) return;
   const motion::Futures& futures = loop.motion()->futures();
   for (std::size_t mover = 0; mover < futures.movers(); ++mover) {
-    if (futures.is_mapped(mover) || futures.has_stood(mover)) continue;
+    if (futures.is_surface(mover)) continue;
     if (!into.movers.push_back(shown(futures, mover))) break;
   }
 }

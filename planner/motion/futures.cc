@@ -19,20 +19,21 @@ bool in_way(const Walker& w, float dx, float dy, float reach) {
 
 void Futures::draw(std::span<const MoverBelief> seen, std::span<const Walker> hidden, const TurningModel& turning,
                    const Guide& guide, std::uint32_t decision) noexcept {
-  movers_ = 0;
+  movers_ = standing_count_ = 0;
   for (const MoverBelief& belief : seen) {
     if (movers_ == kMostMovers) break;
     for (std::uint32_t k = 0; k < kFutures; ++k) {
       walkers_[movers_].in[k] = Walker::drawn(belief, turning, guide, cell::Draws({decision, kPurpose, belief.id, k}));
     }
-    mapped_[movers_] = !belief.has_walked;
     newcomer_[movers_] = belief.newcomer;
     stood_[movers_] = belief.stood_s > kLongPauseS;
+    surface_[movers_] = !belief.has_walked || stood_[movers_];
+    if (belief.has_walked && stood_[movers_]) standing_[standing_count_++] = {belief.x, belief.y, belief.radius_m};
     radius_[movers_++] = belief.radius_m;
   }
   for (std::size_t at = 0; at + kFutures <= hidden.size() && movers_ < kMostMovers; at += kFutures) {
     std::copy_n(hidden.begin() + static_cast<std::ptrdiff_t>(at), kFutures, walkers_[movers_].in);
-    mapped_[movers_] = newcomer_[movers_] = stood_[movers_] = false;
+    surface_[movers_] = newcomer_[movers_] = stood_[movers_] = false;
     radius_[movers_++] = hidden[at].radius;
   }
   for (int step = 0; step < kFutureSteps; ++step) {

@@ -22,6 +22,11 @@ struct MoverAt {
   float mid_x, mid_y, spread;  ///< a circle that holds the places in all futures
 };
 
+/// A pedestrian who has stood for long.
+struct StandingDisc {
+  float x, y, radius;
+};
+
 /// Joint futures of all movers: in each they walk, stop, turn away from walls and from each other, and set out.
 /// Memory in the constructor. Thread: the loop's.
 class Futures {
@@ -33,8 +38,10 @@ class Futures {
             const Guide& guide, std::uint32_t decision) noexcept;
 
   [[nodiscard]] std::size_t movers() const { return movers_; }
-  /// The map holds it where it stands: it was never seen to walk.
-  [[nodiscard]] bool is_mapped(std::size_t mover) const { return mapped_[mover]; }
+  /// While it stands it is a surface: the map's, if it was never seen to walk, or one of standing().
+  [[nodiscard]] bool is_surface(std::size_t mover) const { return surface_[mover]; }
+  /// Those who have stood for long, where they stand: the same in all futures.
+  [[nodiscard]] std::span<const StandingDisc> standing() const { return {standing_, standing_count_}; }
   /// Most likely no pedestrian: nothing is owed to it while it stands.
   [[nodiscard]] bool is_newcomer(std::size_t mover) const { return newcomer_[mover]; }
   /// It has stood for long: should it set out, the robot sees that before it drives on.
@@ -54,7 +61,9 @@ class Futures {
   };
   std::vector<Row> walkers_;
   float radius_[kMostMovers] = {};
-  bool mapped_[kMostMovers] = {}, newcomer_[kMostMovers] = {}, stood_[kMostMovers] = {};
+  bool surface_[kMostMovers] = {}, newcomer_[kMostMovers] = {}, stood_[kMostMovers] = {};
+  StandingDisc standing_[kMostMovers] = {};
+  std::size_t standing_count_ = 0;
   std::uint32_t blocked_[kMostMovers] = {};  ///< a bit a future
   std::size_t movers_ = 0;
 };

@@ -53,7 +53,7 @@ struct Meeting {
   float too_fast = 0.0F;      ///< beside it while it stands: m/s over what is polite, a sum over futures
 };
 
-Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y, float disc_m, float speed,
+Meeting meet(const MoverAt& at, float mover_m, bool is_surface, float x, float y, float disc_m, float speed,
              float berth_m) {
   const float touch = mover_m + disc_m + kMoverMarginM, touch2 = touch * touch;
   const float zone = mover_m + kZoneM, edge = disc_m + kZoneSideM;
@@ -86,7 +86,7 @@ Meeting meet(const MoverAt& at, float mover_m, bool is_mapped, float x, float y,
     m.nearness += near[k];
     m.too_fast += (at.walks >> k & 1U) != 0 ? 0.0F : fast[k];
   }
-  m.touched = is_mapped ? touched & at.walks : touched;
+  m.touched = is_surface ? touched & at.walks : touched;
   m.met = m.touched | (in_zone & at.walks);
   return m;
 }
@@ -142,7 +142,19 @@ class Judge {
  private:
   [[nodiscard]] float clearance_at(const RobotState& r) const {
     const float least = s_.body.to_walls.clearance(s_.guide, r.x, r.y, along_);
-    return s_.wish == nullptr || least >= kByWallM ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along_);
+    const bool coarse = s_.wish == nullptr || least >= kByWallM;
+    return std::min(coarse ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along_), clearance_to_standing(r));
+  }
+
+  /// Who has stood for long is a surface as wide as he is, though the map has his shins alone.
+  [[nodiscard]] float clearance_to_standing(const RobotState& r) const {
+    float least = Guide::kFar_m;
+    for (const StandingDisc& disc : s_.futures.standing()) {
+      const float dx = disc.x - r.x, dy = disc.y - r.y;
+      const float ahead = dx * along_.x + dy * along_.y, left = dy * along_.x - dx * along_.y;
+      least = std::min(least, s_.body.gap(ahead, left) - disc.radius);
+    }
+    return least;
   }
 
   void walls(const RobotState& r, float t) {
@@ -204,7 +216,7 @@ class Judge {
     const int at_step = step < kFutureSteps ? step : kFutureSteps - 1;
     for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
       const MoverAt& at = s_.futures.at(at_step, m);
-      const bool mapped = s_.futures.is_mapped(m);  // while it stands it is a surface like others
+      const bool surface = s_.futures.is_surface(m);
       const float radius = s_.futures.radius(m);
       const float most = std::max(at.spread + radius + kZoneM + discs.radius + 0.1F, at.spread + s_.body.berth_m);
       for (int k = 0; k < discs.count; ++k) {
@@ -212,7 +224,7 @@ class Judge {
         const float y = r.y + discs.ahead[static_cast<std::size_t>(k)] * along_.y;
         const float dx = x - at.mid_x, dy = y - at.mid_y;
         if (dx * dx + dy * dy >= most * most) continue;
-        const Meeting meeting = meet(at, radius, mapped, x, y, discs.radius, speed, s_.body.berth_m);
+        const Meeting meeting = meet(at, radius, surface, x, y, discs.radius, speed, s_.body.berth_m);
         (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
         if (meeting.touched != 0 && s_.wish != nullptr && moves(r))
           all.touched |= nearer(meeting.touched, {{x, y}, at}, {disc_at(s_.start, k), s_.futures.at(0, m)});

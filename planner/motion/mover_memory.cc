@@ -202,7 +202,9 @@ void MoverMemory::add_standers(const Seen& seen) noexcept {
                               .position_std = 0.1F,
                               .velocity_std = 0.02F,
                               .radius_m = static_cast<float>(std::min(kStanderRadiusM, stander.radius_m)),
-                              .usual_mps = turning_.usual_mps});
+                              .usual_mps = turning_.usual_mps,
+                              .has_walked = true,  // its disc is a body, which the map has the shins of
+                              .stood_s = static_cast<float>(std::max(0.0, to_seconds(age(stander.since, seen.now))))});
   }
 }
 

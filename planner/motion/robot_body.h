@@ -1,5 +1,6 @@
 #pragma once
 #include <array>
+#include <cmath>
 
 #include "hal/types/robot_model.h"
 #include "planner/motion/blind_rim.h"
@@ -18,6 +19,14 @@ struct RobotBody {
   float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;              ///< where the supervisor lets it go slowly
   MotionBounds bounds;
+
+  /// From the body's edge to a place in its frame, m; 0 inside.
+  [[nodiscard]] JAYWALK_ANYWHERE float gap(float ahead, float left) const {
+    const float front = rim[0].x, rear = rim[5].x, side = rim[0].y, off = std::fabs(left) - side;
+    const float over = ahead > front ? ahead - front : ahead < rear ? rear - ahead : 0.0F;
+    const float beside = off > 0.0F ? off : 0.0F;
+    return std::sqrt(over * over + beside * beside);
+  }
 };
 
 /// `berth_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.

@@ -9,6 +9,7 @@ struct Stander {
   Vec2 position_in_map;
   double radius_m = 0.0;
   Time last_seen = kNever;  ///< he, or something that stood where he does
+  Time since = kNever;      ///< known to stand there
 };
 
 }  // namespace jaywalk

@@ -43,6 +43,15 @@ Time last_seen(const Stander& stander, const Bodies& bodies, Time now) {
   return std::min(last, now);  // a clock may be set back
 }
 
+/// Since when this place has been known for one that a pedestrian stands at.
+Time stands_since(Vec2 place, double radius_m, const Standers& before, Time now) {
+  Time since = now;
+  for (const Stander& stander : before) {
+    if (distance(stander.position_in_map, place) < radius_m) since = std::min(since, stander.since);
+  }
+  return since;
+}
+
 }  // namespace
 
 void note_standers(const Bodies& bodies, const EvidenceMap& still, const LineOfSight& sight, Time now,
@@ -52,7 +61,8 @@ void note_standers(const Bodies& bodies, const EvidenceMap& still, const LineOfS
   for (const Body& body : bodies) {
     if (!body.somebody || body.track.moving) continue;
     const Track& seen = body.as_seen;
-    (void)standers.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen});  // as many as bodies
+    const Time since = stands_since(seen.position_in_map, body.track.radius_m, before, now);
+    (void)standers.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen, since});  // as many as bodies
   }
   for (Stander stander : before) {
     stander.last_seen = last_seen(stander, bodies, now);

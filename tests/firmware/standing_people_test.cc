@@ -36,7 +36,6 @@ TEST_CASE("a robot keeps clear of somebody who stands in a passage, and not of h
   CHECK(passing.arrived);
   CHECK(passing.contacts == 0);
   CHECK(passing.nearest_m > 0.13);  // 0.09 to 0.10 m when it keeps clear of his shins
-  // There is room beside him, at 0.2 m/s; it waits until he goes on all the same (decision 33).
   CHECK(passing.seconds < 60.0);
 }
 

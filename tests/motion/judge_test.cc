@@ -11,8 +11,10 @@ using namespace jaywalk::motion;
 namespace {
 
 RobotBody body_of(float full_speed) {
+  const Footprint f = p3dx().footprint;
   RobotBody body;
-  body.to_walls = body.to_movers = BodyDiscs::covering(p3dx().footprint, 0.02);
+  body.rim = robot_body(f, {}, {}, 1.0).rim;
+  body.to_walls = body.to_movers = BodyDiscs::covering(f, 0.02);
   body.bounds = {.speed = full_speed,
                  .back = 0.3F,
                  .turn = 1.2F,
@@ -82,4 +84,33 @@ TEST_CASE("a trajectory is given up only where its whole cost is above the bound
   REQUIRE(whole < 4.0F);  // it arrives
   CHECK(judge(arrives, ahead, whole + 0.01F).total() == whole);
   CHECK(judge(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
+}
+
+TEST_CASE("who has stood for long is a surface as wide as a person, though the map holds nothing of him") {
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  const RobotBody body = body_of(0.6F);
+  Trajectory held;
+  held.commands.fill({0.3F, 0.0F});
+  const auto cost_beside = [&](float left_m, float stood_s) {
+    const MoverBelief him{
+        .id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F, .has_walked = true, .stood_s = stood_s};
+    const auto futures = std::make_unique<Futures>();
+    futures->draw({&him, 1}, {}, {}, guide, 1);
+    return judge({body, guide, *futures, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
+  };
+  const float side = static_cast<float>(p3dx().footprint.half_width_m) + 0.25F;
+  CHECK(cost_beside(side - 0.05F, 10.0F).touch > 400.0F);
+  CHECK(cost_beside(side + 0.1F, 10.0F).touch == 0.0F);
+  CHECK(cost_beside(side + 0.1F, 10.0F).clearance > cost_beside(side + 0.2F, 10.0F).clearance);
+  CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // he may go on at once, and is met, not passed
+}
+
+TEST_CASE("a body's gap to a place is that of its rectangle") {
+  const RobotBody body = body_of(0.6F);
+  const Footprint f = p3dx().footprint;
+  CHECK(body.gap(0.0F, 0.0F) == 0.0F);
+  CHECK(body.gap(static_cast<float>(f.front_m) + 0.3F, static_cast<float>(f.half_width_m) + 0.4F) == Approx(0.5F));
+  CHECK(body.gap(-static_cast<float>(f.rear_m) - 0.2F, 0.0F) == Approx(0.2F));
+  CHECK(body.gap(0.0F, -static_cast<float>(f.half_width_m) - 0.1F) == Approx(0.1F));
 }

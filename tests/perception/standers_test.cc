@@ -44,10 +44,13 @@ void note(const Bodies& bodies, const EvidenceMap& still, Standers& standers) {
 TEST_CASE("who stands on two legs is somebody, as wide as people, for as long as he stands, new there or not") {
   Watch watch;
   if (GENERATE(false, true)) watch.look_round();
+  Time since = kNever;
   for (int scan = 0; scan < 15 * 20; ++scan) {
     watch.see(with_legs(kPlace));
     if (scan < 15) continue;
     REQUIRE(watch.tracker.standing().size() == 1);
+    if (scan == 15) since = watch.tracker.standing()[0].since;
+    CHECK(watch.tracker.standing()[0].since == since);  // whether it is followed or in the map
     CHECK(distance(watch.tracker.standing()[0].position_in_map, kPlace) < 0.1);
     CHECK(watch.tracker.standing()[0].radius_m == Approx(0.25).margin(0.01));
   }
