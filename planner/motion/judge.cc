@@ -22,7 +22,7 @@ constexpr float kUnseen = 40.0F;                              ///< a second, wit
 constexpr float kUnseenFadesM = 0.6F;                         ///< after driving on so far it has been seen, most likely
 constexpr float kUnseenDared = 0.15F, kUnseenTurned = 10.0F;  ///< where the only way leads there; and a rad/s
 constexpr float kNearMover = 0.15F;                           ///< a look, each
-constexpr float kTooFast = 1.6F;    ///< a m/s, each look, faster beside who stands than the gap within a second,
+constexpr float kTooFast = 4.0F;    ///< a m/s, each look, faster beside who stands than the gap within a second,
 constexpr float kPoliteMps = 0.2F;  ///< or than this: decision 15
 constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m/s, rad/s in a step
 constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
