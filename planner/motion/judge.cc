@@ -225,8 +225,9 @@ class Judge {
         const float dx = x - at.mid_x, dy = y - at.mid_y;
         if (dx * dx + dy * dy >= most * most) continue;
         const Meeting meeting = meet(at, radius, surface, x, y, discs.radius, speed, s_.body.berth_m);
-        (s_.futures.has_stood(m) ? stood : all.met) |= meeting.met;
-        if (meeting.touched != 0 && s_.wish != nullptr && moves(r))
+        const bool has_stood = s_.futures.has_stood(m);  // a surface until it sets out: standing()
+        (has_stood ? stood : all.met) |= meeting.met;
+        if (meeting.touched != 0 && !has_stood && moves(r))
           all.touched |= nearer(meeting.touched, {{x, y}, at}, {disc_at(s_.start, k), s_.futures.at(0, m)});
         all.nearness += meeting.nearness;
         if (!s_.futures.is_newcomer(m)) all.too_fast += meeting.too_fast;
@@ -266,7 +267,7 @@ class Judge {
   bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
-  /// Steered: in which the robot moved and touched somebody. Who is in a walker's way already must not touch it.
+  /// In which the robot moved and touched somebody: in a walker's way already, it has that left to lose.
   std::uint32_t touched_ = 0;
 };
 

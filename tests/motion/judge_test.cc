@@ -106,6 +106,21 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
   CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // he may go on at once, and is met, not passed
 }
 
+TEST_CASE("in a walker's way already, to drive into the walker costs more than to stand") {
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  const RobotBody body = body_of(0.6F);
+  const MoverBelief comes{.id = 1, .x = 1.0F, .vx = -0.4F, .radius_m = 0.25F, .usual_mps = 0.4F, .has_walked = true};
+  const auto futures = std::make_unique<Futures>();
+  futures->draw({&comes, 1}, {}, {}, guide, 1);
+  const auto conflict_at = [&](float speed) {
+    Trajectory held;
+    held.commands.fill({speed, 0.0F});
+    return judge({body, guide, *futures, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).conflict;
+  };
+  CHECK(conflict_at(0.3F) > conflict_at(0.0F) + 50.0F);
+}
+
 TEST_CASE("a body's gap to a place is that of its rectangle") {
   const RobotBody body = body_of(0.6F);
   const Footprint f = p3dx().footprint;
