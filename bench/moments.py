@@ -1,18 +1,20 @@
 #!/usr/bin/env python3
-"""Cuts scenes out of a campaign's failures: from a few seconds before a mover had to turn, everybody within reach, as scenarios of a few
+"""Cuts scenes out of campaigns' failures: from a few seconds before a mover had to turn, everybody within reach, as scenarios of a few
 seconds. The robot begins at rest where it was; movers walk as they walked and heed nobody. Those in which it makes nobody turn and
 touches nobody are kept (and with --all the others): they are tests, tests/firmware/moments.
 
-    bench/moments.py out/harder --out out/moments
+    bench/moments.py out/first out/second --out tests/firmware/moments
 """
 import argparse
 import csv
+import itertools
 import json
 import math
 import os
 import pathlib
 import re
 import subprocess
+import tempfile
 
 from command_line import require_built
 from forced_movers import forced, rows, walks_of
@@ -41,7 +43,7 @@ legs = {legs}
 
 def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("campaign", type=pathlib.Path, help="its folder, --out of jaywalk campaign")
+    parser.add_argument("campaigns", type=pathlib.Path, nargs="+", help="folders, --out of jaywalk campaign")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/moments"))
     parser.add_argument("--most", type=int, default=30, help="scenes to keep")
     parser.add_argument("--all", action="store_true", help="keep those that fail too")
@@ -83,9 +85,9 @@ def write(folder, name, source, settings, pose, walks):
 
 
 def passes(scenario):
-    out = scenario.with_suffix("")
-    subprocess.run([PROGRAM, "sim", scenario, "--backend", "cpu", "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
-    summary = json.loads((out / "summary.json").read_text())
+    with tempfile.TemporaryDirectory() as out:
+        subprocess.run([PROGRAM, "sim", scenario, "--backend", "cpu", "--out", out], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL, check=False)
+        summary = json.loads(pathlib.Path(out, "summary.json").read_text())
     return summary["forced_movers"] == 0 and summary["contacts"] == 0
 
 
@@ -100,23 +102,25 @@ def settings_of(run):
 
 
 def failures(campaign):
-    """Each failed run, with each of its moments: run, folder, walks, when the scene begins (s)."""
+    """Each failed run, with its moments but for those that another one's scene holds: run, folder, walks, when the scene begins (s)."""
     for experiment in json.loads((campaign / "campaign.json").read_text())["experiments"]:
         for run in experiment["runs"]:
             folder = campaign / "runs" / run["folder"]
             if not (folder / "movers.csv").exists():
                 continue
             walks = walks_of(folder)
-            for walk in walks.values():
-                for k in forced(walk):
-                    yield run, folder, walks, max(0.0, walk[k][0] - BEFORE_S)
+            last_s = -math.inf
+            for begin_s in sorted(max(0.0, walk[k][0] - BEFORE_S) for walk in walks.values() for k in forced(walk)):
+                if begin_s > last_s + LASTS_S:
+                    yield run, folder, walks, begin_s
+                    last_s = begin_s
 
 
 def main():
     options = arguments()
     require_built(PROGRAM)
     kept = tried = 0
-    for run, folder, walks, begin_s in failures(options.campaign):
+    for run, folder, walks, begin_s in itertools.chain(*map(failures, options.campaigns)):
         if kept == options.most:
             break
         tried += 1
@@ -126,7 +130,11 @@ def main():
         write(options.out, name, f"{run['folder']}, from {begin_s:.1f} s on", settings, *scene_at(folder, walks, begin_s))
         good = passes(options.out / f"{name}.toml")
         print(f"{name} {run['folder']} {begin_s:.1f} s: {'passes' if good else 'fails'}", flush=True)
-        kept += good or options.all
+        if good or options.all:
+            kept += 1
+        else:
+            for file in options.out.glob(f"{name}.*"):
+                file.unlink()
     print(f"{kept} scenes of {tried} moments are in {options.out}")
 
 

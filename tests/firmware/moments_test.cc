@@ -1,0 +1,61 @@
+// The moments that were hardest in campaigns, lived through again: from a robot at rest, among movers that walk as they
+// walked then and heed nobody (bench/moments.py).
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "tests/firmware/simulated_drive.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+constexpr double kScene_s = 8.0;
+
+std::vector<std::string> scenes() {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(JAYWALK_MOMENTS))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+struct Scene {
+  std::uint32_t forced = 0, touched = 0;
+  double driven_m = 0.0;
+};
+
+Scene drive_through(const std::string& name) {
+  SimulatedDrive drive(std::filesystem::relative(JAYWALK_MOMENTS, JAYWALK_SCENARIOS).string() + "/" + name, 1);
+  Scene scene;
+  drive.drive(kScene_s, [&](const TickRecord&) {
+    scene.driven_m += std::fabs(drive.truth().twist.v_mps) * to_seconds(drive.setup().tick());
+    return false;
+  });
+  scene.forced = drive.truth().forced_movers;
+  scene.touched = drive.truth().contacts_caused;
+  return scene;
+}
+
+}  // namespace
+
+// A few that go otherwise are chance: another first step makes another scene. Simple planners of others make somebody
+// turn in half of them, and touch somebody in three to thirteen (docs/results.md).
+TEST_CASE("the thirty hardest moments: none is touched, hardly anybody has to turn, and the robot gets on") {
+  const std::vector<std::string> names = scenes();
+  REQUIRE(names.size() == 30);
+  int forced = 0;
+  double driven_m = 0.0;
+  for (const std::string& name : names) {
+    const Scene scene = drive_through(name);
+    CAPTURE(name);
+    CHECK(scene.touched == 0);
+    forced += scene.forced > 0 ? 1 : 0;
+    driven_m += scene.driven_m;
+  }
+  CHECK(forced <= 3);
+  CHECK(driven_m > 60.0);  // 78 m in four minutes
+}
