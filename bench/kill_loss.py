@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How much of a recording `kill -9` costs: python3 bench/kill_loss.py [--runs 20] [--scenario FILE]
+"""How much of a recording `kill -9` costs: python3 bench/kill_loss.py [--runs 20] [--scenario FILE] [--part-bytes N]
 
 Runs the controller at wall-clock pace, watches its recording grow, kills it at some moment and counts what is on the
 disk. Ticks are a fixed time apart, and one is written no earlier than it was lived through: the least of "when the file
@@ -40,30 +40,39 @@ def entries_in(recording):
     return ends, 1.0 / rate_hz
 
 
-def watch(file, until):
-    """(when, bytes) each time the file has grown."""
-    grown, size = [], 0
+def recordings(folder):
+    """Its parts, oldest first, or the whole."""
+    return sorted(folder.glob("part-*/recording.jwr")) or [folder / "recording.jwr"]
+
+
+def watch(folder, until):
+    """(when, file, bytes) each time the newest recording has grown."""
+    grown, before = [], None
     while time.monotonic() < until:
-        now = file.stat().st_size if file.exists() else 0
-        if now != size:
-            grown.append((time.monotonic(), now))
-            size = now
+        file = recordings(folder)[-1]
+        now = file, file.stat().st_size if file.exists() else 0
+        if now != before:
+            grown.append((time.monotonic(), *now))
+            before = now
         time.sleep(0.001)
     return grown
 
 
-def lost_s(program, scenario, after_s, folder):
-    file = folder / "recording.jwr"
-    run = subprocess.Popen([program, "sim", scenario, "--realtime", "--out", folder],
-                           stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    grown = watch(file, time.monotonic() + after_s)
+def lost_s(program, scenario, after_s, folder, part_bytes):
+    run = subprocess.Popen([program, "sim", scenario, "--realtime", "--out", folder, "--keep-parts", "1000",
+                            "--part-bytes", str(part_bytes)], stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    grown = watch(folder, time.monotonic() + after_s)
     killed = time.monotonic()
     os.kill(run.pid, signal.SIGKILL)
     run.wait()
-    ends, tick_s = entries_in(file.read_bytes())
-    ticks_at = {end: number + 1 for number, end in enumerate(ends)}
-    begun = min(when - ticks_at[size] * tick_s for when, size in grown if size in ticks_at)
-    return killed - begun - len(ends) * tick_s
+    ticks, ticks_at = 0, {}
+    for file in recordings(folder):
+        content = file.read_bytes()
+        ends, tick_s = entries_in(content) if content else ([], tick_s)
+        ticks_at |= {(file, end): ticks + number + 1 for number, end in enumerate(ends)}
+        ticks += len(ends)
+    begun = min(when - ticks_at[file, size] * tick_s for when, file, size in grown if (file, size) in ticks_at)
+    return killed - begun - ticks * tick_s
 
 
 def main():
@@ -71,13 +80,15 @@ def main():
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--scenario", type=pathlib.Path, default=ROOT / "hal/sim/scenarios/crossing.toml")
     parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/firmware/jaywalk")
+    parser.add_argument("--part-bytes", type=int, default=0)
     options = parser.parse_args()
     require_built(options.program)
     draw = random.Random(1)
     losses = []
     for run in range(options.runs):
         with tempfile.TemporaryDirectory() as folder:
-            losses.append(lost_s(options.program, options.scenario, draw.uniform(3.0, 5.0), pathlib.Path(folder)))
+            losses.append(lost_s(options.program, options.scenario, draw.uniform(3.0, 5.0), pathlib.Path(folder),
+                                 options.part_bytes))
         print(f"run {run + 1}: {1000 * losses[-1]:.0f} ms lost", flush=True)
     losses.sort()
     print(f"{len(losses)} runs: median {1000 * losses[len(losses) // 2]:.0f} ms, most {1000 * losses[-1]:.0f} ms")

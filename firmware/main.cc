@@ -15,6 +15,7 @@
 #include "firmware/commands/help_footers.h"
 #include "firmware/commands/man_page.h"
 #include "firmware/commands/parse_message.h"
+#include "firmware/commands/parts_option.h"
 #include "firmware/commands/replay_command.h"
 #include "firmware/commands/report_command.h"
 #include "firmware/commands/robot_commands.h"
@@ -80,6 +81,7 @@ void add_sim(CLI::App& app) {
       ->check(CLI::IsMember(comfort_names()));
   add_backend(*sim, sim_options.backend, sim_options.device);
   sim->add_option("--out", sim_options.out, "Folder for what the run leaves")->capture_default_str();
+  add_parts(*sim, sim_options.parts);
   sim->add_flag("--save-map", sim_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
   sim->add_flag("--realtime", sim_options.realtime, "Hold simulated time to the wall clock");
   sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/commands/armed_session.h"
+#include "firmware/commands/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recording_stream.h"
 #include "firmware/setup/calibration_plot.h"
@@ -43,9 +44,9 @@ Drive drive_robot() {
   }
 }
 
-/// What devices.json beside the recording says; the model's where there is none, as of a simulation.
-std::array<double, 2> radii_beside(const std::filesystem::path& recording, const RobotModel& model) {
-  std::ifstream file(recording.parent_path() / "devices.json");
+/// What devices.json of the run says; the model's where there is none, as of a simulation.
+std::array<double, 2> radii_beside(const std::filesystem::path& folder, const RobotModel& model) {
+  std::ifstream file(folder / "devices.json");
   const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
   const std::array<double, 2> models{model.drive.wheel_radius_m, model.drive.wheel_radius_m};
   return json.is_object() && json.contains("wheel_radii_m") ? json["wheel_radii_m"].get<std::array<double, 2>>()
@@ -53,12 +54,11 @@ std::array<double, 2> radii_beside(const std::filesystem::path& recording, const
 }
 
 Drive read_recording(const std::filesystem::path& run) {
-  const std::filesystem::path file = std::filesystem::is_directory(run) ? run / "recording.jwr" : run;
-  RecordingReader reader(file.string());
-  const RobotModel model = setup_from_text(reader.setup(), file.string()).model;
+  RecordedRun recorded(run);
+  const RobotModel& model = recorded.setup().model;
   CalibrationLog log(model.drive);
-  for (TickRecord record; reader.next(record);) log.take(record.wheels, record.scan);
-  return {std::move(log), model, radii_beside(file, model)};
+  while (recorded.step()) log.take(recorded.last().wheels, recorded.last().scan);
+  return {std::move(log), model, radii_beside(recorded.folder(), model)};
 }
 
 void print_line(const char* what, const char* unit, double believed, double found, double within) {

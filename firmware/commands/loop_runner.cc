@@ -14,18 +14,30 @@ ChosenPlanner wrapped(ChosenPlanner chosen, const LoopRunner::Wrap& wrap) {
   return chosen;
 }
 
+std::string recording_in(const RunParts& parts) { return (parts.place() / "recording.jwr").string(); }
+
+/// A known map is in the head of every part.
+const PartsKept& checked(const PartsKept& kept, const ControlSetup& setup) {
+  const std::uintmax_t head = kept.bytes > 0 ? to_text(setup).size() : 0, least = std::max(kLeastPartBytes, 4 * head);
+  if (kept.bytes == 0 || kept.bytes >= least) return kept;
+  throw StartupError("--part-bytes " + std::to_string(kept.bytes) + ": too small: the head of each part has " +
+                         std::to_string(head) + " bytes",
+                     "give " + std::to_string(least) + " at least, or 0 for no parts");
+}
+
 }  // namespace
 
 LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record,
-                       const Wrap& wrap)
+                       const Wrap& wrap, const PartsKept& kept)
     : setup_(setup),
       clock_(hal.clock),
       out_(out),
+      parts_(out, checked(kept, setup)),
       chosen_(wrapped(make_planner(setup.planner(), setup.backend, setup.device), wrap)),
-      recorder_({.file = record ? out_.file("recording.jwr").string() : "", .setup = to_text(setup)}),
+      recorder_({.file = record ? recording_in(parts_) : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
-      report_(out),
-      recording_(record ? std::optional(out / "recording.jwr") : std::nullopt),
+      report_(out, parts_.place()),
+      recording_(record && !parts_.any() ? std::optional(out / "recording.jwr") : std::nullopt),
       due_(hal.clock.now()) {}
 
 const TickRecord& LoopRunner::step_at(Time due) {
@@ -35,7 +47,22 @@ const TickRecord& LoopRunner::step_at(Time due) {
   return *record_;
 }
 
+/// What is recorded stays within its bounds, whatever happens: without a next part it ends.
+void LoopRunner::begin_part() noexcept try {
+  parts_.next();
+  ControlSetup setup = setup_;
+  setup.part = parts_.number();
+  recorder_.continue_in(recording_in(parts_), to_text(setup));
+  report_.continue_in(parts_.place(), recorder_.last_drained());
+} catch (const StartupError& error) {
+  recorder_.end_recording();
+  report_.end_tables();
+  const std::string said = error.what();
+  tell_loss(said.substr(0, said.rfind("; ")));  // the remedy is not the one for a start
+}
+
 void LoopRunner::drain() {
+  if (losses_.empty() && parts_.is_full(recorder_.bytes() + report_.bytes())) begin_part();
   if (!recorder_.drain()) tell_losses();
 }
 
@@ -48,11 +75,14 @@ void LoopRunner::tell_losses() {
   std::vector<std::string> complaints = report_.complaints();
   if (std::string complaint = recorder_.complaint(); !complaint.empty()) complaints.push_back(std::move(complaint));
   for (const std::string& complaint : complaints) {
-    if (std::find(losses_.begin(), losses_.end(), complaint) != losses_.end()) continue;
-    losses_.push_back(complaint);
-    recorder_.note_loss();
-    std::fprintf(stderr, "jaywalk: %s; free some space; what stands in it is whole up to now\n", complaint.c_str());
+    if (std::find(losses_.begin(), losses_.end(), complaint) == losses_.end()) tell_loss(complaint);
   }
+}
+
+void LoopRunner::tell_loss(const std::string& complaint) {
+  losses_.push_back(complaint);
+  recorder_.note_loss();
+  std::fprintf(stderr, "jaywalk: %s; free some space; what stands in it is whole up to now\n", complaint.c_str());
 }
 
 const TickRecord& LoopRunner::tick_at(Time due) noexcept {
@@ -79,7 +109,11 @@ void LoopRunner::export_to(const std::filesystem::path& file) {
 
 void LoopRunner::finish(RunEnd end) {
   recorder_.close();
-  if (const std::string complaint = recorder_.complaint(); !complaint.empty()) end.not_recorded.push_back(complaint);
+  tell_losses();
+  const std::vector<std::string> tables = report_.complaints();
+  for (const std::string& loss : losses_) {
+    if (std::find(tables.begin(), tables.end(), loss) == tables.end()) end.not_recorded.push_back(loss);
+  }
   end.dropped_records = recorder_.dropped();
   end.backend = chosen_.planner->backend();
   if (!chosen_.why_not_cuda.empty()) end.backend += " (" + chosen_.why_not_cuda + ")";

@@ -12,6 +12,7 @@
 #include "firmware/commands/run_exporter.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/recording/run_parts.h"
 #include "firmware/report/run_report.h"
 
 namespace jaywalk {
@@ -23,9 +24,10 @@ class LoopRunner {
   /// Puts something round the planner.
   using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
 
-  /// `record` says whether to leave recording.jwr in `out`.
+  /// `record` says whether to leave recording.jwr in `out`, or in its parts where `kept` wants them.
   /// Throws StartupError.
-  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record, const Wrap& wrap = {});
+  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record, const Wrap& wrap = {},
+             const PartsKept& kept = {});
 
   /// Sleeps until the next tick is due and lives through it.
   const TickRecord& step() { return step_at(due_); }
@@ -62,17 +64,20 @@ class LoopRunner {
   [[nodiscard]] std::uint64_t overruns() const { return overruns_; }
 
  private:
+  void begin_part() noexcept;
   void tell_losses();
+  void tell_loss(const std::string& complaint);
 
   ControlSetup setup_;
   Clock& clock_;
   OutFolder out_;
+  RunParts parts_;
   ChosenPlanner chosen_;
   Recorder recorder_;
   ControlLoop loop_;
   RunReport report_;
   std::unique_ptr<RunExporter> exporter_;
-  std::optional<std::filesystem::path> recording_;  ///< where one is made
+  std::optional<std::filesystem::path> recording_;  ///< where one is made, whole
   Time due_;
   const TickRecord* record_ = nullptr;
   Duration took_{0};

@@ -14,12 +14,13 @@
 #include "firmware/commands/mount_check.h"
 #include "firmware/commands/mount_search.h"
 #include "firmware/commands/progress.h"
+#include "firmware/commands/recorded_run.h"
 #include "firmware/commands/run_picture.h"
 #include "firmware/exchange/bag_file.h"
 #include "firmware/exchange/bag_log.h"
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/run_parts.h"
 #include "firmware/report/map_files.h"
 #include "hal/robot_model_file.h"
 #include "hal/sim/logs/line_file.h"
@@ -40,6 +41,7 @@ bool begins_with_a_name(const std::filesystem::path& file) {
 
 std::string format_of(const ReplayOptions& options) {
   if (!options.format.empty()) return options.format;
+  if (!parts_of(options.logs.front()).empty()) return "jaywalk";
   if (exchange::is_bag(options.logs.front())) return "bag";
   if (is_recording(options.logs.front().string())) return "jaywalk";
   return begins_with_a_name(options.logs.front()) ? "carmen" : "scan-odom";
@@ -190,10 +192,8 @@ void warn_of_options_of_logs(const ReplayOptions& options) {
 }
 
 /// The tables of the run that is replayed know more than a replay can.
-void refuse_own_folder(const std::filesystem::path& file, const std::filesystem::path& out) {
-  std::error_code missing;
-  const std::filesystem::path folder = std::filesystem::canonical(file, missing).parent_path();
-  if (missing || !std::filesystem::equivalent(folder, out, missing)) return;
+void refuse_own_folder(const RecordedRun& run, const std::filesystem::path& out) {
+  if (!run.lies_in(out)) return;
   throw StartupError("--out " + out.string() + ": the recording's own folder, whose run would be overwritten",
                      "choose another --out");
 }
@@ -207,14 +207,11 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
   }
   warn_of_options_of_logs(options);
-  refuse_own_folder(options.logs[0], options.out);
-  RecordingReader reader(file, part);
-  ControlSetup setup = setup_from_text(reader.setup(), file);
+  RecordedRun run(options.logs[0], part);
+  refuse_own_folder(run, options.out);
+  ControlSetup setup = run.setup();
   if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;  // the bits are the same wherever it is replayed
-  TickRecord recorded;
-  if (!reader.next(recorded)) {
-    throw StartupError(file + ": no whole tick in it", "take an undamaged copy of the recording");
-  }
+  const TickRecord& recorded = run.last();
   RecordedHal devices(recorded);
   LoopRunner runner(setup, devices.hal(), options.out, false, [&](std::unique_ptr<Planner> planner) {
     return std::make_unique<HeldPlanner>(std::move(planner), recorded);
@@ -225,9 +222,9 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
   const Interruption interruption;
-  do {
+  while (!interruption.came() && run.step()) {
     ++ticks;
-    lost += reader.lost_before();
+    lost += run.lost_before();
     runner.step_at(recorded.now);
     runner.report(nullptr);
     picture.consider(runner);
@@ -235,17 +232,18 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
     const WheelCommand& now = devices.commanded();
     const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
                       same_bits(now.right_radps, recorded.command.right_radps);
-    if (progress.is_due()) progress.show(reader.share_read(), std::to_string(ticks) + " ticks");
-    if (!same && different++ == 0) {
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(ticks) + " ticks");
+    if (!same && different++ == 0 && !run.begins_anew()) {
       progress.make_way();
       std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n",
                    file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
                    now.left_radps, now.right_radps);
     }
-  } while (!interruption.came() && reader.next(recorded));
+  }
   progress.make_way();
-  if (!reader.warning().empty()) std::fprintf(stderr, "jaywalk: %s\n", reader.warning().c_str());
-  runner.finish({.outcome = "replayed", .success = different == 0, .scenario = options.logs[0].filename().string()});
+  std::fputs(run.remarks(0, "").c_str(), stderr);
+  const bool same = different == 0 || run.begins_anew();
+  runner.finish({.outcome = "replayed", .success = same, .scenario = options.logs[0].filename().string()});
   const std::filesystem::path drawn = picture.save(options.out, "replay of " + file, runner, {});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
@@ -257,7 +255,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
                 static_cast<unsigned long long>(lost), drawn.c_str());
   }
   view.stay(interruption);
-  return different == 0 ? 0 : 1;
+  return same ? 0 : 1;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 #include "firmware/commands/choice_option.h"
 #include "firmware/commands/commission_command.h"
 #include "firmware/commands/config_command.h"
+#include "firmware/commands/parts_option.h"
 #include "firmware/commands/run_command.h"
 #include "firmware/commands/setup_command.h"
 #include "firmware/commands/view_option.h"
@@ -73,6 +74,7 @@ void add_run(CLI::App& app, int& exit_code) {
       ->capture_default_str();
   run->add_option("--keep-bytes", run_options.kept.bytes, "How much past runs below --runs may take, in bytes")
       ->capture_default_str();
+  add_parts(*run, run_options.parts);
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
   run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
                 "Start although the kernel refuses real-time priority or locked memory");

@@ -171,12 +171,14 @@ int run_robot(RunOptions options) {
       order_priority(file.realtime));
   const std::unique_ptr<RunView> view = view_for(options, file);
   NoPoseSource no_fixes;
-  LoopRunner runner(file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out,
-                    true, [&](std::unique_ptr<Planner> planner) {
-                      const EvidenceMap like_the_loops = map_like_the_loops(file);
-                      return std::make_unique<PlannerThread>(std::move(planner), like_the_loops,
-                                                             view ? &view->planner_tap() : nullptr);
-                    });
+  LoopRunner runner(
+      file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out, true,
+      [&](std::unique_ptr<Planner> planner) {
+        const EvidenceMap like_the_loops = map_like_the_loops(file);
+        return std::make_unique<PlannerThread>(std::move(planner), like_the_loops,
+                                               view ? &view->planner_tap() : nullptr);
+      },
+      options.parts);
   std::vector<std::string> not_permitted;
   if (file.realtime.lock_memory) not_permitted = lock_memory();
   StallGuard guard(devices.brake(), clock, kLongestStall);

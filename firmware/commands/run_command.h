@@ -4,6 +4,7 @@
 
 #include "firmware/commands/run_folders.h"
 #include "firmware/control_setup.h"
+#include "firmware/recording/run_parts.h"
 #include "firmware/view/view_server.h"
 
 namespace jaywalk {
@@ -16,6 +17,7 @@ struct RunOptions {
   bool save_map = false;       ///< what the robot saw, as map_server files
   std::filesystem::path runs;  ///< where each run gets a folder of its own, in place of `out`; empty: `out` it is
   RunsKept kept;               ///< below `runs`
+  PartsKept parts;             ///< of this run
   std::filesystem::path control_socket;   ///< empty: the file's, else the default
   std::optional<view::ViewAddress> view;  ///< serve the live page here
   bool json = false;                      ///< of a check: for programs

@@ -18,8 +18,8 @@ class RunExporter {
 
   /// What the tick tells, and what was seen up to it.
   void add(const TickRecord& t, const Tracker& tracker);
-  /// Attaches the recording, where there is one, so that `jaywalk replay` comes to the same commands, and ends the
-  /// files. Throws StartupError where the disk did not take all.
+  /// Attaches the recording, where there is one in one file, so that `jaywalk replay` comes to the same commands, and
+  /// ends the files. Throws StartupError where the disk did not take all.
   void finish(const std::optional<std::filesystem::path>& recording);
   [[nodiscard]] const exchange::McapWriter& file() const { return file_; }
 

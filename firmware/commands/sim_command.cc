@@ -172,7 +172,7 @@ int run_sim(const SimOptions& options) {
         "choose another model");
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
-  LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true);
+  LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true, {}, options.parts);
   if (options.mcap) runner.export_to(options.out / "run.mcap");
   RunPicture picture;
   Progress progress;

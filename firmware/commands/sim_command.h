@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/control_setup.h"
+#include "firmware/recording/run_parts.h"
 #include "firmware/view/view_server.h"
 
 namespace jaywalk {
@@ -20,6 +21,7 @@ struct SimOptions {
   Backend backend = Backend::kAuto;
   int device = 0;  ///< CUDA's number
   std::filesystem::path out = "out/sim";
+  PartsKept parts = {};   ///< of recording and tables
   bool save_map = false;  ///< what the robot saw, as map_server files
   bool realtime = false;
   bool mcap = false;                           ///< leave run.mcap as well

@@ -24,6 +24,7 @@ class AppendFile {
   bool close() noexcept;
 
   [[nodiscard]] bool has_failed() const noexcept { return error_ != 0; }
+  [[nodiscard]] std::size_t bytes() const noexcept { return size_; }
   /// "out/robot.csv: the disk takes no more of it: No space left on device"; empty while all is well. Allocates.
   [[nodiscard]] std::string complaint() const;
 

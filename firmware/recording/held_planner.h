@@ -16,7 +16,7 @@ class HeldPlanner final : public Planner {
 
   void submit(const PlanRequest& request) noexcept override {
     planner_->submit(request);
-    ++submitted_;
+    submitted_ = submitted_ == 0 ? record_.plan_sequence + 1 : submitted_ + 1;  // others came before a later part
   }
   [[nodiscard]] bool is_busy() const noexcept override { return !record_.plan_asked; }
   [[nodiscard]] const Plan& collect() noexcept override {

@@ -35,10 +35,17 @@ bool Recorder::drain() noexcept {
   for (std::uint64_t tick = drained_.load(std::memory_order_relaxed); tick != end; ++tick) {
     const Slot& oldest = slot(tick);
     if (writer_) taken = writer_->write(oldest.record, oldest.lost_before) && taken;
+    last_drained_ = oldest.record.now;
     drained_.store(tick + 1, std::memory_order_release);
   }
   if (!taken) note_loss();
   return taken;
+}
+
+void Recorder::continue_in(const std::string& file, const std::string& setup) {
+  auto next = std::make_unique<RecordingWriter>(file, setup);
+  if (!writer_->close()) lost_ = writer_->complaint();
+  writer_ = std::move(next);
 }
 
 bool Recorder::close() noexcept {

@@ -37,9 +37,18 @@ class Recorder {
   bool drain() noexcept;
   /// Draining thread, after the last tick: drains and ends the file. False when the disk lost anything.
   bool close() noexcept;
+  /// Draining thread: what is drained from now on goes to a recording of its own. Throws StartupError where its file
+  /// cannot be made, and goes on in the one before. Allocates.
+  void continue_in(const std::string& file, const std::string& setup);
+  /// Draining thread: nothing more is recorded.
+  void end_recording() noexcept { writer_.reset(); }
+  /// Bytes of the recording; 0: none is made. Draining thread.
+  [[nodiscard]] std::uintmax_t bytes() const noexcept { return writer_ ? writer_->bytes() : 0; }
+  /// The newest tick that was drained. Draining thread.
+  [[nodiscard]] Time last_drained() const noexcept { return last_drained_; }
 
   /// What the disk did not take of the recording; empty: it has taken all. Draining thread.
-  [[nodiscard]] std::string complaint() const { return writer_ ? writer_->complaint() : ""; }
+  [[nodiscard]] std::string complaint() const { return lost_.empty() && writer_ ? writer_->complaint() : lost_; }
   /// The disk takes no more of the recording, or of the tables beside it. Any thread.
   [[nodiscard]] bool is_losing() const noexcept { return losing_.load(std::memory_order_relaxed); }
   void note_loss() noexcept { losing_.store(true, std::memory_order_relaxed); }
@@ -58,6 +67,8 @@ class Recorder {
   std::vector<Slot> ring_;
   Slot spare_;  ///< what a tick fills while the ring is full
   bool begun_in_ring_ = false;
+  Time last_drained_ = kNever;
+  std::string lost_;  ///< what the disk did not take of a recording that is closed
   std::uint64_t lost_since_kept_ = 0;
   std::atomic<std::uint64_t> committed_{0};  ///< records ever put in; written by the loop
   std::atomic<std::uint64_t> drained_{0};    ///< records ever taken out; written by the drain

@@ -45,6 +45,8 @@ class RecordingWriter {
   bool close() noexcept;
   /// AppendFile's.
   [[nodiscard]] std::string complaint() const { return file_.complaint(); }
+  /// Of the file, with what is not on the disk yet.
+  [[nodiscard]] std::uintmax_t bytes() const noexcept { return file_.bytes() + used_; }
 
  private:
   void put(std::span<const unsigned char> bytes) noexcept;

@@ -1,5 +1,6 @@
 #pragma once
 // Tables whose bytes depend on their numbers alone.
+#include <cstdint>
 #include <string>
 #include <string_view>
 
@@ -31,6 +32,8 @@ class CsvFile {
   /// AppendFile's, both.
   [[nodiscard]] bool has_failed() const noexcept { return file_.has_failed(); }
   [[nodiscard]] std::string complaint() const { return file_.complaint(); }
+  /// Of the file, with what is not on the disk yet.
+  [[nodiscard]] std::uintmax_t bytes() const noexcept { return file_.bytes() + rows_.size(); }
 
  private:
   void begin_cell();

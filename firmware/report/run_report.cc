@@ -13,7 +13,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder) {
+std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder, const std::filesystem::path& tables) {
   if (folder.empty()) return nullptr;
   std::error_code error;
   std::filesystem::create_directories(folder, error);
@@ -21,7 +21,7 @@ std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder) {
     if (!error) std::filesystem::remove(folder / last_written, error);
   }
   if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
-  return std::make_unique<RunTables>(folder);
+  return std::make_unique<RunTables>(tables);
 }
 
 /// NaN and infinity, which JSON has no word for, become null.
@@ -48,16 +48,16 @@ Json known(const std::optional<T>& value) {
   return value ? Json(*value) : Json(nullptr);
 }
 
-std::vector<std::string> all_complaints(std::vector<std::string> tables, const std::vector<std::string>& others) {
-  tables.insert(tables.end(), others.begin(), others.end());
-  return tables;
+std::vector<std::string> all_complaints(std::vector<std::string> some, const std::vector<std::string>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  return some;
 }
 
 }  // namespace
 
-RunReport::RunReport(const std::filesystem::path& folder)
+RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
     : folder_(folder),
-      tables_(open_tables(folder)),
+      tables_(open_tables(folder, tables)),
       min_clearance_m_(std::numeric_limits<double>::infinity()),
       min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {
   if (tables_) reserve_.emplace(folder_);
@@ -65,9 +65,33 @@ RunReport::RunReport(const std::filesystem::path& folder)
 
 RunReport::~RunReport() = default;
 
+void RunReport::continue_in(const std::filesystem::path& tables, Time last) {
+  if (next_tables_) turn_to_next_tables();  // their first tick was not kept
+  next_tables_ = std::make_unique<RunTables>(tables);
+  last_of_tables_ = last;
+}
+
+void RunReport::turn_to_next_tables() {
+  tables_->close();
+  lost_ = complaints();
+  next_tables_->follow(*tables_);
+  tables_ = std::move(next_tables_);
+}
+
+void RunReport::end_tables() {
+  if (next_tables_) turn_to_next_tables();
+  tables_.reset();
+}
+
+std::uintmax_t RunReport::bytes() const {
+  if (next_tables_) return next_tables_->bytes();
+  return tables_ ? tables_->bytes() : 0;
+}
+
 void RunReport::add(const RunSample& sample) {
-  if (tables_) tables_->add(sample);
   const Time now = sample.record.now;
+  if (next_tables_ && now > last_of_tables_) turn_to_next_tables();
+  if (tables_) tables_->add(sample);
   if (ticks_++ == 0) first_ = now;
   last_ = now;
   tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
@@ -102,7 +126,7 @@ void RunReport::add_tracks(const RunSample& sample) {
 }
 
 std::vector<std::string> RunReport::complaints() const {
-  return tables_ ? tables_->complaints() : std::vector<std::string>();
+  return tables_ ? all_complaints(lost_, tables_->complaints()) : lost_;
 }
 
 std::string RunReport::finish(const RunEnd& end) {

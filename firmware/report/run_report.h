@@ -25,13 +25,21 @@ class RunReport {
   /// `folder` is made when missing; an earlier run's summary.json, run.png and run.svg in it are removed, so that they
   /// cannot stand beside this run's tables. An empty path keeps the figures and writes no files. Throws
   /// StartupError when it cannot be written to.
-  explicit RunReport(const std::filesystem::path& folder);
+  explicit RunReport(const std::filesystem::path& folder) : RunReport(folder, folder) {}
+  /// The same with the tables in a folder of their own.
+  RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables);
   ~RunReport();
 
   void add(const RunSample& sample);
+  /// Rows of ticks later than `last` go to tables in another folder. Throws StartupError where these cannot be made.
+  void continue_in(const std::filesystem::path& tables, Time last);
+  /// No more rows.
+  void end_tables();
+  /// Of the tables that the next tick goes to.
+  [[nodiscard]] std::uintmax_t bytes() const;
   /// What the disk did not take of the tables, a line each; empty: it has taken all so far.
   [[nodiscard]] std::vector<std::string> complaints() const;
-  [[nodiscard]] bool is_losing() const { return tables_ && tables_->is_losing(); }
+  [[nodiscard]] bool is_losing() const { return !lost_.empty() || (tables_ && tables_->is_losing()); }
   /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
   /// where the disk does not take the summary.
   std::string finish(const RunEnd& end);
@@ -45,12 +53,15 @@ class RunReport {
   [[nodiscard]] std::vector<Trail> track_trails() const { return tracks_.trails(); }
 
  private:
+  void turn_to_next_tables();
   void add_truth(const TrueState& truth, Time now);
   void add_tracks(const RunSample& sample);
   [[nodiscard]] std::string summary(const RunEnd& end) const;
 
   std::filesystem::path folder_;
-  std::unique_ptr<RunTables> tables_;
+  std::unique_ptr<RunTables> tables_, next_tables_;
+  Time last_of_tables_ = kNever;   ///< where there are next ones
+  std::vector<std::string> lost_;  ///< complaints of tables that are closed
   std::optional<DiskReserve> reserve_;
   PathShape shape_;
   Smoothness smoothness_;

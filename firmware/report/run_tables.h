@@ -18,6 +18,10 @@ class RunTables {
   explicit RunTables(const std::filesystem::path& folder);
   void add(const RunSample& sample);
   void close();
+  /// Goes on after `before`, which has the tracks of the last scan.
+  void follow(const RunTables& before) noexcept { scan_sequence_ = before.scan_sequence_; }
+  /// Of all three, with what is not on the disk yet.
+  [[nodiscard]] std::uintmax_t bytes() const noexcept { return robot_.bytes() + movers_.bytes() + tracks_.bytes(); }
   [[nodiscard]] bool is_losing() const noexcept;
   /// AppendFile's, of each table that the disk did not take whole.
   [[nodiscard]] std::vector<std::string> complaints() const;

@@ -7,7 +7,9 @@
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <vector>
 
+#include "firmware/recording/run_parts.h"
 #include "firmware/report/run_log.h"
 #include "hal/types/errors.h"
 
@@ -62,6 +64,7 @@ class Day {
     before_ = row;
     ++rows_;
   }
+  [[nodiscard]] double lasted_s() const { return before_.t_s - begin_s_; }
   [[nodiscard]] std::string words() {
     end_stop();
     const double drove_s = before_.t_s - begin_s_ - stood_s_;
@@ -143,14 +146,27 @@ std::string steering_of(const nlohmann::json& summary) {
          text_of("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
 }
 
+/// What can no longer be told, where the oldest parts of a run are gone.
+std::string gone_of(int parts, const Day& day) {
+  if (parts == 0) return "";
+  return "Its first " + (parts == 1 ? "part is" : std::to_string(parts) + " parts are") + " gone; told are the last" +
+         text_of(" %.1f s.\n", day.lasted_s());
+}
+
 }  // namespace
 
 std::string run_words(const std::filesystem::path& folder) {
-  RunLog log(folder / "robot.csv");
+  const std::vector<std::filesystem::path> parts = parts_of(folder);
   Day day;
-  for (RunRow row; log.next(row);) day.add(row);
+  for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts) {
+    if (!parts.empty() && place == parts.back() && has_nothing(place / "robot.csv")) break;
+    RunLog log(place / "robot.csv");
+    for (RunRow row; log.next(row);) day.add(row);
+  }
   const nlohmann::json summary = summary_of(folder);
-  return folder.string() + ": " + outcome_of(summary) + "\n" + day.words() + steering_of(summary);
+  const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;
+  return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() +
+         (before > 0 && !steering_of(summary).empty() ? "Of the whole run: " : "") + steering_of(summary);
 }
 
 }  // namespace jaywalk

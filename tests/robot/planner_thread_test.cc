@@ -98,3 +98,16 @@ TEST_CASE("a held planner shows each plan when the recording has it") {
   record.plan_sequence = 1;
   CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
 }
+
+TEST_CASE("a held planner of a later part begins to count where the recording does") {
+  std::atomic<bool> may{true};
+  const EvidenceMap map(64, 0.1, {});
+  TickRecord record;
+  record.plan_sequence = 41;
+  HeldPlanner planner(std::make_unique<SlowPlanner>(may), record);
+  CHECK(planner.collect().status == PlanStatus::kNone);
+  planner.submit(request_for(map, 3.0));
+  CHECK(planner.collect().sequence == 0);
+  record.plan_sequence = 42;
+  CHECK(planner.collect().path[0] == Vec2{3.0, 0.0});
+}
