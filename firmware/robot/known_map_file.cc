@@ -14,7 +14,8 @@ namespace jaywalk {
 namespace {
 
 constexpr std::int32_t kMostCells = 2048;
-constexpr double kLeastShare = 0.6;  ///< of a scan's points that lie on walls where it was taken; the rest are people
+constexpr double kLeastShare =
+    0.9;  ///< of a scan's points that lie on walls where it was taken: 0.6 and 0.8 took other buildings for it
 constexpr double kNearlyAsWell = 0.97;  ///< of the best place's share
 constexpr std::size_t kFewestPoints = 30;
 

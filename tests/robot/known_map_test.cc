@@ -98,3 +98,12 @@ TEST_CASE("a place that has a twin is refused, and so is a scan of another place
   }
   CHECK(said.find("robot.toml: the scan fits nowhere on the map") == 0);
 }
+
+TEST_CASE("a room of another building is not taken for one of the map's, though two of three points fit there") {
+  for (const char* other : {"map1", "map2", "map3", "map4"}) {
+    const auto map = load_known_map(kMaps + "/" + other + ".yaml", 0.1);
+    CAPTURE(other);
+    for (const Pose2& pose : {Pose2{2.0, 3.0, 1.2}, Pose2{3.0, 2.0, 0.0}, Pose2{10.0, 7.0, 0.4}})
+      CHECK_THROWS_AS(located_on(*map, scan_on("crossing", pose), p3dx().laser, "robot.toml: "), StartupError);
+  }
+}
