@@ -1,7 +1,7 @@
 #!/usr/bin/env python3
 """Cuts scenes out of campaigns' failures: from a few seconds before a mover had to turn, everybody within reach, as scenarios of a few
 seconds. The robot begins at rest where it was; movers walk as they walked and heed nobody. Those in which it makes nobody turn and
-touches nobody are kept (and with --all the others): they are tests, tests/firmware/moments.
+touches nobody are kept: they are tests, tests/firmware/moments.
 
     bench/moments.py out/first out/second --out tests/firmware/moments
 """
@@ -46,7 +46,6 @@ def arguments():
     parser.add_argument("campaigns", type=pathlib.Path, nargs="+", help="folders, --out of jaywalk campaign")
     parser.add_argument("--out", type=pathlib.Path, default=pathlib.Path("out/moments"))
     parser.add_argument("--most", type=int, default=30, help="scenes to keep")
-    parser.add_argument("--all", action="store_true", help="keep those that fail too")
     return parser.parse_args()
 
 
@@ -130,7 +129,7 @@ def main():
         write(options.out, name, f"{run['folder']}, from {begin_s:.1f} s on", settings, *scene_at(folder, walks, begin_s))
         good = passes(options.out / f"{name}.toml")
         print(f"{name} {run['folder']} {begin_s:.1f} s: {'passes' if good else 'fails'}", flush=True)
-        if good or options.all:
+        if good:
             kept += 1
         else:
             for file in options.out.glob(f"{name}.*"):

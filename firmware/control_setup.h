@@ -37,7 +37,7 @@ struct ControlSetup {
   std::shared_ptr<const KnownMap> known_map{};  ///< what is known before the first scan; null: nothing
   std::vector<MapZone> zones{};                 ///< where not to drive, and where slowly
   double berth_m = 1.0;                         ///< people nearer than this cost; hal/comfort.h
-  int part = 1;  ///< of a run whose recording is in parts: a later one begins in the middle of what was lived
+  int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
   /// one with the circle inside it and a FootprintGuide. At constant speed nothing can be guided.

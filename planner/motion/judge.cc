@@ -267,7 +267,7 @@ class Judge {
   bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
-  /// In which the robot moved and touched somebody: in a walker's way already, it has that left to lose.
+  /// Futures in which the moving robot touched a mover: a bit each. Priced apart from being in the mover's way.
   std::uint32_t touched_ = 0;
 };
 

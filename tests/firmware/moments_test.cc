@@ -1,5 +1,5 @@
-// The moments that were hardest in campaigns, lived through again: from a robot at rest, among movers that walk as they
-// walked then and heed nobody (bench/moments.py).
+// Scenes cut out of failed runs (bench/moments.py): a mover had to turn for the robot there. The robot begins each
+// scene at rest, and the movers repeat their recorded walks without reacting to it.
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -42,9 +42,10 @@ Scene drive_through(const std::string& name) {
 
 }  // namespace
 
-// A few that go otherwise are chance: another first step makes another scene. Simple planners of others make somebody
-// turn in half of them, and touch somebody in three to thirteen (docs/results.md).
-TEST_CASE("the thirty hardest moments: none is touched, hardly anybody has to turn, and the robot gets on") {
+// The robot forces nobody in any of them today. A change of its motion that is no worse may still force somebody in a
+// few, since each scene then runs differently: three are allowed. The baseline planners force somebody in 15 or 16 of
+// the 30 scenes and collide in 3 to 13 (docs/results.md).
+TEST_CASE("in thirty scenes of failed runs the robot collides with nobody, forces at most three movers and drives on") {
   const std::vector<std::string> names = scenes();
   REQUIRE(names.size() == 30);
   int forced = 0;
@@ -57,5 +58,5 @@ TEST_CASE("the thirty hardest moments: none is touched, hardly anybody has to tu
     driven_m += scene.driven_m;
   }
   CHECK(forced <= 3);
-  CHECK(driven_m > 60.0);  // 78 m in four minutes
+  CHECK(driven_m > 60.0);  // measured: 78 m in 240 s
 }
