@@ -16,6 +16,7 @@ constexpr int kFineSteps = 6;                       ///< of 5 cm to each side
 constexpr int kFineTurns = 5;                       ///< of a degree
 constexpr std::size_t kKept = 400, kLookedAt = 40;  ///< coarse poses; of these, apart from each other, closely
 constexpr double kApart_m = 1.0, kApart_rad = 0.52;
+constexpr double kBeforeEnd_m = 0.3, kStep_m = 0.05;   ///< a wall this much nearer than the point hides it
 constexpr std::uint8_t kOnWall = 10, kBesideWall = 9;  ///< tenths of a point's worth
 
 struct Scored {
@@ -41,7 +42,24 @@ class Worth {
     return static_cast<double>(sum) / (kOnWall * std::max(count, 1U));
   }
 
+  /// The same for points that no wall hides from the laser.
+  [[nodiscard]] double share_seen(const MatchSample& sample, Vec2 laser_in_robot, const Pose2& pose) const {
+    const Transform2 to_map(pose);
+    const Vec2 laser = to_map * laser_in_robot;
+    std::uint32_t sum = 0;
+    for (const Vec2& point : sample) sum += hides(laser, to_map * point) ? 0U : at(to_map * point);
+    return static_cast<double>(sum) / (kOnWall * std::max(static_cast<double>(sample.size()), 1.0));
+  }
+
  private:
+  /// Whether a wall lies between.
+  [[nodiscard]] bool hides(Vec2 laser, Vec2 point) const {
+    const double range = distance(laser, point);
+    const Vec2 along = (point - laser) * (1.0 / std::max(range, kStep_m));
+    for (double gone = kStep_m; gone < range - kBeforeEnd_m; gone += kStep_m)
+      if (at(laser + along * gone) == kOnWall) return true;
+    return false;
+  }
   void mark(std::int32_t i, std::int32_t j, std::int32_t beside) {
     for (std::int32_t y = std::max(j - beside, 0); y <= std::min(j + beside, map_.height - 1); ++y) {
       for (std::int32_t x = std::max(i - beside, 0); x <= std::min(i + beside, map_.width - 1); ++x) {
@@ -125,11 +143,12 @@ Scored looked_at_closely(const Worth& worth, const MatchSample& sample, const Sc
 
 }  // namespace
 
-GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample) {
+GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample, Vec2 laser_in_robot) {
   const Worth roughly(map, kRoughly), worth(map, 1);
   std::vector<Scored> found;
   for (const Scored& coarse : best_apart(look_everywhere(map, roughly, sample)))
     found.push_back(looked_at_closely(worth, sample, coarse));
+  for (Scored& one : found) one.share = worth.share_seen(sample, laser_in_robot, one.pose);
   if (found.empty()) return {};
   const Scored best = *std::min_element(found.begin(), found.end(), is_better);
   GlobalMatch match{best.pose, best.share, std::nullopt, 0.0};

@@ -1,7 +1,11 @@
 // A map that a run begins with, read from a ROS map_server file, and a scan's place on it.
 #include <fstream>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "firmware/robot/known_map_file.h"
+#include "hal/sim/random.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
@@ -83,6 +87,11 @@ TEST_CASE("a scan is found on the map, wherever it was taken and however turned"
   }
 }
 
+TEST_CASE("points behind a wall do not count: they fit best half a turn off, where the laser would see through walls") {
+  const Pose2 pose{18.34, 16.93, -0.06};
+  CHECK(distance(located("map1", pose).position(), pose.position()) < 0.15);
+}
+
 TEST_CASE("a place that has a twin is refused, and so is a scan of another place; both say what to give") {
   // The hall of crossing.yaml is the same turned by half a turn about (10, 7).
   const std::string twin = refusal("crossing", {10.0, 7.0, 0.4});
@@ -108,4 +117,53 @@ TEST_CASE("a room of another building is not taken for one of the map's, though 
       CHECK_THROWS_AS(located_on(*map, scan, p3dx().laser, "robot.toml: "), StartupError);
     }
   }
+}
+
+namespace {
+
+struct Floor {
+  std::string map;
+  Vec2 size;
+};
+const std::vector<Floor> kFloors{{"map1", {25.0, 25.0}},     {"map2", {25.0, 25.0}},  {"map3", {25.0, 25.0}},
+                                 {"map4", {25.0, 25.0}},     {"door", {8.6, 5.4}},    {"corner", {6.0, 6.0}},
+                                 {"crossing", {20.0, 14.0}}, {"dead_end", {8.0, 5.0}}};
+
+struct Tally {
+  int right = 0, wrong = 0, refused = 0;
+  void add(const std::string& map, const LaserScan& scan, const Pose2& pose) try {
+    const Pose2 at = located_on(*load_known_map(kMaps + "/" + map + ".yaml", 0.1), scan, p3dx().laser, "");
+    (distance(at.position(), pose.position()) < 0.3 ? right : wrong) += 1;
+  } catch (const StartupError&) {
+    ++refused;
+  }
+};
+
+std::optional<LaserScan> scan_if_free(const std::string& map, const Pose2& pose) try {
+  return scan_on(map, pose);
+} catch (const StartupError&) {
+  return std::nullopt;  // in a wall
+}
+
+}  // namespace
+
+// Two minutes, so outside the suite: robot_tests "[places]". It prints the figures of docs/robot.md.
+TEST_CASE("places drawn at random are found on their own map or refused", "[.][places]") {
+  sim::Random random(GENERATE(78U, 79U), sim::Purpose::kPlacement);
+  Tally own, other;
+  for (const Floor& floor : kFloors) {
+    for (int k = 0; k < 5;) {
+      const Pose2 pose{random.uniform(1.0, floor.size.x - 1.0), random.uniform(1.0, floor.size.y - 1.0),
+                       random.uniform(-kPi, kPi)};
+      const auto scan = scan_if_free(floor.map, pose);
+      if (!scan) continue;
+      ++k;
+      own.add(floor.map, *scan, pose);
+      for (const char* map : {"map1", "map2", "map3", "map4"})
+        if (map != floor.map) other.add(map, *scan, {-1e3, 0.0, 0.0});
+    }
+  }
+  WARN("own map: " << own.right << " found, " << own.refused << " refused, " << own.wrong
+                   << " wrong; other buildings: " << other.refused << " refused, " << other.wrong << " taken");
+  CHECK(own.wrong == 0);
 }
