@@ -39,6 +39,15 @@ void remove_whole(const std::filesystem::path& what) {
   if (error) throw StartupError(what.string() + ": " + error.message(), "choose another --out folder");
 }
 
+/// A part has its recording from the first byte on, or was made just before the program was killed.
+void remove_part(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(folder / "recording.jwr") && !std::filesystem::is_empty(folder, ignored))
+    throw StartupError(folder.string() + ": is called like a part of a run and holds no recording",
+                       "choose another --out folder, or move it away");
+  remove_whole(folder);
+}
+
 }  // namespace
 
 int part_number(const std::filesystem::path& folder) {
@@ -64,7 +73,7 @@ bool has_nothing(const std::filesystem::path& file) {
 
 RunParts::RunParts(std::filesystem::path run, const PartsKept& kept)
     : run_(std::move(run)), place_(run_), kept_(kept), number_(any() ? 0 : 1) {
-  for (const std::filesystem::path& old : all_parts(run_)) remove_whole(old);
+  for (const std::filesystem::path& old : all_parts(run_)) remove_part(old);
   if (!any()) return;
   for (const char* const old : {"recording.jwr", "robot.csv", "movers.csv", "tracks.csv"}) remove_whole(run_ / old);
   next();

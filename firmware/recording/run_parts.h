@@ -18,7 +18,8 @@ inline constexpr std::uintmax_t kLeastPartBytes = 200'000;
 class RunParts {
  public:
   /// Removes from `run` what another run left there and this one will not write over: its parts, or its files where
-  /// this one has parts. With parts, makes the first. Throws StartupError.
+  /// this one has parts. With parts, makes the first. Throws StartupError, for a folder too that is called like a part
+  /// and is none.
   RunParts(std::filesystem::path run, const PartsKept& kept);
 
   /// A folder: that of the part, or the run's own.

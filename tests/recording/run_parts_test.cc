@@ -32,6 +32,15 @@ TEST_CASE("the oldest part goes before the next is made; without parts a run lie
   CHECK(parts_of(run.folder()).empty());
 }
 
+TEST_CASE("a folder that is called like a part and holds no recording is refused, not removed") {
+  const Scratch run;
+  std::filesystem::create_directories(run.path("part-000001"));
+  run.write("part-000001/thesis.tex", "years of work");
+  CHECK_THROWS_AS(RunParts(run.folder(), {}), StartupError);
+  CHECK_THROWS_AS(RunParts(run.folder(), {.bytes = 1'000'000, .parts = 3}), StartupError);
+  CHECK(run.read("part-000001/thesis.tex") == "years of work");
+}
+
 TEST_CASE("parts are those after the last gap, by number and not by name; other folders are none") {
   const Scratch run;
   for (const char* const name :
