@@ -1,5 +1,6 @@
 #include "cuda/emulated/launch.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <utility>
 
@@ -60,8 +61,9 @@ Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, Order
 
 void Launch::choose(OrderRandom& random) {
   if (random.below(32) == 0) {
-    habit_ = static_cast<Habit>(random.below(3));
+    habit_ = static_cast<Habit>(random.below(4));
     special_ = random.below(2) == 0 ? 0 : random.below(ready_.size());
+    special_warp_ = random.below(warps_of_block());
   }
   std::vector<std::size_t> blocks;
   for (std::size_t k = 0; k < ready_.size(); ++k) {
@@ -80,10 +82,18 @@ void Launch::choose(OrderRandom& random) {
     const bool left_out =
         way < 2 || only_special || (way == 2 && random.below(2) == 0) || (spare_special && k == special_);
     if (k != one && left_out) continue;
-    chosen_.insert(chosen_.end(), ready_[k].begin(), ready_[k].end());
-    ready_[k].clear();
+    take(ready_[k]);
   }
   for (std::size_t k = chosen_.size(); k > 1; --k) std::swap(chosen_[k - 1], chosen_[random.below(k)]);
+}
+
+void Launch::take(std::vector<std::uint32_t>& ready) {
+  const auto is_ahead = [this](std::uint32_t thread) { return thread % threads_ / kWarp == special_warp_; };
+  auto last = ready.begin();
+  if (habit_ == Habit::kWarpAhead) last = std::stable_partition(ready.begin(), ready.end(), is_ahead);
+  if (last == ready.begin()) last = ready.end();
+  chosen_.insert(chosen_.end(), ready.begin(), last);
+  ready.erase(ready.begin(), last);
 }
 
 void Launch::resume(std::uint32_t thread) {

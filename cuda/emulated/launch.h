@@ -77,11 +77,14 @@ class Launch {
   void begin(const Shape& shape);
   [[nodiscard]] std::size_t warps_of_block() const { return (threads_ + kWarp - 1) / kWarp; }
   [[nodiscard]] std::size_t warp() const { return block() * warps_of_block() + thread() / kWarp; }
-  /// How blocks get on for a while: one is as far ahead of the others as barriers allow, or as far behind.
-  enum class Habit : std::uint8_t { kMixed, kAhead, kBehind };
+  /// How threads get on for a while: one block is as far ahead of the others as barriers allow, or as far behind, or in
+  /// each block one warp ahead of its others.
+  enum class Habit : std::uint8_t { kMixed, kAhead, kBehind, kWarpAhead };
 
   /// Threads to run next: of one block, of some, or of all.
   void choose(OrderRandom& random);
+  /// Of one block's, those that are to run next.
+  void take(std::vector<std::uint32_t>& ready);
   void resume(std::uint32_t thread);
   void meet(Barrier& barrier, std::int64_t& count);
 
@@ -96,7 +99,8 @@ class Launch {
   std::vector<std::vector<std::uint32_t>> ready_;  ///< by block
   std::vector<std::uint32_t> chosen_;
   Habit habit_ = Habit::kMixed;
-  std::size_t special_ = 0;  ///< the block that is ahead or behind
+  std::size_t special_ = 0;       ///< the block that is ahead or behind
+  std::size_t special_warp_ = 0;  ///< in each block, the warp that is ahead
   std::vector<std::uint64_t> lane_values_;
 };
 
