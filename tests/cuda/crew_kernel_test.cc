@@ -33,10 +33,11 @@ void run(void (*kernel)(Order, field::CrewNotes), const Order& order) {
 
 }  // namespace
 
-TEST_CASE("emulated: all threads of a crew read what its first block has just put down alone") {
+TEST_CASE("emulated: all threads of a crew read what its first block, and no other, has just counted alone") {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     emulated::device().power_on({.processors = kBlocks, .seed = seed});
     const auto few = device_memory<std::int32_t>(CopyRounds::kFew);
+    std::ranges::fill(few, 0);
     const auto copied = device_memory<std::int32_t>(CopyRounds::kRounds * CopyRounds::kAll);
     run(copy_rounds, CopyRounds{few.data(), copied.data()});
     for (std::int32_t r = 0; r < CopyRounds::kRounds; ++r)

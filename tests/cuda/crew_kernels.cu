@@ -3,10 +3,9 @@
 namespace jaywalk::test {
 namespace {
 
-struct Put {
+struct CountOne {
   std::int32_t* to;
-  std::int32_t value;
-  JAYWALK_CELL void operator()(std::int32_t k) const { to[k] = value; }
+  JAYWALK_ORDER void operator()(std::int32_t k) const { (void)PlaceInGrid::add(to + k, 1); }
 };
 
 struct Copy {
@@ -20,7 +19,7 @@ struct Copy {
 __global__ void copy_rounds(CopyRounds order, field::CrewNotes notes) {
   field::Crew<PlaceInGrid> crew(PlaceInGrid{}, notes);
   for (std::int32_t r = 0; r < CopyRounds::kRounds; ++r) {
-    crew.for_each(CopyRounds::kFew, Put{order.few, r + 1});
+    crew.for_each(CopyRounds::kFew, CountOne{order.few});
     crew.for_each(CopyRounds::kAll, Copy{order.few, order.copied + r * CopyRounds::kAll});
   }
 }

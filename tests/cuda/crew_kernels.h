@@ -6,10 +6,10 @@
 
 namespace jaywalk::test {
 
-/// The first block puts a round's number down alone, and all threads copy it, round by round.
+/// The first block counts rounds alone, and all threads copy what it has counted, round by round.
 struct CopyRounds {
   static constexpr std::int32_t kRounds = 4, kFew = 64, kAll = kMostAlone + 64;
-  std::int32_t* few;     ///< kFew
+  std::int32_t* few;     ///< kFew, zeros at first
   std::int32_t* copied;  ///< kRounds x kAll: 1, 2 and so on
 };
 __global__ void copy_rounds(CopyRounds order, field::CrewNotes notes);
