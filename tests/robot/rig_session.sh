@@ -1,6 +1,7 @@
 # For scripts that run under tools/rig/run: a plant at one end of vcan0 and of a TCP port, the controller at the other.
 # shellcheck shell=bash
 # $RIG_ROBOT: another file of tools/rig/drive than robot.toml; $RIG_GOAL: another goal than the usual one;
+# $RIG_HALL: another world of the far end;
 # $RIG_SLOW: leave out what takes long on an emulated machine;
 # $RIG_CAN and $RIG_FAR_CAN name other interfaces than vcan0: two controllers on one bus.
 # usage: source rig_session.sh JAYWALK PLANT ROOT
@@ -38,7 +39,7 @@ start_plant() {
   late_lines >"$out/late_before"
   mv "$out/late_before" "$out/late"
   rm -f "$out/plant.log"
-  "$plant" "$root/tools/rig/drive/hall.toml" --seed 3 --robot "$out/robot.toml" --can "$far_can" --log "$out/plant.log" "$@" <&3 &
+  "$plant" "${RIG_HALL:-$root/tools/rig/drive/hall.toml}" --seed 3 --robot "$out/robot.toml" --can "$far_can" --log "$out/plant.log" "$@" <&3 &
   plant_pid=$!
   for _ in $(seq 50); do [ ! -s "$out/plant.log" ] || return 0; sleep 0.1; done
   fail "the plant did not start"
@@ -48,11 +49,11 @@ end_plant() {
   plant_pid=''
 }
 
-# start_run: until it takes goals. An emulated machine may refuse real-time priority or locked memory: what is tried here
+# start_run [OPTIONS...]: until it takes goals. An emulated machine may refuse real-time priority or locked memory: what is tried here
 # are the wires.
 start_run() {
   : >"$out/run.log"
-  "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --out "$out/run" >"$out/run.log" 2>&1 &
+  "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --out "$out/run" "$@" >"$out/run.log" 2>&1 &
   run_pid=$!
   for _ in $(seq 100); do
     [[ $(<"$out/run.log") != *"ready for"* ]] || return 0
