@@ -8,7 +8,6 @@ namespace jaywalk {
 namespace {
 
 constexpr double kMostBeamsAside = 3.0;
-constexpr double kSeesAll = 0.8;  // of its reach: scanners give that for what is bright. Chosen: docs/decisions/0016
 
 }  // namespace
 

@@ -11,6 +11,7 @@ namespace {
 // certain (64) is given up after nine scans that look through it: 0.6 s at 15 Hz.
 constexpr int kHit = 10;
 constexpr int kPass = -6;
+constexpr int kLookedOver = -1;  // not unknown any more, and the least that says so
 
 constexpr double kNearestM = 1e-6;  // nothing is hit nearer: no division by 0
 
@@ -44,16 +45,17 @@ bool MapEntry::first_visit(std::size_t slot) noexcept {
   return true;
 }
 
-void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
+/// Calls `visit` for each cell of the map from `from` on, and how many are still to come: the last one is left out.
+template <class Visit>
+void MapEntry::for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept {
   CellIndex cell = map.cell_at(from);
   const CellIndex end = map.cell_at(to);
   AxisWalk x(from.x, to.x - from.x, cell.i, map.cell_m()), y(from.y, to.y - from.y, cell.j, map.cell_m());
   const std::int32_t cells = std::abs(end.i - cell.i) + std::abs(end.j - cell.j);
-  for (std::int32_t k = 0; k < cells; ++k) {  // the last cell is left out: the beam ends just behind it
+  for (std::int32_t k = 0; k < cells; ++k) {
     if (!map.contains(cell))
       return;  // a straight line does not come back: a beam of a kilometre costs no more than the map
-    const bool at_the_end = k + kNoiseCells >= cells;
-    if (!(at_the_end && map.evidence(cell) > 0) && first_visit(map.slot(cell))) map.add(cell, kPass);
+    visit(cell, cells - k);
     if (x.next < y.next) {
       cell.i += x.step;
       x.next += x.each;
@@ -62,6 +64,19 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
       y.next += y.each;
     }
   }
+}
+
+/// The cell that the beam ends in is left out: it ends just behind the last.
+void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
+  for_each_crossed(map, from, to, [&](CellIndex cell, std::int32_t left) {
+    if (!(left <= kNoiseCells && map.evidence(cell) > 0) && first_visit(map.slot(cell))) map.add(cell, kPass);
+  });
+}
+
+void MapEntry::look_over(EvidenceMap& map, Vec2 laser, Vec2 to) noexcept {
+  for_each_crossed(map, laser, to, [&](CellIndex cell, std::int32_t) {
+    if (map.evidence(cell) == 0) map.add(cell, kLookedOver);
+  });
 }
 
 void free_under(EvidenceMap& map, const Pose2& map_from_robot, const Footprint& body) noexcept {

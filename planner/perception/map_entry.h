@@ -32,9 +32,15 @@ class MapEntry {
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
              const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 
+  /// A beam found nothing as far as `to_in_map`: cells on its way of which nothing was known have been seen, which
+  /// frees them for nobody (EvidenceMap::seen_free), and takes no wall away (docs/decisions/0016).
+  static void look_over(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
+
  private:
   [[nodiscard]] bool first_visit(std::size_t slot) noexcept;
   void free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept;
+  template <class Visit>
+  static void for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept;
 
   std::uint16_t scan_ = 0;
   std::vector<std::uint16_t> visited_in_;  ///< the scan that last touched the cell, on the map's own torus

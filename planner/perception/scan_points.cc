@@ -46,8 +46,9 @@ void ScanProjection::look_along(const LaserScan& scan, std::size_t beams) noexce
   for (; known_ < beams; ++known_) direction_[known_] = direction(scan.angle_rad(known_));
 }
 
-void ScanProjection::project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
-                             ScanPoints& out) noexcept {
+template <class RangeOf>
+void ScanProjection::project_beams(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
+                                   RangeOf range_of, ScanPoints& out) noexcept {
   out.clear();
   const std::size_t beams = std::min<std::size_t>(scan.beam_count, kMaxBeams);
   if (!(std::fabs(scan.first_angle_rad) < kMostRad && std::fabs(scan.angle_step_rad) < kMostRad)) return;  // NaN too
@@ -55,12 +56,27 @@ void ScanProjection::project(const LaserScan& scan, const Pose2& robot_from_lase
   const double beam_s = beam_interval_s(scan, twist);
   const Transform2 at_stamp(robot_from_laser);
   for (std::size_t b = 0; b < beams; ++b) {
-    const double range = static_cast<double>(scan.range_m[b]);
-    if (!scan.is_hit(b) || range < kNearestSeenM || range > kFarthestBelievedM) continue;
+    const double range = range_of(b);
+    if (range == 0.0) continue;
     Vec2 p = at_stamp * (direction_[b] * range);
     if (beam_s != 0.0) p = Transform2(moved_by(twist, beam_s * static_cast<double>(b))) * p;
     (void)out.push_back({p, range, static_cast<std::uint32_t>(b)});  // never full: one point a beam
   }
+}
+
+void ScanProjection::project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
+                             ScanPoints& out) noexcept {
+  const auto range_of = [&scan](std::size_t b) {
+    const double range = static_cast<double>(scan.range_m[b]);
+    return !scan.is_hit(b) || range < kNearestSeenM || range > kFarthestBelievedM ? 0.0 : range;
+  };
+  project_beams(scan, robot_from_laser, twist, range_of, out);
+}
+
+void ScanProjection::project_empty(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist,
+                                   double range_m, ScanPoints& out) noexcept {
+  const auto range_of = [&](std::size_t b) { return scan.found_nothing(b) ? range_m : 0.0; };
+  project_beams(scan, robot_from_laser, twist, range_of, out);
 }
 
 }  // namespace jaywalk

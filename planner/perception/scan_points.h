@@ -54,6 +54,10 @@ struct Sweep {
 /// Nearer than this (m) a laser sees only its own robot: masts, cables, the rim of its own window.
 inline constexpr double kNearestSeenM = 0.2;
 
+/// The share of its reach within which a scanner sees all: makers give the reach for what is bright. Chosen:
+/// docs/decisions/0016.
+inline constexpr double kSeesAll = 0.8;
+
 /// Beams beyond kMaxBeams are left out.
 [[nodiscard]] Sweep sweep_of(const LaserScan& scan) noexcept;
 
@@ -74,8 +78,15 @@ class ScanProjection {
   /// them where the angles are no fan. A sweep that takes
   /// time is put right: each beam starts from where a robot moving with `twist` stood when that beam was measured.
   void project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept;
+  /// The same of the beams that measured and found nothing: points along them, `range_m` from the laser.
+  void project_empty(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, double range_m,
+                     ScanPoints& out) noexcept;
 
  private:
+  /// `range_of(beam)`: m; 0 for one that is left out.
+  template <class RangeOf>
+  void project_beams(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, RangeOf range_of,
+                     ScanPoints& out) noexcept;
   void look_along(const LaserScan& scan, std::size_t beams) noexcept;
 
   float first_angle_rad_ = 0.0F, angle_step_rad_ = 0.0F;

@@ -1,8 +1,16 @@
 #include "planner/perception/scene.h"
 
+#include <algorithm>
+
 #include "planner/perception/touching_bodies.h"
 
 namespace jaywalk {
+namespace {
+
+/// So far from the laser what has been seen is asked for: the ground that a robot drives over in six seconds.
+constexpr double kLookedOverM = 4.0;
+
+}  // namespace
 
 void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
                  const Bodies& bodies) noexcept {
@@ -10,6 +18,7 @@ void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist
   projection_.project(scan, robot_from_laser_, twist, points);
   const Sweep sweep = sweep_of(scan);
   drop_own_points(scan, sweep);
+  look_past(scan, twist);
   begin_at_a_jump(sweep, points);
   map_from_laser = map_from_robot * robot_from_laser_;
   const Transform2 to_map(map_from_robot);
@@ -40,6 +49,16 @@ void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept 
     points[kept++] = point;
   }
   points.truncate(kept);
+}
+
+void Scene::look_past(const LaserScan& scan, const Twist2& twist) noexcept {
+  const double range_m = std::min(kLookedOverM, kSeesAll * static_cast<double>(scan.range_max_m));
+  projection_.project_empty(scan, robot_from_laser_, twist, range_m, empty);
+  std::size_t kept = 0;
+  for (const ScanPoint& end : empty) {
+    if (!ends_on_robot(scan, end.beam)) empty[kept++] = end;
+  }
+  empty.truncate(kept);
 }
 
 }  // namespace jaywalk

@@ -150,6 +150,8 @@ void Tracker::State::enter_still() noexcept {
   decide_entries(bodies, scene.clusters, scene.in_map, count, still, now, entries);
   still.roll_to(laser_in_map);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
+  const Transform2 to_map(scene.map_from_laser * inverse(robot_from_laser));
+  for (const ScanPoint& end : scene.empty) MapEntry::look_over(still, laser_in_map, to_map * end.in_robot);
   free_under(still, scene.map_from_laser * inverse(robot_from_laser), own_body);
 }
 

@@ -103,3 +103,16 @@ TEST_CASE("a sweep of a driving robot is put right") {
   CHECK((*points)[1].in_robot.x == Approx(2.1));  // measured after 0.1 s, 0.1 m on
   CHECK((*points)[2].in_robot.x == Approx(0.2));
 }
+
+TEST_CASE("beams that found nothing have points along them, put right like others; those that did not measure none") {
+  LaserScan scan = three_beams();
+  scan.sweep = duration_from_seconds(0.2);
+  scan.range_m = {0.0F, std::numeric_limits<float>::infinity(), 10.0F};
+  const auto points = std::make_unique<ScanPoints>();
+  ScanProjection().project_empty(scan, {}, {1.0, 0.0}, 4.0, *points);
+  REQUIRE(points->size() == 2);
+  CHECK((*points)[0].in_robot.x == Approx(4.1));
+  CHECK((*points)[1].in_robot.x == Approx(0.2));
+  CHECK((*points)[1].in_robot.y == Approx(4.0));
+  CHECK((*points)[1].beam == 2);
+}
