@@ -64,7 +64,7 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
   decision_.start = now;
   decision_.goal = {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)};
   decision_.turned = turned_;
-  decision_.stay = stay(now, seen.now);
+  decision_.stay = stay(now, seen.guide, seen.now);
   const Situation situation = this->situation(seen.guide);
   best_cost_ = {.time = 1e9F};
   float to_beat = 1e9F;
@@ -115,11 +115,18 @@ std::vector<Alternative> MotionPlanner::alternatives(const Guide& guide) const {
   return all;
 }
 
-Stay MotionPlanner::stay(const RobotState& here, Time now) noexcept {
-  if (stays_since_ == kNever || now < stays_since_ || !stay_.holds(here)) {
-    stay_ = {here.x, here.y, here.heading, 0.0F};
+Stay MotionPlanner::stay(const RobotState& here, const Guide& guide, Time now) noexcept {
+  const std::span<const MoverBelief> beliefs = memory_.beliefs();
+  const bool alone = memory_.hidden().empty() &&
+                     std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
+  const float to_go = alone ? guide.time_to_go(here.x, here.y) : 0.0F;
+  const bool was_alone = stay_.least_to_go_s > 0.0F;
+  const bool gets_on = alone && was_alone ? to_go < stay_.least_to_go_s - kGetsOnS : !stay_.holds(here);
+  if (stays_since_ == kNever || now < stays_since_ || gets_on) {
+    stay_ = {here.x, here.y, here.heading, 0.0F, to_go};
     stays_since_ = now;
   }
+  if (alone != was_alone) stay_.least_to_go_s = to_go;
   stay_.for_s = static_cast<float>(to_seconds(now - stays_since_));
   return stay_;
 }

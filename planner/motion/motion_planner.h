@@ -77,7 +77,7 @@ class MotionPlanner {
  private:
   [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
   void choose(const Situation& situation) noexcept;
-  [[nodiscard]] Stay stay(const RobotState& here, Time now) noexcept;
+  [[nodiscard]] Stay stay(const RobotState& here, const Guide& guide, Time now) noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
 

@@ -39,10 +39,15 @@ JAYWALK_CELL float turned_side(float w, float last) {
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 
+inline constexpr float kGetsOnS = 0.5F;  ///< so much nearer to the goal is further
+
 /// Where the robot has been for a while: it has not come farther from it than a passenger would call getting on.
 struct Stay {
   float x = 0.0F, y = 0.0F, heading = 0.0F;
   float for_s = 0.0F;
+  /// Where nobody is for whom it would wait: the least time to the goal that it has come to, s; 0 where somebody may
+  /// be.
+  float least_to_go_s = 0.0F;
 
   [[nodiscard]] JAYWALK_CELL bool holds(const RobotState& s) const {
     constexpr float kNear_m = 0.25F, kNear_rad = 0.8F;

@@ -27,7 +27,7 @@ RobotBody body_of(float full_speed) {
 
 /// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
 Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
-             float full_speed = 0.6F) {
+             float full_speed = 0.6F, float least_to_go_s = 0.0F) {
   test::Guided ground;
   if (walled_in)
     ground.wall({2.0, -4.0}, {2.0, 6.0})
@@ -39,8 +39,9 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
   const auto nobody = std::make_unique<Futures>();
   Trajectory held;
   held.commands.fill(command);
-  return judge({body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, {0.0F, 0.0F, 0.0F, stood_s}, 0.24F}, held,
-               1e9F);
+  return judge(
+      {body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s}, 0.24F},
+      held, 1e9F);
 }
 
 }  // namespace
@@ -53,6 +54,18 @@ TEST_CASE("to stand on is the dearer the longer the robot has stood, up to four 
   const float on_the_way = cost_of({0.6F, 0.0F}, 4.0F).total() - cost_of({0.6F, 0.0F}, 0.0F).total();
   CHECK(on_the_way == Approx(1.2F).margin(0.11));                // as long as it takes to get 0.25 m on, at 0.75 m/s3
   CHECK(cost_of({0.0F, 0.05F}, 4.0F).total() > at_once + 5.0F);  // to sway is no getting on
+}
+
+TEST_CASE("where nobody is, only to come nearer to the goal is to get on: backing off is not, nor driving about") {
+  const float least_s = 4.0F / 0.6F;  // where it is
+  const auto dearer = [&](const Command& command, float least_to_go_s) {
+    return cost_of(command, 20.0F, 0.0F, false, 0.6F, least_to_go_s).total() -
+           cost_of(command, 0.0F, 0.0F, false, 0.6F, least_to_go_s).total();
+  };
+  CHECK(dearer({-0.3F, 0.0F}, 0.0F) < 3.0F);  // somebody may be there: off after a quarter of a metre
+  CHECK(dearer({-0.3F, 0.0F}, least_s) == Approx(18.0F).margin(0.01));  // 6 s at three seconds each, no more
+  CHECK(dearer({}, least_s) == Approx(18.0F).margin(0.01));
+  CHECK(dearer({0.6F, 0.0F}, least_s) < 5.0F);
 }
 
 TEST_CASE("where no way is known it may stand for ever") {
