@@ -31,7 +31,7 @@ constexpr float kReversal = 1.5F;                     ///< turning to the other 
 constexpr float kPricedAtMps =
     0.6F;  ///< changes of speed and side are worth so much way: a faster robot drives it sooner
 constexpr float kImpatience = 0.25F, kMostStoodS = 4.0F;  ///< a second before it sets out, for each that it has stood
-constexpr float kMostAloneS = 12.0F;                      ///< where nobody is for whom it would wait
+constexpr float kMostAloneS = 12.0F;  ///< the same with no pedestrian about (docs/decisions/0076: BARN, seed 706)
 constexpr float kArrivedEarly = 0.5F;
 constexpr float kFacing = 1.0F;  ///< the wrong way at the end
 constexpr float kFacingM = 0.35F;
@@ -203,8 +203,8 @@ class Judge {
     turned_ = turns;
   }
 
-  /// Waiting for a while may look best again and again: the longer it has not got on, the dearer is to stay on. Where
-  /// nobody is, backing off and coming again would be waiting, too (docs/decisions/0076).
+  /// Waiting for a while may look best again and again: the longer it has not got on, the dearer is to stay on. With
+  /// no pedestrian about, backing off and returning counts as waiting, too (docs/decisions/0076).
   void wait(const RobotState& now) {
     if (!waits_) return;
     const float least = s_.stay.least_to_go_s;

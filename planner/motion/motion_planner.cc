@@ -62,7 +62,9 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
   now = moved(now, {now.v, now.w}, body_.bounds, kLagS);
   now.accel = accel_;
   decision_.start = now;
-  decision_.goal = {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)};
+  const Place goal = {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)};
+  if (!(goal == decision_.goal)) stay_.least_to_go_s = 0.0F;  // that was the time to another goal
+  decision_.goal = goal;
   decision_.turned = turned_;
   decision_.stay = stay(now, seen.guide, seen.now);
   const Situation situation = this->situation(seen.guide);

@@ -39,14 +39,13 @@ JAYWALK_CELL float turned_side(float w, float last) {
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 
-inline constexpr float kGetsOnS = 0.5F;  ///< so much nearer to the goal is further
+inline constexpr float kGetsOnS = 0.5F;  ///< fall of the time to the goal that counts as progress
 
 /// Where the robot has been for a while: it has not come farther from it than a passenger would call getting on.
 struct Stay {
   float x = 0.0F, y = 0.0F, heading = 0.0F;
   float for_s = 0.0F;
-  /// Where nobody is for whom it would wait: the least time to the goal that it has come to, s; 0 where somebody may
-  /// be.
+  /// The least time to the goal reached so far, s, while no pedestrian is about; 0 while one may be.
   float least_to_go_s = 0.0F;
 
   [[nodiscard]] JAYWALK_CELL bool holds(const RobotState& s) const {

@@ -11,7 +11,7 @@ namespace {
 // certain (64) is given up after nine scans that look through it: 0.6 s at 15 Hz.
 constexpr int kHit = 10;
 constexpr int kPass = -6;
-constexpr int kLookedOver = -1;  // not unknown any more, and the least that says so
+constexpr int kObserved = -1;  // the smallest evidence that is not unknown (0) and not free (below kFree)
 
 constexpr double kNearestM = 1e-6;  // nothing is hit nearer: no division by 0
 
@@ -45,7 +45,7 @@ bool MapEntry::first_visit(std::size_t slot) noexcept {
   return true;
 }
 
-/// Calls `visit` for each cell of the map from `from` on, and how many are still to come: the last one is left out.
+/// Calls `visit(cell, left)` for each cell that the line crosses but the last; `left`: cells to the line's end.
 template <class Visit>
 void MapEntry::for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept {
   CellIndex cell = map.cell_at(from);
@@ -73,9 +73,9 @@ void MapEntry::free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept {
   });
 }
 
-void MapEntry::look_over(EvidenceMap& map, Vec2 laser, Vec2 to) noexcept {
+void MapEntry::mark_observed(EvidenceMap& map, Vec2 laser, Vec2 to) noexcept {
   for_each_crossed(map, laser, to, [&](CellIndex cell, std::int32_t) {
-    if (map.evidence(cell) == 0) map.add(cell, kLookedOver);
+    if (map.evidence(cell) == 0) map.add(cell, kObserved);
   });
 }
 

@@ -32,9 +32,9 @@ class MapEntry {
   void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
              const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 
-  /// A beam found nothing as far as `to_in_map`: cells on its way of which nothing was known have been seen, which
-  /// frees them for nobody (EvidenceMap::seen_free), and takes no wall away (docs/decisions/0016).
-  static void look_over(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
+  /// Marks the unknown cells along a beam without a return as observed, up to `to_in_map`. Such a cell is not free
+  /// (EvidenceMap::seen_free), and an occupied cell stays occupied (docs/decisions/0016 and 0075).
+  static void mark_observed(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
 
  private:
   [[nodiscard]] bool first_visit(std::size_t slot) noexcept;

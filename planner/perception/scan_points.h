@@ -78,7 +78,7 @@ class ScanProjection {
   /// them where the angles are no fan. A sweep that takes
   /// time is put right: each beam starts from where a robot moving with `twist` stood when that beam was measured.
   void project(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, ScanPoints& out) noexcept;
-  /// The same of the beams that measured and found nothing: points along them, `range_m` from the laser.
+  /// The same for beams without a return (LaserScan::found_nothing): the points `range_m` along them.
   void project_empty(const LaserScan& scan, const Pose2& robot_from_laser, const Twist2& twist, double range_m,
                      ScanPoints& out) noexcept;
 

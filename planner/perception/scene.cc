@@ -7,8 +7,8 @@
 namespace jaywalk {
 namespace {
 
-/// So far from the laser what has been seen is asked for: the ground that a robot drives over in six seconds.
-constexpr double kLookedOverM = 4.0;
+/// Range of a beam without a return within which cells count as observed: a trajectory of 6 s at 0.6 m/s, rounded up.
+constexpr double kObservedM = 4.0;
 
 }  // namespace
 
@@ -18,7 +18,7 @@ void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist
   projection_.project(scan, robot_from_laser_, twist, points);
   const Sweep sweep = sweep_of(scan);
   drop_own_points(scan, sweep);
-  look_past(scan, twist);
+  project_empty_beams(scan, twist);
   begin_at_a_jump(sweep, points);
   map_from_laser = map_from_robot * robot_from_laser_;
   const Transform2 to_map(map_from_robot);
@@ -51,8 +51,8 @@ void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept 
   points.truncate(kept);
 }
 
-void Scene::look_past(const LaserScan& scan, const Twist2& twist) noexcept {
-  const double range_m = std::min(kLookedOverM, kSeesAll * static_cast<double>(scan.range_max_m));
+void Scene::project_empty_beams(const LaserScan& scan, const Twist2& twist) noexcept {
+  const double range_m = std::min(kObservedM, kSeesAll * static_cast<double>(scan.range_max_m));
   projection_.project_empty(scan, robot_from_laser_, twist, range_m, empty);
   std::size_t kept = 0;
   for (const ScanPoint& end : empty) {

@@ -19,13 +19,13 @@ class Scene {
 
   Pose2 map_from_laser;
   ScanPoints points;
-  ScanPoints empty;    ///< on beams that found nothing, kLookedOverM from the laser or four fifths of its reach
+  ScanPoints empty;    ///< ends of beams without a return, cut at kObservedM or at kSeesAll of the reach
   PointsInMap in_map;  ///< of as many points
   Clusters clusters;
 
  private:
   void drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept;
-  void look_past(const LaserScan& scan, const Twist2& twist) noexcept;
+  void project_empty_beams(const LaserScan& scan, const Twist2& twist) noexcept;
   [[nodiscard]] bool ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept;
 
   Pose2 robot_from_laser_;

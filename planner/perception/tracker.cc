@@ -150,9 +150,10 @@ void Tracker::State::enter_still() noexcept {
   decide_entries(bodies, scene.clusters, scene.in_map, count, still, now, entries);
   still.roll_to(laser_in_map);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
-  const Transform2 to_map(scene.map_from_laser * inverse(robot_from_laser));
-  for (const ScanPoint& end : scene.empty) MapEntry::look_over(still, laser_in_map, to_map * end.in_robot);
-  free_under(still, scene.map_from_laser * inverse(robot_from_laser), own_body);
+  const Pose2 map_from_robot = scene.map_from_laser * inverse(robot_from_laser);
+  const Transform2 to_map(map_from_robot);
+  for (const ScanPoint& end : scene.empty) MapEntry::mark_observed(still, laser_in_map, to_map * end.in_robot);
+  free_under(still, map_from_robot, own_body);
 }
 
 void Tracker::State::publish() noexcept {

@@ -56,13 +56,13 @@ TEST_CASE("to stand on is the dearer the longer the robot has stood, up to four 
   CHECK(cost_of({0.0F, 0.05F}, 4.0F).total() > at_once + 5.0F);  // to sway is no getting on
 }
 
-TEST_CASE("where nobody is, only to come nearer to the goal is to get on: backing off is not, nor driving about") {
+TEST_CASE("with no pedestrian about, only a shorter time to the goal ends the price of waiting; backing off does not") {
   const float least_s = 4.0F / 0.6F;  // where it is
   const auto dearer = [&](const Command& command, float least_to_go_s) {
     return cost_of(command, 20.0F, 0.0F, false, 0.6F, least_to_go_s).total() -
            cost_of(command, 0.0F, 0.0F, false, 0.6F, least_to_go_s).total();
   };
-  CHECK(dearer({-0.3F, 0.0F}, 0.0F) < 3.0F);  // somebody may be there: off after a quarter of a metre
+  CHECK(dearer({-0.3F, 0.0F}, 0.0F) < 3.0F);  // a pedestrian may be about: 0.25 m away ends it
   CHECK(dearer({-0.3F, 0.0F}, least_s) == Approx(18.0F).margin(0.01));  // 6 s at three seconds each, no more
   CHECK(dearer({}, least_s) == Approx(18.0F).margin(0.01));
   CHECK(dearer({0.6F, 0.0F}, least_s) < 5.0F);

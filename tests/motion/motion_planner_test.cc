@@ -30,6 +30,8 @@ class Drive {
     scan_.range_max_m = 25.0F;
   }
 
+  void go_to(Vec2 goal) { goal_ = goal; }
+
   Pose2 pose{0.0, 0.0, 0.0};
   Twist2 twist;
   bool has_mover = false;
@@ -41,7 +43,8 @@ class Drive {
   /// Seconds until it is there; 0: not within `for_s`.
   double run(double for_s) {
     for (double t = 0.0; t < for_s; t += kTick) {
-      const Time now = time_from_seconds(t + 1.0);
+      const Time now = time_from_seconds(clock_s_ + 1.0);
+      clock_s_ += kTick;
       twist = planner_.twist(now, true, pose, goal_, twist);
       slowest = t > 3.0 ? std::min(slowest, twist.v_mps) : slowest;
       fastest = std::max(fastest, twist.v_mps);
@@ -88,6 +91,7 @@ class Drive {
   }
 
   test::Guided& ground_;
+  double clock_s_ = 0.0;  ///< runs on from one run() to the next
   Vec2 goal_;
   MotionPlanner planner_;
   LaserScan scan_;
@@ -102,6 +106,23 @@ TEST_CASE("in the open it drives straight to the goal, at full speed") {
   CHECK(took > 0.0);
   CHECK(took < 3.7 / 0.6 + 2.5);  // speeding up costs 0.9 s, slowing down little
   CHECK(drive.fastest == Approx(0.6).margin(0.01));
+}
+
+TEST_CASE("the time to the goal is progress with no pedestrian about, and anew for each goal") {
+  test::Guided ground;
+  Drive drive(ground, {4.0, 0.0});
+  (void)drive.run(2.0);
+  const float to_first_s = drive.planner().decision().stay.least_to_go_s;
+  CHECK(to_first_s > 3.0F);
+  CHECK(to_first_s < 4.0F / 0.6F);
+  drive.go_to({-4.0, 0.0});  // farther away than the first goal was at any time
+  (void)drive.run(0.2);
+  CHECK(drive.planner().decision().stay.least_to_go_s > 4.0F / 0.6F);
+
+  Drive beside_a_walker(ground, {4.0, 0.0});
+  beside_a_walker.has_mover = true, beside_a_walker.mover = {2.0, 3.0}, beside_a_walker.walks = {0.0, 0.4};
+  (void)beside_a_walker.run(2.0);
+  CHECK(beside_a_walker.planner().decision().stay.least_to_go_s == 0.0F);
 }
 
 TEST_CASE("it turns first where the goal lies behind") {

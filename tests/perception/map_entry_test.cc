@@ -86,14 +86,14 @@ TEST_CASE("a surface is remembered to a fraction of its cell") {
   CHECK(e.map.surface({10, 0}).y == Approx(0.07).margin(0.002));
 }
 
-TEST_CASE("where a beam found nothing is seen, free for nobody, and no wall is taken away") {
+TEST_CASE("a beam without a return marks unknown cells as observed, frees none and clears no wall") {
   Entered e;
   e.enter({{1.05, 0.05}}, Becomes::kWall, 2);
-  for (int k = 0; k < 50; ++k) MapEntry::look_over(e.map, {0.05, 0.05}, {2.05, 0.05});
+  for (int k = 0; k < 50; ++k) MapEntry::mark_observed(e.map, {0.05, 0.05}, {2.05, 0.05});
   CHECK(e.map.occupied({10, 0}));
   CHECK(e.map.evidence({15, 0}) != 0);
   CHECK_FALSE(e.map.seen_free({15, 0}));
-  CHECK(e.map.evidence({20, 0}) == 0);  // nothing is said of where it ends, and of what lies beside
+  CHECK(e.map.evidence({20, 0}) == 0);  // the beam's last cell and the cells beside it stay unknown
   CHECK(e.map.evidence({15, 1}) == 0);
-  MapEntry::look_over(e.map, {0.05, 0.05}, {1e9, 0.05});  // ends at the map's rim
+  MapEntry::mark_observed(e.map, {0.05, 0.05}, {1e9, 0.05});  // ends at the map's rim
 }

@@ -104,7 +104,8 @@ TEST_CASE("a sweep of a driving robot is put right") {
   CHECK((*points)[2].in_robot.x == Approx(0.2));
 }
 
-TEST_CASE("beams that found nothing have points along them, put right like others; those that did not measure none") {
+TEST_CASE(
+    "beams without a return are projected to a given range and corrected for motion; unknown beams are left out") {
   LaserScan scan = three_beams();
   scan.sweep = duration_from_seconds(0.2);
   scan.range_m = {0.0F, std::numeric_limits<float>::infinity(), 10.0F};
