@@ -90,6 +90,14 @@ FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& r
   return {moved_s, reason};
 }
 
+/// What it touches stops the robot before the last tick: the speed it came with is the tick's before.
+FailureWords collision_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
+  const RobotRow& end = robot.back();
+  RobotRow touched = end;
+  if (robot.size() > 1) touched.v_mps = robot[robot.size() - 2].v_mps;
+  return {end.t_s, "something touched " + where(touched) + ", " + nearest_mover(folder, end)};
+}
+
 FailureWords fault_words(const std::vector<RobotRow>& robot) {
   for (const RobotRow& row : robot) {
     if (row.reasons.find("latched") != std::string::npos)
@@ -106,8 +114,7 @@ FailureWords failure_words(const PlannedRun& run, const std::string& outcome, co
   if (outcome == "forced_mover") return forced_words(folder, robot);
   if (outcome == "fault") return fault_words(robot);
   if (outcome != "collision") return timeout_words(run, robot);
-  const RobotRow& end = robot.back();
-  return {end.t_s, "something touched " + where(end) + ", " + nearest_mover(folder, end)};
+  return collision_words(folder, robot);
 }
 
 }  // namespace jaywalk::campaign

@@ -69,7 +69,7 @@ TEST_CASE("timeouts, collisions and faults are told") {
   CHECK(timeout.at_s == 3.0);  // it still crept
   CHECK(holds(timeout.reason, "time was over 4.0 m from the goal for the robot, at 0.04 m/s"));
   CHECK(holds(Folder("collision").result().reason,
-              "something touched the robot, at 0.04 m/s at (1.4, 1.0), mover 2 nearest, 1.00 m off"));
+              "something touched the robot, at -0.05 m/s at (1.4, 1.0), mover 2 nearest, 1.00 m off"));
   const RunResult fault = Folder("fault").result();
   CHECK(fault.at_s == 2.0);
   CHECK(holds(fault.reason, "latched|drive_fault"));
