@@ -82,7 +82,9 @@ const char* name_of(motion::Attempt attempt) {
                               "drive an arc",
                               "back off in an arc",
                               "drive an arc, then follow the way",
-                              "back off, then follow the way"};
+                              "back off, then follow the way",
+                              "drive as the stick asks",
+                              "turn and drive straight on"};
   return kNames[static_cast<std::size_t>(attempt)];
 }
 
@@ -99,8 +101,8 @@ void write_alternatives(const std::vector<motion::Alternative>& alternatives, co
                 "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
                 "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
   const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
-  constexpr std::array kNames{"last", "follow",   "wait_then_go",    "go_then_stop",
-                              "arc",  "arc_back", "arc_then_follow", "back_then_follow"};
+  constexpr std::array kNames{"last",     "follow",          "wait_then_go",     "go_then_stop", "arc",
+                              "arc_back", "arc_then_follow", "back_then_follow", "wish",         "go_straight"};
   for (const motion::Alternative& a : alternatives) {
     table.text(kNames[static_cast<std::size_t>(a.trajectory.attempt)]).count(a.trajectory.perturbed ? 1 : 0);
     number(a.cost.total());

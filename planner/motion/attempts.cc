@@ -24,6 +24,7 @@ constexpr int kFollows = static_cast<int>(kFollowShares.size());
 constexpr int kArcs = static_cast<int>(kForward.size() + kBack.size()) * kTurnCount;
 constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) * kTurnCount;
 constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
+constexpr int kStraights = 12;  ///< directions, all round
 
 constexpr int kSteerEvery = 3;  ///< steps
 constexpr float kLookM = 0.5F;  ///< the guide is asked this far off
@@ -79,7 +80,7 @@ float at(const std::array<float, kTurns.size()>& values, int k) { return values[
 
 int Attempts::count() const {
   return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
-                          : kFollows + kWaits + kGoes + kArcs + kBentForward + kBentBack;
+                          : kFollows + kWaits + kGoes + kArcs + kBentForward + kBentBack + kStraights;
 }
 
 void Attempts::make(int n, Trajectory& out) const noexcept {
@@ -109,7 +110,9 @@ void Attempts::make(int n, Trajectory& out) const noexcept {
   }
   n -= kGoes;
   if (n < kArcs) return arc(n, out);
-  arc_then_follow(n - kArcs, out);
+  n -= kArcs;
+  if (n < kBentForward + kBentBack) return arc_then_follow(n, out);
+  go_straight(n - kBentForward - kBentBack, out);
 }
 
 void Attempts::arc(int n, Trajectory& out) const noexcept {
@@ -134,6 +137,18 @@ void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
   RobotState robot = s_.start;
   drive_out(robot, 0, steps, permitted({v, at(kTurns, n % kTurnCount) * b.turn}), out);
   follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
+}
+
+/// In a direction of its own, wherever the goal is: backing off at 0.3 m/s, the robot is caught up by a pedestrian who
+/// walks at 0.4 (docs/decisions/0078).
+void Attempts::go_straight(int n, Trajectory& out) const noexcept {
+  const float heading = s_.start.heading + 2.0F * cell::kPiF * static_cast<float>(n) / static_cast<float>(kStraights);
+  out.attempt = Attempt::kGoStraight;
+  RobotState robot = s_.start;
+  for (int step = 0; step < kSteps; step += kSteerEvery) {
+    const Command command = towards(cell::wrapped(heading - robot.heading), s_.body.bounds.speed);
+    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), permitted(command), out);
+  }
 }
 
 void Attempts::drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept {
@@ -168,9 +183,13 @@ Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
     const float weight = cell::exp((round[best] - t) * kSharpness);
     sum += weight * off_rad(k), weights += weight;
   }
-  const float error = cell::wrapped(direction_rad(best) + (weights > 0.0F ? sum / weights : 0.0F) - r.heading);
-  const float turn = s_.body.bounds.turn, wanted = kGain * error;
-  const bool turns_first = constant_ <= 0.0F && std::fabs(error) > kTurnsFirstRad;
+  return towards(cell::wrapped(direction_rad(best) + (weights > 0.0F ? sum / weights : 0.0F) - r.heading), speed);
+}
+
+/// Towards where it looks `error_rad` past.
+Command Attempts::towards(float error_rad, float speed) const noexcept {
+  const float turn = s_.body.bounds.turn, wanted = kGain * error_rad;
+  const bool turns_first = constant_ <= 0.0F && std::fabs(error_rad) > kTurnsFirstRad;
   return {turns_first ? std::min(speed, kWhileTurningMps) : speed, std::clamp(wanted, -turn, turn)};
 }
 

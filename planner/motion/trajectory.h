@@ -19,7 +19,8 @@ enum class Attempt : std::uint8_t {
   kArcBack,
   kArcThenFollow,
   kBackThenFollow,
-  kWish,  ///< what a stick asks for, or nearly
+  kWish,        ///< what a stick asks for, or nearly
+  kGoStraight,  ///< turns to a direction of its own and keeps to it
 };
 
 /// Timed commands; what comes of them is up to robot_motion.h.

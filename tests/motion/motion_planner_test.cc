@@ -37,7 +37,8 @@ class Drive {
   bool has_mover = false;
   Vec2 mover{}, walks{};
   bool blind_guide = false;
-  double least_m = 10.0;  ///< between robot's and mover's middles
+  double least_m = 10.0;    ///< between robot's and mover's middles
+  bool in_its_way = false;  ///< the robot's middle was where the mover would turn away
   double slowest = 10.0, fastest = -10.0;
 
   /// Seconds until it is there; 0: not within `for_s`.
@@ -53,6 +54,7 @@ class Drive {
               wrap_angle(pose.heading + twist.w_radps * kTick)};
       mover = mover + walks * kTick;
       if (has_mover) least_m = std::min(least_m, distance(pose.position(), mover));
+      in_its_way = in_its_way || (has_mover && is_in_its_way());
       if (distance(pose.position(), goal_) < 0.3) return t + kTick;
       if (static_cast<int>(t / kTick + 0.5) % 4 == 0) decide(now);
     }
@@ -62,6 +64,12 @@ class Drive {
   [[nodiscard]] const MotionPlanner& planner() const { return planner_; }
 
  private:
+  [[nodiscard]] bool is_in_its_way() const {
+    const Vec2 to_robot = pose.position() - mover;
+    const double away = norm(to_robot);
+    return away < 0.27 + 0.5 && dot(to_robot, walks) > std::cos(0.25 * kPi) * away * norm(walks);
+  }
+
   void decide(Time now) {
     Guide guide = ground_.towards(pose.position(), goal_);
     const std::vector<float> nothing(static_cast<std::size_t>(guide.side) * static_cast<std::size_t>(guide.side),
@@ -147,6 +155,18 @@ TEST_CASE("somebody who comes head-on is let by") {
   drive.has_mover = true;
   drive.mover = {5.0, 0.0}, drive.walks = {-0.5, 0.0};
   CHECK(drive.run(25.0) > 0.0);
+  CHECK(drive.least_m > 0.27 + 0.2);
+}
+
+TEST_CASE("in a corridor the robot keeps out of the way of a walker who is faster than it backs off") {
+  test::Guided g;
+  g.wall({-1.5, -0.8}, {6.0, -0.8}).wall({-1.5, 0.8}, {6.0, 0.8});
+  Drive drive(g, {5.5, 0.0});
+  drive.pose = {2.0, 0.0, 0.0};
+  drive.has_mover = true;
+  drive.mover = {5.5, 0.0}, drive.walks = {-0.5, 0.0};
+  (void)drive.run(16.0);
+  CHECK_FALSE(drive.in_its_way);
   CHECK(drive.least_m > 0.27 + 0.2);
 }
 
