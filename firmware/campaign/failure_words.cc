@@ -90,7 +90,7 @@ FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& r
   return {moved_s, reason};
 }
 
-/// What it touches stops the robot before the last tick: the speed it came with is the tick's before.
+/// The last tick is after the contact, which stops the robot; the tick before has the speed at contact.
 FailureWords collision_words(const std::filesystem::path& folder, const std::vector<RobotRow>& robot) {
   const RobotRow& end = robot.back();
   RobotRow touched = end;

@@ -74,19 +74,35 @@ FieldRaster raster_of(const Guide& guide, double inscribed_m) {
   return raster;
 }
 
-const char* name_of(motion::Attempt attempt) {
-  constexpr std::array kNames{"go on as decided before",
-                              "follow the way",
-                              "wait and then go",
-                              "go and then stop",
-                              "drive an arc",
-                              "back off in an arc",
-                              "drive an arc, then follow the way",
-                              "back off, then follow the way",
-                              "drive as the stick asks",
-                              "turn and drive straight on"};
-  return kNames[static_cast<std::size_t>(attempt)];
+/// The name of an attempt in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.
+std::pair<const char*, const char*> names_of(motion::Attempt attempt) {
+  using motion::Attempt;
+  switch (attempt) {
+    case Attempt::kLast:
+      return {"last", "go on as decided before"};
+    case Attempt::kFollow:
+      return {"follow", "follow the way"};
+    case Attempt::kWaitThenGo:
+      return {"wait_then_go", "wait and then go"};
+    case Attempt::kGoThenStop:
+      return {"go_then_stop", "go and then stop"};
+    case Attempt::kArc:
+      return {"arc", "drive an arc"};
+    case Attempt::kArcBack:
+      return {"arc_back", "back off in an arc"};
+    case Attempt::kArcThenFollow:
+      return {"arc_then_follow", "drive an arc, then follow the way"};
+    case Attempt::kBackThenFollow:
+      return {"back_then_follow", "back off, then follow the way"};
+    case Attempt::kWish:
+      return {"wish", "drive as the stick asks"};
+    case Attempt::kGoStraight:
+      return {"go_straight", "turn and drive straight on"};
+  }
+  return {"unknown", "do something unknown"};
 }
+
+const char* name_of(motion::Attempt attempt) { return names_of(attempt).second; }
 
 std::string in_words(const motion::Cost& cost) {
   std::string words = seconds(cost.time, "to the goal");
@@ -101,10 +117,8 @@ void write_alternatives(const std::vector<motion::Alternative>& alternatives, co
                 "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
                 "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
   const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
-  constexpr std::array kNames{"last",     "follow",          "wait_then_go",     "go_then_stop", "arc",
-                              "arc_back", "arc_then_follow", "back_then_follow", "wish",         "go_straight"};
   for (const motion::Alternative& a : alternatives) {
-    table.text(kNames[static_cast<std::size_t>(a.trajectory.attempt)]).count(a.trajectory.perturbed ? 1 : 0);
+    table.text(names_of(a.trajectory.attempt).first).count(a.trajectory.perturbed ? 1 : 0);
     number(a.cost.total());
     number(a.cost.time);
     for (const auto& term : terms_of(a.cost)) number(term.second);

@@ -13,7 +13,7 @@ namespace {
 constexpr std::uint32_t kPurpose = 3;  ///< of the draws
 
 constexpr std::array<float, 7> kFollowShares{1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
-constexpr int kWaits = 4, kGoes = 4;
+constexpr int kPauses = 4;  ///< waits of 0.8 to 3.2 s before it goes, and as many stops
 constexpr std::array<float, 11> kTurns{0.0F, -0.15F, 0.15F, -0.3F, 0.3F, -0.5F, 0.5F, -0.75F, 0.75F, -1.0F, 1.0F};
 constexpr std::array<float, 4> kForward{1.0F, 0.667F, 0.333F, 0.0F};  ///< of full speed
 constexpr std::array<float, 2> kBack{0.5F, 1.0F};                     ///< of the speed backward
@@ -80,7 +80,7 @@ float at(const std::array<float, kTurns.size()>& values, int k) { return values[
 
 int Attempts::count() const {
   return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
-                          : kFollows + kWaits + kGoes + kArcs + kBentForward + kBentBack + kStraights;
+                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights;
 }
 
 void Attempts::make(int n, Trajectory& out) const noexcept {
@@ -96,19 +96,19 @@ void Attempts::make(int n, Trajectory& out) const noexcept {
     return follow_from(robot, 0, kFollowShares[static_cast<std::size_t>(n)] * full, out);
   }
   n -= kFollows;
-  if (n < kWaits) {
+  if (n < kPauses) {
     out.attempt = Attempt::kWaitThenGo;
     const int wait = 8 * (n + 1);
     drive_out(robot, 0, wait, {}, out);
     return follow_from(robot, wait, full, out);
   }
-  n -= kWaits;
-  if (n < kGoes) {
+  n -= kPauses;
+  if (n < kPauses) {
     out.attempt = Attempt::kGoThenStop;
     follow_from(robot, 0, full, out);
     return std::fill(out.commands.begin() + 6 + 8 * n, out.commands.end(), Command{});
   }
-  n -= kGoes;
+  n -= kPauses;
   if (n < kArcs) return arc(n, out);
   n -= kArcs;
   if (n < kBentForward + kBentBack) return arc_then_follow(n, out);
@@ -139,8 +139,8 @@ void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
   follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
 }
 
-/// In a direction of its own, wherever the goal is: backing off at 0.3 m/s, the robot is caught up by a pedestrian who
-/// walks at 0.4 (docs/decisions/0078).
+/// Turns to one of twelve headings, then drives straight on at full speed: an escape that the guide does not show
+/// (docs/decisions/0078).
 void Attempts::go_straight(int n, Trajectory& out) const noexcept {
   const float heading = s_.start.heading + 2.0F * cell::kPiF * static_cast<float>(n) / static_cast<float>(kStraights);
   out.attempt = Attempt::kGoStraight;
@@ -186,7 +186,7 @@ Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
   return towards(cell::wrapped(direction_rad(best) + (weights > 0.0F ? sum / weights : 0.0F) - r.heading), speed);
 }
 
-/// Towards where it looks `error_rad` past.
+/// Proportional steering to a heading `error_rad` to the left; a large error is turned off nearly in place first.
 Command Attempts::towards(float error_rad, float speed) const noexcept {
   const float turn = s_.body.bounds.turn, wanted = kGain * error_rad;
   const bool turns_first = constant_ <= 0.0F && std::fabs(error_rad) > kTurnsFirstRad;

@@ -20,7 +20,7 @@ enum class Attempt : std::uint8_t {
   kArcThenFollow,
   kBackThenFollow,
   kWish,        ///< what a stick asks for, or nearly
-  kGoStraight,  ///< turns to a direction of its own and keeps to it
+  kGoStraight,  ///< turns to one of twelve headings and drives straight on
 };
 
 /// Timed commands; what comes of them is up to robot_motion.h.

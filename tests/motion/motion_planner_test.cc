@@ -38,7 +38,7 @@ class Drive {
   Vec2 mover{}, walks{};
   bool blind_guide = false;
   double least_m = 10.0;    ///< between robot's and mover's middles
-  bool in_its_way = false;  ///< the robot's middle was where the mover would turn away
+  bool in_its_way = false;  ///< the robot's middle was in the mover's zone (docs/scenarios.md)
   double slowest = 10.0, fastest = -10.0;
 
   /// Seconds until it is there; 0: not within `for_s`.
