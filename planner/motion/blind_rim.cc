@@ -10,6 +10,7 @@ constexpr double kSpacing_m = 0.05;
 constexpr double kMargin_m = 0.08;       // StopZoneConfig's: so far off the outline the supervisor asks
 constexpr float kUnwatchedMps = 0.29F;   // SupervisorConfig's 0.3, less what a tick may err
 constexpr float kMostlyOutward = 0.5F;   // Watch's
+constexpr int kHalvings = 8;             // of the turn looked for: to 0.005 rad/s
 constexpr double kFieldEdge_rad = 0.01;  // a beam's share at the rim of the field of view
 
 bool is_watched(const LaserModel& laser, Vec2 in_robot) {
@@ -54,6 +55,16 @@ Command BlindRim::slowed(const Command& command) const noexcept {
   const float over = too_fast(command.v, command.w);
   const float share = kUnwatchedMps / (kUnwatchedMps + over);
   return {share * command.v, share * command.w};
+}
+
+float BlindRim::turn_at(float v, float w) const noexcept {
+  if (too_fast(v, w) <= 0.0F || too_fast(v, 0.0F) > 0.0F) return w;
+  float most = 0.0F, over = w;
+  for (int halving = 0; halving < kHalvings; ++halving) {
+    const float middle = 0.5F * (most + over);
+    (too_fast(v, middle) > 0.0F ? over : most) = middle;
+  }
+  return most;
 }
 
 }  // namespace jaywalk::motion

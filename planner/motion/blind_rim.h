@@ -21,6 +21,9 @@ class BlindRim {
   [[nodiscard]] float too_fast(float v, float w) const noexcept;
   /// The same way on, as fast as is permitted: both parts of the command in proportion, as the supervisor does it.
   [[nodiscard]] Command slowed(const Command& command) const noexcept;
+  /// The same speed, with the turn as near to `w` as is permitted: while a ramped speed still falls, the turn waits for
+  /// it, or the supervisor would brake both. `w` as it is where `v` alone is too fast.
+  [[nodiscard]] float turn_at(float v, float w) const noexcept;
   [[nodiscard]] std::size_t points() const noexcept { return points_.size(); }
 
  private:

@@ -14,9 +14,9 @@ constexpr float kConflict = 200.0F, kConflictFadesS = 4.0F;  ///< what is far ah
 constexpr float kWhoStands =
     0.1F;  ///< of it: who has stood for long and sets out is seen to before the robot drives on
 constexpr float kTouch = 500.0F, kNearlyTouch = 1000.0F;
-constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F, kStopZoneForS = 1.5F;
-constexpr float kBlindRim = 10.0F;                     ///< a m/s that the supervisor would take away, each step
-constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;  ///< a second, at the body's edge
+constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F;  ///< all of the speed, at once
+constexpr float kBlindRim = 10.0F;                          ///< a m/s that the supervisor would take away, each step
+constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;       ///< a second, at the body's edge
 constexpr float kByWall = 0.6F, kByWallM = 0.28F;
 constexpr float kUnseen = 40.0F;                              ///< a second, with all of the rim
 constexpr float kUnseenFadesM = 0.6F;                         ///< after driving on so far it has been seen, most likely
@@ -36,10 +36,7 @@ constexpr float kArrivedEarly = 0.5F;
 constexpr float kFacing = 1.0F;  ///< the wrong way at the end
 constexpr float kFacingM = 0.35F;
 
-constexpr float kTouchM = 0.03F;                         ///< of a surface counts as touching: pose and map err
-constexpr float kMarginM = 0.04F, kFullMarginM = 0.08F;  ///< StopZoneConfig's, at rest and
-constexpr float kFullMarginMps = 0.4F;                   ///< at this rim speed
-constexpr float kZoneEdgeM = 0.01F;
+constexpr float kTouchM = 0.03F;  ///< of a surface counts as touching: pose and map err
 constexpr float kMoverMarginM = 0.035F;
 constexpr float kRestsMps = 0.02F;     ///< slower it is walked into, and touches nobody
 constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn away, and a margin
@@ -167,17 +164,22 @@ class Judge {
       cost.touch += kNearlyTouch * cell::exp(-0.2F * t) * (deep < 1.0F ? deep : 1.0F) + (c < 0.0F ? kTouch : 0.0F);
     }
     if (c >= kByWallM) return;
-    const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m, share = rim / kFullMarginMps;
-    const float margin = kMarginM + (kFullMarginM - kMarginM) * (share < 1.0F ? share : 1.0F) + kZoneEdgeM;
-    if (c < margin && nears && t < kStopZoneForS && cost.stop_zone <= 0.0F) {
-      cost.stop_zone = kStopZone * cell::exp(-t / kStopZoneFadesS);
-    }
+    if (t < NearReturns::kForS)
+      brake(kStopZone * cell::exp(-t / kStopZoneFadesS) * s_.returns.braked_share(r, s_.body));
     const float close = c < kNearWallM ? (kNearWallM - c) / kNearWallM : 0.0F;
     // Steered, it passes and stands as near as is wished: the price is for the way very near, not for the time.
     const bool steered = s_.wish != nullptr;
+    const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
     const float paid = steered ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
     const float by_wall = steered ? 0.0F : kByWall * (kByWallM - c) / kByWallM;
     cost.clearance += kStepS * paid * (kNearWall * close * close + by_wall);
+  }
+
+  /// The dearest braking counts.
+  void brake(float price) {
+    if (price <= braked_) return;
+    cost.stop_zone += price - braked_;
+    braked_ = price;
   }
 
   void unseen(const RobotState& r) {
@@ -270,6 +272,7 @@ class Judge {
   float change_price_ = 1.0F;
   bool waits_ = false;     ///< it has not set out yet, though there is a way
   float gone_ = 0.0F;      ///< forward, m
+  float braked_ = 0.0F;    ///< paid for it so far
   std::uint32_t met_ = 0;  ///< futures in which somebody was met: a bit each
   /// Futures in which the moving robot touched a mover: a bit each. Priced apart from being in the mover's way.
   std::uint32_t touched_ = 0;

@@ -1,5 +1,6 @@
 #pragma once
 #include "planner/motion/futures.h"
+#include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/trajectory.h"
 #include "planner/motion/wish.h"
@@ -11,6 +12,7 @@ struct Situation {
   const RobotBody& body;
   const Guide& guide;
   const Futures& futures;
+  const NearReturns& returns;
   RobotState start;
   Place goal;
   float turned = 0.0F;              ///< the side that it turned to last: turned_side()

@@ -66,6 +66,7 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
   if (!(goal == decision_.goal)) stay_.least_to_go_s = 0.0F;  // that was the time to another goal
   decision_.goal = goal;
   decision_.turned = turned_;
+  returns_.look(seen.scan, seen.map_from_laser, now, body_, memory_.masked());
   decision_.stay = stay(now, seen.guide, seen.now);
   const Situation situation = this->situation(seen.guide);
   best_cost_ = {.time = 1e9F};
@@ -86,10 +87,15 @@ void MotionPlanner::decide(const MotionInput& input, const Twist2& driven) noexc
 }
 
 Situation MotionPlanner::situation(const Guide& guide) const noexcept {
-  return {body_,          guide,
-          *futures_,      decision_.start,
-          decision_.goal, decision_.turned,
-          decision_.stay, kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
+  return {body_,
+          guide,
+          *futures_,
+          returns_,
+          decision_.start,
+          decision_.goal,
+          decision_.turned,
+          decision_.stay,
+          kArriveWithin * static_cast<float>(config_.goal_tolerance_m)};
 }
 
 void MotionPlanner::choose(const Situation& situation) noexcept {
@@ -146,8 +152,9 @@ Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot
   const bool rests = !has_goal || is_there(map_from_robot, goal);
   Command to = rests ? Command{} : within(body_.bounds, command_at(now));
   if (config_.constant_speed && has_goal) to.v = body_.bounds.speed;
-  const RobotState next =
+  RobotState next =
       moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, to, body_.bounds, static_cast<float>(config_.tick_s));
+  if (!config_.constant_speed) next.w = body_.blind.turn_at(next.v, next.w);
   accel_ = next.accel;
   turned_ = turned_side(next.w, turned_);
   if (rests) stays_since_ = kNever;

@@ -85,6 +85,7 @@ class MotionPlanner {
   RobotBody body_;
   MoverMemory memory_;
   std::unique_ptr<Futures> futures_;
+  NearReturns returns_;
   Decision decision_;
   Trajectory trial_, best_;
   Cost best_cost_;

@@ -47,8 +47,9 @@ void SharedControl::decide(const Seen& seen, const Stick& stick, const Twist2& d
                  0.0F};
   now = moved(now, {now.v, now.w}, body_.bounds, kLagS);
   now.accel = accel_;
+  returns_.look(seen.scan, seen.map_from_laser, now, body_, memory_.masked());
   const WishedWay way = drive_wish(now, asked, body_.bounds);
-  Situation situation{body_, guide, *futures_, now, {}, 0.0F, {}, 0.0F, &way};
+  Situation situation{body_, guide, *futures_, returns_, now, {}, 0.0F, {}, 0.0F, &way};
   const bool may_go_on = decided_ != kNever && seen.now - decided_ < kHoldsFor;
   choose(situation, may_go_on, static_cast<float>(to_seconds(seen.now - decided_)));
   asked_ = asked;

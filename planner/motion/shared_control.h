@@ -43,6 +43,7 @@ class SharedControl {
   LocalGround ground_;
   MoverMemory memory_;
   std::unique_ptr<Futures> futures_;
+  NearReturns returns_;
   std::uint32_t number_ = 0;
   Time decided_ = kNever, seen_ = kNever;
   Command asked_;  ///< that was decided on

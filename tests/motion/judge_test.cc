@@ -1,5 +1,6 @@
 #include "planner/motion/judge.h"
 
+#include <cmath>
 #include <memory>
 
 #include "tests/motion/guided.h"
@@ -9,6 +10,8 @@ using namespace jaywalk;
 using namespace jaywalk::motion;
 
 namespace {
+
+const NearReturns kNothing;
 
 RobotBody body_of(float full_speed) {
   const Footprint f = p3dx().footprint;
@@ -39,9 +42,16 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
   const auto nobody = std::make_unique<Futures>();
   Trajectory held;
   held.commands.fill(command);
-  return judge(
-      {body, guide, *nobody, RobotState{}, {4.0F, 0.0F}, turned, {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s}, 0.24F},
-      held, 1e9F);
+  return judge({body,
+                guide,
+                *nobody,
+                kNothing,
+                RobotState{},
+                {4.0F, 0.0F},
+                turned,
+                {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s},
+                0.24F},
+               held, 1e9F);
 }
 
 }  // namespace
@@ -90,7 +100,7 @@ TEST_CASE("a trajectory is given up only where its whole cost is above the bound
   const Guide& guide = ground.towards({0.0, 0.0}, {1.6, 0.0});
   const RobotBody body = body_of(0.6F);
   const auto nobody = std::make_unique<Futures>();
-  const Situation arrives{body, guide, *nobody, RobotState{}, {1.6F, 0.0F}, 0.0F, {}, 0.24F};
+  const Situation arrives{body, guide, *nobody, kNothing, RobotState{}, {1.6F, 0.0F}, 0.0F, {}, 0.24F};
   Trajectory ahead;
   ahead.commands.fill({0.6F, 0.0F});
   const float whole = judge(arrives, ahead, 1e9F).total();
@@ -110,13 +120,40 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
         .id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F, .has_walked = true, .stood_s = stood_s};
     const auto futures = std::make_unique<Futures>();
     futures->draw({&him, 1}, {}, {}, guide, 1);
-    return judge({body, guide, *futures, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
+    return judge({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
   };
   const float side = static_cast<float>(p3dx().footprint.half_width_m) + 0.25F;
   CHECK(cost_beside(side - 0.05F, 10.0F).touch > 400.0F);
   CHECK(cost_beside(side + 0.1F, 10.0F).touch == 0.0F);
   CHECK(cost_beside(side + 0.1F, 10.0F).clearance > cost_beside(side + 0.2F, 10.0F).clearance);
   CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // he may go on at once, and is met, not passed
+}
+
+TEST_CASE(
+    "the supervisor's braking is foreseen: slowly past a place 6 cm beside the way, whatever the map holds of it") {
+  test::Guided ground;
+  const Guide& guide = ground.wall({-1.0, 0.4}, {0.5, 0.4}).towards({0.0, 0.0}, {4.0, 0.0});
+  const RobotBody body = body_of(0.6F);
+  LaserScan scan;
+  scan.beam_count = 3;
+  scan.first_angle_rad = 0.5F, scan.angle_step_rad = 0.1F;
+  scan.range_min_m = 0.02F, scan.range_max_m = 20.0F;
+  const float ahead = 0.4F, left = static_cast<float>(p3dx().footprint.half_width_m) + 0.06F;
+  scan.range_m[1] = std::sqrt(ahead * ahead + left * left);
+  scan.first_angle_rad = std::atan2(left, ahead) - scan.angle_step_rad;
+  NearReturns returns;
+  returns.look(scan, {}, {}, body, {});
+  const auto nobody = std::make_unique<Futures>();
+  const auto braked_at = [&](float speed, const NearReturns& seen) {
+    Trajectory held;
+    held.commands.fill({speed, 0.0F});
+    return judge({body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).stop_zone;
+  };
+  CHECK(braked_at(0.6F, returns) > 10.0F);
+  CHECK(braked_at(0.3F, returns) > 1.0F);
+  CHECK(braked_at(0.3F, returns) < braked_at(0.6F, returns));
+  CHECK(braked_at(0.08F, returns) == 0.0F);
+  CHECK(braked_at(0.6F, kNothing) == 0.0F);
 }
 
 TEST_CASE("in a walker's way already, to drive into the walker costs more than to stand") {
@@ -129,7 +166,7 @@ TEST_CASE("in a walker's way already, to drive into the walker costs more than t
   const auto conflict_at = [&](float speed) {
     Trajectory held;
     held.commands.fill({speed, 0.0F});
-    return judge({body, guide, *futures, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).conflict;
+    return judge({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).conflict;
   };
   CHECK(conflict_at(0.3F) > conflict_at(0.0F) + 50.0F);
 }

@@ -40,6 +40,7 @@ class Drive {
   double least_m = 10.0;    ///< between robot's and mover's middles
   bool in_its_way = false;  ///< the robot's middle was in the mover's zone (docs/scenarios.md)
   double slowest = 10.0, fastest = -10.0;
+  float blind_over = 0.0F;  ///< m/s, the most that a part of the body exceeded what is permitted where nothing looks
 
   /// Seconds until it is there; 0: not within `for_s`.
   double run(double for_s) {
@@ -49,6 +50,8 @@ class Drive {
       twist = planner_.twist(now, true, pose, goal_, twist);
       slowest = t > 3.0 ? std::min(slowest, twist.v_mps) : slowest;
       fastest = std::max(fastest, twist.v_mps);
+      blind_over =
+          std::max(blind_over, blind_.too_fast(static_cast<float>(twist.v_mps), static_cast<float>(twist.w_radps)));
       const Vec2 along = direction(pose.heading + 0.5 * twist.w_radps * kTick);
       pose = {pose.x + twist.v_mps * kTick * along.x, pose.y + twist.v_mps * kTick * along.y,
               wrap_angle(pose.heading + twist.w_radps * kTick)};
@@ -102,6 +105,7 @@ class Drive {
   double clock_s_ = 0.0;  ///< runs on from one run() to the next
   Vec2 goal_;
   MotionPlanner planner_;
+  BlindRim blind_{p3dx().footprint, p3dx().laser};
   LaserScan scan_;
 };
 
@@ -179,6 +183,15 @@ TEST_CASE("a wall between is driven round without touching it") {
   g.wall({2.0, -2.0}, {2.0, 1.5});
   Drive drive(g, {4.0, 0.0});
   CHECK(drive.run(40.0) > 0.0);
+}
+
+TEST_CASE("out of a niche it backs, and turns no faster than what its laser never sees permits") {
+  test::Guided g;
+  g.wall({-0.8, 0.4}, {0.5, 0.4}).wall({-0.8, -0.4}, {0.5, -0.4}).wall({0.5, -0.4}, {0.5, 0.4});
+  Drive drive(g, {-2.0, 2.5});
+  CHECK(drive.run(30.0) > 0.0);
+  CHECK(drive.slowest < -0.2);
+  CHECK(drive.blind_over <= 0.0F);
 }
 
 TEST_CASE("at constant speed it never slows down, and still lets by who crosses") {

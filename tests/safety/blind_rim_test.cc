@@ -53,3 +53,25 @@ TEST_CASE("a laser that looks all round leaves no blind rim") {
   const motion::BlindRim rim(p3dx().footprint, laser);
   CHECK(rim.too_fast(-0.6F, 1.0F) == 0.0F);
 }
+
+TEST_CASE("backing off as fast as is permitted, it turns only as the speed falls") {
+  const motion::BlindRim blind(p3dx().footprint, p3dx().laser);
+  REQUIRE(blind.too_fast(-0.28F, 0.0F) == 0.0F);
+  REQUIRE(blind.too_fast(-0.28F, 0.5F) > 0.0F);
+  float before = 0.0F;
+  for (const float v : {-0.28F, -0.2F, -0.1F}) {
+    const float w = blind.turn_at(v, 1.0F);
+    CHECK(blind.too_fast(v, w) == 0.0F);
+    CHECK(blind.too_fast(v, w + 0.01F) > 0.0F);  // no less than is needed
+    CHECK(w > before);
+    CHECK(blind.turn_at(v, -1.0F) == Approx(-w).margin(0.01));
+    before = w;
+  }
+}
+
+TEST_CASE("a turn that is permitted stays, and so does one at a speed that is too fast by itself") {
+  const motion::BlindRim blind(p3dx().footprint, p3dx().laser);
+  CHECK(blind.turn_at(0.6F, 0.5F) == 0.5F);
+  CHECK(blind.turn_at(-0.1F, 0.3F) == 0.3F);
+  CHECK(blind.turn_at(-0.5F, 0.3F) == 0.3F);
+}

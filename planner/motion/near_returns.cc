@@ -1,0 +1,70 @@
+#include "planner/motion/near_returns.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::motion {
+namespace {
+
+// StopZoneConfig's margins at rest and in full, and the rim speed from which the full one counts.
+constexpr float kMarginM = 0.04F, kFullMarginM = 0.08F, kFullMarginMps = 0.4F;
+constexpr float kEdgeM = 0.01F;    ///< a range's noise
+constexpr float kNearerM = 2e-4F;  ///< less is no approach: single precision a kilometre from the origin
+
+/// What the stop zone allows the outline's edge beside a point `gap_m` away.
+float permitted_rim(float gap_m) {
+  return std::max(gap_m - kEdgeM - kMarginM, 0.0F) / (kFullMarginM - kMarginM) * kFullMarginMps;
+}
+
+bool is_of_a_mover(Vec2 place, std::span<const MoverDisc> movers) {
+  return std::any_of(movers.begin(), movers.end(),
+                     [&](const MoverDisc& m) { return distance(place, m.centre_in_map) < m.radius_m + kOwnBody_m; });
+}
+
+/// The gap from the body at `robot` to a place in the map.
+float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBody& body, float x, float y) {
+  const float dx = x - robot.x, dy = y - robot.y;
+  return body.gap(dx * along.x + dy * along.y, dy * along.x - dx * along.y);
+}
+
+}  // namespace
+
+void NearReturns::look(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
+                       const RobotBody& body, std::span<const MoverDisc> movers) noexcept {
+  const float reach_m = kFullMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
+  const cell::Heading along = cell::heading_at(robot.heading);
+  const Transform2 map_from(map_from_laser);
+  float nearest[kSectors];
+  std::fill(nearest, nearest + kSectors, reach_m + body.rim_m);
+  Vec2 hit[kSectors];
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    if (!scan.is_hit(beam) || scan.range_m[beam] > 2.0F * (reach_m + body.rim_m)) continue;
+    const Vec2 p = map_from * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+    const float dx = static_cast<float>(p.x) - robot.x, dy = static_cast<float>(p.y) - robot.y;
+    const float away = std::sqrt(dx * dx + dy * dy);
+    const float turns = 0.5F + cell::angle_of(dx, dy) / (2.0F * cell::kPiF);
+    const auto sector = std::min(static_cast<std::size_t>(turns * static_cast<float>(kSectors)), kSectors - 1);
+    if (away < nearest[sector] && !is_of_a_mover(p, movers)) nearest[sector] = away, hit[sector] = p;
+  }
+  count_ = 0;
+  for (std::size_t k = 0; k < kSectors; ++k) {
+    if (nearest[k] >= reach_m + body.rim_m) continue;
+    x_[count_] = static_cast<float>(hit[k].x), y_[count_] = static_cast<float>(hit[k].y);
+    gap_[count_] = gap_to(robot, along, body, x_[count_], y_[count_]) - kNearerM;
+    ++count_;
+  }
+}
+
+float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) const noexcept {
+  const cell::Heading along = cell::heading_at(robot.heading);
+  float least = kFullMarginM + kEdgeM;
+  for (std::size_t k = 0; k < count_; ++k) {
+    const float gap = gap_to(robot, along, body, x_[k], y_[k]);
+    least = gap < gap_[k] && gap < least ? gap : least;
+  }
+  if (least >= kFullMarginM + kEdgeM) return 0.0F;
+  const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m, may = permitted_rim(least);
+  return rim > may ? 1.0F - may / rim : 0.0F;
+}
+
+}  // namespace jaywalk::motion

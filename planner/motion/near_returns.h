@@ -1,0 +1,33 @@
+#pragma once
+#include <cstddef>
+#include <span>
+
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+#include "planner/motion/robot_body.h"
+#include "planner/planner.h"
+
+namespace jaywalk::motion {
+
+/// What the last scan hits close to the robot: the points that the supervisor's stop zone will look at, place by place.
+/// The map knows a surface as one place a cell, which lies up to 5 cm behind a wall's end.
+class NearReturns {
+ public:
+  /// The nearest hit of each 3 degrees about the robot, of those within its reach in 1.5 s. What may be a body of
+  /// `movers` is left out: it will be elsewhere.
+  void look(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot, const RobotBody& body,
+            std::span<const MoverDisc> movers) noexcept;
+
+  /// Which share of the speed at `robot` the supervisor takes away, in [0, 1]: beside a point that is nearer than it
+  /// was at the look, the outline's edge may go no faster than the stop zone's margin there allows.
+  [[nodiscard]] float braked_share(const RobotState& robot, const RobotBody& body) const noexcept;
+
+  static constexpr float kForS = 1.5F;  ///< so far ahead the supervisor's braking is foreseen
+
+ private:
+  static constexpr std::size_t kSectors = 120;
+  float x_[kSectors] = {}, y_[kSectors] = {}, gap_[kSectors] = {};
+  std::size_t count_ = 0;
+};
+
+}  // namespace jaywalk::motion
