@@ -7,7 +7,6 @@ namespace jaywalk::motion {
 namespace {
 
 constexpr double kSpacing_m = 0.05;
-constexpr double kMargin_m = 0.08;       // StopZoneConfig's: so far off the outline the supervisor asks
 constexpr float kUnwatchedMps = 0.29F;   // SupervisorConfig's 0.3, less what a tick may err
 constexpr float kMostlyOutward = 0.5F;   // Watch's
 constexpr int kHalvings = 8;             // of the turn looked for: to 0.005 rad/s
@@ -26,7 +25,7 @@ BlindRim::BlindRim(const Footprint& footprint, const LaserModel& laser) {
   const Vec2 corners[4] = {{front, half}, {rear, half}, {rear, -half}, {front, -half}};
   const Vec2 normals[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}};  // of the side that begins there
   const auto add = [&](Vec2 p, Vec2 out) {
-    if (is_watched(laser, p + out * kMargin_m)) return;
+    if (is_watched(laser, p + out * static_cast<double>(kStopZoneMarginM))) return;
     points_.push_back(
         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(out.x), static_cast<float>(out.y)});
     reach_m_ = std::max(reach_m_, static_cast<float>(norm(p)));

@@ -14,9 +14,9 @@ constexpr float kConflict = 200.0F, kConflictFadesS = 4.0F;  ///< what is far ah
 constexpr float kWhoStands =
     0.1F;  ///< of it: who has stood for long and sets out is seen to before the robot drives on
 constexpr float kTouch = 500.0F, kNearlyTouch = 1000.0F;
-constexpr float kStopZone = 40.0F, kStopZoneFadesS = 1.0F;  ///< all of the speed, at once
-constexpr float kBlindRim = 10.0F;                          ///< a m/s that the supervisor would take away, each step
-constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;       ///< a second, at the body's edge
+constexpr float kStopZone = 40.0F;  ///< all of the speed, at once; less by a factor e for each second until then
+constexpr float kBlindRim = 10.0F;  ///< a m/s that the supervisor would take away, each step
+constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;  ///< a second, at the body's edge
 constexpr float kByWall = 0.6F, kByWallM = 0.28F;
 constexpr float kUnseen = 40.0F;                              ///< a second, with all of the rim
 constexpr float kUnseenFadesM = 0.6F;                         ///< after driving on so far it has been seen, most likely
@@ -33,7 +33,6 @@ constexpr float kPricedAtMps =
 constexpr float kImpatience = 0.25F, kMostStoodS = 4.0F;  ///< a second before it sets out, for each that it has stood
 constexpr float kMostAloneS = 12.0F;  ///< the same with no pedestrian about (docs/decisions/0076: BARN, seed 706)
 constexpr float kArrivedEarly = 0.5F;
-constexpr float kFacing = 1.0F;  ///< the wrong way at the end
 constexpr float kFacingM = 0.35F;
 
 constexpr float kTouchM = 0.03F;  ///< of a surface counts as touching: pose and map err
@@ -164,8 +163,7 @@ class Judge {
       cost.touch += kNearlyTouch * cell::exp(-0.2F * t) * (deep < 1.0F ? deep : 1.0F) + (c < 0.0F ? kTouch : 0.0F);
     }
     if (c >= kByWallM) return;
-    if (t < NearReturns::kForS)
-      brake(kStopZone * cell::exp(-t / kStopZoneFadesS) * s_.returns.braked_share(r, s_.body));
+    if (t < NearReturns::kForS) brake(kStopZone * cell::exp(-t) * s_.returns.braked_share(r, s_.body));
     const float close = c < kNearWallM ? (kNearWallM - c) / kNearWallM : 0.0F;
     // Steered, it passes and stands as near as is wished: the price is for the way very near, not for the time.
     const bool steered = s_.wish != nullptr;
@@ -278,7 +276,7 @@ class Judge {
   std::uint32_t touched_ = 0;
 };
 
-/// Seconds from where a trajectory ends, and half a second for facing the wrong way there.
+/// Seconds from where a trajectory ends, and a second for facing across the way there, two for facing back.
 float to_go(const Situation& s, const RobotState& end) {
   const float there = s.guide.time_to_go(end.x, end.y);
   if (there >= Guide::kNoWay_s) return kMostTimeToGoS;
@@ -286,7 +284,7 @@ float to_go(const Situation& s, const RobotState& end) {
   const float ahead = s.guide.time_to_go(end.x + kFacingM * along.x, end.y + kFacingM * along.y);
   const float gained = there - (ahead < there + 1.0F ? ahead : there + 1.0F);
   const float facing = gained * s.body.bounds.speed / kFacingM;
-  return there + kFacing * (1.0F - facing);
+  return there + (1.0F - facing);
 }
 
 /// Rolls a trajectory out until it arrives or ends; returns how many states that are.

@@ -6,14 +6,15 @@
 namespace jaywalk::motion {
 namespace {
 
-// StopZoneConfig's margins at rest and in full, and the rim speed from which the full one counts.
-constexpr float kMarginM = 0.04F, kFullMarginM = 0.08F, kFullMarginMps = 0.4F;
-constexpr float kEdgeM = 0.01F;    ///< a range's noise
-constexpr float kNearerM = 2e-4F;  ///< less is no approach: single precision a kilometre from the origin
+// The stop zone's margin at rest (StopZoneConfig), and the speed of the rim from which all of it counts (StopZone).
+constexpr float kCreepMarginM = 0.04F, kStopZoneMarginMps = 0.4F;
+constexpr float kEdgeM = 0.01F;  ///< a range's noise
+constexpr float kNearerM =
+    2e-4F;  ///< less is no approach: StopZone's, and single precision a kilometre from the origin
 
 /// What the stop zone allows the outline's edge beside a point `gap_m` away.
 float permitted_rim(float gap_m) {
-  return std::max(gap_m - kEdgeM - kMarginM, 0.0F) / (kFullMarginM - kMarginM) * kFullMarginMps;
+  return std::max(gap_m - kEdgeM - kCreepMarginM, 0.0F) / (kStopZoneMarginM - kCreepMarginM) * kStopZoneMarginMps;
 }
 
 bool is_of_a_mover(Vec2 place, std::span<const MoverDisc> movers) {
@@ -31,7 +32,7 @@ float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBod
 
 void NearReturns::look(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
                        const RobotBody& body, std::span<const MoverDisc> movers) noexcept {
-  const float reach_m = kFullMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
+  const float reach_m = kStopZoneMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
   const cell::Heading along = cell::heading_at(robot.heading);
   const Transform2 map_from(map_from_laser);
   float nearest[kSectors];
@@ -57,12 +58,12 @@ void NearReturns::look(const LaserScan& scan, const Pose2& map_from_laser, const
 
 float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) const noexcept {
   const cell::Heading along = cell::heading_at(robot.heading);
-  float least = kFullMarginM + kEdgeM;
+  float least = kStopZoneMarginM + kEdgeM;
   for (std::size_t k = 0; k < count_; ++k) {
     const float gap = gap_to(robot, along, body, x_[k], y_[k]);
     least = gap < gap_[k] && gap < least ? gap : least;
   }
-  if (least >= kFullMarginM + kEdgeM) return 0.0F;
+  if (least >= kStopZoneMarginM + kEdgeM) return 0.0F;
   const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m, may = permitted_rim(least);
   return rim > may ? 1.0F - may / rim : 0.0F;
 }
