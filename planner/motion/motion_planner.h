@@ -62,7 +62,7 @@ class MotionPlanner {
   /// With each new scan, after the wheels have their command: what to do from the next tick on.
   void decide(const MotionInput& input, const Twist2& driven) noexcept;
   /// From now on no faster than this, nor than the robot's own limit (m/s, infinity: that alone).
-  void limit_speed(double most_mps) noexcept { limit_speed_of(body_.bounds, config_.limits, most_mps); }
+  void limit_speed(double most_mps) noexcept { limit_speed_of(body_, config_.limits, most_mps); }
   /// This tick's wish. `permitted_before`: what became of the last one.
   [[nodiscard]] Twist2 twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal_in_map,
                              const Twist2& permitted_before) noexcept;

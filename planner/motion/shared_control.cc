@@ -27,7 +27,10 @@ SharedControl::SharedControl(const MotionConfig& config, bool assisted)
       assisted_(assisted),
       tick_s_(static_cast<float>(config.tick_s)),
       ground_(config.keep_out),
-      futures_(std::make_unique<Futures>()) {}
+      futures_(std::make_unique<Futures>()) {
+  body_.back_mps = kBackMps;  // who steers looks behind
+  limit_speed(limits_.max_speed_mps);
+}
 
 void SharedControl::decide(const Seen& seen, const Stick& stick, const Twist2& driven) noexcept {
   if (!finite(seen.map_from_robot)) return;
