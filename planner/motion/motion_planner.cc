@@ -9,6 +9,7 @@ namespace {
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
 constexpr std::array<int, 2> kSmoothedOver{3, 8};               ///< steps to either side
+constexpr float kKnownBehindM = 0.5F;                           ///< docs/decisions/0081
 constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
 constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 constexpr double kStopWithin = 2.0 / 3.0;                       ///< of the tolerance
@@ -145,9 +146,16 @@ Command MotionPlanner::command_at(Time now) const noexcept {
   return decision_.trajectory.commands[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
 }
 
+/// As far as it has just driven forward the ground behind is known, and it may evade over it as fast as is permitted.
+void MotionPlanner::limit_back(float v) noexcept {
+  known_behind_m_ = std::clamp(known_behind_m_ + v * static_cast<float>(config_.tick_s), 0.0F, kKnownBehindM);
+  body_.bounds.back = std::min(body_.bounds.speed, known_behind_m_ > 0.0F ? kBackMps : body_.back_mps);
+}
+
 Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal,
                             const Twist2& permitted) noexcept {
   const Command was{static_cast<float>(permitted.v_mps), static_cast<float>(permitted.w_radps)};
+  limit_back(was.v);
   if (std::fabs(was.v - wished_.v) > 1e-4F) accel_ = 0.0F;  // somebody else has set the speed
   const bool rests = !has_goal || is_there(map_from_robot, goal);
   Command to = rests ? Command{} : within(body_.bounds, command_at(now));

@@ -78,6 +78,7 @@ class MotionPlanner {
   [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
   void choose(const Situation& situation) noexcept;
   [[nodiscard]] Stay stay(const RobotState& here, const Guide& guide, Time now) noexcept;
+  void limit_back(float v) noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
 
@@ -94,6 +95,7 @@ class MotionPlanner {
   Stay stay_;           ///< where it was when it last got on, or had nowhere to go
   Time stays_since_ = kNever;
   float turned_ = 0.0F;  ///< the side that it turned to last
+  float known_behind_m_ = 0.0F;
 };
 
 }  // namespace jaywalk::motion

@@ -18,7 +18,7 @@ struct RobotBody {
   float rim_m = 0.0F;          ///< farthest point from the axle
   float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;              ///< where the supervisor lets it go slowly
-  float back_mps = 0.0F;       ///< backward no faster than this
+  float back_mps = 0.0F;       ///< backward no faster than this, over ground that is not known
   MotionBounds bounds;
 
   /// From the body's edge to a place in its frame, m; 0 inside.

@@ -194,15 +194,25 @@ TEST_CASE("out of a niche it backs, and turns no faster than what its laser neve
   CHECK(drive.blind_over <= 0.0F);
 }
 
-TEST_CASE("of its own accord it backs slowly where nothing looks, and as fast as is permitted where its laser does") {
+TEST_CASE("where nothing looks behind it backs fast only as far as it has just driven forward") {
   LaserModel all_round = p3dx().laser;
   all_round.fov_rad = 2.0 * kPi;
   for (const auto& [laser, mps] : {std::pair{p3dx().laser, 0.12}, std::pair{all_round, 0.3}}) {
     test::Guided g;
-    g.wall({-2.0, 0.4}, {0.5, 0.4}).wall({-2.0, -0.4}, {0.5, -0.4}).wall({0.5, -0.4}, {0.5, 0.4});
-    Drive drive(g, {-3.0, 0.0}, false, laser);
-    CHECK(drive.run(60.0) > 0.0);
-    CHECK(drive.slowest == Approx(-mps).margin(0.01));
+    g.wall({-4.0, 0.4}, {1.4, 0.4}).wall({-4.0, -0.4}, {1.4, -0.4}).wall({1.4, -0.4}, {1.4, 0.4});
+    Drive drive(g, {-5.0, 0.0}, false, laser);
+    (void)drive.run(3.0);
+    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));  // it has driven nowhere yet
+
+    drive.go_to({0.8, 0.0});
+    CHECK(drive.run(20.0) > 0.0);
+    drive.go_to({-5.0, 0.0});
+    while (drive.twist.v_mps >= 0.0) (void)drive.run(kTick);
+    const Vec2 from = drive.pose.position();
+    while (distance(from, drive.pose.position()) < 0.4) (void)drive.run(kTick);
+    CHECK(drive.twist.v_mps < -0.2);
+    while (distance(from, drive.pose.position()) < 0.8) (void)drive.run(kTick);
+    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
   }
 }
 
