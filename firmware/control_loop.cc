@@ -192,7 +192,7 @@ void ControlLoop::look(const TickRecord& t) noexcept {
 }
 
 void ControlLoop::limit_wishes(double most_mps) noexcept {
-  if (motion_) motion_->limit_speed(most_mps);
+  if (motion_) motion_->limit_speed(most_mps, driven_.v_mps);
   if (shared_) shared_->limit_speed(most_mps);
 }
 

@@ -27,7 +27,7 @@ class BlindRim {
   /// The same speed, with the turn as near to `w` as is permitted: while a ramped speed still falls, the turn waits for
   /// it, or the supervisor would brake both. `w` as it is where `v` alone is too fast.
   [[nodiscard]] float turn_at(float v, float w) const noexcept;
-  /// Whether a robot that drives straight back moves some of them outward.
+  /// Whether the laser does not look at all that lies straight behind the robot.
   [[nodiscard]] bool is_behind() const noexcept { return too_fast(-1.0F, 0.0F) > 0.0F; }
   [[nodiscard]] std::size_t points() const noexcept { return points_.size(); }
 

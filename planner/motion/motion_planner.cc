@@ -8,12 +8,10 @@ namespace {
 
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
-constexpr std::array<int, 2> kSmoothedOver{3, 8};               ///< steps to either side
-constexpr float kKnownBehindM = 0.5F;                           ///< docs/decisions/0081
-constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
-constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
-constexpr double kStopWithin = 2.0 / 3.0;                       ///< of the tolerance
-constexpr float kArriveWithin = 0.8F;                           ///< the same, for roll-outs
+constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
+constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/decisions/0081
+constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
+constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
 template <class Look>
@@ -43,6 +41,13 @@ MotionPlanner::MotionPlanner(const MotionConfig& config)
     : config_(config),
       body_(robot_body(config.footprint, config.limits, config.laser, config.berth_m)),
       futures_(std::make_unique<Futures>()) {}
+
+void MotionPlanner::limit_speed(double most_mps, double driven_mps) noexcept {
+  limit_speed_of(body_.bounds, config_.limits, most_mps);
+  known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(driven_mps * config_.tick_s), 0.0F, kKnownBehindM);
+  if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
+    body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
+}
 
 bool MotionPlanner::is_there(const Pose2& here, Vec2 goal) const noexcept {
   return !config_.constant_speed && distance(here.position(), goal) < config_.goal_tolerance_m * kStopWithin;
@@ -146,16 +151,9 @@ Command MotionPlanner::command_at(Time now) const noexcept {
   return decision_.trajectory.commands[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
 }
 
-/// As far as it has just driven forward the ground behind is known, and it may evade over it as fast as is permitted.
-void MotionPlanner::limit_back(float v) noexcept {
-  known_behind_m_ = std::clamp(known_behind_m_ + v * static_cast<float>(config_.tick_s), 0.0F, kKnownBehindM);
-  body_.bounds.back = std::min(body_.bounds.speed, known_behind_m_ > 0.0F ? kBackMps : body_.back_mps);
-}
-
 Twist2 MotionPlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal,
                             const Twist2& permitted) noexcept {
   const Command was{static_cast<float>(permitted.v_mps), static_cast<float>(permitted.w_radps)};
-  limit_back(was.v);
   if (std::fabs(was.v - wished_.v) > 1e-4F) accel_ = 0.0F;  // somebody else has set the speed
   const bool rests = !has_goal || is_there(map_from_robot, goal);
   Command to = rests ? Command{} : within(body_.bounds, command_at(now));

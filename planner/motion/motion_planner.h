@@ -61,8 +61,10 @@ class MotionPlanner {
 
   /// With each new scan, after the wheels have their command: what to do from the next tick on.
   void decide(const MotionInput& input, const Twist2& driven) noexcept;
-  /// From now on no faster than this, nor than the robot's own limit (m/s, infinity: that alone).
-  void limit_speed(double most_mps) noexcept { limit_speed_of(body_, config_.limits, most_mps); }
+  /// Every tick, whoever drives: no faster than `most_mps`, nor than the robot's own limit (m/s, infinity: that alone).
+  /// Backward slowly where the laser does not look, except over the last half metre that the robot has driven forward.
+  /// `driven_mps`: the speed of this tick.
+  void limit_speed(double most_mps, double driven_mps) noexcept;
   /// This tick's wish. `permitted_before`: what became of the last one.
   [[nodiscard]] Twist2 twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal_in_map,
                              const Twist2& permitted_before) noexcept;
@@ -78,7 +80,6 @@ class MotionPlanner {
   [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
   void choose(const Situation& situation) noexcept;
   [[nodiscard]] Stay stay(const RobotState& here, const Guide& guide, Time now) noexcept;
-  void limit_back(float v) noexcept;
   [[nodiscard]] Command command_at(Time now) const noexcept;
   [[nodiscard]] bool is_there(const Pose2& map_from_robot, Vec2 goal) const noexcept;
 
@@ -94,8 +95,8 @@ class MotionPlanner {
   float accel_ = 0.0F;  ///< of the ramp
   Stay stay_;           ///< where it was when it last got on, or had nowhere to go
   Time stays_since_ = kNever;
-  float turned_ = 0.0F;  ///< the side that it turned to last
-  float known_behind_m_ = 0.0F;
+  float turned_ = 0.0F;          ///< the side that it turned to last
+  float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since
 };
 
 }  // namespace jaywalk::motion

@@ -9,7 +9,7 @@ constexpr double kJustBelow = 1.0 - 1e-6;                 ///< single precision 
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passenger's
 constexpr float kSlowing = 0.8F;
 constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
-constexpr float kBlindBackMps = 0.12F;   ///< by itself where nothing looks: docs/decisions/0081
+constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
 constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers
 constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
 
@@ -45,15 +45,14 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const LaserModel
                  .accel = static_cast<float>(l.max_accel_mps2),
                  .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
                  .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
-  body.back_mps = body.blind.is_behind() ? kBlindBackMps : kBackMps;
-  limit_speed_of(body, l, l.max_speed_mps);
+  limit_speed_of(body.bounds, l, l.max_speed_mps);
   return body;
 }
 
-void limit_speed_of(RobotBody& body, const MotionLimits& limits, double most_mps) noexcept {
+void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept {
   const double most = std::min(limits.max_speed_mps, most_mps);
-  body.bounds.speed = static_cast<float>(most * kJustBelow);
-  body.bounds.back = std::min(static_cast<float>(most), body.back_mps);
+  bounds.speed = static_cast<float>(most * kJustBelow);
+  bounds.back = std::min(static_cast<float>(most), kBackMps);
 }
 
 }  // namespace jaywalk::motion

@@ -18,7 +18,6 @@ struct RobotBody {
   float rim_m = 0.0F;          ///< farthest point from the axle
   float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;              ///< where the supervisor lets it go slowly
-  float back_mps = 0.0F;       ///< backward no faster than this, over ground that is not known
   MotionBounds bounds;
 
   /// From the body's edge to a place in its frame, m; 0 inside.
@@ -30,14 +29,11 @@ struct RobotBody {
   }
 };
 
-/// Backward, where a person who steers looks, or the laser does, m/s: what SAFETY has where nothing looks.
-inline constexpr float kBackMps = 0.3F;
-
 /// `berth_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.
 [[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits, const LaserModel& laser,
                                    double berth_m);
 
-/// No faster than `most_mps` either way, nor than the limits and the body have it.
-void limit_speed_of(RobotBody& body, const MotionLimits& limits, double most_mps) noexcept;
+/// No faster than `most_mps` either way, nor than robot_body() has it.
+void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept;
 
 }  // namespace jaywalk::motion

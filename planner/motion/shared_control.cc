@@ -10,8 +10,6 @@ namespace {
 
 constexpr float kLeastGain = 0.05F;  ///< s: what bends aside does so until another is better by this
 constexpr int kRounds = 2, kPerturbed = 24;
-constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
-constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 constexpr float kNever_s = 1e9F;
 
 bool rests(const Command& command) { return command.v == 0.0F && command.w == 0.0F; }
@@ -27,10 +25,7 @@ SharedControl::SharedControl(const MotionConfig& config, bool assisted)
       assisted_(assisted),
       tick_s_(static_cast<float>(config.tick_s)),
       ground_(config.keep_out),
-      futures_(std::make_unique<Futures>()) {
-  body_.back_mps = kBackMps;  // who steers looks behind
-  limit_speed(limits_.max_speed_mps);
-}
+      futures_(std::make_unique<Futures>()) {}
 
 void SharedControl::decide(const Seen& seen, const Stick& stick, const Twist2& driven) noexcept {
   if (!finite(seen.map_from_robot)) return;

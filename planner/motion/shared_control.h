@@ -22,7 +22,7 @@ class SharedControl {
   /// `seen.still`.
   void decide(const Seen& seen, const Stick& stick, const Twist2& driven) noexcept;
   /// MotionPlanner's: what a stick that is pushed all the way asks for from now on.
-  void limit_speed(double most_mps) noexcept { limit_speed_of(body_, limits_, most_mps); }
+  void limit_speed(double most_mps) noexcept { limit_speed_of(body_.bounds, limits_, most_mps); }
   /// This tick's wish. `permitted_before`: what became of the last one.
   [[nodiscard]] Twist2 twist(Time now, const Stick& stick, const Twist2& permitted_before) noexcept;
 

@@ -2,12 +2,16 @@
 #include <array>
 #include <cstdint>
 
+#include "hal/types/time.h"
 #include "planner/motion/robot_motion.h"
 
 namespace jaywalk::motion {
 
 inline constexpr float kStepS = 0.1F;  ///< of a trajectory
 inline constexpr int kSteps = 60;      ///< 6 s: with 4 s, a third fewer of others' worlds were reached (prototype)
+
+inline constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
+inline constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 
 /// What a trajectory is an attempt at. Recorded by number: new ones at the end.
 enum class Attempt : std::uint8_t {

@@ -47,6 +47,7 @@ class Drive {
     for (double t = 0.0; t < for_s; t += kTick) {
       const Time now = time_from_seconds(clock_s_ + 1.0);
       clock_s_ += kTick;
+      planner_.limit_speed(10.0, twist.v_mps);
       twist = planner_.twist(now, true, pose, goal_, twist);
       slowest = t > 3.0 ? std::min(slowest, twist.v_mps) : slowest;
       fastest = std::max(fastest, twist.v_mps);
@@ -62,6 +63,13 @@ class Drive {
       if (static_cast<int>(t / kTick + 0.5) % 4 == 0) decide(now);
     }
     return 0.0;
+  }
+
+  /// Somebody steers it straight on, or back.
+  void steer(double v_mps, double for_s) {
+    for (double t = 0.0; t < for_s; t += kTick) planner_.limit_speed(10.0, v_mps);
+    pose = {pose.x + v_mps * for_s * std::cos(pose.heading), pose.y + v_mps * for_s * std::sin(pose.heading),
+            pose.heading};
   }
 
   [[nodiscard]] const MotionPlanner& planner() const { return planner_; }
@@ -202,7 +210,7 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
     g.wall({-4.0, 0.4}, {1.4, 0.4}).wall({-4.0, -0.4}, {1.4, -0.4}).wall({1.4, -0.4}, {1.4, 0.4});
     Drive drive(g, {-5.0, 0.0}, false, laser);
     (void)drive.run(3.0);
-    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));  // it has driven nowhere yet
+    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));  // it has not driven forward yet
 
     drive.go_to({0.8, 0.0});
     CHECK(drive.run(20.0) > 0.0);
@@ -212,6 +220,12 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
     while (distance(from, drive.pose.position()) < 0.4) (void)drive.run(kTick);
     CHECK(drive.twist.v_mps < -0.2);
     while (distance(from, drive.pose.position()) < 0.8) (void)drive.run(kTick);
+    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
+
+    drive.twist = {};
+    drive.steer(0.3, 2.0);
+    drive.steer(-0.3, 2.0);  // a person has used the half metre up
+    (void)drive.run(2.0);
     CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
   }
 }
