@@ -61,9 +61,9 @@ class MotionPlanner {
 
   /// With each new scan, after the wheels have their command: what to do from the next tick on.
   void decide(const MotionInput& input, const Twist2& driven) noexcept;
-  /// Every tick, whoever drives: no faster than `most_mps`, nor than the robot's own limit (m/s, infinity: that alone).
-  /// Backward slowly where the laser does not look, except over the last half metre that the robot has driven forward.
-  /// `driven_mps`: the speed of this tick.
+  /// Limits the speed to `most_mps` and to the robot's own limit (m/s; infinity: the robot's own limit alone). Where
+  /// the laser does not look behind, it limits the speed backward further, except over the last half metre that the
+  /// robot has driven forward. Called every tick, also while a person steers. `driven_mps`: the speed of this tick.
   void limit_speed(double most_mps, double driven_mps) noexcept;
   /// This tick's wish. `permitted_before`: what became of the last one.
   [[nodiscard]] Twist2 twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal_in_map,

@@ -65,7 +65,7 @@ class Drive {
     return 0.0;
   }
 
-  /// Somebody steers it straight on, or back.
+  /// A person steers the robot straight forward or backward for `for_s` seconds; the planner only counts the way.
   void steer(double v_mps, double for_s) {
     for (double t = 0.0; t < for_s; t += kTick) planner_.limit_speed(10.0, v_mps);
     pose = {pose.x + v_mps * for_s * std::cos(pose.heading), pose.y + v_mps * for_s * std::sin(pose.heading),
@@ -224,7 +224,7 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
 
     drive.twist = {};
     drive.steer(0.3, 2.0);
-    drive.steer(-0.3, 2.0);  // a person has used the half metre up
+    drive.steer(-0.3, 2.0);  // the person has backed over the half metre
     (void)drive.run(2.0);
     CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
   }

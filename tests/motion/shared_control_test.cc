@@ -109,7 +109,7 @@ TEST_CASE("full ahead is the robot's fastest, by either mode; half the stick is 
   CHECK(ride.twist.v_mps == Approx(0.3).margin(1e-3));
   ride.stick = {-1.0, 0.0};
   ride.run(4.0);
-  CHECK(ride.twist.v_mps == Approx(-0.29).margin(1e-3));  // a person who steers may back as fast as is permitted
+  CHECK(ride.twist.v_mps == Approx(-0.29).margin(1e-3));  // the stick may ask for all that the supervisor permits
 }
 
 TEST_CASE("a stick in the middle brings the robot to rest at once, on its arc") {
