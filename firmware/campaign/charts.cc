@@ -3,14 +3,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "firmware/campaign/statistics.h"
+
 namespace jaywalk::campaign {
 namespace {
 
-struct PaperPoint {
-  double movers, share;
-};
-/// Time-warped grids, table "Percentage of success in path planning": on its own maps.
-constexpr std::array<PaperPoint, 6> kPaper{{{1, 0.95}, {2, 0.95}, {4, 0.925}, {8, 0.875}, {12, 0.80}, {16, 0.75}}};
 constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#b45309", "#be185d", "#334155", "#0f766e"};
 constexpr double kLeft = 60.0, kTop = 20.0, kWide = 700.0, kHigh = 360.0;
 constexpr double kMostDoublings = 6.5;  // 64 movers, and some room
@@ -63,14 +60,18 @@ std::string success_axes() {
   return out + text_at(kLeft + kWide / 2.0, kTop + kHigh + 42.0, "movers");
 }
 
+double share_of(const SuccessPoint& point) { return static_cast<double>(point.good) / static_cast<double>(point.runs); }
+
 std::string line_through(const SuccessLine& line, const std::string& colour) {
   std::string out;
   const SuccessPoint* before = nullptr;
   for (const SuccessPoint& point : line.points) {
     const double x = x_of(point.movers);
-    if (before != nullptr) out += line_of(x_of(before->movers), y_of(before->share), x, y_of(point.share), colour, 2.0);
-    out += line_of(x, y_of(point.interval.low), x, y_of(point.interval.high), colour) +
-           dot(point.movers, point.share, colour, false);
+    const Interval interval = wilson(point.good, point.runs);
+    if (before != nullptr)
+      out += line_of(x_of(before->movers), y_of(share_of(*before)), x, y_of(share_of(point)), colour, 2.0);
+    out += line_of(x, y_of(interval.low), x, y_of(interval.high), colour) +
+           dot(point.movers, share_of(point), colour, false);
     before = &point;
   }
   return out;
@@ -88,7 +89,7 @@ std::string success_chart(const std::vector<SuccessLine>& lines) {
     out += line_through(lines[k], colour) + line_of(kLeft, y - 4.0, kLeft + 24.0, y - 4.0, colour, 2.0) +
            text_at(kLeft + 32.0, y, lines[k].name, "start");
   }
-  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.share, "#111", true);
+  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.percent / 100.0, "#111", true);
   return out + text_at(kLeft + 12.0, y, "o", "middle") +
          text_at(kLeft + 32.0, y, "the paper, on its own maps", "start") + "</svg>\n";
 }

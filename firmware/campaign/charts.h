@@ -3,21 +3,10 @@
 #include <string>
 #include <vector>
 
-#include "firmware/campaign/statistics.h"
+#include "firmware/campaign/success.h"
 #include "firmware/report/drive_metrics.h"
 
 namespace jaywalk::campaign {
-
-struct SuccessPoint {
-  double movers = 0.0;
-  double share = 0.0;
-  Interval interval;
-};
-
-struct SuccessLine {
-  std::string name;
-  std::vector<SuccessPoint> points;
-};
 
 /// Success against movers, with the paper's own points (its table 1) beside the lines; movers on a scale of doublings.
 [[nodiscard]] std::string success_chart(const std::vector<SuccessLine>& lines);

@@ -1,7 +1,6 @@
 #include "firmware/campaign/report.h"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
 #include <fstream>
 #include <iterator>
@@ -9,6 +8,8 @@
 #include "firmware/campaign/campaign_folder.h"
 #include "firmware/campaign/charts.h"
 #include "firmware/campaign/digest.h"
+#include "firmware/campaign/statistics.h"
+#include "firmware/campaign/success.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::campaign {
@@ -17,51 +18,6 @@ namespace {
 std::string text_in(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);
   return {std::istreambuf_iterator<char>(in), {}};
-}
-
-constexpr const char* kMovers = "movers.count";
-
-std::size_t successes_of(const ReportedRow& row) {
-  return static_cast<std::size_t>(
-      std::count_if(row.runs.begin(), row.runs.end(), [](const ReportedRun& r) { return r.result.success; }));
-}
-
-double number_of(const std::string& word) {
-  double value = 0.0;
-  std::from_chars(word.data(), word.data() + word.size(), value);
-  return value;
-}
-
-/// What a line of the chart is called: the values of the other axes that vary.
-std::string line_name(const ReportedTables& tables, const ReportedRow& row, std::size_t movers) {
-  std::string name;
-  for (std::size_t k = 0; k < row.values.size(); ++k) {
-    const bool varies = std::any_of(tables.rows.begin(), tables.rows.end(),
-                                    [&](const ReportedRow& other) { return other.values[k] != row.values[k]; });
-    if (k != movers && varies) name += ", " + tables.experiment->axes[k] + " " + row.values[k];
-  }
-  return tables.experiment->title + name;
-}
-
-/// Lines of the experiments that vary the number of movers.
-std::vector<SuccessLine> success_lines(const std::vector<ReportedTables>& all) {
-  std::vector<SuccessLine> lines;
-  for (const ReportedTables& tables : all) {
-    const auto& axes = tables.experiment->axes;
-    const auto movers = static_cast<std::size_t>(std::find(axes.begin(), axes.end(), kMovers) - axes.begin());
-    if (movers == axes.size()) continue;
-    for (const ReportedRow& row : tables.rows) {
-      if (row.runs.empty()) continue;
-      const std::string name = line_name(tables, row, movers);
-      auto line = std::find_if(lines.begin(), lines.end(), [&](const SuccessLine& l) { return l.name == name; });
-      if (line == lines.end()) line = lines.insert(lines.end(), {name, {}});
-      const std::size_t good = successes_of(row);
-      line->points.push_back({number_of(row.values[movers]),
-                              static_cast<double>(good) / static_cast<double>(row.runs.size()),
-                              wilson(good, row.runs.size())});
-    }
-  }
-  return lines;
 }
 
 std::vector<TurnBars> turn_bars(const ReportedTables& tables) {
@@ -165,7 +121,7 @@ ReportPage CampaignReport::page() const {
   if (!lines.empty())
     page.sections.push_back({"Success against movers",
                              "",
-                             {},
+                             {success_table(lines)},
                              {{"success", "Success against movers, with intervals of 95 %", success_chart(lines)}}});
   for (const ReportedTables& tables : tables_) page.sections.push_back(section_of(tables));
   for (const ReportedTables& tables : tables_) {

@@ -71,6 +71,8 @@ TEST_CASE("shards in folders of their own come to the report of one") {
   CHECK(html_of(whole.page()) == html_of(merged.page()));
   CHECK(markdown_of(whole.page()) == markdown_of(merged.page()));
   const std::string page = markdown_of(whole.page());
+  CHECK(holds(page, "| A | 1 of 2 |"));
+  CHECK(holds(page, "| the paper, on its own maps | 92.5 % |"));
   CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 0 |"));
   CHECK(holds(page, "1.20 / 1.20 / 1.20 | 5.0 / 5.0 / 5.0"));  // 12 m over 10 m; 25 s less 10 m at 0.5 m/s
   CHECK(holds(page, "| movers.count 4 | 75.00 | 0.00 | 0.00 | 0.00 | 0.00 | 25.00 |"));
@@ -121,9 +123,17 @@ TEST_CASE("a successful run keeps its figures, a failed one everything") {
 }
 
 TEST_CASE("charts hold the lines and the paper's points") {
-  const std::string svg = success_chart({{"ours <1>", {{1.0, 1.0, {0.9, 1.0}}, {16.0, 0.5, {0.4, 0.6}}}}});
+  const std::string svg = success_chart({{"ours <1>", {{1.0, 4, 4}, {16.0, 2, 4}}}});
   CHECK(holds(svg, "ours &lt;1>"));
   std::size_t circles = 0;
   for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
   CHECK(circles == 2 + 6);
+}
+
+TEST_CASE("success stands by movers, and a dash where nothing was run") {
+  const ReportTable table = success_table({{"ours", {{2.0, 3, 4}, {32.0, 1, 4}}}, {"theirs", {{0.0, 4, 4}}}});
+  CHECK(table.head == std::vector<std::string>{"", "0", "2", "32"});
+  CHECK(table.rows == std::vector<std::vector<std::string>>{{"ours", "-", "3 of 4", "1 of 4"},
+                                                            {"theirs", "4 of 4", "-", "-"},
+                                                            {"the paper, on its own maps", "-", "95.0 %", "-"}});
 }
