@@ -8,7 +8,7 @@
 namespace jaywalk::campaign {
 namespace {
 
-constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#b45309", "#be185d", "#334155", "#0f766e"};
+constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#eab308", "#be185d", "#334155", "#0f766e"};
 constexpr double kLeft = 60.0, kTop = 20.0, kWide = 700.0, kHigh = 360.0;
 constexpr double kMostDoublings = 6.5;  // 64 movers, and some room
 
