@@ -37,7 +37,6 @@ constexpr float kFacingM = 0.35F;
 
 constexpr float kTouchM = 0.03F;  ///< of a surface counts as touching: pose and map err
 constexpr float kMoverMarginM = 0.035F;
-constexpr float kRestsMps = 0.02F;     ///< slower it is walked into, and touches nobody
 constexpr float kZoneM = 0.5F + 0.1F;  ///< before a mover: where it would turn away, and a margin
 constexpr float kZoneSideM = 0.013F;
 constexpr float kMostTimeToGoS = 500.0F;

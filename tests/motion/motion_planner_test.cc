@@ -224,6 +224,12 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
 
     drive.twist = {};
     drive.steer(0.3, 2.0);
+    drive.steer(0.0, 1.2);  // somebody may have stepped there
+    (void)drive.run(2.0);
+    CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
+
+    drive.twist = {};
+    drive.steer(0.3, 2.0);
     drive.steer(-0.3, 2.0);  // the person has backed over the half metre
     (void)drive.run(2.0);
     CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
