@@ -47,7 +47,7 @@ void MotionPlanner::limit_speed(double most_mps, double driven_mps) noexcept {
   limit_speed_of(body_.bounds, config_.limits, most_mps);
   known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(driven_mps * config_.tick_s), 0.0F, kKnownBehindM);
   stood_s_ = std::abs(driven_mps) < kRestsMps ? stood_s_ + config_.tick_s : 0.0;
-  if (stood_s_ > kKnownForS) known_behind_m_ = 0.0F;  // somebody may have stepped there
+  if (stood_s_ > kKnownForS) known_behind_m_ = 0.0F;  // a pedestrian may have stepped behind the robot
   if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
     body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
 }

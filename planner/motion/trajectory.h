@@ -12,7 +12,7 @@ inline constexpr int kSteps = 60;      ///< 6 s: with 4 s, a third fewer of othe
 
 inline constexpr float kLagS = 0.05F;                                  ///< from a decision until the wheels follow it
 inline constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
-inline constexpr float kRestsMps = 0.02F;  ///< slower, the robot is at rest: it is walked into, and touches nobody
+inline constexpr float kRestsMps = 0.02F;                              ///< below this speed the robot is at rest
 
 /// What a trajectory is an attempt at. Recorded by number: new ones at the end.
 enum class Attempt : std::uint8_t {

@@ -224,7 +224,7 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
 
     drive.twist = {};
     drive.steer(0.3, 2.0);
-    drive.steer(0.0, 1.2);  // somebody may have stepped there
+    drive.steer(0.0, 1.2);  // at rest for longer than a second
     (void)drive.run(2.0);
     CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
 
