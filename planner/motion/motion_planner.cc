@@ -9,8 +9,7 @@ namespace {
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
 constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
-constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/decisions/0081
-constexpr double kKnownForS = 1.0;                            ///< at rest: docs/decisions/0083
+constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/decisions/0081, 0083
 constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
 constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
 
@@ -45,9 +44,9 @@ MotionPlanner::MotionPlanner(const MotionConfig& config)
 
 void MotionPlanner::limit_speed(double most_mps, double driven_mps) noexcept {
   limit_speed_of(body_.bounds, config_.limits, most_mps);
-  known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(driven_mps * config_.tick_s), 0.0F, kKnownBehindM);
-  stood_s_ = std::abs(driven_mps) < kRestsMps ? stood_s_ + config_.tick_s : 0.0;
-  if (stood_s_ > kKnownForS) known_behind_m_ = 0.0F;  // a pedestrian may have stepped behind the robot
+  // At rest all of it is forgotten within a second: a pedestrian may step behind the robot.
+  const double gained_mps = std::abs(driven_mps) < kRestsMps ? -kKnownBehindM : driven_mps;
+  known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(gained_mps * config_.tick_s), 0.0F, kKnownBehindM);
   if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
     body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
 }

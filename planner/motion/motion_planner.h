@@ -63,7 +63,7 @@ class MotionPlanner {
   void decide(const MotionInput& input, const Twist2& driven) noexcept;
   /// Limits the speed to `most_mps` and to the robot's own limit (m/s; infinity: the robot's own limit alone). Where
   /// the laser does not look behind, it limits the speed backward further, except over the last half metre that the
-  /// robot has driven forward, until it has stood for a second. Called every tick, also while a person steers.
+  /// robot has driven forward; at rest it forgets them within a second. Called every tick, also while a person steers.
   /// `driven_mps`: the speed of this tick.
   void limit_speed(double most_mps, double driven_mps) noexcept;
   /// This tick's wish. `permitted_before`: what became of the last one.
@@ -97,8 +97,7 @@ class MotionPlanner {
   Stay stay_;           ///< where it was when it last got on, or had nowhere to go
   Time stays_since_ = kNever;
   float turned_ = 0.0F;          ///< the side that it turned to last
-  float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since; none once it has stood
-  double stood_s_ = 0.0;         ///< at rest, or turning on the spot
+  float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since and what was forgotten at rest
 };
 
 }  // namespace jaywalk::motion

@@ -217,7 +217,7 @@ TEST_CASE("where nothing looks behind it backs fast only as far as it has just d
     drive.go_to({-5.0, 0.0});
     while (drive.twist.v_mps >= 0.0) (void)drive.run(kTick);
     const Vec2 from = drive.pose.position();
-    while (distance(from, drive.pose.position()) < 0.4) (void)drive.run(kTick);
+    while (distance(from, drive.pose.position()) < 0.2) (void)drive.run(kTick);
     CHECK(drive.twist.v_mps < -0.2);
     while (distance(from, drive.pose.position()) < 0.8) (void)drive.run(kTick);
     CHECK(drive.twist.v_mps == Approx(-mps).margin(0.01));
