@@ -44,7 +44,7 @@ MotionPlanner::MotionPlanner(const MotionConfig& config)
 
 void MotionPlanner::limit_speed(double most_mps, double driven_mps) noexcept {
   limit_speed_of(body_.bounds, config_.limits, most_mps);
-  // At rest all of it is forgotten within a second: a pedestrian may step behind the robot.
+  // At rest it shrinks by its greatest length a second: a pedestrian may step behind the robot.
   const double gained_mps = std::abs(driven_mps) < kRestsMps ? -kKnownBehindM : driven_mps;
   known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(gained_mps * config_.tick_s), 0.0F, kKnownBehindM);
   if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
