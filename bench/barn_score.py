@@ -17,7 +17,7 @@ import sys
 from command_line import jobs_of, reading, refuse, require_built, seeds_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/firmware/jaywalk"
+PROGRAM = ROOT / "build/jaywalk"
 FASTEST_MPS = 2.0
 SCENARIO = """name = "barn"
 timeout_s = 100.0

@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/commands/command_words.h"
+#include "firmware/program/command_words.h"
 
 namespace jaywalk::bench {
 

@@ -79,7 +79,7 @@ def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("--runs", type=int, default=20)
     parser.add_argument("--scenario", type=pathlib.Path, default=ROOT / "hal/sim/scenarios/crossing.toml")
-    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/firmware/jaywalk")
+    parser.add_argument("--program", type=pathlib.Path, default=ROOT / "build/jaywalk")
     parser.add_argument("--part-bytes", type=int, default=0)
     options = parser.parse_args()
     require_built(options.program)

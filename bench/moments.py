@@ -20,7 +20,7 @@ from command_line import require_built
 from forced_movers import forced, rows, walks_of
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/firmware/jaywalk"
+PROGRAM = ROOT / "build/jaywalk"
 BEFORE_S, LASTS_S = 4.5, 8.0
 REACH_M = 6.0  # from the robot, at any time of the scene
 OFF_M = 0.02  # a walk is straight where no sample is farther off

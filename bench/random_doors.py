@@ -17,7 +17,7 @@ from command_line import jobs_of, require_built, seeds_of
 from drawn_map import turned, write_map
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/firmware/jaywalk"
+PROGRAM = ROOT / "build/jaywalk"
 ROOM_M, CELL_M, BORDER_M = (9.0, 7.0), 0.02, 0.1
 
 SCENARIO = """name = "{name}"

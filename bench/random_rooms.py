@@ -19,7 +19,7 @@ from command_line import jobs_of, require_built, seeds_of
 from drawn_map import write_map
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
-PROGRAM = ROOT / "build/firmware/jaywalk"
+PROGRAM = ROOT / "build/jaywalk"
 CELL_M, BORDER_M, FROM_SIDE_M = 0.05, 0.1, 1.3
 CLEAR_M = 1.15  # from a box to the start, the goal and the door
 SCENARIO = """name = "{name}"

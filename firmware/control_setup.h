@@ -10,7 +10,7 @@
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "planner/baseline/choice.h"
-#include "planner/grid/known_map.h"
+#include "planner/mapping/known_map.h"
 #include "planner/planner.h"
 
 namespace jaywalk {

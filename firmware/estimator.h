@@ -5,7 +5,7 @@
 #include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 
 namespace jaywalk {
 

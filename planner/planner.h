@@ -10,11 +10,11 @@
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
-#include "planner/grid/evidence_map.h"
-#include "planner/guide.h"
-#include "planner/keep_out.h"
-#include "planner/perception/stander.h"
-#include "planner/perception/track.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/cost_to_go/guide.h"
+#include "planner/mapping/keep_out.h"
+#include "planner/tracking/stander.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

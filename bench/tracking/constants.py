@@ -26,7 +26,7 @@ def constants(folder):
 
 def main():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
-    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "planner/perception")
+    parser.add_argument("folder", nargs="?", type=pathlib.Path, default=ROOT / "planner/tracking")
     folder = parser.parse_args().folder
     rows = list(constants(folder))
     if not rows:

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "planner/perception/track.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk::bench {
 namespace {

@@ -3,7 +3,7 @@
 #include "hal/sim/laser_sim.h"
 #include "hal/types/wheels.h"
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 
 namespace jaywalk::bench {
 

@@ -12,7 +12,7 @@ ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 sys.path.append(str(ROOT / "bench"))
 from command_line import seeds_of
 
-PROGRAM, BENCH = ROOT / "build/firmware/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
+PROGRAM, BENCH = ROOT / "build/jaywalk", ROOT / "build/bench/tracking/jaywalk_track_bench"
 LASER = """[robot.laser]
 fov_deg = 270.0
 beams = 811

@@ -5,7 +5,7 @@
 #include <map>
 #include <span>
 
-#include "planner/perception/track.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk::bench {
 

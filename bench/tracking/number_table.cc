@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "hal/shown_text.h"
-#include "hal/sim/logs/text_lines.h"
+#include "apps/formats/logs/text_lines.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {

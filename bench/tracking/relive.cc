@@ -5,9 +5,9 @@
 #include "bench/tracking/run_folder.h"
 #include "firmware/estimator.h"
 #include "firmware/recording/recording_stream.h"
-#include "firmware/report/run_tables.h"
-#include "hal/sim/logs/line_file.h"
-#include "hal/sim/logs/log_replay.h"
+#include "apps/report/run_tables.h"
+#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_replay.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {

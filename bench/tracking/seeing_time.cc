@@ -6,7 +6,7 @@
 
 #include "bench/command_line.h"
 #include "bench/tracking/crowd.h"
-#include "firmware/report/distribution.h"
+#include "apps/report/distribution.h"
 
 namespace jaywalk::bench {
 namespace {

@@ -4,12 +4,12 @@
 #include <cstdio>
 #include <filesystem>
 
+#include "apps/report/distribution.h"
 #include "bench/command_line.h"
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
-#include "firmware/report/distribution.h"
 #include "firmware/robot/planner_thread.h"
 #include "hal/types/errors.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 
 namespace jaywalk::bench {
 namespace {
@@ -49,8 +49,8 @@ Figures measure(const Options& options) {
   const RobotFile file = load_robot_file(options.robot);
   rig::RealLivingClock clock;
   rig::InProcessRobot robot(file, scenario, 3, clock, options.out, [&file](std::unique_ptr<Planner> planner) {
-    const EvidenceMap like_the_loops(PerceptionConfig{}.map_side_cells, file.setup.planner().cell_m, {});
-    return std::make_unique<PlannerThread>(std::move(planner), like_the_loops);
+    static TickObserver nobody;
+    return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), nobody);
   });
   clock.live = [&robot] { robot.step_far_end(); };
   for (const std::string& line : lock_memory()) std::fprintf(stderr, "%s\n", line.c_str());

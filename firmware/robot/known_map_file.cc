@@ -4,11 +4,11 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hal/sim/wall_map.h"
+#include "hal/maps/wall_map.h"
 #include "hal/types/errors.h"
 #include "planner/localization/global_search.h"
 #include "planner/localization/scan_matcher.h"
-#include "planner/perception/scan_points.h"
+#include "planner/scan/scan_points.h"
 
 namespace jaywalk {
 namespace {

@@ -6,7 +6,7 @@
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
-#include "planner/grid/known_map.h"
+#include "planner/mapping/known_map.h"
 
 namespace jaywalk {
 

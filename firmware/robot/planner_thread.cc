@@ -5,10 +5,16 @@
 
 #include <cassert>
 
+#include "planner/tracking/tracker.h"
+
 namespace jaywalk {
 
-PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, view::PlannerTap* tap)
-    : planner_(std::move(planner)), tap_(tap), still_(map) {
+EvidenceMap map_for(const ControlSetup& setup) {
+  return {PerceptionConfig{}.map_side_cells, setup.planner().cell_m, {}};
+}
+
+PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, TickObserver& observer)
+    : planner_(std::move(planner)), observer_(observer), still_(map) {
   sigset_t all, before;
   sigfillset(&all);
   ::pthread_sigmask(SIG_SETMASK, &all, &before);
@@ -55,7 +61,7 @@ void PlannerThread::run() noexcept {
     if (ending_) return;
     planner_->submit(request_);
     plans_.publish(planner_->collect());
-    if (tap_ != nullptr) tap_->offer(*planner_, still_, request_.stamp);
+    observer_.after_plan(*planner_, still_, request_.stamp);
     busy_.store(false, std::memory_order_release);
   }
 }

@@ -4,18 +4,22 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/view/planner_tap.h"
+#include "firmware/control_setup.h"
+#include "firmware/tick_observer.h"
 #include "hal/mailbox.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
 
+/// An empty map, as large as the loop's.
+[[nodiscard]] EvidenceMap map_for(const ControlSetup& setup);
+
 /// Any planner in a thread of its own, so that a plan that takes long holds up no tick. One request at a time: while
 /// it is being answered is_busy() says so, and the loop asks again with its next scan.
 class PlannerThread final : public Planner {
  public:
-  /// Takes the memory for a copy of the map as large as the loop's. `tap`: for pictures, outlives it; null: none.
-  PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, view::PlannerTap* tap = nullptr);
+  /// Takes the memory for a copy of the map as large as the loop's. `observer`, told of each plan, outlives it.
+  PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, TickObserver& observer);
   ~PlannerThread() override;
 
   /// Copies the request, of the map what has changed since the last one, and returns. Not to be called while busy. The
@@ -31,7 +35,7 @@ class PlannerThread final : public Planner {
   void run() noexcept;
 
   std::unique_ptr<Planner> planner_;
-  view::PlannerTap* tap_;
+  TickObserver& observer_;
   PlanRequest request_;
   EvidenceMap still_;
   FixedVector<Track, kMaxTracks> moving_;

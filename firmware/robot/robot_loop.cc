@@ -18,8 +18,14 @@ constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = s
 }  // namespace
 
 RobotLoop::RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock,
-                     StallGuard& guard)
-    : runner_(runner), devices_(devices), desk_(desk), clock_(clock), guard_(guard), period_(runner.setup().tick()) {}
+                     StallGuard& guard, TickObserver& observer)
+    : runner_(runner),
+      devices_(devices),
+      desk_(desk),
+      clock_(clock),
+      guard_(guard),
+      observer_(observer),
+      period_(runner.setup().tick()) {}
 
 RobotLoop::~RobotLoop() {
   end();
@@ -90,7 +96,7 @@ void RobotLoop::tick(Time due) noexcept {
   devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kRest_mps);
   tell(t);
   trace(t);
-  if (tap_ != nullptr) tap_->offer(t, runner_.loop());
+  observer_.after_tick(t, runner_.loop());
   note_times(began);
 }
 

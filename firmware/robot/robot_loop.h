@@ -8,14 +8,14 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
-#include "firmware/commands/loop_runner.h"
-#include "firmware/report/loop_times.h"
+#include "firmware/loop_runner.h"
+#include "firmware/loop_times.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/reset_gate.h"
 #include "firmware/robot/ring.h"
 #include "firmware/robot/stall_guard.h"
-#include "firmware/view/view_snapshot.h"
+#include "firmware/tick_observer.h"
 
 namespace jaywalk {
 
@@ -43,13 +43,12 @@ class RobotLoop {
   using Traces = Ring<TickTrace, 128>;
 
   /// All outlive it.
-  RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard);
+  RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDesk& desk, Clock& clock, StallGuard& guard,
+            TickObserver& observer);
   ~RobotLoop();
   RobotLoop(const RobotLoop&) = delete;
   RobotLoop& operator=(const RobotLoop&) = delete;
 
-  /// Start-up only, before prepare(): offers each tick to the live page's tap, which outlives it.
-  void show_to(view::SnapshotTap& tap) noexcept { tap_ = &tap; }
   /// Start-up only, before the drives are armed: starts the thread, which asks the kernel for what is wished and then
   /// waits. Returns what was not permitted, a line each.
   [[nodiscard]] std::vector<std::string> prepare(const RealtimeWishes& wishes);
@@ -82,10 +81,10 @@ class RobotLoop {
 
   LoopRunner& runner_;
   LoopDevices devices_;
-  view::SnapshotTap* tap_ = nullptr;
   OperatorDesk& desk_;
   Clock& clock_;
   StallGuard& guard_;
+  TickObserver& observer_;
   Duration period_;
   RunStatus status_;
   Traces traces_;

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/comfort.h"
+#include "hal/maps/wall_map.h"
 #include "hal/setting_keys.h"
 #include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
@@ -16,8 +17,6 @@
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::sim {
-
-enum class MapKind { kYaml, kAria, kCylinders };
 
 struct WanderSpec {
   int count = 0;

@@ -8,7 +8,7 @@
 
 #include "hal/hal.h"
 #include "hal/sim/scenario.h"
-#include "hal/sim/shapes.h"
+#include "hal/maps/shapes.h"
 
 namespace jaywalk::sim {
 

@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "hal/sim/wall_map.h"
+#include "hal/maps/wall_map.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::sim {

@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "hal/sim/shapes.h"
+#include "hal/maps/shapes.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::sim {

@@ -3,10 +3,10 @@
 #include <span>
 
 #include "planner/baseline/choice.h"
-#include "planner/guide.h"
+#include "planner/cost_to_go/guide.h"
 #include "planner/motion/motion_planner.h"
 #include "planner/motion/robot_motion.h"
-#include "planner/perception/track.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk::baseline {
 

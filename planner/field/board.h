@@ -1,6 +1,6 @@
 #pragma once
 #include "planner/cell/potential.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

@@ -2,7 +2,7 @@
 // How far every cell is from what is not free: exact Euclidean distance, a column then a row at a time; or, for many
 // threads, a cell at a time.
 #include "planner/cell/clearance.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

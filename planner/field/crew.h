@@ -19,7 +19,7 @@
 //   swap(at, value), add(at, value), fence()        among the crew: what was before; a fence before it is told
 //   pause()                          for others to get on
 #include "planner/field/executor.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

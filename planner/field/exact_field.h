@@ -3,7 +3,7 @@
 // Slow (the number of cells times the square of the wavefront's length); not for the loop.
 #include <vector>
 
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

@@ -9,7 +9,7 @@
 #include "planner/field/mark_stages.h"
 #include "planner/field/path_stages.h"
 #include "planner/field/start_field.h"
-#include "planner/perception/track.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk::field {
 

@@ -7,7 +7,7 @@
 #include <memory>
 #include <utility>
 
-#include "planner/field/guide_field.h"
+#include "planner/cost_to_go/guide_field.h"
 #include "planner/field/nearest_cell.h"
 #include "planner/field/pass.h"
 #include "planner/field/path.h"

@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "planner/field/window.h"
+#include "planner/mapping/window.h"
 
 namespace jaywalk::field {
 

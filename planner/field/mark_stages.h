@@ -4,7 +4,7 @@
 #include "planner/cell/kalman.h"
 #include "planner/cell/mark.h"
 #include "planner/cell/warp.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

@@ -1,6 +1,6 @@
 #pragma once
 #include "planner/field/path_stages.h"
-#include "planner/field/window.h"
+#include "planner/mapping/window.h"
 #include "planner/planner.h"
 
 namespace jaywalk::field {

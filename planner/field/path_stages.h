@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "planner/cell/band.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 #include "planner/field/potential_stages.h"
 
 namespace jaywalk::field {

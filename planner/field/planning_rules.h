@@ -1,7 +1,7 @@
 #pragma once
 // From a request in the map to the stages' units, and the planner's rules of thumb, each with its reason.
 #include "planner/field/mark_stages.h"
-#include "planner/field/window.h"
+#include "planner/mapping/window.h"
 #include "planner/planner.h"
 
 namespace jaywalk::field {

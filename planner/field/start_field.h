@@ -7,7 +7,7 @@
 #include "planner/cell/clearance.h"
 #include "planner/cell/step.h"
 #include "planner/field/executor.h"
-#include "planner/field/grid.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

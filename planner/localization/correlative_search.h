@@ -3,7 +3,7 @@
 #include <cstddef>
 
 #include "hal/types/fixed_vector.h"
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/localization/pose_belief.h"
 
 namespace jaywalk {

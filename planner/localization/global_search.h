@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "planner/grid/known_map.h"
+#include "planner/mapping/known_map.h"
 #include "planner/localization/correlative_search.h"
 
 namespace jaywalk {

@@ -1,7 +1,7 @@
 #pragma once
 // The straight pieces of wall that scans are matched against.
 #include "hal/types/geometry.h"
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk {
 

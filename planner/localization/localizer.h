@@ -7,8 +7,8 @@
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
-#include "planner/grid/evidence_map.h"
-#include "planner/perception/track.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

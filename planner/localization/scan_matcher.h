@@ -6,9 +6,9 @@
 // wall nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not
 // tell, as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
 // nothing.
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/localization/correlative_search.h"
-#include "planner/perception/scan_points.h"
+#include "planner/scan/scan_points.h"
 
 namespace jaywalk {
 

@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/localization/correlative_search.h"
 
 namespace jaywalk {

@@ -2,8 +2,8 @@
 // Which of a scan's points tell nothing of walls: they lie on somebody who walks.
 #include <span>
 
-#include "planner/perception/scan_points.h"
-#include "planner/perception/track.h"
+#include "planner/scan/scan_points.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

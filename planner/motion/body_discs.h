@@ -5,7 +5,7 @@
 
 #include "hal/types/robot_model.h"
 #include "planner/cell/circle.h"
-#include "planner/guide.h"
+#include "planner/cost_to_go/guide.h"
 
 namespace jaywalk::motion {
 

@@ -9,8 +9,8 @@
 #include "planner/motion/pursuit.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
-#include "planner/perception/stander.h"
-#include "planner/perception/track.h"
+#include "planner/tracking/stander.h"
+#include "planner/tracking/track.h"
 #include "planner/planner.h"
 
 namespace jaywalk {

@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/motion/futures.h"
+#include "planner/prediction/futures.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/trajectory.h"

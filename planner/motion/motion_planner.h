@@ -4,7 +4,7 @@
 
 #include "hal/types/robot_model.h"
 #include "planner/motion/attempts.h"
-#include "planner/motion/mover_memory.h"
+#include "planner/prediction/mover_memory.h"
 
 namespace jaywalk::motion {
 

@@ -2,8 +2,8 @@
 #include <span>
 
 #include "planner/motion/speed_choice.h"
-#include "planner/perception/stander.h"
-#include "planner/perception/track.h"
+#include "planner/tracking/stander.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

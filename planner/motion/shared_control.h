@@ -2,9 +2,9 @@
 #include <memory>
 
 #include "planner/motion/judge.h"
-#include "planner/motion/local_ground.h"
+#include "planner/cost_to_go/local_ground.h"
 #include "planner/motion/motion_planner.h"
-#include "planner/motion/mover_memory.h"
+#include "planner/prediction/mover_memory.h"
 
 namespace jaywalk::motion {
 

@@ -4,7 +4,7 @@
 #include "hal/types/geometry.h"
 #include "planner/motion/robot_shape.h"
 #include "planner/motion/way.h"
-#include "planner/perception/track.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

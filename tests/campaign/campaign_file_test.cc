@@ -1,4 +1,4 @@
-#include "firmware/campaign/campaign.h"
+#include "apps/campaign/campaign.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"
 

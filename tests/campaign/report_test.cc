@@ -1,7 +1,7 @@
-#include "firmware/campaign/report.h"
+#include "apps/campaign/report.h"
 
-#include "firmware/campaign/campaign_folder.h"
-#include "firmware/campaign/charts.h"
+#include "apps/campaign/campaign_folder.h"
+#include "apps/campaign/charts.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "firmware/campaign/run_result.h"
+#include "apps/campaign/run_result.h"
 
 #include <sys/wait.h>
 
@@ -7,7 +7,7 @@
 #include <csignal>
 #include <thread>
 
-#include "firmware/campaign/run_pool.h"
+#include "apps/campaign/run_pool.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"
 

@@ -1,9 +1,9 @@
-#include "firmware/campaign/statistics.h"
+#include "apps/campaign/statistics.h"
 
 #include <cmath>
 #include <limits>
 
-#include "firmware/campaign/digest.h"
+#include "apps/campaign/digest.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk::campaign;

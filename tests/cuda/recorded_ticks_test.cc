@@ -1,8 +1,8 @@
 // Plans along a recorded way, among what its laser saw: the CPU's bytes, on the emulated device.
 #include <algorithm>
 
-#include "hal/sim/logs/recorded_log.h"
-#include "planner/perception/tracker.h"
+#include "apps/formats/logs/recorded_log.h"
+#include "planner/tracking/tracker.h"
 #include "tests/cuda/cuda_rig.h"
 #include "tests/planner/cuda_parity.h"
 #include "tests/recording/recordings.h"

@@ -4,7 +4,7 @@
 #include <functional>
 
 #include "drivers/canopen/drive_base.h"
-#include "drivers/emulators/cia402_node.h"
+#include "hil/emulators/cia402_node.h"
 #include "hal/hal.h"
 
 namespace jaywalk::tests {

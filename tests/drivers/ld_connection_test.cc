@@ -1,6 +1,6 @@
 #include <chrono>
 
-#include "drivers/emulators/ld_server.h"
+#include "hil/emulators/ld_server.h"
 #include "drivers/laser/ld_protocol.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/scanner_bench.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "drivers/emulators/odrive_node.h"
+#include "hil/emulators/odrive_node.h"
 #include "drivers/motor/odrive_base.h"
 #include "tests/drivers/motor_bench.h"
 #include "tests/support/catch.h"

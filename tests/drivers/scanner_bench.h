@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "drivers/emulators/scanner_server.h"
+#include "hil/emulators/scanner_server.h"
 #include "drivers/laser/scanner_connection.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/allocation_guard.h"

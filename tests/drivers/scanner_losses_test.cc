@@ -2,11 +2,11 @@
 #include <chrono>
 #include <limits>
 
-#include "drivers/emulators/ld_server.h"
-#include "drivers/emulators/lms200_server.h"
-#include "drivers/emulators/rplidar_server.h"
-#include "drivers/emulators/scip_server.h"
-#include "drivers/emulators/sick_server.h"
+#include "hil/emulators/ld_server.h"
+#include "hil/emulators/lms200_server.h"
+#include "hil/emulators/rplidar_server.h"
+#include "hil/emulators/scip_server.h"
+#include "hil/emulators/sick_server.h"
 #include "drivers/laser/ld_protocol.h"
 #include "drivers/laser/lms200_protocol.h"
 #include "drivers/laser/rplidar_protocol.h"

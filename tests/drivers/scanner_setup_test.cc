@@ -2,7 +2,7 @@
 
 #include <string>
 
-#include "drivers/emulators/sick_server.h"
+#include "hil/emulators/sick_server.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/catch.h"

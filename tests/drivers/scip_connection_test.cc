@@ -1,7 +1,7 @@
 #include <chrono>
 #include <string>
 
-#include "drivers/emulators/scip_server.h"
+#include "hil/emulators/scip_server.h"
 #include "drivers/laser/scip_protocol.h"
 #include "tests/drivers/scanner_bench.h"
 #include "tests/drivers/serial_line.h"

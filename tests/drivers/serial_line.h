@@ -6,7 +6,7 @@
 #include <memory>
 #include <string>
 
-#include "drivers/emulators/byte_server.h"
+#include "hil/emulators/byte_server.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::tests {

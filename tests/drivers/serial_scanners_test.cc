@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <chrono>
 
-#include "drivers/emulators/lms200_server.h"
-#include "drivers/emulators/rplidar_server.h"
+#include "hil/emulators/lms200_server.h"
+#include "hil/emulators/rplidar_server.h"
 #include "drivers/laser/lms200_protocol.h"
 #include "drivers/laser/rplidar_protocol.h"
 #include "tests/drivers/scanner_bench.h"

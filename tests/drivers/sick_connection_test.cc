@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/emulators/sick_server.h"
+#include "hil/emulators/sick_server.h"
 #include "drivers/laser/sick_protocol.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/data_files.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <cmath>
 
-#include "drivers/emulators/vesc_node.h"
+#include "hil/emulators/vesc_node.h"
 #include "drivers/motor/vesc_base.h"
 #include "tests/drivers/motor_bench.h"
 #include "tests/support/catch.h"

@@ -1,7 +1,7 @@
 #include <cmath>
 
-#include "firmware/exchange/bag_file.h"
-#include "firmware/exchange/bag_log.h"
+#include "apps/formats/bag_file.h"
+#include "apps/formats/bag_log.h"
 #include "hal/types/errors.h"
 #include "tests/exchange/made_bags.h"
 #include "tests/recording/scratch.h"

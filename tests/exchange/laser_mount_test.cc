@@ -1,4 +1,4 @@
-#include "firmware/exchange/laser_mount.h"
+#include "apps/formats/laser_mount.h"
 
 #include "tests/support/catch.h"
 

@@ -1,7 +1,7 @@
 // A controller that knows the map before its first scan.
 #include <cmath>
 
-#include "hal/sim/wall_map.h"
+#include "hal/maps/wall_map.h"
 #include "tests/firmware/simulated_drive.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "firmware/commands/mount_check.h"
+#include "apps/setup/mount_check.h"
 
 #include "tests/support/catch.h"
 

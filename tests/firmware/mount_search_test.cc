@@ -1,4 +1,4 @@
-#include "firmware/commands/mount_search.h"
+#include "apps/setup/mount_search.h"
 
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"

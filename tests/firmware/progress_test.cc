@@ -1,4 +1,4 @@
-#include "firmware/commands/progress.h"
+#include "apps/jaywalk/progress.h"
 
 #include <pty.h>
 #include <unistd.h>

@@ -1,5 +1,5 @@
 // Where movers may be: in their futures, in memory, and out of sight.
-#include "planner/motion/futures.h"
+#include "planner/prediction/futures.h"
 
 #include <bit>
 #include <cmath>
@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "planner/motion/mover_memory.h"
+#include "planner/prediction/mover_memory.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk::tests {
 

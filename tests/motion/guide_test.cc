@@ -2,7 +2,7 @@
 #include <cmath>
 #include <cstring>
 
-#include "planner/field/guide_field.h"
+#include "planner/cost_to_go/guide_field.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <vector>
 
-#include "planner/field/guide_field.h"
+#include "planner/cost_to_go/guide_field.h"
 #include "tests/motion/ground.h"
 
 namespace jaywalk::test {

@@ -1,8 +1,8 @@
-#include "planner/keep_out.h"
+#include "planner/mapping/keep_out.h"
 
 #include <memory>
 
-#include "planner/field/guide_field.h"
+#include "planner/cost_to_go/guide_field.h"
 #include "planner/motion/body_discs.h"
 #include "planner/motion/body_map.h"
 #include "planner/motion/speed_zones.h"

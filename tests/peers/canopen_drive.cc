@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "drivers/emulators/cia402_node.h"
+#include "hil/emulators/cia402_node.h"
 
 namespace {
 

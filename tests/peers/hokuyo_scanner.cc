@@ -8,7 +8,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "drivers/emulators/scip_server.h"
+#include "hil/emulators/scip_server.h"
 
 int main() {
   using namespace jaywalk;

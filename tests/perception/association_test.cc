@@ -1,4 +1,4 @@
-#include "planner/perception/association.h"
+#include "planner/tracking/association.h"
 
 #include <memory>
 

@@ -5,7 +5,7 @@
 #include <memory>
 
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

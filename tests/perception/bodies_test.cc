@@ -1,9 +1,9 @@
-#include "planner/perception/bodies.h"
+#include "planner/tracking/bodies.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "planner/perception/absence.h"
+#include "planner/tracking/absence.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,4 +1,4 @@
-#include "planner/perception/departure.h"
+#include "planner/tracking/departure.h"
 
 #include <algorithm>
 

@@ -1,4 +1,4 @@
-#include "planner/perception/entries.h"
+#include "planner/tracking/entries.h"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "planner/perception/first_scans.h"
+#include "planner/scan/first_scans.h"
 
 #include "tests/support/catch.h"
 

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/tracking/relative_pose.h"
-#include "hal/sim/logs/log_replay.h"
+#include "apps/formats/logs/log_replay.h"
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/recording/recordings.h"
 #include "tests/support/catch.h"
 

@@ -1,6 +1,6 @@
 #include <limits>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

@@ -1,9 +1,9 @@
-#include "planner/perception/hidden_walkers.h"
+#include "planner/tracking/hidden_walkers.h"
 
 #include <algorithm>
 #include <memory>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

@@ -1,4 +1,4 @@
-#include "planner/perception/kalman.h"
+#include "planner/tracking/kalman.h"
 
 #include "tests/support/catch.h"
 

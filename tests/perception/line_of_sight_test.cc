@@ -1,4 +1,4 @@
-#include "planner/perception/line_of_sight.h"
+#include "planner/scan/line_of_sight.h"
 
 #include <algorithm>
 #include <cmath>

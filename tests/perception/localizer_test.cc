@@ -6,7 +6,7 @@
 #include <memory>
 
 #include "planner/localization/odometry.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/recordings.h"
 #include "tests/perception/room.h"
 #include "tests/support/allocation_guard.h"

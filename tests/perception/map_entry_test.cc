@@ -1,4 +1,4 @@
-#include "planner/perception/map_entry.h"
+#include "planner/mapping/map_entry.h"
 
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "planner/perception/motion_models.h"
+#include "planner/tracking/motion_models.h"
 
 #include <cmath>
 

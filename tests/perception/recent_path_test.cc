@@ -1,4 +1,4 @@
-#include "planner/perception/recent_path.h"
+#include "planner/tracking/recent_path.h"
 
 #include "tests/support/catch.h"
 

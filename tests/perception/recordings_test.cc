@@ -9,7 +9,7 @@
 #include <string>
 
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

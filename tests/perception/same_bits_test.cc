@@ -4,7 +4,7 @@
 
 #include "planner/localization/localizer.h"
 #include "planner/localization/odometry.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

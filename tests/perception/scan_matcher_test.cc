@@ -2,7 +2,7 @@
 
 #include <memory>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "planner/perception/scan_points.h"
+#include "planner/scan/scan_points.h"
 
 #include <limits>
 #include <memory>

@@ -1,10 +1,10 @@
-#include "planner/perception/segments.h"
+#include "planner/scan/segments.h"
 
 #include <memory>
 #include <utility>
 
-#include "planner/perception/clusters.h"
-#include "planner/perception/ground.h"
+#include "planner/tracking/clusters.h"
+#include "planner/mapping/ground.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

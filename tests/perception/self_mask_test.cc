@@ -1,4 +1,4 @@
-#include "planner/perception/self_mask.h"
+#include "planner/scan/self_mask.h"
 
 #include <memory>
 

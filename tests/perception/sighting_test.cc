@@ -1,4 +1,4 @@
-#include "planner/perception/sighting.h"
+#include "planner/tracking/sighting.h"
 
 #include "tests/support/catch.h"
 

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <memory>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

@@ -1,5 +1,5 @@
 // Whoever stands is as wide as he is, though a laser sees his shins.
-#include "planner/perception/standers.h"
+#include "planner/tracking/standers.h"
 
 #include <memory>
 

@@ -1,4 +1,4 @@
-#include "planner/perception/steady_walk.h"
+#include "planner/tracking/steady_walk.h"
 
 #include <array>
 

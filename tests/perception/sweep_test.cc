@@ -2,7 +2,7 @@
 // twice or not at all.
 #include <algorithm>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 

@@ -1,4 +1,4 @@
-#include "planner/perception/touching_bodies.h"
+#include "planner/tracking/touching_bodies.h"
 
 #include <memory>
 

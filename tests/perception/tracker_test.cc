@@ -1,4 +1,4 @@
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 
 #include <algorithm>
 #include <cstdlib>

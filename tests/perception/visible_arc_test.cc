@@ -1,4 +1,4 @@
-#include "planner/perception/visible_arc.h"
+#include "planner/scan/visible_arc.h"
 
 #include <cmath>
 

@@ -1,6 +1,6 @@
 #pragma once
 // A body that walked.
-#include "planner/perception/bodies.h"
+#include "planner/tracking/bodies.h"
 
 namespace jaywalk::test {
 

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <limits>
 
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 
 namespace jaywalk::test {

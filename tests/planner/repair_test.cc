@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "planner/field/bucket_queue.h"
-#include "planner/field/guide_field.h"
+#include "planner/cost_to_go/guide_field.h"
 #include "tests/planner/field_rig.h"
 #include "tests/planner/same_bytes.h"
 #include "tests/support/catch.h"

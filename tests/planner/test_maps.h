@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "planner/field/mark_stages.h"
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk::test {
 

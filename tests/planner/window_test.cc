@@ -1,4 +1,4 @@
-#include "planner/field/window.h"
+#include "planner/mapping/window.h"
 
 #include "planner/planner.h"
 #include "tests/support/catch.h"

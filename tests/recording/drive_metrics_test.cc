@@ -1,10 +1,10 @@
-#include "firmware/report/drive_metrics.h"
+#include "apps/report/drive_metrics.h"
 
 #include <cmath>
 #include <limits>
 
-#include "firmware/report/csv_file.h"
-#include "firmware/report/trails.h"
+#include "apps/report/csv_file.h"
+#include "apps/report/trails.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 

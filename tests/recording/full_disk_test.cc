@@ -3,7 +3,7 @@
 #include <nlohmann/json.hpp>
 
 #include "firmware/recording/recorder.h"
-#include "firmware/report/run_report.h"
+#include "apps/report/run_report.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"

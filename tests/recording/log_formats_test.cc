@@ -4,7 +4,7 @@
 #include <ctime>
 #include <string>
 
-#include "hal/sim/logs/recorded_log.h"
+#include "apps/formats/logs/recorded_log.h"
 #include "hal/types/errors.h"
 #include "tests/recording/recordings.h"
 #include "tests/recording/scratch.h"

@@ -1,6 +1,6 @@
 #include <string>
 
-#include "hal/sim/logs/recorded_log.h"
+#include "apps/formats/logs/recorded_log.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"

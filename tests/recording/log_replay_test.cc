@@ -1,4 +1,4 @@
-#include "hal/sim/logs/log_replay.h"
+#include "apps/formats/logs/log_replay.h"
 
 #include <cmath>
 

@@ -1,7 +1,7 @@
 // The memory of a report has bounds, however long the run.
 #include <memory>
 
-#include "firmware/report/run_report.h"
+#include "apps/report/run_report.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk {

@@ -3,7 +3,7 @@
 #include <cmath>
 #include <limits>
 
-#include "firmware/report/picture/scene.h"
+#include "apps/report/picture/scene.h"
 
 namespace jaywalk {
 

@@ -1,13 +1,13 @@
-#include "firmware/report/picture/picture.h"
+#include "apps/report/picture/picture.h"
 
 #include <cmath>
 #include <limits>
 
-#include "firmware/report/picture/cairo_library.h"
-#include "firmware/report/picture/canvas.h"
-#include "firmware/report/picture/field_layer.h"
-#include "firmware/report/picture/map_frame.h"
-#include "firmware/report/picture/run_layers.h"
+#include "apps/report/picture/cairo_library.h"
+#include "apps/report/picture/canvas.h"
+#include "apps/report/picture/field_layer.h"
+#include "apps/report/picture/map_frame.h"
+#include "apps/report/picture/run_layers.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_scene.h"
 #include "tests/recording/scratch.h"

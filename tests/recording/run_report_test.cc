@@ -1,4 +1,4 @@
-#include "firmware/report/run_report.h"
+#include "apps/report/run_report.h"
 
 #include <array>
 #include <cmath>

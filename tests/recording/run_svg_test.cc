@@ -1,9 +1,9 @@
-#include "firmware/report/picture/run_svg.h"
+#include "apps/report/picture/run_svg.h"
 
 #include <regex>
 
-#include "firmware/report/picture/playback.h"
-#include "firmware/report/picture/run_layers.h"
+#include "apps/report/picture/playback.h"
+#include "apps/report/picture/run_layers.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_scene.h"
 #include "tests/recording/scratch.h"

@@ -1,8 +1,8 @@
-#include "firmware/report/run_words.h"
+#include "apps/report/run_words.h"
 
 #include <cstdio>
 
-#include "firmware/report/map_files.h"
+#include "firmware/recording/map_files.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"

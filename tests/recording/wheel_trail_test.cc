@@ -1,4 +1,4 @@
-#include "hal/sim/logs/wheel_trail.h"
+#include "apps/formats/logs/wheel_trail.h"
 
 #include <cmath>
 

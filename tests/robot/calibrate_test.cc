@@ -4,10 +4,10 @@
 #include <filesystem>
 #include <fstream>
 
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
-#include "firmware/setup/calibration.h"
-#include "firmware/setup/guided_drive.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
+#include "apps/setup/calibration.h"
+#include "apps/setup/guided_drive.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"

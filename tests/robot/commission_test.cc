@@ -4,11 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
-#include "firmware/setup/commissioned.h"
-#include "firmware/setup/scan_shift.h"
+#include "apps/setup/scan_shift.h"
+#include "apps/setup/wiring_checks.h"
+#include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 #include "tests/support/file_size_limit.h"
 
@@ -48,7 +49,7 @@ struct Bench {
     if (miswired) scenario.faults = {{.at_s = 0.0, .for_s = 1000.0, .kind = *miswired}};
     return scenario;
   }
-  std::vector<WiringCheck> commission(const std::function<bool()>& stopped = [] { return false; }) {
+  std::vector<CheckedPart> commission(const std::function<bool()>& stopped = [] { return false; }) {
     const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
     return judge_nudges(nudge_wheels(setup, robot.drive(), robot.laser(), clock, stopped), file.setup.model);
   }
@@ -60,9 +61,9 @@ struct Bench {
   rig::InProcessRobot robot;
 };
 
-std::string faults_of(const std::vector<WiringCheck>& checks) {
+std::string faults_of(const std::vector<CheckedPart>& checks) {
   std::string words;
-  for (const WiringCheck& check : checks) {
+  for (const CheckedPart& check : checks) {
     if (!check.is_well) words += check.part + ": " + check.said + "\n";
   }
   return words;
@@ -86,7 +87,7 @@ TEST_CASE("a robot that is wired as its file says passes every check, on all kin
   for (const char* name : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
     CAPTURE(name);
     Bench bench(name, std::nullopt);
-    const std::vector<WiringCheck> checks = bench.commission();
+    const std::vector<CheckedPart> checks = bench.commission();
     CHECK(faults_of(checks) == "");
     CHECK(checks.size() == 6);
     CHECK(bench.robot.far_end().rim_speed() < 0.001);

@@ -43,11 +43,13 @@ PlanRequest request_for(const EvidenceMap& map, double x) {
 
 }  // namespace
 
+static TickObserver nobody;
+
 TEST_CASE("a planner in its own thread keeps nobody waiting and plans with the map as it was") {
   std::atomic<bool> may{false};
   EvidenceMap map(64, 0.1, {});
   map.add({0, 0}, 7);
-  PlannerThread planner(std::make_unique<SlowPlanner>(may), map);
+  PlannerThread planner(std::make_unique<SlowPlanner>(may), map, nobody);
   const AllocationGuard guard;
   planner.submit(request_for(map, 3.0));
   const auto calls = guard.calls();
@@ -69,7 +71,7 @@ TEST_CASE("a planner in its own thread keeps nobody waiting and plans with the m
 TEST_CASE("a planner in its own thread plans among those who stood when it was asked") {
   std::atomic<bool> may{false};
   const EvidenceMap map(64, 0.1, {});
-  PlannerThread planner(std::make_unique<SlowPlanner>(may), map);
+  PlannerThread planner(std::make_unique<SlowPlanner>(may), map, nobody);
   std::array<Stander, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
   PlanRequest request = request_for(map, 3.0);
   request.standing = standing;

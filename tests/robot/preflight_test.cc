@@ -3,9 +3,9 @@
 #include <unistd.h>
 
 #include "drivers/can/link_facts.h"
-#include "drivers/emulators/byte_server.h"
-#include "drivers/emulators/sick_server.h"
-#include "firmware/far_end/living_clock.h"
+#include "hil/emulators/byte_server.h"
+#include "hil/emulators/sick_server.h"
+#include "hil/far_end/living_clock.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/scanner_check.h"
 #include "firmware/robot/steady_clock.h"

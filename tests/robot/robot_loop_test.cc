@@ -6,9 +6,10 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
+#include "apps/report/run_observer.h"
 #include "firmware/robot/planner_thread.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -23,8 +24,8 @@ RobotFile wiring() {
 }
 
 std::unique_ptr<Planner> in_thread(std::unique_ptr<Planner> planner) {
-  return std::make_unique<PlannerThread>(
-      std::move(planner), EvidenceMap(PerceptionConfig{}.map_side_cells, wiring().setup.planner().cell_m, {}));
+  static TickObserver nobody;
+  return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup), nobody);
 }
 
 }  // namespace
@@ -50,8 +51,9 @@ TEST_CASE("the loop's thread tells of its ticks, and ramps to rest and disarms w
       std::filesystem::temp_directory_path() / ("jaywalk_robot_loop_" + std::to_string(::getpid()));
   {
     rig::RealLivingClock clock;
+    RunObserver observer;
     rig::InProcessRobot robot(wiring(), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
-                              folder, in_thread);
+                              folder, in_thread, observer);
     clock.live = [&robot] { robot.step_far_end(); };
     robot.laser().start();
     const Time limit = clock.now() + 60s;

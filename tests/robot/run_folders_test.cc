@@ -1,4 +1,4 @@
-#include "firmware/commands/run_folders.h"
+#include "firmware/recording/run_folders.h"
 
 #include <fstream>
 #include <iterator>

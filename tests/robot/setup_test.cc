@@ -5,11 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 #include "firmware/robot/robot_devices.h"
-#include "firmware/setup/drive_search.h"
-#include "firmware/setup/robot_setup.h"
+#include "apps/setup/drive_search.h"
+#include "apps/setup/robot_setup.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 

@@ -8,8 +8,8 @@
 #include <optional>
 #include <string>
 
-#include "firmware/far_end/in_process_robot.h"
-#include "firmware/far_end/living_clock.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
@@ -26,11 +26,15 @@ using namespace std::chrono_literals;
 struct WiredBench {
   explicit WiredBench(const std::string& robot_name, const std::optional<PanelWiring>& panel = {}, int rate_hz = 50,
                       StickUse steering = StickUse::kNone)
+      : WiredBench(robot_name, quiet, panel, rate_hz, steering) {}
+  /// `observer` outlives it.
+  WiredBench(const std::string& robot_name, TickObserver& observer, const std::optional<PanelWiring>& panel = {},
+             int rate_hz = 50, StickUse steering = StickUse::kNone)
       : folder(std::filesystem::temp_directory_path() /
                ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
         period(duration_from_seconds(1.0 / rate_hz)),
         robot(file(robot_name, panel, rate_hz, steering),
-              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, folder) {
+              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, folder, {}, observer) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;
@@ -80,6 +84,7 @@ struct WiredBench {
   Duration period;
   rig::HandLivingClock clock;
   std::uint64_t heap_calls = 0;
+  TickObserver quiet;
   rig::InProcessRobot robot;
   Time due{};
 };

@@ -5,6 +5,7 @@
 #include <utility>
 #include <vector>
 
+#include "apps/view/view_snapshot.h"
 #include "tests/robot/wired_bench.h"
 #include "tests/support/file_size_limit.h"
 
@@ -116,14 +117,20 @@ TEST_CASE("ticks and what takes in scans and frames ask nothing of the heap, wha
   }
 }
 
+/// What the live page has in the loop's thread.
+struct PageOfLoop final : TickObserver {
+  void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override { tap.offer(record, loop); }
+  view::SnapshotTap tap;
+};
+
 // A run without a page, one whose page is read, one whose page is not: the ring is full after four snapshots.
 TEST_CASE("a live page that looks, or that stops reading, asks nothing of the heap and changes no command") {
   std::vector<std::vector<std::pair<double, double>>> commands;
   for (const char* page : {"none", "reads", "stopped"}) {
-    Bench bench("robot");
-    view::SnapshotTap tap;
-    if (page != std::string("none")) bench.robot.loop().show_to(tap);
-    tap.want(true);
+    PageOfLoop observer;
+    view::SnapshotTap& tap = observer.tap;
+    tap.want(page != std::string("none"));
+    Bench bench("robot", observer);
     bench.tick(25);
     CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
     bench.heap_calls = 0;

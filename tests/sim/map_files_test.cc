@@ -1,5 +1,5 @@
-#include "hal/sim/image_file.h"
-#include "hal/sim/wall_map.h"
+#include "hal/maps/image_file.h"
+#include "hal/maps/wall_map.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"
 

@@ -2,7 +2,7 @@
 #include <string>
 
 #include "hal/sim/simulation.h"
-#include "hal/sim/wall_map.h"
+#include "hal/maps/wall_map.h"
 #include "tests/recording/recordings.h"
 #include "tests/support/catch.h"
 

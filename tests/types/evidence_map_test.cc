@@ -1,4 +1,4 @@
-#include "planner/grid/evidence_map.h"
+#include "planner/mapping/evidence_map.h"
 
 #include <cmath>
 

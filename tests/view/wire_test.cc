@@ -3,13 +3,13 @@
 #include <string>
 #include <vector>
 
-#include "firmware/view/foxglove_session.h"
-#include "firmware/view/frame_store.h"
-#include "firmware/view/goal_message.h"
-#include "firmware/view/http.h"
-#include "firmware/view/view_orders.h"
-#include "firmware/view/view_scene.h"
-#include "firmware/view/websocket.h"
+#include "apps/view/foxglove_session.h"
+#include "apps/view/frame_store.h"
+#include "apps/view/goal_message.h"
+#include "apps/view/http.h"
+#include "apps/view/view_orders.h"
+#include "apps/view/view_scene.h"
+#include "apps/view/websocket.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

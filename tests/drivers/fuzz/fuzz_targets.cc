@@ -15,7 +15,7 @@
 #include "drivers/canopen/eds_file.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/canopen/services.h"
-#include "drivers/emulators/drive_objects.h"
+#include "hil/emulators/drive_objects.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
 #include "drivers/panel/input_event.h"

@@ -9,7 +9,7 @@
 #include <memory>
 
 #include "planner/localization/localizer.h"
-#include "planner/perception/tracker.h"
+#include "planner/tracking/tracker.h"
 
 namespace jaywalk::test {
 namespace {

@@ -1,0 +1,90 @@
+#include "apps/bench/bench_motion.h"
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "hal/types/robot_model.h"
+#include "planner/motion/motion_planner.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kScan_s = 1.0 / 15.0;
+constexpr double kWithin_m = 8.0;
+constexpr int kBefore = 15;  // decisions: by then every mover is known to walk
+
+EvidenceMap evidence_of(const BenchMap& map, double cell_m) {
+  const std::int32_t side = map.cells.width;
+  EvidenceMap evidence(2 * side, cell_m, {0.5 * side * cell_m, 0.5 * side * cell_m});
+  for (std::int32_t j = 0; j < side; ++j) {
+    for (std::int32_t i = 0; i < side; ++i) {
+      const bool wall = map.cells.wall[static_cast<std::size_t>(j * side + i)] != 0;
+      evidence.add({i, j}, wall ? EvidenceMap::kMax : EvidenceMap::kMin);
+    }
+  }
+  return evidence;
+}
+
+/// The k-th of places spread evenly over a disc: radii by the square root, angles by the golden one.
+Vec2 spread(int k, int of, Vec2 middle) {
+  const double radius = kWithin_m * sqrt((k + 0.5) / of);
+  return middle + direction(2.39996 * k) * radius;
+}
+
+std::vector<Track> walkers_round(Vec2 middle, int count) {
+  std::vector<Track> tracks(static_cast<std::size_t>(count));
+  for (int k = 0; k < count; ++k) {
+    Track& t = tracks[static_cast<std::size_t>(k)];
+    t.id = static_cast<std::uint32_t>(k + 1);
+    t.position_in_map = spread(k, count, middle);
+    t.velocity_in_map = direction(1.7 * k) * 0.4;
+    t.covariance = {0.001, 0.0, 0.002};
+    t.radius_m = 0.27;
+    t.moving = true;
+  }
+  return tracks;
+}
+
+}  // namespace
+
+Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats) {
+  const RobotModel model = p3dx();
+  PlannerConfig config;
+  config.side_cells = config.max_side_cells = map.cells.width;
+  config.inscribed_m = model.footprint.inscribed_radius_m();
+  config.circumscribed_m = model.footprint.circumscribed_radius_m();
+  const auto planner = make_cpu_planner(config);
+  const EvidenceMap evidence = evidence_of(map, cell_m);
+  const auto middle = [cell_m](CellIndex c) { return Vec2{(c.i + 0.5) * cell_m, (c.j + 0.5) * cell_m}; };
+  const Vec2 start = middle(map.start), goal = middle(map.goal);
+  const Pose2 pose{start.x, start.y, atan2(goal.y - start.y, goal.x - start.x)};
+  planner->submit(
+      {.map_from_robot = pose, .goal_in_map = goal, .speed_mps = model.limits.max_speed_mps, .still = &evidence});
+  const Guide guide = planner->collect().guide;
+  const auto motion = std::make_unique<motion::MotionPlanner>(
+      motion::MotionConfig{.footprint = model.footprint, .limits = model.limits, .laser = model.laser});
+  std::vector<Track> tracks = walkers_round(start, movers);
+  const auto scan = std::make_unique<LaserScan>();
+  Time now{};
+  const auto decide = [&] {
+    now += duration_from_seconds(kScan_s);
+    for (Track& t : tracks) t.position_in_map = t.position_in_map + t.velocity_in_map * kScan_s, t.stamp = now;
+    motion->decide({.seen = {.now = now,
+                             .stamp = now,
+                             .map_from_robot = pose,
+                             .tracks = tracks,
+                             .standing = {},
+                             .still = evidence,
+                             .scan = *scan,
+                             .map_from_laser = pose,
+                             .guide = guide},
+                    .goal_in_map = goal,
+                    .has_goal = true},
+                   {0.4, 0.0});
+  };
+  for (int k = 0; k < kBefore; ++k) decide();
+  return time(("decision, " + std::to_string(movers)).c_str(), repeats, "cpu", decide);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,53 @@
+#pragma once
+// A campaign's folder: what is to be run, and a folder for each run that is finished.
+#include <filesystem>
+#include <string>
+
+#include "apps/campaign/campaign.h"
+#include "apps/campaign/run_result.h"
+
+namespace jaywalk::campaign {
+
+/// A share of a campaign's runs: each `of`-th, beginning with the `part`-th; both count from 1.
+struct Shard {
+  std::size_t part = 1, of = 1;
+
+  [[nodiscard]] bool has(std::size_t run) const { return run % of == part - 1; }
+};
+
+/// Holds the folder's share for as long as it lives. A run is worked on in a folder of the share's own and moved to its
+/// place when its mark, run.json, lies in it: what has a mark is whole, whenever the process was killed.
+class CampaignFolder {
+ public:
+  /// Makes it where it is missing. `text`: campaign.json's. Throws StartupError where it cannot be written to, holds
+  /// another campaign, or another process runs this share.
+  CampaignFolder(const std::filesystem::path& path, const std::string& text, const Shard& shard);
+  ~CampaignFolder();
+  CampaignFolder(const CampaignFolder&) = delete;
+  CampaignFolder& operator=(const CampaignFolder&) = delete;
+
+  [[nodiscard]] bool is_finished(const PlannedRun& run) const;
+  /// Of a finished one. Throws StartupError where its mark was spoiled.
+  [[nodiscard]] RunResult result(const PlannedRun& run) const;
+  /// Where it is worked on until it is finished.
+  [[nodiscard]] std::filesystem::path work(const PlannedRun& run) const;
+  /// Makes that folder, empty.
+  [[nodiscard]] std::filesystem::path begin(const PlannedRun& run) const;
+  /// Leaves the mark, removes what is not to be kept, and moves the run to its place.
+  void finish(const PlannedRun& run, const RunResult& result, Keep keep) const;
+  /// Removes what was begun.
+  void drop(const PlannedRun& run) const;
+
+ private:
+  std::filesystem::path path_;
+  std::string share_;
+  int held_ = -1;
+};
+
+/// Where a finished run lies below a campaign's folder.
+[[nodiscard]] std::filesystem::path place_of(const std::filesystem::path& campaign, const PlannedRun& run);
+
+/// Writes a file that is whole or not there, whenever the process is killed. Throws StartupError where it cannot.
+void write_whole(const std::filesystem::path& file, const std::string& text, const std::string& own_name);
+
+}  // namespace jaywalk::campaign

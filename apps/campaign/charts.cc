@@ -1,0 +1,118 @@
+#include "apps/campaign/charts.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/campaign/statistics.h"
+
+namespace jaywalk::campaign {
+namespace {
+
+constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#eab308", "#be185d", "#334155", "#0f766e"};
+constexpr double kLeft = 60.0, kTop = 20.0, kWide = 700.0, kHigh = 360.0;
+constexpr double kMostDoublings = 6.5;  // 64 movers, and some room
+
+std::string opened(double width, double height) {
+  return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(width, 0) + " " + fixed(height, 0) +
+         "\" width=\"" + fixed(width, 0) +
+         "\" font-family=\"sans-serif\" font-size=\"13\" fill=\"#333\">\n<rect width=\"" + fixed(width, 0) +
+         "\" height=\"" + fixed(height, 0) + "\" fill=\"#fff\"/>\n";
+}
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += c == '<' ? std::string("&lt;") : c == '&' ? std::string("&amp;") : std::string(1, c);
+  return out;
+}
+
+std::string text_at(double x, double y, const std::string& text, const char* anchor = "middle") {
+  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" + escaped(text) +
+         "</text>\n";
+}
+
+std::string line_of(double x1, double y1, double x2, double y2, const std::string& colour, double width = 1.0) {
+  return "<line x1=\"" + fixed(x1, 1) + "\" y1=\"" + fixed(y1, 1) + "\" x2=\"" + fixed(x2, 1) + "\" y2=\"" +
+         fixed(y2, 1) + "\" stroke=\"" + colour + "\" stroke-width=\"" + fixed(width, 1) + "\"/>\n";
+}
+
+/// None at the left edge, one next to it, then a step for each doubling.
+double x_of(double movers) {
+  const double step = movers < 1.0 ? 0.0 : 0.6 + std::log2(movers);
+  return kLeft + kWide * std::min(step, kMostDoublings + 0.6) / (kMostDoublings + 0.6);
+}
+
+double y_of(double share) { return kTop + kHigh * (1.0 - share); }
+
+std::string dot(double movers, double share, const std::string& colour, bool open) {
+  return "<circle cx=\"" + fixed(x_of(movers), 1) + "\" cy=\"" + fixed(y_of(share), 1) + "\" r=\"5\" fill=\"" +
+         (open ? "#fff" : colour) + "\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n";
+}
+
+std::string success_axes() {
+  std::string out;
+  for (int percent = 0; percent <= 100; percent += 20) {
+    const double y = y_of(percent / 100.0);
+    out += line_of(kLeft, y, kLeft + kWide, y, "#e5e5e5") +
+           text_at(kLeft - 8.0, y + 4.0, std::to_string(percent) + " %", "end");
+  }
+  for (const double movers : {0.0, 1.0, 2.0, 4.0, 8.0, 12.0, 16.0, 32.0, 64.0})
+    out += text_at(x_of(movers), kTop + kHigh + 20.0, fixed(movers, 0));
+  return out + text_at(kLeft + kWide / 2.0, kTop + kHigh + 42.0, "movers");
+}
+
+double share_of(const SuccessPoint& point) { return static_cast<double>(point.good) / static_cast<double>(point.runs); }
+
+std::string line_through(const SuccessLine& line, const std::string& colour) {
+  std::string out;
+  const SuccessPoint* before = nullptr;
+  for (const SuccessPoint& point : line.points) {
+    const double x = x_of(point.movers);
+    const Interval interval = wilson(point.good, point.runs);
+    if (before != nullptr)
+      out += line_of(x_of(before->movers), y_of(share_of(*before)), x, y_of(share_of(point)), colour, 2.0);
+    out += line_of(x, y_of(interval.low), x, y_of(interval.high), colour) +
+           dot(point.movers, share_of(point), colour, false);
+    before = &point;
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string success_chart(const std::vector<SuccessLine>& lines) {
+  const double legend_y = kTop + kHigh + 60.0;
+  std::string out = opened(kLeft + kWide + 20.0, legend_y + 22.0 * static_cast<double>(lines.size() + 1));
+  out += success_axes();
+  double y = legend_y + 8.0;
+  for (std::size_t k = 0; k < lines.size(); ++k, y += 22.0) {
+    const std::string colour = kColours[k % kColours.size()];
+    out += line_through(lines[k], colour) + line_of(kLeft, y - 4.0, kLeft + 24.0, y - 4.0, colour, 2.0) +
+           text_at(kLeft + 32.0, y, lines[k].name, "start");
+  }
+  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.percent / 100.0, "#111", true);
+  return out + text_at(kLeft + 12.0, y, "o", "middle") +
+         text_at(kLeft + 32.0, y, "the paper, on its own maps", "start") + "</svg>\n";
+}
+
+std::string turn_chart(const std::vector<TurnBars>& all) {
+  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 30.0, kTenfolds = 4.0;
+  constexpr std::size_t kAcross = 4;
+  const double panel = kBar * static_cast<double>(kTurnBins), cell = panel + kGap;
+  const std::size_t rows = (all.size() + kAcross - 1) / kAcross;
+  std::string out = opened(cell * static_cast<double>(kAcross) + kGap, (kPanelHigh + 60.0) * static_cast<double>(rows));
+  for (std::size_t k = 0; k < all.size(); ++k) {
+    const double x = kGap + cell * static_cast<double>(k % kAcross);
+    const double foot = (kPanelHigh + 60.0) * static_cast<double>(k / kAcross) + 20.0 + kPanelHigh;
+    for (std::size_t bin = 0; bin < kTurnBins; ++bin) {
+      const double share = all[k].shares[bin];
+      const double high = share > 0.0 ? kPanelHigh * std::max(0.02, 1.0 + std::log10(share) / kTenfolds) : 0.0;
+      out += "<rect x=\"" + fixed(x + kBar * static_cast<double>(bin), 1) + "\" y=\"" + fixed(foot - high, 1) +
+             "\" width=\"" + fixed(kBar - 1.0, 1) + "\" height=\"" + fixed(high, 1) + "\" fill=\"#0a6e8a\"/>\n";
+    }
+    out += line_of(x, foot, x + panel, foot, "#333") + text_at(x, foot + 14.0, "0") +
+           text_at(x + panel, foot + 14.0, "180") + text_at(x + panel / 2.0, foot + 30.0, all[k].name);
+  }
+  return out + "</svg>\n";
+}
+
+}  // namespace jaywalk::campaign

@@ -1,0 +1,23 @@
+#pragma once
+#include <array>
+#include <string>
+#include <vector>
+
+#include "apps/campaign/success.h"
+#include "apps/report/drive_metrics.h"
+
+namespace jaywalk::campaign {
+
+/// Success against movers, with the paper's own points (its table 1) beside the lines; movers on a scale of doublings.
+[[nodiscard]] std::string success_chart(const std::vector<SuccessLine>& lines);
+
+struct TurnBars {
+  std::string name;
+  std::array<double, kTurnBins> shares{};  ///< of all turns
+};
+
+/// The paper's histograms of turning angles, one beside the other; heights are shares on a scale of tenfolds, so that
+/// rare wide turns are seen.
+[[nodiscard]] std::string turn_chart(const std::vector<TurnBars>& all);
+
+}  // namespace jaywalk::campaign

@@ -1,0 +1,80 @@
+#include "apps/campaign/report_page.h"
+#include "apps/report/markup.h"
+
+namespace jaywalk::campaign {
+namespace {
+
+constexpr const char* kHead = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>";
+constexpr const char* kStyle =
+    "</title>\n<style>\nbody{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;color:#222}\n"
+    "table{border-collapse:collapse;margin:.5rem 0 1.5rem}\nth,td{padding:.2rem .7rem;border-bottom:1px solid "
+    "#ddd;text-align:right}\nth:first-child,td:first-child{text-align:left}\ncode{background:#f3f3f3;padding:.1rem "
+    ".3rem;overflow-wrap:anywhere}\nfigure{margin:1rem "
+    "0}\n.failures{display:grid;grid-template-columns:repeat(auto-fill,"
+    "minmax(22rem,1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid #ddd}\n</style>\n</head>\n<body>\n";
+
+std::string escaped(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += as_markup(c);
+  return out;
+}
+
+/// RFC 4648.
+std::string base64(const std::string& bytes) {
+  constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string out;
+  for (std::size_t k = 0; k < bytes.size(); k += 3) {
+    unsigned triple = 0;
+    for (std::size_t j = 0; j < 3; ++j)
+      triple = triple << 8U | (k + j < bytes.size() ? static_cast<unsigned char>(bytes[k + j]) : 0U);
+    for (std::size_t j = 0; j < 4; ++j)
+      out += k + j <= bytes.size() ? kLetters[triple >> (18U - 6U * static_cast<unsigned>(j)) & 63U] : '=';
+  }
+  return out;
+}
+
+std::string cells(const std::vector<std::string>& row, const std::string& kind) {
+  std::string out = "<tr>";
+  for (const std::string& cell : row) out += "<" + kind + ">" + escaped(cell) + "</" + kind + ">";
+  return out + "</tr>\n";
+}
+
+std::string table_of(const ReportTable& table) {
+  std::string out = "<h3>" + escaped(table.title) + "</h3>\n<table>\n" + cells(table.head, "th");
+  for (const auto& row : table.rows) out += cells(row, "td");
+  return out + "</table>\n";
+}
+
+std::string section_of(const ReportSection& section) {
+  std::string out = "<h2>" + escaped(section.title) + "</h2>\n";
+  if (!section.text.empty()) out += "<p>" + escaped(section.text) + "</p>\n";
+  for (const ReportChart& chart : section.charts)
+    out += "<figure>\n" + chart.svg + "<figcaption>" + escaped(chart.title) + "</figcaption>\n</figure>\n";
+  for (const ReportTable& table : section.tables) out += table_of(table);
+  return out;
+}
+
+std::string failure_of(const ReportFailure& failure) {
+  std::string out = "<article>\n<h3>" + escaped(failure.run) + "</h3>\n<p>" + escaped(failure.what) + "</p>\n";
+  if (!failure.svg.empty())
+    out += "<img loading=\"lazy\" alt=\"the run, moving\" src=\"data:image/svg+xml;base64," + base64(failure.svg) +
+           "\">\n";
+  out += "<p><code>" + escaped(failure.repeat) + "</code></p>\n";
+  if (!failure.why.empty()) out += "<p><code>" + escaped(failure.why) + "</code></p>\n";
+  return out + "</article>\n";
+}
+
+}  // namespace
+
+std::string html_of(const ReportPage& page) {
+  std::string out = kHead + escaped(page.title) + kStyle + "<h1>" + escaped(page.title) + "</h1>\n<p>" +
+                    escaped(page.text) + "</p>\n";
+  for (const ReportSection& section : page.sections) out += section_of(section);
+  out += "<h2>Failures</h2>\n";
+  if (page.failures.empty()) return out + "<p>None.</p>\n</body>\n</html>\n";
+  out += "<div class=\"failures\">\n";
+  for (const ReportFailure& failure : page.failures) out += failure_of(failure);
+  return out + "</div>\n</body>\n</html>\n";
+}
+
+}  // namespace jaywalk::campaign

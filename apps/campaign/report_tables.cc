@@ -1,0 +1,204 @@
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <functional>
+#include <limits>
+
+#include "apps/campaign/report.h"
+#include "apps/campaign/statistics.h"
+
+namespace jaywalk::campaign {
+namespace {
+
+constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
+using Figure = std::function<double(const ReportedRun&)>;
+
+std::size_t count_if(const std::vector<ReportedRun>& runs, const std::function<bool(const RunResult&)>& holds) {
+  return static_cast<std::size_t>(
+      std::count_if(runs.begin(), runs.end(), [&](const ReportedRun& run) { return holds(run.result); }));
+}
+
+std::size_t count_of(const std::vector<ReportedRun>& runs, const std::string& outcome) {
+  return count_if(runs, [&](const RunResult& result) { return result.outcome == outcome; });
+}
+
+std::vector<double> values_of(const std::vector<ReportedRun>& runs, const Figure& figure) {
+  std::vector<double> values;
+  for (const ReportedRun& run : runs) values.push_back(figure(run));
+  return values;
+}
+
+/// NaN of runs that did not arrive: how they drove says nothing about a way that they did not finish.
+Figure of_arrived(const Figure& figure) {
+  return [figure](const ReportedRun& run) { return run.result.arrived() ? figure(run) : kUnknown; };
+}
+
+Figure plain(const char* name) {
+  return [name](const ReportedRun& run) { return run.result.figure(name); };
+}
+
+double length_over_shortest(const ReportedRun& run) {
+  return run.result.figure("path_length_m") / run.result.figure("static_shortest_path_m");
+}
+
+/// Against the shortest path at the greatest speed.
+double time_lost_s(const ReportedRun& run) {
+  return run.result.figure("duration_s") - run.result.figure("static_shortest_path_m") / run.run->cruise_mps;
+}
+
+Figure a_minute(const char* name) {
+  return [name](const ReportedRun& run) { return run.result.figure(name) / (run.result.figure("duration_s") / 60.0); };
+}
+
+std::string share_of(std::size_t good, std::size_t runs) {
+  if (runs == 0) return "-";
+  const Interval interval = wilson(good, runs);
+  return fixed(100.0 * static_cast<double>(good) / static_cast<double>(runs), 1) + " % (" +
+         fixed(100.0 * interval.low, 0) + "-" + fixed(100.0 * interval.high, 0) + ")";
+}
+
+double sum_of(const std::vector<double>& values) {
+  double sum = 0.0;
+  for (const double value : values) sum += std::isnan(value) ? 0.0 : value;
+  return sum;
+}
+
+std::vector<std::string> success_row(const ReportedRow& row) {
+  const std::vector<ReportedRun>& runs = row.runs;
+  const std::size_t good = count_if(runs, [](const RunResult& r) { return r.success; });
+  const std::size_t clear = count_if(runs, [](const RunResult& r) { return r.ran() && r.figure("contacts") == 0.0; });
+  const auto outcome = [&](const char* name) { return std::to_string(count_of(runs, name)); };
+  const std::size_t not_run = count_if(runs, [](const RunResult& r) { return !r.ran(); });
+  return {row.name,
+          std::to_string(good) + " of " + std::to_string(runs.size()),
+          share_of(good, runs.size()),
+          outcome("forced_mover"),
+          outcome("collision"),
+          outcome("timeout"),
+          outcome("fault"),
+          std::to_string(not_run),
+          std::to_string(clear),
+          fixed(sum_of(values_of(runs, plain("forced_movers"))), 0)};
+}
+
+ReportTable success_table(const ReportedTables& tables) {
+  ReportTable table{"Success",
+                    {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run",
+                     "contact-free", "movers made to turn"},
+                    {}};
+  for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
+  return table;
+}
+
+struct RideFigure {
+  const char* name;
+  Figure of;
+  int digits;
+};
+
+std::vector<RideFigure> ride_figures() {
+  return {{"length over shortest", length_over_shortest, 2},
+          {"time lost, s", time_lost_s, 1},
+          {"steering reversals a minute", a_minute("steering_reversals"), 1},
+          {"speed reversals a minute", a_minute("speed_reversals"), 1},
+          {"time below 0.1 m/s, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("slow_share"); }, 1},
+          {"largest acceleration, m/s2", plain("accel_max_mps2"), 2},
+          {"jerk p99, m/s3", plain("jerk_p99_mps3"), 2},
+          {"largest jerk, m/s3", plain("jerk_max_mps3"), 2}};
+}
+
+ReportTable ride_table(const ReportedTables& tables) {
+  ReportTable table{"The ride, of runs that arrived: median / 95th percentile / largest", {""}, {}};
+  for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
+  for (const ReportedRow& row : tables.rows) {
+    std::vector<std::string> cells{row.name};
+    for (const RideFigure& figure : ride_figures()) {
+      const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
+      cells.push_back(fixed(median(values), figure.digits) + " / " + fixed(quantile(values, 0.95), figure.digits) +
+                      " / " + fixed(quantile(values, 1.0), figure.digits));
+    }
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
+/// Of runs that a person steered; without any there is no such table.
+std::vector<ReportTable> stick_table(const ReportedTables& tables) {
+  ReportTable table{"Driving by the stick", {""}, {}};
+  for (const char* head : {"runs", "touched something", "at over 0.05 m/s", "least clearance, m",
+                           "of the wish granted, %, mean", "least of a run"})
+    table.head.emplace_back(head);
+  const auto touched_by = [](const ReportedRow& row, const char* figure) {
+    return std::to_string(count_if(row.runs, [figure](const RunResult& r) { return r.figure(figure) > 0.0; }));
+  };
+  for (const ReportedRow& row : tables.rows) {
+    const std::vector<double> granted = values_of(row.runs, plain("granted_share"));
+    if (std::all_of(granted.begin(), granted.end(), [](double share) { return std::isnan(share); })) continue;
+    table.rows.push_back({row.name, std::to_string(row.runs.size()), touched_by(row, "contacts"),
+                          touched_by(row, "contacts_caused"),
+                          fixed(quantile(values_of(row.runs, plain("min_clearance_m")), 0.0), 3),
+                          fixed(100.0 * mean(granted), 1), fixed(100.0 * quantile(granted, 0.0), 1)});
+  }
+  return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
+}
+
+/// A cell for each scenario, of the runs that the row has there.
+ReportTable by_scenario(const ReportedTables& tables, const std::string& title,
+                        const std::function<std::string(const std::vector<ReportedRun>&)>& cell) {
+  ReportTable table{title, {""}, {}};
+  for (const std::string& scenario : tables.experiment->scenarios) table.head.push_back(scenario);
+  for (const ReportedRow& row : tables.rows) {
+    std::vector<std::string> cells{row.name};
+    for (const std::string& scenario : tables.experiment->scenarios) {
+      std::vector<ReportedRun> there;
+      std::copy_if(row.runs.begin(), row.runs.end(), std::back_inserter(there),
+                   [&](const ReportedRun& run) { return run.run->scenario == scenario; });
+      cells.push_back(cell(there));
+    }
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
+std::string success_cell(const std::vector<ReportedRun>& runs) {
+  return std::to_string(count_if(runs, [](const RunResult& r) { return r.success; })) + " of " +
+         std::to_string(runs.size());
+}
+
+std::string length_cell(const std::vector<ReportedRun>& runs) {
+  return fixed(mean(values_of(runs, of_arrived(plain("path_length_m")))), 1);
+}
+
+/// Bins of 10 degrees, the rare wide ones together.
+ReportTable turn_table(const ReportedTables& tables) {
+  constexpr std::array<std::size_t, 7> kEdges{0, 1, 2, 3, 6, 9, kTurnBins};
+  ReportTable table{"Turning angles every 0.25 m, % of all", {""}, {}};
+  for (std::size_t k = 0; k + 1 < kEdges.size(); ++k)
+    table.head.push_back(std::to_string(10 * kEdges[k]) + "-" + std::to_string(10 * kEdges[k + 1]) + " deg");
+  for (const ReportedRow& row : tables.rows) {
+    std::array<double, kTurnBins> turns{};
+    for (const ReportedRun& run : row.runs)
+      for (std::size_t k = 0; k < kTurnBins; ++k) turns[k] += run.result.turns[k];
+    const double all = sum_of({turns.begin(), turns.end()});
+    std::vector<std::string> cells{row.name};
+    for (std::size_t k = 0; k + 1 < kEdges.size(); ++k) {
+      const double some = sum_of({turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k]),
+                                  turns.begin() + static_cast<std::ptrdiff_t>(kEdges[k + 1])});
+      cells.push_back(fixed(100.0 * some / all, 2));
+    }
+    table.rows.push_back(cells);
+  }
+  return table;
+}
+
+}  // namespace
+
+std::vector<ReportTable> tables_of(const ReportedTables& tables) {
+  std::vector<ReportTable> all{
+      success_table(tables), by_scenario(tables, "Success by scenario", success_cell), ride_table(tables),
+      by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell), turn_table(tables)};
+  for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
+  return all;
+}
+
+}  // namespace jaywalk::campaign

@@ -1,0 +1,45 @@
+#pragma once
+// Recordings of ROS's tools, a message at a time: MCAP files, ROS 2 bags (folders, sqlite3), ROS 1 bags.
+#include <cstdint>
+#include <filesystem>
+#include <functional>
+#include <string>
+#include <string_view>
+
+#include "apps/formats/wire_reader.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::exchange {
+
+/// One message; what it refers to outlives the call only.
+struct BagMessage {
+  std::string_view topic;
+  std::string_view type;  ///< "sensor_msgs/LaserScan": in the form of ROS 1, also from files of ROS 2
+  Wire wire = Wire::kCdr;
+  Time logged = kNever;  ///< when it was recorded
+  std::string_view bytes;
+};
+using BagSink = std::function<void(const BagMessage&)>;
+
+/// Whether `path` is a folder, or a file that begins as one of the formats does.
+[[nodiscard]] bool is_bag(const std::filesystem::path& path);
+
+/// Every message of a ROS type in the file or folder, in its order. Throws StartupError with place, cause and remedy
+/// for what cannot be read, is cut short or damaged: all check sums that a format has are checked.
+void read_bag(const std::filesystem::path& path, const BagSink& sink);
+
+/// The single formats; read_bag() tells them apart.
+void read_mcap(const std::filesystem::path& file, const BagSink& sink);
+void read_ros1_bag(const std::filesystem::path& file, const BagSink& sink);
+/// `packed`: each message is packed with zstd.
+void read_sqlite_bag(const std::filesystem::path& file, bool packed, const BagSink& sink);
+
+/// An attachment of an MCAP file: where its bytes are.
+struct Attachment {
+  std::uint64_t at = 0, bytes = 0;
+};
+/// The first attachment of that name; 0 bytes where there is none. Throws StartupError as read_mcap().
+[[nodiscard]] Attachment find_attachment(const std::filesystem::path& file, std::string_view name);
+[[nodiscard]] bool is_mcap(const std::filesystem::path& file);
+
+}  // namespace jaywalk::exchange

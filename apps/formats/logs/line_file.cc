@@ -1,0 +1,66 @@
+#include "apps/formats/logs/line_file.h"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+
+#include "hal/shown_text.h"
+
+namespace jaywalk::sim {
+namespace {
+
+/// Seconds that a count of nanoseconds in 64 bits holds, with room for sums: about 146 years.
+constexpr double kMaxSeconds = 4.6e9;
+
+}  // namespace
+
+LineFile::LineFile(const std::filesystem::path& file) : lines_(file, "give the path of a recording") {}
+
+void LineFile::split() {
+  words_.clear();
+  constexpr std::string_view kBlank = " \t\r";
+  const std::string_view text = lines_.text();
+  std::size_t begin = text.find_first_not_of(kBlank);
+  while (begin != std::string_view::npos) {
+    const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
+    words_.push_back(text.substr(begin, end - begin));
+    begin = text.find_first_not_of(kBlank, end);
+  }
+}
+
+bool LineFile::next() {
+  while (lines_.next()) {
+    split();
+    if (!words_.empty() && words_.front().front() != '#') return true;
+  }
+  return false;
+}
+
+double LineFile::number(std::size_t i) const {
+  const std::string_view word = words_[i];
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
+  if (error != std::errc() || end != word.data() + word.size()) {
+    refuse("'" + shown(word) + "' (word " + std::to_string(i + 1) + ") is not a number", "repair or delete the line");
+  }
+  return value;
+}
+
+std::size_t LineFile::count(std::size_t i, std::size_t most) const {
+  const double value = number(i);
+  if (!(value >= 0.0 && value <= static_cast<double>(most)) || std::floor(value) != value) {
+    refuse("a count of " + shown(words_[i]) + ", 0 to " + std::to_string(most) + " expected",
+           "repair or delete the line");
+  }
+  return static_cast<std::size_t>(value);
+}
+
+double LineFile::seconds(std::size_t i) const {
+  const double value = number(i);
+  if (!(std::fabs(value) <= kMaxSeconds)) {
+    refuse("a time of " + shown(words_[i]) + " s", "give times in seconds");
+  }
+  return value;
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,42 @@
+#pragma once
+// A text file, plain or gzip, a line of words at a time.
+#include <string_view>
+#include <vector>
+
+#include "apps/formats/logs/recorded_log.h"
+#include "apps/formats/logs/text_lines.h"
+
+namespace jaywalk::sim {
+
+/// Words are separated by spaces and tabs; lines that are empty or begin with '#' are skipped.
+class LineFile {
+ public:
+  /// Throws StartupError when the file cannot be read.
+  explicit LineFile(const std::filesystem::path& file);
+
+  /// Moves on to the next line with words in it; false at the end. Throws StartupError for a
+  /// damaged or cut .gz and for a line that is too long.
+  [[nodiscard]] bool next();
+  /// The line's words; valid until next().
+  [[nodiscard]] const std::vector<std::string_view>& words() const { return words_; }
+  /// Word `i` as a number; "nan" and "inf" are numbers. Throws StartupError where it is none.
+  [[nodiscard]] double number(std::size_t i) const;
+  /// Word `i` as a count of at most `most`. Throws StartupError where it is none or larger.
+  [[nodiscard]] std::size_t count(std::size_t i, std::size_t most) const;
+  /// Word `i` as seconds that fit the time line. Throws StartupError where it is not.
+  [[nodiscard]] double seconds(std::size_t i) const;
+
+  [[nodiscard]] std::size_t line() const { return lines_.line(); }
+  [[nodiscard]] std::string name() const { return lines_.name(); }
+  [[nodiscard]] LogPlace place() const { return {name(), line()}; }
+  /// Throws StartupError "FILE:LINE: cause; remedy" for the line at hand.
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const { lines_.refuse(cause, remedy); }
+
+ private:
+  void split();
+
+  TextLines lines_;
+  std::vector<std::string_view> words_;
+};
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,44 @@
+#pragma once
+// A recording behind the HAL: the laser and the wheels say what they said then, commands go nowhere.
+#include <memory>
+#include <optional>
+
+#include "hal/hal.h"
+#include "apps/formats/logs/recorded_log.h"
+
+namespace jaywalk::sim {
+
+/// Time is the recording's own and stands still until the loop sleeps. Each device shows the newest
+/// reading that is not younger than the clock; there is no outside localisation (sequence 0), and
+/// no wheels either (sequence 0) where the recording has no odometry.
+///
+/// A scan appears at its stamp, though its sweep takes RecordedLog::sweep.
+/// The constructor allocates, nothing else does. Thread: the loop's.
+class LogReplay {
+ public:
+  /// Takes over the log, which has at least one scan.
+  explicit LogReplay(RecordedLog log);
+  ~LogReplay();
+
+  [[nodiscard]] Hal hal() noexcept;
+  /// What the operator wants from now on.
+  void set_goal(Vec2 goal_in_map, double tolerance_m) noexcept;
+
+  /// True once the last scan has been reached.
+  [[nodiscard]] bool ended() const noexcept;
+  [[nodiscard]] Time start_time() const noexcept;  ///< of the first scan; the clock begins here
+  [[nodiscard]] Time end_time() const noexcept;    ///< of the last scan
+  /// Where the odometry says that the robot was at start_time(); zero without odometry.
+  [[nodiscard]] Pose2 start_pose() const noexcept;
+  /// Where the recording says that it was at end_time(); nothing without odometry.
+  [[nodiscard]] std::optional<Pose2> last_pose() const noexcept;
+  /// The drive that the replayed wheel angles belong to.
+  [[nodiscard]] DriveModel drive() const { return nominal_drive(); }
+  [[nodiscard]] const RecordedLog& log() const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,111 @@
+#pragma once
+// A recording of laser and odometry in memory, and the text formats that it is read from.
+#include <cstdint>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/formats/logs/wheel_trail.h"
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::sim {
+
+/// One sweep; its ranges are `RecordedLog::range_m[first_range]` and on.
+struct RecordedScan {
+  Time stamp = kNever;
+  std::size_t first_range = 0;
+  std::uint32_t beams = 0;
+  float first_angle_rad = 0.0F;
+  float angle_step_rad = 0.0F;
+  float range_min_m = 0.0F;
+  float range_max_m = 0.0F;
+};
+
+/// Where in a recording something stands: a line of a text file, a message of a bag.
+struct LogPlace {
+  std::string file;        ///< "scan.txt", "drive.mcap: /scan"
+  std::size_t number = 0;  ///< from 1
+  std::string unit = "line";
+
+  /// Throws StartupError "scan.txt:17: cause; remedy" or "drive.mcap: /scan: message 17: cause; remedy".
+  [[noreturn]] void refuse(const std::string& cause, const std::string& remedy) const;
+};
+
+/// Lines of one file, or messages of one topic, that were left out for one reason.
+struct RefusedLines {
+  std::string file;
+  std::string cause;
+  std::size_t first_line = 0;
+  std::size_t count = 0;
+  std::string unit = "line";
+};
+
+/// Stamps are seconds since the recording's own epoch; both lists rise strictly.
+struct RecordedLog {
+  Pose2 robot_from_laser;
+  Duration sweep{0};  ///< of each scan, from the first beam to the last; 0: not known
+  std::vector<RecordedScan> scans;
+  std::vector<float> range_m;          ///< of all scans, one after the other
+  std::vector<OdometryPose> odometry;  ///< empty where the recording has none
+  std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
+  std::vector<Time> own_stamps;  ///< of the scans, as recorded, where theirs are even instead (LineClock); or empty
+  std::size_t far_ranges = 0;    ///< over 100 m, and another than the last one over 100 m
+  std::string remark;            ///< what else a person should know; or empty
+
+  /// Counts what is left out; the first of its kind is remembered.
+  void refuse(const LogPlace& place, std::string_view cause);
+  /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason, and the remark.
+  [[nodiscard]] std::string complaint() const;
+  /// The recording's own time at `stamp`: `stamp` itself where its times could be taken as they are.
+  [[nodiscard]] Time own_time(Time stamp) const;
+  /// The laser as the first scan shows it, at the median rate. Noise and drop-out are unknown: zero.
+  [[nodiscard]] LaserModel laser() const;
+  /// How long a sweep takes when the laser spins once a scan, and no slower than ten times a second: logs are thinned
+  /// out, and spinning lasers slower than that are rare.
+  [[nodiscard]] Duration spinning_sweep() const;
+};
+
+/// Reads `scan_file`: a scan a line, told apart by the place of the number of beams n, which must
+/// agree with the length of the line:
+///   t angle_min angle_inc range_min range_max n r1..rn
+///   t dx dy dphi aperture max_range n r1..rn       carries its own odometry: the robot's motion
+///                                                  since the line before, in its frame then
+/// and `odom_file`, where given: t x y yaw v w. Metres, radians, seconds; .gz as it is. In the
+/// second form the beams spread over the aperture as CARMEN's do (load_carmen), and the motion of
+/// a line that is left out still counts; where their times cannot be the laser's, LineClock's even ones take their
+/// place. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a robot that turns sees the whole
+/// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
+///
+/// Lines of a wrong length, those whose time does not grow, and single ones far ahead of it, are left out and counted.
+/// Odometry none of which is of the scans' time is an error, and what it lacks of that is remarked upon from a second
+/// on. Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
+/// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
+[[nodiscard]] RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
+                                         const std::optional<std::filesystem::path>& odom_file = std::nullopt,
+                                         const Pose2& robot_from_laser = {});
+
+/// Reads a CARMEN log: FLASER and ODOM lines; other messages are passed over. .gz as it is.
+///
+/// The scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams
+/// is 180/n degrees apart, an odd one 180/(n - 1): 180 and 181 beams both at one degree. Readings
+/// of 50 m and over are the scanners' codes for "nothing" and become infinite.
+/// Odometry is the robot's pose in the FLASER lines, and the ODOM lines between them. Where a log's
+/// poses were corrected afterwards its ODOM lines repeat, go back in time or jump; those that do not
+/// come after what is known are left out and counted, and a FLASER line overrules what it contradicts. Where more than
+/// one scan in ten lies a centimetre beside where the ODOM lines led, those are of another frame, and all are left out.
+/// Errors as load_scan_odom.
+[[nodiscard]] RecordedLog load_carmen(const std::filesystem::path& file, const Pose2& robot_from_laser = {});
+
+/// Angles of `beams` readings over an aperture centred ahead, as CARMEN counts them.
+struct BeamFan {
+  float first_angle_rad = 0.0F;
+  float angle_step_rad = 0.0F;
+};
+[[nodiscard]] BeamFan carmen_fan(std::size_t beams, double aperture_rad);
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,148 @@
+#include "apps/formats/logs/line_clock.h"
+#include "apps/formats/logs/recorded_log.h"
+#include "apps/formats/logs/scan_lines.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+namespace {
+
+/// Words before the ranges in the two forms; the last of them is the number of beams.
+constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
+
+enum class Form { kUnknown, kPlain, kMotion };
+
+/// True when the last word of the head is how many words follow it. That can be so in one place only: it tells the two
+/// forms apart.
+bool counts_beams(const LineFile& file, std::size_t head) {
+  if (file.words().size() <= head) return false;
+  return file.words()[head - 1] == std::to_string(file.words().size() - head);
+}
+
+Form form_of(const LineFile& file) {
+  if (counts_beams(file, kPlainHead)) return Form::kPlain;
+  return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kUnknown;
+}
+
+void read_plain(RecordedLog& log, const LineFile& file) {
+  RecordedScan scan;
+  scan.stamp = time_from_seconds(file.seconds(0));
+  scan.first_angle_rad = static_cast<float>(file.number(1));
+  scan.angle_step_rad = static_cast<float>(file.number(2));
+  scan.range_min_m = static_cast<float>(file.number(3));
+  scan.range_max_m = static_cast<float>(file.number(4));
+  scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
+  check_scan(file.place(), scan);
+  drop_leapt_scan(log, file.place(), scan.stamp);
+  add_scan(log, file, scan, kPlainHead, kNoLimit);
+}
+
+/// Reads the lines that tell how the robot moved since the line before.
+class MotionLines {
+ public:
+  /// By the lines' own times, or evenly where `wrong` is given: what a reading by their own times has found.
+  explicit MotionLines(RecordedLog& log, const LineClock* wrong = nullptr) : log_(log), wrong_(wrong) {}
+
+  void read(const LineFile& file) {
+    const Time said = time_from_seconds(file.seconds(0));
+    const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
+    odometry_ = sound_pose(file.place(), odometry_ * moved);
+    RecordedScan scan = scan_of(file);
+    scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
+    clock_.see(said, moved);
+    ++lines_;
+    if (!add_scan(log_, file, scan, kMotionHead, file.number(5))) return;
+    log_.odometry.push_back({scan.stamp, odometry_, std::nullopt});
+    if (wrong_ != nullptr) log_.own_stamps.push_back(said);
+  }
+
+  [[nodiscard]] const LineClock& clock() const { return clock_; }
+  [[nodiscard]] bool any() const { return lines_ > 0; }
+
+ private:
+  static RecordedScan scan_of(const LineFile& file) {
+    RecordedScan scan;
+    scan.beams = static_cast<std::uint32_t>(file.words().size() - kMotionHead);
+    const BeamFan fan = carmen_fan(scan.beams, file.number(4));
+    scan.first_angle_rad = fan.first_angle_rad;
+    scan.angle_step_rad = fan.angle_step_rad;
+    scan.range_max_m = static_cast<float>(file.number(5));
+    check_scan(file.place(), scan);
+    return scan;
+  }
+
+  RecordedLog& log_;
+  const LineClock* wrong_;
+  LineClock clock_;
+  Pose2 odometry_;
+  std::size_t lines_ = 0;
+};
+
+/// True when the scans carried their own odometry.
+bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines& motion) {
+  LineFile file(path);
+  Form form = Form::kUnknown;
+  while (file.next()) {
+    if (form == Form::kUnknown) form = form_of(file);
+    if (form == Form::kUnknown || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
+      log.refuse(file.place(), kWrongLength);
+    } else if (form == Form::kPlain) {
+      read_plain(log, file);
+    } else {
+      motion.read(file);
+    }
+  }
+  require_scans(log, file.name(), "lines 't angle_min angle_inc range_min range_max n r1..rn'");
+  return motion.any();
+}
+
+/// The scans of `path` by their own times, or evenly where those cannot be the laser's.
+bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
+  MotionLines motion(log);
+  if (!read_scans(log, path, motion)) return false;
+  if (!motion.clock().wrong()) return true;
+  const LineClock wrong = motion.clock();
+  const Pose2 mount = log.robot_from_laser;
+  log = RecordedLog();
+  log.robot_from_laser = mount;
+  MotionLines evenly(log, &wrong);
+  (void)read_scans(log, path, evenly);
+  log.remark = path.string() + ": the robot drives in " + std::to_string(wrong.stood()) +
+               " lines though their time stands still: these are not the laser's times; its scans are taken to be "
+               "evenly spaced over the whole";
+  return true;
+}
+
+void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
+  LineFile file(path);
+  OdometryPoses poses(log);
+  while (file.next()) {
+    if (file.words().size() == 6) {
+      const Twist2 twist{file.number(4), file.number(5)};
+      poses.add({time_from_seconds(file.seconds(0)), pose_at(file, 1), twist}, file.place());
+    } else {
+      log.refuse(file.place(), kWrongLength);
+    }
+  }
+  if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");
+}
+
+}  // namespace
+
+RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
+                           const std::optional<std::filesystem::path>& odom_file, const Pose2& robot_from_laser) {
+  RecordedLog log;
+  log.robot_from_laser = robot_from_laser;
+  const bool own_odometry = read_scans(log, scan_file);
+  if (own_odometry && odom_file) {
+    throw StartupError(odom_file->string() + ": " + scan_file.string() + " carries its own odometry",
+                       "give the scans alone");
+  }
+  if (odom_file) {
+    read_odometry(log, *odom_file);
+    compare_times(log, odom_file->string());
+  }
+  if (!own_odometry) log.sweep = log.spinning_sweep();
+  return log;
+}
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,175 @@
+#include <map>
+#include <string>
+
+#include "apps/formats/bag_file.h"
+#include "apps/formats/byte_file.h"
+#include "apps/formats/little_endian.h"
+#include "apps/formats/mcap_format.h"
+#include "apps/formats/unpacking.h"
+#include "hal/shown_text.h"
+
+namespace jaywalk::exchange {
+namespace {
+
+constexpr std::uint64_t kRecordHead = 9;  // what it is, and how long
+constexpr const char* kRemedy = "take an undamaged copy of it, or what 'mcap recover' makes of this one";
+
+struct Channel {
+  std::string topic, type;
+  bool cdr = false;
+};
+
+/// "sensor_msgs/msg/LaserScan" is ROS 2's way to say it.
+std::string ros1_name(std::string_view type) {
+  const std::size_t msg = type.find("/msg/");
+  if (msg == std::string_view::npos) return std::string(type);
+  return std::string(type.substr(0, msg)).append(type.substr(msg + 4));
+}
+
+/// The records of a file from its begin to the end of its data.
+class McapFile {
+ public:
+  explicit McapFile(const std::filesystem::path& path) : file_(path, kRemedy) {
+    const std::uint64_t ends = kMcapMagic.size();
+    if (file_.read(0, ends) != kMcapMagic) file_.refuse(0, "no MCAP file");
+    if (file_.size() < 2 * ends || file_.read(file_.size() - ends, ends) != kMcapMagic)
+      file_.refuse(file_.size(), "the file is cut short: it does not end as MCAP files do");
+    crc_ = crc_of(kMcapMagic);
+    next_ = ends;
+  }
+
+  /// The next record's head; false at the end of the data.
+  bool next() {
+    at_ = next_;
+    const std::string head = file_.read(at_, kRecordHead);
+    LittleEndian in(head);
+    op_ = in.number<std::uint8_t>();
+    bytes_ = in.u64();
+    if (bytes_ > file_.size() - at_ - kRecordHead) file_.refuse(at_, "a record that is longer than the file");
+    next_ = at_ + kRecordHead + bytes_;
+    if (op_ == kFooter) refuse("the footer comes before the end of the data");
+    return op_ != kDataEnd;
+  }
+  [[nodiscard]] std::uint8_t op() const { return op_; }
+  [[nodiscard]] std::uint64_t begin() const { return at_ + kRecordHead; }
+  /// The record's bytes; each record's once, for the check sum of all of them.
+  [[nodiscard]] std::string body() {
+    std::string all = file_.read(at_, kRecordHead + bytes_);
+    crc_ = crc_of(all, crc_);
+    return all.substr(kRecordHead);
+  }
+  void check_data_end() {
+    const std::string body = file_.read(at_ + kRecordHead, bytes_);
+    const std::uint32_t said = LittleEndian(body).u32();
+    if (said != 0 && said != crc_) refuse("the data's check sum is wrong");
+  }
+  [[noreturn]] void refuse(const std::string& cause) const { file_.refuse(at_, cause); }
+
+ private:
+  ByteFile file_;
+  std::uint64_t at_ = 0, next_ = 0, bytes_ = 0;
+  std::uint8_t op_ = 0;
+  std::uint32_t crc_ = 0;
+};
+
+/// Schemas, channels and messages, in chunks or not.
+class McapMessages {
+ public:
+  McapMessages(const McapFile& file, const BagSink& sink) : file_(file), sink_(sink) {}
+
+  void take(std::uint8_t op, std::string_view body) {
+    LittleEndian in(body);
+    if (op == kSchema) {
+      const std::uint16_t number = in.u16();
+      schemas_[number] = ros1_name(in.sized());
+    } else if (op == kChannel) {
+      add_channel(in);
+    } else if (op == kMessage) {
+      pass_on(in);
+    } else if (op == kChunk) {
+      open_chunk(in);
+    }
+    if (!in.ok()) file_.refuse("a record that is too short for what it is");
+  }
+
+ private:
+  void add_channel(LittleEndian& in) {
+    const std::uint16_t number = in.u16(), schema = in.u16();
+    const std::string_view topic = in.sized(), encoding = in.sized();
+    channels_[number] = {std::string(topic), schemas_[schema], encoding == "cdr"};
+    ros1_[number] = encoding == "ros1";
+  }
+  void pass_on(LittleEndian& in) {
+    const std::uint16_t number = in.u16();
+    (void)in.u32();  // its running number
+    const Time logged{std::chrono::nanoseconds(in.u64())};
+    (void)in.u64();  // when it was published
+    const auto channel = channels_.find(number);
+    if (channel == channels_.end()) file_.refuse("a message of a channel that the file does not describe");
+    if (!in.ok() || !(channel->second.cdr || ros1_[number])) return;
+    const Wire wire = channel->second.cdr ? Wire::kCdr : Wire::kRos1;
+    sink_({channel->second.topic, channel->second.type, wire, logged, in.rest()});
+  }
+  void open_chunk(LittleEndian& in) {
+    (void)in.u64(), (void)in.u64();  // of its first and last message
+    const std::uint64_t bytes = in.u64();
+    const std::uint32_t crc = in.u32();
+    const std::string_view method = in.sized();
+    const std::string_view packed = in.take(in.u64());
+    if (!in.ok()) return;
+    if (!can_unpack(method)) file_.refuse("a chunk packed with '" + shown(method) + "', which is not known here");
+    if (bytes > kMostRecordBytes) file_.refuse("a chunk of " + std::to_string(bytes) + " bytes");
+    const auto unpacked = unpack(method, packed, bytes);
+    if (!unpacked) file_.refuse("a chunk that does not unpack");
+    if (crc != 0 && crc_of(*unpacked) != crc) file_.refuse("a chunk's check sum is wrong");
+    LittleEndian records(*unpacked);
+    while (!records.empty()) {
+      const auto op = records.number<std::uint8_t>();
+      const std::string_view body = records.take(records.u64());
+      if (!records.ok() || op == kChunk) file_.refuse("a chunk with something else than records in it");
+      take(op, body);
+    }
+  }
+
+  const McapFile& file_;
+  const BagSink& sink_;
+  std::map<std::uint16_t, std::string> schemas_;
+  std::map<std::uint16_t, Channel> channels_;
+  std::map<std::uint16_t, bool> ros1_;
+};
+
+}  // namespace
+
+void read_mcap(const std::filesystem::path& path, const BagSink& sink) {
+  McapFile file(path);
+  McapMessages messages(file, sink);
+  while (file.next()) messages.take(file.op(), file.body());
+  file.check_data_end();
+}
+
+Attachment find_attachment(const std::filesystem::path& path, std::string_view name) {
+  McapFile file(path);
+  while (file.next()) {
+    if (file.op() != kAttachment) continue;
+    const std::string body = file.body();
+    LittleEndian in(body);
+    (void)in.u64(), (void)in.u64();  // when it was recorded and made
+    const std::string_view said = in.sized(), type = in.sized();
+    const std::uint64_t bytes = in.u64(), before = 8 + 8 + 4 + said.size() + 4 + type.size() + 8;
+    (void)in.take(bytes);
+    const std::uint32_t crc = in.u32();
+    if (!in.ok()) file.refuse("a record that is too short for what it is");
+    if (crc != 0 && crc_of(std::string_view(body).substr(0, before + bytes)) != crc)
+      file.refuse("an attachment's check sum is wrong");
+    if (said == name) return {file.begin() + before, bytes};
+  }
+  return {};
+}
+
+bool is_mcap(const std::filesystem::path& path) {
+  std::ifstream in(path, std::ios::binary);
+  std::string head(kMcapMagic.size(), '\0');
+  return in.read(head.data(), static_cast<std::streamsize>(head.size())) && head == kMcapMagic;
+}
+
+}  // namespace jaywalk::exchange

@@ -1,0 +1,50 @@
+#pragma once
+// The messages of others that a replay needs, in ROS 1's bytes or ROS 2's.
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "apps/formats/spatial_frame.h"
+#include "apps/formats/wire_reader.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
+
+namespace jaywalk::exchange {
+
+/// sensor_msgs/LaserScan, in metres, seconds and radians.
+struct ScanMessage {
+  Time stamp = kNever;  ///< of the header; 0 where nobody set it
+  std::string frame;
+  float first_angle_rad = 0.0F, angle_step_rad = 0.0F;
+  float beam_step_s = 0.0F;
+  float range_min_m = 0.0F, range_max_m = 0.0F;
+  std::vector<float> range_m;
+};
+
+/// nav_msgs/Odometry, its pose and twist in the plane.
+struct OdometryMessage {
+  Time stamp = kNever;
+  std::string child_frame;
+  Pose2 pose;
+  Twist2 twist;
+};
+
+/// One of tf2_msgs/TFMessage.
+struct TransformMessage {
+  std::string parent, child;
+  SpatialFrame parent_from_child;
+};
+
+/// Nothing where the bytes are no such message.
+[[nodiscard]] std::optional<ScanMessage> read_scan(std::string_view bytes, Wire wire);
+[[nodiscard]] std::optional<OdometryMessage> read_odometry(std::string_view bytes, Wire wire);
+[[nodiscard]] std::optional<std::vector<TransformMessage>> read_transforms(std::string_view bytes, Wire wire);
+struct GoalMessage {
+  Pose2 pose;
+  std::string frame;
+};
+/// geometry_msgs/PoseStamped.
+[[nodiscard]] std::optional<GoalMessage> read_goal(std::string_view bytes, Wire wire);
+
+}  // namespace jaywalk::exchange

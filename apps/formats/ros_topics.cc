@@ -1,0 +1,76 @@
+#include "apps/formats/ros_topics.h"
+
+#include <cmath>
+
+#include "apps/formats/ros_messages.h"
+
+namespace jaywalk::exchange {
+namespace {
+
+constexpr Duration kMapEvery = std::chrono::seconds(2);
+constexpr Duration kDiagnosticsEvery = std::chrono::milliseconds(100);
+
+constexpr std::uint32_t bit(RosTopicNumber topic) { return 1U << topic; }
+
+bool same_heading(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)); }
+
+}  // namespace
+
+void RosTopics::forget(std::uint32_t topics) {
+  if ((topics & (bit(kScan) | bit(kPoints) | bit(kTracks))) != 0) scan_seen_ = 0;
+  if ((topics & bit(kPlan)) != 0) plan_seen_ = kNever;
+  if ((topics & bit(kGoal)) != 0) goal_seen_ = {};
+  if ((topics & bit(kMap)) != 0) mapped_ = kNever;
+}
+
+void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const PlannedPath& path,
+                    const RobotModel& model, std::uint32_t wanted) {
+  forget(wanted & ~wanted_);
+  wanted_ = wanted;
+  if (wanted == 0) return;
+  const auto wants = [wanted](RosTopicNumber topic) { return (wanted & bit(topic)) != 0; };
+  if (wants(kTf)) push_(kTf, t.now, transforms(t, model.laser.robot_from_laser));
+  if (wants(kOdom)) push_(kOdom, t.now, odometry(t, model.drive));
+  if (wants(kCmdVel)) push_(kCmdVel, t.now, command(t));
+  if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, tracks, wanted);
+  if (wants(kPlan) && !path.points.empty() && path.stamp != plan_seen_) {
+    push_(kPlan, t.now, exchange::path(path));
+    plan_seen_ = path.stamp;
+  }
+  add_goal(t, wanted);
+  if (wants(kDiagnostics)) add_diagnostics(t);
+}
+
+void RosTopics::add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted) {
+  scan_seen_ = t.scan.sequence;
+  if ((wanted & bit(kScan)) != 0) push_(kScan, t.now, laser_scan(t.scan));
+  if ((wanted & bit(kPoints)) != 0) push_(kPoints, t.now, points(t.scan));
+  if ((wanted & bit(kTracks)) != 0) push_(kTracks, t.now, exchange::tracks(tracks, t.now));
+}
+
+void RosTopics::add_goal(const TickRecord& t, std::uint32_t wanted) {
+  const OperatorInput &now = t.input, &before = goal_seen_;
+  const bool same =
+      now.goal_in_map == before.goal_in_map && same_heading(now.goal_heading_rad, before.goal_heading_rad);
+  if (now.has_goal && (wanted & bit(kGoal)) != 0 && !(before.has_goal && same)) push_(kGoal, t.now, goal_pose(t));
+  goal_seen_ = now;
+}
+
+void RosTopics::add_diagnostics(const TickRecord& t) {
+  const bool is_due = told_ == kNever || age(told_, t.now) >= kDiagnosticsEvery;
+  if (!is_due && t.verdict.reasons == reasons_) return;
+  push_(kDiagnostics, t.now, diagnostics(t));
+  reasons_ = t.verdict.reasons;
+  told_ = t.now;
+}
+
+bool RosTopics::is_map_due(Time now, std::uint32_t wanted) const {
+  return (wanted & bit(kMap)) != 0 && (mapped_ == kNever || age(mapped_, now) >= kMapEvery);
+}
+
+void RosTopics::add_map(const EvidenceMap& map, Time now) {
+  push_(kMap, now, occupancy(map, now));
+  mapped_ = now;
+}
+
+}  // namespace jaywalk::exchange

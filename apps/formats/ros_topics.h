@@ -1,0 +1,68 @@
+#pragma once
+// The topics of a run, for everything that shows one: the MCAP export, the live stream, the bridge to DDS.
+#include <array>
+#include <cstdint>
+#include <functional>
+#include <span>
+#include <string>
+#include <utility>
+
+#include "firmware/recording/tick_record.h"
+#include "hal/types/robot_model.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/tracking/track.h"
+
+namespace jaywalk::exchange {
+
+struct RosTopic {
+  const char* name;
+  const char* type;
+};
+
+/// A topic's number is its place in kRosTopics.
+enum RosTopicNumber : std::uint8_t { kScan, kPoints, kOdom, kTf, kMap, kPlan, kGoal, kTracks, kDiagnostics, kCmdVel };
+
+inline constexpr std::array<RosTopic, 10> kRosTopics{{{"/scan", "sensor_msgs/msg/LaserScan"},
+                                                      {"/points", "sensor_msgs/msg/PointCloud2"},
+                                                      {"/odom", "nav_msgs/msg/Odometry"},
+                                                      {"/tf", "tf2_msgs/msg/TFMessage"},
+                                                      {"/map", "nav_msgs/msg/OccupancyGrid"},
+                                                      {"/plan", "nav_msgs/msg/Path"},
+                                                      {"/goal_pose", "geometry_msgs/msg/PoseStamped"},
+                                                      {"/tracks", "visualization_msgs/msg/MarkerArray"},
+                                                      {"/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"},
+                                                      {"/cmd_vel", "geometry_msgs/msg/Twist"}}};
+inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
+
+/// A run's ticks as ROS 2's messages (docs/outputs.md says when there is one of which topic). Each message is made only
+/// where its topic is wanted. Thread: one.
+class RosTopics {
+ public:
+  /// A message in CDR of the topic of that number.
+  using Push = std::function<void(std::size_t topic, Time stamp, std::string message)>;
+
+  explicit RosTopics(Push push) : push_(std::move(push)) {}
+
+  /// A tick, what was tracked in it and the newest plan's path, with no points where there is none or it was told
+  /// before. `wanted`: a bit a topic. A topic that was not wanted before is told whatever it last said.
+  void add(const TickRecord& t, std::span<const Track> tracks, const PlannedPath& path, const RobotModel& model,
+           std::uint32_t wanted = kAllTopics);
+  /// Whether the map is due: every two seconds.
+  [[nodiscard]] bool is_map_due(Time now, std::uint32_t wanted = kAllTopics) const;
+  void add_map(const EvidenceMap& map, Time now);
+
+ private:
+  void forget(std::uint32_t topics);
+  void add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted);
+  void add_goal(const TickRecord& t, std::uint32_t wanted);
+  void add_diagnostics(const TickRecord& t);
+
+  Push push_;
+  std::uint32_t wanted_ = 0;  ///< last time
+  std::uint32_t scan_seen_ = 0;
+  OperatorInput goal_seen_;
+  Reason reasons_ = Reason::kNone;
+  Time plan_seen_ = kNever, mapped_ = kNever, told_ = kNever;
+};
+
+}  // namespace jaywalk::exchange

@@ -1,0 +1,136 @@
+#include "apps/jaywalk/calibrate_command.h"
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <nlohmann/json.hpp>
+
+#include "apps/setup/armed_session.h"
+#include "apps/why/recorded_run.h"
+#include "firmware/control_setup.h"
+#include "firmware/recording/recording_stream.h"
+#include "apps/setup/calibration_plot.h"
+#include "apps/setup/guided_drive.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+SessionOptions session_options;
+std::filesystem::path out = "out/calibrate";
+
+/// A drive, and by which radii its drives' scales counted: to the loop both wheels have the model's.
+struct Drive {
+  CalibrationLog log;
+  RobotModel model;
+  std::array<double, 2> radii_m;
+};
+
+Drive drive_robot() {
+  ArmedSession session(
+      session_options, "calibrate",
+      "The robot will drive 1.5 m ahead and back, and a circle to each side, for about a minute. Are 2 m "
+      "free ahead, and a metre to each side and behind?");
+  const RobotFile& file = session.file();
+  const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
+  try {
+    CalibrationLog log = drive_guided(setup, session.devices().drive(), session.devices().laser(), session.clock(),
+                                      ArmedSession::stopped);
+    session.disarm();
+    return {std::move(log), file.setup.model, file.drive.wheel_radii_m};
+  } catch (const StartupError&) {
+    session.disarm();
+    throw;
+  }
+}
+
+/// What devices.json of the run says; the model's where there is none, as of a simulation.
+std::array<double, 2> radii_beside(const std::filesystem::path& folder, const RobotModel& model) {
+  std::ifstream file(folder / "devices.json");
+  const nlohmann::json json = nlohmann::json::parse(file, nullptr, false);
+  const std::array<double, 2> models{model.drive.wheel_radius_m, model.drive.wheel_radius_m};
+  return json.is_object() && json.contains("wheel_radii_m") ? json["wheel_radii_m"].get<std::array<double, 2>>()
+                                                            : models;
+}
+
+Drive read_recording(const std::filesystem::path& run) {
+  RecordedRun recorded(run);
+  const RobotModel& model = recorded.setup().model;
+  CalibrationLog log(model.drive);
+  while (recorded.step()) log.take(recorded.last().wheels, recorded.last().scan);
+  return {std::move(log), model, radii_beside(recorded.folder(), model)};
+}
+
+void print_line(const char* what, const char* unit, double believed, double found, double within) {
+  std::printf("%-20s %10.5f %-4s %10.5f %-4s +-%.5f\n", what, believed, unit, found, unit, within);
+}
+
+/// The radii as a robot file has them: `calibration` has them as the loop counted.
+void print(const Drive& drive, const RobotGeometry& believed, const Calibration& calibration) {
+  const RobotGeometry &found = calibration.found, &within = calibration.within;
+  const double left = drive.radii_m[0] / believed.left_radius_m, right = drive.radii_m[1] / believed.right_radius_m;
+  const Pose2 &mount = found.robot_from_laser, &was = believed.robot_from_laser, &off = within.robot_from_laser;
+  std::printf("%-20s %10s %-4s %10s %-4s %s\n", "", "was", "", "is", "", "95 %");
+  print_line("left wheel radius", "m", drive.radii_m[0], left * found.left_radius_m, left * within.left_radius_m);
+  print_line("right wheel radius", "m", drive.radii_m[1], right * found.right_radius_m, right * within.right_radius_m);
+  print_line("track width", "m", believed.track_width_m, found.track_width_m, within.track_width_m);
+  print_line("laser x", "m", was.x, mount.x, off.x);
+  print_line("laser y", "m", was.y, mount.y, off.y);
+  print_line("laser yaw", "rad", was.heading, mount.heading, off.heading);
+  std::printf("%zu motions, and %zu that fit nothing; residuals: %s\n\n", calibration.after.size(),
+              calibration.left_out, (out / "calibration.svg").c_str());
+  std::printf(
+      "# for ROBOT.toml; then jaywalk commission again\n[drive]\nleft_wheel_radius_m = %.5f\n"
+      "right_wheel_radius_m = %.5f\ntrack_width_m = %.5f\n[laser]\nmount = [%.4f, %.4f, %.5f]\n",
+      left * found.left_radius_m, right * found.right_radius_m, found.track_width_m, mount.x, mount.y, mount.heading);
+}
+
+/// Half a per cent of a radius, one of the track, a centimetre, half a degree.
+bool is_sharp(const Calibration& calibration) {
+  const RobotGeometry &found = calibration.found, &within = calibration.within;
+  const Pose2& mount = within.robot_from_laser;
+  return within.left_radius_m < 0.005 * found.left_radius_m && within.right_radius_m < 0.005 * found.right_radius_m &&
+         within.track_width_m < 0.01 * found.track_width_m && mount.x < 0.01 && mount.y < 0.01 &&
+         mount.heading < 0.5 * kPi / 180.0;
+}
+
+void write_plot(const Calibration& calibration) {
+  std::filesystem::create_directories(out);
+  const std::filesystem::path file = out / "calibration.svg";
+  std::ofstream stream(file);
+  stream << svg_of(calibration) << std::flush;
+  if (!stream)
+    throw StartupError(file.string() + ": cannot be written", "see to the folder's rights and the disk's room");
+}
+
+int calibrate_robot() {
+  const std::filesystem::path& what = session_options.robot;
+  const bool is_run = std::filesystem::is_directory(what) || is_recording(what.string());
+  const Drive drive = is_run ? read_recording(what) : drive_robot();
+  const RobotModel& model = drive.model;
+  const RobotGeometry believed{model.drive.wheel_radius_m, model.drive.wheel_radius_m, model.drive.track_width_m,
+                               model.laser.robot_from_laser};
+  const Calibration calibration = calibrate(drive.log, believed);
+  write_plot(calibration);
+  print(drive, believed, calibration);
+  if (is_sharp(calibration)) return 0;
+  std::fputs("jaywalk: the intervals are too wide to be of use; drive farther, straight on and round\n", stderr);
+  return 1;
+}
+
+}  // namespace
+
+void add_calibrate(CLI::App& app, int& exit_code) {
+  CLI::App* command = app.add_subcommand("calibrate", "Wheel radii, track width and laser mount, by a drive or a run");
+  command
+      ->add_option("robot", session_options.robot, "Robot file, which is driven; or a run's folder, or recording.jwr")
+      ->required();
+  command->add_option("--out", out, "Folder for calibration.svg, the residuals")->capture_default_str();
+  command->add_option("--socket", session_options.control_socket, "Control socket (default: the file's)");
+  command->add_flag("--yes", session_options.yes, "The robot may drive: do not ask");
+  command->add_flag("--allow-no-realtime", session_options.allow_no_realtime,
+                    "Go on where the kernel refuses real-time priority or locked memory");
+  command->callback([&exit_code] { exit_code = calibrate_robot(); });
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,171 @@
+#include "apps/jaywalk/campaign_command.h"
+
+#include <sched.h>
+
+#include <algorithm>
+#include <charconv>
+#include <chrono>
+#include <cstdio>
+#include <thread>
+#include <vector>
+
+#include "apps/campaign/plan_text.h"
+#include "apps/campaign/run_pool.h"
+#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/progress.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+using campaign::Keep;
+using campaign::PlannedRun;
+using campaign::RunResult;
+
+constexpr std::chrono::milliseconds kBetweenLooks{20};
+
+int processors() {
+  cpu_set_t may{};
+  return ::sched_getaffinity(0, sizeof may, &may) == 0 ? std::max(1, CPU_COUNT(&may)) : 1;
+}
+
+std::filesystem::path own_program() {
+  std::error_code error;
+  const std::filesystem::path program = std::filesystem::read_symlink("/proc/self/exe", error);
+  if (error) throw StartupError("/proc/self/exe: " + error.message(), "mount /proc");
+  return program;
+}
+
+/// "8 s", "12 min", "3.5 h".
+std::string time_in_words(double seconds) {
+  char text[32];
+  if (seconds < 90.0)
+    std::snprintf(text, sizeof text, "%.0f s", seconds);
+  else if (seconds < 5400.0)
+    std::snprintf(text, sizeof text, "%.0f min", seconds / 60.0);
+  else
+    std::snprintf(text, sizeof text, "%.1f h", seconds / 3600.0);
+  return text;
+}
+
+/// Counts what is done and tells it: a bar on a terminal, a line a run elsewhere.
+class Teller {
+ public:
+  Teller(std::size_t all, std::size_t finished) : all_(all), before_(finished), finished_(finished) {}
+
+  void finished(const PlannedRun& run, const RunResult& result) {
+    ++finished_;
+    if (!result.success) ++failed_;
+    if (bar_.is_seen()) return show();
+    std::printf("%zu of %zu: %s: %s%s%s; %s left\n", finished_, all_, run.folder.c_str(), result.outcome.c_str(),
+                result.reason.empty() ? "" : ": ", result.reason.c_str(), left().c_str());
+    std::fflush(stdout);
+  }
+  void show() {
+    if (!bar_.is_due() || all_ == 0) return;
+    const std::string words = std::to_string(finished_) + " of " + std::to_string(all_) + ", " +
+                              std::to_string(failed_) + " failed, " + left() + " left";
+    bar_.show(static_cast<double>(finished_) / static_cast<double>(all_), words);
+  }
+
+ private:
+  [[nodiscard]] std::string left() const {
+    const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began_).count();
+    const std::size_t done = finished_ - before_;
+    return done == 0 ? "?" : time_in_words(took_s * static_cast<double>(all_ - finished_) / static_cast<double>(done));
+  }
+
+  std::size_t all_, before_, finished_, failed_ = 0;
+  std::chrono::steady_clock::time_point began_ = std::chrono::steady_clock::now();
+  Progress bar_;
+};
+
+/// One share of a campaign, from what is left of it to nothing.
+class Share {
+ public:
+  Share(const CampaignOptions& options, const campaign::Campaign& campaign, const campaign::Plan& plan)
+      : keep_(campaign.keep),
+        runs_(plan.runs),
+        folder_(std::filesystem::absolute(options.out), campaign::plan_text(campaign, plan, own_program()),
+                options.shard),
+        pool_(own_program(), campaign.file.has_parent_path() ? campaign.file.parent_path() : "."),
+        jobs_(static_cast<std::size_t>(options.jobs > 0 ? options.jobs : processors())) {
+    for (std::size_t k = 0; k < runs_.size(); ++k) {
+      if (!options.shard.has(k)) continue;
+      ++all_;
+      if (!folder_.is_finished(runs_[k]))
+        left_.push_back(k);
+      else if (!folder_.result(runs_[k]).ran())
+        ++not_run_;
+    }
+  }
+
+  /// Returns whether nothing is left.
+  bool run() {
+    Teller teller(all_, all_ - left_.size());
+    const Interruption interruption;
+    for (std::size_t next = 0; next < left_.size() || pool_.size() > 0;) {
+      for (; next < left_.size() && pool_.size() < jobs_; ++next)
+        pool_.start(left_[next], runs_[left_[next]], folder_.begin(runs_[left_[next]]));
+      if (interruption.came() || !take_ended(teller)) return stop();
+      teller.show();
+      std::this_thread::sleep_for(kBetweenLooks);
+    }
+    return true;
+  }
+  [[nodiscard]] std::size_t not_run() const { return not_run_; }
+
+ private:
+  /// False where a run was stopped from outside: it is not finished, and the campaign is to stop as well.
+  bool take_ended(Teller& teller) {
+    while (const auto ended = pool_.ended()) {
+      const PlannedRun& run = runs_[ended->run];
+      const RunResult result = campaign::result_of(run, folder_.work(run), ended->status);
+      if (result.outcome == "interrupted") return folder_.drop(run), false;
+      folder_.finish(run, result, keep_);
+      if (!result.ran()) ++not_run_;
+      teller.finished(run, result);
+    }
+    return true;
+  }
+  bool stop() {
+    for (const std::size_t index : pool_.kill_all()) folder_.drop(runs_[index]);
+    return false;
+  }
+
+  Keep keep_;
+  const std::vector<PlannedRun>& runs_;
+  campaign::CampaignFolder folder_;
+  campaign::RunPool pool_;
+  std::size_t jobs_, all_ = 0, not_run_ = 0;
+  std::vector<std::size_t> left_;
+};
+
+}  // namespace
+
+campaign::Shard shard_from(const std::string& word) {
+  campaign::Shard shard;
+  const char* const end = word.data() + word.size();
+  const auto part = std::from_chars(word.data(), end, shard.part);
+  const bool divided = part.ec == std::errc() && part.ptr != end && *part.ptr == '/';
+  const auto of = divided ? std::from_chars(part.ptr + 1, end, shard.of) : part;
+  if (divided && of.ec == std::errc() && of.ptr == end && shard.part >= 1 && shard.part <= shard.of) return shard;
+  throw StartupError("--shard: " + shown(word) + " is no share", "give I/N, 1/4 to 4/4 say");
+}
+
+int run_campaign(const CampaignOptions& options) {
+  const campaign::Campaign campaign = campaign::load_campaign(options.file);
+  const campaign::Plan plan = campaign::plan_of(campaign);
+  Share share(options, campaign, plan);
+  if (!share.run()) {
+    std::fprintf(stderr, "jaywalk: stopped; the same command goes on with what is left\n");
+    return 1;
+  }
+  if (share.not_run() > 0)
+    std::fprintf(stderr, "jaywalk: %zu runs crashed or were refused; the report names them\n", share.not_run());
+  std::printf("finished; see it with jaywalk report %s\n", options.out.c_str());
+  return share.not_run() > 0 ? 1 : 0;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,48 @@
+#include "apps/jaywalk/export_command.h"
+
+#include <cstdio>
+#include <string>
+
+#include "apps/formats/run_exporter.h"
+#include "apps/jaywalk/progress.h"
+#include "apps/why/relived_run.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// `Again`: SeenRun or RelivedRun.
+template <class Again>
+void export_all(RecordedRun& run, RunExporter& exporter) {
+  Again again(run);
+  Progress progress;
+  while (again.step()) {
+    exporter.add(again.last(), again.tracker());
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(exporter.file().messages()) + " messages");
+  }
+  progress.make_way();
+  std::fputs(again.remarks().c_str(), stderr);
+}
+
+std::filesystem::path place_of(const RecordedRun& run) {
+  return run.is_in_parts() ? run.file() : run.file().parent_path();
+}
+
+}  // namespace
+
+int run_export(const ExportOptions& options) {
+  RecordedRun run(options.run);
+  const std::filesystem::path out = options.out.empty() ? place_of(run) / "run.mcap" : options.out;
+  std::error_code missing;
+  if (std::filesystem::equivalent(run.file(), out, missing))
+    throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
+  RunExporter exporter(out, run.setup().model);
+  run.holds_paths() ? export_all<SeenRun>(run, exporter) : export_all<RelivedRun>(run, exporter);
+  exporter.finish(run.is_in_parts() ? std::filesystem::path() : run.file());
+  std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),
+              static_cast<unsigned long long>(exporter.file().messages()), exporter.file().topics().size(),
+              static_cast<double>(exporter.file().last_ns() - exporter.file().first_ns()) * 1e-9);
+  return 0;
+}
+
+}  // namespace jaywalk

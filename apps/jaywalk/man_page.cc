@@ -1,0 +1,126 @@
+#include "apps/jaywalk/man_page.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+std::vector<const CLI::App*> commands_of(const CLI::App& app) {
+  return app.get_subcommands([](const CLI::App*) { return true; });
+}
+
+/// roff takes a backslash, a hyphen, and a line's first point or quotation mark for its own.
+std::string roff(const std::string& text) {
+  std::string out;
+  bool begins = true;
+  for (const char c : text) {
+    if (begins && (c == '.' || c == '\'')) out += "\\&";
+    if (c == '\\')
+      out += "\\e";
+    else if (c == '-')
+      out += "\\-";
+    else
+      out += c;
+    begins = c == '\n';
+  }
+  return out;
+}
+
+/// "--mode full|paper", "--help, -h", "scenario".
+std::string name_of(const CLI::Option& option) {
+  std::string names;
+  for (const std::string& name : option.get_lnames()) names += (names.empty() ? "--" : ", --") + name;
+  for (const std::string& name : option.get_snames()) names += (names.empty() ? "-" : ", -") + name;
+  if (names.empty()) return option.get_name(true);
+  return option.get_type_name().empty() ? names : names + " " + option.get_type_name();
+}
+
+std::string entry_of(const CLI::Option& option) {
+  const std::string usual = option.get_default_str();
+  return ".TP\n.B " + roff(name_of(option)) + "\n" + roff(option.get_description()) +
+         (usual.empty() ? "" : " (default: " + roff(usual) + ")") + "\n";
+}
+
+std::string section_of(const CLI::App& command) {
+  std::string text = ".SS jaywalk " + roff(command.get_name()) + "\n" + roff(command.get_description()) + ".\n";
+  for (const CLI::Option* option : command.get_options()) text += entry_of(*option);
+  return text + ".PP\n.nf\n" + roff(command.get_footer()) + "\n.fi\n";
+}
+
+std::string long_names(const CLI::App& app) {
+  std::string words;
+  for (const CLI::Option* option : app.get_options())
+    for (const std::string& name : option->get_lnames()) words += (words.empty() ? "--" : " --") + name;
+  return words;
+}
+
+/// The allowed words of an option, "full|paper", where its value is one of a few.
+std::string choices_of(const CLI::App& command) {
+  std::string text;
+  for (const CLI::Option* option : command.get_options()) {
+    std::string words = option->get_type_name();
+    if (words.find('|') == std::string::npos) continue;
+    std::replace(words.begin(), words.end(), '|', ' ');
+    text += "    '" + command.get_name() + " --" + option->get_lnames().front() + "') words='" + words + "' ;;\n";
+  }
+  return text;
+}
+
+[[noreturn]] void print(const std::string& text) {
+  std::fputs(text.c_str(), stdout);
+  throw CLI::Success();
+}
+
+}  // namespace
+
+std::string man_page(const CLI::App& app) {
+  std::string text =
+      ".TH JAYWALK 1 \"\" \"jaywalk " + std::string(JAYWALK_VERSION) +
+      "\" \"User Commands\"\n.SH NAME\njaywalk \\- drives mobile robots and power wheelchairs among people\n"
+      ".SH SYNOPSIS\n.B jaywalk\n.I COMMAND\n[OPTIONS]\n.SH DESCRIPTION\n" +
+      roff(app.get_description()) + "\n.SH OPTIONS\n";
+  for (const CLI::Option* option : app.get_options()) text += entry_of(*option);
+  text += ".PP\n.nf\n" + roff(app.get_footer()) + "\n.fi\n.SH COMMANDS\n";
+  for (const CLI::App* command : commands_of(app)) text += section_of(*command);
+  return text;
+}
+
+std::string bash_completion(const CLI::App& app) {
+  std::string names, options, choices;
+  for (const CLI::App* command : commands_of(app)) {
+    names += command->get_name() + " ";
+    options += "    " + command->get_name() + ") words='" + long_names(*command) + "' ;;\n";
+    choices += choices_of(*command);
+  }
+  return "# bash completion of jaywalk\n_jaywalk() {\n"
+         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' words='' k\n"
+         "  for ((k = 1; k < COMP_CWORD; ++k)); do\n"
+         "    [[ ${COMP_WORDS[k]} == -* ]] || { command=${COMP_WORDS[k]}; break; }\n  done\n"
+         "  case $command in\n    '') words='" +
+         names + long_names(app) + "' ;;\n" + options +
+         "  esac\n  [[ -z $command || $word == -* ]] || words=''  # a file, then\n  case \"$command $before\" in\n" +
+         choices +
+         "  esac\n  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n}\n"
+         "complete -o default -F _jaywalk jaywalk\n";
+}
+
+void add_manual_options(CLI::App& app) {
+  app.add_flag_callback(
+      "--man", [&app] { print(man_page(app)); }, "Print the manual page: jaywalk --man | man -l -");
+  app.add_option_function<std::string>(
+         "--completion",
+         [&app](const std::string& shell) {
+           if (shell != "bash")
+             throw StartupError("--completion: " + shown(shell) + " is not written for", "give bash");
+           print(bash_completion(app));
+         },
+         "Print what a shell needs to complete commands and options")
+      ->type_name("bash");
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,85 @@
+#include "apps/jaywalk/map_cells.h"
+
+#include <cmath>
+#include <string>
+#include <utility>
+
+#include "hal/maps/image_file.h"
+#include "hal/sim/walls.h"
+#include "hal/text_file.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kDefaultCell_m = 0.1;
+/// map_server's own threshold, for pictures that come without a YAML file.
+constexpr double kOccupiedAbove = 0.65;
+
+void check_size(const std::string& file, double width, double height) {
+  const double most = field::kMostMapCells;
+  if (width <= most && height <= most) return;
+  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution, or a smaller map");
+}
+
+MapCells cells_of(const std::string& file, sim::Raster raster) {
+  check_size(file, raster.width, raster.height);
+  return {{raster.width, raster.height, std::move(raster.solid)}, raster.map_from_raster, raster.cell_m};
+}
+
+MapCells picture_cells(const std::filesystem::path& file, double cell_m) {
+  const sim::GreyImage image = sim::load_image(file);
+  sim::Raster raster{{}, cell_m, image.width, image.height, {}};
+  for (std::int32_t row = image.height - 1; row >= 0; --row) {
+    for (std::int32_t column = 0; column < image.width; ++column) {
+      const int grey = image.grey[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
+                                  static_cast<std::size_t>(column)];
+      raster.solid.push_back((255 - grey) / 255.0 > kOccupiedAbove ? 1 : 0);
+    }
+  }
+  return cells_of(file.string(), std::move(raster));
+}
+
+/// Lines and discs as cells: those whose middle is within half a cell. A line leaves no gap that way which a step to a
+/// cell's side could pass.
+MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double cell_m) {
+  const sim::Walls walls(std::move(map));
+  const sim::Box box = walls.bounds();
+  const double width = std::floor((box.high.x - box.low.x) / cell_m) + 2.0;
+  const double height = std::floor((box.high.y - box.low.y) / cell_m) + 2.0;
+  check_size(file.string(), width, height);
+  MapCells drawn{{static_cast<std::int32_t>(width), static_cast<std::int32_t>(height), {}},
+                 {box.low.x - cell_m / 2.0, box.low.y - cell_m / 2.0, 0.0},
+                 cell_m};
+  for (std::int32_t j = 0; j < drawn.cells.height; ++j) {
+    for (std::int32_t i = 0; i < drawn.cells.width; ++i) {
+      const Vec2 middle{box.low.x + i * cell_m, box.low.y + j * cell_m};
+      drawn.cells.wall.push_back(walls.distance(middle, cell_m) <= cell_m / 2.0 ? 1 : 0);
+    }
+  }
+  return drawn;
+}
+
+}  // namespace
+
+MapCells load_map_cells(const std::filesystem::path& file, std::optional<double> cell_m) {
+  const std::string name = file.string(), ending = file.extension().string();
+  if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0)) {
+    throw StartupError("--resolution: outside 0.001 to 10 m", "give metres a cell");
+  }
+  require_readable(file, name + ": ", "give a map's path");
+  if (ending == ".yaml" || ending == ".yml") {
+    if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
+    return cells_of(name, sim::load_raster_map(file).raster);
+  }
+  if (ending == ".png" || ending == ".pgm") {
+    if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");
+    return picture_cells(file, *cell_m);
+  }
+  if (ending == ".map") return drawn_cells(file, sim::load_aria_map(file), cell_m.value_or(kDefaultCell_m));
+  if (ending == ".txt") return drawn_cells(file, sim::load_cylinder_map(file), cell_m.value_or(kDefaultCell_m));
+  throw StartupError(name + ": not a kind of map",
+                     "give .yaml (map_server), .map (ARIA), .txt (cylinders), .png, .pgm");
+}
+
+}  // namespace jaywalk

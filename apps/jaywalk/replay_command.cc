@@ -1,0 +1,275 @@
+#include "apps/jaywalk/replay_command.h"
+
+#include <bit>
+#include <cctype>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <sstream>
+#include <thread>
+
+#include "apps/formats/bag_file.h"
+#include "apps/formats/bag_log.h"
+#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_replay.h"
+#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/progress.h"
+#include "apps/report/run_observer.h"
+#include "apps/setup/mount_check.h"
+#include "apps/setup/mount_search.h"
+#include "apps/view/live_view.h"
+#include "apps/why/recorded_run.h"
+#include "firmware/loop_runner.h"
+#include "firmware/recording/held_planner.h"
+#include "firmware/recording/map_files.h"
+#include "firmware/recording/recorded_hal.h"
+#include "firmware/recording/run_parts.h"
+#include "hal/robot_model_file.h"
+#include "hal/text_file.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kGoalTolerance_m = 0.3;
+
+/// A line of numbers begins a scan-odom file; CARMEN's lines begin with a message's name.
+bool begins_with_a_name(const std::filesystem::path& file) {
+  sim::LineFile lines(file);
+  return lines.next() && (std::isalpha(static_cast<unsigned char>(lines.words()[0][0])) != 0);
+}
+
+std::string format_of(const ReplayOptions& options) {
+  if (!options.format.empty()) return options.format;
+  if (!parts_of(options.logs.front()).empty()) return "jaywalk";
+  if (exchange::is_bag(options.logs.front())) return "bag";
+  if (is_recording(options.logs.front().string())) return "jaywalk";
+  return begins_with_a_name(options.logs.front()) ? "carmen" : "scan-odom";
+}
+
+sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
+  const std::size_t most = format == "scan-odom" ? 2 : 1;
+  if (options.logs.size() > most) {
+    throw StartupError(options.logs[most].string() + ": one file too many for " + format,
+                       format == "scan-odom" ? "give SCAN.txt and, where there is one, ODOM.txt" : "give one log");
+  }
+  const Pose2 models = options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser;
+  if (format == "bag") {
+    return exchange::load_bag(options.logs[0], {options.scan_topic, options.odom_topic, options.laser_mount, models});
+  }
+  const Pose2 mount = options.laser_mount.value_or(models);
+  if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
+  return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
+                             mount);
+}
+
+/// A recording does not say what carried the laser: a P3-DX stands in where nobody else does, with the log's own laser
+/// and drive.
+ControlSetup setup_for(const sim::LogReplay& log, const ReplayOptions& options) {
+  ControlSetup setup;
+  setup.model = options.model.empty() ? p3dx() : robot_model(options.model);
+  setup.model.laser = log.log().laser();
+  setup.model.drive = log.drive();
+  setup.start = log.start_pose();
+  setup.goal = options.goal.value_or(log.last_pose().value_or(setup.start).position());
+  setup.goal_tolerance_m = kGoalTolerance_m;
+  setup.wheels = log.last_pose().has_value();
+  setup.judges_motion = false;  // they obeyed another controller
+  return setup;
+}
+
+/// The page of a replay: it shows any tick and takes no goals.
+class ReplayView {
+ public:
+  ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
+    if (!options.view) return;
+    live_ = std::make_unique<LiveView>(*options.view, true, [](const view::ViewOrder&) { return std::string(); });
+    live_->begin({.title = options.logs[0].filename().string(),
+                  .model = runner.setup().model,
+                  .takes_goals = false,
+                  .takes_pauses = false},
+                 runner.setup().tick());
+  }
+  /// After a tick. A subscriber to the stream of messages gets it at the recording's own pace.
+  void follow() {
+    if (!live_) return;
+    live_->follow(runner_, "");
+    if (live_->has_subscribers()) std::this_thread::sleep_for(runner_.setup().tick());
+  }
+  void stay(const Interruption& interruption) const {
+    std::fflush(stdout);
+    if (live_) live_->stay(true, interruption);
+  }
+
+ private:
+  const LoopRunner& runner_;
+  std::unique_ptr<LiveView> live_;
+};
+
+/// Where nobody says how the laser is mounted: as matching has it.
+std::optional<double> find_mount(const ReplayOptions& options, sim::RecordedLog& log) {
+  const bool said = options.laser_mount || !options.model.empty() || log.robot_from_laser != Pose2{};
+  const std::optional<double> yaw = said ? std::nullopt : found_mount_yaw(log);
+  if (!yaw) return std::nullopt;
+  log.robot_from_laser.heading = *yaw;
+  std::fprintf(
+      stderr,
+      "jaywalk: the laser is mounted turned by %.2f rad, as scans and wheels agree; --laser-mount X,Y,YAW says "
+      "otherwise\n",
+      *yaw);
+  return yaw;
+}
+
+int replay_log(const ReplayOptions& options, const std::string& format) {
+  refuse_to_overwrite(options.logs, options.out);
+  std::error_code missing;
+  if (std::filesystem::equivalent(options.logs[0], options.out, missing))
+    throw StartupError(options.out.string() + ": the bag's own folder", "choose another --out");
+  sim::RecordedLog recorded = load(options, format);
+  std::istringstream complaints(recorded.complaint());
+  for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
+  const std::optional<double> found_yaw = find_mount(options, recorded);
+  sim::LogReplay log(std::move(recorded));
+  const ControlSetup setup = setup_for(log, options);
+  log.set_goal(setup.goal, setup.goal_tolerance_m);
+  RunObserver observer(options.mcap);
+  LoopRunner runner(setup, log.hal(), options.out, false, observer);
+  ReplayView view(options, runner);
+  MountCheck mount;
+  Progress progress;
+  const auto own_time = [&](Time t) { return log.log().own_time(t); };
+  const Interruption interruption;
+  do {  // a recording of a single scan ends where it begins
+    mount.add(runner.step().pose.map_from_robot);
+    runner.report(nullptr, own_time);
+    view.follow();
+    if (progress.is_due()) {
+      const double lived_s = to_seconds(runner.last().now - log.start_time());
+      const double whole_s = to_seconds(log.end_time() - log.start_time());
+      progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
+    }
+  } while (!log.ended() && !interruption.came());
+  progress.make_way();
+  if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
+    const Pose2 given = setup.model.laser.robot_from_laser;
+    std::fprintf(
+        stderr,
+        "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
+        "%.2f,%.2f,%.2f, and on until this line is gone\n",
+        given.x, given.y, wrap_angle(given.heading + *yaw));
+  }
+  const std::string name = options.logs[0].filename().string();
+  const bool whole = log.ended();
+  const std::filesystem::path drawn = runner.finish({.outcome = whole ? "replayed" : "interrupted",
+                                                     .success = whole,
+                                                     .found_mount_yaw_rad = found_yaw,
+                                                     .scenario = name});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  const std::size_t scans = log.log().scans.size();
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
+                to_seconds(log.end_time() - log.start_time()), drawn.c_str());
+  }
+  view.stay(interruption);
+  return whole ? 0 : 1;
+}
+
+/// What only goes with a log: a recording has its own.
+void warn_of_options_of_logs(const ReplayOptions& options) {
+  const char* const given = options.goal             ? "--goal"
+                            : options.laser_mount    ? "--laser-mount"
+                            : !options.model.empty() ? "--model"
+                                                     : nullptr;
+  if (given == nullptr) return;
+  std::fprintf(stderr, "jaywalk: %s is left out of account: %s is a recording and has its own\n", given,
+               options.logs[0].c_str());
+}
+
+/// The tables of the run that is replayed know more than a replay can.
+void refuse_own_folder(const RecordedRun& run, const std::filesystem::path& out) {
+  if (!run.lies_in(out)) return;
+  throw StartupError("--out " + out.string() + ": the recording's own folder, whose run would be overwritten",
+                     "choose another --out");
+}
+
+bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == std::bit_cast<std::uint64_t>(b); }
+
+/// Replays our own recording and compares every command. `part`: where in the file it stands.
+int replay_recording(const ReplayOptions& options, FilePart part) {
+  const std::string file = options.logs[0].string();
+  if (options.logs.size() > 1) {
+    throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
+  }
+  warn_of_options_of_logs(options);
+  RecordedRun run(options.logs[0], part);
+  refuse_own_folder(run, options.out);
+  ControlSetup setup = run.setup();
+  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;  // the bits are the same wherever it is replayed
+  const TickRecord& recorded = run.last();
+  RecordedHal devices(recorded);
+  RunObserver observer(options.mcap);
+  LoopRunner runner(setup, devices.hal(), options.out, false, observer, [&](std::unique_ptr<Planner> planner) {
+    return std::make_unique<HeldPlanner>(std::move(planner), recorded);
+  });
+  ReplayView view(options, runner);
+  Progress progress;
+  std::uint64_t ticks = 0, lost = 0, different = 0;
+  const Interruption interruption;
+  while (!interruption.came() && run.step()) {
+    ++ticks;
+    lost += run.lost_before();
+    runner.step_at(recorded.now);
+    runner.report(nullptr);
+    view.follow();
+    const WheelCommand& now = devices.commanded();
+    const bool same = same_bits(now.left_radps, recorded.command.left_radps) &&
+                      same_bits(now.right_radps, recorded.command.right_radps);
+    if (progress.is_due()) progress.show(run.share_read(), std::to_string(ticks) + " ticks");
+    if (!same && different++ == 0 && !run.begins_anew()) {
+      progress.make_way();
+      std::fprintf(stderr, "jaywalk: %s: at %.3f s the command was %.17g %.17g rad/s and is now %.17g %.17g\n",
+                   file.c_str(), to_seconds(recorded.now), recorded.command.left_radps, recorded.command.right_radps,
+                   now.left_radps, now.right_radps);
+    }
+  }
+  progress.make_way();
+  std::fputs(run.remarks(0, "").c_str(), stderr);
+  const bool same = different == 0 || run.begins_anew();
+  const std::filesystem::path drawn = runner.finish({.outcome = "replayed",
+                                                     .success = same,
+                                                     .scenario = options.logs[0].filename().string(),
+                                                     .title = "replay of " + file});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
+                static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
+                static_cast<unsigned long long>(lost), drawn.c_str());
+  }
+  view.stay(interruption);
+  return same ? 0 : 1;
+}
+
+}  // namespace
+
+int run_replay(ReplayOptions options) {
+  for (std::filesystem::path& log : options.logs) {
+    if (std::filesystem::exists(log / "recording.jwr")) log /= "recording.jwr";  // a run's folder
+    if (!std::filesystem::is_directory(log)) require_readable(log, log.string() + ": ", "give a recording");
+  }
+  const std::string format = format_of(options);
+  if (format == "jaywalk") return replay_recording(options, {});
+  const bool picks_topics = !options.scan_topic.empty() || !options.odom_topic.empty();
+  if (format == "bag" && !picks_topics && exchange::is_mcap(options.logs[0])) {
+    const exchange::Attachment own = exchange::find_attachment(options.logs[0], "recording.jwr");
+    if (own.bytes > 0) return replay_recording(options, {own.at, own.bytes});
+  }
+  return replay_log(options, format);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,69 @@
+#include "apps/jaywalk/setup_command.h"
+
+#include <unistd.h>
+
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <iostream>
+
+#include "apps/setup/robot_setup.h"
+#include "firmware/program/run_command.h"
+#include "firmware/robot/robot_file.h"
+#include "firmware/robot/steady_clock.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+std::filesystem::path answers_path, out_path = "robot.toml";
+
+void require_new(const std::filesystem::path& out) {
+  if (std::filesystem::exists(out))
+    throw StartupError(out.string() + ": is there already", "give another --out, or take it away");
+}
+
+/// Beside its place first: a file that the program itself would refuse does not come there.
+void write_sound(const std::filesystem::path& out, const std::string& text) {
+  const std::filesystem::path trial = out.string() + ".new";
+  std::ofstream(trial) << text << std::flush;
+  if (std::error_code none; std::filesystem::file_size(trial, none) != text.size()) {
+    std::filesystem::remove(trial, none);
+    throw StartupError(out.string() + ": cannot be written", "see to the folder's rights and the disk's room");
+  }
+  try {
+    static_cast<void>(load_robot_file(trial));
+    std::filesystem::rename(trial, out);
+  } catch (const StartupError&) {
+    std::filesystem::remove(trial);
+    throw;
+  }
+}
+
+int set_up() {
+  require_new(out_path);
+  const bool asks = answers_path.empty();
+  if (asks && ::isatty(STDIN_FILENO) == 0)
+    throw StartupError("setup: nobody is there to be asked", "give --answers FILE: keys of ROBOT.toml that you know");
+  SetupAnswers answers(asks ? std::nullopt : std::optional(answers_path), asks ? &std::cin : nullptr, &std::cout);
+  SteadyClock clock;
+  std::fputs("Looking for drives, scanners and joysticks; nothing moves.\n", stderr);
+  const std::unique_ptr<Surroundings> machine = this_machine(clock);
+  write_sound(out_path, draft_robot(*machine, answers, clock).text());
+  std::printf("%s is written.\n", out_path.c_str());
+  RunOptions options;
+  options.robot = out_path;
+  return check_robot(options);
+}
+
+}  // namespace
+
+void add_setup(CLI::App& app, int& exit_code) {
+  CLI::App* setup = app.add_subcommand("setup", "Find drives, scanner and joystick, ask the rest, write a ROBOT.toml");
+  setup->add_option("--answers", answers_path,
+                    "Keys of ROBOT.toml as far as you know them; then nobody is asked (default: asks at the terminal)");
+  setup->add_option("--out", out_path, "The file to write; none may be there")->capture_default_str();
+  setup->callback([&exit_code] { exit_code = set_up(); });
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,223 @@
+#include "apps/jaywalk/sim_command.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <memory>
+#include <thread>
+
+#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/progress.h"
+#include "apps/report/run_observer.h"
+#include "apps/view/sim_view.h"
+#include "firmware/loop_runner.h"
+#include "firmware/recording/map_files.h"
+#include "firmware/safety/zone_check.h"
+#include "hal/sim/simulation.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// The simulator's truth in the report's words.
+class TruthForReport {
+ public:
+  const TrueState& of(const sim::Truth& truth) {
+    movers_.clear();
+    for (const sim::MoverTruth& m : truth.movers) {
+      movers_.push_back({.id = m.id,
+                         .position_in_map = m.position,
+                         .velocity_in_map = m.velocity,
+                         .radius_m = m.radius_m,
+                         .forced = m.forced});
+    }
+    state_ = {.map_from_robot = truth.map_from_robot,
+              .twist = truth.twist,
+              .movers = movers_,
+              .clearance_m = truth.clearance_m,
+              .mover_clearance_m = truth.mover_clearance_m,
+              .contacts = truth.contacts,
+              .contacts_caused = truth.contacts_caused,
+              .forced_movers = truth.forced_movers};
+    return state_;
+  }
+
+ private:
+  std::vector<TrueMover> movers_;
+  TrueState state_;
+};
+
+sim::Scenario scenario_for(const SimOptions& options) {
+  sim::Scenario scenario = sim::load_scenario(options.scenario, options.settings);
+  const bool never_stops = options.mode == PlanMode::kPaper || options.constant_speed;
+  if (never_stops && std::isfinite(scenario.goal_heading_rad)) {
+    throw StartupError(scenario.goal_place + "a robot that never stops cannot turn to a heading at the goal",
+                       "leave the third number out, or run without --mode paper and --constant-speed");
+  }
+  const auto is_slow = [](const MapZone& zone) { return zone.kind == ZoneKind::kSpeed; };
+  if (never_stops && std::any_of(scenario.zones.begin(), scenario.zones.end(), is_slow))
+    throw StartupError(
+        options.scenario.string() + ": [[zones]]: a robot that keeps its speed cannot slow down in a zone",
+        "leave the speed zones out, or run without --mode paper and --constant-speed");
+  if (options.planner != baseline::Baseline::kOurs && never_stops)
+    throw StartupError("--planner: the planners of others stop and turn on the spot",
+                       "run without --mode paper and --constant-speed");
+  if (scenario.stick && (never_stops || options.planner != baseline::Baseline::kOurs))
+    throw StartupError(options.scenario.string() + ": [stick]: a person who steers is obeyed by no other planner",
+                       "run without --mode paper, --constant-speed and --planner");
+  if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
+  return scenario;
+}
+
+std::vector<std::filesystem::path> files_of(const sim::Scenario& scenario, const std::filesystem::path& file) {
+  std::vector<std::filesystem::path> files{file, scenario.map_file};
+  for (const sim::RecordedSpec& movers : scenario.recorded) files.push_back(movers.file);
+  if (scenario.stick && scenario.stick->kind == sim::StickKind::kTable) files.push_back(scenario.stick->file);
+  return files;
+}
+
+ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options) {
+  return {.model = scenario.model,
+          .mode = options.mode,
+          .constant_speed = options.constant_speed,
+          .baseline = options.planner,
+          .steering = scenario.stick ? scenario.stick->steering : StickUse::kNone,
+          .backend = options.backend,
+          .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
+          .device = options.device,
+          .start = scenario.start,
+          .goal = scenario.goal,
+          .goal_tolerance_m = scenario.goal_tolerance_m,
+          .zones = scenario.zones,
+          .berth_m = profile_of(scenario.comfort).berth_m};
+}
+
+std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
+  std::vector<WallLine> walls;
+  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
+  return walls;
+}
+
+std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup& setup, const sim::Scenario& scenario,
+                                  sim::Simulation& simulation) {
+  if (!options.view) return nullptr;
+  auto view = std::make_unique<SimView>(*options.view, simulation.hal().panel, !setup.keeps_speed());
+  std::vector<view::WallPiece> walls;
+  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
+  view->begin(scenario.name, setup, walls);
+  return view;
+}
+
+Hal hal_for(sim::Simulation& simulation, SimView* view) {
+  const Hal hal = simulation.hal();
+  return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock};
+}
+
+/// At a goal with a heading the robot is to stand.
+bool rests(const Twist2& twist) { return std::fabs(twist.v_mps) < 0.01 && std::fabs(twist.w_radps) < 0.02; }
+
+/// A person who steers has the goal in mind.
+OperatorInput with_goal(const OperatorInput& input) {
+  OperatorInput wanted = input;
+  wanted.has_goal = input.has_goal || input.steers;
+  return wanted;
+}
+
+/// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth
+/// reaching.
+/// A stop that waits for a reset does: nobody is there to press it.
+std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied) {
+  if (truth.contacts > 0) return "collision";
+  const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
+  if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
+  const OperatorInput wanted = with_goal(t.input);
+  if (wanted.has_goal && wanted.is_reached_at(truth.map_from_robot) &&
+      (!wanted.wants_heading() || rests(truth.twist))) {
+    return truth.forced_movers > 0 ? "forced_mover" : "reached";
+  }
+  return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
+}
+
+/// A run to a goal that no way leads to would only end by its timeout, without a word of why.
+void remark_unreachable(const sim::Scenario& scenario, const sim::Simulation& simulation) {
+  if (std::isfinite(simulation.static_shortest_path_m())) return;
+  std::fprintf(stderr,
+               "jaywalk: %sno way leads from start to goal, as wide as the robot is: the run can only time out\n",
+               scenario.goal_place.c_str());
+}
+
+/// As the crow flies: the bar goes back where the way does.
+void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& truth) {
+  if (!progress.is_due()) return;
+  const double whole_m = distance(scenario.start.position(), scenario.goal);
+  const double left_m = distance(truth.map_from_robot.position(), scenario.goal);
+  char words[64];
+  std::snprintf(words, sizeof words, "%.0f s, %.1f m to the goal", to_seconds(truth.now), left_m);
+  progress.show(1.0 - left_m / whole_m, words);
+}
+
+}  // namespace
+
+int run_sim(const SimOptions& options) {
+  const sim::Scenario scenario = scenario_for(options);
+  const std::uint64_t seed = options.seed.value_or(scenario.seed);
+  sim::Simulation simulation(scenario, seed);
+  refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
+  remark_unreachable(scenario, simulation);
+  const ControlSetup setup = setup_for(scenario, options);
+  if (setup.guides_body() && options.planner != baseline::Baseline::kOurs)
+    throw StartupError(
+        options.scenario.string() + ": --planner: the planners of others are for robots that are nearly round",
+        "choose another model");
+  if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
+  const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
+  RunObserver observer(options.mcap);
+  observer.show_walls(walls_of(simulation));
+  LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true, observer, {}, options.parts);
+  Progress progress;
+  TruthForReport truth_for_report;
+  std::string ended;
+  const Interruption interruption;
+  const auto began = std::chrono::steady_clock::now();
+  while (ended.empty()) {
+    const TickRecord& t = runner.step();
+    runner.report(&truth_for_report.of(simulation.truth()));
+    tell(progress, scenario, simulation.truth());
+    ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
+    if (ended.empty() && interruption.came()) ended = "interrupted";
+    if (view) view->follow(runner, ended, interruption);
+    if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());
+  }
+  progress.make_way();
+  const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
+  const OperatorInput wanted = with_goal(runner.last().input);
+  std::optional<double> heading_error;
+  if (wanted.wants_heading()) heading_error = wanted.heading_error_rad(simulation.truth().map_from_robot);
+  const double lasted_s = to_seconds(simulation.truth().now);
+  const std::filesystem::path drawn =
+      runner.finish({.outcome = ended,
+                     .success = ended == "reached",
+                     .static_shortest_path_m = simulation.static_shortest_path_m(),
+                     .heading_error_rad = heading_error,
+                     .missed_ticks = options.realtime ? runner.overruns() : 0,
+                     .seed = seed,
+                     .scenario = scenario.name,
+                     .settings = options.settings,
+                     .planner = name_of(options.planner),
+                     .mover_rule = sim::Simulation::mover_rule(),
+                     .title = scenario.name + ", seed " + std::to_string(seed) + ": " + ended});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  if (options.json) {
+    print_summary(options.out);
+  } else {
+    std::printf("%s: %s after %.1f s, %.1f times faster than real time; see %s\n", scenario.name.c_str(), ended.c_str(),
+                lasted_s, lasted_s / took_s, drawn.c_str());
+  }
+  std::fflush(stdout);
+  if (view) view->stay(interruption);
+  return ended == "reached" ? 0 : 1;
+}
+
+}  // namespace jaywalk

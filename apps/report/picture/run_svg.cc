@@ -1,0 +1,219 @@
+#include "apps/report/picture/run_svg.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <set>
+
+#include "apps/report/picture/map_frame.h"
+#include "apps/report/picture/playback.h"
+#include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/svg_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+using svg::pair;
+using svg::whole;
+
+constexpr Vec2 kMapCorner{20.0, 80.0}, kMapMost{1600.0, 1400.0};  // units of the drawing; 1600 across 25 m: 1.6 cm each
+constexpr double kFoot = 60.0;
+constexpr double kLongestPlayS = 60.0;
+constexpr std::size_t kMostPositions = 4'000;  ///< at about 10 bytes each
+constexpr std::size_t kMostPieces = 1'500;     ///< of walls and rows of cells, at about 18 bytes each
+constexpr std::size_t kMostBodies = 80;        ///< each has about 300 bytes beside its positions
+constexpr double kRadiansPerDegree = 0.017453292519943295;
+
+class Drawing {
+ public:
+  explicit Drawing(const PictureScene& scene)
+      : scene_(scene),
+        to_sheet_(scene.extent, kMapCorner, kMapMost),
+        bodies_(shown_bodies()),
+        playback_(scene.driven, kMostPositions / (1 + bodies_.size())) {}
+
+  std::string text() {
+    begin();
+    zones();
+    walls();
+    goal();
+    way();
+    for (const Trail* trail : bodies_) body(*trail);
+    robot();
+    clock();
+    return out_ + "</svg>\n";
+  }
+
+ private:
+  /// Movers, else tracks that moved; the longest trails where there are too many.
+  [[nodiscard]] std::vector<const Trail*> shown_bodies() const {
+    std::vector<const Trail*> all;
+    for (const Trail& mover : scene_.movers) {
+      if (!mover.points.empty()) all.push_back(&mover);
+    }
+    for (const Trail& track : scene_.tracks) {
+      if (scene_.movers.empty() && went_somewhere(track)) all.push_back(&track);
+    }
+    std::stable_sort(all.begin(), all.end(),
+                     [](const Trail* a, const Trail* b) { return a->points.size() > b->points.size(); });
+    if (all.size() > kMostBodies) all.resize(kMostBodies);
+    return all;
+  }
+
+  [[nodiscard]] double play_s() const { return std::min(playback_.lasts_s(), kLongestPlayS); }
+
+  [[nodiscard]] std::string dur() const {
+    char text[64];
+    std::snprintf(text, sizeof text, " dur=\"%.1fs\" repeatCount=\"indefinite\"/>", play_s());
+    return text;
+  }
+
+  void begin() {
+    const Vec2 size = to_sheet_.size();
+    const std::string width = whole(size.x + 2.0 * kMapCorner.x), height = whole(kMapCorner.y + size.y + kFoot);
+    out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
+           "\" font-family=\"DejaVu Sans,sans-serif\" font-size=\"30\" fill=\"" + svg::hex(ink::kText) + "\">\n" +
+           "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fff\"/>\n<text x=\"20\" y=\"50\">" +
+           svg::escaped(scene_.title) + "</text>\n";
+  }
+
+  void zones() {
+    for (const MapZone& zone : scene_.zones) {
+      const std::string colour = svg::hex(colour_of(zone.kind));
+      out_ += "<path class=\"zone\" d=\"" + svg::path_of(zone.corners, to_sheet_) + "Z\" fill=\"" + colour +
+              "\" fill-opacity=\".18\" stroke=\"" + colour + "\" stroke-width=\"3\" stroke-dasharray=\"12\"/>\n";
+    }
+  }
+
+  /// Rows of neighbouring cells as one stroke each; coarser where these are too many.
+  [[nodiscard]] std::string cells(int coarser) const {
+    const double size = scene_.cell_m * coarser;
+    std::set<std::pair<long, long>> rows;  // (row, column)
+    for (const Vec2 c : scene_.occupied) rows.insert({std::lround(c.y / size - 0.5), std::lround(c.x / size - 0.5)});
+    std::string path;
+    std::size_t pieces = 0;
+    for (auto cell = rows.begin(); cell != rows.end();) {
+      const auto first = *cell;
+      long last = first.second;
+      while (++cell != rows.end() && cell->first == first.first && cell->second == last + 1) ++last;
+      const Vec2 from{size * static_cast<double>(first.second), size * (static_cast<double>(first.first) + 0.5)};
+      const double wide = size * static_cast<double>(last + 1 - first.second);
+      path += "M" + pair(to_sheet_(from)) + "h" + whole(std::max(to_sheet_.pixels(wide), 1.0));
+      ++pieces;
+    }
+    if (pieces > kMostPieces) return cells(2 * coarser);
+    return stroke(path, ink::kSeen, std::max(to_sheet_.pixels(size), 2.0));
+  }
+
+  void walls() {
+    std::string path;
+    const std::size_t each = 1 + scene_.walls.size() / kMostPieces;
+    for (std::size_t i = 0; i < scene_.walls.size(); i += each) {
+      path += "M" + pair(to_sheet_(scene_.walls[i].from)) + "L" + pair(to_sheet_(scene_.walls[i].to));
+    }
+    out_ += scene_.walls.empty() ? cells(1) : stroke(path, ink::kSeen, 6.0);
+  }
+
+  [[nodiscard]] static std::string stroke(const std::string& path, const Colour& colour, double width) {
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + svg::hex(colour) + "\" stroke-width=\"" + whole(width) +
+           "\"/>\n";
+  }
+
+  void goal() {
+    if (!scene_.goal) return;
+    const Vec2 at = to_sheet_(*scene_.goal);
+    out_ += "<circle id=\"goal\" cx=\"" + whole(at.x) + "\" cy=\"" + whole(at.y) + "\" r=\"" +
+            whole(std::max(to_sheet_.pixels(scene_.goal_tolerance_m), 8.0)) + "\" fill=\"" + svg::hex(ink::kGoal) +
+            "\" fill-opacity=\".3\" stroke=\"" + svg::hex(ink::kGoal) + "\" stroke-width=\"5\"/>\n";
+  }
+
+  /// Grows with the robot: each step uncovers the share of the way that was driven by then.
+  void way() {
+    const std::vector<Pose2> poses = playback_.robot();
+    if (poses.empty()) return;
+    std::vector<Vec2> line;
+    std::vector<double> driven{0.0};
+    for (const Pose2& pose : poses) {
+      if (!line.empty()) driven.push_back(driven.back() + distance(line.back(), pose.position()));
+      line.push_back(pose.position());
+    }
+    if (!(driven.back() > 0.0)) return;
+    const auto left = [&](double d) { return whole(1000.0 * (1.0 - d / driven.back())); };
+    out_ += "<path d=\"" + svg::path_of(line, to_sheet_) + "\" fill=\"none\" stroke=\"" + svg::hex(ink::kRobot) +
+            "\" stroke-width=\"6\" pathLength=\"1000\" stroke-dasharray=\"1000\"><animate "
+            "attributeName=\"stroke-dashoffset\" values=\"" +
+            svg::joined(driven, left) + "\"" + dur() + "</path>\n";
+  }
+
+  void robot() {
+    const std::vector<Pose2> poses = playback_.robot();
+    if (poses.empty()) return;
+    const auto place = [&](const Pose2& p) { return pair(to_sheet_(p.position())); };
+    const auto turn = [](const Pose2& p) { return whole(-p.heading / kRadiansPerDegree); };
+    const Footprint& f = scene_.footprint;
+    const auto u = [&](double metres) { return whole(to_sheet_.pixels(metres)); };
+    out_ += "<g id=\"robot\" transform=\"translate(" + place(poses.back()) + ")\">" + moved(poses, place) +
+            "<g transform=\"rotate(" + turn(poses.back()) + ")\"><animateTransform attributeName=\"transform\" " +
+            "type=\"rotate\" values=\"" + svg::joined(poses, turn) + "\"" + dur() + "<path d=\"M" + u(f.front_m) + " " +
+            u(-f.half_width_m) + "V" + u(f.half_width_m) + "H" + u(-f.rear_m) + "V" + u(-f.half_width_m) + "ZM0 0H" +
+            u(f.front_m) + "\" fill=\"" + svg::hex(ink::kRobot) +
+            "\" fill-opacity=\".6\" stroke=\"#fff\" stroke-width=\"3\"/></g></g>\n";
+  }
+
+  template <class Places, class Place>
+  [[nodiscard]] std::string moved(const Places& places, const Place& place) const {
+    return "<animateTransform attributeName=\"transform\" type=\"translate\" values=\"" + svg::joined(places, place) +
+           "\"" + dur();
+  }
+
+  void body(const Trail& trail) {
+    const std::vector<Vec2> way = playback_.positions(trail);
+    const auto place = [&](Vec2 p) { return pair(to_sheet_(p)); };
+    out_ += "<circle r=\"" + whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1))) + "\" fill=\"" +
+            svg::hex(colour_of(trail.id)) + "\" transform=\"translate(" + place(way.back()) + ")\">" +
+            moved(way, place) + shown_while(playback_.stay(trail)) + "</circle>\n";
+  }
+
+  /// Bodies that come and go are invisible before and after.
+  [[nodiscard]] std::string shown_while(Playback::Stay stay) const {
+    if (stay.from <= 0.0 && stay.to >= 1.0) return "";
+    char times[64];
+    std::snprintf(times, sizeof times, "0;%.4f;%.4f", std::max(stay.from, 0.0001), std::max(stay.to, 0.0002));
+    return "<animate attributeName=\"visibility\" calcMode=\"discrete\" values=\"" +
+           std::string(stay.from <= 0.0 ? "visible" : "hidden") + ";visible;" + (stay.to < 1.0 ? "hidden" : "visible") +
+           "\" keyTimes=\"" + times + "\"" + dur();
+  }
+
+  /// A bar that grows with the time, and how long the run was.
+  void clock() {
+    const double wide = to_sheet_.size().x;
+    const double y = kMapCorner.y + to_sheet_.size().y;
+    char words[96];
+    const double faster = playback_.lasts_s() / play_s();
+    std::snprintf(words, sizeof words, faster > 1.0 ? "%.1f s, shown %.1f times faster" : "%.1f s", playback_.lasts_s(),
+                  faster);
+    out_ += "<rect x=\"20\" y=\"" + whole(y + 8.0) + "\" width=\"" + whole(wide) + "\" height=\"8\" fill=\"" +
+            svg::hex(ink::kFaint) + "\"><animate attributeName=\"width\" values=\"0;" + whole(wide) + "\"" + dur() +
+            "</rect>\n<text x=\"20\" y=\"" + whole(y + 48.0) + "\">" + words + "</text>\n";
+  }
+
+  const PictureScene& scene_;
+  MapFrame to_sheet_;
+  std::vector<const Trail*> bodies_;
+  Playback playback_;
+  std::string out_;
+};
+
+}  // namespace
+
+std::string svg_of(const PictureScene& scene) { return Drawing(scene).text(); }
+
+void draw_svg(const PictureScene& scene, const std::string& file) {
+  std::ofstream out(file, std::ios::binary);
+  out << svg_of(scene);
+  if (!out.flush()) throw StartupError(file + ": cannot be written", "free some disk, or choose another --out folder");
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,104 @@
+#include "apps/report/picture/scene.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMarginM = 0.6;
+constexpr double kStrayShare = 0.005;  ///< hits through windows and doors that would shrink everything else
+
+struct Box {
+  Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+  Vec2 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+
+  void hold(Vec2 p) {
+    low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+    high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+  }
+  [[nodiscard]] bool empty() const { return !(low.x <= high.x); }
+};
+
+/// The values that all but a share of kStrayShare lie between.
+std::pair<double, double> bulk(std::vector<double> values) {
+  std::sort(values.begin(), values.end());
+  const auto stray = static_cast<std::size_t>(kStrayShare * static_cast<double>(values.size()));
+  return {values[stray], values[values.size() - 1 - stray]};
+}
+
+void hold_bulk(Box& box, const std::vector<Vec2>& points) {
+  if (points.empty()) return;
+  std::vector<double> x, y;
+  for (const Vec2 p : points) x.push_back(p.x), y.push_back(p.y);
+  const auto [left, right] = bulk(std::move(x));
+  const auto [bottom, top] = bulk(std::move(y));
+  box.hold({left, bottom});
+  box.hold({right, top});
+}
+
+/// How much is expected near the robot: each counts 1 where the robot stands, half 2 m away.
+double busyness(const Plan& plan, Vec2 robot) {
+  double busy = 0.0;
+  for (const Prediction& p : plan.predictions) {
+    const double away = distance(p.position_in_map, robot) / 2.0;
+    busy += 1.0 / (1.0 + away * away);
+  }
+  return busy;
+}
+
+}  // namespace
+
+std::vector<Vec2> occupied_cells(const EvidenceMap& map, const std::vector<DrivenPose>& driven, double reach_m) {
+  std::vector<Vec2> cells;
+  Box box;
+  for (const DrivenPose& d : driven) box.hold(d.pose.position());
+  if (box.empty()) return cells;
+  const CellIndex low = map.cell_at(box.low - Vec2{reach_m, reach_m});
+  const CellIndex high = map.cell_at(box.high + Vec2{reach_m, reach_m});
+  for (std::int32_t j = low.j; j <= high.j; ++j) {
+    for (std::int32_t i = low.i; i <= high.i; ++i) {
+      if (map.occupied({i, j})) cells.push_back(map.centre_of({i, j}));
+    }
+  }
+  return cells;
+}
+
+Extent extent_of(const PictureScene& scene) {
+  Box box;
+  for (const WallLine& wall : scene.walls) box.hold(wall.from), box.hold(wall.to);
+  for (const DrivenPose& d : scene.driven) box.hold(d.pose.position());
+  if (scene.walls.empty()) hold_bulk(box, scene.occupied);
+  if (scene.start) box.hold(scene.start->position());
+  if (scene.goal) box.hold(*scene.goal);
+  if (box.empty()) box.hold({0.0, 0.0});
+  const Vec2 margin{kMarginM, kMarginM};
+  return {box.low - margin, box.high + margin};
+}
+
+FieldRaster raster_of(const FieldView& view) {
+  return {{view.low.i * view.cell_m, view.low.j * view.cell_m},
+          view.width,
+          view.height,
+          view.cell_m,
+          {view.psi.begin(), view.psi.end()}};
+}
+
+void BusiestMoment::consider(const Plan& plan, const Planner& planner, std::span<const Track> tracks,
+                             const Pose2& map_from_robot) {
+  if (plan.status != PlanStatus::kOk) return;
+  const double busy = busyness(plan, map_from_robot.position());
+  longest_path_ = std::max(longest_path_, plan.path.size());
+  const bool half_way = busy == busiest_ && 2 * plan.path.size() >= longest_path_;
+  if (busy <= busiest_ && !half_way) return;
+  busiest_ = busy;
+  moment_ = PlanMoment{plan.stamp,
+                       map_from_robot,
+                       {tracks.begin(), tracks.end()},
+                       {plan.predictions.begin(), plan.predictions.end()},
+                       {plan.path.begin(), plan.path.end()},
+                       raster_of(planner.view_field())};
+}
+
+}  // namespace jaywalk

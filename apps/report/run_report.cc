@@ -1,0 +1,190 @@
+#include "apps/report/run_report.h"
+
+#include <algorithm>
+#include <fstream>
+#include <limits>
+#include <nlohmann/json.hpp>
+#include <system_error>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder, const std::filesystem::path& tables) {
+  if (folder.empty()) return nullptr;
+  std::error_code error;
+  std::filesystem::create_directories(folder, error);
+  for (const char* last_written : {"summary.json", "run.png", "run.svg", "run.mcap"}) {
+    if (!error) std::filesystem::remove(folder / last_written, error);
+  }
+  if (error) throw StartupError(folder.string() + ": " + error.message(), "choose another --out folder");
+  return std::make_unique<RunTables>(tables);
+}
+
+/// NaN and infinity, which JSON has no word for, become null.
+Json spread(const Distribution& of) {
+  return {{"p50", of.quantile(0.5)}, {"p99", of.quantile(0.99)}, {"max", of.max()}};
+}
+
+/// Bins are doublings: upper edge and count.
+Json spread(const LogHistogram& of) {
+  return {{"p50", of.quantile(0.5)},
+          {"p99", of.quantile(0.99)},
+          {"p99.9", of.quantile(0.999)},
+          {"max", of.max()},
+          {"bins", of.doublings()}};
+}
+
+template <class T>
+Json known(bool is_known, const T& value) {
+  return is_known ? Json(value) : Json(nullptr);
+}
+
+template <class T>
+Json known(const std::optional<T>& value) {
+  return value ? Json(*value) : Json(nullptr);
+}
+
+std::vector<std::string> all_complaints(std::vector<std::string> some, const std::vector<std::string>& others) {
+  some.insert(some.end(), others.begin(), others.end());
+  return some;
+}
+
+}  // namespace
+
+RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
+    : folder_(folder),
+      tables_(open_tables(folder, tables)),
+      min_clearance_m_(std::numeric_limits<double>::infinity()),
+      min_mover_clearance_m_(std::numeric_limits<double>::infinity()) {
+  if (tables_) reserve_.emplace(folder_);
+}
+
+RunReport::~RunReport() = default;
+
+void RunReport::continue_in(const std::filesystem::path& tables, Time last) {
+  if (next_tables_) turn_to_next_tables();  // their first tick was not kept
+  next_tables_ = std::make_unique<RunTables>(tables);
+  last_of_tables_ = last;
+}
+
+void RunReport::turn_to_next_tables() {
+  tables_->close();
+  lost_ = complaints();
+  next_tables_->follow(*tables_);
+  tables_ = std::move(next_tables_);
+}
+
+void RunReport::end_tables() {
+  if (next_tables_) turn_to_next_tables();
+  tables_.reset();
+}
+
+std::uintmax_t RunReport::bytes() const {
+  if (next_tables_) return next_tables_->bytes();
+  return tables_ ? tables_->bytes() : 0;
+}
+
+void RunReport::add(const RunSample& sample) {
+  const Time now = sample.record.now;
+  if (next_tables_ && now > last_of_tables_) turn_to_next_tables();
+  if (tables_) tables_->add(sample);
+  if (ticks_++ == 0) first_ = now;
+  last_ = now;
+  tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
+  if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
+  const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
+  shape_.add(pose.position());
+  driven_.add(now, pose);
+  if (sample.truth != nullptr) add_truth(*sample.truth, now);
+  granted_.add(sample.record);
+  add_tracks(sample);
+}
+
+void RunReport::add_truth(const TrueState& truth, Time now) {
+  has_truth_ = true;
+  smoothness_.add(now, truth.twist.v_mps);
+  min_clearance_m_ = std::min(min_clearance_m_, truth.clearance_m);
+  min_mover_clearance_m_ = std::min(min_mover_clearance_m_, truth.mover_clearance_m);
+  contacts_ = truth.contacts;
+  contacts_caused_ = truth.contacts_caused;
+  forced_movers_ = truth.forced_movers;
+  for (const TrueMover& mover : truth.movers) {
+    movers_.add(mover.id, now, mover.position_in_map, mover.radius_m, mover.forced);
+  }
+}
+
+void RunReport::add_tracks(const RunSample& sample) {
+  for (const Track& track : sample.tracks) {
+    if (track.last_seen == track.stamp) {  // where it was seen, not where it may have gone
+      tracks_.add(track.id, track.stamp, track.position_in_map, track.radius_m, track.moving);
+    }
+  }
+}
+
+std::vector<std::string> RunReport::complaints() const {
+  return tables_ ? all_complaints(lost_, tables_->complaints()) : lost_;
+}
+
+std::string RunReport::finish(const RunEnd& end) {
+  if (tables_) tables_->close();
+  reserve_.reset();
+  std::string text = summary(end);
+  if (!folder_.empty()) {
+    std::ofstream file(folder_ / "summary.json", std::ios::binary);
+    file << text;
+    if (!file.flush())
+      throw StartupError((folder_ / "summary.json").string() + ": cannot be written", "free some disk");
+  }
+  return text;
+}
+
+std::string RunReport::summary(const RunEnd& end) const {
+  Json j;
+  j["outcome"] = end.outcome;
+  j["success"] = known(has_truth_, end.success);
+  j["path_length_m"] = shape_.length_m();
+  j["static_shortest_path_m"] = known(end.static_shortest_path_m);
+  j["heading_error_rad"] = known(end.heading_error_rad);
+  j["found_mount_yaw_rad"] = known(end.found_mount_yaw_rad);
+  j["duration_s"] = ticks_ == 0 ? 0.0 : to_seconds(last_ - first_);
+  j["min_clearance_m"] = known(has_truth_, min_clearance_m_);
+  j["min_mover_clearance_m"] = known(has_truth_, min_mover_clearance_m_);
+  j["forced_movers"] = known(has_truth_, forced_movers_);
+  j["contacts"] = known(has_truth_, contacts_);
+  j["contacts_caused"] = known(has_truth_, contacts_caused_);
+  j["max_turn_deg"] = shape_.max_turn_deg();
+  j["turn_histogram"] = shape_.turn_histogram();
+  j["turn_bin_deg"] = kTurnBinDeg;
+  j["accel_max_mps2"] = smoothness_.accel_max_mps2();
+  j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
+  j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);
+  j["granted_share"] = granted_.mean();
+  j["steered_s"] = granted_.steered_s();
+  j["ticks"] = ticks_;
+  j["missed_ticks"] = end.missed_ticks;
+  j["dropped_records"] = end.dropped_records;
+  j["not_recorded"] = all_complaints(complaints(), end.not_recorded);
+  j["plan_ms"] = spread(plan_ms_);
+  j["tick_ms"] = spread(tick_ms_);
+  const LoopTimes* const loop = end.loop_times;
+  j["wake_late_us"] = loop != nullptr ? spread(loop->wake_late_us) : Json(nullptr);
+  j["tick_us"] = loop != nullptr ? spread(loop->tick_us) : Json(nullptr);
+  j["page_faults"] =
+      loop != nullptr ? Json{{"minor", loop->minor_faults}, {"major", loop->major_faults}} : Json(nullptr);
+  j["backend"] = end.backend;
+  j["mode"] = end.mode;
+  j["seed"] = known(end.seed);
+  j["scenario"] = end.scenario;
+  j["settings"] = end.settings;
+  j["planner"] = known(!end.planner.empty(), end.planner);
+  j["mover_rule"] = known(!end.mover_rule.empty(), end.mover_rule);
+  j["measured_on"] = has_truth_ ? "truth" : "estimate";
+  j["version"] = end.version;
+  return j.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace jaywalk

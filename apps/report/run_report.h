@@ -1,0 +1,79 @@
+#pragma once
+// Gathers a run tick by tick and leaves its tables and figures behind.
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/report/disk_reserve.h"
+#include "apps/report/distribution.h"
+#include "apps/report/drive_metrics.h"
+#include "apps/report/granted_share.h"
+#include "apps/report/run_tables.h"
+#include "apps/report/trails.h"
+#include "firmware/run_sample.h"
+
+namespace jaywalk {
+
+/// Works outside the tick: it allocates and writes. Its memory has bounds, however long the run. Not thread-safe.
+///
+/// Lengths, turns and speeds are the world's where truth is given, else the controller's estimate
+/// (summary.json says which: "measured_on"); what only a world can know is null without it.
+class RunReport {
+ public:
+  /// `folder` is made when missing; an earlier run's summary.json, run.png and run.svg in it are removed, so that they
+  /// cannot stand beside this run's tables. An empty path keeps the figures and writes no files. Throws
+  /// StartupError when it cannot be written to.
+  explicit RunReport(const std::filesystem::path& folder) : RunReport(folder, folder) {}
+  /// The same with the tables in a folder of their own.
+  RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables);
+  ~RunReport();
+
+  void add(const RunSample& sample);
+  /// Rows of ticks later than `last` go to tables in another folder. Throws StartupError where these cannot be made.
+  void continue_in(const std::filesystem::path& tables, Time last);
+  /// No more rows.
+  void end_tables();
+  /// Of the tables that the next tick goes to.
+  [[nodiscard]] std::uintmax_t bytes() const;
+  /// What the disk did not take of the tables, a line each; empty: it has taken all so far.
+  [[nodiscard]] std::vector<std::string> complaints() const;
+  [[nodiscard]] bool is_losing() const { return !lost_.empty() || (tables_ && tables_->is_losing()); }
+  /// Closes the tables, writes summary.json and returns its text. Call once, after the last tick. Throws StartupError
+  /// where the disk does not take the summary.
+  std::string finish(const RunEnd& end);
+
+  [[nodiscard]] double path_length_m() const { return shape_.length_m(); }
+  [[nodiscard]] double duration_s() const { return ticks_ == 0 ? 0.0 : to_seconds(last_ - first_); }
+
+  /// For the picture: the robot's way (of truth where there is one, else estimated), the movers' and the tracks'.
+  [[nodiscard]] const std::vector<DrivenPose>& driven() const { return driven_.poses(); }
+  [[nodiscard]] std::vector<Trail> mover_trails() const { return movers_.trails(); }
+  [[nodiscard]] std::vector<Trail> track_trails() const { return tracks_.trails(); }
+
+ private:
+  void turn_to_next_tables();
+  void add_truth(const TrueState& truth, Time now);
+  void add_tracks(const RunSample& sample);
+  [[nodiscard]] std::string summary(const RunEnd& end) const;
+
+  std::filesystem::path folder_;
+  std::unique_ptr<RunTables> tables_, next_tables_;
+  Time last_of_tables_ = kNever;   ///< where there are next ones
+  std::vector<std::string> lost_;  ///< complaints of tables that are closed
+  std::optional<DiskReserve> reserve_;
+  PathShape shape_;
+  Smoothness smoothness_;
+  Distribution plan_ms_, tick_ms_;
+  DrivenWay driven_;
+  TrailBook movers_, tracks_;
+  GrantedShare granted_;
+  std::uint64_t ticks_ = 0;
+  Time first_ = kNever, last_ = kNever;
+  bool has_truth_ = false;
+  double min_clearance_m_, min_mover_clearance_m_;
+  std::uint32_t contacts_ = 0, contacts_caused_ = 0, forced_movers_ = 0;
+};
+
+}  // namespace jaywalk

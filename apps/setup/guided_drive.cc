@@ -1,0 +1,89 @@
+#include "apps/setup/guided_drive.h"
+
+#include <algorithm>
+#include <cmath>
+
+#include "apps/setup/watched_drive.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kAccel_mps2 = 0.3, kTurnAccel_radps2 = 0.8;
+
+/// One piece of the drive, at a constant twist but for its ends.
+struct Leg {
+  Twist2 twist;
+  double way_m = 0.0;     ///< until the middle has gone so far, or
+  double turn_rad = 0.0;  ///< the robot has turned so much
+  bool may_be_shorter = false;
+};
+
+double towards(double from, double to, double most) { return from + std::clamp(to - from, -most, most); }
+
+class GuidedDrive {
+ public:
+  GuidedDrive(const GuidedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
+              const std::function<bool()>& stopped)
+      : setup_(setup),
+        drive_({"calibration", setup.model, setup.tick}, drive, laser, clock, stopped),
+        log_(setup.model.drive) {}
+
+  CalibrationLog conduct() {
+    drive_.rest();
+    const double v = setup_.speed_mps, w = setup_.turn_radps;
+    for (const Leg& leg : {Leg{{v, 0.0}, setup_.straight_m, 0.0, true}, Leg{{0.0, w}, 0.0, kPi},
+                           Leg{{v, 0.0}, setup_.straight_m, 0.0, true}, Leg{{0.0, -w}, 0.0, kPi},
+                           Leg{{v, w}, 0.0, 2.0 * kPi}, Leg{{v, -w}, 0.0, 2.0 * kPi}})
+      follow(leg);
+    return std::move(log_);
+  }
+
+ private:
+  void follow(const Leg& leg) {
+    const WheelState began = drive_.wheels();
+    while (!is_done(leg, began)) {
+      if (!drive_.has_room(leg.twist)) {
+        if (leg.may_be_shorter && gone(began).first >= 0.5 * leg.way_m) break;
+        drive_.give_up("something stands too near", "leave 2 m free ahead and a metre to each side and behind");
+      }
+      tick(leg.twist);
+    }
+    while (now_.v_mps != 0.0 || now_.w_radps != 0.0) tick({});
+    drive_.rest();
+  }
+  /// How far the middle went since, and how much it turned.
+  [[nodiscard]] std::pair<double, double> gone(const WheelState& since) const {
+    const DriveModel& model = setup_.model.drive;
+    const double left_m = (drive_.wheels().left_rad - since.left_rad) * model.wheel_radius_m,
+                 right_m = (drive_.wheels().right_rad - since.right_rad) * model.wheel_radius_m;
+    return {std::fabs(0.5 * (left_m + right_m)), std::fabs(right_m - left_m) / model.track_width_m};
+  }
+  [[nodiscard]] bool is_done(const Leg& leg, const WheelState& began) const {
+    const auto [way_m, turn_rad] = gone(began);
+    return leg.way_m > 0.0 ? way_m >= leg.way_m : turn_rad >= leg.turn_rad;
+  }
+  void tick(const Twist2& wanted) {
+    const double step_s = to_seconds(setup_.tick);
+    now_ = {towards(now_.v_mps, wanted.v_mps, kAccel_mps2 * step_s),
+            towards(now_.w_radps, wanted.w_radps, kTurnAccel_radps2 * step_s)};
+    const double aside_mps = 0.5 * now_.w_radps * setup_.model.drive.track_width_m,
+                 radius_m = setup_.model.drive.wheel_radius_m;
+    if (!drive_.tick((now_.v_mps - aside_mps) / radius_m, (now_.v_mps + aside_mps) / radius_m))
+      drive_.give_up("a wheel does not turn as commanded", "jaywalk commission says which");
+    log_.take(drive_.wheels(), drive_.scan());
+  }
+
+  const GuidedDriveSetup& setup_;
+  WatchedDrive drive_;
+  CalibrationLog log_;
+  Twist2 now_;
+};
+
+}  // namespace
+
+CalibrationLog drive_guided(const GuidedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
+                            const std::function<bool()>& stopped) {
+  return GuidedDrive(setup, drive, laser, clock, stopped).conduct();
+}
+
+}  // namespace jaywalk

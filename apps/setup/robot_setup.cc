@@ -1,0 +1,193 @@
+#include "apps/setup/robot_setup.h"
+
+#include <algorithm>
+#include <array>
+#include <cstdio>
+
+#include "drivers/laser/scanner_setup.h"
+#include "apps/setup/drive_search.h"
+#include "apps/setup/scanner_search.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr const char* kFound = "found";
+
+/// In the order of DriveKind: its name, and the key that says how much a turn of a wheel is.
+struct DriveKindKeys {
+  const char* kind;
+  const char* scale;
+};
+constexpr std::array<DriveKindKeys, 3> kDriveKinds{{{"cia402", "counts_per_wheel_turn"},
+                                                    {"odrive", "motor_turns_per_wheel_turn"},
+                                                    {"vesc", "electrical_turns_per_wheel_turn"}}};
+
+struct BusFinding {
+  std::string interface;
+  FoundDrives drives;
+};
+
+std::string listed(const FoundDrives& drives) {
+  std::string words;
+  for (const FoundNode& node : drives.nodes)
+    words += (words.empty() ? "" : "; ") + std::to_string(int{node.node}) + ": " + node.said;
+  return words;
+}
+
+class Setup {
+ public:
+  Setup(Surroundings& machine, SetupAnswers& answers, Clock& clock)
+      : machine_(machine), answers_(answers), clock_(clock) {}
+
+  RobotDraft draft() {
+    draft_.remark(
+        "Written by jaywalk setup. Every key: jaywalk config --explain. Next: jaywalk check, commission, run.");
+    answers_.settle(draft_, "", "model");
+    draft_drives();
+    draft_scanner();
+    draft_panel();
+    answers_.finish(draft_);
+    return std::move(draft_);
+  }
+
+ private:
+  void draft_drives() {
+    std::vector<BusFinding> findings;
+    std::string seen;
+    for (const std::string& interface : interfaces()) look_at(interface, findings, seen);
+    if (findings.empty())
+      throw StartupError("setup: no drives were found" + (seen.empty() ? ": no CAN interface" : ": " + seen),
+                         "see to power, wires and bit rate; the drives' maker says how their numbers are set");
+    std::vector<std::string> words;
+    for (const BusFinding& finding : findings) words.push_back(finding.interface + ", " + listed(finding.drives));
+    const BusFinding& chosen = findings[answers_.choose("drives", words)];
+    enter_drives(chosen);
+  }
+  [[nodiscard]] std::vector<std::string> interfaces() {
+    const std::string named = answers_.given_text("drive", "can");
+    return named.empty() ? machine_.can_interfaces() : std::vector{named};
+  }
+  void look_at(const std::string& interface, std::vector<BusFinding>& findings, std::string& seen) {
+    std::string said = interface + ": no drive answers";
+    try {
+      const std::unique_ptr<CanBus> bus = machine_.open_bus(interface);
+      FoundDrives drives = find_drives(*bus, clock_);
+      if (!drives.remark.empty()) draft_.remark(said = interface + ": " + drives.remark);
+      if (drives.kind) return findings.push_back({interface, std::move(drives)});
+    } catch (const StartupError& error) {
+      said = error.what();
+    }
+    seen += (seen.empty() ? "" : "; ") + said;
+  }
+  void enter_drives(const BusFinding& finding) {
+    const FoundDrives& drives = finding.drives;
+    const DriveKindKeys& keys = kDriveKinds[static_cast<std::size_t>(*drives.kind)];
+    for (const FoundNode& node : drives.nodes)
+      draft_.remark(finding.interface + " " + keys.kind + " " + std::to_string(int{node.node}) + ": " + node.said);
+    if (const std::string named = answers_.given_text("drive", "kind"); !named.empty() && named != keys.kind)
+      throw StartupError(
+          "setup: drive.kind is answered as " + named + ", and " + finding.interface + " has " + keys.kind,
+          "correct the answer, or see which drives are on that bus");
+    draft_.set("drive", "kind", literal(keys.kind), kFound);
+    draft_.set("drive", "can", literal(finding.interface), kFound);
+    answers_.take_kind(keys.kind);
+    const bool is_pair = drives.nodes.size() == 2;
+    const auto number = [&](std::size_t k) { return is_pair ? std::to_string(int{drives.nodes[k].node}) : ""; };
+    if (drives.nodes.size() < 2)
+      throw StartupError("setup: " + finding.interface + " has one drive, " + listed(drives), "connect both");
+    constexpr const char* kGuess = "found; which side it is on shows jaywalk commission";
+    answers_.settle(draft_, "drive", "left_node", number(0), kGuess);
+    answers_.settle(draft_, "drive", "right_node", number(1), kGuess);
+    answers_.settle(draft_, "drive", keys.scale);
+    answers_.settle(draft_, "drive", "left_reversed", "false", "a guess; jaywalk commission shows it");
+    answers_.settle(draft_, "drive", "right_reversed", "true",
+                    "a guess: its motor looks the other way; see commission");
+  }
+
+  /// Where a scanner may be: what the answers name, else everywhere.
+  [[nodiscard]] std::vector<ScannerPlace> places() {
+    const std::string kind = answers_.given_text("laser", "kind"), host = answers_.given_text("laser", "host"),
+                      device = answers_.given_text("laser", "device");
+    const auto asked = [&kind](std::vector<ScannerKind> otherwise) {
+      const auto named = scanner_kind(kind);
+      return named ? std::vector{*named} : std::move(otherwise);
+    };
+    const auto number = [this](const char* key) {
+      return static_cast<std::uint32_t>(std::stoul(answers_.given("laser", key).value_or("0")));
+    };
+    const auto port = static_cast<std::uint16_t>(number("port"));
+    const std::uint32_t baud = number("baud");
+    if (!host.empty()) return {{host, "", port, 0, asked(kinds_on_network())}};
+    if (!device.empty()) return {{"", device, 0, baud, asked(kinds_on_line())}};
+    std::vector<ScannerPlace> places;
+    for (const std::string& each : machine_.hosts()) {
+      places.push_back({each, "", port, 0, {ScannerKind::kSickColaB, ScannerKind::kSickColaA}});
+      places.push_back({each, "", port, 0, {ScannerKind::kHokuyo}});
+    }
+    for (const std::string& line : machine_.serial_lines())
+      places.push_back({"", line, 0, baud, asked(kinds_by_adapter(line))});
+    return places;
+  }
+  void draft_scanner() {
+    const std::vector<FoundScanner> scanners = find_scanners(places(), clock_);
+    std::vector<std::string> words;
+    for (const FoundScanner& scanner : scanners) words.push_back(describe(scanner));
+    for (const std::string& word : words) draft_.remark("scanner " + word);
+    if (scanners.empty()) {
+      draft_.remark("No scanner answered.");
+      answers_.settle(draft_, "laser", "kind");
+      if (!answers_.given("laser", "host") && !answers_.given("laser", "device"))
+        throw StartupError("setup: no scanner was found",
+                           "see to its power and address, or name laser.host or .device");
+    } else {
+      enter_scanner(scanners[answers_.choose("scanner", words)]);
+    }
+    if (answers_.asks() || answers_.given("laser", "mount"))
+      answers_.settle(draft_, "laser", "mount", "[0.0, 0.0, 0.0]");
+  }
+  void enter_scanner(const FoundScanner& scanner) {
+    const auto enter = [this](const char* key, const std::string& value) {
+      if (!answers_.given("laser", key)) draft_.set("laser", key, value, kFound);
+    };
+    const LaserWiring& wiring = scanner.wiring;
+    enter("kind", literal(std::string(scanner_make(wiring.kind).name)));
+    if (wiring.host.empty()) {
+      enter("device", literal(wiring.device));
+      enter("baud", std::to_string(wiring.baud));
+    } else {
+      enter("host", literal(wiring.host));
+      enter("port", std::to_string(wiring.port));
+    }
+    enter("beams", std::to_string(scanner.beams));
+    std::array<char, 32> fov{};
+    std::snprintf(fov.data(), fov.size(), "%.2f", scanner.fov_deg);
+    enter("fov_deg", fov.data());
+    enter("rate_hz", literal(scanner.rate_hz));
+  }
+
+  /// A stick that is plugged in is not yet wished for: it can stop the robot.
+  void draft_panel() {
+    const std::vector<std::string> joysticks = machine_.joysticks();
+    for (const std::string& joystick : joysticks) draft_.remark("joystick " + joystick);
+    if (joysticks.empty()) return;
+    const bool wished = answers_.has_section("panel") || answers_.agrees("Is a joystick to be the robot's panel?");
+    if (!wished) return;
+    if (!answers_.given("panel", "joystick"))
+      draft_.set("panel", "joystick", literal(joysticks[answers_.choose("panel", joysticks)]), kFound);
+    answers_.settle(draft_, "panel", "needs_dead_man", "true", "the default");
+  }
+
+  Surroundings& machine_;
+  SetupAnswers& answers_;
+  Clock& clock_;
+  RobotDraft draft_;
+};
+
+}  // namespace
+
+RobotDraft draft_robot(Surroundings& machine, SetupAnswers& answers, Clock& clock) {
+  return Setup(machine, answers, clock).draft();
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,158 @@
+#include "apps/setup/setup_answers.h"
+
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <istream>
+#include <ostream>
+
+#include "firmware/robot/robot_file_keys.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr std::array kSections{"laser", "drive", "panel", "realtime"};
+
+/// What a person typed, as TOML writes it; nothing where it is no value of this key.
+std::optional<std::string> understood(const SettingKey& row, const std::string& said) {
+  char* end = nullptr;
+  const double number = std::strtod(said.c_str(), &end);
+  const bool is_number = !said.empty() && *end == '\0' && number >= row.range.low && number <= row.range.high;
+  switch (row.kind) {
+    case KeyKind::kNumber:
+      return is_number ? std::optional(literal(number)) : std::nullopt;
+    case KeyKind::kInteger:
+      return is_number && number == std::floor(number) ? std::optional(literal(number)) : std::nullopt;
+    case KeyKind::kBoolean:
+      if (said == "true" || said == "yes") return "true";
+      return said == "false" || said == "no" ? std::optional<std::string>("false") : std::nullopt;
+    case KeyKind::kNumbers:
+      return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
+    case KeyKind::kChoice:
+      for (const std::string& choice : row.choices)
+        if (said == choice) return literal(said);
+      return std::nullopt;
+    default:
+      return said.empty() ? std::nullopt : std::optional(literal(said));
+  }
+}
+
+std::string title(const SettingKey& row) {
+  const std::string section = row.section.substr(0, row.section.find(':'));
+  return section.empty() ? row.key : section + "." + row.key;
+}
+
+}  // namespace
+
+SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to)
+    : from_(from), to_(to) {
+  if (!file) return;
+  name_ = file->string();
+  file_ = std::make_unique<TomlFile>(*file, robot_file_keys());
+  TomlTable root = file_->root();
+  for (const char* section : kSections)
+    if (root.has(section)) tables_.emplace(section, root.table(section));
+  tables_.emplace("", root);
+}
+
+TomlTable* SetupAnswers::table(const std::string& section) {
+  const auto found = tables_.find(section);
+  return found == tables_.end() ? nullptr : &found->second;
+}
+
+std::optional<std::string> SetupAnswers::given(const std::string& section, const std::string& key) {
+  TomlTable* const found = table(section);
+  if (found == nullptr || !found->has(key)) return std::nullopt;
+  return literal_of(*found, robot_key(section, key, section == "drive" ? kind_ : ""));
+}
+
+std::string SetupAnswers::given_text(const std::string& section, const std::string& key) {
+  return given(section, key) ? table(section)->text(key) : "";
+}
+
+void SetupAnswers::take_kind(const std::string& kind) {
+  kind_ = kind;
+  if (TomlTable* const drive = table("drive")) drive->take_keys_of(kind);
+}
+
+void SetupAnswers::settle(RobotDraft& draft, const std::string& section, const std::string& key,
+                          const std::string& suggestion, const std::string& note) {
+  if (const auto known = given(section, key)) return draft.set(section, key, *known, "as answered");
+  const SettingKey& row = robot_key(section, key, section == "drive" ? kind_ : "");
+  if (asks()) return draft.set(section, key, ask(row, suggestion), "as answered");
+  if (suggestion.empty())
+    throw StartupError("setup: " + title(row) + " cannot be seen: " + row.meaning,
+                       "put it into " + name_ + ", as ROBOT.toml has it");
+  draft.set(section, key, suggestion, note);
+}
+
+std::string SetupAnswers::line() {
+  std::string said;
+  to_->flush();
+  if (!std::getline(*from_, said))
+    throw StartupError("setup: the answers end here", "answer all questions, or give --answers FILE");
+  return said;
+}
+
+std::string SetupAnswers::ask(const SettingKey& row, const std::string& suggestion) {
+  const std::string unit = row.unit[0] == '\0' ? "" : std::string(" ") + row.unit;
+  for (;;) {
+    *to_ << title(row) << ": " << row.meaning << " (" << allowed(row) << unit << ")"
+         << (suggestion.empty() ? "" : " [" + suggestion + "]") << ": ";
+    const std::string said = line();
+    if (said.empty() && !suggestion.empty()) return suggestion;
+    if (const auto value = understood(row, said)) return *value;
+    *to_ << "not one of these: " << allowed(row) << "\n";
+  }
+}
+
+std::size_t SetupAnswers::choose(const std::string& what, const std::vector<std::string>& among) {
+  if (among.size() < 2 || !asks()) return 0;
+  for (std::size_t k = 0; k < among.size(); ++k) *to_ << "  " << k + 1 << "  " << among[k] << "\n";
+  for (;;) {
+    *to_ << what << ": which of these (1 to " << among.size() << ")? ";
+    const std::string said = line();
+    const unsigned long number = std::strtoul(said.c_str(), nullptr, 10);
+    if (number >= 1 && number <= among.size()) return number - 1;
+  }
+}
+
+bool SetupAnswers::agrees(const std::string& question) {
+  if (!asks()) return false;
+  *to_ << question << " [yes/no] ";
+  return line() == "yes";
+}
+
+void SetupAnswers::take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section,
+                               const std::string& key) {
+  const std::string name = section.empty() ? key : section + "." + key;
+  for (TomlTable& each : parent.tables(key)) {
+    std::vector<std::pair<std::string, std::string>> keys;
+    for (const SettingKey& row : robot_file_keys().keys)
+      if (row.section == name && each.has(row.key)) keys.emplace_back(row.key, literal_of(each, row));
+    each.finish();
+    draft.add_table(name, keys);
+  }
+}
+
+void SetupAnswers::finish_section(RobotDraft& draft, const std::string& section, TomlTable& table) {
+  for (const SettingKey& row : robot_file_keys().keys) {
+    const bool mine = row.section == section || (section == "drive" && row.section == "drive:" + kind_);
+    if (!mine || row.kind == KeyKind::kTable || !table.has(row.key)) continue;
+    if (row.kind == KeyKind::kTables) {
+      take_tables(draft, table, section, row.key);
+    } else if (!draft.has(section, row.key)) {
+      draft.set(section, row.key, literal_of(table, row), "as answered");
+    } else {
+      static_cast<void>(literal_of(table, row));  // known by now
+    }
+  }
+  table.finish();
+}
+
+void SetupAnswers::finish(RobotDraft& draft) {
+  for (auto& [section, table] : tables_) finish_section(draft, section, table);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,55 @@
+#pragma once
+// What a person knows of a robot: a file of answers with the keys of ROBOT.toml, and questions at a terminal.
+#include <filesystem>
+#include <iosfwd>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/setup/robot_draft.h"
+
+namespace jaywalk {
+
+class SetupAnswers {
+ public:
+  /// Without a file, nothing is known beforehand; without a terminal (null), nobody is asked. Both outlive it. Throws
+  /// StartupError for a file that cannot be read.
+  SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to);
+
+  /// The file's value, checked, as TOML writes it. Keys of one kind of drive are known once `take_kind` said which.
+  [[nodiscard]] std::optional<std::string> given(const std::string& section, const std::string& key);
+  /// The same as a text; "" where there is none.
+  [[nodiscard]] std::string given_text(const std::string& section, const std::string& key);
+  [[nodiscard]] bool has_section(const std::string& section) const { return tables_.count(section) != 0; }
+  [[nodiscard]] bool asks() const { return from_ != nullptr; }
+  void take_kind(const std::string& kind);
+
+  /// Enters the key: as answered, else as a person says, who is shown `suggestion`, else as suggested with `note`.
+  /// Throws StartupError where none of the three knows it.
+  void settle(RobotDraft& draft, const std::string& section, const std::string& key, const std::string& suggestion = "",
+              const std::string& note = "");
+  /// The person's choice among several, from 0; without a person, or with one to choose from, the first.
+  [[nodiscard]] std::size_t choose(const std::string& what, const std::vector<std::string>& among);
+  [[nodiscard]] bool agrees(const std::string& question);
+
+  /// Enters what the file says besides, and refuses what it says that ROBOT.toml does not know.
+  void finish(RobotDraft& draft);
+
+ private:
+  TomlTable* table(const std::string& section);
+  void finish_section(RobotDraft& draft, const std::string& section, TomlTable& table);
+  void take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section, const std::string& key);
+  [[nodiscard]] std::string ask(const SettingKey& row, const std::string& suggestion);
+  [[nodiscard]] std::string line();
+
+  std::string name_ = "--answers FILE";
+  std::unique_ptr<TomlFile> file_;
+  std::map<std::string, TomlTable> tables_;
+  std::string kind_;  ///< of the drives; "" while it is not known
+  std::istream* from_;
+  std::ostream* to_;
+};
+
+}  // namespace jaywalk

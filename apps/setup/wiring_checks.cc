@@ -1,0 +1,185 @@
+#include "apps/setup/wiring_checks.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
+#include <optional>
+
+#include "apps/setup/scan_shift.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kTolerance = 0.1;   ///< of counts a turn
+constexpr double kLeastShare = 0.3;  ///< of the turn felt, or the robot did not move
+constexpr double kClearly = 0.9;     ///< a misfit that is less than this of another
+constexpr int kOffMountSteps = 3;    ///< of 5 degrees
+
+const char* side_name(std::size_t side) { return side == 0 ? "left" : "right"; }
+
+/// The motion of one wheel's nudges, felt and seen, as if it were forward.
+struct SideMotion {
+  double felt_m = 0.0;    ///< way of the rim
+  double seen_rad = 0.0;  ///< turn, positive where the wheel's side should go forward
+  bool matched = true;
+  double forward_misfit_m = 0.0, backward_misfit_m = 0.0;  ///< of the scans, had the middle gone so with that turn
+};
+
+/// The way that a wheel rolled forward.
+double felt_m(const Nudge& nudge, const DriveModel& drive) {
+  const double left = nudge.after.left_rad - nudge.before.left_rad;
+  const double right = nudge.after.right_rad - nudge.before.right_rad;
+  return drive.wheel_radius_m * (nudge.side == 0 ? left : right);
+}
+
+/// The middle goes half of the wheel's way, in the direction of half the turn.
+double misfit_with(const Nudge& nudge, double turn_rad, double way_m, const Pose2& mount) {
+  const Vec2 way = direction(0.5 * turn_rad) * way_m;
+  return misfit_m(nudge.scan_before, nudge.scan_after, inverse(mount) * Pose2{way.x, way.y, turn_rad} * mount);
+}
+
+SideMotion motion_of(const std::vector<Nudge>& nudges, std::size_t side, const RobotModel& model) {
+  SideMotion sum;
+  const Pose2& mount = model.laser.robot_from_laser;
+  for (const Nudge& nudge : nudges) {
+    if (nudge.side != side) continue;
+    const double felt = felt_m(nudge, model.drive);
+    sum.felt_m += nudge.sign * felt;
+    const std::optional<ScanShift> shift = match_scans(nudge.scan_before, nudge.scan_after);
+    sum.matched = sum.matched && shift.has_value();
+    if (!shift) continue;
+    const double turn = shift->before_from_after.heading;
+    sum.seen_rad += nudge.sign * (side == 0 ? -turn : turn);
+    sum.forward_misfit_m += misfit_with(nudge, turn, 0.5 * felt, mount);
+    sum.backward_misfit_m += misfit_with(nudge, turn, -0.5 * felt, mount);
+  }
+  return sum;
+}
+
+CheckedPart check_feedback(const std::vector<Nudge>& nudges, std::size_t side, const DriveModel& drive) {
+  const std::string part = std::string(side_name(side)) + " drive";
+  bool tried = false;
+  for (const Nudge& nudge : nudges) {
+    if (nudge.side != side) continue;
+    tried = true;
+    const double left = nudge.sign * (nudge.after.left_rad - nudge.before.left_rad) * drive.wheel_radius_m;
+    const double right = nudge.sign * (nudge.after.right_rad - nudge.before.right_rad) * drive.wheel_radius_m;
+    const double own = side == 0 ? left : right, other = side == 0 ? right : left;
+    if (std::fabs(other) > 0.02)
+      return {part, false,
+              "the other wheel's encoder turns as well; see that each drive has its own motor and encoder"};
+    if (own < -0.005)
+      return {part, false, "its encoder counts backwards; change two of the motor's wires or the encoder's direction"};
+    if (nudge.disobeyed || own < 0.02)
+      return {part, false, "its wheel does not turn as commanded; see to brake, motor, encoder and counts a turn"};
+  }
+  if (!tried) return {part, false, "not tried, after the first fault"};
+  return {part, true, "turns as commanded, forward and back"};
+}
+
+/// Forward turn and forward way as they should be: +1, the other way round: -1, neither: 0.
+struct Signs {
+  int turn = 0, way = 0;
+  constexpr bool operator==(const Signs&) const = default;
+};
+
+Signs signs_of(const SideMotion& seen, double track_m) {
+  Signs signs;
+  if (std::fabs(seen.seen_rad) >= kLeastShare * std::fabs(seen.felt_m) / track_m)
+    signs.turn = (seen.seen_rad > 0.0) == (seen.felt_m > 0.0) ? 1 : -1;
+  if (seen.forward_misfit_m < kClearly * seen.backward_misfit_m) signs.way = 1;
+  if (seen.backward_misfit_m < kClearly * seen.forward_misfit_m) signs.way = -1;
+  return signs;
+}
+
+CheckedPart check_sides(const Signs& left, const Signs& right) {
+  const std::string part = "wheels, scanner";
+  constexpr Signs kWell{1, 1}, kMirrored{-1, 1}, kBackward{1, -1}, kReversed{-1, -1};
+  if (left == kWell && right == kWell) return {part, true, "each wheel is on its side and turns as it says"};
+  if (left == kReversed && right == kWell)
+    return {part, false, "the left wheel goes backward when it says forward; change [drive] left_reversed"};
+  if (left == kWell && right == kReversed)
+    return {part, false, "the right wheel goes backward when it says forward; change [drive] right_reversed"};
+  if (left == kMirrored && right == kMirrored)
+    return {part, false,
+            "left and right are exchanged: either the drives ([drive] left_node, right_node) or the scanner is upside "
+            "down or counts its beams the other way round"};
+  if (left == kReversed && right == kReversed)
+    return {part, false,
+            "forward is backward on both sides: either both wheels (change left_reversed and right_reversed), or the "
+            "scanner is upside down and looks backward"};
+  if (left == kBackward && right == kBackward)
+    return {part, false,
+            "it drives backward and turns as it should: either the scanner looks backward ([laser] mount), or the "
+            "drives are exchanged and both reversed"};
+  if (left.turn != 0 && right.turn != 0 && (left.way == 0 || right.way == 0))
+    return {
+        part, false,
+        "the scans show the turns, but not which way it went; go to where walls stand ahead and beside, then again"};
+  if (left.turn == 0 || right.turn == 0)
+    return {part, false, "a wheel turns and the robot does not; see to grip, coupling and counts a turn"};
+  return {part, false,
+          "what the scans show fits no one mistake; see to left_reversed, right_reversed, nodes and mount"};
+}
+
+CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_m) {
+  const double share = seen.seen_rad * track_m / seen.felt_m;
+  char said[160];
+  const bool well = std::fabs(share - 1.0) <= kTolerance;
+  std::snprintf(said, sizeof said, "the scans show %.2f of the way that its encoder counts%s", share,
+                well ? "" : "; correct its counts or turns a wheel turn, wheel_radius_m or track_width_m");
+  return {std::string(side_name(side)) + " counts", well, said};
+}
+
+/// The scanner's heading on the robot that explains the scans best, beside what the file says.
+CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model) {
+  constexpr double kStep_rad = 5.0 * kPi / 180.0;
+  constexpr int kSteps = 9;  // to 45 degrees either way
+  double at_file_m = 0.0, least_m = std::numeric_limits<double>::infinity();
+  int best = 0;
+  for (int k = -kSteps; k <= kSteps; ++k) {
+    Pose2 mount = model.laser.robot_from_laser;
+    mount.heading = wrap_angle(mount.heading + k * kStep_rad);
+    double sum_m = 0.0;
+    for (const Nudge& nudge : nudges) {
+      const double felt = felt_m(nudge, model.drive);
+      const double turn = (nudge.side == 0 ? -felt : felt) / model.drive.track_width_m;
+      sum_m += misfit_with(nudge, turn, 0.5 * felt, mount);
+    }
+    if (k == 0) at_file_m = sum_m;
+    if (sum_m < least_m) least_m = sum_m, best = k;
+  }
+  const bool well = std::abs(best) < kOffMountSteps || least_m > kClearly * at_file_m;
+  char said[120];
+  if (well) {
+    std::snprintf(said, sizeof said, "it looks where the file says, as far as %d degrees can be told",
+                  5 * kOffMountSteps);
+  } else {
+    std::snprintf(said, sizeof said, "it is turned by about %d degrees more than the file says; correct [laser] mount",
+                  5 * best);
+  }
+  return {"scanner's mount", well, said};
+}
+
+}  // namespace
+
+std::vector<CheckedPart> judge_nudges(const std::vector<Nudge>& nudges, const RobotModel& model) {
+  std::vector<CheckedPart> checks{check_feedback(nudges, 0, model.drive), check_feedback(nudges, 1, model.drive)};
+  if (!checks[0].is_well || !checks[1].is_well) return checks;
+  const std::array seen{motion_of(nudges, 0, model), motion_of(nudges, 1, model)};
+  if (!seen[0].matched || !seen[1].matched) {
+    checks.push_back(
+        {"scans", false, "do not tell the motion; go to where walls stand on two sides, and nothing moves"});
+    return checks;
+  }
+  const double track_m = model.drive.track_width_m;
+  checks.push_back(check_sides(signs_of(seen[0], track_m), signs_of(seen[1], track_m)));
+  if (!checks.back().is_well) return checks;
+  for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
+  checks.push_back(check_mount(nudges, model));
+  return checks;
+}
+
+}  // namespace jaywalk

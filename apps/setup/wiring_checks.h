@@ -1,0 +1,15 @@
+#pragma once
+// What the motions of a commissioning run say about motors, encoders, wheels and scanner.
+#include <string>
+#include <vector>
+
+#include "apps/setup/wheel_nudges.h"
+#include "firmware/robot/preflight.h"
+
+namespace jaywalk {
+
+/// Judges each drive by its feedback, then what the scans show of each nudge against it. Wirings that look alike are
+/// named together.
+[[nodiscard]] std::vector<CheckedPart> judge_nudges(const std::vector<Nudge>& nudges, const RobotModel& model);
+
+}  // namespace jaywalk

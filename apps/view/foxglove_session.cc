@@ -1,0 +1,149 @@
+#include "apps/view/foxglove_session.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <nlohmann/json.hpp>
+
+#include "apps/view/goal_message.h"
+
+namespace jaywalk::view {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr char kMessageData = 1;  ///< opcode of binary frames, either way
+constexpr std::size_t kMostNumbers = 64;
+constexpr int kWarning = 1;
+
+std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+std::string warning(const std::string& said) {
+  return dumped({{"op", "status"}, {"level", kWarning}, {"message", said}});
+}
+
+std::string little_endian(std::uint64_t number, std::size_t count) {
+  std::string bytes(count, '\0');
+  for (std::size_t i = 0; i < count; ++i) bytes[i] = static_cast<char>((number >> (8 * i)) & 0xFFU);
+  return bytes;
+}
+
+/// A whole number that fits; nothing otherwise.
+std::optional<std::uint32_t> number_in(const Json& json, const char* key) {
+  const auto found = json.is_object() ? json.find(key) : json.end();
+  if (!json.is_object() || found == json.end() || !found->is_number_unsigned()) return std::nullopt;
+  const auto number = found->get<std::uint64_t>();
+  return number <= UINT32_MAX ? std::optional(static_cast<std::uint32_t>(number)) : std::nullopt;
+}
+
+std::string text_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_string() ? found->get<std::string>() : "";
+}
+
+/// The list under `key`; an empty one where there is none.
+Json list_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_array() ? *found : Json::array();
+}
+
+}  // namespace
+
+std::string foxglove_subprotocol(std::string_view offered) {
+  for (const char* spoken : {"foxglove.sdk.v1", "foxglove.websocket.v1"}) {
+    for (std::string_view rest = offered; !rest.empty();) {
+      std::string_view one = rest.substr(0, rest.find(','));
+      rest.remove_prefix(std::min(rest.size(), one.size() + 1));
+      while (one.starts_with(' ')) one.remove_prefix(1);
+      while (one.ends_with(' ')) one.remove_suffix(1);
+      if (one == spoken) return spoken;
+    }
+  }
+  return "";
+}
+
+std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> channels) {
+  Json listed = Json::array();
+  for (std::size_t k = 0; k < channels.size(); ++k) {
+    listed.push_back({{"id", k},
+                      {"topic", channels[k].topic},
+                      {"encoding", "cdr"},
+                      {"schemaName", channels[k].type},
+                      {"schemaEncoding", "ros2msg"},
+                      {"schema", channels[k].schema}});
+  }
+  return {dumped({{"op", "serverInfo"},
+                  {"name", "jaywalk"},
+                  {"capabilities", {"clientPublish"}},
+                  {"supportedEncodings", {"cdr", "json"}},
+                  {"metadata", Json::object()}}),
+          dumped({{"op", "advertise"}, {"channels", listed}})};
+}
+
+FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
+  Outcome outcome;
+  const Json json = Json::parse(text, nullptr, false);
+  if (!json.is_object()) return {.order = "", .status = warning("no JSON object")};
+  const std::string op = text_in(json, "op");
+  if (op == "subscribe") {
+    for (const Json& wish : list_in(json, "subscriptions")) {
+      const auto id = number_in(wish, "id"), channel = number_in(wish, "channelId");
+      if (!id || !channel || *channel >= channels_ || subscriptions_.size() >= kMostNumbers) {
+        outcome.status = warning("a subscription names no channel");
+        continue;
+      }
+      subscriptions_[*id] = *channel;
+      outcome.subscribed.push_back(*channel);
+    }
+  } else if (op == "unsubscribe") {
+    for (const Json& id : list_in(json, "subscriptionIds"))
+      if (id.is_number_unsigned()) subscriptions_.erase(id.get<std::uint32_t>());
+  } else if (op == "advertise") {
+    for (const Json& channel : list_in(json, "channels")) {
+      const auto id = number_in(channel, "id");
+      if (!id || published_.size() >= kMostNumbers) continue;
+      published_[*id] = {text_in(channel, "topic"), text_in(channel, "encoding")};
+    }
+  } else if (op == "unadvertise") {
+    for (const Json& id : list_in(json, "channelIds"))
+      if (id.is_number_unsigned()) published_.erase(id.get<std::uint32_t>());
+  } else {
+    outcome.status = warning("not served: " + op);
+  }
+  return outcome;
+}
+
+FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) {
+  constexpr std::size_t kHead = 5;
+  if (payload.size() < kHead || payload[0] != kMessageData)
+    return {.order = "", .status = warning("no client message")};
+  std::uint32_t id = 0;
+  std::memcpy(&id, payload.data() + 1, sizeof id);  // little-endian, as all our machines are
+  const auto found = published_.find(id);
+  if (found == published_.end())
+    return {.order = "", .status = warning("a message of a channel that is not advertised")};
+  const auto& [topic, encoding] = found->second;
+  if (topic != "/goal_pose") return {.order = "", .status = warning(topic + " is not taken: publish /goal_pose")};
+  const auto goal = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
+  if (!goal) return {.order = "", .status = warning("/goal_pose: no geometry_msgs/PoseStamped in the frame map")};
+  return {.order = words_of(*goal), .status = ""};
+}
+
+std::optional<std::uint32_t> FoxgloveSession::subscription(std::size_t channel) const {
+  for (const auto& [id, of] : subscriptions_)
+    if (of == channel) return id;
+  return std::nullopt;
+}
+
+std::uint32_t FoxgloveSession::wanted() const {
+  std::uint32_t bits = 0;
+  for (const auto& [id, channel] : subscriptions_) bits |= 1U << channel;
+  return bits;
+}
+
+std::string foxglove_message(std::uint32_t subscription, Time stamp, std::string_view message) {
+  const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
+  return std::string(1, kMessageData) + little_endian(subscription, 4) + little_endian(ns, 8) + std::string(message);
+}
+
+}  // namespace jaywalk::view

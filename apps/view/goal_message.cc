@@ -1,0 +1,75 @@
+#include "apps/view/goal_message.h"
+
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <nlohmann/json.hpp>
+
+#include "apps/formats/wire_reader.h"
+#include "hal/types/trig.h"
+
+namespace jaywalk::view {
+namespace {
+
+using Json = nlohmann::json;
+
+constexpr double kUnit = 1e-3;  ///< how far a rotation's length may be from 1
+
+/// `z` and `w` of a rotation about the vertical, `x` and `y` near 0.
+std::optional<GoalOrder> goal_at(Vec2 place, const std::array<double, 4>& xyzw) {
+  const auto [x, y, z, w] = xyzw;
+  const double length = x * x + y * y + z * z + w * w;
+  if (length == 0.0) return GoalOrder{.goal_in_map = place};
+  if (!(std::fabs(length - 1.0) < kUnit && x * x + y * y < kUnit)) return std::nullopt;
+  return GoalOrder{.goal_in_map = place, .heading_rad = wrap_angle(2.0 * atan2(z, w))};
+}
+
+bool is_map(std::string_view frame) { return frame.empty() || frame == "map" || frame == "/map"; }
+
+double number_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
+}
+
+}  // namespace
+
+std::optional<GoalOrder> goal_from_cdr(std::string_view message) {
+  exchange::WireReader reader(message, exchange::Wire::kCdr);
+  constexpr std::size_t kStamp = 8;
+  reader.skip(kStamp);
+  const std::string_view frame = reader.text();
+  std::array<double, 7> n{};  // position x y z, rotation x y z w
+  for (double& number : n) number = reader.f64();
+  if (!reader.ok() || !is_map(frame)) return std::nullopt;
+  return goal_at({n[0], n[1]}, {n[3], n[4], n[5], n[6]});
+}
+
+std::optional<GoalOrder> goal_from_json(std::string_view message) {
+  const Json json = Json::parse(message, nullptr, false);
+  if (!json.is_object() || !json.contains("pose")) return std::nullopt;
+  const Json empty = Json::object(), &pose = json["pose"];
+  const auto part = [&empty](const Json& of, const char* key) -> const Json& {
+    const auto found = of.find(key);
+    return found != of.end() && found->is_object() ? *found : empty;
+  };
+  if (!pose.is_object() || !pose.contains("position")) return std::nullopt;
+  const Json& header = part(json, "header");
+  if (header.contains("frame_id") && !(header["frame_id"].is_string() && is_map(header["frame_id"].get<std::string>())))
+    return std::nullopt;
+  const Json &place = part(pose, "position"), &turn = part(pose, "orientation");
+  return goal_at({number_in(place, "x"), number_in(place, "y")},
+                 {number_in(turn, "x"), number_in(turn, "y"), number_in(turn, "z"), number_in(turn, "w")});
+}
+
+std::string words_of(const GoalOrder& goal) {
+  char text[160];
+  if (std::isnan(goal.heading_rad)) {
+    std::snprintf(text, sizeof text, R"({"goal":[%.9g,%.9g]})", goal.goal_in_map.x, goal.goal_in_map.y);
+  } else {
+    std::snprintf(text, sizeof text, R"({"goal":[%.9g,%.9g,%.9g]})", goal.goal_in_map.x, goal.goal_in_map.y,
+                  goal.heading_rad);
+  }
+  return text;
+}
+
+}  // namespace jaywalk::view

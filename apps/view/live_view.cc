@@ -1,0 +1,123 @@
+#include "apps/view/live_view.h"
+
+#include <cstdio>
+#include <nlohmann/json.hpp>
+#include <thread>
+#include <vector>
+
+#include "apps/formats/ros_schemas.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr auto kPushEvery = std::chrono::milliseconds(40);        // smooth to the eye
+constexpr Duration kFieldEvery = std::chrono::milliseconds(500);  // 22 kB, and it changes slowly
+constexpr auto kGone = std::chrono::seconds(3);                   // a page that is loaded anew is back before
+constexpr auto kLookEvery = std::chrono::milliseconds(50);
+constexpr std::size_t kMostStripTicks = 2000;  // more than a screen has columns
+
+std::vector<view::FoxgloveChannel> channels() {
+  std::vector<view::FoxgloveChannel> all;
+  for (const exchange::RosTopic& topic : exchange::kRosTopics)
+    all.push_back({topic.name, topic.type, exchange::ros_schema(topic.type)});
+  return all;
+}
+
+}  // namespace
+
+LiveView::LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey)
+    : obey_(std::move(obey)),
+      keeps_ticks_(keeps_ticks),
+      server_(where, {.on_order = [this](std::string_view text) { return answer(text); }, .channels = channels()}),
+      topics_([this](std::size_t channel, Time stamp, std::string message) {
+        server_.push(channel, stamp, std::move(message));
+      }) {
+  std::printf("view: %s\n", server_.url().c_str());
+  std::fflush(stdout);
+}
+
+/// {"tick":N}, {"past":true}, or an order.
+std::string LiveView::answer(std::string_view text) {
+  if (const auto order = view::parse_order(text)) {
+    const std::string said = obey_(*order);
+    return said.empty() ? "" : nlohmann::json{{"kind", "said"}, {"text", said}}.dump();
+  }
+  const auto asked = nlohmann::json::parse(text, nullptr, false);
+  if (!keeps_ticks_ || !asked.is_object()) return "";
+  if (asked.contains("past")) return store_.past(kMostStripTicks);
+  if (!asked.contains("tick") || !asked["tick"].is_number_unsigned()) return "";
+  return store_.then(asked["tick"].get<std::uint64_t>());
+}
+
+void LiveView::begin(view::HelloScene hello, Duration tick) {
+  model_ = hello.model;
+  zone_.emplace(model_, tick);
+  hello.keeps_ticks = keeps_ticks_;
+  hello.tick_s = to_seconds(tick);
+  server_.push(view::MessageKind::kHello, to_json(hello));
+}
+
+void LiveView::follow(const LoopRunner& runner, const std::string& ended, bool at_once) {
+  take(snapshot_, runner.last(), runner.loop());
+  show_field_of(runner);
+  show(snapshot_, ended, at_once);
+  if (const Time now = runner.last().now; is_map_due(now)) show_map(runner.loop().tracker().still(), now);
+}
+
+void LiveView::show_field_of(const LoopRunner& runner) {
+  const Time now = runner.last().now;
+  if (field_shown_ != kNever && age(field_shown_, now) < kFieldEvery) return;
+  if (runner.loop().plan().status != PlanStatus::kOk) return;
+  field_shown_ = now;
+  const auto picture = std::make_unique<view::FieldPicture>();
+  draw(*picture, runner.planner().view_field());
+  show(*picture);
+}
+
+void LiveView::show(const view::FieldPicture& field) {
+  std::string text = to_json(field, field_++);
+  if (keeps_ticks_) store_.add_field(text);
+  server_.push(view::MessageKind::kField, std::move(text));
+}
+
+void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once) {
+  const TickRecord& t = snapshot.record;
+  if (path_.stamp != snapshot.plan.stamp) keep_path(snapshot.plan, path_);
+  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, server_.wanted());
+  const auto now = std::chrono::steady_clock::now();
+  const bool is_due = server_.has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
+  if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
+  const bool changed = t.scan.sequence != scan_shown_ || snapshot.plan.sequence != plan_shown_ || scene_.empty();
+  if (changed) {
+    scene_ = to_json(snapshot, model_.laser.robot_from_laser);
+    scan_shown_ = t.scan.sequence;
+    plan_shown_ = snapshot.plan.sequence;
+    if (keeps_ticks_) store_.add_scene(scene_);
+  }
+  const std::string head = view::frame_head({.tick = tick_++, .record = t, .zone = zone_->at(t), .ended = ended});
+  if (keeps_ticks_) {
+    store_.add({.t_s = to_seconds(t.now),
+                .wanted_mps = t.wanted.v_mps,
+                .permitted_mps = t.verdict.permitted.v_mps,
+                .is_held = t.verdict.reasons != Reason::kNone},
+               head);
+  }
+  if (!is_due) return;
+  pushed_ = now;
+  server_.push(ended.empty() ? view::MessageKind::kFrame : view::MessageKind::kEnd, head + scene_ + "}");
+}
+
+void LiveView::stay(bool until_told, const Interruption& interruption) const {
+  auto seen = std::chrono::steady_clock::now();
+  if (!until_told && viewers() == 0) return;
+  std::fprintf(stderr, "jaywalk: the run is over; its page stays until %sCtrl-C\n",
+               until_told ? "" : "it is closed, or ");
+  while (!interruption.came()) {
+    std::this_thread::sleep_for(kLookEvery);
+    const auto now = std::chrono::steady_clock::now();
+    if (viewers() > 0) seen = now;
+    if (!until_told && now - seen > kGone) return;
+  }
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,67 @@
+#pragma once
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "apps/jaywalk/interruption.h"
+#include "firmware/loop_runner.h"
+#include "apps/formats/ros_topics.h"
+#include "apps/view/frame_store.h"
+#include "apps/view/view_orders.h"
+#include "apps/view/view_scene.h"
+#include "apps/view/view_server.h"
+
+namespace jaywalk {
+
+/// The live page and its stream, fed with a run's ticks. What is slow (JSON, the store) happens in the thread that
+/// calls; clients are served by a thread of their own. Thread: one, between ticks or beside the loop.
+class LiveView {
+ public:
+  /// What became of an order, for the page; called on the server's thread.
+  using Obey = std::function<std::string(const view::ViewOrder&)>;
+
+  /// `keeps_ticks`: any tick can be asked for, as long as the program runs. Prints the line `view: http://...`. Throws
+  /// StartupError where the address cannot be served.
+  LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey);
+
+  /// Before the first tick. `keeps_ticks` and `tick_s` of `hello` are set here.
+  void begin(view::HelloScene hello, Duration tick);
+  /// After each tick of a runner that this thread drives. `at_once`: whatever was shown just now.
+  void follow(const LoopRunner& runner, const std::string& ended, bool at_once = false);
+
+  /// The same in pieces, for a loop with a thread of its own.
+  void show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once = false);
+  void show(const view::FieldPicture& field);
+  void show_map(const EvidenceMap& map, Time now) { topics_.add_map(map, now); }
+  [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_.wanted()); }
+
+  [[nodiscard]] int viewers() const noexcept { return server_.viewers(); }
+  /// Whether a client subscribes to messages: these want every tick.
+  [[nodiscard]] bool has_subscribers() const noexcept { return server_.wanted() != 0; }
+  /// The run is over: goes on to serve what was kept until all viewers have been gone for some seconds, or for as long
+  /// as `until_told`, or until an interruption.
+  void stay(bool until_told, const Interruption& interruption) const;
+
+ private:
+  [[nodiscard]] std::string answer(std::string_view text);
+  void show_field_of(const LoopRunner& runner);
+
+  Obey obey_;
+  bool keeps_ticks_;
+  view::FrameStore store_;
+  RobotModel model_;
+  std::optional<view::ShownStopZone> zone_;
+  view::ViewSnapshot snapshot_;
+  std::string scene_;
+  std::uint32_t scan_shown_ = 0, plan_shown_ = 0;
+  std::uint64_t tick_ = 0, field_ = 0;
+  Time field_shown_ = kNever;
+  std::chrono::steady_clock::time_point pushed_{};
+  view::ViewServer server_;
+  exchange::RosTopics topics_;
+  PlannedPath path_;  ///< of the newest plan
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,38 @@
+#pragma once
+#include <filesystem>
+#include <optional>
+#include <string>
+
+#include "apps/report/run_observer.h"
+#include "apps/view/live_view.h"
+#include "apps/view/planner_tap.h"
+
+namespace jaywalk {
+
+/// The live page of a run on a robot: 25 ticks a second through a ring, goals and stops through the run's control
+/// socket, as those of any client; and what a run leaves in its folder. No page delays a tick.
+class RunView final : public RunObserver {
+ public:
+  /// Takes the memory. Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
+  RunView(const view::ViewAddress& where, std::filesystem::path control_socket, const std::string& title,
+          const ControlSetup& setup, const EvidenceMap& map);
+
+  void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override {
+    snapshots_.offer(record, loop);
+  }
+  void after_plan(const Planner& planner, const EvidenceMap& map, Time stamp) noexcept override {
+    planner_tap_.offer(planner, map, stamp);
+  }
+  /// Shows what came since.
+  void follow() override;
+
+ private:
+  [[nodiscard]] std::string obey(const view::ViewOrder& order) const;
+
+  std::filesystem::path control_socket_;
+  view::SnapshotTap snapshots_;
+  view::PlannerTap planner_tap_;
+  LiveView live_;
+};
+
+}  // namespace jaywalk

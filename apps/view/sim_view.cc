@@ -1,0 +1,45 @@
+#include "apps/view/sim_view.h"
+
+#include <algorithm>
+#include <thread>
+
+namespace jaywalk {
+namespace {
+
+constexpr auto kLookEvery = std::chrono::milliseconds(5);  // at the page's orders while paused
+
+}  // namespace
+
+SimView::SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals)
+    : panel_(panel), takes_goals_(takes_goals), live_(where, true, [this](const view::ViewOrder& order) {
+        orders_.add(order);
+        return std::string();
+      }) {}
+
+void SimView::begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls) {
+  live_.begin({.title = title, .model = setup.model, .walls = walls, .takes_goals = takes_goals_}, setup.tick());
+}
+
+void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
+  live_.follow(runner, ended, paused_);
+  keep_pace(runner.setup().tick());
+  if (ended.empty()) obey_while_paused(interruption);
+}
+
+/// A run that was held up does not hurry to make up for it.
+void SimView::keep_pace(Duration tick) {
+  const auto now = std::chrono::steady_clock::now();
+  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(tick), now);
+  std::this_thread::sleep_until(due_);
+}
+
+void SimView::obey_while_paused(const Interruption& interruption) {
+  for (; !interruption.came(); std::this_thread::sleep_for(kLookEvery)) {
+    const view::ViewOrder order = orders_.take();
+    if (order.pause) paused_ = *order.pause;
+    if (takes_goals_) panel_.obey(order);
+    if (!paused_ || order.step) return;
+  }
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,36 @@
+#pragma once
+#include <chrono>
+#include <string>
+
+#include "apps/view/live_view.h"
+#include "apps/view/steered_panel.h"
+
+namespace jaywalk {
+
+/// The live page of a simulation: shows its ticks at the pace of the wall clock, and passes on goals. All of it happens
+/// between ticks; without an order from the page the run is the same, bit for bit. Thread: the simulation's.
+class SimView {
+ public:
+  /// Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
+  SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals);
+
+  [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
+  void begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls);
+  /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
+  void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
+  /// After the run: see LiveView::stay.
+  void stay(const Interruption& interruption) const { live_.stay(false, interruption); }
+
+ private:
+  void keep_pace(Duration tick);
+  void obey_while_paused(const Interruption& interruption);
+
+  view::ViewOrders orders_;
+  view::SteeredPanel panel_;
+  bool takes_goals_;
+  std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
+  bool paused_ = false;
+  LiveView live_;
+};
+
+}  // namespace jaywalk

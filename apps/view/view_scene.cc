@@ -1,0 +1,142 @@
+#include "apps/view/view_scene.h"
+
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "apps/view/websocket.h"
+
+namespace jaywalk::view {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr std::size_t kPathStep = 2;  ///< every second of points 0.05 to 0.2 m apart
+
+/// To the millimetre: the page shows no more.
+Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1000.0) / 1000.0) : Json(nullptr); }
+Json cm(float value) { return Json(std::round(static_cast<double>(value) * 100.0) / 100.0); }
+Json place(Vec2 p) { return Json::array({mm(p.x), mm(p.y)}); }
+
+/// JSON has bytes of text from files in it: what is no UTF-8 is replaced.
+std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+
+Json hits_of(const TickRecord& t, const Pose2& robot_from_laser) {
+  const Transform2 map_from_laser(t.pose.map_from_robot * robot_from_laser);
+  Json hits = Json::array();
+  for (std::size_t i = 0; i < t.scan.beam_count; ++i) {
+    if (!t.scan.is_hit(i)) continue;
+    const Vec2 p = map_from_laser * (direction(t.scan.angle_rad(i)) * static_cast<double>(t.scan.range_m[i]));
+    hits.push_back(mm(p.x));
+    hits.push_back(mm(p.y));
+  }
+  return hits;
+}
+
+/// Position, radius, whether it moves.
+Json tracks_of(std::span<const Track> tracks) {
+  Json out = Json::array();
+  for (const Track& k : tracks)
+    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0});
+  return out;
+}
+
+/// A row a mover: its radius, then x and y of the first future at each time, of the second, and so on.
+Json futures_of(std::span<const ShownMover> movers) {
+  Json out = Json::array();
+  for (const ShownMover& mover : movers) {
+    Json row = Json::array({cm(mover.radius_m)});
+    for (const auto& future : mover.at)
+      for (const Place& p : future) row.push_back(cm(p.x)), row.push_back(cm(p.y));
+    out.push_back(std::move(row));
+  }
+  return out;
+}
+
+/// Where the plan of a robot without sampled futures expects movers.
+Json expected_of(const Plan& plan) {
+  Json out = Json::array();
+  for (const Prediction& p : plan.predictions)
+    out.push_back({mm(p.position_in_map.x), mm(p.position_in_map.y), mm(p.mark_radius_m)});
+  return out;
+}
+
+Json path_of(const Path& path) {
+  Json out = Json::array();
+  for (std::size_t i = 0; i < path.size(); i += kPathStep) out.push_back(place(path[i]));
+  return out;
+}
+
+Json zone_of(const ShownStopZone::Outlines& zone) {
+  Json out = Json::array();
+  for (const Corners& corners : zone) {
+    Json outline = Json::array();
+    for (const Vec2& corner : corners) outline.push_back(place(corner));
+    out.push_back(std::move(outline));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string to_json(const HelloScene& hello) {
+  Json walls = Json::array();
+  for (const WallPiece& w : hello.walls) walls.push_back({mm(w.from.x), mm(w.from.y), mm(w.to.x), mm(w.to.y)});
+  const Footprint& body = hello.model.footprint;
+  return dumped({{"kind", "hello"},
+                 {"title", hello.title},
+                 {"tick_s", hello.tick_s},
+                 {"takes_goals", hello.takes_goals},
+                 {"takes_pauses", hello.takes_pauses},
+                 {"keeps_ticks", hello.keeps_ticks},
+                 {"front_m", body.front_m},
+                 {"rear_m", body.rear_m},
+                 {"half_width_m", body.half_width_m},
+                 {"max_speed_mps", hello.model.limits.max_speed_mps},
+                 {"walls", walls}});
+}
+
+std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
+  Json standing = Json::array();
+  for (const Stander& s : snapshot.standing)
+    standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
+  const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
+  return dumped({{"hits", hits_of(snapshot.record, robot_from_laser)},
+                 {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
+                 {"standing", standing},
+                 {"futures", futures_of(movers)},
+                 {"expected", movers.empty() ? expected_of(snapshot.plan) : Json::array()},
+                 {"path", path_of(snapshot.plan.path)}});
+}
+
+std::string frame_head(const FrameScene& frame) {
+  const TickRecord& t = frame.record;
+  const Pose2& pose = t.pose.map_from_robot;
+  Json out{{"kind", "frame"},
+           {"tick", frame.tick},
+           {"t", mm(to_seconds(t.now))},
+           {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
+           {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
+           {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
+           {"gap_m", mm(t.verdict.gap_m)},
+           {"reasons", to_string(t.verdict.reasons)},
+           {"zone", zone_of(frame.zone)},
+           {"ended", frame.ended}};
+  if (t.input.has_goal)
+    out["goal"] = {mm(t.input.goal_in_map.x), mm(t.input.goal_in_map.y), mm(t.input.goal_heading_rad)};
+  std::string text = dumped(out);
+  text.back() = ',';  // for the closing brace
+  return text.append("\"scene\":");
+}
+
+std::string to_json(const FieldPicture& field, std::uint64_t number) {
+  const auto* const bytes = reinterpret_cast<const char*>(field.cells.data());
+  return dumped({{"kind", "field"},
+                 {"number", number},
+                 {"x", mm(field.low_x_m)},
+                 {"y", mm(field.low_y_m)},
+                 {"cell_m", field.cell_m},
+                 {"width", field.width},
+                 {"cells", base64({bytes, field.cells.size()})}});
+}
+
+}  // namespace jaywalk::view

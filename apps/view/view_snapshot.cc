@@ -1,0 +1,50 @@
+#include "apps/view/view_snapshot.h"
+
+namespace jaywalk::view {
+namespace {
+
+constexpr Duration kTakeEvery = std::chrono::milliseconds(40);
+
+template <class T, std::size_t N>
+void copy(FixedVector<T, N>& to, std::span<const T> from) noexcept {
+  to.clear();
+  for (const T& item : from) {
+    if (!to.push_back(item)) break;
+  }
+}
+
+ShownMover shown(const motion::Futures& futures, std::size_t mover) noexcept {
+  ShownMover out{.radius_m = futures.radius(mover)};
+  for (std::size_t step = 0; step < kShownSteps.size(); ++step) {
+    const motion::MoverAt& at = futures.at(kShownSteps[step], mover);
+    for (std::size_t f = 0; f < kShownFutures; ++f) out.at[f][step] = {at.x[f], at.y[f]};
+  }
+  return out;
+}
+
+}  // namespace
+
+void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop) noexcept {
+  into.record = record;
+  copy(into.tracks, std::span<const Track>(loop.tracker().tracks()));
+  copy(into.standing, std::span<const Stander>(loop.tracker().standing()));
+  into.plan = loop.plan();
+  into.movers.clear();
+  if (loop.motion() == nullptr) return;
+  const motion::Futures& futures = loop.motion()->futures();
+  for (std::size_t mover = 0; mover < futures.movers(); ++mover) {
+    if (futures.is_surface(mover)) continue;
+    if (!into.movers.push_back(shown(futures, mover))) break;
+  }
+}
+
+void SnapshotTap::offer(const TickRecord& record, const ControlLoop& loop) noexcept {
+  if (!wanted_ || (taken_ != kNever && age(taken_, record.now) < kTakeEvery)) return;
+  ViewSnapshot* const slot = snapshots_.draft();
+  if (slot == nullptr) return;
+  take(*slot, record, loop);
+  taken_ = record.now;
+  snapshots_.publish();
+}
+
+}  // namespace jaywalk::view

@@ -1,0 +1,53 @@
+#pragma once
+// What the live page shows of a tick, as plain values: copied in the loop's thread, shown by another.
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+#include "firmware/control_loop.h"
+#include "firmware/recording/tick_record.h"
+#include "firmware/robot/ring.h"
+#include "planner/prediction/futures.h"
+
+namespace jaywalk::view {
+
+/// Of the planner's sampled futures as many are shown as the eye can tell apart.
+inline constexpr std::size_t kShownFutures = 8;
+/// Now and in 1, 2, 3 and 4 s.
+inline constexpr std::array<int, 5> kShownSteps{0, 5, 10, 15, 20};
+
+/// Where one mover is in the sampled futures, m in the map.
+struct ShownMover {
+  float radius_m = 0.0F;
+  std::array<std::array<Place, kShownSteps.size()>, kShownFutures> at{};
+};
+
+/// Memory of a fixed size. `plan.guide` points into the planner: not to be followed.
+struct ViewSnapshot {
+  TickRecord record;
+  FixedVector<Track, kMaxTracks> tracks;
+  FixedVector<Stander, kMaxTracks> standing;
+  FixedVector<ShownMover, motion::kMostMovers> movers;  ///< that walk or may; none without motion over futures
+  Plan plan;
+};
+
+/// Copies; allocates nothing, waits for nothing. Thread: the loop's.
+void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop) noexcept;
+
+/// Hands snapshots from the loop's thread to one that shows them, 25 a second. Neither waits: where the ring is full, a
+/// snapshot is left out. Memory in the constructor.
+class SnapshotTap {
+ public:
+  /// Loop's thread, after a tick.
+  void offer(const TickRecord& record, const ControlLoop& loop) noexcept;
+  /// The other thread: is anything wanted?
+  void want(bool wanted) noexcept { wanted_ = wanted; }
+  [[nodiscard]] Ring<ViewSnapshot, 4>& snapshots() noexcept { return snapshots_; }
+
+ private:
+  Ring<ViewSnapshot, 4> snapshots_;
+  std::atomic<bool> wanted_{false};
+  Time taken_ = kNever;  ///< the loop's thread's
+};
+
+}  // namespace jaywalk::view

@@ -1,0 +1,97 @@
+#include "apps/why/recorded_run.h"
+
+#include <cstdio>
+#include <utility>
+
+#include "firmware/recording/run_parts.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// Oldest first.
+std::vector<std::filesystem::path> recordings_of(const std::filesystem::path& run) {
+  if (!std::filesystem::is_directory(run)) return {run};
+  std::vector<std::filesystem::path> files;
+  for (const std::filesystem::path& part : parts_of(run)) files.push_back(part / "recording.jwr");
+  return files.empty() ? std::vector{run / "recording.jwr"} : files;
+}
+
+std::string said_of(int part, const TickRecord& first) {
+  const Pose2& at = first.pose.map_from_robot;
+  char text[240];
+  std::snprintf(text, sizeof text,
+                "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
+                "with nothing mapped, followed, planned or latched before",
+                part, to_seconds(first.now), at.x, at.y, at.heading);
+  return text;
+}
+
+}  // namespace
+
+RecordedRun::RecordedRun(const std::filesystem::path& run, FilePart place)
+    : files_(recordings_of(run)), reader_(std::make_unique<RecordingReader>(files_[0].string(), place)) {
+  file_ = is_in_parts() ? run : files_[0];
+  setup_ = setup_from_text(reader_->setup(), files_[0].string());
+  if (!reader_->next(record_))
+    throw StartupError(files_[0].string() + ": no whole tick in it", "take an undamaged copy of the recording");
+  if (!begins_anew()) return;
+  setup_.start = record_.pose.map_from_robot;
+  setup_.judges_motion = false;  // the wheels obeyed commands that a new run did not give
+  anew_ = said_of(setup_.part, record_);
+}
+
+std::filesystem::path RecordedRun::folder() const {
+  std::error_code missing;
+  const std::filesystem::path place = std::filesystem::canonical(files_[0], missing).parent_path();
+  return part_number(place) > 0 ? place.parent_path() : place;
+}
+
+bool RecordedRun::lies_in(const std::filesystem::path& folder) const {
+  std::error_code missing;
+  for (const std::filesystem::path& file : files_) {
+    const std::filesystem::path place = std::filesystem::canonical(file, missing).parent_path();
+    if (std::filesystem::equivalent(place, folder, missing)) return true;
+  }
+  return std::filesystem::equivalent(this->folder(), folder, missing);
+}
+
+double RecordedRun::share_read() const {
+  return (static_cast<double>(opened_ - 1) + reader_->share_read()) / static_cast<double>(files_.size());
+}
+
+bool RecordedRun::step() {
+  if (!std::exchange(begun_, true)) return true;  // the first, which is read already
+  while (!reader_->next(record_)) {
+    if (!reader_->warning().empty() || !open_next()) return false;
+  }
+  return true;
+}
+
+bool RecordedRun::open_next() {
+  const bool is_last = opened_ + 1 == files_.size();
+  if (opened_ == files_.size() || (is_last && has_nothing(files_[opened_]))) return false;
+  reader_ = std::make_unique<RecordingReader>(files_[opened_++].string());
+  return true;
+}
+
+std::string RecordedRun::remarks(std::uint64_t different, const std::string& does) const {
+  std::string text = anew_.empty() ? "" : "jaywalk: " + file_.string() + ": " + anew_ + "\n";
+  if (!reader_->warning().empty()) text += "jaywalk: " + reader_->warning() + "\n";
+  if (different > 0) {
+    text += "jaywalk: " + file_.string() + ": this program " + does + " otherwise in " + std::to_string(different) +
+            " ticks; what is told is its own\n";
+  }
+  return text;
+}
+
+bool SeenRun::step() {
+  if (!run_.step()) return false;
+  (void)estimator_.update(last());
+  estimator_.forget_where_stuck(last());
+  estimator_.end_tick(last());
+  if (estimator_.pose().map_from_robot != last().pose.map_from_robot) ++different_;
+  return true;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,124 @@
+#include "apps/why/why_command.h"
+
+#include <cmath>
+#include <cstdio>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "apps/why/relived_run.h"
+#include "apps/why/why_decision.h"
+#include "apps/why/why_words.h"
+#include "apps/report/picture/picture.h"
+#include "apps/report/picture/scene.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kShown_m = 8.0;  // to each side of the robot
+
+[[noreturn]] void refuse_time(const RelivedRun& run, Time first, Time last) {
+  char span[64];
+  std::snprintf(span, sizeof span, "give a time from %.2f to %.2f s", to_seconds(first), to_seconds(last));
+  throw StartupError(run.file().string() + ": has nothing of that time", span);
+}
+
+/// How robot and bodies went until the moment.
+struct Past {
+  DrivenWay driven;
+  TrailBook bodies;
+
+  void add(const RelivedRun& run) {
+    const TickRecord& t = run.last();
+    driven.add(t.now, t.pose.map_from_robot);
+    for (const Track& track : run.loop().tracker().tracks())
+      bodies.add(track.id, t.now, track.position_in_map, track.radius_m, track.moving);
+  }
+  /// Of those who are followed now.
+  [[nodiscard]] std::vector<Trail> trails(const RelivedRun& run) const {
+    std::vector<Trail> known;
+    for (const Trail& trail : bodies.trails()) {
+      for (const Track& track : run.loop().tracker().tracks())
+        if (track.id == trail.id) known.push_back(trail);
+    }
+    return known;
+  }
+};
+
+/// Lives through it up to that time.
+Past relive(RelivedRun& run, double until_s) {
+  Past past;
+  bool any = run.step();
+  const Time first = run.last().now;
+  for (; any && to_seconds(run.last().now) < until_s - 1e-6; any = run.step()) past.add(run);
+  if (any && until_s < to_seconds(first) - 1e-6)
+    while (run.step()) any = false;
+  if (!any) refuse_time(run, first, run.last().now);
+  past.add(run);
+  return past;
+}
+
+/// The last decision, and the guide in the place of potential and path, which motion did not look at.
+void show_decision(const RelivedRun& run, PictureScene& scene) {
+  const motion::MotionPlanner* motion = run.loop().motion();
+  if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
+  scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan().guide));
+  if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
+  scene.moment->band.clear();
+  scene.moment->field = raster_of(run.loop().plan().guide, run.setup().model.footprint.inscribed_radius_m());
+}
+
+PictureScene scene_of(const RelivedRun& run, const Past& past) {
+  const TickRecord& t = run.last();
+  const ControlLoop& loop = run.loop();
+  const auto tracks = loop.tracker().tracks();
+  char title[64];
+  std::snprintf(title, sizeof title, "why, at %.2f s", to_seconds(t.now));
+  BusiestMoment moment;
+  moment.consider(loop.plan(), run.planner(), {tracks.begin(), tracks.size()}, t.pose.map_from_robot);
+  PictureScene scene;
+  scene.title = title;
+  const std::string reasons = to_string(t.verdict.reasons);
+  scene.facts = {{"reasons", reasons.empty() ? "none" : reasons}};
+  scene.driven = past.driven.poses();
+  scene.tracks = past.trails(run);
+  scene.occupied = occupied_cells(loop.tracker().still(), scene.driven, kShown_m);
+  scene.cell_m = loop.tracker().still().cell_m();
+  scene.moment = moment.moment();
+  show_decision(run, scene);
+  if (t.input.has_goal) scene.goal = t.input.goal_in_map;
+  scene.footprint = run.setup().model.footprint;
+  const Vec2 here = t.pose.map_from_robot.position(), reach{kShown_m, kShown_m};
+  scene.extent = {here - reach, here + reach};
+  return scene;
+}
+
+/// Returns the picture, or nothing where none can be drawn.
+std::optional<std::filesystem::path> save(const PictureScene& scene, const std::filesystem::path& folder) {
+  std::error_code failed;
+  std::filesystem::create_directories(folder, failed);
+  if (failed) throw StartupError(folder.string() + ": cannot be made: " + failed.message(), "choose another --out");
+  if (!can_draw_pictures()) return std::nullopt;
+  draw_picture(scene, (folder / "why.png").string());
+  return folder / "why.png";
+}
+
+}  // namespace
+
+int run_why(const WhyOptions& options) {
+  RecordedRun recorded(options.run);
+  RelivedRun run(recorded);
+  if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
+  const Past past = relive(run, options.at_s);
+  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
+  if (const motion::MotionPlanner* motion = run.loop().motion(); motion != nullptr && motion->decision().at != kNever) {
+    write_alternatives(motion->alternatives(run.loop().plan().guide), (options.out / "why.csv").string());
+  }
+  std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);
+  std::fputs(run.remarks().c_str(), stderr);
+  if (drawn) std::printf("See %s\n", drawn->c_str());
+  return 0;
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,134 @@
+#include "apps/why/why_decision.h"
+
+#include <array>
+#include <cstdio>
+#include <limits>
+#include <utility>
+
+#include "apps/report/csv_file.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr float kWorthSaying_s = 0.05F;
+
+/// The terms beside the time, in the order of the table's columns.
+std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) {
+  return {{{"of meeting somebody", cost.conflict},
+           {"of touching", cost.touch},
+           {"of being braked", cost.stop_zone},
+           {"near walls", cost.clearance},
+           {"over unseen ground", cost.unseen},
+           {"near people", cost.nearness},
+           {"of comfort", cost.comfort}}};
+}
+
+std::string seconds(float value, const char* what) {
+  char words[64];
+  std::snprintf(words, sizeof words, "%.1f s %s", static_cast<double>(value), what);
+  return words;
+}
+
+Vec2 place_of(const motion::RobotState& s) { return {static_cast<double>(s.x), static_cast<double>(s.y)}; }
+
+std::vector<Vec2> way_of(const motion::RobotState& start,
+                         const std::array<motion::RobotState, motion::kSteps>& driven) {
+  std::vector<Vec2> way{place_of(start)};
+  for (const motion::RobotState& s : driven) way.push_back(place_of(s));
+  return way;
+}
+
+}  // namespace
+
+DecisionScene scene_of(const motion::MotionPlanner& motion, const std::vector<motion::Alternative>& alternatives) {
+  constexpr int kEvery = 5;  // steps: a second
+  const motion::Decision& decision = motion.decision();
+  DecisionScene scene;
+  for (const motion::Alternative& a : alternatives)
+    scene.ways.push_back({way_of(decision.start, a.driven), a.cost.total()});
+  scene.chosen = way_of(decision.start, decision.driven);
+  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
+    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
+      const motion::MoverAt& at = motion.futures().at(step, m);
+      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
+      for (int k = 0; k < motion::kFutures; ++k)
+        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
+    }
+  }
+  return scene;
+}
+
+FieldRaster raster_of(const Guide& guide, double inscribed_m) {
+  const auto cell = static_cast<double>(guide.cell_m);
+  FieldRaster raster{
+      {static_cast<double>(guide.low_x), static_cast<double>(guide.low_y)}, guide.side, guide.side, cell, {}};
+  for (std::int32_t c = 0; c < guide.side * guide.side; ++c) {
+    const float x = guide.low_x + (static_cast<float>(c % guide.side) + 0.5F) * guide.cell_m;
+    const float y = guide.low_y + (static_cast<float>(c / guide.side) + 0.5F) * guide.cell_m;
+    const float there = guide.to_go_s[c];
+    const bool is_free = static_cast<double>(guide.distance(x, y)) > inscribed_m;
+    raster.psi.push_back(there < Guide::kNoWay_s ? there
+                         : is_free               ? std::numeric_limits<float>::infinity()
+                                                 : std::numeric_limits<float>::quiet_NaN());
+  }
+  return raster;
+}
+
+/// The name of an attempt in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.
+std::pair<const char*, const char*> names_of(motion::Attempt attempt) {
+  using motion::Attempt;
+  switch (attempt) {
+    case Attempt::kLast:
+      return {"last", "go on as decided before"};
+    case Attempt::kFollow:
+      return {"follow", "follow the way"};
+    case Attempt::kWaitThenGo:
+      return {"wait_then_go", "wait and then go"};
+    case Attempt::kGoThenStop:
+      return {"go_then_stop", "go and then stop"};
+    case Attempt::kArc:
+      return {"arc", "drive an arc"};
+    case Attempt::kArcBack:
+      return {"arc_back", "back off in an arc"};
+    case Attempt::kArcThenFollow:
+      return {"arc_then_follow", "drive an arc, then follow the way"};
+    case Attempt::kBackThenFollow:
+      return {"back_then_follow", "back off, then follow the way"};
+    case Attempt::kWish:
+      return {"wish", "drive as the stick asks"};
+    case Attempt::kGoStraight:
+      return {"go_straight", "turn and drive straight on"};
+  }
+  return {"unknown", "do something unknown"};
+}
+
+const char* name_of(motion::Attempt attempt) { return names_of(attempt).second; }
+
+std::string in_words(const motion::Cost& cost) {
+  std::string words = seconds(cost.time, "to the goal");
+  for (const auto& [what, value] : terms_of(cost)) {
+    if (value >= kWorthSaying_s) words += ", " + seconds(value, what);
+  }
+  return words;
+}
+
+void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {
+  CsvFile table(file,
+                "attempt,perturbed,total_s,time_s,conflict_s,touch_s,stop_zone_s,clearance_s,unseen_s,nearness_s,"
+                "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
+  const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
+  for (const motion::Alternative& a : alternatives) {
+    table.text(names_of(a.trajectory.attempt).first).count(a.trajectory.perturbed ? 1 : 0);
+    number(a.cost.total());
+    number(a.cost.time);
+    for (const auto& term : terms_of(a.cost)) number(term.second);
+    const motion::RobotState& end = a.driven.back();
+    for (const float value : {end.x, end.y, end.heading, end.v}) number(value);
+    number(a.trajectory.commands.front().v);
+    number(a.trajectory.commands.front().w);
+    table.end_row();
+  }
+  (void)table.close();
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,114 @@
+#include "firmware/program/robot_commands.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
+#include <string>
+#include <vector>
+
+#include "firmware/program/choice_option.h"
+#include "firmware/program/parts_option.h"
+#include "firmware/program/run_command.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/goal_order.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+RunOptions run_options;
+std::filesystem::path socket_path;
+std::vector<std::string> goal;
+bool now = false, as_json = false;
+
+void add_socket(CLI::App* command) {
+  command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
+}
+
+/// Prints what the run answers; 1 where it refuses.
+int say(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  const bool refused = answer.starts_with("refused");
+  std::fputs(answer.c_str(), refused ? stderr : stdout);
+  return refused ? 1 : 0;
+}
+
+/// The answer's lines "key: value" as one object.
+int say_as_json(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  if (answer.starts_with("refused")) return std::fputs(answer.c_str(), stderr), 1;
+  nlohmann::ordered_json json;
+  std::istringstream lines(answer);
+  for (std::string said; std::getline(lines, said);) {
+    const std::size_t colon = said.find(": ");
+    if (colon != std::string::npos) json[said.substr(0, colon)] = said.substr(colon + 2);
+  }
+  std::printf("%s\n", json.dump(1).c_str());
+  return 0;
+}
+
+int say_goal() {
+  std::string words;
+  for (const std::string& word : goal) words += " " + word;
+  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say("goto" + words);
+  return say("goto " + words_of(read_goal_order(words)));
+}
+
+void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
+  CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
+  run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  add_backend(*run, run_options.backend, run_options.device);
+  run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
+  run->add_flag("--save-map", run_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  run->add_option("--runs", run_options.runs, "Folder in which each run gets one of its own, instead of --out");
+  run->add_option("--keep-runs", run_options.kept.runs, "How many runs are kept below --runs, this one included")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  run->add_option("--keep-bytes", run_options.kept.bytes, "How much past runs below --runs may take, in bytes")
+      ->capture_default_str();
+  add_parts(*run, run_options.parts);
+  run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
+                "Start although the kernel refuses real-time priority or locked memory");
+  run->callback([&exit_code, &make_observer] { exit_code = run_robot(run_options, make_observer); });
+}
+
+void add_check(CLI::App& app, int& exit_code) {
+  CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
+  check->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  add_backend(*check, run_options.backend, run_options.device);
+  check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, said");
+  check->callback([&exit_code] { exit_code = check_robot(run_options); });
+}
+
+}  // namespace
+
+void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
+  add_run(app, exit_code, make_observer);
+  add_check(app, exit_code);
+  CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
+  go->add_option(
+        "goal", goal,
+        "X,Y [HEADING] in the map (m, rad; any heading where none is given), or names of places, one after the other")
+      ->delimiter(',')
+      ->expected(1, static_cast<int>(Route::capacity()))
+      ->required();
+  add_socket(go);
+  go->callback([&exit_code] { exit_code = say_goal(); });
+  CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
+  stop->add_flag("--now", now, "As an emergency: brake hard, and latch until a reset");
+  add_socket(stop);
+  stop->callback([&exit_code] { exit_code = say(now ? "stop now" : "stop"); });
+  CLI::App* reset = app.add_subcommand("reset", "After a fault that stopped a run: let it move again");
+  add_socket(reset);
+  reset->callback([&exit_code] { exit_code = say("reset"); });
+  CLI::App* status = app.add_subcommand("status", "Ask a run how it goes");
+  add_socket(status);
+  status->add_flag("--json", as_json, "As JSON: an object with a text for each line");
+  status->callback([&exit_code] { exit_code = as_json ? say_as_json("status") : say("status"); });
+}
+
+}  // namespace jaywalk

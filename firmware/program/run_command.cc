@@ -1,0 +1,237 @@
+#include "firmware/program/run_command.h"
+
+#include <signal.h>
+#include <time.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <memory>
+#include <nlohmann/json.hpp>
+
+#include "drivers/can/restart_link.h"
+#include "firmware/recording/map_files.h"
+#include "firmware/robot/armed_mark.h"
+#include "firmware/robot/commissioned.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/device_report.h"
+#include "firmware/robot/known_map_file.h"
+#include "firmware/robot/no_pose_source.h"
+#include "firmware/robot/operator_controls.h"
+#include "firmware/robot/planner_thread.h"
+#include "firmware/robot/preflight.h"
+#include "firmware/robot/robot_devices.h"
+#include "firmware/robot/robot_loop.h"
+#include "firmware/robot/service_manager.h"
+#include "firmware/robot/steady_clock.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+/// SAFETY: a stall of the loop that is longer than this stops the drives, whatever else happens.
+constexpr Duration kLongestStall = std::chrono::milliseconds(100);
+constexpr long kReportPeriod_ns = 20'000'000;
+
+/// SIGINT and SIGTERM wait from now on, here and in threads to come, until they are asked for.
+class EndSignals {
+ public:
+  EndSignals() {
+    sigemptyset(&signals_);
+    sigaddset(&signals_, SIGINT);
+    sigaddset(&signals_, SIGTERM);
+    ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  }
+  /// Waits for one, kReportPeriod_ns at most.
+  [[nodiscard]] bool came() const {
+    const timespec limit{.tv_sec = 0, .tv_nsec = kReportPeriod_ns};
+    return ::sigtimedwait(&signals_, nullptr, &limit) > 0;
+  }
+
+ private:
+  sigset_t signals_{};
+};
+
+void remark(const std::string& text) { std::fprintf(stderr, "jaywalk: %s\n", text.c_str()); }
+
+/// What the loop's thread left for the report, and a line for a person where something happened.
+class LoopReport {
+ public:
+  LoopReport(LoopRunner& runner, RobotLoop& loop, TickObserver& observer)
+      : runner_(runner), loop_(loop), observer_(observer) {}
+
+  void follow() {
+    runner_.drain();
+    for (const TickTrace* t = loop_.traces().front(); t != nullptr; t = loop_.traces().front()) {
+      runner_.report({.record = t->record,
+                      .tracks = {t->tracks.begin(), t->tracks.size()},
+                      .truth = nullptr,
+                      .tick_took = t->took,
+                      .plan_ms = t->plan_ms});
+      tell(t->status);
+      last_ = t->status;
+      loop_.traces().pop();
+    }
+    observer_.follow();
+  }
+  [[nodiscard]] const RunStatus& last() const { return last_; }
+
+ private:
+  void tell(const RunStatus& now) const {
+    if (now.latched && !last_.latched) {
+      std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
+      remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
+    }
+    if (!now.latched && last_.latched) remark("reset; say anew where to go");
+    if (now.goal_reached && !last_.goal_reached) remark("goal reached");
+  }
+
+  LoopRunner& runner_;
+  RobotLoop& loop_;
+  TickObserver& observer_;
+  RunStatus last_;
+};
+
+/// The last run was killed or crashed on the way: this one waits for a person (SAFETY 6: no automatic restart).
+void latch_at_start(OperatorDesk& desk) {
+  static_cast<void>(desk.obey("stop now"));
+  remark("the last run ended without disarming the drives: latched; see to it, then jaywalk reset");
+}
+
+std::string outcome(const RunStatus& last) {
+  if (last.latched) return "fault";
+  return last.goal_reached ? "reached" : "stopped";
+}
+
+/// How far off the heading wanted at the last goal.
+std::optional<double> at_goal(const RunStatus& last) {
+  return std::isnan(last.heading_error_rad) ? std::nullopt : std::optional(last.heading_error_rad);
+}
+
+std::filesystem::path socket_for(const RunOptions& options, const RobotFile& file) {
+  if (!options.control_socket.empty()) return options.control_socket;
+  return file.control_socket.empty() ? default_control_socket() : file.control_socket;
+}
+
+/// [{"part": "file", "ok": true, "said": "..."}, ...]
+void print_json(const std::vector<CheckedPart>& parts) {
+  nlohmann::ordered_json rows = nlohmann::ordered_json::array();
+  for (const CheckedPart& part : parts)
+    rows.push_back({{"part", part.part}, {"ok", part.is_well}, {"said", part.said}});
+  std::printf("%s\n", rows.dump(1).c_str());
+}
+
+/// With a map and no start: where the first scan was taken.
+void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& clock) {
+  if (!file.setup.known_map || file.knows_start) return;
+  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock);
+  await_first_scan(*laser, file, clock);
+  LaserScan scan = laser->latest();
+  blank(file.setup.model.laser.blanked, scan);
+  file.setup.start = located_on(*file.setup.known_map, scan, file.setup.model.laser, path.string() + ": map: ");
+  file.setup.goal = file.setup.start.position();
+  const Pose2& start = file.setup.start;
+  char words[80];
+  std::snprintf(words, sizeof words, "found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
+  remark(words);
+}
+
+}  // namespace
+
+int run_robot(RunOptions options, const MakeObserver& make_observer) {
+  RobotFile file = load_robot_file(options.robot);
+  file.setup.backend = options.backend;
+  file.setup.device = options.device;
+  if (options.allow_no_realtime) file.realtime.required = false;
+  const std::string not_commissioned = require_commissioned(options.robot, file);
+  if (!not_commissioned.empty()) remark(not_commissioned);
+  std::optional<RunFolder> folder;
+  if (!options.runs.empty()) options.out = folder.emplace(options.runs, std::chrono::system_clock::now()).path();
+  ServiceManager service = ServiceManager::from_environment();
+  ArmedMark armed(socket_for(options, file));
+  SteadyClock clock;
+  locate_on_map(options.robot, file, clock);
+  RobotDevices devices(file, clock);
+  OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
+  OperatorDesk& desk = controls.desk();
+  const ControlSocket socket(
+      socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
+      order_priority(file.realtime));
+  const std::unique_ptr<TickObserver> observer = make_observer(options, file, socket_for(options, file));
+  NoPoseSource no_fixes;
+  LoopRunner runner(
+      file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out, true, *observer,
+      [&](std::unique_ptr<Planner> planner) {
+        return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
+      },
+      options.parts);
+  std::vector<std::string> not_permitted;
+  if (file.realtime.lock_memory) not_permitted = lock_memory();
+  StallGuard guard(devices.brake(), clock, kLongestStall);
+  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard,
+                 *observer);
+  for (const std::string& line : loop.prepare(file.realtime)) not_permitted.push_back(line);
+  require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
+  controls.start(order_priority(file.realtime));
+  devices.start();
+  armed.set();
+  const std::vector<std::string> proof = devices.drive().arm();
+  write_arming(options.out, proof);
+  if (folder) folder->keep(options.kept);
+
+  const EndSignals signals;
+  if (armed.was_left()) latch_at_start(desk);
+  guard.start(guard_priority(file.realtime));
+  loop.start();
+  for (const std::string& line : not_permitted) remark(line);
+  remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
+  service.ready();
+
+  LoopReport report(runner, loop, *observer);
+  while (!loop.has_ended()) {
+    report.follow();
+    service.alive(report.last().ticks, clock.now());
+    if (!signals.came()) continue;
+    service.stopping();
+    loop.end();
+  }
+  service.loop_has_ended();
+  report.follow();
+  const RunStatus& last = report.last();
+  const std::filesystem::path shown =
+      runner.finish({.outcome = outcome(last),
+                     .success = outcome(last) == "reached",
+                     .heading_error_rad = at_goal(last),
+                     .missed_ticks = last.missed_ticks,
+                     .loop_times = &loop.times(),
+                     .scenario = options.robot.filename().string(),
+                     .title = options.robot.filename().string() + ": " + outcome(last)});
+  write_devices(options.out, file.drive, last, not_permitted);
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  remark("disarmed; " + outcome(last) + "; see " + shown.string());
+  return last.latched ? 1 : 0;
+}
+
+int check_robot(const RunOptions& options) {
+  RobotFile file = load_robot_file(options.robot);
+  file.setup.backend = options.backend;
+  file.setup.device = options.device;
+  const CommissioningRecord record = read_commissioned(options.robot, file);
+  std::vector<CheckedPart> parts{{"file", true, options.robot.string()},
+                                 {"commissioned", record.state != Commissioned::kFailed, record.said}};
+  SteadyClock clock;
+  for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) parts.push_back(part);
+  if (options.json) {
+    print_json(parts);
+  } else {
+    for (const CheckedPart& part : parts)
+      std::printf("%-4s  %-15s %s\n", part.is_well ? "ok" : "FAIL", part.part.c_str(), printable(part.said).c_str());
+  }
+  return std::all_of(parts.begin(), parts.end(), [](const CheckedPart& part) { return part.is_well; }) ? 0 : 1;
+}
+
+}  // namespace jaywalk

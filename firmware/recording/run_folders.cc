@@ -1,0 +1,84 @@
+#include "firmware/recording/run_folders.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <ctime>
+#include <regex>
+#include <string>
+#include <vector>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk {
+namespace {
+
+std::string name_of(std::chrono::system_clock::time_point now) {
+  const std::time_t seconds = std::chrono::system_clock::to_time_t(now);
+  std::tm utc{};
+  ::gmtime_r(&seconds, &utc);
+  char name[32];
+  std::strftime(name, sizeof name, "%Y-%m-%dT%H-%M-%SZ", &utc);
+  return name;
+}
+
+std::uintmax_t bytes_in(const std::filesystem::path& folder) {
+  std::uintmax_t bytes = 0;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder, ignored)) {
+    const std::uintmax_t size = entry.is_regular_file(ignored) ? entry.file_size(ignored) : 0;
+    if (!ignored) bytes += size;
+  }
+  return bytes;
+}
+
+/// Oldest first: their names are their times.
+std::vector<std::filesystem::path> past_runs(const std::filesystem::path& all) {
+  static const std::regex kName(R"(\d{4}-\d\d-\d\dT\d\d-\d\d-\d\dZ(-\d+)?)");
+  std::vector<std::filesystem::path> runs;
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(all, ignored)) {
+    if (entry.is_directory(ignored) && std::regex_match(entry.path().filename().string(), kName))
+      runs.push_back(entry.path());
+  }
+  std::sort(runs.begin(), runs.end());
+  return runs;
+}
+
+/// Of `runs`, oldest first, how many of the newest may stay beside a new one.
+std::size_t number_kept(const std::vector<std::filesystem::path>& runs, const RunsKept& kept) {
+  std::uintmax_t bytes = 0;
+  std::size_t newest = 0;
+  for (auto run = runs.rbegin(); run != runs.rend(); ++run, ++newest) {
+    bytes += bytes_in(*run);
+    if (bytes > kept.bytes || static_cast<int>(newest) + 1 >= kept.runs) break;
+  }
+  return newest;
+}
+
+}  // namespace
+
+RunFolder::RunFolder(const std::filesystem::path& all, std::chrono::system_clock::time_point now) {
+  const std::string name = name_of(now);
+  std::error_code error;
+  for (int k = 1; path_.empty(); ++k) {
+    const std::filesystem::path folder = all / (k == 1 ? name : name + "-" + std::to_string(k));
+    if (std::filesystem::create_directories(folder, error)) path_ = folder;
+    if (error) throw StartupError(folder.string() + ": " + error.message(), "give --runs a folder that can be written");
+  }
+}
+
+RunFolder::~RunFolder() {
+  std::error_code ignored;
+  if (!kept_) std::filesystem::remove_all(path_, ignored);
+}
+
+void RunFolder::keep(const RunsKept& kept) noexcept {
+  kept_ = true;
+  std::vector<std::filesystem::path> others = past_runs(path_.parent_path());
+  std::erase(others, path_);
+  const std::size_t too_many = others.size() - number_kept(others, kept);
+  std::error_code ignored;
+  for (std::size_t k = 0; k < too_many; ++k) std::filesystem::remove_all(others[k], ignored);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,79 @@
+#pragma once
+// What a report is told after each tick, and at the end.
+#include <cstdint>
+#include <filesystem>
+#include <limits>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "firmware/loop_times.h"
+#include "firmware/recording/tick_record.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
+#include "planner/tracking/track.h"
+
+namespace jaywalk {
+
+class ControlLoop;
+class Planner;
+
+/// A mover as it really is.
+struct TrueMover {
+  std::uint32_t id = 0;
+  Vec2 position_in_map;
+  Vec2 velocity_in_map;
+  double radius_m = 0.0;
+  bool forced = false;
+};
+
+/// What is really so at the tick: a simulation knows, a robot does not. Counts are so far.
+struct TrueState {
+  Pose2 map_from_robot;
+  Twist2 twist;
+  std::span<const TrueMover> movers;
+  double clearance_m = std::numeric_limits<double>::infinity();        ///< footprint to anything; 0 in contact
+  double mover_clearance_m = std::numeric_limits<double>::infinity();  ///< footprint to the nearest mover
+  std::uint32_t contacts = 0;
+  std::uint32_t contacts_caused = 0;
+  std::uint32_t forced_movers = 0;
+};
+
+/// One tick, seen from outside the loop. Everything referred to outlives the call only.
+struct RunSample {
+  const TickRecord& record;
+  std::span<const Track> tracks = {};  ///< as the controller believes after this tick
+  const TrueState* truth = nullptr;    ///< null in a replay
+  Duration tick_took{0};               ///< measured
+  std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
+  Time now = record.now;  ///< as tables are to say it, here and below: a recording may have a clock of its own
+  Time scanned = record.scan.stamp;   ///< the scan's
+  const ControlLoop* loop = nullptr;  ///< where the loop's own thread reports, else null
+  const Planner* planner = nullptr;   ///< the same
+};
+
+/// How it ended and under which conditions.
+struct RunEnd {
+  std::string outcome = {};  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
+  bool success = false;
+  std::optional<double> static_shortest_path_m = {};
+  std::optional<double> heading_error_rad = {};    ///< at the end, where a heading was wanted at the goal
+  std::optional<double> found_mount_yaw_rad = {};  ///< of the laser, where a replay found it by matching
+  std::uint64_t missed_ticks = 0;
+  std::uint64_t dropped_records = 0;
+  std::vector<std::string> not_recorded = {};  ///< what the disk did not take beside the tables, a line each
+  const LoopTimes* loop_times = nullptr;       ///< of a robot's loop; null elsewhere
+  std::string backend = {};
+  std::string mode = {};
+  std::optional<std::uint64_t> seed = {};
+  std::string scenario = {};
+  std::vector<std::string> settings = {};  ///< KEY=VALUE each, given in place of the scenario's own
+  std::string version = {};
+  std::string planner = {};              ///< empty but in a simulation
+  std::string mover_rule = {};           ///< empty where no wandering rule was in force
+  std::string title = {};                ///< of the picture
+  std::filesystem::path recording = {};  ///< where one was made, whole; else empty
+};
+
+}  // namespace jaywalk

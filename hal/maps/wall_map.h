@@ -1,0 +1,61 @@
+#pragma once
+// What a map file says: where the walls are. Three kinds of file give the same thing.
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+#include "hal/maps/shapes.h"
+#include "hal/types/geometry.h"
+
+namespace jaywalk::sim {
+
+enum class MapKind { kYaml, kAria, kCylinders };
+
+/// Square cells, some of them solid. Row 0 is the lowest, column 0 the leftmost in the raster's frame.
+struct Raster {
+  Pose2 map_from_raster;
+  double cell_m = 0.0;
+  std::int32_t width = 0;
+  std::int32_t height = 0;
+  std::vector<std::uint8_t> solid;   ///< width x height, row by row; 1: wall
+  std::vector<std::uint8_t> free{};  ///< the same; 1: known to be none, below free_thresh. Empty for a bare picture
+
+  /// False outside the raster.
+  [[nodiscard]] bool solid_cell(std::int32_t column, std::int32_t row) const noexcept {
+    if (column < 0 || row < 0 || column >= width || row >= height) return false;
+    return solid[static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column)];
+  }
+  /// Of a cell inside.
+  [[nodiscard]] bool free_cell(std::int32_t column, std::int32_t row) const noexcept {
+    const std::size_t cell =
+        static_cast<std::size_t>(row) * static_cast<std::size_t>(width) + static_cast<std::size_t>(column);
+    return cell < free.size() && free[cell] != 0;
+  }
+};
+
+struct WallMap {
+  std::vector<WallSegment> segments;
+  std::vector<Disc> discs;
+  Raster raster;  ///< empty unless the file is a picture; its segments are the edges of its solid cells
+};
+
+/// Throws StartupError "FILE:LINE: cause; remedy" for a file that cannot be read or makes no sense.
+[[nodiscard]] WallMap load_wall_map(MapKind kind, const std::filesystem::path& file);
+
+/// What a map is read from: the file itself and, of a raster map, its picture. Throws as load_wall_map() does.
+[[nodiscard]] std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file);
+
+/// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode trinary. A cell is a
+/// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls.
+[[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file);
+/// The picture that such a file names.
+[[nodiscard]] std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file);
+/// MobileSim's text map in millimetres: its LINES are walls; when it has none, its DATA points are, as discs.
+[[nodiscard]] WallMap load_aria_map(const std::filesystem::path& file);
+/// One cylinder a line: x y radius (m); # starts a comment.
+[[nodiscard]] WallMap load_cylinder_map(const std::filesystem::path& file);
+
+/// The straight edges between solid and open cells, each as long as it can be.
+[[nodiscard]] std::vector<WallSegment> edges_of(const Raster& raster);
+
+}  // namespace jaywalk::sim

@@ -1,0 +1,93 @@
+#pragma once
+#include <cstdint>
+#include <string_view>
+
+#include "drivers/can/can_bus.h"
+#include "hil/emulators/drive_objects.h"
+
+namespace jaywalk::emulators {
+
+/// A CANopen drive with a motor that follows its ramps exactly: SDO server, PDOs at SYNC as they are mapped, heartbeat
+/// both ways, the CiA 402 state machine as a drive sees it. For tests and the bench; it shares no code with the master
+/// that it talks to, except how numbers stand in bytes.
+///
+/// Network states (CiA 301): after power-up it says boot-up and is Pre-operational. Outside Operational it takes and
+/// sends no PDO, Stopped it answers no SDO either, and in none of them does that by itself stop the motor, which goes
+/// on at the last target. What stops it is its watch over the controller's heartbeat (1016h, 6007h), in every state.
+class Cia402Node {
+ public:
+  /// `bus` outlives it; `node` is 1 to 127.
+  Cia402Node(CanBus& bus, std::uint8_t node) noexcept : bus_(bus), node_(node) {}
+
+  /// Takes what came in and moves the motor on to `now`.
+  void step(Time now) noexcept;
+
+  [[nodiscard]] DriveObjects& objects() noexcept { return objects_; }
+  [[nodiscard]] double velocity() const noexcept { return velocity_; }  ///< counts/s
+  [[nodiscard]] double position() const noexcept { return position_; }  ///< counts
+  [[nodiscard]] bool is_enabled() const noexcept { return state_ == State::kOperationEnabled; }
+  [[nodiscard]] std::string_view state_name() const noexcept;
+  /// When the controller's heartbeat came in last; kNever before the first and once it is missed.
+  [[nodiscard]] Time heard_controller() const noexcept { return heard_controller_; }
+  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): counts/s and counts.
+  void measure(double velocity, double position) noexcept;
+
+  /// Something broke: it brakes, says so in an emergency message and waits in "fault".
+  void raise_fault(std::uint16_t error_code) noexcept;
+  /// Power lost and back: forgets what was not stored, no torque; the motor rolls out.
+  void restart() noexcept;
+  /// From now on it goes Operational by itself after a restart (as 1F80h can have it).
+  void start_by_itself() noexcept { starts_by_itself_ = true; }
+  /// Its inner loop hangs: it goes on at its last target whatever it is told, but what watches the heartbeat works.
+  void hang() noexcept { hangs_ = true; }
+  /// It sends no process data any more, and all else works.
+  void lose_feedback() noexcept { reports_ = false; }
+  /// No more frames out, as when its cable is pulled; frames in are lost too.
+  void pull_cable() noexcept { connected_ = false; }
+  void plug_cable() noexcept { connected_ = true; }
+
+ private:
+  enum class State { kSwitchOnDisabled, kReady, kSwitchedOn, kOperationEnabled, kQuickStop, kFaultReaction, kFault };
+
+  /// Its network state (CiA 301), as its heartbeat says it.
+  enum class Network : std::uint8_t { kStopped = 0x04, kOperational = 0x05, kPreOperational = 0x7F };
+
+  void take(const CanFrame& frame, Time now) noexcept;
+  void take_network_command(std::uint8_t command) noexcept;
+  [[nodiscard]] bool take_request(const CanFrame& frame) noexcept;
+  void take_targets(const CanFrame& frame) noexcept;
+  void boot() noexcept;
+  void on_sync() noexcept;
+  void show() noexcept;
+  void transmit(std::uint16_t communication, std::uint16_t mapping) noexcept;
+  void obey(std::uint16_t controlword) noexcept;
+  void watch_controller(Time now) noexcept;
+  void lose_controller() noexcept;
+  void move(double seconds) noexcept;
+  void say_heartbeat(Time now) noexcept;
+  void send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept;
+  void send_emergency(std::uint16_t error_code) noexcept;
+  [[nodiscard]] std::uint16_t statusword() const noexcept;
+
+  CanBus& bus_;
+  std::uint8_t node_;
+  DriveObjects objects_;
+  State state_ = State::kSwitchOnDisabled;
+  Network network_ = Network::kPreOperational;
+  bool booted_ = false;  ///< and has said so
+  bool starts_by_itself_ = false, hangs_ = false, reports_ = true;
+  bool connected_ = true;
+  std::uint16_t pending_controlword_ = 0;  ///< of the last PDO, until SYNC
+  std::int32_t pending_target_ = 0;
+  std::uint16_t last_controlword_ = 0;
+  double velocity_ = 0.0;
+  double friction_ = 100.0;  ///< counts/s2: a tenth of the ramp with which it drove last
+  double position_ = 0.0;
+  bool has_encoder_ = false;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
+  Time stepped_ = kNever;
+  Time said_heartbeat_ = kNever;
+  Time heard_controller_ = kNever;
+};
+
+}  // namespace jaywalk::emulators

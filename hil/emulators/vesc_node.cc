@@ -1,0 +1,177 @@
+#include "hil/emulators/vesc_node.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "drivers/wire/byte_reader.h"
+
+namespace jaywalk::emulators {
+
+namespace {
+
+constexpr double kRamp_erpm_per_s = 30000.0;
+constexpr double kRollOut_erpm_per_s = 1500.0;
+constexpr std::size_t kSettingsBytes = 300;  ///< some firmware has more, some fewer
+constexpr Duration kStatusPeriod = std::chrono::milliseconds(10);
+
+double towards(double from, double to, double most) noexcept {
+  return from < to ? std::min(from + most, to) : std::max(from - most, to);
+}
+
+/// Remainder of x^16 + x^12 + x^5 + 1, by long division over all bits.
+std::uint16_t remainder_of(std::span<const std::uint8_t> bytes) {
+  unsigned rest = 0;
+  for (std::size_t bit = 0; bit < 8 * (bytes.size() + 2); ++bit) {
+    const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
+    rest = rest << 1U | next;
+    if ((rest & 0x10000U) != 0) rest ^= 0x11021U;
+  }
+  return static_cast<std::uint16_t>(rest);
+}
+
+}  // namespace
+
+void VescNode::set_timeout(std::uint32_t timeout_ms, float brake_current_a) noexcept {
+  timeout_ms_ = told_ms_ = timeout_ms;
+  brake_current_a_ = brake_current_a;
+}
+
+void VescNode::step(Time now) {
+  ReceivedFrame received;
+  while (bus_.receive(received)) {
+    if (connected_) take(received.frame, now);
+  }
+  const bool expired = timeout_ms_ > 0 && fed_ != kNever && now - fed_ > std::chrono::milliseconds(timeout_ms_);
+  if (expired) mode_ = brake_current_a_ > 0.0F ? Mode::kBrake : Mode::kCurrent;
+  if (stepped_ != kNever) move(to_seconds(now - stepped_));
+  stepped_ = now;
+  say(now);
+}
+
+void VescNode::take(const CanFrame& frame, Time now) {
+  if (!frame.extended || (frame.id & 0xFFU) != controller_) return;
+  const auto word = static_cast<std::int32_t>(wire::big_endian<std::uint32_t>(frame.bytes));
+  const bool is_order = frame.id >> 8U <= 3;
+  if (is_order) fed_ = now;
+  if (is_order && (deaf_ || (stuck_ && frame.id >> 8U == 3))) return;
+  switch (frame.id >> 8U) {
+    case 1:
+      mode_ = Mode::kCurrent;
+      return;
+    case 2:
+      mode_ = Mode::kBrake;
+      return;
+    case 3:
+      mode_ = Mode::kSpeed;
+      target_erpm_ = word;
+      return;
+    case 8:
+      return answer(frame.payload());
+    default:
+      return;
+  }
+}
+
+void VescNode::answer(std::span<const std::uint8_t> question) {
+  if (!answers_ || question.size() < 3) return;
+  if (question[2] == 17) send_settings(question[0]);
+  if (question[2] == 50 && question.size() == 7) {
+    const std::array<std::uint8_t, 8> told{controller_, 1,           50,          question[3],
+                                           question[4], question[5], question[6], fault_};
+    send(8, question[0], told);
+  }
+}
+
+void VescNode::send_settings(std::uint8_t to) {
+  std::vector<std::uint8_t> all(kSettingsBytes);
+  all[0] = 17;
+  wire::put_big_endian(std::uint32_t{0x1E0A3B5C}, std::span(all).subspan(1));
+  all[5] = controller_;
+  wire::put_big_endian(told_ms_, std::span(all).subspan(6));
+  wire::put_big_endian(std::bit_cast<std::uint32_t>(brake_current_a_), std::span(all).subspan(10));
+  for (std::size_t k = 14; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k);
+  const std::uint16_t sum = remainder_of(all);
+  if (damaged_) all[8] ^= 1U;
+  std::size_t at = 0;
+  for (; at < 256; at += 7) {
+    std::vector<std::uint8_t> piece{static_cast<std::uint8_t>(at)};
+    for (std::size_t k = at; k < std::min(at + 7, all.size()); ++k) piece.push_back(all[k]);
+    send(5, to, piece);
+  }
+  for (; at < all.size(); at += 6) {
+    std::vector<std::uint8_t> piece{static_cast<std::uint8_t>(at >> 8U), static_cast<std::uint8_t>(at)};
+    for (std::size_t k = at; k < std::min(at + 6, all.size()); ++k) piece.push_back(all[k]);
+    send(6, to, piece);
+  }
+  const std::array<std::uint8_t, 6> end{controller_,
+                                        1,
+                                        static_cast<std::uint8_t>(all.size() >> 8U),
+                                        static_cast<std::uint8_t>(all.size()),
+                                        static_cast<std::uint8_t>(sum >> 8U),
+                                        static_cast<std::uint8_t>(sum)};
+  send(7, to, end);
+}
+
+void VescNode::move(double seconds) noexcept {
+  const double before = erpm_;
+  const Mode mode = fault_ != 0 ? Mode::kCurrent : mode_;
+  const double target = mode == Mode::kSpeed ? target_erpm_ : 0.0;
+  erpm_ = towards(erpm_, target, (mode == Mode::kCurrent ? kRollOut_erpm_per_s : kRamp_erpm_per_s) * seconds);
+  position_ += 0.5 * (before + erpm_) / 60.0 * seconds;
+}
+
+void VescNode::say(Time now) noexcept {
+  if (said_ != kNever && now - said_ < kStatusPeriod) return;
+  said_ = now;
+  std::array<std::uint8_t, 8> bytes{};
+  const double felt = has_encoder_ ? 60.0 * encoder_velocity_ : erpm_;
+  wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)), bytes);
+  send(9, controller_, bytes);
+  if (!tells_travel_) return;
+  const auto sixths =
+      static_cast<std::int64_t>(std::floor(6.0 * (has_encoder_ ? encoder_position_ - encoder_zero_ : position_)));
+  wire::put_big_endian(static_cast<std::uint32_t>(sixths), bytes);
+  wire::put_big_endian(std::uint16_t{240}, std::span(bytes).subspan(4));
+  send(27, controller_, bytes);
+}
+
+void VescNode::measure(double velocity, double position) noexcept {
+  has_encoder_ = true;
+  encoder_velocity_ = velocity;
+  encoder_position_ = position;
+}
+
+void VescNode::restart() noexcept {
+  mode_ = Mode::kCurrent;
+  target_erpm_ = 0.0;
+  stuck_ = deaf_ = muted_ = false;
+  fed_ = kNever;
+  position_ = 0.0;
+  encoder_zero_ = encoder_position_;
+}
+
+std::string_view VescNode::state_name() const noexcept {
+  if (fault_ != 0) return "fault";
+  switch (mode_) {
+    case Mode::kSpeed:
+      return "enabled";
+    case Mode::kBrake:
+      return "braking";
+    case Mode::kCurrent:
+      break;
+  }
+  return "off";
+}
+
+void VescNode::send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept {
+  if (!connected_ || muted_) return;
+  CanFrame frame;
+  frame.id = command << 8U | id;
+  frame.extended = true;
+  frame.size = static_cast<std::uint8_t>(bytes.size());
+  std::copy(bytes.begin(), bytes.end(), frame.bytes.begin());
+  static_cast<void>(bus_.send(frame));
+}
+
+}  // namespace jaywalk::emulators

@@ -1,0 +1,19 @@
+#pragma once
+#include <memory>
+
+#include "hil/emulators/scanner_server.h"
+#include "firmware/robot/robot_file.h"
+
+namespace jaywalk::rig {
+
+/// The far end of a scanner's wire: a port of this machine, or a pseudo terminal in place of the serial device. Throws
+/// StartupError where it cannot be.
+[[nodiscard]] std::unique_ptr<emulators::ByteServer> make_far_wire(const LaserWiring& wiring);
+
+/// The far end of what the controller's side says about its scanner.
+[[nodiscard]] std::unique_ptr<emulators::ScannerServer> make_far_scanner(const LaserWiring& wiring,
+                                                                         const LaserModel& model,
+                                                                         std::unique_ptr<emulators::ByteServer> wire,
+                                                                         emulators::ScannerServer::World world);
+
+}  // namespace jaywalk::rig

@@ -1,0 +1,90 @@
+#pragma once
+// Both ends of the wires in one process: for measuring and for tests that move time on by hand.
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "drivers/can/in_process_bus.h"
+#include "firmware/robot/no_pose_source.h"
+#include "firmware/robot/operator_controls.h"
+#include "firmware/robot/robot_loop.h"
+#include "hil/far_end/simulated_robot.h"
+
+namespace jaywalk::rig {
+
+/// A place on a bus, and when a frame left it last.
+class WatchedBus final : public CanBus {
+ public:
+  /// Both outlive it.
+  WatchedBus(CanBus& bus, Clock& clock) noexcept : bus_(bus), clock_(clock) {}
+
+  [[nodiscard]] SendResult send(const CanFrame& frame) noexcept override {
+    const SendResult result = bus_.send(frame);
+    sent_ = clock_.now();
+    return result;
+  }
+  [[nodiscard]] bool receive(ReceivedFrame& received) noexcept override { return bus_.receive(received); }
+  [[nodiscard]] CanHealth health() const noexcept override { return bus_.health(); }
+  [[nodiscard]] Time sent() const noexcept { return sent_; }
+
+ private:
+  CanBus& bus_;
+  Clock& clock_;
+  Time sent_ = kNever;
+};
+
+/// The controller of a ROBOT.toml with the simulated robot at the far end of an in-process bus and of a real scanner's
+/// wire. `step_far_end` is for the clock: whatever waits, waits by it, and the far end lives meanwhile.
+class InProcessRobot {
+ public:
+  /// `clock` and `observer` outlive it; `out` is for what a run leaves. A scanner on a network is found at any free
+  /// port of this machine. Throws StartupError.
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
+                 const std::filesystem::path& out, const LoopRunner::Wrap& wrap = {},
+                 TickObserver& observer = nobody());
+
+  /// Moves the far end on to now; notes when the scanner's newest message was complete.
+  void step_far_end();
+
+  [[nodiscard]] SimulatedRobot& far_end() noexcept { return far_end_; }
+  [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
+  [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
+  [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
+  [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
+  [[nodiscard]] RobotLoop& loop() noexcept { return loop_; }
+  [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
+  /// Port 0 is the controller's, 1 and 2 are the drives' (left, right); the others are free.
+  [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
+  /// When the last byte of the scanner's message left, by message, from the first.
+  [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
+
+ private:
+  class NoBrake final : public EmergencyBrake {
+   public:
+    void brake() noexcept override {}
+  };
+
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
+                 const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer,
+                 std::unique_ptr<emulators::ByteServer> wire);
+  [[nodiscard]] static TickObserver& nobody();
+
+  Clock& clock_;
+  RobotFile file_;
+  InProcessBus wires_;
+  WatchedBus bus_;
+  SimulatedRobot far_end_;
+  std::unique_ptr<ScannerConnection> laser_;
+  std::unique_ptr<WiredDrive> drive_;
+  OperatorControls controls_;
+  NoPoseSource no_fixes_;
+  LoopRunner runner_;
+  NoBrake no_brake_;
+  StallGuard guard_;  ///< not started: time may stand still here
+  RobotLoop loop_;
+  std::vector<Time> messages_;
+};
+
+}  // namespace jaywalk::rig

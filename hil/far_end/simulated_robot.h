@@ -1,0 +1,56 @@
+#pragma once
+#include <array>
+#include <cstdint>
+#include <memory>
+#include <span>
+
+#include "hil/far_end/far_scanner.h"
+#include "hil/far_end/wheel_drive.h"
+#include "firmware/robot/robot_file.h"
+#include "hal/sim/world.h"
+
+namespace jaywalk::rig {
+
+/// The simulated world as the far end of real wires: two drives turn its wheels, a scanner looks round in it. World
+/// time is the clock's time since construction.
+class SimulatedRobot {
+ public:
+  using Buses = std::array<CanBus*, 2>;
+
+  /// `wiring` is the controller's side of the same wires; `buses`, a place on the bus for each drive, left and right,
+  /// outlive it; `wire` is the scanner's. Throws StartupError.
+  SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const RobotFile& wiring, const Buses& buses,
+                 std::unique_ptr<emulators::ByteServer> wire, Time now);
+
+  /// Moves drives, world and scanner on to now, by the clock.
+  void step(Time now);
+
+  [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
+  [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
+  [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return *scanner_; }
+  /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
+  /// out at both, and the controller hears it twice.
+  void say_as_stranger(const CanFrame& frame) noexcept {
+    for (CanBus* const bus : buses_) static_cast<void>(bus->send(frame));
+  }
+  /// m/s at the rim of the faster wheel, as the drives would have it.
+  [[nodiscard]] double rim_speed() const noexcept;
+  /// The worse of the two drives' places on the bus.
+  [[nodiscard]] CanHealth bus_health() const noexcept;
+
+ private:
+  void look(std::size_t first_beam, std::span<float> range_m);
+  void turn_wheels();
+
+  Time began_;
+  sim::World world_;
+  LaserModel laser_;
+  double wheel_radius_m_;
+  sim::Random noise_;
+  Buses buses_;
+  std::array<std::unique_ptr<WheelDrive>, 2> drives_;
+  std::unique_ptr<emulators::ScannerServer> scanner_;
+  Time encoders_read_ = kNever;
+};
+
+}  // namespace jaywalk::rig

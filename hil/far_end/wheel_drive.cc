@@ -1,0 +1,82 @@
+#include "hil/far_end/wheel_drive.h"
+
+#include <algorithm>
+
+#include "hil/emulators/cia402_node.h"
+#include "hil/emulators/odrive_node.h"
+#include "hil/emulators/vesc_node.h"
+
+namespace jaywalk::rig {
+namespace {
+
+using emulators::Cia402Node;
+using emulators::VescNode;
+
+/// Its heartbeat tells so late that the watchdog expired.
+constexpr Duration kOdriveHeartbeat = std::chrono::milliseconds(10);
+
+/// `Node` moves and measures in units of its own, `units_per_rad` of them a radian of the wheel.
+template <class Node>
+class NodeDrive final : public WheelDrive {
+ public:
+  NodeDrive(CanBus& bus, std::uint8_t number, double units_per_rad)
+      : node_(bus, number), units_per_rad_(units_per_rad) {}
+
+  void step(Time now) override { node_.step(now); }
+  [[nodiscard]] double speed_radps() const noexcept override { return node_.velocity() / units_per_rad_; }
+  void measure(double speed_radps, double turned_rad) noexcept override {
+    node_.measure(speed_radps * units_per_rad_, turned_rad * units_per_rad_);
+  }
+  [[nodiscard]] std::string_view state_name() const noexcept override { return node_.state_name(); }
+  [[nodiscard]] Time heard_controller() const noexcept override { return node_.heard_controller(); }
+  void raise_fault(std::uint16_t code) noexcept override { node_.raise_fault(code); }
+  void pull_cable() noexcept override { node_.pull_cable(); }
+  void plug_cable() noexcept override { node_.plug_cable(); }
+  void restart() noexcept override { node_.restart(); }
+  void stick() noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) {
+      node_.hang();
+    } else {
+      node_.stick();
+    }
+  }
+  void lose_feedback() noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) {
+      node_.lose_feedback();
+    } else {
+      node_.mute();
+    }
+  }
+  [[nodiscard]] emulators::DriveObjects* objects() noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) return &node_.objects();
+    return nullptr;
+  }
+
+  [[nodiscard]] Node& node() noexcept { return node_; }
+
+ private:
+  Node node_;
+  double units_per_rad_;
+};
+
+}  // namespace
+
+std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::size_t side, CanBus& bus) {
+  const auto& odrive = wiring.odrive.axes[side];
+  const auto& vesc = wiring.vesc.axes[side];
+  const auto& cia402 = wiring.cia402.axes[side];
+  switch (wiring.kind) {
+    case DriveKind::kOdrive: {
+      auto drive = std::make_unique<NodeDrive<emulators::OdriveNode>>(bus, odrive.node, odrive.turns_per_rad);
+      drive->node().set_watchdog(std::max<Duration>(kOdriveWatchdog, wiring.odrive.watchdog_least + kOdriveHeartbeat));
+      return drive;
+    }
+    case DriveKind::kVesc:
+      return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
+    case DriveKind::kCia402:
+      break;
+  }
+  return std::make_unique<NodeDrive<Cia402Node>>(bus, cia402.node, cia402.counts_per_rad);
+}
+
+}  // namespace jaywalk::rig

@@ -1,0 +1,111 @@
+#pragma once
+#include <filesystem>
+
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
+#include "hil/faults/straight_planner.h"
+#include "firmware/safety/reasons.h"
+
+namespace jaywalk::faults {
+
+class FaultBench;
+
+/// What a fault is to do to the robot in the end.
+enum class Outcome {
+  kLatched,  ///< at rest, latched: no goal is taken before a reset
+  kStopped,  ///< at rest; it may go on when the cause is gone
+  kDead      ///< the controller is gone: at rest by the drives' own watchdogs
+};
+
+/// Which drives let their wheels roll out under a fault: no limit of ours holds for their way then.
+enum class RollsOut {
+  kNone,
+  kMotors,  ///< an ODrive whose watchdog lets go, a VESC in fault
+  kAll      ///< a CiA 402 drive without power, too
+};
+
+/// One row of the matrix but for drive and speed.
+struct FaultCase {
+  const char* name;
+  void (*strike)(FaultBench&);      ///< once, at speed; null: the wiring is wrong from the start
+  void (*every_tick)(FaultBench&);  ///< and then again and again; may be null
+  Reason reason;                    ///< one of these is to be named; kNone: none can be
+  /// Of the loop's period: from the fault to the moment from which on the wheels only slow down.
+  Duration (*limit)(Duration tick) noexcept;
+  Outcome outcome;
+  std::optional<DriveKind> only = {};  ///< of the one kind of drive that can have it
+  RollsOut rolls_out = RollsOut::kNone;
+  bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
+  std::optional<sim::FaultKind> miswiring = {};
+};
+
+struct FaultResult {
+  const FaultCase* fault = nullptr;
+  DriveKind drive = DriveKind::kCia402;
+  double speed_mps = 0.0;
+  Duration reaction{0}, limit{0};
+  double stop_distance_m = 0.0;
+  bool latched = false;
+  std::string why_not = {};  ///< empty: ok
+};
+
+/// The whole controller with emulated drives and a scanner at the far end of its wires, in the simulated world's time.
+/// It drives down a hall; a fault strikes at full speed, and what the world then sees is measured.
+class FaultBench {
+ public:
+  /// `folder` is for the files of the run. Throws StartupError.
+  FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
+             const std::filesystem::path& folder);
+
+  [[nodiscard]] FaultResult suffer();
+
+  // What strikes may use.
+  [[nodiscard]] rig::InProcessRobot& robot() noexcept { return *robot_; }
+  [[nodiscard]] rig::WheelDrive& left_drive() noexcept { return robot_->far_end().drive(0); }
+  [[nodiscard]] rig::WheelDrive& right_drive() noexcept { return robot_->far_end().drive(1); }
+  [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return robot_->far_end().scanner(); }
+  [[nodiscard]] DriveKind kind() const noexcept { return kind_; }
+  [[nodiscard]] InProcessBus::Port& controllers_port() noexcept { return robot_->wires().port(0); }
+  /// Another program's place on the bus.
+  void say_as_stranger(const CanFrame& frame) noexcept { (void)robot_->wires().port(3).send(frame); }
+  [[nodiscard]] Duration tick_length() const noexcept { return file_.setup.tick(); }
+  [[nodiscard]] StraightPlanner& planner() noexcept { return *planner_; }
+  /// The loop does not run for so long, for ever with max().
+  void hold_up(Duration time) noexcept;
+
+ private:
+  void watch() noexcept;
+  void tick();
+  void wait(Duration time);
+  [[nodiscard]] bool reach_speed();
+  [[nodiscard]] double rim_mps() noexcept;
+  [[nodiscard]] bool named(Reason reason) const noexcept { return reason == Reason::kNone || has(seen_, reason); }
+  /// At full speed, then the fault.
+  [[nodiscard]] FaultResult struck_at_speed();
+  /// Sets out with wrong wiring, towards a goal for which it has to turn.
+  [[nodiscard]] FaultResult wrong_from_start();
+  void begin_watch();
+  void endure();
+  [[nodiscard]] Duration limit() const noexcept;
+  [[nodiscard]] bool rolls_out() const noexcept;
+  [[nodiscard]] std::string complaint(const FaultResult& result);
+  [[nodiscard]] std::string complaint_afterwards();
+
+  const FaultCase& fault_;
+  DriveKind kind_;
+  double speed_mps_;
+  RobotFile file_;
+  rig::HandLivingClock clock_;
+  StraightPlanner* planner_ = nullptr;  ///< robot_'s
+  std::unique_ptr<rig::InProcessRobot> robot_;
+  Time due_{}, held_up_until_ = kNever;
+  Time struck_ = kNever, last_fast_ = kNever;
+  double speed_struck_ = 0.0, motors_struck_ = 0.0;
+  double way_m_ = 0.0;  ///< since the fault
+  Vec2 place_{};
+  Reason seen_ = Reason::kNone;  ///< since the fault
+  bool latched_ = false;
+  bool outlasts_watchdog_ = false;  ///< what held the loop up
+};
+
+}  // namespace jaywalk::faults

@@ -1,0 +1,252 @@
+#include "hil/faults/fault_cases.h"
+
+#include <algorithm>
+#include <array>
+
+namespace jaywalk::faults {
+namespace {
+
+using namespace std::chrono_literals;
+using emulators::ScannerFault;
+
+/// Two periods of the loop: what happens just after a tick is seen by the next, whose frames the drives obey with the
+/// one after it; and what a ramp takes to be 5 mm/s below the speed before it.
+Duration at_once(Duration tick) noexcept { return 2 * tick + 20ms; }
+/// The drives' own watchdog or heartbeat consumer, 100 ms at most, after the frame before it; a wheel that nothing
+/// brakes is 5 mm/s slower only after 40 ms more.
+Duration by_themselves(Duration tick) noexcept { return 100ms + at_once(tick); }
+/// 60 ms without feedback, or two and a half periods of the loop.
+Duration feedback(Duration tick) noexcept { return std::max<Duration>(60ms, 5 * tick / 2) + at_once(tick); }
+/// Two scans of 15 Hz that do not come, and the age of the one before.
+Duration scans(Duration tick) noexcept { return 240ms + at_once(tick); }
+/// Plans are good for 0.3 s, and then the speed falls until they are a second old; the scan that they rest on is
+/// older than they are.
+Duration plans(Duration tick) noexcept { return 540ms + at_once(tick); }
+/// A lost stop escalates to silence 100 ms after the ramp's end, and 100 ms later the drive's own watchdog acts.
+Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick); }
+/// A stranger's NMT command, repeated: the feedback that stops coming, silence, and the drives' own watchdog.
+Duration network(Duration tick) noexcept { return 100ms + by_themselves(tick); }
+/// A scan of 15 Hz, and what it takes to come.
+Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
+/// Two and a half periods of the loop.
+Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
+/// Half a second of driving.
+Duration miswired_for(Duration) noexcept { return 500ms; }
+
+/// What another master would tell the left drive.
+CanFrame foreign_setpoint(DriveKind kind) {
+  CanFrame frame;
+  frame.size = 8;
+  frame.extended = kind == DriveKind::kVesc;
+  frame.id = kind == DriveKind::kVesc ? 0x317 : kind == DriveKind::kOdrive ? 3U << 5U | 0x0DU : 0x202;
+  if (kind == DriveKind::kVesc) frame.size = 4;
+  if (kind == DriveKind::kCia402) frame.size = 6;
+  return frame;
+}
+
+void tell_network(FaultBench& bench, std::uint8_t command) {
+  CanFrame frame;
+  frame.size = 2;
+  frame.bytes = {command, 0};  // every node
+  bench.say_as_stranger(frame);
+}
+
+void stick_and_stop(FaultBench& bench, rig::WheelDrive& drive) {
+  drive.stick();
+  (void)bench.robot().desk().obey("stop now");
+}
+
+void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
+
+/// Wrong wiring from the start, which the supervisor itself must tell.
+FaultCase miswired(const char* name, sim::FaultKind kind) {
+  FaultCase fault{.name = name,
+                  .strike = nullptr,
+                  .every_tick = nullptr,
+                  .reason = Reason::kNone,
+                  .limit = miswired_for,
+                  .outcome = Outcome::kLatched};
+  fault.reason = Reason::kWheelsDisobey | Reason::kMotionMismatch;
+  fault.miswiring = kind;
+  return fault;
+}
+
+const std::array kCases{
+    FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
+              Reason::kEmergencyStop, at_once, Outcome::kLatched},
+    FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, nullptr, Reason::kScanStale,
+              scans, Outcome::kLatched},
+    FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale,
+              scans, Outcome::kLatched},
+    FaultCase{"scanner_garbage", [](FaultBench& b) { scanner(b, ScannerFault::kGarbage); }, nullptr, Reason::kScanStale,
+              scans, Outcome::kLatched},
+    FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
+              scans, Outcome::kLatched},
+    FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
+              plans, Outcome::kStopped},
+    FaultCase{"drive_unplugged_left",
+              [](FaultBench& b) { b.left_drive().pull_cable(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"drive_unplugged_right",
+              [](FaultBench& b) { b.right_drive().pull_cable(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"drive_fault_left",
+              [](FaultBench& b) { b.left_drive().raise_fault(0x21); },
+              nullptr,
+              Reason::kDrive,
+              at_once,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"drive_fault_right",
+              [](FaultBench& b) { b.right_drive().raise_fault(0x21); },
+              nullptr,
+              Reason::kDrive,
+              at_once,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"bus_refuses_frames",
+              [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); },
+              nullptr,
+              Reason::kBus,
+              by_themselves,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"bus_off",
+              [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
+              nullptr,
+              Reason::kBus,
+              by_themselves,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, nullptr,
+              Reason::kBus, at_once, Outcome::kLatched},
+    FaultCase{"interface_down",
+              [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); },
+              nullptr,
+              Reason::kBus,
+              by_themselves,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(5 * b.tick_length() / 2); }, nullptr,
+              Reason::kMissedTicks, two_ticks, Outcome::kLatched},
+    FaultCase{"controller_hangs",
+              [](FaultBench& b) { b.hold_up(400ms); },
+              nullptr,
+              Reason::kMissedTicks,
+              by_themselves,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"controller_dies",
+              [](FaultBench& b) { b.hold_up(Duration::max()); },
+              nullptr,
+              Reason::kNone,
+              by_themselves,
+              Outcome::kDead,
+              {},
+              RollsOut::kMotors},
+
+    FaultCase{"scanner_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed); }, nullptr, Reason::kScanStale,
+              scans, Outcome::kLatched},
+    FaultCase{"scanner_dirty", [](FaultBench& b) { (void)b.scanner().set_window(emulators::Window::kDirty); }, nullptr,
+              Reason::kScanStale, scans, Outcome::kLatched},
+    FaultCase{"beams_lost_ahead", [](FaultBench& b) { b.scanner().lose_sector(-kPi / 3.0, kPi / 3.0); }, nullptr,
+              Reason::kUnwatched, next_scan, Outcome::kStopped},
+    FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); }, nullptr,
+              Reason::kScanInvalid | Reason::kSightLost, next_scan, Outcome::kLatched},
+    FaultCase{"feedback_lost_left",
+              [](FaultBench& b) { b.left_drive().lose_feedback(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"feedback_lost_right",
+              [](FaultBench& b) { b.right_drive().lose_feedback(); },
+              nullptr,
+              Reason::kWheelsStale | Reason::kDrive,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors},
+    FaultCase{"drive_restarts_left",
+              [](FaultBench& b) { b.left_drive().restart(); },
+              nullptr,
+              Reason::kDrive | Reason::kWheelsDisobey,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kAll},
+    FaultCase{"drive_restarts_right",
+              [](FaultBench& b) { b.right_drive().restart(); },
+              nullptr,
+              Reason::kDrive | Reason::kWheelsDisobey,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kAll},
+    FaultCase{"stop_ignored_left",
+              [](FaultBench& b) { stick_and_stop(b, b.left_drive()); },
+              nullptr,
+              Reason::kStopUnconfirmed,
+              escalated,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors,
+              true},
+    FaultCase{"stop_ignored_right",
+              [](FaultBench& b) { stick_and_stop(b, b.right_drive()); },
+              nullptr,
+              Reason::kStopUnconfirmed,
+              escalated,
+              Outcome::kLatched,
+              {},
+              RollsOut::kMotors,
+              true},
+    FaultCase{"network_preoperational", [](FaultBench& b) { tell_network(b, 0x80); },
+              [](FaultBench& b) { tell_network(b, 0x80); }, Reason::kForeignMaster | Reason::kDrive, network,
+              Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"network_stopped", [](FaultBench& b) { tell_network(b, 0x02); },
+              [](FaultBench& b) { tell_network(b, 0x02); }, Reason::kForeignMaster | Reason::kDrive, network,
+              Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"foreign_heartbeat",
+              [](FaultBench& b) {
+                CanFrame frame;
+                frame.id = 0x701;
+                frame.size = 1;
+                frame.bytes = {0x05};
+                b.say_as_stranger(frame);
+              },
+              nullptr, Reason::kForeignMaster, at_once, Outcome::kLatched, DriveKind::kCia402},
+    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); }, nullptr,
+              Reason::kForeignMaster, at_once, Outcome::kLatched},
+    miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
+    miswired("left_motor_reversed", sim::FaultKind::kLeftMotorReversed),
+    miswired("left_wheel_reversed", sim::FaultKind::kLeftWheelReversed),
+    miswired("wheels_swapped", sim::FaultKind::kWheelsSwapped),
+    miswired("left_wheel_stuck", sim::FaultKind::kLeftWheelStuck),
+    miswired("scanner_mirrored", sim::FaultKind::kScannerMirrored),
+    miswired("no_grip", sim::FaultKind::kNoGrip),
+};
+
+}  // namespace
+
+std::span<const FaultCase> all_cases() noexcept { return kCases; }
+
+}  // namespace jaywalk::faults

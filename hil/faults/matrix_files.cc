@@ -1,0 +1,73 @@
+#include "hil/faults/matrix_files.h"
+
+#include <fstream>
+
+#include "hal/types/errors.h"
+
+namespace jaywalk::faults {
+namespace {
+
+constexpr double kLong_m = 44.0, kWide_m = 5.0;
+
+void write(const std::filesystem::path& path, const std::string& text) {
+  std::ofstream file(path);
+  file << text << std::flush;
+  if (!file) throw StartupError(path.string() + ": cannot be written", "choose another --out, or free some space");
+}
+
+/// The drive's own keys; counts, turns and pole pairs are those of the bench's motors.
+std::string drive_keys(DriveKind kind) {
+  if (kind == DriveKind::kOdrive) return "left_node = 3\nright_node = 4\nmotor_turns_per_wheel_turn = 10\n";
+  if (kind == DriveKind::kVesc) return "left_node = 23\nright_node = 24\nelectrical_turns_per_wheel_turn = 50\n";
+  return "left_node = 2\nright_node = 3\ncounts_per_wheel_turn = 76600\n";
+}
+
+/// A P3-DX (hal/types/robot_model.h) as a file, with a fastest speed of its own.
+std::string model_text(double speed_mps) {
+  return "name = \"matrix\"\n"
+         "[footprint]\nfront_m = 0.2275\nrear_m = 0.2275\nhalf_width_m = 0.1905\n"
+         "[drive]\nwheel_radius_m = 0.0975\ntrack_width_m = 0.33\nmax_wheel_speed_radps = 14.0\n"
+         "[limits]\nmax_speed_mps = " +
+         std::to_string(speed_mps) +
+         "\nmax_turn_radps = 1.5\nmax_accel_mps2 = 0.5\nmax_turn_accel_radps2 = 3.0\nmax_jerk_mps3 = 2.0\n"
+         "brake_mps2 = 1.0\n"
+         "[laser]\nmount = [0.0, 0.0, 0.0]\nfov_deg = 270.0\nbeams = 541\nrate_hz = 15.0\nrange_min_m = 0.05\n"
+         "range_m = 50.0\n";  // across the hall: a SICK has no word for "nothing in reach" that proves it
+}
+
+}  // namespace
+
+const char* name_of(DriveKind kind) noexcept {
+  if (kind == DriveKind::kOdrive) return "odrive";
+  return kind == DriveKind::kVesc ? "vesc" : "cia402";
+}
+
+RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder) {
+  write(folder / "model.toml", model_text(speed_mps));
+  write(folder / "robot.toml",
+        std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
+            "\n"
+            "[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n[drive]\nkind = \"" +
+            name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
+  RobotFile file = load_robot_file(folder / "robot.toml");
+  file.setup.backend = Backend::kCpu;
+  return file;
+}
+
+sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder) {
+  const std::string far = std::to_string(static_cast<int>(1000.0 * kLong_m));
+  const std::string left = std::to_string(static_cast<int>(1000.0 * kWide_m));
+  write(folder / "hall.map", "2D-Map\nNumLines: 4\nLINES\n0 0 " + far + " 0\n" + far + " 0 " + far + " " + left + "\n" +
+                                 far + " " + left + " 0 " + left + "\n0 " + left + " 0 0\nDATA\n");
+  sim::Scenario scenario;
+  scenario.name = "hall";
+  scenario.map_kind = sim::MapKind::kAria;
+  scenario.map_file = folder / "hall.map";
+  scenario.model = model;
+  scenario.model.laser.noise_m = 0.01;
+  scenario.start = {1.5, 0.5 * kWide_m, 0.0};
+  scenario.goal = {kLong_m - 2.0, 0.5 * kWide_m};
+  return scenario;
+}
+
+}  // namespace jaywalk::faults

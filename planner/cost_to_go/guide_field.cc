@@ -1,0 +1,310 @@
+#include "planner/cost_to_go/guide_field.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <iterator>
+#include <utility>
+
+#include "planner/field/planning_rules.h"
+
+namespace jaywalk::field {
+namespace {
+
+constexpr float kRates = static_cast<float>(kRateOfOpenGround);  ///< of a cell that costs what it is long
+constexpr float kDearest = 60.0F;                                ///< of a cell, in cells of open ground
+
+/// Ways are known until they are this much longer than the robot's own, cells of open ground: it will not drive
+/// farther off than that before it is asked again.
+constexpr std::uint32_t kBeyondRobot = 120U * kCostsPerCell;
+/// And kept until they are this much longer: the robot may be driven off its way without all being settled anew.
+constexpr std::uint32_t kKeptBeyondRobot = 160U * kCostsPerCell;
+/// Cells that have changed, as a share of all, from which on all is settled anew.
+constexpr std::size_t kFewOf = 16;
+
+constexpr float kRoom_m = 1.0F;         ///< more than that between body's middle and surfaces is worth no detour
+constexpr float kRoomWeight = 2.5F;     ///< by trial: a prototype's, on two maps
+constexpr float kTightWeight = 30.0F;   ///< where a body's corners would touch if it turned
+constexpr float kTight_m = 0.03F;       ///< beyond the corners' circle
+constexpr float kBlocked_m = 0.01F;     ///< beyond the inscribed circle
+constexpr float kLastingWeight = 8.0F;  ///< where a body has stood for long: it may leave, a wall does not
+constexpr float kUnseenWeight = 8.0F;   ///< near the robot, what it has not seen yet
+constexpr double kBesideLasting_m = 0.4;
+
+/// Then none counts: the robot may leave.
+bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
+  const Place robot = place_of(robot_in_map);
+  return zones.distance(robot.x, robot.y) < 0.0F;
+}
+
+}  // namespace
+
+GuideField::Memory::Memory(std::int32_t max_side)
+    : surface(static_cast<std::size_t>(Grid{max_side}.cells()), kNowhere),
+      unseen(static_cast<std::size_t>(Grid{max_side}.cells())),
+      to_go_s(static_cast<std::size_t>(Grid{max_side}.cells()), Guide::kNoWay_s) {}
+
+GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
+                       std::shared_ptr<const KeepOutField> keep_out)
+    : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
+      tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
+      keep_out_field_(std::move(keep_out)),
+      keep_out_(keep_out_field_ ? keep_out_field_->view() : KeepOut{}),
+      surfaces_(max_side),
+      row_round_(static_cast<std::size_t>(max_side)),
+      surface_rate_(static_cast<std::size_t>(Grid{max_side}.cells())),
+      rate_(surface_rate_.size()),
+      last_rate_(rate_.size()),
+      keep_out_rate_(keep_out_.known() ? rate_.size() : 0),
+      middle_x_m_(row_round_.size()),
+      evidence_(row_round_.size()),
+      ways_(max_side),
+      repair_(GuideWays::size_for(max_side), 2 * GuideWays::size_for(max_side)) {
+  changed_.resize(rate_.size());  // touched, not only reserved: no page is to be fetched later
+  changed_.clear();
+}
+
+Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
+  const Window& window = request.window;
+  const CellBox box = box_of(request);
+  const bool same_ground = window == window_ && box == box_;
+  window_ = window, box_ = box;
+  ++round_;
+  std::fill_n(memory.unseen.begin(), window.grid().cells(), std::uint8_t{0});
+  surfaces_.find(window, box, request.still, request.movers, memory.unseen.data());
+  weigh(request, box, same_ground, memory.unseen.data());
+  settle_costs(request, box, same_ground);
+  write(request, box, memory);
+  const Place low = place_of(window.in_map({0.0, 0.0}));
+  return {low.x,
+          low.y,
+          static_cast<float>(window.cell_m),
+          window.side,
+          leads_through_unseen(request, box, memory.unseen.data()),
+          memory.surface.data(),
+          memory.unseen.data(),
+          memory.to_go_s.data(),
+          is_in(keep_out_, request.robot_in_map) ? KeepOut{} : keep_out_};
+}
+
+/// Everything that is known, keep-out zones, robot and goal, and three metres about them: room enough to walk round.
+CellBox GuideField::box_of(const GuideRequest& request) noexcept {
+  const Window& window = request.window;
+  const std::int32_t last = window.side - 1, margin = static_cast<std::int32_t>(3.0 / window.cell_m);
+  const CellIndex robot = window.cell_at(request.robot_in_map);
+  const CellIndex goal = projected_goal(window, request.robot_in_map, request.goal_in_map);
+  CellBox box{std::min(robot.i, goal.i), std::min(robot.j, goal.j), std::max(robot.i, goal.i),
+              std::max(robot.j, goal.j)};
+  const auto row_end = evidence_.begin() + window.side;
+  const auto is_wall = [](std::int8_t evidence) { return evidence > EvidenceMap::kOccupied; };
+  for (std::int32_t j = 0; request.still != nullptr && j <= last; ++j) {
+    request.still->copy_row({window.low.i, window.low.j + j}, window.side, evidence_.data());
+    const auto first = std::find_if(evidence_.begin(), row_end, is_wall);
+    if (first == row_end) continue;
+    const auto after = std::find_if(std::make_reverse_iterator(row_end), evidence_.rend(), is_wall).base();
+    box = {std::min(box.i0, static_cast<std::int32_t>(first - evidence_.begin())), std::min(box.j0, j),
+           std::max(box.i1, static_cast<std::int32_t>(after - evidence_.begin()) - 1), std::max(box.j1, j)};
+  }
+  if (keep_out_.known()) {
+    const CellIndex low = window.cell_at({static_cast<double>(keep_out_.low_x), static_cast<double>(keep_out_.low_y)});
+    const auto cells = [&](std::int32_t nodes) {
+      return static_cast<std::int32_t>(static_cast<double>(keep_out_.node_m) * nodes / window.cell_m);
+    };
+    box = {std::min(box.i0, low.i), std::min(box.j0, low.j), std::max(box.i1, low.i + cells(keep_out_.width)),
+           std::max(box.j1, low.j + cells(keep_out_.height))};
+  }
+  return {std::clamp(box.i0 - margin, 0, last), std::clamp(box.j0 - margin, 0, last),
+          std::clamp(box.i1 + margin, 0, last), std::clamp(box.j1 + margin, 0, last)};
+}
+
+std::uint16_t GuideField::rate_at(float d) const noexcept {
+  if (d < blocked_m_) return 0;
+  const float near = d < kRoom_m ? kRoom_m - d : 0.0F;
+  const float tight = d < tight_m_ ? (tight_m_ - d) / (tight_m_ - blocked_m_) : 0.0F;
+  return static_cast<std::uint16_t>(kRates * (1.0F + kRoomWeight * near * near + kTightWeight * tight * tight));
+}
+
+/// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.
+bool GuideField::leads_through_unseen(const GuideRequest& request, const CellBox& box,
+                                      const std::uint8_t* unseen) const noexcept {
+  const CellIndex robot = request.window.cell_at(request.robot_in_map);
+  std::int32_t i = robot.i, j = robot.j;
+  for (double gone = 0.0; gone < kUnseenRadius_m;) {
+    std::uint32_t least = kNoWay;
+    GuideWays::Neighbour best{};
+    for (const GuideWays::Neighbour& n : GuideWays::kNeighbours) {
+      const std::int32_t x = i + n.di, y = j + n.dj;
+      if (x < box.i0 || y < box.j0 || x > box.i1 || y > box.j1) continue;
+      const std::uint32_t cost = ways_.cost(ways_.at(x, y));
+      if (cost < least) least = cost, best = n;
+    }
+    if (least == kNoWay) return false;
+    i += best.di, j += best.dj;
+    if (unseen[request.window.grid().at(i, j)] != 0) return true;
+    if (least == 0) return false;
+    gone += request.window.cell_m * best.length / kStraightLength;
+  }
+  return false;
+}
+
+void GuideField::weigh(const GuideRequest& request, const CellBox& box, bool same_ground,
+                       const std::uint8_t* unseen) noexcept {
+  const Window& window = request.window;
+  const auto cells = window.grid().cells();
+  if (!same_ground) std::fill_n(surface_rate_.begin(), cells, std::uint16_t{0});
+  for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+    middle_x_m_[static_cast<std::size_t>(i)] = place_of(window.in_map({i + 0.5, 0.0})).x;
+  }
+  for (std::int32_t j = 0; j < window.side; ++j) {
+    if (!surfaces_.is_new(j)) continue;
+    row_round_[static_cast<std::size_t>(j)] = round_;
+    if (j >= box.j0 && j <= box.j1) weigh_surfaces(window, box, j);
+  }
+  if (!same_ground && keep_out_.known()) weigh_keep_out(window, box);
+  rate_.swap(last_rate_);
+  std::copy_n(surface_rate_.begin(), cells, rate_.begin());
+  if (keep_out_.known()) add_keep_out(window, box, request.robot_in_map);
+  for_each_in_disc(window, box, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
+    if (unseen[c] != 0) add_weight(c, kUnseenWeight);
+  });
+  for (const MoverDisc& mover : request.movers) {
+    if (!mover.lasting) continue;
+    for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kBesideLasting_m,
+                     [&](std::int32_t c) { add_weight(c, kLastingWeight); });
+  }
+}
+
+void GuideField::weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept {
+  const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
+  const Place* surface = surfaces_.surface();
+  for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+    const auto c = static_cast<std::size_t>(window.grid().at(i, j));
+    const float dx = surface[c].x - middle_x_m_[static_cast<std::size_t>(i)], dy = surface[c].y - middle_y_m;
+    surface_rate_[c] = rate_at(std::sqrt(dx * dx + dy * dy));
+  }
+}
+
+void GuideField::weigh_keep_out(const Window& window, const CellBox& box) noexcept {
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      keep_out_rate_[static_cast<std::size_t>(window.grid().at(i, j))] =
+          rate_at(keep_out_.distance(middle_x_m_[static_cast<std::size_t>(i)], middle_y_m));
+    }
+  }
+}
+
+/// The dearer of both holds: what is nearer. To a robot in a zone none is closed, or it would have no way out.
+void GuideField::add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept {
+  const auto closed = static_cast<std::uint16_t>(is_in(keep_out_, robot_in_map) ? kRates * kDearest : 0.0F);
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      const auto c = static_cast<std::size_t>(window.grid().at(i, j));
+      const std::uint16_t zone = keep_out_rate_[c] == 0 ? closed : keep_out_rate_[c];
+      rate_[c] = rate_[c] == 0 || zone == 0 ? std::uint16_t{0} : std::max(rate_[c], zone);
+    }
+  }
+}
+
+void GuideField::add_weight(std::int32_t c, float weight) noexcept {
+  std::uint16_t& rate = rate_[static_cast<std::size_t>(c)];
+  if (rate == 0) return;
+  rate = static_cast<std::uint16_t>(std::min(static_cast<float>(rate) + kRates * weight, kRates * kDearest));
+}
+
+/// The goal's cell, or the nearest that is a way; -1 where there is none near or the goal is outside.
+std::int32_t GuideField::goal_cell(const GuideRequest& request, const CellBox& box) const noexcept {
+  const Window& window = request.window;
+  const Grid grid = window.grid();
+  if (!window.holds(request.goal_in_map, 0)) return -1;
+  std::int32_t best = -1;
+  double least = kGoalRadius_m;
+  for_each_in_disc(window, box, request.goal_in_map, kGoalRadius_m, [&](std::int32_t c) {
+    if (rate_[static_cast<std::size_t>(c)] == 0) return;
+    const double away = distance(window.in_map({c % grid.side + 0.5, c / grid.side + 0.5}), request.goal_in_map);
+    if (away < least) least = away, best = c;
+  });
+  return best < 0 ? -1 : ways_.at(best % grid.side, best / grid.side);
+}
+
+/// For a goal outside every cell of the border, with what is left beyond.
+void GuideField::seed_border(const GuideRequest& request, const CellBox& box) noexcept {
+  const Window& window = request.window;
+  const double through = distance(request.robot_in_map, request.goal_in_map);
+  const auto add = [&](std::int32_t i, std::int32_t j) {
+    const std::int32_t n = ways_.at(i, j);
+    if (rate_[static_cast<std::size_t>(window.grid().at(i, j))] == 0 || ways_.cost(n) != kNoWay) return;
+    // Relative to the straight way, so that a goal far off costs no more than numbers hold.
+    const double more =
+        distance(window.in_map({i + 0.5, j + 0.5}), request.goal_in_map) - through + window.side * window.cell_m * 1.5;
+    repair_.offer(ways_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window.cell_m * kCostsPerCell));
+  };
+  for (std::int32_t i = box.i0; i <= box.i1; ++i) add(i, box.j0), add(i, box.j1);
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) add(box.i0, j), add(box.i1, j);
+}
+
+void GuideField::settle_costs(const GuideRequest& request, const CellBox& box, bool same_ground) noexcept {
+  const CellIndex at = request.window.cell_at(request.robot_in_map);
+  ways_.take_grid(request.window.grid());
+  const std::int32_t robot = ways_.at(at.i, at.j);
+  const std::int32_t goal = goal_cell(request, box), last = std::exchange(goal_, goal);
+  if (same_ground && goal >= 0 && goal == last && repair_costs(request.window.grid(), robot)) return;
+  settle_anew(request, box, robot);
+}
+
+/// False where all is to be settled anew.
+bool GuideField::repair_costs(Grid grid, std::int32_t robot) noexcept {
+  const auto cells = static_cast<std::size_t>(grid.cells());
+  const auto side = static_cast<std::size_t>(grid.side);
+  changed_.clear();
+  for (std::size_t j = 0; j < side; ++j) {
+    const std::uint16_t *now = &rate_[j * side], *before = &last_rate_[j * side];
+    if (std::memcmp(now, before, side * sizeof *now) == 0) continue;
+    for (std::size_t i = 0; i < side; ++i) {
+      if (now[i] == before[i]) continue;
+      changed_.push_back(ways_.at(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)));
+      ways_.set_rate(changed_.back(), now[i]);
+    }
+  }
+  return changed_.size() <= cells / kFewOf && repair_.repair(ways_, changed_) && ways_.reaches(robot, kBeyondRobot);
+}
+
+void GuideField::settle_anew(const GuideRequest& request, const CellBox& box, std::int32_t robot) noexcept {
+  const Grid grid = request.window.grid();
+  ways_.clear();
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      ways_.set_rate(ways_.at(i, j), rate_[static_cast<std::size_t>(grid.at(i, j))]);
+    }
+  }
+  ways_.seed(goal_);
+  ways_.end_beyond(robot, kKeptBeyondRobot);
+  repair_.clear();
+  if (goal_ >= 0) repair_.offer(ways_, goal_, 0);
+  if (!request.window.holds(request.goal_in_map, 0)) seed_border(request, box);
+  (void)repair_.settle(ways_);  // room for two entries a cell has always done
+  ways_.keep_end();
+}
+
+void GuideField::write(const GuideRequest& request, const CellBox& box, Memory& memory) noexcept {
+  const Window& window = request.window;
+  const Grid grid = window.grid();
+  const CellIndex robot = window.cell_at(request.robot_in_map);
+  const std::uint32_t last = ways_.beyond(ways_.at(robot.i, robot.j), kBeyondRobot);
+  const double seconds = window.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
+  std::fill_n(memory.to_go_s.begin(), grid.cells(), Guide::kNoWay_s);
+  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
+    float* to_go_s = &memory.to_go_s[static_cast<std::size_t>(grid.at(0, j))];
+    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
+      const std::uint32_t cost = ways_.cost(ways_.at(i, j));
+      to_go_s[i] = cost <= last ? static_cast<float>(static_cast<double>(cost) * seconds) : Guide::kNoWay_s;
+    }
+  }
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    if (row_round_[static_cast<std::size_t>(j)] <= memory.round) continue;
+    std::copy_n(surfaces_.surface() + grid.at(0, j), grid.side, memory.surface.begin() + grid.at(0, j));
+  }
+  memory.round = round_;
+}
+
+}  // namespace jaywalk::field

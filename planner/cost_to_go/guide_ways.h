@@ -1,0 +1,123 @@
+#pragma once
+// The steps that the guide's ways are made of: to sixteen neighbours, in integer costs.
+#include <algorithm>
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+#include "planner/mapping/grid.h"
+#include "planner/field/start_field.h"
+
+namespace jaywalk::field {
+
+/// A step costs the sum of both cells' rates times its length; 64 units are half a cell.
+inline constexpr std::uint32_t kStraightLength = 64, kDiagonalLength = 91, kKnightLength = 143;
+inline constexpr std::uint32_t kRateOfOpenGround = 16;
+inline constexpr std::uint32_t kCostsPerCell = 2U * kRateOfOpenGround * kStraightLength;
+
+/// Cells with a ring of two about them that are no way, so that a step asks for no border. What CostRepair wants of
+/// ways is here.
+class GuideWays {
+ public:
+  static constexpr std::uint32_t kBucketShift = 9;  ///< 512 costs: less than any step
+
+  struct Neighbour {
+    std::int32_t di, dj;
+    std::uint32_t length;
+  };
+  static constexpr std::array<Neighbour, 16> kNeighbours{{{1, 0, kStraightLength},
+                                                          {-1, 0, kStraightLength},
+                                                          {0, 1, kStraightLength},
+                                                          {0, -1, kStraightLength},
+                                                          {1, 1, kDiagonalLength},
+                                                          {1, -1, kDiagonalLength},
+                                                          {-1, 1, kDiagonalLength},
+                                                          {-1, -1, kDiagonalLength},
+                                                          {2, 1, kKnightLength},
+                                                          {2, -1, kKnightLength},
+                                                          {-2, 1, kKnightLength},
+                                                          {-2, -1, kKnightLength},
+                                                          {1, 2, kKnightLength},
+                                                          {1, -2, kKnightLength},
+                                                          {-1, 2, kKnightLength},
+                                                          {-1, -2, kKnightLength}}};
+
+  /// Takes memory for grids up to `max_side` cells.
+  explicit GuideWays(std::int32_t max_side) : nodes_(size_for(max_side)) {}
+  [[nodiscard]] static constexpr std::size_t size_for(std::int32_t max_side) {
+    return static_cast<std::size_t>((max_side + 2 * kRing) * (max_side + 2 * kRing));
+  }
+
+  /// From now on cells are those of this grid.
+  void take_grid(Grid grid) noexcept { width_ = grid.side + 2 * kRing; }
+  /// No cell is a way, none has a cost.
+  void clear() noexcept { std::fill_n(nodes_.begin(), width_ * width_, Node{kNoWay, 0}); }
+  [[nodiscard]] std::int32_t at(std::int32_t i, std::int32_t j) const noexcept {
+    return (j + kRing) * width_ + i + kRing;
+  }
+  /// Half of what a straight step among such cells costs, a unit of its length; 0: no way.
+  void set_rate(std::int32_t n, std::uint32_t rate) noexcept {
+    Node& node = nodes_[static_cast<std::size_t>(n)];
+    node.rate = rate;
+    if (rate == 0) node.cost = kNoWay;
+  }
+  [[nodiscard]] std::uint32_t cost(std::int32_t n) const noexcept { return nodes_[static_cast<std::size_t>(n)].cost; }
+
+  /// The cell whose cost is given; -1: none.
+  void seed(std::int32_t n) noexcept { seed_ = n; }
+  /// Ways end where they cost `more` than that of cell n; where it has none, nowhere.
+  void end_beyond(std::int32_t n, std::uint32_t more) noexcept { end_ = n, more_ = more; }
+  /// They end where they do now, whatever the way of cell n comes to cost.
+  void keep_end() noexcept { limit_ = limit(), end_ = -1; }
+  /// Whether all ways are known that cost at most `more` than that of cell n.
+  [[nodiscard]] bool reaches(std::int32_t n, std::uint32_t more) const noexcept { return beyond(n, more) <= limit(); }
+
+  [[nodiscard]] std::uint32_t& cost(std::int32_t n) noexcept { return nodes_[static_cast<std::size_t>(n)].cost; }
+  [[nodiscard]] bool is_open(std::int32_t n) const noexcept {
+    return n != seed_ && nodes_[static_cast<std::size_t>(n)].rate != 0;
+  }
+  [[nodiscard]] std::uint32_t limit() const noexcept { return end_ < 0 ? limit_ : beyond(end_, more_); }
+  [[nodiscard]] std::uint32_t beyond(std::int32_t n, std::uint32_t more) const noexcept {
+    const std::uint32_t there = cost(n);
+    return there < kEverywhere - more ? there + more : kEverywhere;
+  }
+
+  template <class May, class Visit>
+  void for_each_step(std::int32_t n, const May& may, const Visit& visit) const noexcept {
+    const Node* here = &nodes_[static_cast<std::size_t>(n)];
+    const std::uint32_t own = here->rate;
+    if (own == 0) return;
+    for (const Neighbour& step : kNeighbours) {
+      const std::int32_t away = step.dj * width_ + step.di;
+      const Node there = here[away];
+      const std::uint32_t cost = (own + there.rate) * step.length;
+      if (there.rate == 0 || !may(there.cost, cost)) continue;
+      if (step.length == kKnightLength) {  // passes between two cells
+        const std::int32_t a = step.dj / 2 * width_ + step.di / 2, b = away - a;
+        if (here[a].rate == 0 || here[b].rate == 0) continue;
+      }
+      visit(n + away, cost);
+    }
+  }
+  template <class Visit>
+  void for_each_near(std::int32_t n, const Visit& visit) const noexcept {
+    for (const Neighbour& step : kNeighbours) visit(n + step.dj * width_ + step.di);
+  }
+
+ private:
+  static constexpr std::int32_t kRing = 2;
+  static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
+
+  struct Node {
+    std::uint32_t cost, rate;
+  };
+
+  std::vector<Node> nodes_;
+  std::int32_t width_ = 0;
+  std::int32_t seed_ = -1;
+  std::int32_t end_ = -1;
+  std::uint32_t more_ = 0, limit_ = kEverywhere;
+};
+
+}  // namespace jaywalk::field

@@ -1,0 +1,49 @@
+#pragma once
+// Entering a scan into the evidence map.
+#include <array>
+#include <cstdint>
+#include <vector>
+
+#include "hal/types/robot_model.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/scan/scan_points.h"
+
+namespace jaywalk {
+
+/// What a scan's point may become in the map.
+enum class Becomes : std::uint8_t {
+  kNothing,   ///< somebody moves there: only the way to it is free
+  kObstacle,  ///< and no wall yet, however long it is seen: somebody may stand there (EvidenceMap::stands)
+  kWall,      ///< an obstacle, and a wall in time
+};
+using Entries = std::array<Becomes, kMaxBeams>;
+
+/// Where the robot's body is nothing else stands: cells that were never seen and whose middle lies under it are free.
+void free_under(EvidenceMap& map, const Pose2& map_from_robot, const Footprint& body) noexcept;
+
+/// Enters scans: a beam's cells up to just before its end are free, the cell it ends in is occupied. Each cell changes
+/// at most once a scan, and an end counts more than a passing beam. Memory: 2 bytes a cell, taken in the constructor.
+class MapEntry {
+ public:
+  explicit MapEntry(const EvidenceMap& map);
+
+  /// `points_in_map[k]` and `entries[k]` belong to point k of `count`; all free the cells before them. `step_s`: since
+  /// the scan before.
+  void enter(EvidenceMap& map, Vec2 laser_in_map, const std::array<Vec2, kMaxBeams>& points_in_map,
+             const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
+
+  /// Marks the unknown cells along a beam without a return as observed, up to `to_in_map`. Such a cell is not free
+  /// (EvidenceMap::seen_free), and an occupied cell stays occupied (docs/decisions/0016 and 0075).
+  static void mark_observed(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
+
+ private:
+  [[nodiscard]] bool first_visit(std::size_t slot) noexcept;
+  void free_along(EvidenceMap& map, Vec2 from, Vec2 to) noexcept;
+  template <class Visit>
+  static void for_each_crossed(const EvidenceMap& map, Vec2 from, Vec2 to, Visit visit) noexcept;
+
+  std::uint16_t scan_ = 0;
+  std::vector<std::uint16_t> visited_in_;  ///< the scan that last touched the cell, on the map's own torus
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,64 @@
+#include "planner/tracking/scene.h"
+
+#include <algorithm>
+
+#include "planner/tracking/touching_bodies.h"
+
+namespace jaywalk {
+namespace {
+
+/// Range of a beam without a return within which cells count as observed: a trajectory of 6 s at 0.6 m/s, rounded up.
+constexpr double kObservedM = 4.0;
+
+}  // namespace
+
+void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
+                 const Bodies& bodies) noexcept {
+  self_mask_.learn(scan, map_from_robot);
+  projection_.project(scan, robot_from_laser_, twist, points);
+  const Sweep sweep = sweep_of(scan);
+  drop_own_points(scan, sweep);
+  project_empty_beams(scan, twist);
+  begin_at_a_jump(sweep, points);
+  map_from_laser = map_from_robot * robot_from_laser_;
+  const Transform2 to_map(map_from_robot);
+  for (std::size_t k = 0; k < points.size(); ++k) {
+    in_map.position[k] = to_map * points[k].in_robot;
+    in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
+  }
+  cut_at_jumps(points, sweep, segments_);
+  cut_between(bodies, in_map, segments_);
+  find_clusters(points, in_map, segments_, sweep, map_from_laser.position(), clusters);
+}
+
+bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
+  if (beam >= scan.beam_count || beam >= kMaxBeams) return false;
+  if (self_mask_.blocked(beam) || scan.too_near(beam)) return true;
+  if (!scan.is_hit(beam)) return false;
+  const auto range_m = static_cast<double>(scan.range_m[beam]);
+  return range_m < kNearestSeenM || self_mask_.on_robot(beam, range_m);
+}
+
+/// Who stands half behind a mast is told so.
+void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept {
+  std::size_t kept = 0;
+  for (ScanPoint point : points) {
+    if (ends_on_robot(scan, point.beam)) continue;
+    point.after_own = ends_on_robot(scan, sweep.before(point.beam));
+    point.before_own = ends_on_robot(scan, sweep.after(point.beam));
+    points[kept++] = point;
+  }
+  points.truncate(kept);
+}
+
+void Scene::project_empty_beams(const LaserScan& scan, const Twist2& twist) noexcept {
+  const double range_m = std::min(kObservedM, kSeesAll * static_cast<double>(scan.range_max_m));
+  projection_.project_empty(scan, robot_from_laser_, twist, range_m, empty);
+  std::size_t kept = 0;
+  for (const ScanPoint& end : empty) {
+    if (!ends_on_robot(scan, end.beam)) empty[kept++] = end;
+  }
+  empty.truncate(kept);
+}
+
+}  // namespace jaywalk

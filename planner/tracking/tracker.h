@@ -1,0 +1,65 @@
+#pragma once
+// Seeing: walls into the evidence map, things that move into tracks, from the laser alone.
+#include <memory>
+#include <span>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/outside_fix.h"
+#include "hal/types/robot_model.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/mapping/known_map.h"
+#include "planner/tracking/stander.h"
+#include "planner/tracking/track.h"
+
+namespace jaywalk {
+
+struct PerceptionConfig {
+  Pose2 robot_from_laser;
+  double cell_m = 0.1;
+  std::int32_t map_side_cells = 1024;
+  Vec2 map_centre;   ///< where the evidence map is centred at start
+  Footprint body{};  ///< of the robot: where it stands nothing else does. Without size: nothing is said of that
+  const KnownMap* known_map = nullptr;  ///< what stands before the first scan; the constructor reads it
+};
+
+/// Thread: the loop's. The constructor allocates; update() never does, and never throws.
+class Tracker {
+ public:
+  explicit Tracker(const PerceptionConfig& config);
+  ~Tracker();
+
+  /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
+  /// pose at the scan's stamp. Ranges that are no returns change nothing; nor does a pose that is not
+  /// finite. `twist` puts right a sweep that takes time while the robot moves. Who moves is dated to the scan's stamp,
+  /// whenever in its sweep he was met. A stamp more than a second before the last one's is a clock's that was set: who
+  /// was seen is forgotten, what stands is not.
+  void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist = {}) noexcept;
+
+  /// Mode paper: movers come from outside, named and noisy; a Kalman filter each. Beams that end
+  /// within a mover's radius of its given position are kept out of the map by the next update().
+  void update_given(const OutsideFix& fix) noexcept;
+
+  /// For a robot that finds no way: what stands alone in the map, is no wider than bodies are and out of sight now may
+  /// have gone, and is unknown from now on (LooseThings).
+  void forget_unseen() noexcept;
+
+  [[nodiscard]] const EvidenceMap& still() const;
+  /// All tracks, moving or not; of walls, what is as wide as a body and stands alone: a pillar, somebody who stood
+  /// there for long. Who walks and has been hidden for more than a second is no track; who then comes out where and
+  /// when he should is the same one again (HiddenWalkers). Who stood is one for two seconds.
+  [[nodiscard]] std::span<const Track> tracks() const;
+  /// Those that move beyond reasonable doubt: what the planner warps.
+  [[nodiscard]] std::span<const Track> moving() const;
+  /// Whoever stands, for as long as something stands there: wider than the map has him. Who walked, and whatever stands
+  /// on two legs, some furniture among it.
+  [[nodiscard]] std::span<const Stander> standing() const;
+  /// Whether somebody went out of sight within `within_m` of a place (in the map), and has not been seen since, for
+  /// eight seconds: he may stand there, or have come nearer.
+  [[nodiscard]] bool hides_somebody(Vec2 place, double within_m) const noexcept;
+
+ private:
+  struct State;
+  std::unique_ptr<State> state_;
+};
+
+}  // namespace jaywalk
