@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <chrono>
 #include <functional>
 
@@ -9,20 +8,18 @@
 
 namespace jaywalk::tests {
 
-/// Time that moves two emulated drives on, a millisecond at a time, while the controller sleeps.
+/// Time that moves emulated drives on, a millisecond at a time, while the controller sleeps.
 class PlantClock final : public Clock {
  public:
   [[nodiscard]] Time now() noexcept override { return now_; }
   void sleep_until(Time wake) noexcept override {
     while (now_ < wake) {
       now_ += std::chrono::milliseconds(1);
-      for (auto* node : nodes) {
-        if (node != nullptr) node->step(now_);
-      }
+      if (plant) plant(now_);
       if (meanwhile) meanwhile();
     }
   }
-  std::array<emulators::Cia402Node*, 2> nodes{};
+  std::function<void(Time)> plant;
   std::function<void()> meanwhile;  ///< after each step
 
  private:

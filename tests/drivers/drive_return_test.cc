@@ -2,12 +2,11 @@
 #include <chrono>
 
 #include "tests/drivers/drive_bench.h"
-#include "tests/support/allocation_guard.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
 using tests::frame;
-using Bench = tests::DriveBench;
+using Bench = tests::Cia402Bench;
 
 namespace {
 
@@ -54,37 +53,6 @@ TEST_CASE("a self-starting drive that lost power is proved anew, whole, before i
   CHECK(bench.is_at_rest());
 }
 
-TEST_CASE("a drive that comes back with nothing of what it was told is proved anew") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.right.restart();
-  bench.drive(2.0, 2.0, 30);
-  CHECK(bench.base.trouble() == DriveTrouble::kDriveRestarted);
-  bench.clock.sleep_until(bench.clock.now() + 21s);  // 2000 counts/s at the 100 counts/s2 with which it rolls out
-  reset_and_await_proof(bench);
-  check_drives_again(bench);
-}
-
-TEST_CASE("a drive that lost its settings and now refuses them is not enabled") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.drive(0.0, 0.0, 30);
-  bench.right.restart();
-  bench.right.objects().fix({0x6007, 0}, 0);
-  bench.drive(0.0, 0.0, 10);
-  for (int resets = 0; resets < 2; ++resets) {
-    reset_and_await_proof(bench);
-    CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
-    bench.drive(0.0, 0.0, 20);
-    bench.drive(2.0, 2.0, 20);
-    CHECK(bench.is_at_rest());
-    CHECK_FALSE(bench.left.is_enabled());
-    CHECK_FALSE(bench.right.is_enabled());
-    CHECK(bench.wheels.trouble == DriveTrouble::kNotProved);
-    CHECK(bench.wheels.stop == StopStage::kSilent);
-  }
-}
-
 TEST_CASE("what a drive could not prove at arming it need not prove later, and what it could it must") {
   canopen::DriveBaseSetup setup = tests::two_axes();
   setup.allow_unproved = true;
@@ -115,6 +83,7 @@ TEST_CASE("another drive in the place of one that was armed is refused") {
   CHECK(bench.base.trouble() == DriveTrouble::kNotProved);
   bench.drive(0.0, 0.0, 20);
   CHECK_FALSE(bench.left.is_enabled());
+  CHECK(bench.wheels.stop == StopStage::kSilent);
 }
 
 TEST_CASE("a drive that restarts while it is proved again, or after, has to be proved once more") {
@@ -163,31 +132,6 @@ TEST_CASE("nothing feeds a drive while it is proved, and no drive has torque the
   CHECK(bench.base.is_enabled());
 }
 
-TEST_CASE("a reset where the drives were in no trouble proves nothing anew") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.drive(0.0, 0.0, 30);
-  bench.base.reset();
-  CHECK(bench.base.is_proved());
-  bench.drive(2.0, 2.0, 20);
-  CHECK(bench.is_at_rest());  // but it takes a command of zero
-  check_drives_again(bench);
-}
-
-TEST_CASE("a proof that goes on with the ticks asks nothing of the heap") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.drive(0.0, 0.0, 30);
-  bench.right.raise_fault(0x2310);
-  bench.drive(0.0, 0.0, 20);
-  const AllocationGuard guard;
-  bench.base.reset();
-  bench.drive(0.0, 0.0, 150);
-  const auto calls = guard.calls();
-  CHECK(calls == 0);
-  CHECK(bench.base.is_enabled());
-}
-
 TEST_CASE("with any of a master's frames on the bus the drives are not armed, and the frame is named") {
   struct Said {
     CanFrame frame;
@@ -208,30 +152,9 @@ TEST_CASE("with any of a master's frames on the bus the drives are not armed, an
     bench.clock.meanwhile = [&] {
       if (!spoke && bench.clock.now() > Time{200ms}) bench.stranger_says(said.frame), spoke = true;
     };
-    CHECK(bench.refusal() == "CAN: another master on the bus: " + std::string(said.named) +
-                                 "; end the other program or machine, or give it a bus of its own");
+    CHECK(bench.armed() == "CAN: another master on the bus: " + std::string(said.named) +
+                               "; end the other program or machine, or give it a bus of its own");
     CHECK_FALSE(bench.left.is_enabled());
-  }
-}
-
-TEST_CASE("a foreign master's frame under way is a latched fault by the next tick, kept, and stops both wheels") {
-  const std::array<CanFrame, 5> frames{frame(0x701, {5}), frame(0x080, {}), frame(0x205, {0x0F, 0, 0, 0, 0, 0}),
-                                       frame(0x606, {0x40, 0x41, 0x60, 0, 0, 0, 0, 0}),
-                                       frame(0x585, {0x60, 0x41, 0x60, 0, 0, 0, 0, 0})};
-  for (const CanFrame& said : frames) {
-    Bench bench;
-    bench.bring_to_two_radps();
-    bench.stranger_says(said);
-    bench.drive(2.0, 2.0, 1);
-    CHECK(bench.base.trouble() == DriveTrouble::kForeignMaster);
-    REQUIRE(bench.base.foreign_frame());
-    CHECK(*bench.base.foreign_frame() == said);
-    bench.drive(2.0, 2.0, 10);
-    CHECK(bench.is_at_rest());
-    bench.drive(0.0, 0.0, 20);
-    reset_and_await_proof(bench);
-    check_drives_again(bench);
-    CHECK_FALSE(bench.base.foreign_frame());
   }
 }
 
@@ -247,15 +170,4 @@ TEST_CASE("a stranger that speaks while the drives are proved again ends the pro
   bench.drive(0.0, 0.0, 150);
   CHECK(bench.base.trouble() == DriveTrouble::kForeignMaster);
   CHECK_FALSE(bench.left.is_enabled());
-}
-
-TEST_CASE("other nodes of the bus are nobody's masters") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  for (const CanFrame& other : {frame(0x707, {5}), frame(0x087, {0, 0, 0, 0, 0, 0, 0, 0}), frame(0x207, {1}),
-                                frame(0x607, {0x40, 0, 0, 0, 0, 0, 0, 0}), frame(0x188, {1, 2})}) {
-    bench.stranger_says(other);
-  }
-  bench.drive(2.0, 2.0, 50);
-  CHECK(bench.base.trouble() == DriveTrouble::kNone);
 }

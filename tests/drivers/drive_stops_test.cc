@@ -8,7 +8,7 @@
 using namespace jaywalk;
 using namespace std::chrono_literals;
 using tests::frame;
-using Bench = tests::DriveBench;
+using Bench = tests::Cia402Bench;
 
 namespace {
 
@@ -93,15 +93,6 @@ TEST_CASE("a drive whose communication is reset, which makes it forget whom it w
   });
 }
 
-TEST_CASE("a drive that ignores a commanded stop is quick-stopped, and then its watchdog stops it") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.left.hang();
-  check_stops(bench, 0.0);
-  CHECK(bench.base.trouble() == DriveTrouble::kStopUnconfirmed);
-  CHECK(bench.wheels.stop == StopStage::kSilent);
-}
-
 TEST_CASE("a drive that ignores the quick stop because of the other's fault is stopped by its watchdog") {
   Bench bench;
   bench.bring_to_two_radps();
@@ -111,27 +102,6 @@ TEST_CASE("a drive that ignores the quick stop because of the other's fault is s
   CHECK(bench.base.trouble() == DriveTrouble::kEmergency);
 }
 
-TEST_CASE("a wheel whose feedback is lost under way stops both") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.right.lose_feedback();
-  check_stops(bench, 2.0);
-  CHECK(bench.base.trouble() == DriveTrouble::kDriveSilent);
-}
-
-TEST_CASE("once silent the controller sends nothing at all until a reset") {
-  Bench bench;
-  bench.bring_to_two_radps();
-  bench.right.lose_feedback();
-  bench.drive(2.0, 2.0, 20);
-  REQUIRE(bench.wheels.stop == StopStage::kSilent);
-  const auto sent = bench.port.sent();
-  bench.drive(2.0, 2.0, 50);
-  bench.drive(0.0, 0.0, 50);
-  for (int k = 0; k < 20; ++k) bench.base.disarm();
-  CHECK(bench.port.sent() == sent);
-}
-
 TEST_CASE("a drive that has left the network state is quick-stopped by SDO before its watchdog acts") {
   Bench bench;
   bench.bring_to_two_radps();
@@ -139,60 +109,4 @@ TEST_CASE("a drive that has left the network state is quick-stopped by SDO befor
   bench.stranger_says(kPreOperationalLeft);
   bench.drive(2.0, 2.0, 12);
   CHECK(bench.is_at_rest());
-}
-
-TEST_CASE("ordinary stops from any speed and disarming are confirmed and trouble nobody") {
-  Bench bench;
-  bench.report = bench.base.arm();
-  bench.drive(0.0, 0.0, 10);
-  for (const double speed : {0.2, 1.0, 2.0, -2.0, 0.5}) {
-    bench.drive(speed, speed, 30);
-    bench.drive(speed, -speed, 30);
-    bench.drive(0.0, 0.0, 30);
-    REQUIRE(bench.base.trouble() == DriveTrouble::kNone);
-    REQUIRE(bench.wheels.stop == StopStage::kNone);
-  }
-  bench.drive(2.0, 2.0, 30);
-  for (int k = 0; k < 30; ++k) {  // still on the move: it brakes first
-    bench.wheels = bench.base.latest();
-    bench.base.disarm();
-    bench.clock.sleep_until(bench.clock.now() + 20ms);
-  }
-  CHECK(bench.is_at_rest());
-  CHECK_FALSE(bench.left.is_enabled());
-  CHECK(bench.base.trouble() == DriveTrouble::kNone);
-}
-
-TEST_CASE("at 20 Hz, too, a drive that ignores a stop is told nothing more 100 ms after the ramp") {
-  for (const double speed : {0.35, 0.7, 2.0}) {
-    CAPTURE(speed);
-    canopen::DriveBaseSetup setup = tests::two_axes();
-    setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, 50ms);
-    Bench bench(setup);
-    bench.tick = 50ms;
-    bench.report = bench.base.arm();
-    bench.drive(0.0, 0.0, 10);
-    bench.drive(speed, speed, 40);
-    bench.left.hang();
-    const Time order = bench.clock.now();
-    bench.drive(0.0, 0.0, 40);
-    CHECK(bench.wheels.stop == StopStage::kSilent);
-    CHECK(bench.port.last() - order <= duration_from_seconds(speed / setup.stop.brake_radps2) + 100ms);
-    CHECK(bench.is_at_rest());
-  }
-}
-
-TEST_CASE("at 20 Hz ordinary stops are confirmed and trouble nobody") {
-  canopen::DriveBaseSetup setup = tests::two_axes();
-  setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, 50ms);
-  Bench bench(setup);
-  bench.tick = 50ms;
-  bench.report = bench.base.arm();
-  bench.drive(0.0, 0.0, 10);
-  for (const double speed : {0.2, 0.4, 1.0, 2.0, -2.0, 0.5}) {
-    bench.drive(speed, -speed, 20);
-    bench.drive(0.0, 0.0, 20);
-    REQUIRE(bench.base.trouble() == DriveTrouble::kNone);
-    REQUIRE(bench.wheels.stop == StopStage::kNone);
-  }
 }

@@ -33,7 +33,9 @@ SocketCan place_on_bus(Clock& clock) {
 
 /// What the bench of the in-process bus is, on the kernel's: controller and drives each have a socket of their own.
 struct KernelBench {
-  KernelBench() { clock.nodes = {&left, &right}; }
+  KernelBench() {
+    clock.plant = [this](Time now) { left.step(now), right.step(now); };
+  }
   static DriveBaseSetup patient() {
     DriveBaseSetup setup = tests::two_axes();
     setup.silence_limit = setup.stop.fresh =

@@ -6,8 +6,7 @@
 #include <iostream>
 
 #include "drivers/can/socketcan.h"
-#include "tests/drivers/odrive_bench.h"
-#include "tests/drivers/vesc_bench.h"
+#include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
@@ -35,7 +34,7 @@ struct Bench {
         left(left_socket, left_id),
         right(right_socket, right_id),
         base(controller, clock, setup) {
-    clock.nodes = {&left, &right};
+    clock.plant = [this](Time now) { left.step(now), right.step(now); };
   }
   void drive(double speed_radps, int ticks) {
     for (int k = 0; k < ticks; ++k) {
@@ -45,7 +44,7 @@ struct Bench {
     }
   }
 
-  tests::MotorClock<Node> clock;
+  tests::PlantClock clock;
   SocketCan controller, left_socket, right_socket;
   Node left, right;
   Base base;
@@ -56,7 +55,7 @@ struct Bench {
 
 TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of them fails") {
   if (is_missing()) return;
-  odrive::BaseSetup setup = tests::two_odrives();
+  odrive::BaseSetup setup = tests::Odrive::setup();
   setup.silence_limit = setup.stop.fresh = 2s;
   Bench<odrive::OdriveBase, odrive::BaseSetup, emulators::OdriveNode> bench(setup, 3, 4, false);
   REQUIRE(bench.base.arm().size() == 2);
@@ -73,7 +72,7 @@ TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of
 
 TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one of them fails") {
   if (is_missing()) return;
-  vesc::BaseSetup setup = tests::two_vescs();
+  vesc::BaseSetup setup = tests::Vesc::setup();
   setup.silence_limit = setup.stop.fresh = 2s;
   Bench<vesc::VescBase, vesc::BaseSetup, emulators::VescNode> bench(setup, 23, 24, true);
   REQUIRE(bench.base.arm().size() == 2);

@@ -17,7 +17,7 @@ namespace jaywalk::tests {
 class SafetyCore {
  public:
   SafetyCore() : base_(port_, clock_, two_axes()) {
-    clock_.nodes = {&left_, &right_};
+    clock_.plant = [this](Time now) { left_.step(now), right_.step(now); };
     static_cast<void>(base_.arm());
     ticks(20);
   }
