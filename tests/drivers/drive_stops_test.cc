@@ -110,3 +110,12 @@ TEST_CASE("a drive that has left the network state is quick-stopped by SDO befor
   bench.drive(2.0, 2.0, 12);
   CHECK(bench.is_at_rest());
 }
+
+TEST_CASE("a drive that answers every SYNC and says no heartbeat any more is missed") {
+  Bench bench;
+  bench.bring_to_two_radps();
+  bench.left.objects().set({0x1017, 0}, 0);
+  bench.drive(2.0, 2.0, 16);
+  CHECK(bench.base.trouble() == DriveTrouble::kDriveSilent);
+  CHECK(bench.is_at_rest());
+}

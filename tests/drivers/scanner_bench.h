@@ -1,19 +1,21 @@
 #pragma once
+#include <chrono>
+#include <deque>
 #include <memory>
 
 #include "hil/emulators/scanner_server.h"
 #include "drivers/laser/scanner_connection.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/allocation_guard.h"
+#include "tests/support/catch.h"
 
 namespace jaywalk::tests {
 
 /// A connection and an emulated scanner on a real socket or line of this machine, by a clock that a test moves on:
 /// a millisecond at a time, first the scanner, then the connection.
-template <class Server>
 class ScannerBench {
  public:
-  ScannerBench(std::unique_ptr<Server> scanner, std::unique_ptr<wire::Endpoint> endpoint,
+  ScannerBench(std::unique_ptr<emulators::ScannerServer> scanner, std::unique_ptr<wire::Endpoint> endpoint,
                std::unique_ptr<ScannerProtocol> protocol)
       : server(std::move(scanner)), connection(std::move(endpoint), std::move(protocol), clock) {}
 
@@ -34,12 +36,23 @@ class ScannerBench {
     while (!holds() && clock.now() - began < most) run(std::chrono::milliseconds(1));
     return clock.now() - began;
   }
+  /// Runs until scans come, for 5 s at most, and a little.
+  void come_to_life() {
+    run_until([this] { return is_well(); }, std::chrono::seconds(5));
+    run(std::chrono::milliseconds(100));
+    REQUIRE(is_well());
+  }
   [[nodiscard]] const LaserScan& scan() { return connection.latest(); }
   [[nodiscard]] ScannerHealth health() { return connection.health(); }
   [[nodiscard]] bool is_well() { return connection.health().trouble == ScannerTrouble::kNone; }
+  /// The scanner as the kind that it is.
+  template <class Server>
+  [[nodiscard]] Server& as() {
+    return dynamic_cast<Server&>(*server);
+  }
 
   HandClock clock;
-  std::unique_ptr<Server> server;
+  std::unique_ptr<emulators::ScannerServer> server;
   ScannerConnection connection;
   std::uint64_t heap_calls = 0;
 };

@@ -2,23 +2,12 @@
 #include <chrono>
 #include <limits>
 
-#include "hil/emulators/ld_server.h"
-#include "hil/emulators/lms200_server.h"
-#include "hil/emulators/rplidar_server.h"
-#include "hil/emulators/scip_server.h"
-#include "hil/emulators/sick_server.h"
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
-#include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
-#include "tests/drivers/scanner_bench.h"
-#include "tests/drivers/serial_line.h"
-#include "tests/support/catch.h"
+#include "tests/drivers/scanner_kinds.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
 using emulators::Window;
+using tests::ScannerBench;
 
 namespace {
 
@@ -30,42 +19,8 @@ void look(std::size_t first, std::span<float> range_m) {
   }
 }
 
-template <class Server, class... Model>
-std::unique_ptr<tests::ScannerBench<Server>> on_tcp(std::unique_ptr<ScannerProtocol> protocol, const Model&... model) {
-  auto line = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
-  auto endpoint = std::make_unique<wire::TcpEndpoint>("127.0.0.1", line->port());
-  return std::make_unique<tests::ScannerBench<Server>>(std::make_unique<Server>(std::move(line), model..., look),
-                                                       std::move(endpoint), std::move(protocol));
-}
-
-/// None where this machine has no pseudo terminals.
-template <class Server, class... Rest>
-std::unique_ptr<tests::ScannerBench<Server>> on_line(std::unique_ptr<ScannerProtocol> protocol, std::uint32_t baud,
-                                                     const Rest&... rest) {
-  auto line = tests::serial_line();
-  if (line == nullptr) return nullptr;
-  auto endpoint = std::make_unique<wire::SerialEndpoint>(line->path(), baud);
-  return std::make_unique<tests::ScannerBench<Server>>(std::make_unique<Server>(std::move(line), rest..., look),
-                                                       std::move(endpoint), std::move(protocol));
-}
-
-auto sick_bench(emulators::ColaDialect dialect = emulators::ColaDialect::kBinary) {
-  const auto cola = dialect == emulators::ColaDialect::kText ? sick::Cola::kA : sick::Cola::kB;
-  return on_tcp<emulators::SickServer>(std::make_unique<sick::SickProtocol>(cola, sick::ScannerModel{}),
-                                       emulators::SickModel{.dialect = dialect});
-}
-auto scip_bench() {
-  return on_tcp<emulators::ScipServer>(std::make_unique<scip::ScipProtocol>(), emulators::ScipModel{});
-}
-auto lms200_bench() {
-  return on_line<emulators::Lms200Server>(std::make_unique<lms200::Lms200Protocol>(38400), 38400, std::uint32_t{38400});
-}
-auto rplidar_bench() { return on_line<emulators::RplidarServer>(std::make_unique<rplidar::RplidarProtocol>(), 115200); }
-auto ld_bench() { return on_line<emulators::LdServer>(std::make_unique<ldrobot::LdProtocol>(), 230400); }
-
 /// Beams 20 to 59 are `nothing`; 100 to 119, once lost, are unknown, and nothing else changes.
-template <class Bench>
-void check_losses(Bench& bench, BeamState nothing) {
+void check_losses(ScannerBench& bench, BeamState nothing) {
   const auto check = [&bench, nothing](bool lost) {
     REQUIRE(bench.is_well());
     for (std::size_t k = 0; k < 150; ++k) {
@@ -90,8 +45,7 @@ void check_losses(Bench& bench, BeamState nothing) {
 }
 
 /// It warns and measures, then it can measure no more, then it is clean.
-template <class Bench>
-void check_dirt(Bench& bench) {
+void check_dirt(ScannerBench& bench) {
   bench.run(1500ms);
   REQUIRE(bench.is_well());
   CHECK(bench.health().protocol.warned == 0);
@@ -115,56 +69,41 @@ void check_dirt(Bench& bench) {
 }  // namespace
 
 TEST_CASE("a SICK that finds nothing says the same as one that cannot measure, and neither is free room") {
-  check_losses(*sick_bench(), BeamState::kUnknown);
+  check_losses(*tests::sick_bench(look), BeamState::kUnknown);
 }
 
 TEST_CASE("a Hokuyo UTM-30LX that finds nothing says so, and lost beams are not taken for that") {
-  check_losses(*scip_bench(), BeamState::kFree);
+  check_losses(*tests::hokuyo_bench(look), BeamState::kFree);
 }
 
 TEST_CASE("an LMS200 that finds nothing says so, and dazzled beams are not taken for that") {
-  if (const auto bench = lms200_bench()) check_losses(*bench, BeamState::kFree);
+  if (const auto bench = tests::lms200_bench(look)) check_losses(*bench, BeamState::kFree);
 }
 
 TEST_CASE("an RPLIDAR has no word for nothing in reach") {
-  if (const auto bench = rplidar_bench()) check_losses(*bench, BeamState::kUnknown);
+  if (const auto bench = tests::rplidar_bench(look)) check_losses(*bench, BeamState::kUnknown);
 }
 
 TEST_CASE("a SICK's warning of dirt is counted and its scans taken, but not once it says that it cannot measure") {
-  check_dirt(*sick_bench(emulators::ColaDialect::kText));
-  check_dirt(*sick_bench(emulators::ColaDialect::kBinary));
+  check_dirt(*tests::sick_bench(look, emulators::ColaDialect::kText));
+  check_dirt(*tests::sick_bench(look, emulators::ColaDialect::kBinary));
 }
 
 TEST_CASE("an LMS200's warning of dirt is counted and its scans taken, but not once it says that it cannot measure") {
-  if (const auto bench = lms200_bench()) check_dirt(*bench);
+  if (const auto bench = tests::lms200_bench(look)) check_dirt(*bench);
 }
 
 TEST_CASE("values that an LMS200 itself calls implausible are no scan") {
-  const auto bench = lms200_bench();
+  const auto bench = tests::lms200_bench(look);
   if (bench == nullptr) return;
   bench->run(1s);
-  bench->server->set_status(0x40);
+  bench->as<emulators::Lms200Server>().set_status(0x40);
   bench->run(500ms);
   CHECK(bench->health().trouble == ScannerTrouble::kDeviceError);
-}
-
-TEST_CASE("a Hokuyo whose laser fails while it scans is named so until it is well") {
-  const auto bench = scip_bench();
-  bench->run(500ms);
-  REQUIRE(bench->is_well());
-  bench->server->set_status("0L");
-  bench->run(100ms);
-  const std::uint32_t sequence = bench->scan().sequence;
-  bench->run(200ms);
-  CHECK(bench->health().trouble == ScannerTrouble::kDeviceError);
-  CHECK(bench->scan().sequence == sequence);
-  bench->server->set_status("");
-  bench->run(200ms);
-  CHECK(bench->is_well());
 }
 
 TEST_CASE("damaged packets of an LD19 leave their sectors unknown and the others as they are") {
-  const auto bench = ld_bench();
+  const auto bench = tests::ld_bench(look);
   if (bench == nullptr) return;
   bench->run(1s);
   bench->server->damage_share(0.3);
