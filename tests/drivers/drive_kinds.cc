@@ -185,7 +185,7 @@ DriveKind vescs() {
           .tolerance_radps = 0.5,
           .travelled_rad = 1.9,  // 0.1 s of ramp are 0.1 rad, 0.9 s more at 2 rad/s 1.8
           .enabling_ticks = 5,
-          .stop_ticks = 10,
+          .stop_ticks = 8,  // two to hear it and say it, 100 ms of ramp, before its timeout would brake
           .proof_ticks = 30,
           .absent_ticks = 20,  // of half a second
           .given_up_ticks = 30,
