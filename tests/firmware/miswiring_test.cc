@@ -92,7 +92,7 @@ TEST_CASE("a wheel reversed with its encoder, and wheels without grip, are told 
   }
 }
 
-TEST_CASE("swapped wheels and a mirrored scanner are told from the scans in the first tight turn") {
+TEST_CASE("swapped wheels and a mirrored scanner are told from the scans in the first tight turn", "[long]") {
   for (const auto kind : {sim::FaultKind::kWheelsSwapped, sim::FaultKind::kScannerMirrored}) {
     int times_told = 0;
     for (const double at_s : {0.0, 1.0, 2.0, 3.0, 4.0, 5.0, 6.0, 7.0, 8.0}) {
@@ -108,7 +108,7 @@ TEST_CASE("swapped wheels and a mirrored scanner are told from the scans in the 
   }
 }
 
-TEST_CASE("a robot that is connected rightly is never accused, among people or on wheels that slip") {
+TEST_CASE("a robot that is connected rightly is never accused, among people or on wheels that slip", "[long]") {
   for (const char* scenario : {"crossing", "long_way_slip", "door"}) {
     CAPTURE(scenario);
     SimulatedDrive drive(scenario, 2);

@@ -101,13 +101,24 @@ TEST_CASE("motors that turn the other way, and one that does not turn, are named
   check_says(sim::FaultKind::kLeftWheelStuck, "robot", "left drive: its wheel does not turn");
 }
 
+namespace {
+
+void check_scans_tell(const char* robot) {
+  check_says(sim::FaultKind::kLeftWheelReversed, robot, "the left wheel goes backward");
+  check_says(sim::FaultKind::kWheelsSwapped, robot, "left and right are exchanged");
+  check_says(sim::FaultKind::kScannerMirrored, robot, "scanner is upside down");
+  check_says(sim::FaultKind::kNoGrip, robot, "the robot does not");
+}
+
+}  // namespace
+
 TEST_CASE("what only the scans tell is named: a wheel reversed, sides exchanged or a scanner upside down, no grip") {
-  for (const char* name : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
-    check_says(sim::FaultKind::kLeftWheelReversed, name, "the left wheel goes backward");
-    check_says(sim::FaultKind::kWheelsSwapped, name, "left and right are exchanged");
-    check_says(sim::FaultKind::kScannerMirrored, name, "scanner is upside down");
-    check_says(sim::FaultKind::kNoGrip, name, "the robot does not");
-  }
+  check_scans_tell("robot");
+}
+
+TEST_CASE("what only the scans tell is named with other drives and scanners, too", "[long]") {
+  check_scans_tell("odrive_hokuyo");
+  check_scans_tell("vesc_ld19");
 }
 
 TEST_CASE("a model whose wheel is a fifth larger, and a mount that is turned by 30 degrees, are refused") {
