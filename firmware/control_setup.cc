@@ -134,7 +134,6 @@ std::string name_of(baseline::Baseline which) { return nlohmann::json(which).get
 
 std::string to_text(const ControlSetup& setup) {
   nlohmann::json json(setup);
-  // Not one of the fields above: setups that were written before it was one say nothing of it.
   for (const BlankedSector& sector : setup.model.laser.blanked)
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
   json["judges_motion"] = setup.judges_motion;
@@ -154,11 +153,11 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     ControlSetup setup = json.get<ControlSetup>();
     for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
-    setup.judges_motion = json.value("judges_motion", false);
+    setup.judges_motion = json.at("judges_motion").get<bool>();
     setup.baseline = json.value("planner", baseline::Baseline::kOurs);
     setup.given_movers = json.value("given_movers", false);
     setup.steering = json.value("steering", StickUse::kNone);
-    setup.berth_m = json.value("berth_m", setup.berth_m);
+    setup.berth_m = json.at("berth_m").get<double>();
     setup.part = json.value("part", setup.part);
     setup.zones = json.value("zones", setup.zones);
     if (json.contains("known_map")) setup.known_map = known_map_of(json["known_map"]);

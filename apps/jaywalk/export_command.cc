@@ -5,16 +5,14 @@
 
 #include "apps/formats/run_exporter.h"
 #include "apps/jaywalk/progress.h"
-#include "apps/why/relived_run.h"
+#include "apps/why/recorded_run.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-/// `Again`: SeenRun or RelivedRun.
-template <class Again>
 void export_all(RecordedRun& run, RunExporter& exporter) {
-  Again again(run);
+  SeenRun again(run);
   Progress progress;
   while (again.step()) {
     exporter.add(again.last(), again.tracker());
@@ -37,7 +35,7 @@ int run_export(const ExportOptions& options) {
   if (std::filesystem::equivalent(run.file(), out, missing))
     throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
   RunExporter exporter(out, run.setup().model);
-  run.holds_paths() ? export_all<SeenRun>(run, exporter) : export_all<RelivedRun>(run, exporter);
+  export_all(run, exporter);
   exporter.finish(run.is_in_parts() ? std::filesystem::path() : run.file());
   std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),
               static_cast<unsigned long long>(exporter.file().messages()), exporter.file().topics().size(),

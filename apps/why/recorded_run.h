@@ -38,7 +38,6 @@ class RecordedRun {
   [[nodiscard]] bool begins_anew() const { return setup_.part > 1; }
   [[nodiscard]] double share_read() const;
   /// RecordingReader's.
-  [[nodiscard]] bool holds_paths() const { return reader_->holds_paths(); }
   [[nodiscard]] std::uint64_t lost_before() const { return reader_->lost_before(); }
   /// What a person should know of it, a line each: that it begins anew, where it was cut, and in how many ticks this
   /// program `does`

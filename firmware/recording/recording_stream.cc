@@ -151,12 +151,12 @@ void RecordingReader::read_header() {
   if (!read(head.data(), head.size())) damaged("too short for a recording");
   if (std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) damaged("not a recording");
   ByteSource numbers(std::span<const unsigned char>(head).subspan(kMagic.size()));
-  std::uint32_t setup_bytes = 0;
-  numbers.number(version_);
+  std::uint32_t version = 0, setup_bytes = 0;
+  numbers.number(version);
   numbers.number(setup_bytes);
-  if (version_ < kOldestVersion || version_ > kRecordingVersion) {
-    throw StartupError(file_ + ": byte 8: format version " + std::to_string(version_) + ", this program reads " +
-                           std::to_string(kOldestVersion) + " to " + std::to_string(kRecordingVersion),
+  if (version != kRecordingVersion) {
+    throw StartupError(file_ + ": byte 8: format version " + std::to_string(version) + ", this program reads " +
+                           std::to_string(kRecordingVersion) + " alone",
                        "replay it with the jaywalk that recorded it");
   }
   if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
@@ -168,7 +168,6 @@ void RecordingReader::read_header() {
   std::uint32_t crc = 0;
   ByteSource(check).number(crc);
   if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
-  decoder_ = TickDecoder(version_);
   position_ = head.size() + setup_bytes + check.size();
 }
 

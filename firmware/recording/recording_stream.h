@@ -70,8 +70,6 @@ class RecordingReader {
   explicit RecordingReader(const std::string& file, FilePart part = {});
 
   [[nodiscard]] const std::string& setup() const { return setup_; }
-  /// Whether its ticks hold the paths of plans: not those of older programs.
-  [[nodiscard]] bool holds_paths() const { return version_ >= kVersionWithPaths; }
   /// False at the end, cut or proper. Throws StartupError with the place for a damaged entry.
   [[nodiscard]] bool next(TickRecord& record);
   /// How much of the file has been read, 0 to 1.
@@ -93,7 +91,6 @@ class RecordingReader {
   std::uint64_t bytes_ = 0;     ///< of the whole file
   std::uint64_t position_ = 0;  ///< byte that the entry at hand begins with
   std::string setup_;
-  std::uint32_t version_ = 0;
   TickDecoder decoder_;
   std::vector<unsigned char> entry_;
   std::uint32_t entries_ = 0;

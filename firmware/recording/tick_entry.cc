@@ -13,7 +13,6 @@ namespace {
 
 struct Put {
   ByteSink sink;
-  std::uint32_t version = kRecordingVersion;
   template <Number T>
   void operator()(const T& value) {
     sink.number(value);
@@ -33,7 +32,6 @@ struct Put {
 
 struct Get {
   ByteSource source;
-  std::uint32_t version = kRecordingVersion;
   template <Number T>
   void operator()(T& value) {
     source.number(value);
@@ -123,13 +121,13 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
-  if (ar.version >= 4) ar(r.wheels.stop), ar(r.wheels.ready);
+  ar(r.wheels.stop), ar(r.wheels.ready);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);
   ar(r.input.goal_tolerance_m);
-  if (ar.version >= 3) ar(r.input.goal_heading_rad), ar(r.input.goal_heading_tolerance_rad);
+  ar(r.input.goal_heading_rad), ar(r.input.goal_heading_tolerance_rad);
   ar(r.input.emergency_stop), ar(r.input.reset);
-  if (ar.version >= kVersionWithStick) ar(r.input.steers), ar(r.input.stick.forward), ar(r.input.stick.left);
+  ar(r.input.steers), ar(r.input.stick.forward), ar(r.input.stick.left);
   ar(r.pose.stamp);
   transfer_pose(ar, r.pose.map_from_robot);
   ar(r.pose.position_std_m), ar(r.pose.heading_std_rad);
@@ -138,7 +136,7 @@ void transfer_rest(Archive& ar, Record& r) {
   transfer_twist(ar, r.verdict.permitted);
   ar(r.verdict.reasons), ar(r.verdict.gap_m);
   ar(r.command.stamp), ar(r.command.left_radps), ar(r.command.right_radps);
-  if (ar.version >= 4) ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
+  ar(r.took), ar(r.latency.tick_s), ar(r.latency.drive_s);
 }
 
 /// Places as the change of the step from one to the next, mm: mostly a byte each.
@@ -239,19 +237,14 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
 }
 
 bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept {
-  Get get{ByteSource(in), version_};
-  record.input = {};  // what an older recording does not have
-  record.wheels = {};
-  record.took = Duration{0};
-  record.latency = {};
+  Get get{ByteSource(in)};
   bool new_scan = false;
   bool new_fix = false;
   get(lost_before);
   get(new_scan);
   get(new_fix);
   transfer_rest(get, record);
-  record.path.points.clear();
-  if (version_ >= kVersionWithPaths) get_path(get, record.path);
+  get_path(get, record.path);
   if (new_scan) get_scan(get, scan_);
   if (new_fix) get_fix(get, fix_);
   record.scan = scan_;

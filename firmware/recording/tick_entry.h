@@ -9,11 +9,8 @@
 
 namespace jaywalk {
 
-/// Version 2 had no heading at the goal, version 3 no stage of a stop and no latencies, version 4 no paths, version 5
-/// no stick; all are read as well.
-inline constexpr std::uint32_t kRecordingVersion = 6, kOldestVersion = 2;
-/// From these on a recording holds the paths of its plans, and the stick.
-inline constexpr std::uint32_t kVersionWithPaths = 5, kVersionWithStick = 6;
+/// Of the fields and their order; no other version is read.
+inline constexpr std::uint32_t kRecordingVersion = 6;
 
 /// Most bytes that an encoded record takes: every beam, mover and point of a path in use (the change of a step between
 /// places of 32 bits has 34), and room for the rest.
@@ -34,13 +31,10 @@ class TickEncoder {
 /// Turns bytes back into records; keeps the last scan and fix for those that bring none.
 class TickDecoder {
  public:
-  /// `version`: of the recording, kOldestVersion to kRecordingVersion.
-  explicit TickDecoder(std::uint32_t version = kRecordingVersion) : version_(version) {}
   /// False when the bytes are no record: too few, too many, or a value out of its range.
   [[nodiscard]] bool decode(std::span<const unsigned char> in, TickRecord& record, std::uint64_t& lost_before) noexcept;
 
  private:
-  std::uint32_t version_;
   LaserScan scan_;
   OutsideFix fix_;
 };

@@ -143,36 +143,6 @@ TEST_CASE("a point beyond what a millimetre of 32 bits can say is no path") {
   CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
 }
 
-TEST_CASE(
-    "a tick of version 2, which had no heading at the goal, stage of a stop, latencies, paths and stick, comes back") {
-  std::vector<unsigned char> bytes(kMaxEntryBytes);
-  bytes.resize(TickEncoder().encode(*made(6), 0, bytes));
-  // Behind the latencies' 24 bytes and a path's count stand a scan of five beams, 44 + 4 + 5 * 4, and a fix with a
-  // mover, 61 + 4 + 28.
-  bytes.erase(bytes.end() - 161 - 28, bytes.end() - 161);
-  // Before the heading's two numbers stand: lost ticks 8, two flags, now 8, wheels 8 + 4 + 4 * 8 + 1, the stage 1,
-  // ready 1, the input's stamp 8, flag 1, point 16 and tolerance 8: 98 bytes.
-  // Behind them stand two flags, and then the stick: a flag and two numbers.
-  bytes.erase(bytes.begin() + 116, bytes.begin() + 133);
-  bytes.erase(bytes.begin() + 98, bytes.begin() + 114);
-  bytes.erase(bytes.begin() + 63, bytes.begin() + 65);
-  const auto read = std::make_unique<TickRecord>();
-  read->input.goal_heading_rad = 1.0;
-  std::uint64_t lost = 0;
-  REQUIRE(TickDecoder(2).decode(bytes, *read, lost));
-  const auto expected = made(6);
-  expected->input.goal_heading_rad = kAnyHeading;
-  expected->input.goal_heading_tolerance_rad = 0.1;
-  expected->input.steers = false;
-  expected->input.stick = {};
-  expected->wheels.stop = StopStage::kNone;
-  expected->wheels.ready = true;
-  expected->took = Duration{0};
-  expected->latency = {};
-  CHECK(same_bits(*read, *expected));
-  CHECK_FALSE(TickDecoder().decode(bytes, *read, lost));
-}
-
 TEST_CASE("a full ring drops the tick, counts it, and the next one kept tells") {
   // Room for 4: ticks 0 to 3 are kept, 4 to 6 dropped, 7 is kept after a drain and says 3.
   const Scratch scratch;
