@@ -1,8 +1,10 @@
 """What the scripts here make of what they are given: where it is of no use, one line that says why, and exit code 2."""
 import argparse
+import concurrent.futures
 import contextlib
 import pathlib
 import re
+import subprocess
 import sys
 import zlib
 
@@ -23,16 +25,24 @@ def seeds_of(text):
     return seeds
 
 
-def jobs_of(text):
-    """How many runs at a time."""
-    if not re.fullmatch(r"[1-9]\d{0,3}", text):
-        raise argparse.ArgumentTypeError(f"{text}: no number of jobs; give one or more")
-    return int(text)
-
-
 def require_built(program):
     if not program.exists():
         refuse(f"{program}: not there", "build the project first (README.md)")
+
+
+def said_by(program, *arguments):
+    """What a program prints."""
+    require_built(program)
+    done = subprocess.run([program, *map(str, arguments)], capture_output=True, text=True)
+    if done.returncode != 0:
+        refuse(f"{program.name} {' '.join(map(str, arguments))}: exit {done.returncode}", done.stderr.strip() or "it said nothing")
+    return done.stdout
+
+
+def all_of(job, inputs, at_once):
+    """What a job makes of each input, in their order."""
+    with concurrent.futures.ThreadPoolExecutor(at_once) as pool:
+        return list(pool.map(job, inputs))
 
 
 @contextlib.contextmanager

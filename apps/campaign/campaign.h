@@ -2,6 +2,7 @@
 // Many runs as one experiment: what a campaign file says, and the runs that it comes to.
 #include <cstdint>
 #include <filesystem>
+#include <optional>
 #include <set>
 #include <string>
 #include <vector>
@@ -19,12 +20,16 @@ struct Axis {
   bool is_option = false;  ///< of jaywalk sim, not a key of the scenario
 };
 
+struct SeedRange {
+  std::uint64_t first = 1, last = 1;
+};
+
 /// Every scenario with every seed, for each combination of the axes' values.
 struct Experiment {
   std::string name;                    ///< of its folder, too
   std::string title;                   ///< for the report
   std::vector<std::string> scenarios;  ///< as the file has them: relative to its folder
-  std::uint64_t first_seed = 1, last_seed = 1;
+  std::optional<SeedRange> seeds;      ///< without it each scenario's own
   bool constant_speed = false;
   std::vector<Axis> axes;  ///< the first changes slowest
   std::string place;       ///< "paper.toml:3: "

@@ -22,7 +22,7 @@ FileKeys make_campaign_keys() {
            {kIn, "name", kText, {}, "", kNeeded, "of its folder: letters, digits, - and _"},
            {kIn, "title", kText, {}, "", "the name", "heading of its tables"},
            {kIn, "scenarios", kTexts, {}, "", kNeeded, "scenario files, relative to this file's folder"},
-           {kIn, "seeds", kNumbers, {}, "", kNeeded, "[first, last]"},
+           {kIn, "seeds", kNumbers, {}, "", "each scenario's own", "[first, last]"},
            {kIn,
             "planner",
             kTexts,
@@ -35,14 +35,15 @@ FileKeys make_campaign_keys() {
            {kIn, "set", kTable, {}, "", "nothing", "keys of the scenario: a value, or a list to vary it"}}};
 }
 
-std::pair<std::uint64_t, std::uint64_t> read_seeds(TomlTable& table) {
+std::optional<SeedRange> read_seeds(TomlTable& table) {
+  if (!table.has("seeds")) return std::nullopt;
   const std::vector<double> seeds = table.numbers("seeds", 2);
   const bool whole = std::all_of(seeds.begin(), seeds.end(), [](double seed) {
     return seed >= 0.0 && seed <= 1e15 && seed == static_cast<double>(static_cast<std::uint64_t>(seed));
   });
   if (!whole || seeds[1] < seeds[0] || seeds[1] - seeds[0] >= kMostSeeds)
     table.refuse("seeds", "is no range of seeds", "write [first, last], whole numbers, at most a million seeds");
-  return {static_cast<std::uint64_t>(seeds[0]), static_cast<std::uint64_t>(seeds[1])};
+  return SeedRange{static_cast<std::uint64_t>(seeds[0]), static_cast<std::uint64_t>(seeds[1])};
 }
 
 /// Names become folders.
@@ -78,7 +79,7 @@ Experiment read_experiment(TomlTable& table) {
   experiment.name = read_name(table);
   experiment.title = table.text("title", experiment.name);
   experiment.scenarios = table.texts("scenarios");
-  std::tie(experiment.first_seed, experiment.last_seed) = read_seeds(table);
+  experiment.seeds = read_seeds(table);
   experiment.constant_speed = table.boolean("constant_speed");
   experiment.axes = read_axes(table);
   table.finish();

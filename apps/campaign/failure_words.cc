@@ -6,7 +6,7 @@
 #include <set>
 #include <vector>
 
-#include "apps/campaign/csv_rows.h"
+#include "apps/report/csv_rows.h"
 
 namespace jaywalk::campaign {
 namespace {

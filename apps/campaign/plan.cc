@@ -108,10 +108,13 @@ sim::Scenario scenario_for(const Campaign& campaign, const Experiment& experimen
   }
 }
 
-void add_seeds(const Experiment& experiment, const PlannedRun& without_seed, std::vector<PlannedRun>& runs) {
-  if (runs.size() + (experiment.last_seed - experiment.first_seed) >= kMostRuns)
+/// `own_seed`: the scenario's.
+void add_seeds(const Experiment& experiment, std::uint64_t own_seed, const PlannedRun& without_seed,
+               std::vector<PlannedRun>& runs) {
+  const SeedRange seeds = experiment.seeds.value_or(SeedRange{own_seed, own_seed});
+  if (runs.size() + (seeds.last - seeds.first) >= kMostRuns)
     throw StartupError(experiment.place + "more than ten million runs", "divide the campaign");
-  for (std::uint64_t seed = experiment.first_seed; seed <= experiment.last_seed; ++seed) {
+  for (std::uint64_t seed = seeds.first; seed <= seeds.last; ++seed) {
     PlannedRun run = without_seed;
     run.seed = seed;
     run.folder += "/" + std::to_string(seed);
@@ -147,7 +150,7 @@ Plan plan_of(const Campaign& campaign) {
         note_inputs(campaign.file.parent_path() / scenario, read, plan.inputs);
         const std::string stem = std::filesystem::path(scenario).stem().string();
         const std::string row = folder_part(row_of(experiment, values, "=", ","));
-        add_seeds(experiment,
+        add_seeds(experiment, read.seed,
                   {.experiment = experiment.name,
                    .row = row_of(experiment, values, " ", ", "),
                    .values = values,

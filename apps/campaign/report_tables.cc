@@ -10,6 +10,7 @@
 namespace jaywalk::campaign {
 namespace {
 
+constexpr std::size_t kMostColumns = 12;  // of tables by scenario: drawn worlds are more, and have none
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Figure = std::function<double(const ReportedRun&)>;
 
@@ -94,6 +95,7 @@ struct RideFigure {
   const char* name;
   Figure of;
   int digits;
+  bool less_is_worse = false;  ///< 5th percentile and least stand in place of 95th and largest
 };
 
 std::vector<RideFigure> ride_figures() {
@@ -104,7 +106,8 @@ std::vector<RideFigure> ride_figures() {
           {"time below 0.1 m/s, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("slow_share"); }, 1},
           {"largest acceleration, m/s2", plain("accel_max_mps2"), 2},
           {"jerk p99, m/s3", plain("jerk_p99_mps3"), 2},
-          {"largest jerk, m/s3", plain("jerk_max_mps3"), 2}};
+          {"largest jerk, m/s3", plain("jerk_max_mps3"), 2},
+          {"nearest to a mover, m (5th, least)", plain("min_mover_clearance_m"), 2, true}};
 }
 
 ReportTable ride_table(const ReportedTables& tables) {
@@ -114,8 +117,9 @@ ReportTable ride_table(const ReportedTables& tables) {
     std::vector<std::string> cells{row.name};
     for (const RideFigure& figure : ride_figures()) {
       const std::vector<double> values = values_of(row.runs, of_arrived(figure.of));
-      cells.push_back(fixed(median(values), figure.digits) + " / " + fixed(quantile(values, 0.95), figure.digits) +
-                      " / " + fixed(quantile(values, 1.0), figure.digits));
+      const double rare = figure.less_is_worse ? 0.05 : 0.95, worst = figure.less_is_worse ? 0.0 : 1.0;
+      cells.push_back(fixed(median(values), figure.digits) + " / " + fixed(quantile(values, rare), figure.digits) +
+                      " / " + fixed(quantile(values, worst), figure.digits));
     }
     table.rows.push_back(cells);
   }
@@ -194,9 +198,12 @@ ReportTable turn_table(const ReportedTables& tables) {
 }  // namespace
 
 std::vector<ReportTable> tables_of(const ReportedTables& tables) {
-  std::vector<ReportTable> all{
-      success_table(tables), by_scenario(tables, "Success by scenario", success_cell), ride_table(tables),
-      by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell), turn_table(tables)};
+  const bool few = tables.experiment->scenarios.size() <= kMostColumns;
+  std::vector<ReportTable> all{success_table(tables)};
+  if (few) all.push_back(by_scenario(tables, "Success by scenario", success_cell));
+  all.push_back(ride_table(tables));
+  if (few) all.push_back(by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell));
+  all.push_back(turn_table(tables));
   for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
   return all;
 }

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "apps/campaign/csv_rows.h"
+#include "apps/report/csv_rows.h"
 
 namespace jaywalk::campaign {
 namespace {

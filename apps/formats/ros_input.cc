@@ -82,12 +82,4 @@ std::optional<std::vector<TransformMessage>> read_transforms(std::string_view by
   return in.ok() ? std::optional(std::move(transforms)) : std::nullopt;
 }
 
-std::optional<GoalMessage> read_goal(std::string_view bytes, Wire wire) {
-  WireReader in(bytes, wire);
-  GoalMessage goal;
-  goal.frame = read_header(in, wire).frame;
-  goal.pose = in_the_plane(read_frame(in));
-  return in.ok() ? std::optional(std::move(goal)) : std::nullopt;
-}
-
 }  // namespace jaywalk::exchange

@@ -40,11 +40,5 @@ struct TransformMessage {
 [[nodiscard]] std::optional<ScanMessage> read_scan(std::string_view bytes, Wire wire);
 [[nodiscard]] std::optional<OdometryMessage> read_odometry(std::string_view bytes, Wire wire);
 [[nodiscard]] std::optional<std::vector<TransformMessage>> read_transforms(std::string_view bytes, Wire wire);
-struct GoalMessage {
-  Pose2 pose;
-  std::string frame;
-};
-/// geometry_msgs/PoseStamped.
-[[nodiscard]] std::optional<GoalMessage> read_goal(std::string_view bytes, Wire wire);
 
 }  // namespace jaywalk::exchange

@@ -10,11 +10,27 @@
 #include <vector>
 
 #include "firmware/recording/run_parts.h"
-#include "apps/report/run_log.h"
-#include "hal/types/errors.h"
+#include "apps/report/csv_rows.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk {
 namespace {
+
+struct RunRow {
+  double t_s = 0.0;
+  Pose2 map_from_robot;  ///< as the controller believed
+  bool stands = false;   ///< both wheels' commands are zero
+  std::vector<std::string> reasons;
+};
+
+/// Of the columns that run_words() reads.
+RunRow row_of(const CsvRows& rows) {
+  const std::string& reasons = rows.text(6);
+  return {rows.number(0),
+          {rows.number(1), rows.number(2), rows.number(3)},
+          rows.number(4) == 0.0 && rows.number(5) == 0.0,
+          reasons.empty() ? std::vector<std::string>() : parts_between(reasons, '|')};
+}
 
 /// Why a robot stands: the first of these that its reasons hold. Faults go before limits.
 struct Cause {
@@ -160,8 +176,9 @@ std::string run_words(const std::filesystem::path& folder) {
   Day day;
   for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts) {
     if (!parts.empty() && place == parts.back() && has_nothing(place / "robot.csv")) break;
-    RunLog log(place / "robot.csv");
-    for (RunRow row; log.next(row);) day.add(row);
+    CsvRows rows(place / "robot.csv",
+                 {"t_s", "est_x_m", "est_y_m", "est_heading_rad", "left_radps", "right_radps", "reasons"});
+    while (rows.next()) day.add(row_of(rows));
   }
   const nlohmann::json summary = summary_of(folder);
   const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;

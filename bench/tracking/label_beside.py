@@ -77,37 +77,6 @@ def foreground(scan, pose, hits, passes):
     return kept
 
 
-def pieces(points):
-    runs, last = [], None
-    for b, p in points:
-        if last is None or b - last[0] > 2 or math.dist(p, last[1]) > lw.LEG_JUMP_M:
-            runs.append([])
-        runs[-1].append(p)
-        last = (b, p)
-    return [run for run in runs if len(run) >= lw.FEWEST]
-
-
-def centre(run, laser):
-    x, y = sum(p[0] for p in run) / len(run), sum(p[1] for p in run) / len(run)
-    away = max(math.dist((x, y), laser), 1e-3)
-    back = lw.LEG_RADIUS_M / away
-    return x + back * (x - laser[0]), y + back * (y - laser[1])
-
-
-def people(runs, laser):
-    groups = []
-    for run in runs:
-        c = centre(run, laser)
-        near = [g for g in groups if any(math.dist(c, centre(r, laser)) < lw.STRIDE_M for r in g)]
-        groups = [g for g in groups if g not in near] + [[run] + [r for g in near for r in g]]
-    found = []
-    for g in groups:
-        c = [centre(run, laser) for run in g]
-        ends = [p for run in g for p in (run[0], run[-1])]
-        found.append(((sum(p[0] for p in c) / len(c), sum(p[1] for p in c) / len(c)), max(math.dist(p, q) for p in ends for q in ends)))
-    return found
-
-
 def trails_of(named, times):
     trails = {}
     for k, row in enumerate(named):
@@ -130,7 +99,7 @@ def labels_of(path, robot, mount):
     scans = lw.read_scans(path)
     poses = poses_at(robot, mount, [scan[0] for scan in scans])
     hits, passes = ground(scans, poses)
-    found = [people(pieces(foreground(s, p, hits, passes)), p[:2]) for s, p in zip(scans, poses)]
+    found = [lw.people(foreground(s, p, hits, passes), p[:2]) for s, p in zip(scans, poses)]
     times = [scan[0] for scan in scans]
     named = lw.name_them(found, UNSEEN_SCANS)
     trails = trails_of(named, times)

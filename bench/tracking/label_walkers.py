@@ -61,14 +61,17 @@ def background(scans):
     return [min((k * STEP_M for k in c if c[k] + c.get(k + 1, 0) >= need), default=math.inf) for c in counts]
 
 
-def pieces(scan, behind, farthest_m):
-    """Runs of neighbouring foreground beams: (x, y) of each."""
+def foreground(scan, behind, farthest_m):
+    """(beam, place) of hits before the background: rule 2."""
     _, first, step, ranges = scan
+    before = ((b, r) for b, r in enumerate(ranges) if r < min(behind[b] - BEFORE_M, farthest_m))
+    return [(b, (r * math.cos(first + b * step), r * math.sin(first + b * step))) for b, r in before]
+
+
+def pieces(hits):
+    """Runs of neighbouring beams: (x, y) of each."""
     runs, last = [], None
-    for b, r in enumerate(ranges):
-        if not r < min(behind[b] - BEFORE_M, farthest_m):
-            continue
-        p = (r * math.cos(first + b * step), r * math.sin(first + b * step))
+    for b, p in hits:
         if last is None or b - last[0] > 2 or math.dist(p, last[1]) > LEG_JUMP_M:
             runs.append([])
         runs[-1].append(p)
@@ -76,21 +79,22 @@ def pieces(scan, behind, farthest_m):
     return [run for run in runs if len(run) >= FEWEST]
 
 
-def centre(run):
+def centre(run, laser):
     x, y = sum(p[0] for p in run) / len(run), sum(p[1] for p in run) / len(run)
-    back = 1 + LEG_RADIUS_M / math.hypot(x, y)
-    return x * back, y * back
+    back = LEG_RADIUS_M / max(math.dist((x, y), laser), 1e-3)
+    return x + back * (x - laser[0]), y + back * (y - laser[1])
 
 
-def people(scan, behind, farthest_m):
-    """Places and widths of those in one scan."""
+def people(hits, laser=(0.0, 0.0)):
+    """Places and widths of those in one scan's foreground."""
     groups = []
-    for run in pieces(scan, behind, farthest_m):
-        near = [g for g in groups if any(math.dist(centre(run), centre(r)) < STRIDE_M for r in g)]
+    for run in pieces(hits):
+        c = centre(run, laser)
+        near = [g for g in groups if any(math.dist(c, centre(r, laser)) < STRIDE_M for r in g)]
         groups = [g for g in groups if g not in near] + [[run] + [r for g in near for r in g]]
     found = []
     for g in groups:
-        c = [centre(run) for run in g]
+        c = [centre(run, laser) for run in g]
         ends = [p for run in g for p in (run[0], run[-1])]
         width = max(math.dist(p, q) for p in ends for q in ends)
         found.append(((sum(p[0] for p in c) / len(c), sum(p[1] for p in c) / len(c)), width))
@@ -136,7 +140,7 @@ def main(path, farthest_m, every):
     period_s = (scans[-1][0] - scans[0][0]) / max(1, len(scans) - 1)
     if not period_s > 0.01:
         refuse(f"{path}: no scans one after the other", "give a recording of a laser")
-    named = name_them([people(scan, behind, farthest_m) for scan in scans], round(UNSEEN_S / period_s))
+    named = name_them([people(foreground(scan, behind, farthest_m)) for scan in scans], round(UNSEEN_S / period_s))
     print("t_bag,id,x,y,walks")
     for k in range(0, len(scans), every):
         for name, (x, y), width in named[k]:

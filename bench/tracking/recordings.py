@@ -19,8 +19,9 @@ import statistics
 
 import label_beside
 import label_walkers
-from drives import ROOT, all_of, call
+from command_line import all_of, said_by  # label_walkers puts its folder on the path
 
+ROOT = pathlib.Path(__file__).resolve().parent.parent.parent
 RELIVE = ROOT / "build/bench/tracking/jaywalk_relive"
 MATCH_M, STANDS_M, LABELS_LATE_S = 0.5, 0.4, 0.13
 MOUNT = (0.850326, 0.235214, 0.734815)  # the wheelchair's laser, by the recording's own transform
@@ -33,7 +34,7 @@ LABELLED_M = {"standing_robot_people_walk": 5.0, "standing_robot_people_walk_2":
 
 def relive(options, name, *files, mount=(0.0, 0.0, 0.0)):
     out = options.out / name
-    call(options.relive, *(options.data / f for f in files), "--out", out, "--laser-mount", ",".join(map(str, mount)))
+    said_by(options.relive, *(options.data / f for f in files), "--out", out, "--laser-mount", ",".join(map(str, mount)))
     return out
 
 
@@ -89,7 +90,7 @@ def dense_labels(options, name, farthest_m):
     behind = label_walkers.background(scans)
     trails = collections.defaultdict(list)
     period_s = (scans[-1][0] - scans[0][0]) / (len(scans) - 1)
-    found = [label_walkers.people(scan, behind, farthest_m) for scan in scans]
+    found = [label_walkers.people(label_walkers.foreground(scan, behind, farthest_m)) for scan in scans]
     named = label_walkers.name_them(found, round(label_walkers.UNSEEN_S / period_s))
     half_s_scans = round(label_walkers.HALF_S / period_s)
     for k, row in enumerate(named):

@@ -71,6 +71,16 @@ TEST_CASE("a raster map's picture is an input too") {
   CHECK(plan.inputs.size() == 3);  // scenario, YAML, picture
 }
 
+TEST_CASE("without seeds each scenario is run with its own") {
+  const Folder folder;
+  folder.write("other.toml", "seed = 42\n" + kScenario);
+  const Plan plan = folder.plan("[[experiments]]\nname = \"a\"\nscenarios = [\"room.toml\", \"other.toml\"]\n");
+  REQUIRE(plan.runs.size() == 2);
+  CHECK(plan.runs[0].folder == "a/all/room/1");
+  CHECK(plan.runs[1].folder == "a/all/other/42");
+  CHECK(plan.runs[1].seed == 42);
+}
+
 TEST_CASE("what does not vary is no part of a row's name") {
   const Folder folder;
   const Plan plan = folder.plan(kHead + "set.movers.legs = true\n");

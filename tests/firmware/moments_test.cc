@@ -1,4 +1,4 @@
-// Scenes cut out of failed runs (bench/moments.py): a mover had to turn for the robot there. The robot begins each
+// Scenes of eight seconds cut out of failed runs: a mover had to turn for the robot there. The robot begins each
 // scene at rest, and the movers repeat their recorded walks without reacting to it.
 #include <algorithm>
 #include <cmath>

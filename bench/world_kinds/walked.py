@@ -1,0 +1,104 @@
+"""Worlds in which recorded movers walk."""
+import csv
+import math
+import random
+
+from command_line import reading, refuse
+
+from world_kinds.given import bare_hall
+
+PASSAGES_M, ASIDE_M, WAYS = (1.3, 1.5, 1.8, 2.4), (0.3, 0.5), 4
+HALL_MIDDLE = (12.0, 13.5)  # m, of people's ways in the hall
+
+
+def recorded(file, **keys):
+    return {"kind": "recorded", "file": file} | keys
+
+
+def passage(to, name, width_m, aside_m, heading, seed, comes_m):
+    """Two rooms and a passage; somebody on two legs comes at 0.8 m/s, or is there, stands at its side and stays."""
+    low, y = 3.0 - width_m / 2, 3.0 - width_m / 2 + aside_m
+    walls = [(0, 0, 12, 6), (0, 0, 12, 0), (12, 0, 12, 6), (12, 6, 0, 6), (0, 6, 0, 0), (6, 0, 6, low), (6, low + width_m, 6, 6)]
+    x_m, y_m = comes_m * math.cos(heading), comes_m * math.sin(heading)
+    walk = f"t_s,id,x_m,y_m\n0.0,1,{6.0 - x_m:.3f},{y - y_m:.3f}\n3.0,1,6.0,{y:.3f}\n900.0,1,6.0,{y:.3f}\n"
+    stands = recorded(to.write(f"{name}.csv", walk), radius_m=0.27, legs=True)
+    robot = {"start": [1.5, 3.0, 0.0], "goal": [10.5, 3.0]}
+    return to.scenario(name, to.aria_map(name, *walls), robot, laser=None, movers=[stands], timeout_s=60.0, seed=seed)
+
+
+def passages(to, options):
+    """Past somebody who came and stands in a passage 1.3 to 2.4 m wide, 0.3 or 0.5 m from one side, or stood there from
+    the start; the robot gets past, or waits where there is no room."""
+    for how, comes_m in (("comes", 2.4), ("there", 0.01)):
+        for width_m in PASSAGES_M:
+            stem, scenarios = f"{how}_{round(100 * width_m)}cm", []
+            for seed in options.seeds:
+                chance = random.Random(seed)
+                ways = [(aside, math.pi * (k % 2) + math.radians(chance.uniform(-40, 40))) for k in range(WAYS) for aside in ASIDE_M]
+                scenarios += [passage(to, f"{stem}_{seed}_{k}", width_m, *way, seed + k, comes_m) for k, way in enumerate(ways)]
+            to.experiment(stem, scenarios, settings={"robot.model": ["p3dx", "wheelchair"]})
+
+
+def middle(file):
+    with reading(file, "recorded ways: t_s,id,x_m,y_m"), file.open() as rows:
+        places = [(float(row["x_m"]), float(row["y_m"])) for row in csv.DictReader(rows)]
+        return [(min(values) + max(values)) / 2 for values in zip(*places)]
+
+
+def people(to, options):
+    """As people once walked (20 m by 20 m at most), as discs and on two legs, past a robot that creeps along a wall."""
+    robot = {"start": [2.0, 1.5, 0.0], "goal": [22.5, 1.5], "max_speed_mps": 0.1}
+    files = sorted(options.data.glob("*.csv"))
+    if not files:
+        refuse(f"{options.data}: no .csv in it", "give a folder of recorded ways")
+    for file in files:
+        offset = [round(wanted - there, 2) for wanted, there in zip(HALL_MIDDLE, middle(file))]
+        walkers = recorded(to.copy(file), offset=offset, legs=False)
+        scenario = to.scenario(f"way_{file.stem}", bare_hall(to), robot, movers=[walkers], timeout_s=200.0)
+        to.experiment(file.stem, [scenario], options.seeds, {"movers.legs": [False, True]})
+
+
+def lines_of(path):
+    with reading(path, "DynaBARN's folder"):
+        return [line for line in path.read_text().splitlines() if line.strip() and not line.startswith("#")]
+
+
+def worlds_of(data):
+    """Index, radius and ways (t, x, y) of each world: `index movers radius : names`, and a file of `t x y` a name."""
+    for line in lines_of(data / "worlds.txt"):
+        with reading(data, "DynaBARN's folder"):
+            head, names = line.split(":")
+            index, _, radius = head.split()
+            files = (data / "trajectories" / f"{name}.txt" for name in names.split())
+            yield index, float(radius), [[tuple(map(float, row.split())) for row in lines_of(file)] for file in files]
+
+
+def there_and_back(way, t):
+    lasts = way[-1][0]
+    t = lasts - abs(t % (2 * lasts) - lasts)
+    (t0, *a), (t1, *b) = next(pair for pair in zip(way, way[1:]) if pair[1][0] >= t)
+    return [p + (q - p) * (t - t0) / (t1 - t0) for p, q in zip(a, b)]
+
+
+def dynabarn_robot(speed_mps):
+    return {"start": [23.0, 12.0, 3.1416], "goal": [3.0, 12.0], "max_speed_mps": speed_mps}
+
+
+def dynabarn(to, options):
+    """Movers of 1 m at up to 1.9 m/s and through one another, in a bare hall, there and back on their ways for 120 s."""
+    scenarios = []
+    for index, radius, ways in worlds_of(options.data):
+        rows = ((0.2 * k, mover, *there_and_back(way, 0.2 * k)) for k in range(601) for mover, way in enumerate(ways))
+        movers = recorded(to.ways(f"world_{index}", rows), offset=[12.0, 12.0], radius_m=radius, loop=False)
+        scenarios.append(to.scenario(f"dynabarn_{index}", bare_hall(to), dynabarn_robot(0.6), movers=[movers]))
+    to.experiment("dynabarn", scenarios, options.seeds)
+
+
+def dynabarn_loops(to, options):
+    """As the benchmark does it: each mover begins anew at its way's end, and the robot drives at up to 1 m/s."""
+    scenarios = []
+    for index, radius, ways in worlds_of(options.data):
+        files = [to.ways(f"world_{index}_{mover}", ((t, mover, x, y) for t, x, y in way)) for mover, way in enumerate(ways)]
+        movers = [recorded(file, offset=[12.0, 12.0], radius_m=radius, loop=True) for file in files]
+        scenarios.append(to.scenario(f"dynabarn_{index}", bare_hall(to), dynabarn_robot(1.0), movers=movers))
+    to.experiment("dynabarn_loops", scenarios, options.seeds)
