@@ -2,7 +2,10 @@
 
 #include <array>
 #include <cstdio>
+#include <map>
+#include <set>
 #include <string>
+#include <vector>
 
 #include "apps/campaign/campaign.h"
 #include "firmware/robot/robot_file_keys.h"
@@ -47,31 +50,126 @@ std::string as_text(const SettingKey& key) {
          "; default: " + default_of(key) + "\n";
 }
 
-std::string as_row(const SettingKey& key) {
-  return "| `" + path_of(key) + "`" + condition_of(key) + " | " + key.meaning + " | " + allowed(key) + " | " +
-         key.unit + " | " + default_of(key) + " |\n";
+std::string as_lines(const FileKeys& file) {
+  std::string lines;
+  for (const SettingKey& key : file.keys)
+    if (names(options.key, key)) lines += as_text(key);
+  return lines;
 }
 
-constexpr const char* kHead =
-    "# Settings files\n\nEvery key of every file. Generated: `jaywalk config --explain --markdown "
-    ">docs/configuration.md`; a test holds it "
-    "against the program.\n`jaywalk config --explain KEY` prints a key's lines. An unknown key is refused with file "
-    "and line.\n";
+constexpr std::size_t kLongestLine = 156;  // of a Markdown file
+
+/// What may be written, in the few words of a table.
+std::string in_short(const SettingKey& key) {
+  switch (key.kind) {
+    case KeyKind::kNumber:
+    case KeyKind::kInteger: {
+      const std::string text = allowed(key);
+      const std::size_t between = text.find(" to ");
+      return with_unit(text.substr(0, between) + ".." + text.substr(between + 4), key);
+    }
+    case KeyKind::kBoolean:
+      return "boolean";
+    case KeyKind::kFile:
+      return "path";
+    case KeyKind::kNumbers:
+    case KeyKind::kPoints:
+      return key.unit[0] == '\0' ? "numbers" : key.unit;
+    default:
+      return allowed(key);
+  }
+}
+
+/// Words one after the other, on lines of a bearable length.
+std::string wrapped(std::string line, const std::vector<std::string>& words) {
+  std::string lines;
+  for (const std::string& word : words) {
+    if (line.size() + word.size() > kLongestLine) {
+      lines += line + "\n";
+      line = "  ";
+    } else if (line.back() == ',') {
+      line += " ";
+    }
+    line += word + ",";
+  }
+  line.pop_back();
+  return lines + line + "\n";
+}
+
+/// A file's keys as rows without outer bars, which count as words. Kinds that have the same key share a row; keys with
+/// the content of an earlier file's row are only named, by their default here.
+class MarkdownTable {
+ public:
+  void add(const SettingKey& key, const std::set<std::string>& shown_before) {
+    const std::string content = key.key + key.meaning + allowed(key) + key.unit;
+    if (shown_before.contains(content)) {
+      repeated_[default_of(key)].push_back("`" + path_of(key) + "`");
+      return;
+    }
+    shown.insert(content);
+    const std::size_t colon = key.section.find(':');
+    std::string& kinds = kinds_[path_of(key) + content + default_of(key)];
+    if (kinds.empty()) rows_.push_back(&key);
+    kinds += (kinds.empty() ? "" : ", ") + (colon == std::string::npos ? "" : key.section.substr(colon + 1));
+  }
+  [[nodiscard]] std::string text() const {
+    std::string rows, lists;
+    for (const SettingKey* key : rows_) {
+      std::string row = row_of(*key, in_short(*key));
+      if (row.size() > kLongestLine) {
+        row = row_of(*key, "below");
+        lists += "\n" + wrapped("`" + path_of(*key) + "`: ", key->choices);
+      }
+      rows += row;
+    }
+    if (!rows.empty()) rows = "key | meaning: allowed (default)\n---|---\n" + rows + lists;
+    if (!repeated_.empty()) rows += "\nAs in a file above, with the default:\n\n";
+    for (const auto& [value, paths] : repeated_) rows += wrapped("- " + value + ": ", paths);
+    return rows;
+  }
+  std::set<std::string> shown;  ///< contents of the rows
+
+ private:
+  [[nodiscard]] std::string row_of(const SettingKey& key, const std::string& may_be) const {
+    const std::string& kinds =
+        kinds_.at(path_of(key) + key.key + key.meaning + allowed(key) + key.unit + default_of(key));
+    const std::string value = default_of(key);
+    return "`" + path_of(key) + "`" + (kinds.empty() ? "" : " (" + kinds + ")") + " | " + key.meaning + ": " + may_be +
+           (value == "needed" ? "" : " (" + value + ")") + "\n";
+  }
+
+  std::vector<const SettingKey*> rows_;
+  std::map<std::string, std::string> kinds_;                  ///< of a row
+  std::map<std::string, std::vector<std::string>> repeated_;  ///< paths by default
+};
+
+/// `shown_before`: the rows of earlier files.
+std::string as_table(const FileKeys& file, std::set<std::string>& shown_before) {
+  MarkdownTable table;
+  for (const SettingKey& key : file.keys)
+    if (names(options.key, key)) table.add(key, shown_before);
+  shown_before.merge(table.shown);
+  return table.text();
+}
+
+constexpr const char* kHead = R"(# Settings files
+
+Generated: `jaywalk config --explain --markdown >docs/reference/configuration.md`; a test compares the two.
+`jaywalk config --explain KEY` prints a key's lines. An unknown key is refused with file and line. A key without a default is
+needed where its table is. Brackets behind a key name the `kind` that has it. Paths are relative to the file.
+)";
 
 int explain() {
   const std::array<const FileKeys*, 4> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys(),
                                              &campaign::campaign_keys()};
   std::string page = options.markdown ? kHead : "";
+  std::set<std::string> shown_before;
   bool found = false;
   for (const FileKeys* file : files) {
-    std::string lines;
-    for (const SettingKey& key : file->keys)
-      if (names(options.key, key)) lines += options.markdown ? as_row(key) : as_text(key);
+    const std::string lines = options.markdown ? as_table(*file, shown_before) : as_lines(*file);
     if (lines.empty()) continue;
     found = true;
-    page += options.markdown ? "\n## " + std::string(file->title) +
-                                   "\n\n| key | meaning | allowed | unit | default |\n|---|---|---|---|---|\n"
-                             : std::string(file->title) + "\n";
+    page += options.markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
     page += lines;
   }
   if (!found)
@@ -87,7 +185,7 @@ void add_config(CLI::App& app, int& exit_code) {
   CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model, scenario and campaign files");
   config->add_flag("--explain", options.explain, "Print keys with meaning, range, unit and default")->required();
   config->add_option("key", options.key, "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
-  config->add_flag("--markdown", options.markdown, "As the tables of docs/configuration.md");
+  config->add_flag("--markdown", options.markdown, "As the tables of docs/reference/configuration.md");
   config->callback([&exit_code] { exit_code = explain(); });
 }
 

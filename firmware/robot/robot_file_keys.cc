@@ -89,8 +89,7 @@ std::vector<SettingKey> panel_keys() {
            {},
            "",
            "none",
-           "what the stick is for: nothing; shared: it drives, the robot steers clear and stops; by_hand: the "
-           "supervisor alone does",
+           "what the stick is for; shared: the robot steers clear and stops; by_hand: the supervisor alone stops it",
            {"none", "shared", "by_hand"}},
           {"panel", "dead_man_button", kInteger, kButtons, "", static_cast<double>(joystick.dead_man),
            "number of linux/input-event-codes.h: the left shoulder"},
