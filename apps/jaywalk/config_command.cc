@@ -107,6 +107,11 @@ class MarkdownTable {
       return;
     }
     shown.insert(content);
+    if (key.kind == KeyKind::kTable || key.kind == KeyKind::kTables) {
+      const std::string value = default_of(key);
+      tables_.push_back("`" + path_of(key) + "`" + (value == "needed" ? "" : " (" + value + ")"));
+      return;
+    }
     const std::size_t colon = key.section.find(':');
     std::string& kinds = kinds_[path_of(key) + content + default_of(key)];
     if (kinds.empty()) rows_.push_back(&key);
@@ -122,6 +127,7 @@ class MarkdownTable {
       }
       rows += row;
     }
+    if (!tables_.empty()) lists += "\n" + wrapped("Tables: ", tables_);
     if (!rows.empty()) rows = "key | meaning: allowed (default)\n---|---\n" + rows + lists;
     if (!repeated_.empty()) rows += "\nAs in a file above, with the default:\n\n";
     for (const auto& [value, paths] : repeated_) rows += wrapped("- " + value + ": ", paths);
@@ -139,6 +145,7 @@ class MarkdownTable {
   }
 
   std::vector<const SettingKey*> rows_;
+  std::vector<std::string> tables_;                           ///< paths, with their defaults
   std::map<std::string, std::string> kinds_;                  ///< of a row
   std::map<std::string, std::vector<std::string>> repeated_;  ///< paths by default
 };
@@ -155,8 +162,8 @@ std::string as_table(const FileKeys& file, std::set<std::string>& shown_before) 
 constexpr const char* kHead = R"(# Settings files
 
 Generated: `jaywalk config --explain --markdown >docs/reference/configuration.md`; a test compares the two.
-`jaywalk config --explain KEY` prints a key's lines. An unknown key is refused with file and line. A key without a default is
-needed where its table is. Brackets behind a key name the `kind` that has it. Paths are relative to the file.
+`jaywalk config --explain KEY` prints a key's lines. An unknown key is refused with file and line. A key or table without a default
+is needed where its table is. Brackets behind a key name the `kind` that has it. Paths are relative to the file.
 )";
 
 int explain() {

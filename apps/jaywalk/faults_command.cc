@@ -6,6 +6,7 @@
 #include <fstream>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "hil/faults/fault_matrix.h"
@@ -36,9 +37,8 @@ void print(const FaultResult& row) {
 constexpr std::size_t kKinds = 3;  // of drives
 using Rows = std::span<const FaultResult>;
 
-/// A line for a fault: the slowest reaction of all drives, and for each drive the ways to rest from 0.3, 0.6 and 1.2
-/// m/s.
-std::string markdown_line(Rows rows) {
+/// What a line says of a fault: the slowest reaction of all drives, and each drive's ways to rest from all speeds.
+std::string figures_of(Rows rows) {
   Duration slowest{0}, longest{0};
   std::array<std::string, kKinds> ways;
   bool ok = true;
@@ -51,31 +51,39 @@ std::string markdown_line(Rows rows) {
     std::snprintf(metres, sizeof metres, "%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
     way += metres;
   }
-  char text[100];
-  std::snprintf(text, sizeof text, "`%s` | %.0f/%.0f", rows.front().fault->name, in_ms(slowest), in_ms(longest));
-  std::string line = text;
-  for (const std::string& way : ways) line += " | " + (way.empty() ? "-" : way);
-  return line + (rows.front().latched ? " | yes" : " | no") + (ok ? "\n" : " **not ok**\n");
+  char times[40];
+  std::snprintf(times, sizeof times, " | %.0f/%.0f", in_ms(slowest), in_ms(longest));
+  std::string figures = times;
+  for (const std::string& way : ways) figures += " | " + (way.empty() ? "-" : way);
+  return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
 }
 
 constexpr const char* kHead = R"(# Fault matrix
 
 Generated: `jaywalk faults` leaves this page as `faults.md`, and a test compares the two. A simulated robot drives down a
-hall with emulated drives and an emulated SICK; times are the world's own. *Reaction* is the slowest of all drives and
-speeds, beside its limit; *to rest* is the way in metres from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go
-coasts. Single runs: [faults.csv](outputs.md#fault-matrix).
+hall with emulated drives and an emulated SICK, in the world's own time. *Reaction*: the slowest of all drives and speeds,
+and its limit. *To rest*: metres from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. All faults wait for a
+reset but those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
 
-fault | reaction/limit, ms | to rest: cia402 | odrive | vesc | latched
----|---|---|---|---|---
+fault | reaction/limit, ms | to rest: cia402 | odrive | vesc
+---|---|---|---|---
 )";
 
-/// docs/reference/fault-matrix.md
+/// docs/reference/fault-matrix.md: faults with the same figures share a line.
 std::string markdown(const std::vector<FaultResult>& rows) {
-  std::string text = kHead;
+  std::vector<std::pair<std::string, std::string>> lines;  // faults, figures
   for (std::size_t first = 0, end = 0; first < rows.size(); first = end) {
     while (end < rows.size() && rows[end].fault == rows[first].fault) ++end;
-    text += markdown_line(Rows(rows).subspan(first, end - first));
+    const std::string figures = figures_of(Rows(rows).subspan(first, end - first));
+    const std::string name = rows[first].fault->name;
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& l) { return l.second == figures; });
+    if (same == lines.end())
+      lines.emplace_back(name, figures);
+    else
+      same->first += ", " + name;
   }
+  std::string text = kHead;
+  for (const auto& [names, figures] : lines) text += names + figures;
   return text;
 }
 

@@ -137,8 +137,8 @@ bad input or set-up. `jaywalk COMMAND --help` has an example too; `jaywalk --man
     const std::string footer = command->get_footer();
     constexpr std::string_view kCodes = "Exit code: ";
     const std::size_t codes = footer.find(kCodes) + kCodes.size(), end = footer.find(", 2: bad input");
-    page += "\n## " + command->get_name() + "\n\n" + command->get_description() + ". Exit code " +
-            footer.substr(codes, end - codes) + ".\n";
+    page += "\n## " + command->get_name() + "\n\n" + command->get_description() + " (exit code " +
+            footer.substr(codes, end - codes) + ").\n";
     std::string items;
     for (const CLI::Option* option : command->get_options())
       if (!is_shared(commands.at(item_of(*option)))) items += item_of(*option) + "\n";
