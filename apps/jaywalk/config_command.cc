@@ -1,5 +1,6 @@
 #include "apps/jaywalk/config_command.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <map>
@@ -96,36 +97,41 @@ std::string wrapped(std::string line, const std::vector<std::string>& words) {
   return lines + line + "\n";
 }
 
+/// What the page says of a key beside its path and its default.
+std::string content_of(const SettingKey& key) { return key.key + key.meaning + allowed(key) + key.unit; }
+
+/// " (0.3)"; nothing of a key that is needed.
+std::string in_brackets(const std::string& value) { return value == "needed" ? "" : " (" + value + ")"; }
+
 /// A file's keys as rows without outer bars, which count as words. Kinds that have the same key share a row; keys with
 /// the content of an earlier file's row are only named, by their default here.
 class MarkdownTable {
  public:
+  std::set<std::string> shown;  ///< contents of the rows
+
   void add(const SettingKey& key, const std::set<std::string>& shown_before) {
-    const std::string content = key.key + key.meaning + allowed(key) + key.unit;
-    if (shown_before.contains(content)) {
-      repeated_[default_of(key)].push_back("`" + path_of(key) + "`");
-      return;
-    }
+    const std::string path = "`" + path_of(key) + "`", content = content_of(key);
+    if (shown_before.contains(content)) return repeated_[default_of(key)].push_back(path);
     shown.insert(content);
-    if (key.kind == KeyKind::kTable || key.kind == KeyKind::kTables) {
-      const std::string value = default_of(key);
-      tables_.push_back("`" + path_of(key) + "`" + (value == "needed" ? "" : " (" + value + ")"));
-      return;
-    }
+    if (key.kind == KeyKind::kTable || key.kind == KeyKind::kTables)
+      return tables_.push_back(path + in_brackets(default_of(key)));
+    const auto same = std::find_if(rows_.begin(), rows_.end(), [&](const Row& row) {
+      return path_of(*row.key) + content_of(*row.key) + default_of(*row.key) ==
+             path_of(key) + content + default_of(key);
+    });
+    Row& row = same == rows_.end() ? rows_.emplace_back(Row{&key, ""}) : *same;
     const std::size_t colon = key.section.find(':');
-    std::string& kinds = kinds_[path_of(key) + content + default_of(key)];
-    if (kinds.empty()) rows_.push_back(&key);
-    kinds += (kinds.empty() ? "" : ", ") + (colon == std::string::npos ? "" : key.section.substr(colon + 1));
+    if (colon != std::string::npos) row.kinds += (row.kinds.empty() ? "" : ", ") + key.section.substr(colon + 1);
   }
   [[nodiscard]] std::string text() const {
     std::string rows, lists;
-    for (const SettingKey* key : rows_) {
-      std::string row = row_of(*key, in_short(*key));
-      if (row.size() > kLongestLine) {
-        row = row_of(*key, "below");
-        lists += "\n" + wrapped("`" + path_of(*key) + "`: ", key->choices);
+    for (const Row& row : rows_) {
+      std::string line = line_of(row, in_short(*row.key));
+      if (line.size() > kLongestLine) {
+        line = line_of(row, "below");
+        lists += "\n" + wrapped("`" + path_of(*row.key) + "`: ", row.key->choices);
       }
-      rows += row;
+      rows += line;
     }
     if (!tables_.empty()) lists += "\n" + wrapped("Tables: ", tables_);
     if (!rows.empty()) rows = "key | meaning: allowed (default)\n---|---\n" + rows + lists;
@@ -133,20 +139,20 @@ class MarkdownTable {
     for (const auto& [value, paths] : repeated_) rows += wrapped("- " + value + ": ", paths);
     return rows;
   }
-  std::set<std::string> shown;  ///< contents of the rows
 
  private:
-  [[nodiscard]] std::string row_of(const SettingKey& key, const std::string& may_be) const {
-    const std::string& kinds =
-        kinds_.at(path_of(key) + key.key + key.meaning + allowed(key) + key.unit + default_of(key));
-    const std::string value = default_of(key);
-    return "`" + path_of(key) + "`" + (kinds.empty() ? "" : " (" + kinds + ")") + " | " + key.meaning + ": " + may_be +
-           (value == "needed" ? "" : " (" + value + ")") + "\n";
+  struct Row {
+    const SettingKey* key;
+    std::string kinds;  ///< that have it; empty: all
+  };
+
+  static std::string line_of(const Row& row, const std::string& may_be) {
+    return "`" + path_of(*row.key) + "`" + (row.kinds.empty() ? "" : " (" + row.kinds + ")") + " | " +
+           row.key->meaning + ": " + may_be + in_brackets(default_of(*row.key)) + "\n";
   }
 
-  std::vector<const SettingKey*> rows_;
+  std::vector<Row> rows_;
   std::vector<std::string> tables_;                           ///< paths, with their defaults
-  std::map<std::string, std::string> kinds_;                  ///< of a row
   std::map<std::string, std::vector<std::string>> repeated_;  ///< paths by default
 };
 
