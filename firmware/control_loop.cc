@@ -230,7 +230,8 @@ PlanRequest ControlLoop::request(const TickRecord& t) const noexcept {
             .goal_in_map = t.input.goal_in_map,
             .speed_mps = setup_.model.limits.max_speed_mps,
             .still = &tracker().still(),
-            .masked = motion_->memory().masked()};
+            .masked = motion_->memory().masked(),
+            .wants_potential = false};
   }
   return {.stamp = t.scan.stamp,
           .map_from_robot = t.pose.map_from_robot,

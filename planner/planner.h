@@ -56,7 +56,10 @@ struct PlanRequest {
   const EvidenceMap* still = nullptr;      ///< walls; read during submit only
   std::span<const Track> moving = {};      ///< copied during submit
   std::span<const Stander> standing = {};  ///< where nobody passes, as wide as they are; read during submit only
-  std::span<const MoverDisc> masked = {};  ///< for the guide; read during submit only
+  std::span<const MoverDisc> masked = {};  ///< for the time to go; read during submit only
+  /// Marks, potential and band are computed, and status and path are theirs: for what follows that path. Where false
+  /// they are the time to go's, past walls alone, and an executor has nothing to do.
+  bool wants_potential = true;
   /// Of a robot that cannot turn anywhere and does not see behind itself: what lies near it, was never seen and is not
   /// under it is no way while there is another. Null: what was never seen is free. Read during submit only.
   const Footprint* body = nullptr;
@@ -74,22 +77,24 @@ struct Plan {
   Time stamp = kNever;         ///< the request's
   std::uint32_t sequence = 0;  ///< of the request that it answers, from 1
   PlanStatus status = PlanStatus::kNone;
-  bool certified = false;    ///< every goal-connected free cell has a lower neighbour
+  bool certified = false;    ///< every goal-connected free cell has a lower neighbour; of the time to go: kNoPath holds
   float reach = 0.0F;        ///< share of goal-connected free cells from which descent arrives
-  std::int32_t cycles = 0;   ///< solver's work
+  std::int32_t cycles = 0;   ///< the potential's solver's work; 0 where it was not asked for
   double duration_ms = 0.0;  ///< measured; for reports only, no decision rests on it
   Path path;
   Guide guide;  ///< to motion; whatever the status
   FixedVector<Prediction, kMaxTracks> predictions;
 };
 
-/// A copy of the field for pictures; see Planner::view_field.
+/// A plan's field for pictures; see Planner::view_field.
 struct FieldView {
+  enum class Of : std::uint8_t { kPotential, kTimeToGo };
+  Of of = Of::kPotential;
   CellIndex low;  ///< world index of the window's lowest cell
   std::int32_t width = 0, height = 0;
   double cell_m = 0.0;
-  std::span<const float>
-      psi;  ///< -ln(1 - phi), row by row from the lowest y; NaN where not free, inf where unreachable
+  /// -ln(1 - phi), or seconds to the goal, row by row from the lowest y; NaN where not free, inf where unreachable.
+  std::span<const float> psi;
 };
 
 struct PlannerConfig {
@@ -99,7 +104,7 @@ struct PlannerConfig {
   std::int32_t max_side_cells = 1024;  ///< memory is taken for this; the grid doubles up to it when the goal
                                        ///< cannot be reached inside it
   double inflation_m = 0.3;            ///< obstacle cells grow by this: the robot's radius and a margin
-  double inscribed_m = 0.2, circumscribed_m = 0.3;  ///< the body's, for the guide
+  double inscribed_m = 0.2, circumscribed_m = 0.3;  ///< the body's, for the time to go
   double mover_margin_m = 0.3;                      ///< the "safety distance" round a mover's predicted body
   double horizon_cap_s = 5.0;                       ///< predictions go no further
   std::shared_ptr<const KeepOutField> keep_out{};   ///< where the robot must not be; null: nowhere

@@ -42,8 +42,12 @@ std::array<Track, 8> walkers(double side_m) {
   return tracks;
 }
 
-/// The whole plan under way: robot and eight movers move on from tick to tick.
-Timing time_plan(const BenchMap& map, Backend backend, int repeats) {
+/// What a plan is made of: of a nearly round body in mode full, or of all others.
+enum class PlanOf { kTimeToGo, kPotential };
+
+/// The whole plan under way: robot and eight movers move on from tick to tick. By the time to go they are bodies that
+/// are no walls, half of them such as ways past are preferred to.
+Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats) {
   const std::int32_t side = map.cells.width;
   PlannerConfig config;
   config.side_cells = config.max_side_cells = side;
@@ -63,11 +67,22 @@ Timing time_plan(const BenchMap& map, Backend backend, int repeats) {
   request.goal_in_map = {(map.goal.i + 0.5) * kCell_m, (map.goal.j + 0.5) * kCell_m};
   request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
   std::array<Track, 8> tracks = walkers(side * kCell_m);
-  request.moving = tracks;
-  return time("plan, 8 movers", repeats, planner.backend(), [&] {
+  std::array<MoverDisc, tracks.size()> bodies;
+  request.wants_potential = what == PlanOf::kPotential;
+  if (request.wants_potential) {
+    request.moving = tracks;
+  } else {
+    request.masked = bodies;
+  }
+  const char* const name = request.wants_potential ? "potential, 8 movers" : "plan, 8 movers";
+  return time(name, repeats, planner.backend(), [&] {
     constexpr double kScan_s = 1.0 / 15.0;
     request.map_from_robot.x -= request.speed_mps * kScan_s;
-    for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * kScan_s;
+    for (std::size_t k = 0; k < tracks.size(); ++k) {
+      Track& track = tracks[k];
+      track.position_in_map = track.position_in_map + track.velocity_in_map * kScan_s;
+      bodies[k] = {track.position_in_map, track.radius_m, k % 2 == 0};
+    }
     planner.submit(request);
     (void)planner.collect();
   });
@@ -121,7 +136,9 @@ class Bench {
       own.push_back(time_on_device("warm, by events", kEventRepeats, field,
                                    [&] { certified &= field.solve_warm(map.goal).certified; }));
     }
-    if (map.cells.width <= 1024) own.push_back(time_plan(map, backend, repeats));
+    if (map.cells.width <= 1024) own.push_back(time_plan(map, PlanOf::kPotential, backend, repeats));
+    if (map.cells.width <= 1024 && backend == Backend::kCpu)
+      own.push_back(time_plan(map, PlanOf::kTimeToGo, backend, repeats));
     if (map.cells.width <= kTickCells) {
       own.push_back(time_tick(map, kCell_m, walkers(map.cells.width * kCell_m), backend, repeats));
       if (backend == Backend::kCpu)

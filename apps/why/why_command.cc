@@ -59,14 +59,14 @@ Past relive(RelivedRun& run, double until_s) {
   return past;
 }
 
-/// The last decision, and the guide in the place of potential and path, which motion did not look at.
+/// The last decision and the time to go that it rests on, in the place of the path.
 void show_decision(const RelivedRun& run, PictureScene& scene) {
   const motion::MotionPlanner* motion = run.loop().motion();
   if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
   scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan().guide));
   if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
   scene.moment->band.clear();
-  scene.moment->field = raster_of(run.loop().plan().guide, run.setup().model.footprint.inscribed_radius_m());
+  scene.moment->field = raster_of(run.planner().view_field());
 }
 
 PictureScene scene_of(const RelivedRun& run, const Past& past) {

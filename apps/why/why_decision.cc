@@ -2,7 +2,6 @@
 
 #include <array>
 #include <cstdio>
-#include <limits>
 #include <utility>
 
 #include "apps/report/csv_file.h"
@@ -56,22 +55,6 @@ DecisionScene scene_of(const motion::MotionPlanner& motion, const std::vector<mo
     }
   }
   return scene;
-}
-
-FieldRaster raster_of(const Guide& guide, double inscribed_m) {
-  const auto cell = static_cast<double>(guide.cell_m);
-  FieldRaster raster{
-      {static_cast<double>(guide.low_x), static_cast<double>(guide.low_y)}, guide.side, guide.side, cell, {}};
-  for (std::int32_t c = 0; c < guide.side * guide.side; ++c) {
-    const float x = guide.low_x + (static_cast<float>(c % guide.side) + 0.5F) * guide.cell_m;
-    const float y = guide.low_y + (static_cast<float>(c / guide.side) + 0.5F) * guide.cell_m;
-    const float there = guide.to_go_s[c];
-    const bool is_free = static_cast<double>(guide.distance(x, y)) > inscribed_m;
-    raster.psi.push_back(there < Guide::kNoWay_s ? there
-                         : is_free               ? std::numeric_limits<float>::infinity()
-                                                 : std::numeric_limits<float>::quiet_NaN());
-  }
-  return raster;
 }
 
 /// The name of an attempt in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.

@@ -17,9 +17,6 @@ namespace jaywalk {
 [[nodiscard]] DecisionScene scene_of(const motion::MotionPlanner& motion,
                                      const std::vector<motion::Alternative>& alternatives);
 
-/// The guide's time to go (s) as a raster: NaN where the body's middle cannot be, inf where no way leads on.
-[[nodiscard]] FieldRaster raster_of(const Guide& guide, double inscribed_m);
-
 /// A table of everything that a decision weighed, cheapest first: what it attempts, what it costs term by term (s),
 /// where it ends. Throws StartupError when the file cannot be made.
 void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file);

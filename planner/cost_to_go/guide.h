@@ -16,7 +16,7 @@ struct Place {
   bool operator==(const Place&) const = default;
 };
 
-/// A look at what GuideField has computed; plain values, so that it goes to any processor. Empty (side 0) before the
+/// A look at what TimeToGoField has computed; plain values, so that it goes to any processor. Empty (side 0) before the
 /// first plan. Valid as long as the plan that it came with.
 struct Guide {
   /// Nothing nearer than this is as good as nothing at all.

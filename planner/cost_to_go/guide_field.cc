@@ -39,13 +39,13 @@ bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
 
 }  // namespace
 
-GuideField::Memory::Memory(std::int32_t max_side)
+TimeToGoField::Memory::Memory(std::int32_t max_side)
     : surface(static_cast<std::size_t>(Grid{max_side}.cells()), kNowhere),
       unseen(static_cast<std::size_t>(Grid{max_side}.cells())),
       to_go_s(static_cast<std::size_t>(Grid{max_side}.cells()), Guide::kNoWay_s) {}
 
-GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-                       std::shared_ptr<const KeepOutField> keep_out)
+TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
+                             std::shared_ptr<const KeepOutField> keep_out)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
       keep_out_field_(std::move(keep_out)),
@@ -58,13 +58,13 @@ GuideField::GuideField(double inscribed_m, double circumscribed_m, std::int32_t 
       keep_out_rate_(keep_out_.known() ? rate_.size() : 0),
       middle_x_m_(row_round_.size()),
       evidence_(row_round_.size()),
-      ways_(max_side),
-      repair_(GuideWays::size_for(max_side), 2 * GuideWays::size_for(max_side)) {
+      graph_(max_side),
+      repair_(StepGraph::size_for(max_side), 2 * StepGraph::size_for(max_side)) {
   changed_.resize(rate_.size());  // touched, not only reserved: no page is to be fetched later
   changed_.clear();
 }
 
-Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
+Guide TimeToGoField::settle(const TimeToGoRequest& request, Memory& memory) noexcept {
   const Window& window = request.window;
   const CellBox box = box_of(request);
   const bool same_ground = window == window_ && box == box_;
@@ -87,8 +87,17 @@ Guide GuideField::settle(const GuideRequest& request, Memory& memory) noexcept {
           is_in(keep_out_, request.robot_in_map) ? KeepOut{} : keep_out_};
 }
 
+void TimeToGoField::draw(const Guide& guide, float* seconds) const noexcept {
+  for (std::int32_t c = 0; c < guide.side * guide.side; ++c) {
+    const float x = guide.low_x + (static_cast<float>(c % guide.side) + 0.5F) * guide.cell_m;
+    const float y = guide.low_y + (static_cast<float>(c / guide.side) + 0.5F) * guide.cell_m;
+    const bool has_way = guide.to_go_s[c] < Guide::kNoWay_s, has_room = guide.room(x, y) >= blocked_m_;
+    seconds[c] = has_way ? guide.to_go_s[c] : has_room ? cell::kUnreachable : cell::kNotFree;
+  }
+}
+
 /// Everything that is known, keep-out zones, robot and goal, and three metres about them: room enough to walk round.
-CellBox GuideField::box_of(const GuideRequest& request) noexcept {
+CellBox TimeToGoField::box_of(const TimeToGoRequest& request) noexcept {
   const Window& window = request.window;
   const std::int32_t last = window.side - 1, margin = static_cast<std::int32_t>(3.0 / window.cell_m);
   const CellIndex robot = window.cell_at(request.robot_in_map);
@@ -117,7 +126,7 @@ CellBox GuideField::box_of(const GuideRequest& request) noexcept {
           std::clamp(box.i1 + margin, 0, last), std::clamp(box.j1 + margin, 0, last)};
 }
 
-std::uint16_t GuideField::rate_at(float d) const noexcept {
+std::uint16_t TimeToGoField::rate_at(float d) const noexcept {
   if (d < blocked_m_) return 0;
   const float near = d < kRoom_m ? kRoom_m - d : 0.0F;
   const float tight = d < tight_m_ ? (tight_m_ - d) / (tight_m_ - blocked_m_) : 0.0F;
@@ -125,17 +134,17 @@ std::uint16_t GuideField::rate_at(float d) const noexcept {
 }
 
 /// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.
-bool GuideField::leads_through_unseen(const GuideRequest& request, const CellBox& box,
-                                      const std::uint8_t* unseen) const noexcept {
+bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const CellBox& box,
+                                         const std::uint8_t* unseen) const noexcept {
   const CellIndex robot = request.window.cell_at(request.robot_in_map);
   std::int32_t i = robot.i, j = robot.j;
   for (double gone = 0.0; gone < kUnseenRadius_m;) {
     std::uint32_t least = kNoWay;
-    GuideWays::Neighbour best{};
-    for (const GuideWays::Neighbour& n : GuideWays::kNeighbours) {
+    StepGraph::Neighbour best{};
+    for (const StepGraph::Neighbour& n : StepGraph::kNeighbours) {
       const std::int32_t x = i + n.di, y = j + n.dj;
       if (x < box.i0 || y < box.j0 || x > box.i1 || y > box.j1) continue;
-      const std::uint32_t cost = ways_.cost(ways_.at(x, y));
+      const std::uint32_t cost = graph_.cost(graph_.at(x, y));
       if (cost < least) least = cost, best = n;
     }
     if (least == kNoWay) return false;
@@ -147,8 +156,8 @@ bool GuideField::leads_through_unseen(const GuideRequest& request, const CellBox
   return false;
 }
 
-void GuideField::weigh(const GuideRequest& request, const CellBox& box, bool same_ground,
-                       const std::uint8_t* unseen) noexcept {
+void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bool same_ground,
+                          const std::uint8_t* unseen) noexcept {
   const Window& window = request.window;
   const auto cells = window.grid().cells();
   if (!same_ground) std::fill_n(surface_rate_.begin(), cells, std::uint16_t{0});
@@ -174,7 +183,7 @@ void GuideField::weigh(const GuideRequest& request, const CellBox& box, bool sam
   }
 }
 
-void GuideField::weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept {
+void TimeToGoField::weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept {
   const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
   const Place* surface = surfaces_.surface();
   for (std::int32_t i = box.i0; i <= box.i1; ++i) {
@@ -184,7 +193,7 @@ void GuideField::weigh_surfaces(const Window& window, const CellBox& box, std::i
   }
 }
 
-void GuideField::weigh_keep_out(const Window& window, const CellBox& box) noexcept {
+void TimeToGoField::weigh_keep_out(const Window& window, const CellBox& box) noexcept {
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
     const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
     for (std::int32_t i = box.i0; i <= box.i1; ++i) {
@@ -195,7 +204,7 @@ void GuideField::weigh_keep_out(const Window& window, const CellBox& box) noexce
 }
 
 /// The dearer of both holds: what is nearer. To a robot in a zone none is closed, or it would have no way out.
-void GuideField::add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept {
+void TimeToGoField::add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept {
   const auto closed = static_cast<std::uint16_t>(is_in(keep_out_, robot_in_map) ? kRates * kDearest : 0.0F);
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
     for (std::int32_t i = box.i0; i <= box.i1; ++i) {
@@ -206,17 +215,17 @@ void GuideField::add_keep_out(const Window& window, const CellBox& box, Vec2 rob
   }
 }
 
-void GuideField::add_weight(std::int32_t c, float weight) noexcept {
+void TimeToGoField::add_weight(std::int32_t c, float weight) noexcept {
   std::uint16_t& rate = rate_[static_cast<std::size_t>(c)];
   if (rate == 0) return;
   rate = static_cast<std::uint16_t>(std::min(static_cast<float>(rate) + kRates * weight, kRates * kDearest));
 }
 
-/// The goal's cell, or the nearest that is a way; -1 where there is none near or the goal is outside.
-std::int32_t GuideField::goal_cell(const GuideRequest& request, const CellBox& box) const noexcept {
+/// The goal's cell, or the nearest free one; kNone where there is none near or the goal is outside.
+std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept {
   const Window& window = request.window;
   const Grid grid = window.grid();
-  if (!window.holds(request.goal_in_map, 0)) return -1;
+  if (!window.holds(request.goal_in_map, 0)) return StepGraph::kNone;
   std::int32_t best = -1;
   double least = kGoalRadius_m;
   for_each_in_disc(window, box, request.goal_in_map, kGoalRadius_m, [&](std::int32_t c) {
@@ -224,36 +233,38 @@ std::int32_t GuideField::goal_cell(const GuideRequest& request, const CellBox& b
     const double away = distance(window.in_map({c % grid.side + 0.5, c / grid.side + 0.5}), request.goal_in_map);
     if (away < least) least = away, best = c;
   });
-  return best < 0 ? -1 : ways_.at(best % grid.side, best / grid.side);
+  return best < 0 ? StepGraph::kNone : graph_.at(best % grid.side, best / grid.side);
 }
 
 /// For a goal outside every cell of the border, with what is left beyond.
-void GuideField::seed_border(const GuideRequest& request, const CellBox& box) noexcept {
+void TimeToGoField::seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept {
   const Window& window = request.window;
   const double through = distance(request.robot_in_map, request.goal_in_map);
   const auto add = [&](std::int32_t i, std::int32_t j) {
-    const std::int32_t n = ways_.at(i, j);
-    if (rate_[static_cast<std::size_t>(window.grid().at(i, j))] == 0 || ways_.cost(n) != kNoWay) return;
+    const std::int32_t n = graph_.at(i, j);
+    if (rate_[static_cast<std::size_t>(window.grid().at(i, j))] == 0 || graph_.cost(n) != kNoWay) return;
     // Relative to the straight way, so that a goal far off costs no more than numbers hold.
     const double more =
         distance(window.in_map({i + 0.5, j + 0.5}), request.goal_in_map) - through + window.side * window.cell_m * 1.5;
-    repair_.offer(ways_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window.cell_m * kCostsPerCell));
+    repair_.offer(graph_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window.cell_m * kCostsPerCell));
   };
   for (std::int32_t i = box.i0; i <= box.i1; ++i) add(i, box.j0), add(i, box.j1);
   for (std::int32_t j = box.j0; j <= box.j1; ++j) add(box.i0, j), add(box.i1, j);
 }
 
-void GuideField::settle_costs(const GuideRequest& request, const CellBox& box, bool same_ground) noexcept {
+void TimeToGoField::settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept {
   const CellIndex at = request.window.cell_at(request.robot_in_map);
-  ways_.take_grid(request.window.grid());
-  const std::int32_t robot = ways_.at(at.i, at.j);
+  graph_.take_grid(request.window.grid());
+  const std::int32_t robot = graph_.at(at.i, at.j);
   const std::int32_t goal = goal_cell(request, box), last = std::exchange(goal_, goal);
-  if (same_ground && goal >= 0 && goal == last && repair_costs(request.window.grid(), robot)) return;
+  if (certified_ && same_ground && goal != StepGraph::kNone && goal == last &&
+      repair_costs(request.window.grid(), robot))
+    return;
   settle_anew(request, box, robot);
 }
 
 /// False where all is to be settled anew.
-bool GuideField::repair_costs(Grid grid, std::int32_t robot) noexcept {
+bool TimeToGoField::repair_costs(Grid grid, std::int32_t robot) noexcept {
   const auto cells = static_cast<std::size_t>(grid.cells());
   const auto side = static_cast<std::size_t>(grid.side);
   changed_.clear();
@@ -262,41 +273,41 @@ bool GuideField::repair_costs(Grid grid, std::int32_t robot) noexcept {
     if (std::memcmp(now, before, side * sizeof *now) == 0) continue;
     for (std::size_t i = 0; i < side; ++i) {
       if (now[i] == before[i]) continue;
-      changed_.push_back(ways_.at(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)));
-      ways_.set_rate(changed_.back(), now[i]);
+      changed_.push_back(graph_.at(static_cast<std::int32_t>(i), static_cast<std::int32_t>(j)));
+      graph_.set_rate(changed_.back(), now[i]);
     }
   }
-  return changed_.size() <= cells / kFewOf && repair_.repair(ways_, changed_) && ways_.reaches(robot, kBeyondRobot);
+  return changed_.size() <= cells / kFewOf && repair_.repair(graph_, changed_) && graph_.reaches(robot, kBeyondRobot);
 }
 
-void GuideField::settle_anew(const GuideRequest& request, const CellBox& box, std::int32_t robot) noexcept {
+void TimeToGoField::settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept {
   const Grid grid = request.window.grid();
-  ways_.clear();
+  graph_.clear();
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
     for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      ways_.set_rate(ways_.at(i, j), rate_[static_cast<std::size_t>(grid.at(i, j))]);
+      graph_.set_rate(graph_.at(i, j), rate_[static_cast<std::size_t>(grid.at(i, j))]);
     }
   }
-  ways_.seed(goal_);
-  ways_.end_beyond(robot, kKeptBeyondRobot);
+  graph_.seed(goal_);
+  graph_.end_beyond(robot, kKeptBeyondRobot);
   repair_.clear();
-  if (goal_ >= 0) repair_.offer(ways_, goal_, 0);
+  if (goal_ != StepGraph::kNone) repair_.offer(graph_, goal_, 0);
   if (!request.window.holds(request.goal_in_map, 0)) seed_border(request, box);
-  (void)repair_.settle(ways_);  // room for two entries a cell has always done
-  ways_.keep_end();
+  certified_ = repair_.settle(graph_);  // room for two entries a cell has always done
+  graph_.keep_end();
 }
 
-void GuideField::write(const GuideRequest& request, const CellBox& box, Memory& memory) noexcept {
+void TimeToGoField::write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept {
   const Window& window = request.window;
   const Grid grid = window.grid();
   const CellIndex robot = window.cell_at(request.robot_in_map);
-  const std::uint32_t last = ways_.beyond(ways_.at(robot.i, robot.j), kBeyondRobot);
+  const std::uint32_t last = graph_.beyond(graph_.at(robot.i, robot.j), kBeyondRobot);
   const double seconds = window.cell_m / (std::max(request.speed_mps, 0.05) * kCostsPerCell);
   std::fill_n(memory.to_go_s.begin(), grid.cells(), Guide::kNoWay_s);
   for (std::int32_t j = box.j0; j <= box.j1; ++j) {
     float* to_go_s = &memory.to_go_s[static_cast<std::size_t>(grid.at(0, j))];
     for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      const std::uint32_t cost = ways_.cost(ways_.at(i, j));
+      const std::uint32_t cost = graph_.cost(graph_.at(i, j));
       to_go_s[i] = cost <= last ? static_cast<float>(static_cast<double>(cost) * seconds) : Guide::kNoWay_s;
     }
   }

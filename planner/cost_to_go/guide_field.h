@@ -12,8 +12,8 @@
 
 namespace jaywalk::field {
 
-/// What the way to the goal is sought among.
-struct GuideRequest {
+/// What the time to go depends on.
+struct TimeToGoRequest {
   Window window;
   const EvidenceMap* still = nullptr;
   std::span<const MoverDisc> movers;
@@ -21,17 +21,17 @@ struct GuideRequest {
   double speed_mps = 0.0;
 };
 
-/// Nearest surfaces and the time to the goal, for a body of which `inscribed_m` is the narrowest half: nearer to a
-/// surface than that is no way, nearer than its corners reach is dear, and room of up to a metre is worth a detour.
-/// Keep-out zones are like surfaces to it, but for a robot in one: that may leave, and what lies in zones is dear then.
-/// Costs are integers, so that the shortest way is the same whatever the order of the work: the fixed point of
-/// cost[n] = min(cost[c] + step) over sixteen neighbours. Where few cells have changed since the last time, what
+/// Nearest surfaces and the time to go to the goal, for a body of which `inscribed_m` is the narrowest half: nearer to
+/// a surface than that it cannot be, nearer than its corners reach is dear, and room of up to a metre is worth a
+/// detour. Keep-out zones are like surfaces to it, but for a robot in one: that may leave, and what lies in zones is
+/// dear then. Costs are integers, so that the shortest way is the same whatever the order of the work: the fixed point
+/// of cost[n] = min(cost[c] + step) over sixteen neighbours. Where few cells have changed since the last time, what
 /// depends on them is repaired, to the same bytes.
 ///
 /// Memory for windows of up to `max_side` cells in the constructor. Thread: the planner's.
-class GuideField {
+class TimeToGoField {
  public:
-  /// The arrays that a result needs; take one a result, for one GuideField.
+  /// The arrays that a result needs; take one a result, for one TimeToGoField.
   struct Memory {
     std::uint64_t round = 0;  ///< in which it was filled last
     std::vector<Place> surface;
@@ -40,26 +40,33 @@ class GuideField {
     explicit Memory(std::int32_t max_side);
   };
 
-  GuideField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-             std::shared_ptr<const KeepOutField> keep_out = nullptr);
+  TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
+                std::shared_ptr<const KeepOutField> keep_out = nullptr);
 
-  /// Fills `memory` and returns the look at it.
-  Guide settle(const GuideRequest& request, Memory& memory) noexcept;
+  /// Fills `memory` and returns a view of it.
+  Guide settle(const TimeToGoRequest& request, Memory& memory) noexcept;
+
+  /// What it was settled on, until the next time.
+  [[nodiscard]] const StepGraph& graph() const noexcept { return graph_; }
+  /// Whether the costs are the fixed point: where there is none, there is no way.
+  [[nodiscard]] bool is_certified() const noexcept { return certified_; }
+  /// For pictures: seconds by cell, NaN where the body's middle cannot be, infinity where no way leads on.
+  void draw(const Guide& guide, float* seconds) const noexcept;
 
  private:
-  [[nodiscard]] CellBox box_of(const GuideRequest& request) noexcept;
-  void weigh(const GuideRequest& request, const CellBox& box, bool same_ground, const std::uint8_t* unseen) noexcept;
+  [[nodiscard]] CellBox box_of(const TimeToGoRequest& request) noexcept;
+  void weigh(const TimeToGoRequest& request, const CellBox& box, bool same_ground, const std::uint8_t* unseen) noexcept;
   void weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept;
   void weigh_keep_out(const Window& window, const CellBox& box) noexcept;
   void add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept;
   void add_weight(std::int32_t c, float weight) noexcept;
-  void settle_costs(const GuideRequest& request, const CellBox& box, bool same_ground) noexcept;
+  void settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept;
   [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
-  void settle_anew(const GuideRequest& request, const CellBox& box, std::int32_t robot) noexcept;
-  [[nodiscard]] std::int32_t goal_cell(const GuideRequest& request, const CellBox& box) const noexcept;
-  void seed_border(const GuideRequest& request, const CellBox& box) noexcept;
-  void write(const GuideRequest& request, const CellBox& box, Memory& memory) noexcept;
-  [[nodiscard]] bool leads_through_unseen(const GuideRequest& request, const CellBox& box,
+  void settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept;
+  [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept;
+  void seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept;
+  void write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept;
+  [[nodiscard]] bool leads_through_unseen(const TimeToGoRequest& request, const CellBox& box,
                                           const std::uint8_t* unseen) const noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
@@ -71,14 +78,15 @@ class GuideField {
   CellBox box_;
   std::uint64_t round_ = 0;
   std::vector<std::uint64_t> row_round_;         ///< in which a row's surfaces changed last
-  std::vector<std::uint16_t> surface_rate_;      ///< by surfaces alone; 0: no way
+  std::vector<std::uint16_t> surface_rate_;      ///< by surfaces alone; 0: not free
   std::vector<std::uint16_t> rate_, last_rate_;  ///< with all that is added
   std::vector<std::int32_t> changed_;            ///< cells whose rate is not that of the last time
   std::vector<std::uint16_t> keep_out_rate_;     ///< by keep-out zones alone; empty where there are none
   std::vector<float> middle_x_m_;                ///< of a row's cells, in the map
   std::vector<std::int8_t> evidence_;            ///< of a row
-  std::int32_t goal_ = -1;                       ///< cell that ways lead to; -1: none, or many
-  GuideWays ways_;
+  std::int32_t goal_ = StepGraph::kNone;         ///< cell that ways lead to; kNone: none, or many
+  bool certified_ = false;
+  StepGraph graph_;
   CostRepair repair_;
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The steps that the guide's ways are made of: to sixteen neighbours, in integer costs.
+// The graph that the time to go is settled on: cells, and steps to sixteen neighbours in integer costs.
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -8,6 +8,7 @@
 
 #include "planner/mapping/grid.h"
 #include "planner/field/start_field.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk::field {
 
@@ -16,11 +17,12 @@ inline constexpr std::uint32_t kStraightLength = 64, kDiagonalLength = 91, kKnig
 inline constexpr std::uint32_t kRateOfOpenGround = 16;
 inline constexpr std::uint32_t kCostsPerCell = 2U * kRateOfOpenGround * kStraightLength;
 
-/// Cells with a ring of two about them that are no way, so that a step asks for no border. What CostRepair wants of
-/// ways is here.
-class GuideWays {
+/// A window's cells with a ring of two about them that are not free, so that a step asks for no border. What CostRepair
+/// wants of ways is here.
+class StepGraph {
  public:
   static constexpr std::uint32_t kBucketShift = 9;  ///< 512 costs: less than any step
+  static constexpr std::int32_t kNone = -1;
 
   struct Neighbour {
     std::int32_t di, dj;
@@ -44,32 +46,47 @@ class GuideWays {
                                                           {-1, -2, kKnightLength}}};
 
   /// Takes memory for grids up to `max_side` cells.
-  explicit GuideWays(std::int32_t max_side) : nodes_(size_for(max_side)) {}
+  explicit StepGraph(std::int32_t max_side) : nodes_(size_for(max_side)) {}
   [[nodiscard]] static constexpr std::size_t size_for(std::int32_t max_side) {
     return static_cast<std::size_t>((max_side + 2 * kRing) * (max_side + 2 * kRing));
   }
 
   /// From now on cells are those of this grid.
   void take_grid(Grid grid) noexcept { width_ = grid.side + 2 * kRing; }
-  /// No cell is a way, none has a cost.
+  /// No cell is free, none has a cost.
   void clear() noexcept { std::fill_n(nodes_.begin(), width_ * width_, Node{kNoWay, 0}); }
   [[nodiscard]] std::int32_t at(std::int32_t i, std::int32_t j) const noexcept {
     return (j + kRing) * width_ + i + kRing;
   }
-  /// Half of what a straight step among such cells costs, a unit of its length; 0: no way.
+  [[nodiscard]] CellIndex cell_of(std::int32_t n) const noexcept { return {n % width_ - kRing, n / width_ - kRing}; }
+  /// Half of what a straight step among such cells costs, a unit of its length; 0: not free.
   void set_rate(std::int32_t n, std::uint32_t rate) noexcept {
     Node& node = nodes_[static_cast<std::size_t>(n)];
     node.rate = rate;
     if (rate == 0) node.cost = kNoWay;
   }
+  [[nodiscard]] std::uint32_t rate(std::int32_t n) const noexcept { return nodes_[static_cast<std::size_t>(n)].rate; }
   [[nodiscard]] std::uint32_t cost(std::int32_t n) const noexcept { return nodes_[static_cast<std::size_t>(n)].cost; }
+  [[nodiscard]] bool is_free(std::int32_t n) const noexcept { return rate(n) != 0; }
+  [[nodiscard]] bool has_way(std::int32_t n) const noexcept { return cost(n) != kNoWay; }
+  /// Of settled costs: the neighbour through which a cell has its cost; kNone for one that was given its cost, or has
+  /// none.
+  [[nodiscard]] std::int32_t next(std::int32_t n) const noexcept {
+    const std::uint32_t own = cost(n);
+    std::int32_t found = kNone;
+    for_each_step(
+        n,
+        [&](std::uint32_t there, std::uint32_t step) { return found == kNone && there < own && there + step == own; },
+        [&](std::int32_t to, std::uint32_t) { found = to; });
+    return found;
+  }
 
-  /// The cell whose cost is given; -1: none.
+  /// The cell whose cost is given, or kNone.
   void seed(std::int32_t n) noexcept { seed_ = n; }
   /// Ways end where they cost `more` than that of cell n; where it has none, nowhere.
   void end_beyond(std::int32_t n, std::uint32_t more) noexcept { end_ = n, more_ = more; }
   /// They end where they do now, whatever the way of cell n comes to cost.
-  void keep_end() noexcept { limit_ = limit(), end_ = -1; }
+  void keep_end() noexcept { limit_ = limit(), end_ = kNone; }
   /// Whether all ways are known that cost at most `more` than that of cell n.
   [[nodiscard]] bool reaches(std::int32_t n, std::uint32_t more) const noexcept { return beyond(n, more) <= limit(); }
 
@@ -77,7 +94,7 @@ class GuideWays {
   [[nodiscard]] bool is_open(std::int32_t n) const noexcept {
     return n != seed_ && nodes_[static_cast<std::size_t>(n)].rate != 0;
   }
-  [[nodiscard]] std::uint32_t limit() const noexcept { return end_ < 0 ? limit_ : beyond(end_, more_); }
+  [[nodiscard]] std::uint32_t limit() const noexcept { return end_ == kNone ? limit_ : beyond(end_, more_); }
   [[nodiscard]] std::uint32_t beyond(std::int32_t n, std::uint32_t more) const noexcept {
     const std::uint32_t there = cost(n);
     return there < kEverywhere - more ? there + more : kEverywhere;
@@ -115,8 +132,8 @@ class GuideWays {
 
   std::vector<Node> nodes_;
   std::int32_t width_ = 0;
-  std::int32_t seed_ = -1;
-  std::int32_t end_ = -1;
+  std::int32_t seed_ = kNone;
+  std::int32_t end_ = kNone;
   std::uint32_t more_ = 0, limit_ = kEverywhere;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
-// The planner on any executor: chooses window, goal and start, runs the pass, and draws the path.
+// The planner: the time to go, and where it is asked for the potential on any executor: chooses window, goal and
+// start, runs the pass, and draws the path.
 #include <algorithm>
 #include <array>
 #include <chrono>
@@ -12,6 +13,7 @@
 #include "planner/field/pass.h"
 #include "planner/field/path.h"
 #include "planner/field/planning_rules.h"
+#include "planner/field/time_to_go_path.h"
 
 namespace jaywalk::field {
 
@@ -23,8 +25,8 @@ class GridPlanner final : public Planner {
         executor_(std::move(executor)),
         pass_(*executor_, config.max_side_cells),
         flood_(Grid{config.max_side_cells}.cells()),
-        window_{{0, 0}, config.side_cells, config.cell_m},
-        guide_(config.inscribed_m, config.circumscribed_m, config.max_side_cells, config.keep_out),
+        window_({{0, 0}, config.side_cells, config.cell_m}, config.max_side_cells),
+        time_to_go_(config.inscribed_m, config.circumscribed_m, config.max_side_cells, config.keep_out),
         keep_out_(config.keep_out ? config.keep_out->view() : KeepOut{}) {
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>(config.max_side_cells);
@@ -44,10 +46,8 @@ class GridPlanner final : public Planner {
     plan.path.clear();
     plan.predictions.clear();
     plan.guide = {};
-    plan.status = PlanStatus::kBackendFailed;
-    if (is_ready()) plan.status = is_finite(request) ? plan_path(request, result) : PlanStatus::kBadRequest;
-    if (plan.status != PlanStatus::kBadRequest && plan.status != PlanStatus::kBackendFailed)
-      plan.guide = guide_.settle(guide_request(request, result), result.guide);
+    result.by_potential = request.wants_potential;
+    plan.status = answer(request, result);
     if (plan.status != PlanStatus::kOk) plan.path.clear();
     plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
     is_new_ = true;
@@ -62,7 +62,13 @@ class GridPlanner final : public Planner {
   [[nodiscard]] FieldView view_field() const override {
     const Result& shown = *answers_[0];
     const auto cells = static_cast<std::size_t>(shown.window.grid().cells());
-    return {shown.window.low, shown.window.side, shown.window.side, config_.cell_m, {shown.psi, cells}};
+    if (!shown.by_potential) time_to_go_.draw(shown.plan.guide, shown.psi);
+    return {.of = shown.by_potential ? FieldView::Of::kPotential : FieldView::Of::kTimeToGo,
+            .low = shown.window.low,
+            .width = shown.window.side,
+            .height = shown.window.side,
+            .cell_m = config_.cell_m,
+            .psi = {shown.psi, cells}};
   }
 
   [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
@@ -73,20 +79,21 @@ class GridPlanner final : public Planner {
 
   /// What the stages of the last submission left behind. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }
-  [[nodiscard]] const Window& window() const noexcept { return window_; }
+  [[nodiscard]] const Window& window() const noexcept { return window_.now(); }
 
  private:
   struct Result {
     Plan plan;
     Window window;
-    GuideField::Memory guide;
+    TimeToGoField::Memory time_to_go;
     float* psi = nullptr;
+    bool by_potential = true;
 
-    explicit Result(std::int32_t max_side) : guide(max_side) {}
+    explicit Result(std::int32_t max_side) : time_to_go(max_side) {}
   };
   using Answer = std::unique_ptr<Result>;
 
-  [[nodiscard]] static GuideRequest guide_request(const PlanRequest& request, const Result& result) noexcept {
+  [[nodiscard]] static TimeToGoRequest time_to_go_request(const PlanRequest& request, const Result& result) noexcept {
     return {.window = result.window,
             .still = request.still,
             .movers = request.masked,
@@ -104,7 +111,7 @@ class GridPlanner final : public Planner {
 
   /// The free cell nearest the robot, within kStartRadius_m.
   [[nodiscard]] std::int32_t nearest_free(CellIndex robot) const noexcept {
-    return nearest_cell(window_.grid(), robot.i, robot.j, cells(kStartRadius_m),
+    return nearest_cell(window().grid(), robot.i, robot.j, cells(kStartRadius_m),
                         [this](std::int32_t c) { return is_free(c); });
   }
 
@@ -113,12 +120,34 @@ class GridPlanner final : public Planner {
     return true;
   }
 
-  PlanStatus plan_path(const PlanRequest& request, Result& result) noexcept {
-    window_ = placed(window_, request.map_from_robot.position(), request.goal_in_map);
-    result.window = window_;
-    std::fill_n(result.psi, window_.grid().cells(), cell::kNotFree);
-    const std::int32_t movers = fetch_movers(window_, request.moving, pass_.shown().movers, mover_ids_);
-    Warping warping = warping_for(config_, window_, request);
+  PlanStatus answer(const PlanRequest& request, Result& result) noexcept {
+    if (request.wants_potential && !is_ready()) return PlanStatus::kBackendFailed;
+    if (!is_finite(request)) return PlanStatus::kBadRequest;
+    window_.place(request.map_from_robot.position(), request.goal_in_map);
+    result.window = window();
+    if (!request.wants_potential) return plan_by_time_to_go(request, result);
+    const PlanStatus status = plan_by_potential(request, result);
+    if (status != PlanStatus::kBackendFailed)
+      result.plan.guide = time_to_go_.settle(time_to_go_request(request, result), result.time_to_go);
+    return status;
+  }
+
+  PlanStatus plan_by_time_to_go(const PlanRequest& request, Result& result) noexcept {
+    const TimeToGoRequest asked = time_to_go_request(request, result);
+    result.plan.guide = time_to_go_.settle(asked, result.time_to_go);
+    result.plan.certified = time_to_go_.is_certified();
+    result.plan.reach = result.plan.certified ? 1.0F : 0.0F;
+    const TimeToGoPath path(time_to_go_, asked);
+    const PlanStatus status = path.status();
+    if (status == PlanStatus::kOk) path.draw(result.plan.path);
+    window_.note_walled_off(status == PlanStatus::kNoPath && window_.can_grow() && path.is_walled_off(flood_));
+    return status;
+  }
+
+  PlanStatus plan_by_potential(const PlanRequest& request, Result& result) noexcept {
+    std::fill_n(result.psi, window().grid().cells(), cell::kNotFree);
+    const std::int32_t movers = fetch_movers(window(), request.moving, pass_.shown().movers, mover_ids_);
+    Warping warping = warping_for(config_, window(), request);
     const bool minds_unseen = request.body != nullptr && request.still != nullptr;
     PlanStatus status = plan_among(request, warping, movers, minds_unseen, result);
     if (status != PlanStatus::kOk && minds_unseen) status = plan_among(request, warping, movers, false, result);
@@ -128,25 +157,24 @@ class GridPlanner final : public Planner {
       warping.reach = warping.robot_speed * warping.cap_s;
       status = plan_among(request, warping, movers, false, result);
     }
-    const CellIndex robot = window_.cell_at(request.map_from_robot.position());
     if (status == PlanStatus::kNoPath) {
-      consider_growing(request, robot);
+      consider_growing(request);
     } else {
-      walled_off_ = 0;
+      window_.note_walled_off(false);
     }
     return status;
   }
 
   PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers, bool minds_unseen,
                         Result& result) noexcept {
-    const Grid grid = window_.grid();
-    fetch_walls(window_, request.still, pass_.shown().occupants);
-    fetch_keep_out(window_, keep_out_, request.map_from_robot.position(), pass_.shown().occupants);
-    fetch_standing(window_, request, warping.reach, pass_.shown().occupants);
-    if (minds_unseen) fetch_unseen(window_, request, pass_.shown().occupants);
+    const Grid grid = window().grid();
+    fetch_walls(window(), request.still, pass_.shown().occupants);
+    fetch_keep_out(window(), keep_out_, request.map_from_robot.position(), pass_.shown().occupants);
+    fetch_standing(window(), request, warping.reach, pass_.shown().occupants);
+    if (minds_unseen) fetch_unseen(window(), request, pass_.shown().occupants);
     if (!pass_.mark_and_clear(grid, warping, movers, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
     report_predictions(movers, result.plan);
-    const CellIndex robot = window_.cell_at(request.map_from_robot.position());
+    const CellIndex robot = window().cell_at(request.map_from_robot.position());
     if (nearest_free(robot) == kNoCell) return PlanStatus::kRobotBlocked;
     const std::int32_t goal = choose_goal(request, robot);
     return goal == kNoCell ? PlanStatus::kNoPath : descend(request, robot, goal, result);
@@ -158,7 +186,7 @@ class GridPlanner final : public Planner {
       const Mark& mark = pass_.shown().marks[k];
       (void)plan.predictions.push_back(
           {.track_id = mover_ids_[static_cast<std::size_t>(k)],
-           .position_in_map = window_.in_map({static_cast<double>(mark.x), static_cast<double>(mark.y)}),
+           .position_in_map = window().in_map({static_cast<double>(mark.x), static_cast<double>(mark.y)}),
            .mark_radius_m = static_cast<double>(mark.radius) * config_.cell_m,
            .horizon_s = static_cast<double>(mark.horizon_s)});
     }
@@ -167,11 +195,11 @@ class GridPlanner final : public Planner {
   /// The goal's cell when it is free; else the nearest in the robot's reach: round a goal inside the
   /// window, anywhere on the border for one outside it.
   [[nodiscard]] std::int32_t choose_goal(const PlanRequest& request, CellIndex robot) noexcept {
-    const Grid grid = window_.grid();
-    const bool inside = window_.holds(request.goal_in_map, 0);
-    const CellIndex wanted = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
+    const Grid grid = window().grid();
+    const bool inside = window().holds(request.goal_in_map, 0);
+    const CellIndex wanted = projected_goal(window(), request.map_from_robot.position(), request.goal_in_map);
     if (inside && is_free(grid.at(wanted.i, wanted.j))) return grid.at(wanted.i, wanted.j);
-    flood_.fill(grid, pass_.shown().clearance, nearest_free(robot));
+    fill_from(nearest_free(robot));
     if (!inside) {
       return nearest_cell(grid, wanted.i, wanted.j, 2 * grid.side, [&](std::int32_t c) {
         const std::int32_t i = c % grid.side, j = c / grid.side;
@@ -184,15 +212,15 @@ class GridPlanner final : public Planner {
 
   /// Whether a mover's mark keeps this cell from being free.
   [[nodiscard]] bool has_mover_near(CellIndex at) const noexcept {
-    return nearest_cell(window_.grid(), at.i, at.j, cells(config_.inflation_m),
+    return nearest_cell(window().grid(), at.i, at.j, cells(config_.inflation_m),
                         [this](std::int32_t c) { return (pass_.shown().occupants[c] & kMover) != 0; }) != kNoCell;
   }
 
   /// Field, index matrix, band and path to a free goal cell.
   PlanStatus descend(const PlanRequest& request, CellIndex robot, std::int32_t goal, Result& result) noexcept {
     const ShownArrays& a = pass_.shown();
-    const Grid grid = window_.grid();
-    const bool warm = solved_goal_ == goal && solved_window_.low == window_.low && solved_window_.side == window_.side;
+    const Grid grid = window().grid();
+    const bool warm = solved_goal_ == goal && solved_window_ == window();
     const Disc near{robot.i, robot.j, cells(kStartRadius_m)};
     const FieldQuality quality = pass_.solve(grid, goal, warm ? From::kLast : From::kNothing, near, result.psi);
     if (!quality.done) return PlanStatus::kBackendFailed;
@@ -200,7 +228,7 @@ class GridPlanner final : public Planner {
     const std::int32_t start =
         nearest_cell(grid, near.i, near.j, near.radius, [&](std::int32_t c) { return cell::is_joined(result.psi[c]); });
     solved_goal_ = goal;
-    solved_window_ = window_;
+    solved_window_ = window();
     result.plan.certified = quality.certified;
     result.plan.cycles = quality.cycles;
     // Nothing reads the occupants any more: room for the count.
@@ -214,57 +242,55 @@ class GridPlanner final : public Planner {
                   Path& path) noexcept {
     const ShownArrays& a = pass_.shown();
     const Vec2 from = request.map_from_robot.position();
-    const Vec2 robot = window_.in_cells(from);
+    const Vec2 robot = window().in_cells(from);
     const std::int32_t fixed = starts_free ? 0 : 1;  // points before the start cell's
-    const std::int32_t count = follow(window_.grid(), a.index, start, goal, a.points, fixed, kMaxBandPoints);
+    const std::int32_t count = follow(window().grid(), a.index, start, goal, a.points, fixed, kMaxBandPoints);
     if (count == 0) return PlanStatus::kNoPath;
     a.points[0] = {static_cast<float>(robot.x), static_cast<float>(robot.y)};
-    const CellIndex wanted = window_.cell_at(request.goal_in_map);
-    const bool at_true_goal = window_.holds(request.goal_in_map, 0) && window_.grid().at(wanted.i, wanted.j) == goal;
+    const CellIndex wanted = window().cell_at(request.goal_in_map);
+    const bool at_true_goal = window().holds(request.goal_in_map, 0) && window().grid().at(wanted.i, wanted.j) == goal;
     const cell::Point last = a.points[count - 1];
-    const Vec2 end =
-        at_true_goal ? request.goal_in_map : window_.in_map({static_cast<double>(last.x), static_cast<double>(last.y)});
+    const Vec2 end = at_true_goal ? request.goal_in_map
+                                  : window().in_map({static_cast<double>(last.x), static_cast<double>(last.y)});
     if (at_true_goal && count > 1) {
-      const Vec2 there = window_.in_cells(end);
+      const Vec2 there = window().in_cells(end);
       a.points[count - 1] = {static_cast<float>(there.x), static_cast<float>(there.y)};
     }
-    if (!pass_.pull(window_.grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
-    resample(window_, a.clearance, a.points, count, from, end, path);
+    if (!pass_.pull(window().grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
+    resample(window(), a.clearance, a.points, count, from, end, path);
     return PlanStatus::kOk;
   }
 
-  /// Doubles the window for the next submission when walls alone have kept the goal out of reach for a while
-  /// and the robot's region leaves the window, so that a way round may lie outside.
-  void consider_growing(const PlanRequest& request, CellIndex robot) noexcept {
-    const Grid grid = window_.grid();
-    if (2 * grid.side > config_.max_side_cells || !pass_.clear(grid, inflation(), kWall)) return;
-    const std::int32_t start = nearest_free(robot);
+  /// Of walls alone: movers go away.
+  void consider_growing(const PlanRequest& request) noexcept {
+    const Grid grid = window().grid();
+    if (!window_.can_grow() || !pass_.clear(grid, inflation(), kWall)) return;
+    const std::int32_t start = nearest_free(window().cell_at(request.map_from_robot.position()));
     if (start == kNoCell) return;
-    flood_.fill(grid, pass_.shown().clearance, start);
-    const CellIndex goal = projected_goal(window_, request.map_from_robot.position(), request.goal_in_map);
-    const bool walled_off = flood_.touches_border() && window_.holds(request.goal_in_map, 0) &&
+    fill_from(start);
+    const CellIndex goal = window().cell_at(request.goal_in_map);
+    window_.note_walled_off(flood_.touches_border() && window().holds(request.goal_in_map, 0) &&
                             nearest_cell(grid, goal.i, goal.j, cells(kGoalRadius_m),
-                                         [this](std::int32_t c) { return flood_.holds(c); }) == kNoCell;
-    walled_off_ = walled_off ? walled_off_ + 1 : 0;
-    if (walled_off_ < kPatience) return;
-    window_ = doubled(window_);
-    walled_off_ = 0;
+                                         [this](std::int32_t c) { return flood_.holds(c); }) == kNoCell);
+  }
+
+  void fill_from(std::int32_t free_cell) noexcept {
+    flood_.fill(window().grid(), free_cell, false, [this](std::int32_t c) { return is_free(c); });
   }
 
   PlannerConfig config_;
   std::unique_ptr<Executor> executor_;
   Pass<Executor> pass_;
   Flood flood_;
-  Window window_;
+  GrowingWindow window_;
   Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
   std::int32_t solved_goal_ = kNoCell;
-  GuideField guide_;
+  TimeToGoField time_to_go_;
   KeepOut keep_out_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Answer, 2> answers_;  ///< collected, and being made
   bool is_new_ = false;
   std::uint32_t submissions_ = 0;
-  int walled_off_ = 0;  ///< submissions in a row
 };
 
 }  // namespace jaywalk::field

@@ -1,4 +1,5 @@
 #pragma once
+#include <algorithm>
 #include <vector>
 
 #include "planner/mapping/grid.h"
@@ -7,12 +8,31 @@ namespace jaywalk::field {
 
 inline constexpr std::int32_t kNoCell = -1;
 
-/// Cells in reach of a given one through free cells (clearance above 0), four neighbours a cell.
+/// Cells in reach of a given one through free cells.
 class Flood {
  public:
-  explicit Flood(std::int32_t max_cells);
-  /// Fills from `start`, a free cell.
-  void fill(Grid grid, const float* clearance, std::int32_t start) noexcept;
+  explicit Flood(std::int32_t max_cells)
+      : filled_(static_cast<std::size_t>(max_cells)), queue_(static_cast<std::size_t>(max_cells)) {}
+
+  /// Fills from `start` over cells for which is_free(cell), along rows and columns, and along diagonals where so said.
+  template <class IsFree>
+  void fill(Grid grid, std::int32_t start, bool diagonals, const IsFree& is_free) noexcept {
+    std::fill_n(filled_.begin(), grid.cells(), std::uint8_t{0});
+    touches_border_ = false;
+    std::size_t head = 0, tail = 0;
+    const auto enter = [&](std::int32_t i, std::int32_t j) {
+      if (!grid.holds(i, j)) return void(touches_border_ = true);
+      const std::int32_t c = grid.at(i, j);
+      if (holds(c) || !is_free(c)) return;
+      filled_[static_cast<std::size_t>(c)] = 1;
+      queue_[tail++] = c;
+    };
+    for (enter(start % grid.side, start / grid.side); head < tail; ++head) {
+      const std::int32_t i = queue_[head] % grid.side, j = queue_[head] / grid.side;
+      enter(i - 1, j), enter(i + 1, j), enter(i, j - 1), enter(i, j + 1);
+      if (diagonals) enter(i - 1, j - 1), enter(i + 1, j - 1), enter(i - 1, j + 1), enter(i + 1, j + 1);
+    }
+  }
   [[nodiscard]] bool holds(std::int32_t cell) const noexcept { return filled_[static_cast<std::size_t>(cell)] != 0; }
   /// Whether a cell on the grid's border was reached: outside there may be more.
   [[nodiscard]] bool touches_border() const noexcept { return touches_border_; }

@@ -40,12 +40,7 @@ class Pass {
 
   /// Warps, predicts, marks, and clears.
   bool mark_and_clear(Grid grid, const Warping& warping, std::int32_t movers, float inflation,
-                      std::uint8_t wanted) noexcept {
-    const MarkOrder mark{a_, grid, warping, movers};
-    if constexpr (Executor::kQueue) return executor_.run(mark) && clear(grid, inflation, wanted);
-    started_ = kNoCell;
-    return executor_.run(MarkAndClearOrder{mark, {a_, grid, grid.side, grid.side, inflation, wanted}});
-  }
+                      std::uint8_t wanted) noexcept;
 
   /// Clearance from the occupants in `wanted`. Where the host looks through memory quickly, the same occupants as the
   /// last time keep their clearance, and the start field with it.
@@ -53,18 +48,7 @@ class Pass {
     return clear(grid, grid.side, grid.side, inflation, wanted);
   }
   /// The same where only the lowest width x height cells count.
-  bool clear(Grid grid, std::int32_t width, std::int32_t height, float inflation, std::uint8_t wanted) noexcept {
-    const ClearOrder order{a_, grid, width, height, inflation, wanted};
-    if constexpr (Executor::kQueue) {
-      const Cleared now{grid.side, width, height, inflation, wanted};
-      const bool keeps = now == cleared_;
-      if (is_cleared(grid, now)) return true;
-      started_ = kNoCell;
-      if (keeps) return repair(order), true;
-    }
-    started_ = kNoCell;
-    return executor_.run(order);
-  }
+  bool clear(Grid grid, std::int32_t width, std::int32_t height, float inflation, std::uint8_t wanted) noexcept;
 
   /// The next clear and start are done anew though nothing has changed: for measuring.
   void forget() noexcept {
@@ -73,38 +57,17 @@ class Pass {
   }
 
   /// The start field, in `cost` and `start_psi`, unless it is there.
-  bool start(Grid grid, std::int32_t goal) noexcept {
-    if (started_ == goal) return true;
-    started_ = goal;
-    const StartOrder order{a_, grid, goal};
-    if constexpr (Executor::kQueue) {
-      order.rate(executor_);
-      if (queue_.settle(grid, goal, a_.rate, a_.cost)) {
-        order.carry_over(executor_);
-        return true;
-      }
-    }
-    return executor_.run(order);
-  }
+  bool start(Grid grid, std::int32_t goal) noexcept;
 
   /// From clearance to the potential, in memory of take_psi, and its index matrix, if there is a start for the path
   /// near the robot.
-  FieldQuality solve(Grid grid, std::int32_t goal, From from, const Disc& robot, float* psi) noexcept {
-    if constexpr (Executor::kQueue) (void)start(grid, goal);
-    const bool is_started = started_ == goal;
-    started_ = goal;
-    float* solved = is_one_memory() ? psi : psi_;
-    if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi})) return {};
-    return *a_.shown.quality;
-  }
+  FieldQuality solve(Grid grid, std::int32_t goal, From from, const Disc& robot, float* psi) noexcept;
   FieldQuality solve(Grid grid, std::int32_t goal, From from, float* psi) noexcept {
     return solve(grid, goal, from, {goal % grid.side, goal / grid.side, 0}, psi);
   }
 
   /// Pulls the band's `count` points taut; those before `first` and the last stay.
-  bool pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
-    return executor_.run(PullOrder{a_, grid, first, count});
-  }
+  bool pull(Grid grid, std::int32_t first, std::int32_t count) noexcept;
 
  private:
   /// Room in the queue. A cell is queued 1.3 times in all, and few at a time; where that should ever not do, sweeps do.
@@ -128,14 +91,7 @@ class Pass {
   }
 
   /// Clearance of other occupants, from that of the last ones.
-  void repair(const ClearOrder& order) noexcept {
-    std::swap(a_.rows_away, last_rows_away_);
-    const Grid grid = order.grid;
-    constexpr std::int32_t kColumns = Executor::kColumns;
-    executor_.for_each(grid.side / kColumns,
-                       NearestInColumns{grid, kColumns, a_.occupants, order.wanted, a_.rows_away});
-    executor_.for_each(grid.side, RepairClearanceOfRow{order.rows(a_.rows_away), last_rows_away_});
-  }
+  void repair(const ClearOrder& order) noexcept;
 
   /// Whether clearance is that of these occupants already; from now on it is taken to be.
   bool is_cleared(Grid grid, const Cleared& wanted) noexcept {
@@ -157,5 +113,72 @@ class Pass {
   std::int32_t* last_rows_away_ = nullptr;  ///< for repairs
   std::int32_t started_ = kNoCell;          ///< goal of the start field that belongs to the clearance
 };
+
+// Members that hold an executor's loops follow: not inline, so that the processor's are compiled once (serial_pass.cc).
+
+template <class Executor>
+bool Pass<Executor>::mark_and_clear(Grid grid, const Warping& warping, std::int32_t movers, float inflation,
+                                    std::uint8_t wanted) noexcept {
+  const MarkOrder mark{a_, grid, warping, movers};
+  if constexpr (Executor::kQueue) return executor_.run(mark) && clear(grid, inflation, wanted);
+  started_ = kNoCell;
+  return executor_.run(MarkAndClearOrder{mark, {a_, grid, grid.side, grid.side, inflation, wanted}});
+}
+
+template <class Executor>
+bool Pass<Executor>::clear(Grid grid, std::int32_t width, std::int32_t height, float inflation,
+                           std::uint8_t wanted) noexcept {
+  const ClearOrder order{a_, grid, width, height, inflation, wanted};
+  if constexpr (Executor::kQueue) {
+    const Cleared now{grid.side, width, height, inflation, wanted};
+    const bool keeps = now == cleared_;
+    if (is_cleared(grid, now)) return true;
+    started_ = kNoCell;
+    if (keeps) return repair(order), true;
+  }
+  started_ = kNoCell;
+  return executor_.run(order);
+}
+
+template <class Executor>
+bool Pass<Executor>::start(Grid grid, std::int32_t goal) noexcept {
+  if (started_ == goal) return true;
+  started_ = goal;
+  const StartOrder order{a_, grid, goal};
+  if constexpr (Executor::kQueue) {
+    order.rate(executor_);
+    if (queue_.settle(grid, goal, a_.rate, a_.cost)) {
+      order.carry_over(executor_);
+      return true;
+    }
+  }
+  return executor_.run(order);
+}
+
+template <class Executor>
+FieldQuality Pass<Executor>::solve(Grid grid, std::int32_t goal, From from, const Disc& robot, float* psi) noexcept {
+  if constexpr (Executor::kQueue) (void)start(grid, goal);
+  const bool is_started = started_ == goal;
+  started_ = goal;
+  float* solved = is_one_memory() ? psi : psi_;
+  if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi})) return {};
+  return *a_.shown.quality;
+}
+
+template <class Executor>
+bool Pass<Executor>::pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
+  return executor_.run(PullOrder{a_, grid, first, count});
+}
+
+template <class Executor>
+void Pass<Executor>::repair(const ClearOrder& order) noexcept {
+  std::swap(a_.rows_away, last_rows_away_);
+  const Grid grid = order.grid;
+  constexpr std::int32_t kColumns = Executor::kColumns;
+  executor_.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a_.occupants, order.wanted, a_.rows_away});
+  executor_.for_each(grid.side, RepairClearanceOfRow{order.rows(a_.rows_away), last_rows_away_});
+}
+
+extern template class Pass<SerialExecutor>;
 
 }  // namespace jaywalk::field

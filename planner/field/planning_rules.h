@@ -16,9 +16,6 @@ inline constexpr double kGoalRadiusBesideMover_m = 2.0;
 inline constexpr double kWayOut_m = 1.0;
 /// How far unseen places count as walls for a body that must not back into them.
 inline constexpr double kUnseenRadius_m = 2.0;
-/// Submissions in a row that walls alone keep from the goal before the window doubles: a second at 15 scans a
-/// second. A doorway that noise closes for a scan must not quadruple the work for good.
-inline constexpr int kPatience = 15;
 /// Slowest robot that arrival times are computed for; slower ones count as this.
 inline constexpr double kLeastSpeed_mps = 0.1;
 /// The paper's "very small" process noise: what a mover's velocity wanders in the planner's predictions.

@@ -57,6 +57,13 @@ Window doubled(const Window& now) {
   return {{now.low.i - now.side / 2, now.low.j - now.side / 2}, 2 * now.side, now.cell_m};
 }
 
+void GrowingWindow::note_walled_off(bool walled_off) noexcept {
+  walled_off_ = walled_off ? walled_off_ + 1 : 0;
+  if (walled_off_ < kPatience || !can_grow()) return;
+  now_ = doubled(now_);
+  walled_off_ = 0;
+}
+
 CellIndex projected_goal(const Window& window, Vec2 robot, Vec2 goal) {
   if (window.holds(goal, 0)) return window.cell_at(goal);
   const Vec2 from = window.in_cells(robot), to = window.in_cells(goal);

@@ -37,6 +37,28 @@ inline constexpr std::int32_t kWindowRollMargin = 30;
 /// The same centre, twice the side.
 [[nodiscard]] Window doubled(const Window& now);
 
+/// Submissions in a row that walls alone keep from the goal before the window doubles: a second at 15 scans a
+/// second. A doorway that noise closes for a scan must not quadruple the work for good.
+inline constexpr int kPatience = 15;
+
+/// A planner's window: it follows robot and goal, and doubles where a way round may lie outside it.
+class GrowingWindow {
+ public:
+  GrowingWindow(const Window& first, std::int32_t max_side) : now_(first), max_side_(max_side) {}
+
+  [[nodiscard]] const Window& now() const noexcept { return now_; }
+  void place(Vec2 robot_in_map, Vec2 goal_in_map) noexcept { now_ = placed(now_, robot_in_map, goal_in_map); }
+  [[nodiscard]] bool can_grow() const noexcept { return 2 * now_.side <= max_side_; }
+  /// After each plan: whether walls alone keep the robot from a goal inside the window, and the robot can leave the
+  /// window. Doubles it, for the next plan, when that was so kPatience times in a row.
+  void note_walled_off(bool walled_off) noexcept;
+
+ private:
+  Window now_;
+  std::int32_t max_side_;
+  int walled_off_ = 0;  ///< plans in a row
+};
+
 /// Where a goal outside projects onto the border along its line from the robot, in cells; a goal inside as it is.
 [[nodiscard]] CellIndex projected_goal(const Window& window, Vec2 robot_in_map, Vec2 goal_in_map);
 

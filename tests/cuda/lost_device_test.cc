@@ -89,6 +89,20 @@ TEST_CASE("emulated: each way to fail, in each launch of a plan, is answered by 
   }
 }
 
+TEST_CASE("emulated: a plan without a potential launches nothing, and one that wants it does") {
+  Drive drive;
+  const std::int64_t before = device().counts().launches;
+  device().order(Fault::kBroken, 0, 100);
+  drive.request.wants_potential = false;
+  CHECK(drive.plan().status == PlanStatus::kOk);
+  CHECK(drive.plan().cycles == 0);
+  CHECK(device().counts().launches == before);
+  CHECK(drive.backend() == "cuda");
+  drive.request.wants_potential = true;
+  CHECK(drive.plan().cycles > 0);
+  CHECK(drive.backend() == "cpu (cuda: the device failed)");
+}
+
 TEST_CASE("emulated: after five seconds the device is asked once more: one refused launch is forgotten") {
   Drive drive;
   device().order(Fault::kRefused);

@@ -100,6 +100,19 @@ TEST_CASE("without movers the goal is reached and nothing touched") {
   CHECK(drive.truth().contacts == 0);
 }
 
+TEST_CASE("the potential is solved for what follows its path: mode paper and long bodies") {
+  const auto cycles = [](const SimulatedDrive::Edit& edit, PlanMode mode) {
+    SimulatedDrive drive("map1_16", 3, edit, mode);
+    drive.drive(2.0);
+    CHECK(drive.loop().plan().status == PlanStatus::kOk);
+    CHECK(drive.loop().plan().path.size() > 10);
+    return drive.loop().plan().cycles;
+  };
+  CHECK(cycles({}, PlanMode::kFull) == 0);
+  CHECK(cycles({}, PlanMode::kPaper) > 0);
+  CHECK(cycles([](sim::Scenario& s) { s.model = wheelchair(); }, PlanMode::kFull) > 0);
+}
+
 TEST_CASE("with ranges that scatter by 5 cm the goal is reached as well") {
   SimulatedDrive drive("crossing", 1, [](sim::Scenario& scenario) {
     scenario.wanderers.clear();

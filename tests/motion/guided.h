@@ -32,8 +32,8 @@ class Guided {
 
  private:
   tests::Ground ground_;
-  field::GuideField field_{0.1905, 0.297, 256};
-  field::GuideField::Memory memory_{256};
+  field::TimeToGoField field_{0.1905, 0.297, 256};
+  field::TimeToGoField::Memory memory_{256};
   Guide guide_;
 };
 

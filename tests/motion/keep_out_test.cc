@@ -35,8 +35,8 @@ struct Zoned {
 
   std::shared_ptr<const KeepOutField> field;
   tests::Ground ground;
-  field::GuideField guides{0.1905, 0.297, 256, field};
-  field::GuideField::Memory memory{256};
+  field::TimeToGoField guides{0.1905, 0.297, 256, field};
+  field::TimeToGoField::Memory memory{256};
   Guide guide;
 };
 
@@ -108,8 +108,8 @@ TEST_CASE("a robot in a keep-out zone has a way out of it; from outside none lea
 TEST_CASE("a guide whose zones are far away has the bytes of one without") {
   Zoned zoned(box({60.0, 60.0}, {61.0, 61.0}));
   const Guide& with = zoned.from({-2.0, 0.0});
-  field::GuideField plain(0.1905, 0.297, 256);
-  field::GuideField::Memory memory(256);
+  field::TimeToGoField plain(0.1905, 0.297, 256);
+  field::TimeToGoField::Memory memory(256);
   const Guide without = plain.settle({.window = {{-118, -118}, 256, 0.1},
                                       .still = &zoned.ground.map(),
                                       .movers = {},

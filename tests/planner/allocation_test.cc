@@ -14,7 +14,7 @@ using namespace jaywalk;
 
 namespace {
 
-/// Forty submissions of every kind: with and without movers, goals outside, a window that doubles.
+/// Forty submissions of every kind: with and without movers and potential, goals outside, a window that doubles.
 void drive(Planner& planner) {
   static const EvidenceMap office = test::evidence_of(test::office());
   static const EvidenceMap wall = [] {
@@ -38,6 +38,7 @@ void drive(Planner& planner) {
     request.still = tick < 15 ? &office : &wall;  // the latter also makes the window double
     request.moving = tick % 2 == 0 ? std::span<const Track>(tracks) : std::span<const Track>();
     request.map_from_robot = {1.0 + 0.1 * tick, 1.0, 0.3};
+    request.wants_potential = tick < 15 || tick % 3 == 0;
     request.goal_in_map = tick % 5 == 4 ? Vec2{90.0, 0.0} : Vec2{24.0, 24.0};
     planner.submit(request);
     (void)planner.collect();

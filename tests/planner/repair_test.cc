@@ -123,8 +123,9 @@ TEST_CASE("a repaired guide has the bytes of one from nothing: walls, bodies, ro
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {
     ChangingRoom room(seed);
     Random& random = room.random();
-    field::GuideField kept(0.19, 0.3, kSide);
-    field::GuideField::Memory memories[] = {field::GuideField::Memory(kSide), field::GuideField::Memory(kSide)};
+    field::TimeToGoField kept(0.19, 0.3, kSide);
+    field::TimeToGoField::Memory memories[] = {field::TimeToGoField::Memory(kSide),
+                                               field::TimeToGoField::Memory(kSide)};
     EvidenceMap evidence = seen(room.next(), random, 3);
     Vec2 robot{5.4, 5.4};
     std::vector<MoverDisc> movers{{{2.0, 3.0}, 0.3, true}, {{4.0, 4.0}, 0.25, false}};
@@ -136,10 +137,10 @@ TEST_CASE("a repaired guide has the bytes of one from nothing: walls, bodies, ro
       if (random.below(10) == 0) movers[0].lasting = !movers[0].lasting;
       const Vec2 goal = tick % 13 == 12 ? Vec2{20.0, 1.0} : Vec2{0.45, 0.45};
       const field::Window window{{tick < 30 ? 0 : 16, 0}, kSide, 0.1};
-      const field::GuideRequest request{window, &evidence, movers, robot, goal, tick % 7 == 0 ? 0.6 : 0.5};
-      field::GuideField::Memory fresh(kSide);
+      const field::TimeToGoRequest request{window, &evidence, movers, robot, goal, tick % 7 == 0 ? 0.6 : 0.5};
+      field::TimeToGoField::Memory fresh(kSide);
       const Guide a = kept.settle(request, memories[tick % 2]);
-      const Guide b = field::GuideField(0.19, 0.3, kSide).settle(request, fresh);
+      const Guide b = field::TimeToGoField(0.19, 0.3, kSide).settle(request, fresh);
       REQUIRE(a.through_unseen == b.through_unseen);
       REQUIRE(same(a.to_go_s, b.to_go_s, kCells));
       REQUIRE(same(a.surface, b.surface, kCells));

@@ -148,7 +148,7 @@ class FixedPlanner final : public Planner {
   const Plan& collect() noexcept override { return plan; }
   FieldView view_field() const override {
     ++asked;
-    return {{-2, 3}, 2, 2, 0.1, psi};
+    return {.low = {-2, 3}, .width = 2, .height = 2, .cell_m = 0.1, .psi = psi};
   }
   const char* backend() const noexcept override { return "none"; }
 

@@ -82,7 +82,8 @@ FieldRaster raster_of(const FieldView& view) {
           view.width,
           view.height,
           view.cell_m,
-          {view.psi.begin(), view.psi.end()}};
+          {view.psi.begin(), view.psi.end()},
+          view.of};
 }
 
 void BusiestMoment::consider(const Plan& plan, const Planner& planner, std::span<const Track> tracks,

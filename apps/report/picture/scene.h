@@ -25,12 +25,13 @@ struct WallLine {
   Vec2 from, to;
 };
 
-/// A potential field with its numbers: rows from the lowest y, NaN where not free, inf where unreachable.
+/// A plan's field with its numbers: rows from the lowest y, NaN where not free, inf where unreachable.
 struct FieldRaster {
   Vec2 low;  ///< lower left corner of the first cell
   std::int32_t width = 0, height = 0;
   double cell_m = 0.0;
   std::vector<float> psi;
+  FieldView::Of of = FieldView::Of::kPotential;
 };
 
 /// One moment's plan: what the controller believed, expected and meant to do then.

@@ -192,7 +192,8 @@ void draw_panel(Canvas& canvas, const PictureScene& scene, Vec2 upper_left, doub
   at.y = draw_facts(canvas, scene, at, width);
   at.y += 10.0;
   if (scene.moment && !scene.moment->field.psi.empty()) {
-    at.y = draw_field_key(canvas, at, width, scene.decision ? "time to go" : "potential");
+    const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;
+    at.y = draw_field_key(canvas, at, width, is_potential ? "potential" : "time to go");
   }
   std::vector<LegendRow> rows;
   add_map_rows(rows, canvas, scene);

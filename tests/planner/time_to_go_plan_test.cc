@@ -1,0 +1,191 @@
+// Plans without a potential, as a nearly round body in mode full asks for: status, path and window by the time to go.
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "planner/mapping/window.h"
+#include "tests/planner/one_plan.h"
+#include "tests/planner/test_maps.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+PlanRequest time_to_go_on(const EvidenceMap& map, Vec2 from, Vec2 to) {
+  PlanRequest request = request_on(map, from, to);
+  request.wants_potential = false;
+  return request;
+}
+
+double length_of(const Path& path) {
+  double sum = 0.0;
+  for (std::size_t k = 1; k < path.size(); ++k) sum += distance(path[k - 1], path[k]);
+  return sum;
+}
+
+/// Whether cells of the view that are free join two places, by their eight neighbours.
+bool are_joined(const FieldView& view, Vec2 from, Vec2 to) {
+  const auto cell = [&view](Vec2 p) {
+    return CellIndex{static_cast<std::int32_t>(std::floor(p.x / view.cell_m)) - view.low.i,
+                     static_cast<std::int32_t>(std::floor(p.y / view.cell_m)) - view.low.j};
+  };
+  const auto at = [&view](CellIndex c) { return static_cast<std::size_t>(c.j * view.width + c.i); };
+  std::vector<bool> seen(view.psi.size());
+  std::vector<CellIndex> open{cell(from)};
+  while (!open.empty()) {
+    const CellIndex c = open.back();
+    open.pop_back();
+    const bool inside = c.i >= 0 && c.j >= 0 && c.i < view.width && c.j < view.height;
+    if (!inside || seen[at(c)] || std::isnan(view.psi[at(c)])) continue;
+    seen[at(c)] = true;
+    for (const auto& [di, dj] : {CellIndex{1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}})
+      open.push_back({c.i + di, c.j + dj});
+  }
+  return seen[at(cell(to))];
+}
+
+TestMap walled_in(TestMap map, std::int32_t low, std::int32_t high) {
+  map.box(low, low, high, low + 2), map.box(low, high - 2, high, high);
+  map.box(low, low, low + 2, high), map.box(high - 2, low, high, high);
+  return map;
+}
+
+}  // namespace
+
+TEST_CASE("the potential is solved when it is asked for, and else the time to go is all there is") {
+  const auto planner = make_cpu_planner(small_memory());
+  const EvidenceMap map = evidence_of(office());
+  PlanRequest request = time_to_go_on(map, {1.07, 1.04}, {24.31, 24.28});
+  const std::array walkers{walker({5.0, 5.0}, {0.4, 0.0})};
+  request.moving = walkers;
+  const auto plan = [&](bool wants_potential) -> const Plan& {
+    request.wants_potential = wants_potential;
+    return plan_of(*planner, request);
+  };
+  for (int round = 0; round < 2; ++round) {
+    const Plan& plain = plan(false);
+    CHECK(plain.status == PlanStatus::kOk);
+    CHECK(plain.certified);
+    CHECK(plain.cycles == 0);
+    CHECK(plain.predictions.empty());
+    CHECK(planner->view_field().of == FieldView::Of::kTimeToGo);
+    const Plan& full = plan(true);
+    CHECK(full.status == PlanStatus::kOk);
+    CHECK(full.cycles > 0);
+    CHECK(full.predictions.size() == 1);
+    CHECK(full.guide.known());
+    CHECK(planner->view_field().of == FieldView::Of::kPotential);
+  }
+}
+
+TEST_CASE("the path down the time to go leads from robot to goal, 0.2 m from walls, with points 0.1 m apart") {
+  const auto planner = make_cpu_planner(small_memory());
+  for (const TestMap& map : {open_room(), office(), clutter(21), clutter(22), speckle(23)}) {
+    const EvidenceMap evidence = evidence_of(map);
+    const Vec2 from{1.07, 1.04}, to{24.31, 24.28};
+    const Plan& plan = plan_of(*planner, time_to_go_on(evidence, from, to));
+    REQUIRE(plan.status == PlanStatus::kOk);
+    CHECK(plan.path[0] == from);
+    CHECK(plan.path.back() == to);
+    for (std::size_t k = 1; k < plan.path.size(); ++k) {
+      CHECK(distance(plan.path[k - 1], plan.path[k]) < 0.1 + 1e-9);
+      // Cells whose middle is 0.21 m from a surface are free, and the straight line between two is checked by cells.
+      const Vec2 p = plan.path[k];
+      CHECK(plan.guide.distance(static_cast<float>(p.x), static_cast<float>(p.y)) > 0.14F);
+    }
+  }
+}
+
+TEST_CASE("on open ground the path is straight within three per cent, whatever its direction") {
+  const auto planner = make_cpu_planner(small_memory());
+  const EvidenceMap map(512, 0.1, {0.0, 0.0});
+  for (const double rad : {0.0, 0.2, 0.5, 0.8, 1.3, 2.0, -2.9}) {
+    const Vec2 to = direction(rad) * 8.0;
+    CHECK(length_of(plan_of(*planner, time_to_go_on(map, {0.0, 0.0}, to)).path) < 1.03 * 8.0);
+  }
+}
+
+TEST_CASE("there is a path exactly where free cells join robot and goal") {
+  const auto planner = make_cpu_planner(small_memory());
+  int joined = 0, apart = 0;
+  for (std::uint64_t seed = 1; seed <= 30; ++seed) {
+    TestMap map = clutter(seed, 250);
+    const auto gap = static_cast<std::int32_t>(2 + seed % 4);  // cells
+    for (std::int32_t k = 0; k < 256; k += 64) map.box(k, 100, k + 64 - gap, 102);
+    map.box(4, 4, 24, 24, 0), map.box(232, 232, 252, 252, 0);
+    const EvidenceMap evidence = evidence_of(map);
+    const Vec2 from{1.45, 1.45}, to{24.15, 24.15};
+    const Plan& plan = plan_of(*planner, time_to_go_on(evidence, from, to));
+    CHECK(plan.certified);
+    const bool has_way = are_joined(planner->view_field(), from, to);
+    CHECK(plan.status == (has_way ? PlanStatus::kOk : PlanStatus::kNoPath));
+    CHECK(plan.path.empty() != has_way);
+    ++(has_way ? joined : apart);
+  }
+  CHECK(joined > 3);
+  CHECK(apart > 3);
+}
+
+TEST_CASE("a body that was mapped and may leave is no wall on the way") {
+  const auto planner = make_cpu_planner(small_memory());
+  TestMap map = open_room();
+  map.box(0, 128, 256, 130);
+  map.box(125, 128, 131, 130, 0);  // a door 0.6 m wide
+  const EvidenceMap open = evidence_of(map);
+  map.box(126, 128, 130, 130);  // and somebody in it
+  const EvidenceMap closed = evidence_of(map);
+  PlanRequest request = time_to_go_on(closed, {5.0, 5.0}, {20.0, 20.0});
+  CHECK(plan_of(*planner, time_to_go_on(open, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kOk);
+  CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
+  const std::array bodies{MoverDisc{{12.8, 12.9}, 0.27}};
+  request.masked = bodies;
+  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
+}
+
+TEST_CASE("without a potential too a robot by a wall has a path, one deep in it is blocked, an enclosed one has none") {
+  const auto planner = make_cpu_planner(small_memory());
+  TestMap map = open_room();
+  map.box(100, 100, 140, 140);
+  const EvidenceMap block = evidence_of(map), cage = evidence_of(walled_in(open_room(), 20, 80));
+  const Plan& near_wall = plan_of(*planner, time_to_go_on(block, {9.9, 12.0}, {2.0, 12.0}));
+  REQUIRE(near_wall.status == PlanStatus::kOk);
+  CHECK(near_wall.path[0] == Vec2{9.9, 12.0});
+  CHECK(plan_of(*planner, time_to_go_on(block, {12.0, 12.0}, {2.0, 12.0})).status == PlanStatus::kRobotBlocked);
+  CHECK(plan_of(*planner, time_to_go_on(block, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
+  CHECK(plan_of(*planner, time_to_go_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
+  CHECK(planner->collect().certified);
+  // A wall 0.5 m away is no way through it: beyond it there are cells with a way, within kStartRadius_m.
+  CHECK(plan_of(*planner, time_to_go_on(cage, {7.3, 5.0}, {20.0, 5.0})).status == PlanStatus::kNoPath);
+}
+
+TEST_CASE("without a potential too a goal outside the window is approached by its border") {
+  const auto planner = make_cpu_planner(small_memory());
+  const EvidenceMap map(1024, 0.1, {0.0, 0.0});
+  const Plan& plan = plan_of(*planner, time_to_go_on(map, {0.0, 0.0}, {60.0, 0.0}));
+  REQUIRE(plan.status == PlanStatus::kOk);
+  CHECK(plan.path.back().x > 15.0);
+  CHECK(std::fabs(plan.path.back().y) < 0.5);
+  CHECK(plan_of(*planner, time_to_go_on(map, {3.0, 3.0}, {3.0, 3.0})).path.back() == Vec2{3.0, 3.0});
+}
+
+TEST_CASE("without a potential too the window doubles for a way round outside it, and not for a robot walled in") {
+  // A wall 31 m long across the 25.6 m window between start and goal; its ends are outside.
+  EvidenceMap across(1024, 0.1, {12.8, 12.8});
+  for (std::int32_t j = -20; j < 290; ++j)
+    across.add({128, j}, EvidenceMap::kMax), across.add({129, j}, EvidenceMap::kMax);
+  PlannerConfig config;
+  config.max_side_cells = 512;
+  const auto planner = make_cpu_planner(config);
+  const PlanRequest request = time_to_go_on(across, {8.0, 12.8}, {17.6, 12.8});
+  for (int k = 0; k < field::kPatience; ++k) CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
+  CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
+  CHECK(planner->view_field().width == 512);
+
+  const EvidenceMap cage = evidence_of(walled_in(open_room(), 20, 80));
+  const auto caged = make_cpu_planner(config);
+  for (int k = 0; k < 2 * field::kPatience; ++k)
+    CHECK(plan_of(*caged, time_to_go_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
+  CHECK(caged->view_field().width == 256);
+}
