@@ -186,7 +186,7 @@ class Bench {
                      {"baseline", baseline.what},
                      {"ratio", ratio}});
     progress_.make_way();
-    std::printf("%-18s %-15s %5d  %-4s %9.3f %9.3f  %-18s %7.2f\n", own.what.c_str(), map.name.c_str(), side,
+    std::printf("%-19s %-15s %5d  %-4s %9.3f %9.3f  %-18s %7.2f\n", own.what.c_str(), map.name.c_str(), side,
                 own.backend.c_str(), own.p50_ms, own.p99_ms, baseline.what.c_str(), ratio);
   }
 
@@ -220,7 +220,7 @@ void write_rows(const std::filesystem::path& file, const nlohmann::ordered_json&
 int run_bench(const BenchOptions& options) {
   const std::vector<BenchMap> maps = all_maps(options);
   if (options.json) refuse_unwritable(*options.json);
-  std::printf("%-18s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
+  std::printf("%-19s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
               "ratio");
   Bench bench;
   for (std::size_t k = 0; k < maps.size(); ++k) {

@@ -94,7 +94,8 @@ void add_moment_rows(std::vector<LegendRow>& rows, Canvas& canvas, const Picture
       canvas.stroke({at - half, at + Vec2{half.x, -half.y}, at + half, at + Vec2{-half.x, half.y}}, {ink::kFaint, 1.2},
                     true);
     };
-    rows.push_back({white, "no room for the robot then"});
+    const bool is_potential = scene.moment->field.of == FieldView::Of::kPotential;  // others end beyond the robot
+    rows.push_back({white, is_potential ? "no room for the robot then" : "no room then, or too far off"});
   }
   if (!scene.moment->band.empty()) {
     rows.push_back({[&](Vec2 at) {
