@@ -9,14 +9,6 @@
 
 #include "hal/types/errors.h"
 
-namespace jaywalk::baseline {
-NLOHMANN_JSON_SERIALIZE_ENUM(Baseline, {{Baseline::kOurs, "ours"},
-                                        {Baseline::kNone, "none"},
-                                        {Baseline::kReplan, "replan"},
-                                        {Baseline::kDwa, "dwa"},
-                                        {Baseline::kOrca, "orca"}})
-}  // namespace jaywalk::baseline
-
 namespace jaywalk {
 
 // One macro a struct, both ways; field names are the file format's.
@@ -122,6 +114,20 @@ PlannerConfig ControlSetup::planner() const {
   return config;
 }
 
+motion::MotionSetup ControlSetup::motion() const {
+  return {.model = model,
+          .to_goal = mode == PlanMode::kPaper ? motion::MotionKind::kPath
+                     : guides_body()          ? motion::MotionKind::kLongBody
+                                              : motion::MotionKind::kRollouts,
+          .constant_speed = keeps_speed(),
+          .steering = steering,
+          .comfort_distance_m = comfort_distance_m,
+          .goal_tolerance_m = goal_tolerance_m,
+          .tick_s = to_seconds(tick()),
+          .mover_radius_m = mover_radius_m(),
+          .keep_out = keep_out()};
+}
+
 std::shared_ptr<const KeepOutField> ControlSetup::keep_out() const {
   const bool any =
       std::any_of(zones.begin(), zones.end(), [](const MapZone& z) { return z.kind == ZoneKind::kKeepOut; });
@@ -130,17 +136,15 @@ std::shared_ptr<const KeepOutField> ControlSetup::keep_out() const {
 
 const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" : "full"; }
 
-std::string name_of(baseline::Baseline which) { return nlohmann::json(which).get<std::string>(); }
-
 std::string to_text(const ControlSetup& setup) {
   nlohmann::json json(setup);
   for (const BlankedSector& sector : setup.model.laser.blanked)
     json["blanked"].push_back({sector.from_rad, sector.to_rad});
   json["judges_motion"] = setup.judges_motion;
-  if (setup.baseline != baseline::Baseline::kOurs) json["planner"] = setup.baseline;
+  if (!setup.rival.empty()) json["planner"] = setup.rival;
   if (setup.given_movers) json["given_movers"] = true;
   if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
-  json["berth_m"] = setup.berth_m;
+  json["berth_m"] = setup.comfort_distance_m;
   if (setup.part != 1) json["part"] = setup.part;
   if (!setup.zones.empty()) json["zones"] = setup.zones;
   if (setup.known_map) json["known_map"] = json_of(*setup.known_map);
@@ -154,10 +158,10 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
       (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
     setup.judges_motion = json.at("judges_motion").get<bool>();
-    setup.baseline = json.value("planner", baseline::Baseline::kOurs);
+    setup.rival = json.value("planner", setup.rival);
     setup.given_movers = json.value("given_movers", false);
     setup.steering = json.value("steering", StickUse::kNone);
-    setup.berth_m = json.at("berth_m").get<double>();
+    setup.comfort_distance_m = json.at("berth_m").get<double>();
     setup.part = json.value("part", setup.part);
     setup.zones = json.value("zones", setup.zones);
     if (json.contains("known_map")) setup.known_map = known_map_of(json["known_map"]);

@@ -9,19 +9,22 @@
 #include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
-#include "planner/baseline/choice.h"
+
 #include "planner/mapping/known_map.h"
+#include "planner/motion/make_motion.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
 
 enum class Backend { kAuto, kCpu, kCuda };
 
+/// One flat object, as it stands in a recording's head: more fields than a struct has elsewhere.
 struct ControlSetup {
   RobotModel model;
   PlanMode mode = PlanMode::kFull;
-  bool constant_speed = false;                              ///< the paper's constraint; mode paper implies it
-  baseline::Baseline baseline = baseline::Baseline::kOurs;  ///< who decides on motion, for comparisons in simulation
+  bool constant_speed = false;  ///< the paper's constraint; mode paper implies it
+  std::string rival{};          ///< name of another planner that decides on motion, for comparisons; empty: none
+  motion::MakeMotion make_motion = motion::make_motion;  ///< by the rival's name; not in a recording
   StickUse steering = StickUse::kNone;
   Backend backend = Backend::kAuto;
   bool given_movers = false;  ///< they come with the fix from outside; mode paper implies it
@@ -36,7 +39,7 @@ struct ControlSetup {
   double rate_hz = 50.0;
   std::shared_ptr<const KnownMap> known_map{};  ///< what is known before the first scan; null: nothing
   std::vector<MapZone> zones{};                 ///< where not to drive, and where slowly
-  double berth_m = 1.0;                         ///< people nearer than this cost; hal/comfort.h
+  double comfort_distance_m = 1.0;              ///< people nearer than this cost; hal/comfort.h
   int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long
@@ -45,6 +48,7 @@ struct ControlSetup {
   /// The robot's radius where movers are concerned, and walls for a nearly round one.
   [[nodiscard]] double mover_radius_m() const;
   [[nodiscard]] PlannerConfig planner() const;
+  [[nodiscard]] motion::MotionSetup motion() const;
   /// Null where there are no such zones. Computed anew with each call.
   [[nodiscard]] std::shared_ptr<const KeepOutField> keep_out() const;
   [[nodiscard]] bool keeps_speed() const { return constant_speed || mode == PlanMode::kPaper; }
@@ -60,7 +64,5 @@ struct ControlSetup {
 [[nodiscard]] ControlSetup setup_from_text(const std::string& text, const std::string& place);
 
 [[nodiscard]] const char* name_of(PlanMode mode);
-/// "ours", "none", "replan", "dwa", "orca"
-[[nodiscard]] std::string name_of(baseline::Baseline which);
 
 }  // namespace jaywalk

@@ -13,9 +13,9 @@ const std::vector<std::string>& comfort_names() {
 ComfortProfile profile_of(Comfort comfort) noexcept {
   switch (comfort) {
     case Comfort::kGentle:
-      return {.speed = 0.65, .accel = 0.6, .jerk = 0.6, .berth_m = 1.5};
+      return {.speed = 0.65, .accel = 0.6, .jerk = 0.6, .comfort_distance_m = 1.5};
     case Comfort::kBrisk:
-      return {.speed = 1.0, .accel = 1.6, .jerk = 1.2, .berth_m = 0.75};
+      return {.speed = 1.0, .accel = 1.6, .jerk = 1.2, .comfort_distance_m = 0.75};
     case Comfort::kNormal:
       break;
   }

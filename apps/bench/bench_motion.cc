@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/types/robot_model.h"
-#include "planner/motion/motion_planner.h"
+#include "planner/motion/make_motion.h"
 
 namespace jaywalk {
 namespace {
@@ -64,27 +64,28 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
                    .speed_mps = model.limits.max_speed_mps,
                    .still = &evidence,
                    .wants_potential = false});
-  const Guide guide = planner->collect().guide;
-  const auto motion = std::make_unique<motion::MotionPlanner>(
-      motion::MotionConfig{.footprint = model.footprint, .limits = model.limits, .laser = model.laser});
+  const auto plan = std::make_unique<Plan>(planner->collect());
+  const auto motion = motion::make_motion({.model = model});
   std::vector<Track> tracks = walkers_round(start, movers);
   const auto scan = std::make_unique<LaserScan>();
+  OperatorInput input;
+  input.has_goal = true;
+  input.goal_in_map = goal;
   Time now{};
   const auto decide = [&] {
     now += duration_from_seconds(kScan_s);
     for (Track& t : tracks) t.position_in_map = t.position_in_map + t.velocity_in_map * kScan_s, t.stamp = now;
-    motion->decide({.seen = {.now = now,
-                             .stamp = now,
-                             .map_from_robot = pose,
-                             .tracks = tracks,
-                             .standing = {},
-                             .still = evidence,
-                             .scan = *scan,
-                             .map_from_laser = pose,
-                             .guide = guide},
-                    .goal_in_map = goal,
-                    .has_goal = true},
-                   {0.4, 0.0});
+    scan->stamp = plan->stamp = now;
+    motion->decide({.now = now,
+                    .new_scan = true,
+                    .map_from_robot = pose,
+                    .driven = {0.4, 0.0},
+                    .input = input,
+                    .scan = *scan,
+                    .map_from_laser = pose,
+                    .perceived = {.tracks = tracks, .still = evidence},
+                    .plan = *plan},
+                   {motion::Intent::Kind::kGoal});
   };
   for (int k = 0; k < kBefore; ++k) decide();
   return time(("decision, " + std::to_string(movers)).c_str(), repeats, "cpu", decide);

@@ -63,14 +63,9 @@ void add_sim(CLI::App& app, int& exit_code) {
                        "full: laser only, stops for people; paper: movers given, never stops");
   sim->add_flag("--constant-speed", sim_options.constant_speed,
                 "One speed from start to goal, never stopping for a plan");
-  using baseline::Baseline;
-  add_choice<Baseline>(*sim, "--planner", sim_options.planner,
-                       {{"ours", Baseline::kOurs},
-                        {"none", Baseline::kNone},
-                        {"replan", Baseline::kReplan},
-                        {"dwa", Baseline::kDwa},
-                        {"orca", Baseline::kOrca}},
-                       "Who decides on motion: ours, or a planner of others to hold it against");
+  add_choice<std::string>(*sim, "--planner", sim_options.rival,
+                          {{"ours", ""}, {"none", "none"}, {"replan", "replan"}, {"dwa", "dwa"}, {"orca", "orca"}},
+                          "Who decides on motion: ours, or a planner of others to hold it against");
   sim->add_option_function<std::string>(
          "--comfort", [](const std::string& word) { sim_options.settings.push_back("robot.comfort=" + word); },
          "How the ride is to feel, in place of the scenario's own")

@@ -16,6 +16,7 @@
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
+#include "apps/rivals/baseline.h"
 
 namespace jaywalk {
 namespace {
@@ -60,10 +61,10 @@ sim::Scenario scenario_for(const SimOptions& options) {
     throw StartupError(
         options.scenario.string() + ": [[zones]]: a robot that keeps its speed cannot slow down in a zone",
         "leave the speed zones out, or run without --mode paper and --constant-speed");
-  if (options.planner != baseline::Baseline::kOurs && never_stops)
+  if (!options.rival.empty() && never_stops)
     throw StartupError("--planner: the planners of others stop and turn on the spot",
                        "run without --mode paper and --constant-speed");
-  if (scenario.stick && (never_stops || options.planner != baseline::Baseline::kOurs))
+  if (scenario.stick && (never_stops || !options.rival.empty()))
     throw StartupError(options.scenario.string() + ": [stick]: a person who steers is obeyed by no other planner",
                        "run without --mode paper, --constant-speed and --planner");
   if (options.mode == PlanMode::kPaper) scenario.pose_source.enabled = true;  // the paper's localisation system
@@ -81,7 +82,8 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
   return {.model = scenario.model,
           .mode = options.mode,
           .constant_speed = options.constant_speed,
-          .baseline = options.planner,
+          .rival = options.rival,
+          .make_motion = baseline::maker_of(options.rival),
           .steering = scenario.stick ? scenario.stick->steering : StickUse::kNone,
           .backend = options.backend,
           .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
@@ -90,7 +92,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .goal = scenario.goal,
           .goal_tolerance_m = scenario.goal_tolerance_m,
           .zones = scenario.zones,
-          .berth_m = profile_of(scenario.comfort).berth_m};
+          .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
 }
 
 std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
@@ -166,7 +168,7 @@ int run_sim(const SimOptions& options) {
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
   remark_unreachable(scenario, simulation);
   const ControlSetup setup = setup_for(scenario, options);
-  if (setup.guides_body() && options.planner != baseline::Baseline::kOurs)
+  if (setup.guides_body() && !options.rival.empty())
     throw StartupError(
         options.scenario.string() + ": --planner: the planners of others are for robots that are nearly round",
         "choose another model");
@@ -204,7 +206,7 @@ int run_sim(const SimOptions& options) {
                      .seed = seed,
                      .scenario = scenario.name,
                      .settings = options.settings,
-                     .planner = name_of(options.planner),
+                     .planner = options.rival.empty() ? "ours" : options.rival,
                      .mover_rule = sim::Simulation::mover_rule(),
                      .title = scenario.name + ", seed " + std::to_string(seed) + ": " + ended});
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);

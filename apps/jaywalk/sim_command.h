@@ -17,7 +17,7 @@ struct SimOptions {
   std::optional<std::uint64_t> seed;       ///< default: the scenario's
   PlanMode mode = PlanMode::kFull;
   bool constant_speed = false;
-  baseline::Baseline planner = baseline::Baseline::kOurs;
+  std::string rival;  ///< ControlSetup's
   Backend backend = Backend::kAuto;
   int device = 0;  ///< CUDA's number
   std::filesystem::path out = "out/sim";

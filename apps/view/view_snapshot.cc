@@ -1,5 +1,7 @@
 #include "apps/view/view_snapshot.h"
 
+#include "planner/motion/goal_rollouts.h"
+
 namespace jaywalk::view {
 namespace {
 
@@ -30,8 +32,9 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   copy(into.standing, std::span<const Stander>(loop.tracker().standing()));
   into.plan = loop.plan();
   into.movers.clear();
-  if (loop.motion() == nullptr) return;
-  const motion::Futures& futures = loop.motion()->futures();
+  const motion::GoalRollouts* rollouts = loop.motion().rollouts();
+  if (rollouts == nullptr) return;
+  const motion::Futures& futures = rollouts->futures();
   for (std::size_t mover = 0; mover < futures.movers(); ++mover) {
     if (futures.is_surface(mover)) continue;
     if (!into.movers.push_back(shown(futures, mover))) break;

@@ -61,7 +61,7 @@ Past relive(RelivedRun& run, double until_s) {
 
 /// The last decision and the time to go that it rests on, in the place of the path.
 void show_decision(const RelivedRun& run, PictureScene& scene) {
-  const motion::MotionPlanner* motion = run.loop().motion();
+  const motion::GoalRollouts* motion = run.loop().motion().rollouts();
   if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
   scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan().guide));
   if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
@@ -112,7 +112,8 @@ int run_why(const WhyOptions& options) {
   if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
   const Past past = relive(run, options.at_s);
   const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
-  if (const motion::MotionPlanner* motion = run.loop().motion(); motion != nullptr && motion->decision().at != kNever) {
+  const motion::GoalRollouts* motion = run.loop().motion().rollouts();
+  if (motion != nullptr && motion->decision().at != kNever) {
     write_alternatives(motion->alternatives(run.loop().plan().guide), (options.out / "why.csv").string());
   }
   std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);

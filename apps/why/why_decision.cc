@@ -39,7 +39,7 @@ std::vector<Vec2> way_of(const motion::RobotState& start,
 
 }  // namespace
 
-DecisionScene scene_of(const motion::MotionPlanner& motion, const std::vector<motion::Alternative>& alternatives) {
+DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
   constexpr int kEvery = 5;  // steps: a second
   const motion::Decision& decision = motion.decision();
   DecisionScene scene;
@@ -57,35 +57,35 @@ DecisionScene scene_of(const motion::MotionPlanner& motion, const std::vector<mo
   return scene;
 }
 
-/// The name of an attempt in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.
-std::pair<const char*, const char*> names_of(motion::Attempt attempt) {
-  using motion::Attempt;
-  switch (attempt) {
-    case Attempt::kLast:
+/// The name of a proposal in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.
+std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
+  using motion::Proposal;
+  switch (proposal) {
+    case Proposal::kLast:
       return {"last", "go on as decided before"};
-    case Attempt::kFollow:
+    case Proposal::kFollow:
       return {"follow", "follow the way"};
-    case Attempt::kWaitThenGo:
+    case Proposal::kWaitThenGo:
       return {"wait_then_go", "wait and then go"};
-    case Attempt::kGoThenStop:
+    case Proposal::kGoThenStop:
       return {"go_then_stop", "go and then stop"};
-    case Attempt::kArc:
+    case Proposal::kArc:
       return {"arc", "drive an arc"};
-    case Attempt::kArcBack:
+    case Proposal::kArcBack:
       return {"arc_back", "back off in an arc"};
-    case Attempt::kArcThenFollow:
+    case Proposal::kArcThenFollow:
       return {"arc_then_follow", "drive an arc, then follow the way"};
-    case Attempt::kBackThenFollow:
+    case Proposal::kBackThenFollow:
       return {"back_then_follow", "back off, then follow the way"};
-    case Attempt::kWish:
+    case Proposal::kStick:
       return {"wish", "drive as the stick asks"};
-    case Attempt::kGoStraight:
+    case Proposal::kGoStraight:
       return {"go_straight", "turn and drive straight on"};
   }
   return {"unknown", "do something unknown"};
 }
 
-const char* name_of(motion::Attempt attempt) { return names_of(attempt).second; }
+const char* name_of(motion::Proposal proposal) { return names_of(proposal).second; }
 
 std::string in_words(const motion::Cost& cost) {
   std::string words = seconds(cost.time, "to the goal");
@@ -101,7 +101,7 @@ void write_alternatives(const std::vector<motion::Alternative>& alternatives, co
                 "comfort_s,end_x_m,end_y_m,end_heading_rad,end_v_mps,first_v_mps,first_w_radps");
   const auto number = [&table](float value) { table.number(static_cast<double>(value)); };
   for (const motion::Alternative& a : alternatives) {
-    table.text(names_of(a.trajectory.attempt).first).count(a.trajectory.perturbed ? 1 : 0);
+    table.text(names_of(a.trajectory.proposal).first).count(a.trajectory.perturbed ? 1 : 0);
     number(a.cost.total());
     number(a.cost.time);
     for (const auto& term : terms_of(a.cost)) number(term.second);

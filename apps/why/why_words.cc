@@ -93,9 +93,9 @@ std::string expected(const TickRecord& t, std::span<const Track> tracks) {
 std::string wanted(const TickRecord& t, const ControlLoop& loop) {
   std::string words = text("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
   if (!t.input.has_goal) return words + "; it has no goal.\n";
-  if (loop.motion() != nullptr && loop.motion()->decision().at != kNever) {
-    const motion::Decision& decision = loop.motion()->decision();
-    words += std::string(", to ") + name_of(decision.trajectory.attempt) + "; it counted " + in_words(decision.cost);
+  if (const motion::GoalRollouts* motion = loop.motion().rollouts(); motion && motion->decision().at != kNever) {
+    const motion::Decision& decision = motion->decision();
+    words += std::string(", to ") + name_of(decision.trajectory.proposal) + "; it counted " + in_words(decision.cost);
   }
   return words + ".\n";
 }

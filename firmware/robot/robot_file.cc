@@ -104,7 +104,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
       root.number("max_speed_mps", setup.model.limits.max_speed_mps, setup.model.limits.max_speed_mps);
   const Comfort comfort = read_comfort(root);
   setup.model.limits = limits_for(comfort, setup.model);
-  setup.berth_m = profile_of(comfort).berth_m;
+  setup.comfort_distance_m = profile_of(comfort).comfort_distance_m;
   if (root.has("start")) {
     const auto start = root.place_in_map("start", 3);
     setup.start = {start[0], start[1], wrap_angle(start[2])};

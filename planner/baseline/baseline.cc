@@ -8,7 +8,8 @@
 namespace jaywalk::baseline {
 namespace {
 
-constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  // as motion::MotionPlanner's, as the limits below
+// As the roll-outs', as the limits below.
+constexpr Duration kHoldsFor = std::chrono::milliseconds(500), kGuideHoldsFor = std::chrono::seconds(1);
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F, kSlowing = 0.8F, kMostJerk = 0.75F;
 constexpr float kStopWithin = 0.66F;  // of the tolerance
 
@@ -24,58 +25,85 @@ motion::MotionBounds bounds_of(const MotionLimits& limits) {
           .jerk = at_most(limits.max_jerk_mps3, kMostJerk)};
 }
 
-motion::Command decided_by(Baseline which, const Scene& scene) noexcept {
-  switch (which) {
-    case Baseline::kOurs:
-    case Baseline::kNone:
-      return none(scene);
-    case Baseline::kReplan:
-      return replan(scene);
-    case Baseline::kDwa:
-      return dwa(scene);
-    case Baseline::kOrca:
-      return orca(scene);
-  }
-  return {};
+motion::RobotState state_of(const motion::World& world) noexcept {
+  const Pose2& here = world.map_from_robot;
+  return {static_cast<float>(here.x),
+          static_cast<float>(here.y),
+          static_cast<float>(here.heading),
+          static_cast<float>(world.driven.v_mps),
+          static_cast<float>(world.driven.w_radps),
+          0.0F};
+}
+
+template <BaselineMotion::Decide deciding>
+std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {
+  return motion::turning_at_goal(setup, std::make_unique<BaselineMotion>(deciding, setup));
 }
 
 }  // namespace
 
 motion::Command none(const Scene& scene) noexcept { return driven_along(scene, way_down(scene), speed_to_goal(scene)); }
 
-BaselinePlanner::BaselinePlanner(Baseline which, const motion::MotionConfig& config)
-    : which_(which),
-      bounds_(bounds_of(config.limits)),
-      radius_(static_cast<float>(config.footprint.circumscribed_radius_m())),
-      tick_s_(static_cast<float>(config.tick_s)),
-      tolerance_m_(static_cast<float>(config.goal_tolerance_m)) {}
+BaselineMotion::BaselineMotion(Decide deciding, const motion::MotionSetup& setup)
+    : decide_(deciding),
+      bounds_(bounds_of(setup.model.limits)),
+      radius_(static_cast<float>(setup.model.footprint.circumscribed_radius_m())),
+      tick_s_(static_cast<float>(setup.tick_s)),
+      tolerance_m_(static_cast<float>(setup.goal_tolerance_m)),
+      speed_mps_(setup.model.limits.max_speed_mps) {}
 
-void BaselinePlanner::decide(const motion::MotionInput& input, const Twist2& driven) noexcept {
-  const motion::Seen& seen = input.seen;
-  if (!input.has_goal || !seen.guide.known() || !finite(seen.map_from_robot)) return;
-  const Scene scene{{static_cast<float>(seen.map_from_robot.x), static_cast<float>(seen.map_from_robot.y),
-                     static_cast<float>(seen.map_from_robot.heading), static_cast<float>(driven.v_mps),
-                     static_cast<float>(driven.w_radps), 0.0F},
-                    {static_cast<float>(input.goal_in_map.x), static_cast<float>(input.goal_in_map.y)},
-                    seen.tracks,
-                    seen.guide,
-                    bounds_,
-                    radius_};
-  decided_ = decided_by(which_, scene);
-  decided_at_ = seen.now;
+void BaselineMotion::observe(const motion::World& world, const motion::Intent&) noexcept {
+  status_.rests_on = std::min(seen_, world.plan.stamp);
 }
 
-Twist2 BaselinePlanner::twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal,
-                              const Twist2& permitted) noexcept {
-  const motion::Command was{static_cast<float>(permitted.v_mps), static_cast<float>(permitted.w_radps)};
-  if (std::fabs(was.v - wished_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor has set the speed
-  const bool there = distance(map_from_robot.position(), goal) < static_cast<double>(kStopWithin * tolerance_m_);
-  const bool rests = !has_goal || there || decided_at_ == kNever || now - decided_at_ > kHoldsFor;
+void BaselineMotion::decide(const motion::World& world, const motion::Intent& intent) noexcept {
+  if (!world.new_scan || !finite(world.map_from_robot)) return;
+  const Guide& guide = world.plan.guide;
+  memory_.update({world.now, world.scan.stamp, world.map_from_robot, world.perceived.tracks, world.perceived.standing,
+                  world.perceived.still, world.scan, world.map_from_laser, guide});
+  const bool has_goal = intent.kind == motion::Intent::Kind::kGoal;
+  if (!has_goal || age(world.plan.stamp, world.now) >= kGuideHoldsFor || !guide.known()) return;
+  const Vec2 goal = world.input.goal_in_map;
+  decided_ = decide_({state_of(world),
+                      {static_cast<float>(goal.x), static_cast<float>(goal.y)},
+                      world.perceived.tracks,
+                      guide,
+                      bounds_,
+                      radius_});
+  decided_at_ = world.now;
+  seen_ = world.scan.stamp;
+}
+
+Twist2 BaselineMotion::command(const motion::World& world, const motion::Intent& intent) noexcept {
+  const motion::Command was{static_cast<float>(world.driven.v_mps), static_cast<float>(world.driven.w_radps)};
+  if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor has set the speed
+  const double to_goal_m = distance(world.map_from_robot.position(), world.input.goal_in_map);
+  const bool there = to_goal_m < static_cast<double>(kStopWithin * tolerance_m_);
+  const bool rests = intent.kind != motion::Intent::Kind::kGoal || there || decided_at_ == kNever ||
+                     world.now - decided_at_ > kHoldsFor;
   const motion::RobotState next =
       motion::moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, rests ? motion::Command{} : decided_, bounds_, tick_s_);
   accel_ = next.accel;
-  wished_ = {next.v, next.w};
+  commanded_ = {next.v, next.w};
   return {static_cast<double>(next.v), static_cast<double>(next.w)};
+}
+
+PlanRequest BaselineMotion::request(const motion::World& world) const noexcept {
+  return {.stamp = world.scan.stamp,
+          .map_from_robot = world.map_from_robot,
+          .goal_in_map = world.input.goal_in_map,
+          .speed_mps = speed_mps_,
+          .still = &world.perceived.still,
+          .masked = memory_.masked(),
+          .wants_potential = false};
+}
+
+motion::MakeMotion maker_of(const std::string& name) noexcept {
+  if (name == "none") return make<none>;
+  if (name == "replan") return make<replan>;
+  if (name == "dwa") return make<dwa>;
+  if (name == "orca") return make<orca>;
+  return motion::make_motion;
 }
 
 }  // namespace jaywalk::baseline

@@ -1,10 +1,12 @@
 #pragma once
 // Planners of others, simple and honest, to hold ours against: the same tracks, the same walls, the same supervisor.
 #include <span>
+#include <string>
 
-#include "planner/baseline/choice.h"
+
 #include "planner/cost_to_go/guide.h"
-#include "planner/motion/motion_planner.h"
+#include "planner/motion/make_motion.h"
+#include "planner/prediction/mover_memory.h"
 #include "planner/motion/robot_motion.h"
 #include "planner/tracking/track.h"
 
@@ -33,24 +35,32 @@ struct Scene {
 /// alone gives way: these movers do not.
 [[nodiscard]] motion::Command orca(const Scene& scene) noexcept;
 
-/// Decides with each scan, and drives at each tick, with the comfort limits of motion::MotionPlanner. Memory: its own
-/// size. Thread: the loop's.
-class BaselinePlanner {
+/// Decides with each scan, and drives at each tick, with the comfort limits of motion::RolloutMotion.
+class BaselineMotion final : public motion::Motion {
  public:
-  BaselinePlanner(Baseline which, const motion::MotionConfig& config);
+  using Decide = motion::Command (*)(const Scene&) noexcept;
+  BaselineMotion(Decide deciding, const motion::MotionSetup& setup);
 
-  void decide(const motion::MotionInput& input, const Twist2& driven) noexcept;
-  /// `permitted_before`: what became of the last wish.
-  [[nodiscard]] Twist2 twist(Time now, bool has_goal, const Pose2& map_from_robot, Vec2 goal_in_map,
-                             const Twist2& permitted_before) noexcept;
+  void observe(const motion::World& world, const motion::Intent& intent) noexcept override;
+  [[nodiscard]] Twist2 command(const motion::World& world, const motion::Intent& intent) noexcept override;
+  void decide(const motion::World& world, const motion::Intent& intent) noexcept override;
+  [[nodiscard]] motion::MotionStatus status() const noexcept override { return status_; }
+  [[nodiscard]] PlanRequest request(const motion::World& world) const noexcept override;
+  [[nodiscard]] Duration plan_every() const noexcept override { return std::chrono::milliseconds(90); }
 
  private:
-  Baseline which_;
+  Decide decide_;
   motion::MotionBounds bounds_;
   float radius_, tick_s_, tolerance_m_;
-  motion::Command decided_, wished_;
-  Time decided_at_ = kNever;
+  double speed_mps_;
+  motion::MoverMemory memory_;  ///< tells walls from pedestrians in the plans that it asks for
+  motion::Command decided_, commanded_;
+  Time decided_at_ = kNever, seen_ = kNever;
   float accel_ = 0.0F;  ///< of the ramp
+  motion::MotionStatus status_;
 };
+
+/// What makes the motion of that name: "none", "replan", "dwa", "orca"; any other name: ours.
+[[nodiscard]] motion::MakeMotion maker_of(const std::string& name) noexcept;
 
 }  // namespace jaywalk::baseline

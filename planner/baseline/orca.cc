@@ -98,14 +98,14 @@ void add_walls(const Scene& scene, Constraints& constraints) noexcept {
   }
 }
 
-/// The allowed velocity nearest to the wish: the wish, its foot on an edge, or a corner.
+/// The allowed velocity nearest to the preferred: the preferred, its foot on an edge, or a corner.
 class Nearest {
  public:
-  Nearest(const Constraints& constraints, Velocity wish) : constraints_(constraints), wish_(wish) {
-    consider(wish);
+  Nearest(const Constraints& constraints, Velocity preferred) : constraints_(constraints), preferred_(preferred) {
+    consider(preferred);
     for (std::size_t i = 0; i < constraints.count; ++i) {
       const HalfPlane& edge = constraints.planes[i];
-      const Velocity foot = wish - edge.room(wish) * edge.outward, along{-edge.outward.y, edge.outward.x};
+      const Velocity foot = preferred - edge.room(preferred) * edge.outward, along{-edge.outward.y, edge.outward.x};
       consider(foot);
       consider_circle(foot, along);
       for (std::size_t j = 0; j < i; ++j) consider_corner(foot, along, constraints.planes[j]);
@@ -116,7 +116,7 @@ class Nearest {
 
  private:
   void consider(Velocity v) {
-    const float off = length(v - wish_);
+    const float off = length(v - preferred_);
     if (found_ && off >= off_) return;
     if (constraints_.least_room(v) < -kTolerance) return;
     best_ = v, off_ = off, found_ = true;
@@ -134,7 +134,7 @@ class Nearest {
   }
 
   const Constraints& constraints_;
-  Velocity wish_, best_;
+  Velocity preferred_, best_;
   float off_ = 0.0F;
   bool found_ = false;
 };

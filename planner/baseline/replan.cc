@@ -14,7 +14,7 @@ constexpr int kMostRounds = 12;  ///< of four sweeps
 constexpr float kBlocked_s = 2.0F * Guide::kNoWay_s;
 constexpr float kDiagonal = 1.41421356F;
 
-/// Times to the goal, past walls and past where everybody is.
+/// Times to the goal, past walls and past where every mover is.
 class LocalField {
  public:
   explicit LocalField(const Scene& scene) : scene_(scene) {

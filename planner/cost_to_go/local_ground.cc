@@ -19,7 +19,7 @@ LocalGround::LocalGround(const KeepOut& keep_out)
       unseen_(kCells),
       to_go_s_(kCells, Guide::kNoWay_s) {}
 
-const Guide& LocalGround::look(const EvidenceMap& still, Vec2 robot, std::span<const MoverDisc> movers) noexcept {
+const Guide& LocalGround::update(const EvidenceMap& still, Vec2 robot, std::span<const MoverDisc> movers) noexcept {
   const CellIndex at = still.cell_at(robot);
   constexpr std::int32_t kBefore = (kSide - kBlock) / 2;
   const field::Window window{{block_below(at.i) - kBefore, block_below(at.j) - kBefore}, kSide, kCell_m};

@@ -15,7 +15,7 @@ class LocalGround {
  public:
   explicit LocalGround(const KeepOut& keep_out = {});
   /// What lies within a body of `movers` is no surface. The guide is valid until the next call.
-  const Guide& look(const EvidenceMap& still, Vec2 robot_in_map, std::span<const MoverDisc> movers) noexcept;
+  const Guide& update(const EvidenceMap& still, Vec2 robot_in_map, std::span<const MoverDisc> movers) noexcept;
   /// The last look's; before the first nothing is known.
   [[nodiscard]] const Guide& guide() const noexcept { return guide_; }
 

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "planner/motion/least_clearance.h"
 #include "planner/motion/pursuit.h"
-#include "planner/motion/room.h"
 
 namespace jaywalk {
 namespace {
@@ -26,7 +26,7 @@ Pose2 moved(const Pose2& pose, const Twist2& twist, double dt_s) {
 }
 
 /// What the follower would like, not ramped.
-Twist2 wish(const Steering& steering, double most_mps, double v_mps, const MotionLimits& limits) {
+Twist2 steered(const Steering& steering, double most_mps, double v_mps, const MotionLimits& limits) {
   if (steering.turns_first()) return {0.0, steering.turn_radps(limits.max_turn_radps)};
   const double v = std::min(most_mps, curve_speed(steering.curvature_per_m, limits.max_turn_radps));
   return {v, steering.circle_radps(std::max(v, v_mps), limits.max_turn_radps)};
@@ -52,12 +52,12 @@ bool BodyAhead::follows(const Path& path, double most_mps, double margin_m) cons
   double room = at_start, gone = 0.0;
   for (double t = 0.0; t < kAhead_s && gone < kAhead_m; t += kStep_s) {
     const Steering steering = pursue(path, pose, twist.v_mps);
-    const Twist2 wanted = wish(steering, most_mps, twist.v_mps, limits);
+    const Twist2 wanted = steered(steering, most_mps, twist.v_mps, limits);
     twist.v_mps = toward(twist.v_mps, wanted.v_mps, limits.max_accel_mps2 * kStep_s);
     twist.w_radps = toward(twist.w_radps, wanted.w_radps, limits.max_turn_accel_radps2 * kStep_s);
     pose = moved(pose, twist, kStep_s);
     gone += twist.v_mps * kStep_s;
-    const double least = least_room_m(margin_m, at_start, room);
+    const double least = least_clearance_m(margin_m, at_start, room);
     room = map.clearance(pose);
     if (room < least) return false;
     if (steering.turns_first() && map.goes_unseen(pose.position(), direction(pose.heading))) return false;
@@ -74,7 +74,7 @@ bool BodyAhead::stops_in_time() const noexcept {
   for (double t = 0.0; !at_rest(twist); t += kStopStep_s) {
     if (t >= kBeforeSlowing_s) twist = slowed(twist, limits);
     pose = moved(pose, twist, kStopStep_s);
-    const double least = least_room_m(kTouch_m, at_start, room);
+    const double least = least_clearance_m(kTouch_m, at_start, room);
     room = map.clearance(pose);
     if (room < least) return false;
   }

@@ -8,7 +8,7 @@ namespace jaywalk {
 /// As good as not driven at all.
 [[nodiscard]] bool at_rest(const Twist2& twist) noexcept;
 
-/// Drives a body ahead in thought, from a pose and what it is driven at, and looks whether its outline keeps clear of
+/// Rolls a body out from a pose and what it is driven at, and looks whether its outline keeps clear of
 /// what a map has. Thread: the loop's.
 struct BodyAhead {
   const BodyMap& map;

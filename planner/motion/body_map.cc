@@ -8,8 +8,8 @@ namespace {
 
 constexpr double kPitch_m = 0.1;  // between samples of an outline
 constexpr double kMayStop_mps =
-    0.3;  // who turns about, or comes to stand, is slower; by trial, as docs/decisions/0017 tells
-constexpr double kCoat_m = 0.05;   // whoever stands may be so much wider than he is taken for
+    0.3;  // a pedestrian that turns about or comes to stand is slower; by trial (docs/decisions/0017)
+constexpr double kCoat_m = 0.05;   // inflates standing pedestrians, which may be wider than they are taken for
 constexpr double kGraze_m = 0.05;  // surfaces are known to so much: less deep is on the outline
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.

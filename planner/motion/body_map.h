@@ -22,9 +22,8 @@ class BodyMap {
  public:
   explicit BodyMap(const Footprint& footprint);
 
-  /// Draws what stands within kReach_m (each axis) of the robot, and somebody 5 cm wider than he is taken for; of those
-  /// who walk too
-  /// (`moving`) who has stopped for now or may well, slower than 0.3 m/s.
+  /// Draws what stands within kReach_m (each axis) of the robot, pedestrians 5 cm wider than they are taken for; of
+  /// `moving` those slower than 0.3 m/s, which have stopped for now or may well.
   /// Keep-out zones are like surfaces, unless the robot's axle is in one: then it may leave.
   /// Costs about 100 ns a node near a surface.
   void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing = {},

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "planner/motion/passing_speed.h"
+#include "planner/motion/pursuit.h"
 
 namespace jaywalk {
 namespace {
@@ -11,6 +12,17 @@ namespace {
 constexpr double kStopWithin = 1.0 / 3.0;  // of the tolerance: close enough to stand still
 
 }  // namespace
+
+FollowerInput follower_input(const motion::World& world, const motion::Intent& intent) noexcept {
+  return {.path = world.plan.path,
+          .map_from_robot = world.map_from_robot,
+          .goal_in_map = world.input.goal_in_map,
+          .has_goal = intent.kind == motion::Intent::Kind::kGoal,
+          .tracks = world.perceived.tracks,
+          .standing = world.perceived.standing,
+          .most_speed_mps = intent.most_mps,
+          .permitted_before = world.driven};
+}
 
 Follower::Follower(const FollowerConfig& config)
     : config_(config),
@@ -20,15 +32,14 @@ Follower::Follower(const FollowerConfig& config)
                     .max_accel_mps2 = config.limits.max_accel_mps2},
       ramp_(config.limits) {}
 
-Twist2 Follower::twist(const FollowerInput& input) noexcept {
+Twist2 Follower::ramped(const Twist2& target, const FollowerInput& input) noexcept {
   ramp_.follow(input.permitted_before);
-  const bool turns = input.turn != nullptr && input.turn->active();  // then the guide does not look
-  if (!turns && input.guide != nullptr && input.guide->brakes_hard()) return braked_hard(input.permitted_before);
-  return ramp_.toward(wish(input), config_.tick_s);
+  return ramp_.toward(target, config_.tick_s);
 }
 
-/// As hard as the drives were proved to, on the same arc; comfort is for who is not about to touch somebody.
-Twist2 Follower::braked_hard(const Twist2& before) const noexcept {
+Twist2 Follower::braking_hard(const FollowerInput& input) noexcept {
+  const Twist2& before = input.permitted_before;
+  ramp_.follow(before);
   // The wheels lie within the body's sides: turning on the spot they go no faster than those.
   const double rim_mps = std::fabs(before.w_radps) * config_.robot.footprint.half_width_m;
   const double speed = std::max(std::fabs(before.v_mps), rim_mps);
@@ -37,50 +48,48 @@ Twist2 Follower::braked_hard(const Twist2& before) const noexcept {
   return {before.v_mps * share, before.w_radps * share};
 }
 
-Twist2 Follower::wish(const FollowerInput& input) noexcept {
-  const double cruise = config_.constant_speed && input.has_goal ? config_.limits.max_speed_mps : 0.0;
-  if (input.path.empty() || !input.has_goal) return {cruise, 0.0};
-  if (input.turn != nullptr && input.turn->active()) return at_goal(input);
-  const Vec2 robot = input.map_from_robot.position();
-  if (cruise == 0.0 && distance(robot, input.goal_in_map) < config_.goal_tolerance_m * kStopWithin) return {};
+bool Follower::is_under_way(const FollowerInput& input) const noexcept {
+  if (input.path.empty() || !input.has_goal) return false;
+  const double to_goal_m = distance(input.map_from_robot.position(), input.goal_in_map);
+  return config_.constant_speed || !(to_goal_m < config_.goal_tolerance_m * kStopWithin);
+}
 
-  if (input.guide != nullptr && input.guide->manoeuvre().active()) {
-    return manoeuvre(input, input.guide->manoeuvre());
-  }
-  if (input.guide != nullptr && input.guide->most_speed_mps() == 0.0) return {};
+Twist2 Follower::along_path(const FollowerInput& input, double most_body_mps) noexcept {
+  const double cruise = config_.constant_speed && input.has_goal ? config_.limits.max_speed_mps : 0.0;
+  if (!is_under_way(input)) return ramped({cruise, 0.0}, input);
   const double v_now = std::max(input.permitted_before.v_mps, 0.0);
   const Steering steering = pursue(input.path, input.map_from_robot, v_now);
-  if (steering.turns_first()) return {cruise, steering.turn_radps(config_.limits.max_turn_radps)};
-  const double v = cruise > 0.0 ? cruise : speed_for(input, steering.curvature_per_m);
-  return {v, steering.circle_radps(std::max(v, v_now), config_.limits.max_turn_radps)};
+  if (steering.turns_first()) return ramped({cruise, steering.turn_radps(config_.limits.max_turn_radps)}, input);
+  const double v = cruise > 0.0 ? cruise : speed_for(input, steering.curvature_per_m, most_body_mps);
+  return ramped({v, steering.circle_radps(std::max(v, v_now), config_.limits.max_turn_radps)}, input);
 }
 
-Twist2 Follower::at_goal(const FollowerInput& input) const noexcept {
-  ManoeuvreDrive& drive = input.turn->manoeuvre();
-  return drive.active() ? manoeuvre(input, drive) : input.turn->wish(input.map_from_robot);
+Twist2 Follower::turning(GoalTurn& turn, const FollowerInput& input) noexcept {
+  if (input.path.empty() || !input.has_goal) return to_rest(input);
+  ManoeuvreDrive& drive = turn.manoeuvre();
+  return drive.active() ? along(drive, input) : ramped(turn.command(input.map_from_robot), input);
 }
 
-/// Slower, or not at all, where somebody is about to come by, or stands.
-Twist2 Follower::manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept {
-  const Twist2 twist = drive.wish(input.map_from_robot);
+/// Slower, or not at all, where a pedestrian is about to come by, or stands.
+Twist2 Follower::along(ManoeuvreDrive& drive, const FollowerInput& input) noexcept {
+  const Twist2 twist = drive.command(input.map_from_robot);
   const double among = among_people(drive.way(), input) / config_.limits.max_speed_mps;
   const double share = std::min({1.0, among, input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9)});
-  return {twist.v_mps * share, twist.w_radps * share};
+  return ramped({twist.v_mps * share, twist.w_radps * share}, input);
 }
 
-/// Lets those pass who walk, and goes slowly by those who stand.
+/// Lets walking pedestrians pass, and goes slowly by standing ones.
 double Follower::among_people(const Way& way, const FollowerInput& input) const noexcept {
   const double v = std::fabs(input.permitted_before.v_mps);
   return std::min(choose_speed(way, input.map_from_robot, v, input.tracks, speed_choice_),
                   passing_speed(way, input.map_from_robot, input.standing, input.tracks, speed_choice_));
 }
 
-double Follower::speed_for(const FollowerInput& input, double curvature_per_m) const noexcept {
+double Follower::speed_for(const FollowerInput& input, double curvature_per_m, double most_body_mps) const noexcept {
   const Vec2 robot = input.map_from_robot.position();
   const double in_curve = curve_speed(curvature_per_m, config_.limits.max_turn_radps);
-  const double for_body = input.guide != nullptr ? input.guide->most_speed_mps() : in_curve;
   const double arrival_speed = slowing_speed(0.0, distance(robot, input.goal_in_map), config_.limits.max_accel_mps2);
-  return std::min({config_.limits.max_speed_mps, input.most_speed_mps, in_curve, for_body, arrival_speed,
+  return std::min({config_.limits.max_speed_mps, input.most_speed_mps, in_curve, most_body_mps, arrival_speed,
                    among_people({.places = input.path}, input)});
 }
 

@@ -4,14 +4,11 @@
 
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
-#include "planner/motion/footprint_guide.h"
 #include "planner/motion/goal_turn.h"
-#include "planner/motion/pursuit.h"
+#include "planner/motion/manoeuvre_drive.h"
+#include "planner/motion/motion.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
-#include "planner/tracking/stander.h"
-#include "planner/tracking/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 
@@ -33,25 +30,34 @@ struct FollowerInput {
   std::span<const Track> tracks;                                    ///< all of them: see choose_speed
   std::span<const Stander> standing = {};                           ///< see passing_speed
   double most_speed_mps = std::numeric_limits<double>::infinity();  ///< beside the robot's own limit
-  Twist2 permitted_before;                                          ///< what the supervisor made of the last wish
-  FootprintGuide* guide = nullptr;  ///< of a body that is longer than wide; null: the path fits everywhere
-  GoalTurn* turn = nullptr;         ///< to the heading wanted at the goal; null: none can be
+  Twist2 permitted_before;                                          ///< what the supervisor made of the last command
 };
+[[nodiscard]] FollowerInput follower_input(const motion::World& world, const motion::Intent& intent) noexcept;
 
-/// From a path to the twist that the robot would like: pure pursuit, with a speed that curves, the goal and people
-/// allow, ramped within the comfort limits. Thread: the loop's; never allocates.
+/// From a path, a manoeuvre or a turn to the twist that the robot would like, ramped within the comfort limits: pure
+/// pursuit, with a speed that curves, the goal and people allow. Thread: the loop's; never allocates.
 class Follower {
  public:
   explicit Follower(const FollowerConfig& config);
-  [[nodiscard]] Twist2 twist(const FollowerInput& input) noexcept;
+
+  /// Along the path, no faster than `most_body_mps` for the body's sake.
+  [[nodiscard]] Twist2 along_path(const FollowerInput& input,
+                                  double most_body_mps = std::numeric_limits<double>::infinity()) noexcept;
+  [[nodiscard]] Twist2 along(ManoeuvreDrive& drive, const FollowerInput& input) noexcept;
+  /// At the goal: to the heading wanted there.
+  [[nodiscard]] Twist2 turning(GoalTurn& turn, const FollowerInput& input) noexcept;
+  /// As hard as the drives were proved to, on the same arc: for what would be touched within comfort.
+  [[nodiscard]] Twist2 braking_hard(const FollowerInput& input) noexcept;
+  [[nodiscard]] Twist2 to_rest(const FollowerInput& input) noexcept { return ramped({}, input); }
+
+  /// There is a path, and the goal is not reached; at constant speed it never is.
+  [[nodiscard]] bool is_under_way(const FollowerInput& input) const noexcept;
 
  private:
-  [[nodiscard]] Twist2 wish(const FollowerInput& input) noexcept;
-  [[nodiscard]] Twist2 braked_hard(const Twist2& before) const noexcept;
-  [[nodiscard]] Twist2 at_goal(const FollowerInput& input) const noexcept;
-  [[nodiscard]] Twist2 manoeuvre(const FollowerInput& input, ManoeuvreDrive& drive) const noexcept;
+  [[nodiscard]] Twist2 ramped(const Twist2& target, const FollowerInput& input) noexcept;
   [[nodiscard]] double among_people(const Way& way, const FollowerInput& input) const noexcept;
-  [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m) const noexcept;
+  [[nodiscard]] double speed_for(const FollowerInput& input, double curvature_per_m,
+                                 double most_body_mps) const noexcept;
 
   FollowerConfig config_;
   SpeedChoiceConfig speed_choice_;

@@ -28,9 +28,9 @@ constexpr double kOff_m = 0.12;         // a manoeuvre left by more is given up
 constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
 
-bool somebody_near(const GuideInput& input) {
+bool pedestrian_near(const GuideInput& input) {
   const auto near = [&](const auto& one) {
-    return distance(one.position_in_map, input.map_from_robot.position()) < kNear_m;
+    return distance(one.position_in_map, input.map_from_robot.position()) < motion::kNearby_m;
   };
   return std::any_of(input.standing.begin(), input.standing.end(), near) ||
          std::any_of(input.moving.begin(), input.moving.end(), near);
@@ -38,10 +38,24 @@ bool somebody_near(const GuideInput& input) {
 
 }  // namespace
 
+GuideInput guide_input(const motion::World& world, const KeepOut& keep_out) noexcept {
+  return {.path = world.plan.path,
+          .map_from_robot = world.map_from_robot,
+          .wanted = world.wanted,
+          .driven = world.driven,
+          .still = world.perceived.still,
+          .standing = world.perceived.standing,
+          .moving = world.perceived.moving,
+          .goal_in_map = world.input.goal_in_map,
+          .keep_out = keep_out,
+          .pedestrian_hidden = world.perceived.pedestrian_hidden,
+          .now = world.now};
+}
+
 FootprintGuide::FootprintGuide(const Footprint& footprint, const MotionLimits& limits)
     : limits_(limits), map_(footprint), reach_(footprint.inscribed_radius_m()), search_(footprint), drive_(limits) {}
 
-void FootprintGuide::look(const GuideInput& input) noexcept {
+void FootprintGuide::update(const GuideInput& input) noexcept {
   note_goal(input.goal_in_map);
   const bool refused = is_refused(input);
   const bool braked_hard = std::exchange(brakes_hard_, false);
@@ -145,15 +159,15 @@ void FootprintGuide::look_round(const Pose2& here) noexcept {
   ++rounds_;
 }
 
-/// Straight back without steering: whatever is beside the body stays as far as it is.
+/// Straight back without steering: what is beside the body stays as far as it is.
 void FootprintGuide::back_off(const Pose2& here) noexcept {
   draw_straight(map_, here, -kBackOff_m, kTightMargin_m, back_);
   if (back_.size() > 1) drive_.begin(back_, ManoeuvreDrive::Steering::kHeld);
 }
 
-/// At once where it has seen what is behind it; else not before whoever is there had time.
+/// At once where it has seen what is behind it; else not before a pedestrian there had time to leave.
 bool FootprintGuide::may_back_off(const GuideInput& input) const noexcept {
-  return refused_.total() >= kPatience || !(input.somebody_hidden || unseen_behind(input.map_from_robot, kBackOff_m));
+  return refused_.total() >= kPatience || !(input.pedestrian_hidden || unseen_behind(input.map_from_robot, kBackOff_m));
 }
 
 bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexcept {
@@ -167,7 +181,7 @@ void FootprintGuide::search(const GuideInput& input) noexcept {
   const double margin = ++searches_ % 4 != 0 ? kMargin_m : kTightMargin_m;
   const Manoeuvre& found = search_.find(map_, input.map_from_robot, goal, margin);
   if (found.size() < 2) {
-    const Duration patience = somebody_near(input) ? kPatience : kUnfit;
+    const Duration patience = pedestrian_near(input) ? kPatience : kUnfit;
     if (unfit_.total() >= patience && stands && unseen_behind(input.map_from_robot, kBackOut_m))
       back_out(input.map_from_robot);
     else if (rounds_ < 2 && unfit_.total() >= (rounds_ + 1) * kLookRound && stands)
@@ -176,7 +190,7 @@ void FootprintGuide::search(const GuideInput& input) noexcept {
   }
   const bool backs =
       std::any_of(found.begin(), found.end(), [](const auto& step) { return step.gear == Gear::kBackward; });
-  if (backs && input.somebody_hidden && unfit_.total() < kPatience) return;
+  if (backs && input.pedestrian_hidden && unfit_.total() < kPatience) return;
   // A robot under way takes up only what goes on forward; for anything else it stops first, and looks again.
   if (!(stands && unfit_.total() >= kUnfit) && found[1].gear != Gear::kForward) return;
   drive_.begin(found);

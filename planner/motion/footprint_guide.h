@@ -7,6 +7,7 @@
 #include "planner/motion/held_time.h"
 #include "planner/motion/manoeuvre_drive.h"
 #include "planner/motion/manoeuvre_search.h"
+#include "planner/motion/motion.h"
 #include "planner/planner.h"
 
 namespace jaywalk {
@@ -20,15 +21,15 @@ struct GuideInput {
   std::span<const Stander> standing = {};  ///< PlanRequest's
   std::span<const Track> moving = {};      ///< the same
   Vec2 goal_in_map{};
-  KeepOut keep_out{};            ///< where the body must not be though nothing stands there
-  bool somebody_hidden = false;  ///< went out of sight within kNear_m lately: nothing backs at once
-  Time now{};                    ///< the tick's: waits are counted by it
+  KeepOut keep_out{};              ///< where the body must not be though nothing stands there
+  bool pedestrian_hidden = false;  ///< Perceived::pedestrian_hidden
+  Time now{};                      ///< the tick's: waits are counted by it
 };
 
-inline constexpr double kNear_m = 2.5;  ///< of the axle: who is in the way, or of the rider's company
+[[nodiscard]] GuideInput guide_input(const motion::World& world, const KeepOut& keep_out) noexcept;
 
 /// For a body that is longer than wide: the path is one for the circle inside it, and says nothing about which way
-/// the body points. On each new path the guide drives it ahead in thought, with the follower's own steering, and looks
+/// the body points. On each new path the guide rolls it out with the follower's own steering, and looks
 /// whether the outline keeps clear of what stands: at full speed, at half, at a quarter (slower means closer to the
 /// path). Where none of them fits it searches a manoeuvre: turning elsewhere, swinging wide, backing out.
 ///
@@ -38,7 +39,7 @@ class FootprintGuide {
  public:
   FootprintGuide(const Footprint& footprint, const MotionLimits& limits);
 
-  void look(const GuideInput& input) noexcept;
+  void update(const GuideInput& input) noexcept;
   /// Fastest along the path (m/s); infinity where nothing is in the way of the body.
   [[nodiscard]] double most_speed_mps() const noexcept { return most_speed_mps_; }
   /// Something has come so near that slowing down comfortably would touch it.

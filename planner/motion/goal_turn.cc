@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/room.h"
+#include "planner/motion/least_clearance.h"
 #include "planner/motion/straight_piece.h"
 #include "planner/motion/turned_piece.h"
 #include "planner/motion/twist_ramp.h"
@@ -71,7 +71,7 @@ void GoalTurn::begin() noexcept {
   off_m_ = kOff_m;
 }
 
-Twist2 GoalTurn::wish(const Pose2& here) noexcept {
+Twist2 GoalTurn::command(const Pose2& here) noexcept {
   if (away_) return {};
   const double error = std::fabs(input_.heading_error_rad(here));
   settled_ = error <= input_.goal_heading_tolerance_rad * (settled_ ? 1.0 : kSettled);
@@ -81,8 +81,8 @@ Twist2 GoalTurn::wish(const Pose2& here) noexcept {
   return {0.0, std::copysign(std::min(kTurnGain_per_s * angle, most), to_go_rad_)};
 }
 
-void GoalTurn::look(const GuideInput& input) noexcept {
-  somebody_hidden_ = input.somebody_hidden;
+void GoalTurn::update(const GuideInput& input) noexcept {
+  pedestrian_hidden_ = input.pedestrian_hidden;
   now_ = input.now;
   const bool refused = is_refused(input);
   if (settled_) return waited_.pause();
@@ -104,7 +104,7 @@ void GoalTurn::seek(const Pose2& here) noexcept {
   waited_.update(!chosen_, now_);
   if (chosen_) note_found();
   const bool searches =
-      !chosen_ && age(searched_at_, now_) >= kSearchEvery && (!somebody_hidden_ || waited_.total() > kPatience);
+      !chosen_ && age(searched_at_, now_) >= kSearchEvery && (!pedestrian_hidden_ || waited_.total() > kPatience);
   if (searches) searched_at_ = now_;
   blocked_ = !chosen_ && !(searches && !has_room(here) && search(here)) && !look_round(here);
 }
@@ -143,11 +143,11 @@ void GoalTurn::seek_back(const Pose2& here, bool refused) noexcept {
   away_ = waited_.total() < kGiveUp;
 }
 
-/// Not back into what it has not seen, nor where somebody may be.
+/// Not back into what it has not seen, nor where a pedestrian may be.
 void GoalTurn::draw_off(const Pose2& here, double off_m) noexcept {
   straight_.clear();
   const bool backs = off_m < 0.0;
-  if (backs && (somebody_hidden_ || map_.goes_unseen(here * Vec2{off_m, 0.0}, direction(here.heading)))) return;
+  if (backs && (pedestrian_hidden_ || map_.goes_unseen(here * Vec2{off_m, 0.0}, direction(here.heading)))) return;
   draw_straight(map_, here, off_m, kMargins_m[1], straight_);
 }
 
@@ -181,7 +181,7 @@ bool GoalTurn::choose_way(const Pose2& here) noexcept {
   return false;
 }
 
-/// Whether there is room for the short way or the long one, and it is only that somebody stands there.
+/// Whether there is room for the short way or the long one, and only a pedestrian stands there.
 bool GoalTurn::has_room(const Pose2& here) const noexcept {
   const double error = input_.heading_error_rad(here);
   return fits(here, error, kMargins_m[0]) || fits(here, long_way(error), kMargins_m[0]);
@@ -194,7 +194,7 @@ bool GoalTurn::fits(const Pose2& here, double turn_rad, double margin_m) const n
   double room = at_start;
   for (int k = 1; k <= looks; ++k) {
     const Vec2 ahead = direction(here.heading + turn_rad * k / looks);
-    const double least = least_room_m(margin_m, at_start, room);
+    const double least = least_clearance_m(margin_m, at_start, room);
     room = map_.clearance(here.position(), ahead, least);
     if (room < least || (!is_nearly_round_ && map_.goes_unseen(here.position(), ahead))) return false;
   }

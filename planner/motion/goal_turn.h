@@ -12,8 +12,8 @@ namespace jaywalk {
 
 /// At a goal with a heading: the robot comes to rest and turns on the spot, the short way where its outline keeps clear
 /// of what stands, else the long way. Where it can turn neither way it searches a manoeuvre that ends there with that
-/// heading, and where there is none it waits and says so. A way that the supervisor has refused for a second, somebody
-/// standing in it say, is left alone for ten.
+/// heading, and where there is none it waits and says so. A way that the supervisor has refused for a second, a
+/// pedestrian standing in it say, is left alone for ten.
 ///
 /// It takes over within kStopWithin of the goal's tolerance, or anywhere within it where the robot stands, and lets go
 /// when the robot finds itself outside of it, or the goal changes. Memory in the constructor (20 MB, most of it touched
@@ -23,15 +23,15 @@ class GoalTurn {
   /// A body that is nearly round may turn over ground that was never seen.
   GoalTurn(const Footprint& footprint, const MotionLimits& limits, bool is_nearly_round);
 
-  /// Each tick, before wish(): what is asked for and how the robot moves. `driven`: as last permitted.
+  /// Each tick, before command(): what is asked for and how the robot moves. `driven`: as last permitted.
   void aim(const OperatorInput& input, const Pose2& map_from_robot, const Twist2& driven) noexcept;
-  /// Drive manoeuvre() while that is active, else wish(), in place of the path.
+  /// Drive manoeuvre() while that is active, else command(), in place of the path.
   [[nodiscard]] bool active() const noexcept { return active_; }
   /// The twist that turns on the spot from here, not ramped; zero while it still rolls or is to stand.
-  [[nodiscard]] Twist2 wish(const Pose2& map_from_robot) noexcept;
+  [[nodiscard]] Twist2 command(const Pose2& map_from_robot) noexcept;
   /// While active: looks where it may turn, with each new plan. Costs as BodyMap::draw() and, where it can turn neither
   /// way, ManoeuvreSearch::find().
-  void look(const GuideInput& input) noexcept;
+  void update(const GuideInput& input) noexcept;
   /// Neither way, nor any other: it waits.
   [[nodiscard]] bool blocked() const noexcept { return active_ && blocked_; }
   /// The way to the heading where it takes more than a turn on the spot.
@@ -62,7 +62,7 @@ class GoalTurn {
   ManoeuvreDrive drive_;
   OperatorInput input_;
   Twist2 driven_;
-  bool somebody_hidden_ = false;  ///< GuideInput's
+  bool pedestrian_hidden_ = false;  ///< GuideInput's
   bool active_ = false, settled_ = false, blocked_ = false;
   bool away_ = false;    ///< on a manoeuvre, which may lead out of the goal's tolerance
   bool chosen_ = false;  ///< to_go_rad_ leads along a way that was found free

@@ -8,7 +8,7 @@ namespace jaywalk {
 /// How long a condition has held without a break, by the times at which it was looked at, however often that was.
 class HeldTime {
  public:
-  /// Between two updates at most so much counts: nobody looked in between.
+  /// Between two updates at most so much counts: it was not looked at in between.
   static constexpr Duration kLongestGap = std::chrono::milliseconds(500);
 
   /// Whether it holds at `now`; where it does not, the time begins anew.

@@ -12,7 +12,7 @@ enum class Gear : std::uint8_t { kForward, kBackward, kTurn };
 struct ManoeuvreStep {
   Pose2 map_from_robot;
   Gear gear = Gear::kForward;
-  double room_m = 0.0;           ///< between the outline and what stands
+  double clearance_m = 0.0;      ///< between the outline and what stands
   double curvature_per_m = 0.0;  ///< of the arc driven, positive when it bends to the left of the heading
 };
 

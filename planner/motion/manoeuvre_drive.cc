@@ -40,7 +40,7 @@ std::size_t ManoeuvreDrive::end_of_gear() const noexcept {
   return last;
 }
 
-Twist2 ManoeuvreDrive::wish(const Pose2& here) noexcept {
+Twist2 ManoeuvreDrive::command(const Pose2& here) noexcept {
   while (active()) {
     const std::size_t before = at_;
     const Twist2 twist = manoeuvre_[at_].gear == Gear::kTurn ? turn(here) : drive(here);
@@ -54,8 +54,8 @@ Twist2 ManoeuvreDrive::turn(const Pose2& here) noexcept {
   const auto error = [&](std::size_t k) { return wrap_angle(manoeuvre_[k].map_from_robot.heading - here.heading); };
   while (at_ < last && std::fabs(error(at_)) < 2.0 * kTurned_rad) ++at_;
   if (at_ == last && std::fabs(error(last)) < kTurned_rad) at_ = last + 1;
-  const double wish = kTurnGain_per_s * error(std::min(at_ + kTurnAhead, last));
-  return {0.0, std::clamp(wish, -limits_.max_turn_radps, limits_.max_turn_radps)};
+  const double target = kTurnGain_per_s * error(std::min(at_ + kTurnAhead, last));
+  return {0.0, std::clamp(target, -limits_.max_turn_radps, limits_.max_turn_radps)};
 }
 
 Twist2 ManoeuvreDrive::drive(const Pose2& here) noexcept {
@@ -77,7 +77,7 @@ Twist2 ManoeuvreDrive::drive(const Pose2& here) noexcept {
   const double turn =
       std::clamp(bend - kAcross_per_m2 * sign * across - kTowards_per_m * towards, -kTightest_per_m, kTightest_per_m);
   const double most = sign > 0.0 ? kForward_mps : kBackward_mps;
-  double speed = std::clamp(kPerRoom_per_s * step.room_m, kCreep_mps, most);
+  double speed = std::clamp(kPerRoom_per_s * step.clearance_m, kCreep_mps, most);
   speed = std::min(speed, limits_.max_turn_radps / std::max(std::fabs(turn), 1e-6));
   if (!leads_on) speed = std::min(speed, slowing_speed(0.0, std::max(to_end, 0.0), limits_.max_accel_mps2));
   if (to_end < kArrived_m) at_ = last + 1;
@@ -94,7 +94,7 @@ double ManoeuvreDrive::off_by(const Pose2& here) const noexcept {
 
 double ManoeuvreDrive::least_kept_m(double margin_m) const noexcept {
   constexpr double kDrift_m = 0.01;  // surfaces move by as much as scans come in
-  return active() ? std::min(margin_m, manoeuvre_[0].room_m - kDrift_m) : margin_m;
+  return active() ? std::min(margin_m, manoeuvre_[0].clearance_m - kDrift_m) : margin_m;
 }
 
 double ManoeuvreDrive::clearance_left(const BodyMap& map) const noexcept {

@@ -20,7 +20,7 @@ class ManoeuvreDrive {
   [[nodiscard]] bool active() const noexcept { return at_ < manoeuvre_.size(); }
 
   /// The twist that keeps to the manoeuvre from here, not ramped; zero when there is nothing left of it.
-  [[nodiscard]] Twist2 wish(const Pose2& map_from_robot) noexcept;
+  [[nodiscard]] Twist2 command(const Pose2& map_from_robot) noexcept;
   /// For looking out for movers on it.
   [[nodiscard]] Way way() const noexcept { return {.places = places_, .looking = &looking_}; }
   /// How far (m) the robot is from where it should be.

@@ -6,7 +6,7 @@
 #include <limits>
 #include <utility>
 
-#include "planner/motion/room.h"
+#include "planner/motion/least_clearance.h"
 
 namespace jaywalk {
 namespace {
@@ -117,7 +117,7 @@ std::int32_t ManoeuvreSearch::state_of(const Node& node) const noexcept {
 bool ManoeuvreSearch::fits_on_the_way(Node& node) const noexcept {
   const Move& move = kMoves[node.move];
   const Node& from = nodes_[static_cast<std::size_t>(node.parent)];
-  const double least = least_room_m(margin_m_, at_start_m_, static_cast<double>(from.clearance));
+  const double least = least_clearance_m(margin_m_, at_start_m_, static_cast<double>(from.clearance));
   double nearest = clearance(node.position, node.heading, least);
   if (nearest < least) return false;
   if (move.turn != 0 && move.gear != Gear::kTurn) {
@@ -170,7 +170,7 @@ void ManoeuvreSearch::draw(std::int32_t last) noexcept {
     const Node& node = nodes_[static_cast<std::size_t>(last)];
     const double heading = wrap_angle(start_.heading + node.heading * kHalfStep_rad);
     found_[k].map_from_robot = {node.position.x, node.position.y, heading};
-    found_[k].room_m = static_cast<double>(node.clearance);
+    found_[k].clearance_m = static_cast<double>(node.clearance);
     if (node.move != kNoMove) found_[k].gear = kMoves[node.move].gear;
     if (node.move != kNoMove) found_[k].curvature_per_m = curvature_of(kMoves[node.move]);
     last = node.parent;

@@ -30,8 +30,8 @@ float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBod
 
 }  // namespace
 
-void NearReturns::look(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
-                       const RobotBody& body, std::span<const MoverDisc> movers) noexcept {
+void NearReturns::update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
+                         const RobotBody& body, std::span<const MoverDisc> movers) noexcept {
   const float reach_m = kStopZoneMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
   const cell::Heading along = cell::heading_at(robot.heading);
   const Transform2 map_from(map_from_laser);

@@ -15,8 +15,8 @@ class NearReturns {
  public:
   /// The nearest hit of each 3 degrees about the robot, of those within its reach in 1.5 s. What may be a body of
   /// `movers` is left out: it will be elsewhere.
-  void look(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot, const RobotBody& body,
-            std::span<const MoverDisc> movers) noexcept;
+  void update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot, const RobotBody& body,
+              std::span<const MoverDisc> movers) noexcept;
 
   /// Which share of the speed at `robot` the supervisor takes away, in [0, 1]: beside a point that is nearer than it
   /// was at the look, the outline's edge may go no faster than the stop zone's margin there allows.

@@ -8,13 +8,13 @@
 namespace jaywalk {
 namespace {
 
-// Somebody who sets out goes 0.4 m or so within a second: known to walk after half of it, braked for by the end.
+// A pedestrian that sets out goes 0.4 m or so within a second: known to walk after half of it, braked for by the end.
 constexpr double kGapTakes_s = 1.0;
 constexpr double kLeast_mps = 0.2;  // braked to nothing within 2 to 4 cm; slower, a robot would never get by
 
 double beside(double gap_m) { return std::max(gap_m / kGapTakes_s, kLeast_mps); }
 
-/// The most beside whoever stands, by the gap that `gap` has to a place.
+/// The most beside standing pedestrians, by the gap that `gap` has to a place.
 template <typename Gap>
 double most_beside(std::span<const Stander> standing, std::span<const Track> tracks, const SpeedChoiceConfig& config,
                    const Gap& gap) {

@@ -13,11 +13,11 @@ namespace jaywalk::motion {
 /// The robot, as roll-outs need it.
 struct RobotBody {
   BodyDiscs to_walls, to_movers;
-  BodyOutline outline;         ///< to walls, where a person steers: discs reach beyond a long body's ends
-  std::array<Place, 8> rim{};  ///< corners and the sides' middles, in the robot's frame
-  float rim_m = 0.0F;          ///< farthest point from the axle
-  float berth_m = 1.0F;        ///< from a disc's middle to a mover's: nearer costs
-  BlindRim blind;              ///< where the supervisor lets it go slowly
+  BodyOutline outline;              ///< to walls, where a person steers: discs reach beyond a long body's ends
+  std::array<Place, 8> rim{};       ///< corners and the sides' middles, in the robot's frame
+  float rim_m = 0.0F;               ///< farthest point from the axle
+  float comfort_distance_m = 1.0F;  ///< from a disc's middle to a mover's: nearer costs
+  BlindRim blind;                   ///< where the supervisor lets it go slowly
   MotionBounds bounds;
 
   /// From the body's edge to a place in its frame, m; 0 inside.
@@ -29,9 +29,9 @@ struct RobotBody {
   }
 };
 
-/// `berth_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.
+/// `comfort_distance_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.
 [[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits, const LaserModel& laser,
-                                   double berth_m);
+                                   double comfort_distance_m);
 
 /// No faster than `most_mps` either way, nor than robot_body() has it.
 void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept;

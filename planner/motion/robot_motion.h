@@ -42,7 +42,7 @@ JAYWALK_CELL float turned_side(float w, float last) {
 inline constexpr float kGetsOnS = 0.5F;  ///< fall of the time to the goal that counts as progress
 
 /// Where the robot has been for a while: it has not come farther from it than a passenger would call getting on.
-struct Stay {
+struct StallState {
   float x = 0.0F, y = 0.0F, heading = 0.0F;
   float for_s = 0.0F;
   /// The least time to the goal reached so far, s, while no pedestrian is about; 0 while one may be.
@@ -61,9 +61,9 @@ struct Stay {
 /// The arc is taken at its middle heading.
 JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
   RobotState s = from;
-  const float wish = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
-  const float left = wish - s.v, size = std::fabs(left);
-  const bool slows = std::fabs(wish) < std::fabs(s.v);
+  const float target = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
+  const float left = target - s.v, size = std::fabs(left);
+  const bool slows = std::fabs(target) < std::fabs(s.v);
   const float step = bounds.jerk * dt;
   const float landing = step * (std::sqrt(0.25F + 2.0F * size / (step * dt)) - 0.5F);
   float wanted = slows ? bounds.slowing : bounds.accel;
@@ -72,9 +72,9 @@ JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const M
   const float change = (left < 0.0F ? -wanted : wanted) - s.accel;
   s.accel += change > step ? step : change < -step ? -step : change;
   s.v += s.accel * dt;
-  const bool passed = left > 0.0F ? s.v > wish : s.v < wish;
+  const bool passed = left > 0.0F ? s.v > target : s.v < target;
   const bool lands = std::fabs(s.accel) <= 1.01F * step;
-  if ((passed && lands) || std::fabs(wish - s.v) < 1e-6F) s.v = wish;
+  if ((passed && lands) || std::fabs(target - s.v) < 1e-6F) s.v = target;
   const float turn_step = bounds.turn_accel * dt, turn_left = to.w - s.w;
   s.w += turn_left > turn_step ? turn_step : turn_left < -turn_step ? -turn_step : turn_left;
   const cell::Heading middle = cell::heading_at(s.heading + 0.5F * s.w * dt);

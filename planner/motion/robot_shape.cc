@@ -30,7 +30,7 @@ double RobotShape::out_of_way(Vec2 apex, Vec2 way, Vec2 position, Vec2 ahead) co
     rightmost = std::min(rightmost, aside);
     least = std::min(least, std::fabs(aside) - along);
   }
-  const bool lies_across = leftmost > 0.0 && rightmost < 0.0;  // then a part of it is straight ahead of him
+  const bool lies_across = leftmost > 0.0 && rightmost < 0.0;  // then a part of it is straight ahead of it
   return kSin45 * (lies_across ? std::min(least, -farthest_ahead) : least);
 }
 

@@ -12,7 +12,7 @@ struct RobotShape {
   /// From the body of a robot at `position`, which looks along `ahead` (a unit vector), to a point (m). Below 0 inside
   /// a disc, 0 inside a footprint.
   [[nodiscard]] double distance_to(Vec2 point, Vec2 position, Vec2 ahead) const noexcept;
-  /// How far (m) the body stays out of the 45 degrees to either side of the way that somebody at `apex` goes (`way`, a
+  /// How far (m) the body stays out of the 45 degrees to either side of the way that a mover at `apex` goes (`way`, a
   /// unit vector); below 0 where part of it is in there.
   [[nodiscard]] double out_of_way(Vec2 apex, Vec2 way, Vec2 position, Vec2 ahead) const noexcept;
 };

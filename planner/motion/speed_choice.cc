@@ -48,13 +48,13 @@ bool may_walk(const Track& track) {
   return track.moving || (speed > 0.15 && speed > 2.0 * std::sqrt(track.covariance.vv));
 }
 
-bool meets_anyone(Vec2 robot, Vec2 ahead, double after_s, std::span<const Track> tracks,
-                  const SpeedChoiceConfig& config) {
+bool meets_a_mover(Vec2 robot, Vec2 ahead, double after_s, std::span<const Track> tracks,
+                   const SpeedChoiceConfig& config) {
   for (const Track& track : tracks) {
     if (!may_walk(track) || (config.stands_at_worst && norm(track.velocity_in_map) < kStoppedMps)) continue;
     const Vec2 there = track.position_in_map + track.velocity_in_map * after_s;
     const double spread_m = config.spread_mps * after_s;
-    if (in_conflict(robot, ahead, there, track.velocity_in_map, track.radius_m, spread_m, config)) return true;
+    if (in_conflict(robot, ahead, {there, track.velocity_in_map, track.radius_m, spread_m}, config)) return true;
   }
   return false;
 }
@@ -69,21 +69,20 @@ double free_time(const Way& way, const Pose2& robot, double speed_now, double sp
     const double t = k * kStep_s;
     v += std::clamp(speed - v, -config.max_accel_mps2 * kStep_s, config.max_accel_mps2 * kStep_s);
     const Vec2 there = walker.advance(v * kStep_s);
-    if (meets_anyone(there, walker.looking(), t, tracks, config)) return t;
+    if (meets_a_mover(there, walker.looking(), t, tracks, config)) return t;
   }
   return config.horizon_s;
 }
 
 }  // namespace
 
-bool in_conflict(Vec2 robot, Vec2 ahead, Vec2 mover, Vec2 mover_velocity, double mover_radius_m, double spread_m,
-                 const SpeedChoiceConfig& config) noexcept {
-  const double between = config.robot.distance_to(mover, robot, ahead) - mover_radius_m - spread_m;
+bool in_conflict(Vec2 robot, Vec2 ahead, const PredictedMover& mover, const SpeedChoiceConfig& config) noexcept {
+  const double between = config.robot.distance_to(mover.position, robot, ahead) - mover.radius_m - mover.spread_m;
   if (between < config.body_margin_m) return true;
   if (between > config.zone_ahead_m) return false;
-  const double speed = norm(mover_velocity);
+  const double speed = norm(mover.velocity);
   if (speed < 1e-6) return false;
-  return config.robot.out_of_way(mover, mover_velocity * (1.0 / speed), robot, ahead) < spread_m;
+  return config.robot.out_of_way(mover.position, mover.velocity * (1.0 / speed), robot, ahead) < mover.spread_m;
 }
 
 double choose_speed(const Way& way, const Pose2& map_from_robot, double speed_now_mps, std::span<const Track> tracks,

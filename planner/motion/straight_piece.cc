@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/room.h"
+#include "planner/motion/least_clearance.h"
 
 namespace jaywalk {
 namespace {
@@ -19,7 +19,7 @@ void draw_straight(const BodyMap& map, const Pose2& from, double length_m, doubl
   for (double gone = 0.0; gone < std::fabs(length_m); gone += kStep_m) {
     const Vec2 place = from * Vec2{sign * gone, 0.0};
     const Pose2 pose{place.x, place.y, from.heading};
-    if (map.clearance(pose) < least_room_m(margin_m, room, room)) break;
+    if (map.clearance(pose) < least_clearance_m(margin_m, room, room)) break;
     (void)piece.push_back({pose, sign < 0.0 ? Gear::kBackward : Gear::kForward, room, 0.0});
   }
 }

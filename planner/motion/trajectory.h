@@ -14,8 +14,8 @@ inline constexpr float kLagS = 0.05F;                                  ///< from
 inline constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 inline constexpr float kRestsMps = 0.02F;                              ///< below this speed the robot is at rest
 
-/// What a trajectory is an attempt at. Recorded by number: new ones at the end.
-enum class Attempt : std::uint8_t {
+/// What a trajectory proposes. Recorded by number: new ones at the end.
+enum class Proposal : std::uint8_t {
   kLast,    ///< the one decided on before, as far as it is not driven yet
   kFollow,  ///< the guide, at some speed
   kWaitThenGo,
@@ -24,13 +24,13 @@ enum class Attempt : std::uint8_t {
   kArcBack,
   kArcThenFollow,
   kBackThenFollow,
-  kWish,        ///< what a stick asks for, or nearly
+  kStick,       ///< what a stick asks for, or nearly
   kGoStraight,  ///< turns to one of twelve headings and drives straight on
 };
 
 /// Timed commands; what comes of them is up to robot_motion.h.
 struct Trajectory {
-  Attempt attempt = Attempt::kFollow;
+  Proposal proposal = Proposal::kFollow;
   bool perturbed = false;
   std::array<Command, kSteps> commands{};
 };
@@ -38,7 +38,7 @@ struct Trajectory {
 /// What a trajectory costs, in seconds of the passenger's time.
 struct Cost {
   float time = 0.0F;       ///< until its end, and from there to the goal
-  float conflict = 0.0F;   ///< chance of touching or forcing somebody for the first time, sooner is worse
+  float conflict = 0.0F;   ///< chance of touching or forcing a mover for the first time, sooner is worse
   float touch = 0.0F;      ///< of walls
   float stop_zone = 0.0F;  ///< what the supervisor would brake: so fast so near a surface, or to where nothing looks
   float clearance = 0.0F;  ///< near surfaces

@@ -5,16 +5,16 @@
 
 namespace jaywalk {
 
-double Ramp::toward(double wish, double dt_s) noexcept {
-  const double left = std::fabs(wish - velocity_);
+double Ramp::toward(double target, double dt_s) noexcept {
+  const double left = std::fabs(target - velocity_);
   const double accel_step = max_jerk_ * dt_s;
   // Coming down from acceleration a by one step a tick covers dt (a^2 / (2 step) + a / 2): the largest a for what is
   // left.
   const double landing = accel_step * (std::sqrt(0.25 + 2.0 * left / (accel_step * dt_s)) - 0.5);
   const double size = std::min({max_accel_, landing, left / dt_s});
-  accel_ += std::clamp((wish < velocity_ ? -size : size) - accel_, -accel_step, accel_step);
+  accel_ += std::clamp((target < velocity_ ? -size : size) - accel_, -accel_step, accel_step);
   velocity_ += accel_ * dt_s;
-  if (std::fabs(wish - velocity_) < 1e-12) velocity_ = wish;  // what rounding leaves
+  if (std::fabs(target - velocity_) < 1e-12) velocity_ = target;  // what rounding leaves
   return velocity_;
 }
 
@@ -27,10 +27,10 @@ void Ramp::restart_at(double velocity) noexcept {
 TwistRamp::TwistRamp(const MotionLimits& limits)
     : forward_(limits.max_accel_mps2, limits.max_jerk_mps3), max_turn_accel_radps2_(limits.max_turn_accel_radps2) {}
 
-Twist2 TwistRamp::toward(const Twist2& wish, double dt_s) noexcept {
+Twist2 TwistRamp::toward(const Twist2& target, double dt_s) noexcept {
   const double turn_step = max_turn_accel_radps2_ * dt_s;
-  w_radps_ += std::clamp(wish.w_radps - w_radps_, -turn_step, turn_step);
-  return {forward_.toward(wish.v_mps, dt_s), w_radps_};
+  w_radps_ += std::clamp(target.w_radps - w_radps_, -turn_step, turn_step);
+  return {forward_.toward(target.v_mps, dt_s), w_radps_};
 }
 
 void TwistRamp::follow(const Twist2& permitted) noexcept {

@@ -6,15 +6,15 @@
 
 namespace jaywalk {
 
-/// One velocity that follows a wish with bounded acceleration and jerk (SAFETY: comfort).
+/// One velocity that follows a target with bounded acceleration and jerk (SAFETY: comfort).
 class Ramp {
  public:
   /// Both limits > 0: units/s^2 and units/s^3.
   Ramp(double max_accel, double max_jerk) : max_accel_(max_accel), max_jerk_(max_jerk) {}
 
-  /// The velocity `dt_s` later on the way to `wish`. It arrives without overshoot: the acceleration never exceeds what
-  /// can still be taken back to zero in the velocity left, sqrt(2 jerk |wish - v|).
-  double toward(double wish, double dt_s) noexcept;
+  /// The velocity `dt_s` later on the way to `target`. It arrives without overshoot: the acceleration never exceeds
+  /// what can still be taken back to zero in the velocity left, sqrt(2 jerk |target - v|).
+  double toward(double target, double dt_s) noexcept;
   /// Something else (the supervisor) set the velocity: go on from there.
   void restart_at(double velocity) noexcept;
   [[nodiscard]] double velocity() const noexcept { return velocity_; }
@@ -36,7 +36,7 @@ class Ramp {
 class TwistRamp {
  public:
   explicit TwistRamp(const MotionLimits& limits);
-  [[nodiscard]] Twist2 toward(const Twist2& wish, double dt_s) noexcept;
+  [[nodiscard]] Twist2 toward(const Twist2& target, double dt_s) noexcept;
   /// What was really permitted last tick; a no-op when it is what was asked for.
   void follow(const Twist2& permitted) noexcept;
 

@@ -15,7 +15,7 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   setup.start = {1.0 / 3.0, -2.0 / 7.0, 0.1};
   setup.goal = {1e-17, 12345.678901234567};
   setup.wheels = false;
-  setup.berth_m = 1.5;
+  setup.comfort_distance_m = 1.5;
   setup.given_movers = true;
   const ControlSetup back = setup_from_text(to_text(setup), "here");
   CHECK(to_text(back) == to_text(setup));
@@ -23,7 +23,7 @@ TEST_CASE("a setup comes back from its text bit for bit") {
   CHECK(back.goal == setup.goal);
   CHECK(back.mode == PlanMode::kPaper);
   CHECK_FALSE(back.wheels);
-  CHECK(back.berth_m == 1.5);
+  CHECK(back.comfort_distance_m == 1.5);
   CHECK(back.given_movers);
 }
 

@@ -1,9 +1,11 @@
-// Somebody stops right before a wheelchair that drives: it brakes as hard as its drives do, and no harder than it must.
+// A pedestrian stops right before a wheelchair that drives: it brakes as hard as its drives do, and no harder than it
+// must.
 #include <array>
 
-#include "planner/motion/follower.h"
 #include "planner/motion/footprint_guide.h"
+#include "planner/motion/long_body_motion.h"
 #include "tests/motion/ground.h"
+#include "tests/motion/moment.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -20,7 +22,7 @@ Path straight_path() {
   return path;
 }
 
-/// Somebody who has stopped `gap_m` before the front of a wheelchair at (0, 0).
+/// A pedestrian that has stopped `gap_m` before the front of a wheelchair at (0, 0).
 Track stopped(double gap_m) {
   Track track;
   track.moving = true;
@@ -35,32 +37,21 @@ struct Stop {
 };
 Stop stop_before(double gap_m) {
   const Ground ground;
-  const Path path = straight_path();
-  const std::array walker{stopped(gap_m)};
-  FootprintGuide guide(kChair.footprint, kChair.limits);
-  Follower follower({.limits = kChair.limits, .robot = {.footprint = kChair.footprint}, .stands_at_worst = true});
-  Twist2 driven{0.5, 0.0};
+  tests::Moment moment(ground.map());
+  moment.go_to({5.0, 0.0});
+  moment.plan.status = PlanStatus::kOk;
+  moment.plan.path = straight_path();
+  moment.tracks = {stopped(gap_m)};
+  moment.driven = moment.wanted = {0.5, 0.0};
+  motion::LongBodyMotion motion({.model = kChair, .tick_s = kTick_s});
   Stop stop;
-  for (int tick = 0; tick < 200 && driven.v_mps > 0.0; ++tick) {
-    const Pose2 here{stop.way_m, 0.0, 0.0};
-    if (tick % 3 == 0)
-      guide.look({.path = path,
-                  .map_from_robot = here,
-                  .wanted = driven,
-                  .driven = driven,
-                  .still = ground.map(),
-                  .moving = walker});
-    const Twist2 before = driven;
-    driven = follower.twist({.path = path,
-                             .map_from_robot = here,
-                             .goal_in_map = {5.0, 0.0},
-                             .has_goal = true,
-                             .tracks = walker,
-                             .permitted_before = driven,
-                             .guide = &guide});
-    stop.hardest_mps = std::max(stop.hardest_mps, before.v_mps - driven.v_mps);
-    stop.way_m += driven.v_mps * kTick_s;
+  for (int tick = 0; tick < 200 && moment.driven.v_mps > 0.0; ++tick) {
+    if (tick % 3 == 0) moment.decide(motion);
+    const Twist2 before = moment.driven;
+    moment.drive(motion, kTick_s);
+    stop.hardest_mps = std::max(stop.hardest_mps, before.v_mps - moment.driven.v_mps);
   }
+  stop.way_m = moment.pose.x;
   return stop;
 }
 
@@ -86,41 +77,39 @@ TEST_CASE("turning on the spot towards somebody who stops there it brakes hard a
   walker.position_in_map = {0.75, -0.68};  // 0.1 m from its right front corner
   const std::array tracks{walker};
   FootprintGuide guide(kChair.footprint, kChair.limits);
-  guide.look({.path = path, .wanted = {}, .driven = {0.0, -1.0}, .still = ground.map(), .moving = tracks});
+  guide.update({.path = path, .wanted = {}, .driven = {0.0, -1.0}, .still = ground.map(), .moving = tracks});
   CHECK(guide.most_speed_mps() == 0.0);
   CHECK(guide.brakes_hard());
-  Follower follower({.limits = kChair.limits, .robot = {.footprint = kChair.footprint}, .stands_at_worst = true});
-  const Twist2 next = follower.twist({.path = path,
-                                      .map_from_robot = {},
-                                      .goal_in_map = {0.0, -5.0},
-                                      .has_goal = true,
-                                      .tracks = tracks,
-                                      .permitted_before = {0.0, -1.0},
-                                      .guide = &guide});
-  CHECK(next.v_mps == 0.0);
-  CHECK(next.w_radps == Approx(-1.0 + 0.02 / 0.325));  // 1 m/s2 at its sides
+  tests::Moment moment(ground.map());
+  moment.go_to({0.0, -5.0});
+  moment.plan.path = path;
+  moment.tracks = {walker};
+  moment.driven = {0.0, -1.0};
+  motion::LongBodyMotion motion({.model = kChair, .tick_s = kTick_s});
+  moment.decide(motion);
+  moment.drive(motion, 0.0);
+  CHECK(moment.driven.v_mps == 0.0);
+  CHECK(moment.driven.w_radps == Approx(-1.0 + 0.02 / 0.325));  // 1 m/s2 at its sides
 }
 
 TEST_CASE("a turn at the goal that takes over from a guide which braked hard is not held up by it") {
   const Ground ground;
-  const Path path = straight_path();
-  const std::array walker{stopped(0.22)};
-  FootprintGuide guide(kChair.footprint, kChair.limits);
-  guide.look({.path = path, .wanted = {0.5, 0.0}, .driven = {0.5, 0.0}, .still = ground.map(), .moving = walker});
-  REQUIRE(guide.brakes_hard());
-  GoalTurn turn(kChair.footprint, kChair.limits, false);
-  const OperatorInput input{.has_goal = true, .goal_in_map = {}, .goal_heading_rad = 1.0};
-  turn.aim(input, {}, {});
-  REQUIRE(turn.active());
-  turn.look({.path = path, .still = ground.map()});
-  Follower follower({.limits = kChair.limits, .robot = {.footprint = kChair.footprint}});
-  const Twist2 next = follower.twist({.path = path,
-                                      .map_from_robot = {},
-                                      .goal_in_map = {},
-                                      .has_goal = true,
-                                      .tracks = {},
-                                      .permitted_before = {},
-                                      .guide = &guide,
-                                      .turn = &turn});
-  CHECK(next.w_radps > 0.0);
+  tests::Moment moment(ground.map());
+  moment.go_to({5.0, 0.0});
+  moment.plan.path = straight_path();
+  moment.tracks = {stopped(0.22)};
+  moment.driven = moment.wanted = {0.5, 0.0};
+  motion::LongBodyMotion motion({.model = kChair, .tick_s = kTick_s});
+  moment.decide(motion);
+  moment.drive(motion, 0.0);
+  REQUIRE(moment.driven.v_mps == Approx(0.5 - kChair.limits.brake_mps2 * kTick_s));  // it brakes hard
+  moment.go_to({});
+  moment.input.goal_heading_rad = 1.0;
+  moment.tracks.clear();
+  moment.driven = moment.wanted = {};
+  moment.drive(motion, 0.0);
+  REQUIRE(motion.status().turns_at_goal);
+  moment.decide(motion);
+  moment.drive(motion, 0.0);
+  CHECK(moment.driven.w_radps > 0.0);
 }

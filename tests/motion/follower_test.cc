@@ -1,5 +1,6 @@
 #include "planner/motion/follower.h"
 
+#include "planner/motion/pursuit.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -24,12 +25,12 @@ Twist2 settled(FollowerConfig config, const Path& path, const Pose2& pose, Vec2 
   Follower follower(config);
   Twist2 twist;
   for (int k = 0; k < ticks; ++k) {
-    twist = follower.twist({.path = path,
-                            .map_from_robot = pose,
-                            .goal_in_map = goal,
-                            .has_goal = true,
-                            .tracks = {},
-                            .permitted_before = twist});
+    twist = follower.along_path({.path = path,
+                                 .map_from_robot = pose,
+                                 .goal_in_map = goal,
+                                 .has_goal = true,
+                                 .tracks = {},
+                                 .permitted_before = twist});
   }
   return twist;
 }

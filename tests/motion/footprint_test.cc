@@ -196,7 +196,7 @@ TEST_CASE("a manoeuvre is driven to its end: forward, on the spot and back, back
   double slowest = 0.0, farthest_off = 0.0;
   int ticks = 0;
   for (; drive.active() && ticks < 2000; ++ticks) {
-    const Twist2 twist = drive.wish(pose);
+    const Twist2 twist = drive.command(pose);
     slowest = std::min(slowest, twist.v_mps);
     farthest_off = std::max(farthest_off, drive.off_by(pose));
     const Vec2 ahead = direction(pose.heading + 0.01 * twist.w_radps);
@@ -220,12 +220,12 @@ TEST_CASE("the guide lets the body follow in the open, slows or swings it at a d
   };
   const auto look = [](FootprintGuide& guide, const Ground& ground, const Path& path, const Pose2& pose, int looks) {
     for (int k = 0; k < looks; ++k) {
-      guide.look({.path = path,
-                  .map_from_robot = pose,
-                  .wanted = {},
-                  .driven = {},
-                  .still = ground.map(),
-                  .now = Time{kScan * k}});
+      guide.update({.path = path,
+                    .map_from_robot = pose,
+                    .wanted = {},
+                    .driven = {},
+                    .still = ground.map(),
+                    .now = Time{kScan * k}});
     }
   };
   FootprintGuide free(kChair.footprint, kChair.limits);
@@ -241,7 +241,7 @@ TEST_CASE("the guide lets the body follow in the open, slows or swings it at a d
   FootprintGuide in_dead_end(kChair.footprint, kChair.limits);
   look(in_dead_end, dead_end(), line({0, 0}, {-3, 0}), {}, 10);
   REQUIRE(in_dead_end.manoeuvre().active());
-  CHECK(in_dead_end.manoeuvre().wish({}).v_mps < 0.0);
+  CHECK(in_dead_end.manoeuvre().command({}).v_mps < 0.0);
 }
 
 TEST_CASE("who walks and has all but stopped is drawn where he is, who walks on is not") {
@@ -263,7 +263,7 @@ TEST_CASE("a manoeuvre for one goal is not driven for another") {
   FootprintGuide guide(kChair.footprint, kChair.limits);
   Time now{};
   const auto look = [&](Vec2 goal) {
-    guide.look({.path = path, .still = ground.map(), .goal_in_map = goal, .now = now += kScan});
+    guide.update({.path = path, .still = ground.map(), .goal_in_map = goal, .now = now += kScan});
   };
   for (int k = 0; k < 10; ++k) look({-3.0, 0.0});
   REQUIRE(guide.manoeuvre().active());
@@ -286,12 +286,12 @@ TEST_CASE("refused, the guide backs off where it has seen what is behind, and wa
     double now_s = -1.0 / scans_hz;
     while (now_s < 20.0 && !guide.manoeuvre().active()) {
       now_s += 1.0 / scans_hz;
-      guide.look({.path = path,
-                  .wanted = {0.3, 0.0},
-                  .still = still,
-                  .goal_in_map = {2.0, 0.0},
-                  .somebody_hidden = hidden,
-                  .now = time_from_seconds(now_s)});
+      guide.update({.path = path,
+                    .wanted = {0.3, 0.0},
+                    .still = still,
+                    .goal_in_map = {2.0, 0.0},
+                    .pedestrian_hidden = hidden,
+                    .now = time_from_seconds(now_s)});
     }
     return now_s;
   };
@@ -313,7 +313,7 @@ TEST_CASE("a manoeuvre that backs waits for five seconds while somebody near is 
     double now_s = -1.0 / scans_hz;
     while (now_s < 20.0 && !guide.manoeuvre().active()) {
       now_s += 1.0 / scans_hz;
-      guide.look({.path = path, .still = ground.map(), .somebody_hidden = hidden, .now = time_from_seconds(now_s)});
+      guide.update({.path = path, .still = ground.map(), .pedestrian_hidden = hidden, .now = time_from_seconds(now_s)});
     }
     return now_s;
   };

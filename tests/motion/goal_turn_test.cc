@@ -32,23 +32,23 @@ struct Bench {
   void tick() {
     turn.aim(wanted_input, pose, driven);
     ramp.follow(driven);
-    const Twist2 wish = !turn.active()              ? Twist2{}
-                        : turn.manoeuvre().active() ? turn.manoeuvre().wish(pose)
-                                                    : turn.wish(pose);
-    const Twist2 wanted = ramp.toward(wish, 0.02);
+    const Twist2 target = !turn.active()              ? Twist2{}
+                          : turn.manoeuvre().active() ? turn.manoeuvre().command(pose)
+                                                      : turn.command(pose);
+    const Twist2 wanted = ramp.toward(target, 0.02);
     const bool refused = (wanted.w_radps > 0.0 && refuses_left) || (wanted.w_radps < 0.0 && refuses_right);
     driven = refused ? Twist2{} : wanted;
     const Vec2 ahead = direction(pose.heading) * (driven.v_mps * 0.02);
     pose = {pose.x + ahead.x, pose.y + ahead.y, wrap_angle(pose.heading + driven.w_radps * 0.02)};
     turned += driven.w_radps * 0.02;
     if (ticks++ % ticks_a_plan == 0 && turn.active()) {
-      turn.look({.path = path,
-                 .map_from_robot = pose,
-                 .wanted = wanted,
-                 .driven = driven,
-                 .still = still,
-                 .somebody_hidden = hidden,
-                 .now = Time{std::chrono::milliseconds(20) * ticks}});
+      turn.update({.path = path,
+                   .map_from_robot = pose,
+                   .wanted = wanted,
+                   .driven = driven,
+                   .still = still,
+                   .pedestrian_hidden = hidden,
+                   .now = Time{std::chrono::milliseconds(20) * ticks}});
     }
   }
   void run(double seconds) {
@@ -63,7 +63,7 @@ struct Bench {
   Path path;
   Twist2 driven;
   double turned = 0.0;
-  bool hidden = false;  ///< somebody near is out of sight
+  bool hidden = false;  ///< a pedestrian near is out of sight
   bool refuses_left = false, refuses_right = false;
   int ticks = 0;
   int ticks_a_plan = 3;  ///< scans of 16.7 Hz; 10: of 5 Hz
@@ -91,10 +91,10 @@ TEST_CASE("it takes over within two thirds of the tolerance, and anywhere within
   turn.aim(to_heading(1.0, {1.0, 0.0}), {0.81, 0.0, 0.0}, {0.3, 0.0});
   CHECK(turn.active());
   const Ground ground;
-  turn.look({.path = {}, .map_from_robot = {0.81, 0.0, 0.0}, .wanted = {}, .driven = {}, .still = ground.map()});
-  CHECK(turn.wish({0.81, 0.0, 0.0}) == Twist2{});  // to rest, before it turns
+  turn.update({.path = {}, .map_from_robot = {0.81, 0.0, 0.0}, .wanted = {}, .driven = {}, .still = ground.map()});
+  CHECK(turn.command({0.81, 0.0, 0.0}) == Twist2{});  // to rest, before it turns
   turn.aim(to_heading(1.0, {1.0, 0.0}), {0.81, 0.0, 0.0}, {});
-  CHECK(turn.wish({0.81, 0.0, 0.0}) == Twist2{0.0, 1.5});
+  CHECK(turn.command({0.81, 0.0, 0.0}) == Twist2{0.0, 1.5});
   turn.aim(to_heading(1.0, {5.0, 0.0}), {0.81, 0.0, 0.0}, {});
   CHECK_FALSE(turn.active());  // another goal
   turn.aim(to_heading(1.0, {1.1, 0.0}), {0.81, 0.0, 0.0}, {});
@@ -123,8 +123,8 @@ TEST_CASE("it turns as fast as a gain of 2, the ramp and the robot allow") {
     model.limits.max_turn_accel_radps2 = ramp_radps2;
     Bench bench(model, ground, to_heading(to_go));
     bench.turn.aim(bench.wanted_input, {}, {});
-    bench.turn.look({.path = {}, .map_from_robot = {}, .wanted = {}, .driven = {}, .still = ground.map()});
-    return bench.turn.wish({}).w_radps;
+    bench.turn.update({.path = {}, .map_from_robot = {}, .wanted = {}, .driven = {}, .still = ground.map()});
+    return bench.turn.command({}).w_radps;
   };
   CHECK(rate(2.0, 3.0) == Approx(1.5));
   CHECK(rate(0.3, 3.0) == Approx(0.6));
@@ -155,8 +155,8 @@ TEST_CASE("once it stands, a pose that sways within the tolerance moves nothing,
   Bench bench(p3dx(), ground, to_heading(1.0));
   bench.run(4.0);
   REQUIRE(bench.driven == Twist2{});
-  CHECK(bench.turn.wish({0.0, 0.0, 1.09}) == Twist2{});
-  CHECK(bench.turn.wish({0.0, 0.0, 0.91}) == Twist2{});
+  CHECK(bench.turn.command({0.0, 0.0, 1.09}) == Twist2{});
+  CHECK(bench.turn.command({0.0, 0.0, 0.91}) == Twist2{});
   bench.pose.heading = 0.85;
   bench.run(2.0);
   CHECK(bench.pose.heading == Approx(1.0).margin(0.1 / 3.0));
@@ -218,7 +218,8 @@ TEST_CASE("where there is no way at all it waits, and says so") {
 
 TEST_CASE("where there is no way it looks round after ten seconds to the left, after twenty to the right, and waits") {
   Ground ground;
-  pillar(ground, {-0.6, 0.0});  // behind it, where a laser of 270 degrees does not look: who stood there may have gone
+  pillar(ground,
+         {-0.6, 0.0});  // behind it, where a laser of 270 degrees does not look: a pedestrian there may have gone
   for (const int ticks_a_plan : {3, 10}) {
     Bench bench(wheelchair(), ground, to_heading(kPi));
     bench.ticks_a_plan = ticks_a_plan;
@@ -238,7 +239,7 @@ TEST_CASE("where there is no way it looks round after ten seconds to the left, a
 TEST_CASE("a way that was refused for a second is left for the other, and both for ten seconds") {
   const Ground ground;
   Bench bench(p3dx(), ground, to_heading(2.0));
-  bench.refuses_left = true;  // somebody stands there
+  bench.refuses_left = true;  // a pedestrian stands there
   bench.run(0.9);
   CHECK(bench.turned == 0.0);
   bench.run(8.0);

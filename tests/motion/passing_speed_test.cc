@@ -1,4 +1,4 @@
-// Past people who stand: slowly, and the slower the nearer.
+// Past standing pedestrians: slowly, and the slower the nearer.
 #include "planner/motion/passing_speed.h"
 
 #include <algorithm>
@@ -23,7 +23,7 @@ Path straight_path() {
   return path;
 }
 
-/// The most at `x` on the path, past somebody beside (3, 0) who leaves this gap there.
+/// The most at `x` on the path, past a pedestrian beside (3, 0) that leaves this gap there.
 double past(double x, double gap_m) {
   const std::array standing{Stander{{3.0, kRobotM + kPersonM + gap_m}, kPersonM}};
   return passing_speed({straight_path()}, {x, 0.0, 0}, standing, {}, kConfig);
@@ -83,7 +83,7 @@ TEST_CASE("who walks and has stopped for now counts as well, and who goes on doe
   walker.velocity_in_map = {0.0, 0.4};
   CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
   walker.velocity_in_map = {};
-  walker.moving = false;  // a pillar: who is known to be somebody is in the other list
+  walker.moving = false;  // a pillar: known pedestrians are in the other list
   CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, {}, std::array{walker}, kConfig) == kTop_mps);
 }
 
@@ -99,13 +99,13 @@ TEST_CASE("the follower goes by at that speed") {
   const std::array standing{Stander{{3.0, 0.8}, kPersonM}};
   Twist2 twist;
   for (int k = 0; k < 200; ++k) {
-    twist = follower.twist({.path = path,
-                            .map_from_robot = {3.0, 0.0, 0.0},
-                            .goal_in_map = {10.0, 0.0},
-                            .has_goal = true,
-                            .tracks = {},
-                            .standing = standing,
-                            .permitted_before = twist});
+    twist = follower.along_path({.path = path,
+                                 .map_from_robot = {3.0, 0.0, 0.0},
+                                 .goal_in_map = {10.0, 0.0},
+                                 .has_goal = true,
+                                 .tracks = {},
+                                 .standing = standing,
+                                 .permitted_before = twist});
   }
   CHECK(twist.v_mps == Approx(0.25).margin(0.005));
 }

@@ -63,18 +63,18 @@ TEST_CASE("somebody who walks away behind does not slow the robot") {
 
 TEST_CASE("a walker minds what stands in the 45 degrees ahead and not what stands abeam") {
   // Robot disc of 0.3 m, walker of 0.27 m, both counted from their edges: 1.0 m apart leaves 0.43 m.
-  CHECK(in_conflict({1.0, 0.0}, {1, 0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
-  CHECK_FALSE(in_conflict({0.0, 1.0}, {1, 0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
-  CHECK_FALSE(in_conflict({-1.0, 0.0}, {1, 0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));
-  CHECK(
-      in_conflict({-0.7, 0.0}, {1, 0}, {0, 0}, {0.4, 0.0}, 0.27, 0.0, kConfig));  // 0.13 m: too near for any direction
+  CHECK(in_conflict({1.0, 0.0}, {1, 0}, {{0, 0}, {0.4, 0.0}, 0.27, 0.0}, kConfig));
+  CHECK_FALSE(in_conflict({0.0, 1.0}, {1, 0}, {{0, 0}, {0.4, 0.0}, 0.27, 0.0}, kConfig));
+  CHECK_FALSE(in_conflict({-1.0, 0.0}, {1, 0}, {{0, 0}, {0.4, 0.0}, 0.27, 0.0}, kConfig));
+  CHECK(in_conflict({-0.7, 0.0}, {1, 0}, {{0, 0}, {0.4, 0.0}, 0.27, 0.0},
+                    kConfig));  // 0.13 m: too near for any direction
 }
 
 TEST_CASE("a long body's corners meet who walks before it, and its sides let pass who walks beside it") {
   SpeedChoiceConfig chair = kConfig;
   chair.robot = {.footprint = wheelchair().footprint};
   chair.stands_at_worst = true;
-  // Both stand still for the other in time: he crosses 0.5 m before its front, 1.25 m before its axle.
+  // Both stand still for the other in time: it crosses 0.5 m before its front, 1.25 m before its axle.
   const std::array crossing{walker({1.25 + 0.27, -0.6}, {0.0, 0.8})};
   CHECK(choose_speed({straight_path()}, {}, 0.6, crossing, kConfig) > 0.0);
   CHECK(choose_speed({straight_path()}, {}, 0.6, crossing, chair) == 0.0);

@@ -5,8 +5,8 @@
 
 #include "planner/motion/body_map.h"
 #include "planner/motion/footprint_guide.h"
+#include "planner/motion/least_clearance.h"
 #include "planner/motion/manoeuvre_search.h"
-#include "planner/motion/room.h"
 #include "planner/motion/turned_piece.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"
@@ -44,10 +44,10 @@ TEST_CASE("clearance is a depth where something is inside the body") {
 
 TEST_CASE("over a whole way no more than unevenness is lost of a start's little room") {
   double room = 0.04;
-  for (int step = 0; step < 100; ++step) room = least_room_m(0.10, 0.04, room);
+  for (int step = 0; step < 100; ++step) room = least_clearance_m(0.10, 0.04, room);
   CHECK(room == Approx(0.038));
-  CHECK(least_room_m(0.10, 0.04, 0.09) == Approx(0.088));
-  CHECK(least_room_m(0.10, 0.30, 0.20) == 0.10);
+  CHECK(least_clearance_m(0.10, 0.04, 0.09) == Approx(0.088));
+  CHECK(least_clearance_m(0.10, 0.30, 0.20) == 0.10);
 }
 
 TEST_CASE("from a start beside a wall no manoeuvre drives over a pole ahead") {
@@ -88,7 +88,7 @@ TEST_CASE("a path that leads into a wall bit by bit is not followed from a start
   Path path;
   for (int k = 0; k <= 40; ++k) (void)path.push_back({0.05 * k, 0.0});
   FootprintGuide guide(kChair.footprint, kChair.limits);
-  guide.look({.path = path, .map_from_robot = {}, .wanted = {}, .driven = {}, .still = ground.map()});
+  guide.update({.path = path, .map_from_robot = {}, .wanted = {}, .driven = {}, .still = ground.map()});
   CHECK(guide.most_speed_mps() == 0.0);
 }
 
@@ -125,14 +125,14 @@ TEST_CASE("where nothing is to be done for ten seconds the guide looks round, on
   Pose2 pose;
   std::vector<double> turns;  // of the manoeuvres that do nothing else
   for (int looks = 0; looks < 15 * 90; ++looks) {
-    guide.look({.path = out,
-                .map_from_robot = pose,
-                .still = box.map(),
-                .now = Time{Duration{66'666'667} * looks}});  // of 15 Hz
+    guide.update({.path = out,
+                  .map_from_robot = pose,
+                  .still = box.map(),
+                  .now = Time{Duration{66'666'667} * looks}});  // of 15 Hz
     const double before = pose.heading;
     bool drives = false, turned = false;
     while (guide.manoeuvre().active()) {
-      const Twist2 twist = guide.manoeuvre().wish(pose);
+      const Twist2 twist = guide.manoeuvre().command(pose);
       turned = true;
       drives = drives || twist.v_mps != 0.0;
       const Vec2 step = direction(pose.heading) * (0.02 * twist.v_mps);

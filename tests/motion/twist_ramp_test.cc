@@ -13,18 +13,18 @@ struct Extremes {
   double top = 0.0, bottom = 0.0, accel = 0.0, jerk = 0.0, settled_s = 0.0;
 };
 
-Extremes ramp_to(Ramp& ramp, double wish, double for_s) {
+Extremes ramp_to(Ramp& ramp, double target, double for_s) {
   constexpr double kDt = 0.02;
   Extremes seen;
   double v = ramp.velocity(), a = 0.0;
   for (double t = kDt; t < for_s; t += kDt) {
-    const double next = ramp.toward(wish, kDt);
+    const double next = ramp.toward(target, kDt);
     const double accel = (next - v) / kDt;
     seen.accel = std::max(seen.accel, std::fabs(accel));
     seen.jerk = std::max(seen.jerk, std::fabs(accel - a) / kDt);
     seen.top = std::max(seen.top, next);
     seen.bottom = std::min(seen.bottom, next);
-    if (v != wish && next == wish) seen.settled_s = t;
+    if (v != target && next == target) seen.settled_s = t;
     v = next, a = accel;
   }
   return seen;
@@ -49,7 +49,7 @@ TEST_CASE("0.6 m/s within 0.5 m/s2 and 2 m/s3 takes 1.45 s and overshoots by les
   CHECK(seen.settled_s == Approx(1.45).margin(0.1));
 }
 
-TEST_CASE("slowing down from the middle of speeding up never goes below the wish") {
+TEST_CASE("slowing down from the middle of speeding up never goes below the target") {
   Ramp ramp(0.5, 2.0);
   ramp_to(ramp, 0.6, 0.6);
   const Extremes seen = ramp_to(ramp, 0.0, 3.0);

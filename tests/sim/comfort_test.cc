@@ -28,6 +28,6 @@ TEST_CASE("gentle is slower and softer and keeps farther off, brisk is quicker a
   CHECK(gentle.max_jerk_mps3 == Approx(1.2));
   CHECK(brisk.max_speed_mps == Approx(0.6));
   CHECK(brisk.max_accel_mps2 == Approx(0.8));
-  CHECK(profile_of(Comfort::kGentle).berth_m > profile_of(Comfort::kNormal).berth_m);
-  CHECK(profile_of(Comfort::kBrisk).berth_m < profile_of(Comfort::kNormal).berth_m);
+  CHECK(profile_of(Comfort::kGentle).comfort_distance_m > profile_of(Comfort::kNormal).comfort_distance_m);
+  CHECK(profile_of(Comfort::kBrisk).comfort_distance_m < profile_of(Comfort::kNormal).comfort_distance_m);
 }

@@ -1,4 +1,4 @@
-#include "planner/motion/judge.h"
+#include "planner/motion/trajectory_cost.h"
 
 #include <cmath>
 #include <memory>
@@ -42,16 +42,16 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
   const auto nobody = std::make_unique<Futures>();
   Trajectory held;
   held.commands.fill(command);
-  return judge({body,
-                guide,
-                *nobody,
-                kNothing,
-                RobotState{},
-                {4.0F, 0.0F},
-                turned,
-                {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s},
-                0.24F},
-               held, 1e9F);
+  return trajectory_cost({body,
+                          guide,
+                          *nobody,
+                          kNothing,
+                          RobotState{},
+                          {4.0F, 0.0F},
+                          turned,
+                          {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s},
+                          0.24F},
+                         held, 1e9F);
 }
 
 }  // namespace
@@ -103,10 +103,10 @@ TEST_CASE("a trajectory is given up only where its whole cost is above the bound
   const Situation arrives{body, guide, *nobody, kNothing, RobotState{}, {1.6F, 0.0F}, 0.0F, {}, 0.24F};
   Trajectory ahead;
   ahead.commands.fill({0.6F, 0.0F});
-  const float whole = judge(arrives, ahead, 1e9F).total();
+  const float whole = trajectory_cost(arrives, ahead, 1e9F).total();
   REQUIRE(whole < 4.0F);  // it arrives
-  CHECK(judge(arrives, ahead, whole + 0.01F).total() == whole);
-  CHECK(judge(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
+  CHECK(trajectory_cost(arrives, ahead, whole + 0.01F).total() == whole);
+  CHECK(trajectory_cost(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
 }
 
 TEST_CASE("who has stood for long is a surface as wide as a person, though the map holds nothing of him") {
@@ -120,13 +120,13 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
         .id = 1, .x = 1.0F, .y = left_m, .radius_m = 0.25F, .usual_mps = 0.6F, .has_walked = true, .stood_s = stood_s};
     const auto futures = std::make_unique<Futures>();
     futures->draw({&him, 1}, {}, {}, guide, 1);
-    return judge({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
+    return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F);
   };
   const float side = static_cast<float>(p3dx().footprint.half_width_m) + 0.25F;
   CHECK(cost_beside(side - 0.05F, 10.0F).touch > 400.0F);
   CHECK(cost_beside(side + 0.1F, 10.0F).touch == 0.0F);
   CHECK(cost_beside(side + 0.1F, 10.0F).clearance > cost_beside(side + 0.2F, 10.0F).clearance);
-  CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // he may go on at once, and is met, not passed
+  CHECK(cost_beside(side + 0.1F, 1.0F).clearance == 0.0F);  // may go on at once, and is met, not passed
 }
 
 TEST_CASE(
@@ -142,12 +142,13 @@ TEST_CASE(
   scan.range_m[1] = std::sqrt(ahead * ahead + left * left);
   scan.first_angle_rad = std::atan2(left, ahead) - scan.angle_step_rad;
   NearReturns returns;
-  returns.look(scan, {}, {}, body, {});
+  returns.update(scan, {}, {}, body, {});
   const auto nobody = std::make_unique<Futures>();
   const auto braked_at = [&](float speed, const NearReturns& seen) {
     Trajectory held;
     held.commands.fill({speed, 0.0F});
-    return judge({body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).stop_zone;
+    return trajectory_cost({body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
+        .stop_zone;
   };
   CHECK(braked_at(0.6F, returns) > 10.0F);
   CHECK(braked_at(0.3F, returns) > 1.0F);
@@ -166,7 +167,8 @@ TEST_CASE("in a walker's way already, to drive into the walker costs more than t
   const auto conflict_at = [&](float speed) {
     Trajectory held;
     held.commands.fill({speed, 0.0F});
-    return judge({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F).conflict;
+    return trajectory_cost({body, guide, *futures, kNothing, RobotState{}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
+        .conflict;
   };
   CHECK(conflict_at(0.3F) > conflict_at(0.0F) + 50.0F);
 }

@@ -1,10 +1,11 @@
 // Decisions: in worlds small enough to say what is right.
-#include "planner/motion/motion_planner.h"
+#include "planner/motion/goal_rollouts.h"
 
 #include <cmath>
 #include <limits>
 
 #include "tests/motion/guided.h"
+#include "tests/motion/moment.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -14,26 +15,24 @@ namespace {
 
 constexpr double kTick = 0.02;
 
+MotionSetup setup_of(bool constant, const LaserModel& laser) {
+  MotionSetup setup{.model = p3dx(), .constant_speed = constant, .goal_tolerance_m = 0.3, .tick_s = kTick};
+  setup.model.laser = laser;
+  return setup;
+}
+
 /// A P3-DX that does what it is told, and one mover that it sees as it is.
 class Drive {
  public:
   explicit Drive(test::Guided& ground, Vec2 goal, bool constant = false, const LaserModel& laser = p3dx().laser)
-      : ground_(ground),
-        goal_(goal),
-        planner_({.footprint = p3dx().footprint,
-                  .limits = p3dx().limits,
-                  .laser = laser,
-                  .constant_speed = constant,
-                  .goal_tolerance_m = 0.3,
-                  .tick_s = kTick}) {
-    scan_.beam_count = 3;
-    scan_.range_max_m = 25.0F;
+      : ground_(ground), moment_(ground.map()), planner_(setup_of(constant, laser)) {
+    go_to(goal);
   }
 
-  void go_to(Vec2 goal) { goal_ = goal; }
+  void go_to(Vec2 goal) { moment_.go_to(goal); }
 
-  Pose2 pose{0.0, 0.0, 0.0};
-  Twist2 twist;
+  Pose2& pose = moment_.pose;
+  Twist2& twist = moment_.driven;
   bool has_mover = false;
   Vec2 mover{}, walks{};
   bool blind_guide = false;
@@ -45,34 +44,32 @@ class Drive {
   /// Seconds until it is there; 0: not within `for_s`.
   double run(double for_s) {
     for (double t = 0.0; t < for_s; t += kTick) {
-      const Time now = time_from_seconds(clock_s_ + 1.0);
+      moment_.now = time_from_seconds(clock_s_ + 1.0);
       clock_s_ += kTick;
-      planner_.limit_speed(10.0, twist.v_mps);
-      twist = planner_.twist(now, true, pose, goal_, twist);
+      moment_.drive(planner_, kTick);
       slowest = t > 3.0 ? std::min(slowest, twist.v_mps) : slowest;
       fastest = std::max(fastest, twist.v_mps);
       blind_over =
           std::max(blind_over, blind_.too_fast(static_cast<float>(twist.v_mps), static_cast<float>(twist.w_radps)));
-      const Vec2 along = direction(pose.heading + 0.5 * twist.w_radps * kTick);
-      pose = {pose.x + twist.v_mps * kTick * along.x, pose.y + twist.v_mps * kTick * along.y,
-              wrap_angle(pose.heading + twist.w_radps * kTick)};
       mover = mover + walks * kTick;
       if (has_mover) least_m = std::min(least_m, distance(pose.position(), mover));
       in_its_way = in_its_way || (has_mover && is_in_its_way());
-      if (distance(pose.position(), goal_) < 0.3) return t + kTick;
-      if (static_cast<int>(t / kTick + 0.5) % 4 == 0) decide(now);
+      if (distance(pose.position(), moment_.input.goal_in_map) < 0.3) return t + kTick;
+      if (static_cast<int>(t / kTick + 0.5) % 4 == 0) decide();
     }
     return 0.0;
   }
 
   /// A person steers the robot straight forward or backward for `for_s` seconds; the planner only counts the way.
   void steer(double v_mps, double for_s) {
-    for (double t = 0.0; t < for_s; t += kTick) planner_.limit_speed(10.0, v_mps);
+    tests::Moment steered(ground_.map());
+    steered.driven = {v_mps, 0.0};
+    for (double t = 0.0; t < for_s; t += kTick) planner_.observe(steered.world(), {Intent::Kind::kStick});
     pose = {pose.x + v_mps * for_s * std::cos(pose.heading), pose.y + v_mps * for_s * std::sin(pose.heading),
             pose.heading};
   }
 
-  [[nodiscard]] const MotionPlanner& planner() const { return planner_; }
+  [[nodiscard]] const GoalRollouts& planner() const { return planner_; }
 
  private:
   [[nodiscard]] bool is_in_its_way() const {
@@ -81,40 +78,30 @@ class Drive {
     return away < 0.27 + 0.5 && dot(to_robot, walks) > std::cos(0.25 * kPi) * away * norm(walks);
   }
 
-  void decide(Time now) {
-    Guide guide = ground_.towards(pose.position(), goal_);
+  void decide() {
+    Guide guide = ground_.towards(pose.position(), moment_.input.goal_in_map);
     const std::vector<float> nothing(static_cast<std::size_t>(guide.side) * static_cast<std::size_t>(guide.side),
                                      std::numeric_limits<float>::quiet_NaN());
     if (blind_guide) guide.to_go_s = nothing.data();
+    moment_.plan.guide = guide;
     const Track track{.id = 1,
-                      .stamp = now,
+                      .stamp = moment_.now,
                       .position_in_map = mover,
                       .velocity_in_map = walks,
                       .covariance = {1e-4, 1e-5, 1e-3},
                       .radius_m = 0.27,
                       .moving = norm(walks) > 0.1,
                       .hits = 20,
-                      .last_seen = now};
-    planner_.decide({.seen = {.now = now,
-                              .stamp = now,
-                              .map_from_robot = pose,
-                              .tracks = {&track, has_mover ? 1U : 0U},
-                              .standing = {},
-                              .still = ground_.map(),
-                              .scan = scan_,
-                              .map_from_laser = pose,
-                              .guide = guide},
-                     .goal_in_map = goal_,
-                     .has_goal = true},
-                    twist);
+                      .last_seen = moment_.now};
+    moment_.tracks.assign(has_mover ? 1U : 0U, track);
+    moment_.decide(planner_);
   }
 
   test::Guided& ground_;
+  tests::Moment moment_;
   double clock_s_ = 0.0;  ///< runs on from one run() to the next
-  Vec2 goal_;
-  MotionPlanner planner_;
+  GoalRollouts planner_;
   BlindRim blind_{p3dx().footprint, p3dx().laser};
-  LaserScan scan_;
 };
 
 }  // namespace
@@ -132,17 +119,17 @@ TEST_CASE("the time to the goal is progress with no pedestrian about, and anew f
   test::Guided ground;
   Drive drive(ground, {4.0, 0.0});
   (void)drive.run(2.0);
-  const float to_first_s = drive.planner().decision().stay.least_to_go_s;
+  const float to_first_s = drive.planner().decision().stall.least_to_go_s;
   CHECK(to_first_s > 3.0F);
   CHECK(to_first_s < 4.0F / 0.6F);
   drive.go_to({-4.0, 0.0});  // farther away than the first goal was at any time
   (void)drive.run(0.2);
-  CHECK(drive.planner().decision().stay.least_to_go_s > 4.0F / 0.6F);
+  CHECK(drive.planner().decision().stall.least_to_go_s > 4.0F / 0.6F);
 
   Drive beside_a_walker(ground, {4.0, 0.0});
   beside_a_walker.has_mover = true, beside_a_walker.mover = {2.0, 3.0}, beside_a_walker.walks = {0.0, 0.4};
   (void)beside_a_walker.run(2.0);
-  CHECK(beside_a_walker.planner().decision().stay.least_to_go_s == 0.0F);
+  CHECK(beside_a_walker.planner().decision().stall.least_to_go_s == 0.0F);
 }
 
 TEST_CASE("it turns first where the goal lies behind") {
@@ -263,10 +250,11 @@ TEST_CASE("the same drive is the same to the bit") {
 }
 
 TEST_CASE("without a decision for half a second it stops") {
-  MotionPlanner planner({.footprint = p3dx().footprint, .limits = p3dx().limits, .laser = p3dx().laser});
-  Twist2 twist{0.5, 0.3};
-  for (int k = 0; k < 100; ++k) {
-    twist = planner.twist(time_from_seconds(1.0 + 0.02 * k), true, {}, {4.0, 0.0}, twist);
-  }
-  CHECK(twist == Twist2{});
+  const tests::Ground ground;
+  tests::Moment moment(ground.map());
+  moment.go_to({4.0, 0.0});
+  moment.driven = {0.5, 0.3};
+  GoalRollouts planner({.model = p3dx()});
+  for (int k = 0; k < 100; ++k) moment.now += duration_from_seconds(kTick), moment.drive(planner, 0.0);
+  CHECK(moment.driven == Twist2{});
 }

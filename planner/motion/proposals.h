@@ -1,14 +1,14 @@
 #pragma once
-#include "planner/motion/judge.h"
+#include "planner/motion/trajectory_cost.h"
 
 namespace jaywalk::motion {
 
 /// The trajectories that a decision tries, by number: each a function of the situation and its number alone, so that
 /// they can be made anywhere and in any order. Thread: any.
-class Attempts {
+class TrajectoryProposals {
  public:
   /// `constant_mps` above 0: every one of them has that speed throughout.
-  Attempts(const Situation& situation, float constant_mps) : s_(situation), constant_(constant_mps) {}
+  TrajectoryProposals(const Situation& situation, float constant_mps) : s_(situation), constant_(constant_mps) {}
 
   [[nodiscard]] int count() const;
   void make(int number, Trajectory& out) const noexcept;

@@ -1,4 +1,4 @@
-#include "planner/motion/wish.h"
+#include "planner/motion/stick_proposals.h"
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@ namespace {
 constexpr std::uint32_t kPurpose = 4;  ///< of the draws
 constexpr float kWeight = 2.0F;        ///< of a second off
 
-constexpr std::array<float, 5> kStops{0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as wished before it slows down
+constexpr std::array<float, 5> kStops{0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as asked before it slows down
 constexpr std::array<float, 3> kShares{1.0F, 0.667F, 0.333F};
 constexpr std::array<float, 10> kAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
                                        -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
@@ -27,15 +27,15 @@ float of(const std::array<float, N>& values, int n) {
   return values[static_cast<std::size_t>(n)];
 }
 
-Command command_of(const WishShape& shape, const Command& wish, float step, const MotionBounds& bounds) {
+Command command_of(const StickShape& shape, const Command& asked, float step, const MotionBounds& bounds) {
   const float back_until = shape.aside_steps * (1.0F + shape.back);
   const float aside = step < shape.aside_steps ? shape.aside : step < back_until ? -shape.aside : 0.0F;
-  return {shape.share * wish.v, std::clamp(shape.turn_share * wish.w + aside, -bounds.turn, bounds.turn)};
+  return {shape.share * asked.v, std::clamp(shape.turn_share * asked.w + aside, -bounds.turn, bounds.turn)};
 }
 
 }  // namespace
 
-Command wished(const Stick& stick, const MotionBounds& bounds) noexcept {
+Command stick_command(const Stick& stick, const MotionBounds& bounds) noexcept {
   if (!std::isfinite(stick.forward) || !std::isfinite(stick.left)) return {};
   const auto forward = static_cast<float>(std::clamp(stick.forward, -1.0, 1.0));
   const auto left = static_cast<float>(std::clamp(stick.left, -1.0, 1.0));
@@ -50,46 +50,46 @@ RobotState slowed(const RobotState& from, const MotionBounds& bounds, float dt) 
   return s;
 }
 
-WishedWay drive_wish(const RobotState& start, const Command& command, const MotionBounds& bounds) noexcept {
-  WishedWay way{command, {}};
+StickRollout roll_out_stick(const RobotState& start, const Command& command, const MotionBounds& bounds) noexcept {
+  StickRollout way{command, {}};
   RobotState robot = start;
   for (RobotState& state : way.states) state = robot = moved(robot, command, bounds, kStepS);
   return way;
 }
 
-float seconds_off(const WishedWay& wish, const RobotState* states, const MotionBounds& bounds) noexcept {
+float seconds_off(const StickRollout& asked, const RobotState* states, const MotionBounds& bounds) noexcept {
   float sum_m = 0.0F;
   for (int k = 0; k < kFollowedSteps; ++k) {
-    const RobotState& to = wish.states[static_cast<std::size_t>(k)];
+    const RobotState& to = asked.states[static_cast<std::size_t>(k)];
     const float dx = states[k].x - to.x, dy = states[k].y - to.y;
     sum_m += std::sqrt(dx * dx + dy * dy) + kTurnArm_m * std::fabs(states[k].heading - to.heading);
   }
   return kWeight * sum_m / (bounds.speed * static_cast<float>(kFollowedSteps));
 }
 
-void make(const WishShape& shape, const Command& wish, const RobotState& start, const MotionBounds& bounds,
+void make(const StickShape& shape, const Command& asked, const RobotState& start, const MotionBounds& bounds,
           Trajectory& out) noexcept {
-  out.attempt = Attempt::kWish;
+  out.proposal = Proposal::kStick;
   out.perturbed = false;
   RobotState robot = start;
-  for (int step = 0; step < kWishedSteps; ++step) {
+  for (int step = 0; step < kStickSteps; ++step) {
     const auto at = static_cast<float>(step);
     Command& command = out.commands[static_cast<std::size_t>(step)];
     if (at < shape.steps) {
-      command = command_of(shape, wish, at, bounds);
+      command = command_of(shape, asked, at, bounds);
       robot = moved(robot, command, bounds, kStepS);
     } else {
       robot = slowed(robot, bounds, kStepS);
       command = {0.0F, robot.w};
     }
   }
-  std::fill(out.commands.begin() + kWishedSteps, out.commands.end(), Command{});
+  std::fill(out.commands.begin() + kStickSteps, out.commands.end(), Command{});
 }
 
 int shape_count() noexcept { return 1 + kStopCount + (kShareCount - 1) + kShareCount * kBent; }
 
-WishShape shape_at(int n, const MotionBounds& bounds) noexcept {
-  WishShape shape;
+StickShape shape_at(int n, const MotionBounds& bounds) noexcept {
+  StickShape shape;
   if (n == 0) return shape;
   if (--n < kStopCount) {
     shape.steps = of(kStops, n);
@@ -111,11 +111,11 @@ WishShape shape_at(int n, const MotionBounds& bounds) noexcept {
   return shape;
 }
 
-WishShape perturbed(const WishShape& shape, std::uint32_t decision, int round, int number,
-                    const MotionBounds& bounds) noexcept {
+StickShape perturbed(const StickShape& shape, std::uint32_t decision, int round, int number,
+                     const MotionBounds& bounds) noexcept {
   constexpr auto kMost = static_cast<float>(kFollowedSteps);
   cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
-  WishShape out;
+  StickShape out;
   out.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F);
   out.turn_share = std::clamp(shape.turn_share + 0.25F * draws.normal(), 0.0F, 1.0F);
   out.aside = std::clamp(shape.aside + 0.15F * bounds.turn * draws.normal(), -bounds.turn, bounds.turn);

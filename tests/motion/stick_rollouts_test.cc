@@ -1,10 +1,11 @@
 // A stick and what is made of it: in worlds small enough to say what is right.
-#include "planner/motion/shared_control.h"
+#include "planner/motion/stick_rollouts.h"
 
 #include <cmath>
 #include <limits>
 
 #include "tests/motion/ground.h"
+#include "tests/motion/moment.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
@@ -15,21 +16,22 @@ namespace {
 
 constexpr double kTick = 0.02;
 
+MotionSetup setup_of(const RobotModel& model, bool assisted = true) {
+  return {.model = model, .steering = assisted ? StickUse::kShared : StickUse::kByHand, .tick_s = kTick};
+}
+
 /// A robot that does what it is told.
 class Ride {
  public:
   Ride(const tests::Ground& ground, const RobotModel& model, bool assisted = true)
-      : ground_(ground),
-        footprint_(model.footprint),
-        shared_({.footprint = model.footprint, .limits = model.limits, .laser = model.laser, .tick_s = kTick},
-                assisted) {
-    scan_.beam_count = 3;
-    scan_.range_max_m = 25.0F;
+      : footprint_(model.footprint), moment_(ground.map()), shared_(setup_of(model, assisted)) {
+    moment_.input.steers = true;
+    moment_.tracks.reserve(1);
   }
 
-  Pose2 pose{0.0, 0.0, 0.0};
-  Twist2 twist;
-  Stick stick;
+  Pose2& pose = moment_.pose;
+  Twist2& twist = moment_.driven;
+  Stick& stick = moment_.input.stick;
   bool has_mover = false;
   Vec2 mover{}, walks{};
   std::uint64_t heap_calls = 0;
@@ -38,13 +40,10 @@ class Ride {
     const double until = t_ + for_s;
     for (; t_ < until; t_ += kTick) {
       const AllocationGuard guard;
-      const Time now = time_from_seconds(t_ + 1.0);
-      twist = shared_.twist(now, stick, twist);
-      const Vec2 along = direction(pose.heading + 0.5 * twist.w_radps * kTick);
-      pose = {pose.x + twist.v_mps * kTick * along.x, pose.y + twist.v_mps * kTick * along.y,
-              wrap_angle(pose.heading + twist.w_radps * kTick)};
+      moment_.now = time_from_seconds(t_ + 1.0);
+      moment_.drive(shared_, kTick);
       mover = mover + walks * kTick;
-      if (static_cast<int>(t_ / kTick + 0.5) % 4 == 0) decide(now);
+      if (static_cast<int>(t_ / kTick + 0.5) % 4 == 0) decide();
       heap_calls += guard.calls();
     }
   }
@@ -52,33 +51,23 @@ class Ride {
   [[nodiscard]] double gap_to(Vec2 point) const { return footprint_.distance_to(Transform2(inverse(pose)) * point); }
 
  private:
-  void decide(Time now) {
+  void decide() {
     const Track track{.id = 1,
-                      .stamp = now,
+                      .stamp = moment_.now,
                       .position_in_map = mover,
                       .velocity_in_map = walks,
                       .covariance = {1e-4, 1e-5, 1e-3},
                       .radius_m = 0.27,
                       .moving = norm(walks) > 0.1,
                       .hits = 20,
-                      .last_seen = now};
-    const Guide none;
-    shared_.decide({.now = now,
-                    .stamp = now,
-                    .map_from_robot = pose,
-                    .tracks = {&track, has_mover ? 1U : 0U},
-                    .standing = {},
-                    .still = ground_.map(),
-                    .scan = scan_,
-                    .map_from_laser = pose,
-                    .guide = none},
-                   stick, twist);
+                      .last_seen = moment_.now};
+    moment_.tracks.assign(has_mover ? 1U : 0U, track);
+    moment_.decide(shared_);
   }
 
-  const tests::Ground& ground_;
   Footprint footprint_;
-  SharedControl shared_;
-  LaserScan scan_;
+  tests::Moment moment_;
+  StickRollouts shared_;
   double t_ = 0.0;
 };
 
@@ -220,20 +209,25 @@ TEST_CASE("through a door by a hand that trembles: the turn that is asked for no
 
 TEST_CASE("half a second without a decision stops it") {
   const tests::Ground open;
-  SharedControl shared({.footprint = p3dx().footprint, .limits = p3dx().limits, .laser = p3dx().laser, .tick_s = kTick},
-                       true);
-  CHECK(shared.twist(time_from_seconds(1.0), {1.0, 0.0}, {}) == Twist2{});  // before the first
-  CHECK(shared.twist(time_from_seconds(1.0), {1.0, 0.0}, {0.3, 0.0}).v_mps < 0.3);
+  tests::Moment moment(open.map());
+  moment.input.steers = true;
+  moment.input.stick = {1.0, 0.0};
+  StickRollouts shared(setup_of(p3dx()));
+  moment.drive(shared, 0.0);
+  CHECK(moment.driven == Twist2{});  // before the first
+  moment.driven = {0.3, 0.0};
+  moment.drive(shared, 0.0);
+  CHECK(moment.driven.v_mps < 0.3);
 }
 
 TEST_CASE("a stick that is no number asks for nothing") {
   const double nan = std::numeric_limits<double>::quiet_NaN();
   const MotionBounds bounds{.speed = 0.6F, .back = 0.3F, .turn = 1.2F};
-  CHECK(wished({nan, 1.0}, bounds).w == 0.0F);
-  CHECK(wished({1.0, nan}, bounds).v == 0.0F);
-  CHECK(wished({7.0, 0.0}, bounds).v == 0.6F);
-  CHECK(wished({-1.0, 0.5}, bounds).v == -0.3F);
-  CHECK(wished({-1.0, 0.5}, bounds).w == Approx(0.6F));
+  CHECK(stick_command({nan, 1.0}, bounds).w == 0.0F);
+  CHECK(stick_command({1.0, nan}, bounds).v == 0.0F);
+  CHECK(stick_command({7.0, 0.0}, bounds).v == 0.6F);
+  CHECK(stick_command({-1.0, 0.5}, bounds).v == -0.3F);
+  CHECK(stick_command({-1.0, 0.5}, bounds).w == Approx(0.6F));
 }
 
 TEST_CASE("to stand in place of full speed costs some three seconds; the wish itself costs none") {
@@ -241,7 +235,7 @@ TEST_CASE("to stand in place of full speed costs some three seconds; the wish it
   const MotionBounds bounds{
       .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 0.75F};
   const RobotState driving{0.0F, 0.0F, 0.0F, 0.6F, 0.0F, 0.0F};
-  const WishedWay way = drive_wish(driving, {0.6F, 0.0F}, bounds);
+  const StickRollout way = roll_out_stick(driving, {0.6F, 0.0F}, bounds);
   std::array<RobotState, kFollowedSteps> stands{};
   CHECK(seconds_off(way, stands.data(), bounds) == Approx(3.1F).margin(0.01));
   CHECK(seconds_off(way, way.states.data(), bounds) == 0.0F);
@@ -251,7 +245,7 @@ TEST_CASE("an outline is as far from a wall as the body, ahead, beside and at it
   tests::Ground ground;
   ground.wall({2.0, -2.0}, {2.0, 2.0});
   LocalGround local;
-  const Guide& guide = local.look(ground.map(), {0.0, 0.0}, {});
+  const Guide& guide = local.update(ground.map(), {0.0, 0.0}, {});
   const BodyOutline body = BodyOutline::of(wheelchair().footprint);
   CHECK(body.clearance(guide, 1.0F, 0.0F, {1.0F, 0.0F}) == Approx(0.25F).margin(0.01));   // 2 - 1 - 0.75
   CHECK(body.clearance(guide, 1.0F, 0.0F, {0.0F, 1.0F}) == Approx(0.675F).margin(0.01));  // 2 - 1 - 0.325
@@ -268,7 +262,7 @@ TEST_CASE("every shape is at rest within five seconds, and none drives faster th
     Trajectory trajectory;
     RobotState robot{0.0F, 0.0F, 0.0F, 0.6F, 0.0F, 0.0F};
     make(shape_at(n, body.bounds), wish, robot, body.bounds, trajectory);
-    for (int step = 0; step < kWishedSteps; ++step) {
+    for (int step = 0; step < kStickSteps; ++step) {
       const Command command = trajectory.commands[static_cast<std::size_t>(step)];
       REQUIRE(command.v >= 0.0F);
       REQUIRE(command.v <= 0.4F);

@@ -1,4 +1,4 @@
-#include "planner/motion/attempts.h"
+#include "planner/motion/proposals.h"
 
 #include <algorithm>
 #include <array>
@@ -78,33 +78,33 @@ float at(const std::array<float, kTurns.size()>& values, int k) { return values[
 
 }  // namespace
 
-int Attempts::count() const {
+int TrajectoryProposals::count() const {
   return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
                           : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights;
 }
 
-void Attempts::make(int n, Trajectory& out) const noexcept {
+void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
   out.perturbed = false;
   if (constant_ > 0.0F) {
-    if (n == 0) return out.attempt = Attempt::kFollow, follow_from(s_.start, 0, constant_, out);
+    if (n == 0) return out.proposal = Proposal::kFollow, follow_from(s_.start, 0, constant_, out);
     return n <= kTurnCount ? arc(n - 1, out) : arc_then_follow(n - 1 - kTurnCount, out);
   }
   const float full = s_.body.bounds.speed;
   RobotState robot = s_.start;
   if (n < kFollows) {
-    out.attempt = Attempt::kFollow;
+    out.proposal = Proposal::kFollow;
     return follow_from(robot, 0, kFollowShares[static_cast<std::size_t>(n)] * full, out);
   }
   n -= kFollows;
   if (n < kPauses) {
-    out.attempt = Attempt::kWaitThenGo;
+    out.proposal = Proposal::kWaitThenGo;
     const int wait = 8 * (n + 1);
     drive_out(robot, 0, wait, {}, out);
     return follow_from(robot, wait, full, out);
   }
   n -= kPauses;
   if (n < kPauses) {
-    out.attempt = Attempt::kGoThenStop;
+    out.proposal = Proposal::kGoThenStop;
     follow_from(robot, 0, full, out);
     return std::fill(out.commands.begin() + 6 + 8 * n, out.commands.end(), Command{});
   }
@@ -115,17 +115,17 @@ void Attempts::make(int n, Trajectory& out) const noexcept {
   go_straight(n - kBentForward - kBentBack, out);
 }
 
-void Attempts::arc(int n, Trajectory& out) const noexcept {
+void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
   const int row = n / kTurnCount, forward = static_cast<int>(kForward.size());
   const MotionBounds& b = s_.body.bounds;
   const float v = constant_ > 0.0F ? constant_
                   : row < forward  ? kForward[static_cast<std::size_t>(row)] * b.speed
                                    : -kBack[static_cast<std::size_t>(row - forward)] * b.back;
-  out.attempt = v < 0.0F ? Attempt::kArcBack : Attempt::kArc;
+  out.proposal = v < 0.0F ? Proposal::kArcBack : Proposal::kArc;
   out.commands.fill(permitted({v, at(kTurns, n % kTurnCount) * b.turn}));
 }
 
-void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
+void TrajectoryProposals::arc_then_follow(int n, Trajectory& out) const noexcept {
   const MotionBounds& b = s_.body.bounds;
   const bool back = constant_ <= 0.0F && n >= kBentForward;
   const int row = (back ? n - kBentForward : n) / kTurnCount, bends = static_cast<int>(kBends.size());
@@ -133,7 +133,7 @@ void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
                   : back           ? -kBack[static_cast<std::size_t>(row)] * b.back
                                    : kForward[static_cast<std::size_t>(row / bends)] * b.speed;
   const int steps = back ? kBends[0] : kBends[static_cast<std::size_t>(row % bends)];
-  out.attempt = back ? Attempt::kBackThenFollow : Attempt::kArcThenFollow;
+  out.proposal = back ? Proposal::kBackThenFollow : Proposal::kArcThenFollow;
   RobotState robot = s_.start;
   drive_out(robot, 0, steps, permitted({v, at(kTurns, n % kTurnCount) * b.turn}), out);
   follow_from(robot, steps, constant_ > 0.0F ? constant_ : b.speed, out);
@@ -141,9 +141,9 @@ void Attempts::arc_then_follow(int n, Trajectory& out) const noexcept {
 
 /// Turns to one of twelve headings, then drives straight on at full speed: an escape that the guide does not show
 /// (docs/decisions/0078).
-void Attempts::go_straight(int n, Trajectory& out) const noexcept {
+void TrajectoryProposals::go_straight(int n, Trajectory& out) const noexcept {
   const float heading = s_.start.heading + 2.0F * cell::kPiF * static_cast<float>(n) / static_cast<float>(kStraights);
-  out.attempt = Attempt::kGoStraight;
+  out.proposal = Proposal::kGoStraight;
   RobotState robot = s_.start;
   for (int step = 0; step < kSteps; step += kSteerEvery) {
     const Command command = towards(cell::wrapped(heading - robot.heading), s_.body.bounds.speed);
@@ -151,26 +151,27 @@ void Attempts::go_straight(int n, Trajectory& out) const noexcept {
   }
 }
 
-void Attempts::drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept {
+void TrajectoryProposals::drive_out(RobotState& robot, int from, int to, Command command,
+                                    Trajectory& out) const noexcept {
   for (int step = from; step < to; ++step) {
     out.commands[static_cast<std::size_t>(step)] = command;
     robot = moved(robot, command, s_.body.bounds, kStepS);
   }
 }
 
-void Attempts::follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept {
+void TrajectoryProposals::follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept {
   for (; step < kSteps; step += kSteerEvery) {
     drive_out(robot, step, std::min(step + kSteerEvery, kSteps), permitted(pursuit(robot, speed)), out);
   }
 }
 
 /// No faster to where nothing looks than the supervisor lets it; at constant speed that is not asked.
-Command Attempts::permitted(const Command& command) const noexcept {
+Command TrajectoryProposals::permitted(const Command& command) const noexcept {
   return constant_ > 0.0F ? command : s_.body.blind.slowed(command);
 }
 
 /// Towards where, half a metre off, the goal is nearest in time.
-Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
+Command TrajectoryProposals::pursuit(const RobotState& r, float speed) const noexcept {
   float round[kDirections], close[kClose];
   kCompass.round.ask(s_.guide, r.x, r.y, round);
   const auto best = static_cast<std::size_t>(std::min_element(round, round + kDirections) - round);
@@ -187,14 +188,14 @@ Command Attempts::pursuit(const RobotState& r, float speed) const noexcept {
 }
 
 /// Proportional steering to a heading `error_rad` to the left; a large error is turned off nearly in place first.
-Command Attempts::towards(float error_rad, float speed) const noexcept {
+Command TrajectoryProposals::towards(float error_rad, float speed) const noexcept {
   const float turn = s_.body.bounds.turn, wanted = kGain * error_rad;
   const bool turns_first = constant_ <= 0.0F && std::fabs(error_rad) > kTurnsFirstRad;
   return {turns_first ? std::min(speed, kWhileTurningMps) : speed, std::clamp(wanted, -turn, turn)};
 }
 
-void Attempts::perturb(const Trajectory& base, std::uint32_t decision, int round, int number,
-                       Trajectory& out) const noexcept {
+void TrajectoryProposals::perturb(const Trajectory& base, std::uint32_t decision, int round, int number,
+                                  Trajectory& out) const noexcept {
   const MotionBounds& b = s_.body.bounds;
   const auto n = static_cast<std::uint32_t>(number);
   cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), n});
@@ -202,7 +203,7 @@ void Attempts::perturb(const Trajectory& base, std::uint32_t decision, int round
   const float w_size = (n & 2U) != 0 ? 0.5F : 0.2F;
   float v_goal = 0.0F, w_goal = 0.0F, v = 0.0F, w = 0.0F;
   int hold = 0;
-  out.attempt = base.attempt;
+  out.proposal = base.proposal;
   out.perturbed = true;
   for (int step = 0; step < kSteps; ++step) {
     if (hold-- == 0) {
@@ -218,7 +219,7 @@ void Attempts::perturb(const Trajectory& base, std::uint32_t decision, int round
   }
 }
 
-void Attempts::smooth(const Trajectory& base, int half, Trajectory& out) const noexcept {
+void TrajectoryProposals::smooth(const Trajectory& base, int half, Trajectory& out) const noexcept {
   const auto turn_at = [&](int step) {
     return step < 0 ? s_.start.w : base.commands[static_cast<std::size_t>(std::min(step, kSteps - 1))].w;
   };
@@ -243,7 +244,7 @@ Trajectory shifted(const Trajectory& trajectory, float by_s) noexcept {
     out.commands[static_cast<std::size_t>(k)] = {old[i].v + share * (old[j].v - old[i].v),
                                                  old[i].w + share * (old[j].w - old[i].w)};
   }
-  out.attempt = Attempt::kLast;
+  out.proposal = Proposal::kLast;
   return out;
 }
 

@@ -1,0 +1,92 @@
+#pragma once
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+#include "planner/cell/exp_log.h"
+#include "planner/motion/cost/interaction.h"
+#include "planner/motion/situation.h"
+
+namespace jaywalk::motion {
+
+/// Movers: the chance of touching or forcing one for the first time, and nearness to them.
+class MoverCost {
+ public:
+  explicit MoverCost(const Situation& s) : s_(s) {}
+
+  /// `step`: of the futures; `t`: seconds from now.
+  void add(const RobotState& r, const cell::Heading& along, int step, float t, Cost& cost) noexcept {
+    Sum all;
+    const BodyDiscs& discs = s_.body.to_movers;
+    const int at_step = step < kFutureSteps ? step : kFutureSteps - 1;
+    for (std::size_t m = 0; m < s_.futures.movers(); ++m) {
+      const MoverAt& at = s_.futures.at(at_step, m);
+      const float radius = s_.futures.radius(m);
+      const float most =
+          std::max(at.spread + radius + kZoneM + discs.radius + 0.1F, at.spread + s_.body.comfort_distance_m);
+      for (int k = 0; k < discs.count; ++k) {
+        const Place disc = disc_at(r, along, k);
+        const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
+        if (dx * dx + dy * dy >= most * most) continue;
+        add_disc(r, disc, {k, m}, at, all);
+      }
+    }
+    cost.nearness += (price::kNearMover * all.nearness + price::kTooFast * all.too_fast) /
+                     static_cast<float>(kFutures * discs.count);
+    count_first(all.met, met_, 1.0F, t, cost);
+    count_first(all.stood, met_, price::kStandingWeight, t, cost);
+    count_first(all.touched, touched_, 1.0F, t, cost);
+  }
+
+ private:
+  /// Over all discs and movers.
+  struct Sum {
+    std::uint32_t met = 0, stood = 0, touched = 0;  ///< a bit a future; `stood`: met, of those that have stood for long
+    float nearness = 0.0F, too_fast = 0.0F;
+  };
+
+  /// Numbers of a disc of the body and of a mover.
+  struct Pair {
+    int disc;
+    std::size_t mover;
+  };
+
+  void add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
+    const BodyDiscs& discs = s_.body.to_movers;
+    const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
+                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, s_.body.comfort_distance_m);
+    const bool has_stood = s_.futures.has_stood(of.mover);  // a surface until it sets out: standing()
+    (has_stood ? all.stood : all.met) |= with.met;
+    if (with.touched != 0 && !has_stood && moves(r)) {
+      const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
+      all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
+    }
+    all.nearness += with.nearness;
+    if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
+  }
+
+  [[nodiscard]] bool moves(const RobotState& r) const noexcept {
+    return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m > kRestsMps;
+  }
+
+  [[nodiscard]] Place disc_at(const RobotState& r, const cell::Heading& along, int k) const noexcept {
+    const float ahead = s_.body.to_movers.ahead[static_cast<std::size_t>(k)];
+    return {r.x + ahead * along.x, r.y + ahead * along.y};
+  }
+
+  /// For the first time in these futures.
+  static void count_first(std::uint32_t met, std::uint32_t& before, float weight, float t, Cost& cost) noexcept {
+    const std::uint32_t first = met & ~before;
+    before |= met;
+    if (first == 0) return;
+    const float share = static_cast<float>(std::popcount(first)) / kFutures;
+    cost.conflict += price::kConflict * weight * share * cell::exp(-t / price::kConflictFadesS);
+  }
+
+  const Situation& s_;
+  std::uint32_t met_ = 0;  ///< futures in which a mover was met: a bit each
+  /// Futures in which the moving robot touched a mover: a bit each. Priced apart from being in the mover's way.
+  std::uint32_t touched_ = 0;
+};
+
+}  // namespace jaywalk::motion

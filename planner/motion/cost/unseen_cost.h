@@ -1,0 +1,33 @@
+#pragma once
+#include <cmath>
+
+#include "planner/cell/exp_log.h"
+#include "planner/motion/cost/prices.h"
+#include "planner/motion/situation.h"
+
+namespace jaywalk::motion {
+
+/// Parts of the body where nothing was ever seen.
+class UnseenCost {
+ public:
+  explicit UnseenCost(const Situation& s) : s_(s) {}
+
+  void add(const RobotState& r, const cell::Heading& along, Cost& cost) noexcept {
+    if (r.v > 0.0F) driven_m_ += r.v * kStepS;
+    int parts = 0;
+    for (const Place& p : s_.body.rim) {
+      const float x = r.x + p.x * along.x - p.y * along.y, y = r.y + p.x * along.y + p.y * along.x;
+      parts += s_.guide.is_unseen(x, y) ? 1 : 0;
+    }
+    if (parts == 0) return;
+    const float price = s_.guide.through_unseen ? price::kUnseenDared + price::kUnseenTurned * std::fabs(r.w)
+                                                : price::kUnseen * cell::exp(-driven_m_ / price::kUnseenFadesM);
+    cost.unseen += price * kStepS * static_cast<float>(parts) * 0.125F;
+  }
+
+ private:
+  const Situation& s_;
+  float driven_m_ = 0.0F;  ///< forward
+};
+
+}  // namespace jaywalk::motion

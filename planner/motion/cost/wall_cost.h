@@ -1,0 +1,69 @@
+#pragma once
+#include <algorithm>
+#include <cmath>
+
+#include "planner/cell/exp_log.h"
+#include "planner/motion/cost/prices.h"
+#include "planner/motion/situation.h"
+
+namespace jaywalk::motion {
+
+/// Touching surfaces, and driving near them. A pedestrian that has stood for long is a surface, too.
+class WallCost {
+ public:
+  explicit WallCost(const Situation& s)
+      : s_(s), at_start_(clearance_at(s.start, cell::heading_at(s.start.heading))), clearance_(at_start_) {}
+
+  /// `t`: seconds from now. Returns the clearance, m.
+  float add(const RobotState& now, const cell::Heading& along, float t, Cost& cost) noexcept {
+    const float c = clearance_at(now, along);
+    // It may always leave what it stands beside.
+    const bool nears = c < clearance_ - 1e-4F && c < at_start_ - 0.003F;
+    clearance_ = c;
+    if (c < price::kContactM && nears) {
+      const float deep = (price::kContactM - c) * 20.0F;
+      cost.touch += price::kNearContact * cell::exp(-0.2F * t) * (deep < 1.0F ? deep : 1.0F) +
+                    (c < 0.0F ? price::kContact : 0.0F);
+    }
+    if (c < price::kByWallM) cost.clearance += kStepS * paid_share(now) * near_price(c);
+    return c;
+  }
+
+ private:
+  [[nodiscard]] bool is_steered() const noexcept { return s_.stick != nullptr; }
+
+  [[nodiscard]] float near_price(float c) const noexcept {
+    const float close = c < price::kNearWallM ? (price::kNearWallM - c) / price::kNearWallM : 0.0F;
+    const float by_wall = is_steered() ? 0.0F : price::kByWall * (price::kByWallM - c) / price::kByWallM;
+    return price::kNearWall * close * close + by_wall;
+  }
+
+  /// Steered, it passes and stands as near as the person likes: the price is for the way very near, not for the time.
+  [[nodiscard]] float paid_share(const RobotState& r) const noexcept {
+    const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
+    return is_steered() ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
+  }
+
+  [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
+    const float least = s_.body.to_walls.clearance(s_.guide, r.x, r.y, along);
+    const bool coarse = !is_steered() || least >= price::kByWallM;
+    return std::min(coarse ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along),
+                    clearance_to_standing(r, along));
+  }
+
+  /// A pedestrian that has stood for long is a surface as wide as a body, though the map has the shins alone.
+  [[nodiscard]] float clearance_to_standing(const RobotState& r, const cell::Heading& along) const noexcept {
+    float least = Guide::kFar_m;
+    for (const StandingDisc& disc : s_.futures.standing()) {
+      const float dx = disc.x - r.x, dy = disc.y - r.y;
+      const float ahead = dx * along.x + dy * along.y, left = dy * along.x - dx * along.y;
+      least = std::min(least, s_.body.gap(ahead, left) - disc.radius);
+    }
+    return least;
+  }
+
+  const Situation& s_;
+  float at_start_, clearance_;
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,146 @@
+#include "planner/motion/goal_rollouts.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::motion {
+namespace {
+
+constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
+constexpr int kRounds = 3, kPerturbed = 24;
+constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
+constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/decisions/0081, 0083
+constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
+constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
+constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
+
+/// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
+template <class Look>
+void try_all(const Situation& situation, bool constant_speed, std::uint32_t number, const Trajectory& best,
+             Trajectory& trial, const Look& look) {
+  const TrajectoryProposals proposals(situation, constant_speed ? situation.body.bounds.speed : 0.0F);
+  for (int n = 0; n < proposals.count(); ++n) {
+    proposals.make(n, trial);
+    look(trial);
+  }
+  for (int round = 0; round < kRounds; ++round) {
+    const Trajectory base = best;
+    for (const int half : kSmoothedOver) {
+      proposals.smooth(base, half, trial);
+      look(trial);
+    }
+    for (int n = 0; n < kPerturbed; ++n) {
+      proposals.perturb(base, number, round, n, trial);
+      look(trial);
+    }
+  }
+}
+
+}  // namespace
+
+void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
+  RolloutMotion::observe(world, intent);
+  // At rest it shrinks by its greatest length a second: a pedestrian may step behind the robot.
+  const double gained_mps = std::abs(world.driven.v_mps) < kRestsMps ? -kKnownBehindM : world.driven.v_mps;
+  known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(gained_mps * setup_.tick_s), 0.0F, kKnownBehindM);
+  if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
+    body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
+  const bool lost = setup_.constant_speed && world.plan.status != PlanStatus::kOk;  // it does not slow down by itself
+  status_.rests_on = lost ? kNever : std::min(decision_.seen, world.plan.stamp);
+}
+
+bool GoalRollouts::is_there(const World& world) const noexcept {
+  return !setup_.constant_speed &&
+         distance(world.map_from_robot.position(), world.input.goal_in_map) < setup_.goal_tolerance_m * kStopWithin;
+}
+
+bool GoalRollouts::is_to_decide(const World& world, const Intent& intent, const Guide& ground) noexcept {
+  return intent.kind == Intent::Kind::kGoal && age(world.plan.stamp, world.now) < kGuideHoldsFor && ground.known();
+}
+
+void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
+  const Place goal = {static_cast<float>(world.input.goal_in_map.x), static_cast<float>(world.input.goal_in_map.y)};
+  if (!(goal == decision_.goal)) stall_.least_to_go_s = 0.0F;  // that was the time to another goal
+  decision_.goal = goal;
+  decision_.turned = turned_;
+  decision_.stall = stall(decision_.start, guide, world.now);
+  const Situation situation = this->situation(guide);
+  best_cost_ = {.time = 1e9F};
+  float to_beat = 1e9F;
+  decision_.went_on = holds(world.now);
+  if (decision_.went_on) {
+    decision_.last = best_ = shifted(decided(), static_cast<float>(to_seconds(world.now - decision_.at)));
+    best_cost_ = trajectory_cost(situation, best_, 1e9F);
+    to_beat = best_cost_.total();
+  }
+  search(situation);
+  if (best_cost_.total() > to_beat - kLeastGain) best_ = decision_.last;
+  decision_.trajectory = best_;
+  decision_.cost = trajectory_cost(situation, best_, 1e9F, decision_.driven.data());
+}
+
+Situation GoalRollouts::situation(const Guide& guide) const noexcept {
+  return {body_,
+          guide,
+          *futures_,
+          returns_,
+          decision_.start,
+          decision_.goal,
+          decision_.turned,
+          decision_.stall,
+          kArriveWithin * static_cast<float>(setup_.goal_tolerance_m)};
+}
+
+void GoalRollouts::search(const Situation& situation) noexcept {
+  try_all(situation, setup_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
+    const Cost cost = trajectory_cost(situation, trial, best_cost_.total());
+    if (cost.total() < best_cost_.total()) best_ = trial, best_cost_ = cost;
+  });
+}
+
+std::vector<Alternative> GoalRollouts::alternatives(const Guide& guide) const {
+  const Situation situation = this->situation(guide);
+  std::vector<Alternative> all;
+  Trajectory best, trial;
+  float least = 1e9F;
+  const auto look = [&](const Trajectory& trajectory) {
+    Alternative a{trajectory, {}, {}};
+    a.cost = trajectory_cost(situation, trajectory, 1e9F, a.driven.data());
+    if (a.cost.total() < least) least = a.cost.total(), best = trajectory;
+    all.push_back(a);
+  };
+  if (decision_.went_on) look(decision_.last);
+  try_all(situation, setup_.constant_speed, decision_.number, best, trial, look);
+  std::stable_sort(all.begin(), all.end(),
+                   [](const Alternative& a, const Alternative& b) { return a.cost.total() < b.cost.total(); });
+  return all;
+}
+
+StallState GoalRollouts::stall(const RobotState& here, const Guide& guide, Time now) noexcept {
+  const std::span<const MoverBelief> beliefs = memory().beliefs();
+  const bool alone = memory().hidden().empty() &&
+                     std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
+  const float to_go = alone ? guide.time_to_go(here.x, here.y) : 0.0F;
+  const bool was_alone = stall_.least_to_go_s > 0.0F;
+  const bool gets_on = alone && was_alone ? to_go < stall_.least_to_go_s - kGetsOnS : !stall_.holds(here);
+  if (stalled_since_ == kNever || now < stalled_since_ || gets_on) {
+    stall_ = {here.x, here.y, here.heading, 0.0F, to_go};
+    stalled_since_ = now;
+  }
+  if (alone != was_alone) stall_.least_to_go_s = to_go;
+  stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
+  return stall_;
+}
+
+RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent, const RobotState& now) noexcept {
+  const bool has_goal = intent.kind == Intent::Kind::kGoal, rests = !has_goal || is_there(world);
+  Command to = rests ? Command{} : within(body_.bounds, command_at(world.now));
+  if (setup_.constant_speed && has_goal) to.v = body_.bounds.speed;
+  RobotState next = moved(now, to, body_.bounds, tick_s());
+  if (!setup_.constant_speed) next.w = body_.blind.turn_at(next.v, next.w);
+  turned_ = turned_side(next.w, turned_);
+  if (rests) stalled_since_ = kNever;
+  return {next, rests};
+}
+
+}  // namespace jaywalk::motion

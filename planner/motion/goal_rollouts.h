@@ -1,0 +1,52 @@
+#pragma once
+#include <vector>
+
+#include "planner/motion/proposals.h"
+#include "planner/motion/rollout_motion.h"
+
+namespace jaywalk::motion {
+
+/// A trajectory that was tried, for pictures.
+struct Alternative {
+  Trajectory trajectory;
+  Cost cost;
+  std::array<RobotState, kSteps> driven{};
+};
+
+/// Roll-outs to a goal, over the plan's guide: ways along the guide, arcs, pauses and straight escapes, and what is
+/// left of the decision before, which stays unless another is better by kLeastGain.
+///
+/// Where the laser does not look behind, it limits the speed backward, except over the last half metre that the robot
+/// has driven forward; at rest it forgets them within a second.
+class GoalRollouts final : public RolloutMotion {
+ public:
+  using RolloutMotion::RolloutMotion;
+
+  void observe(const World& world, const Intent& intent) noexcept override;
+  [[nodiscard]] const GoalRollouts* rollouts() const noexcept override { return this; }
+
+  /// Everything that the last decision tried, cheapest first. `guide`: the one that it was made with, still valid.
+  /// Allocates: for pictures, never in the loop.
+  [[nodiscard]] std::vector<Alternative> alternatives(const Guide& guide) const;
+
+ private:
+  [[nodiscard]] const Guide& ground_before(const World& world) noexcept override { return world.plan.guide; }
+  [[nodiscard]] const Guide& ground(const World& world) noexcept override { return world.plan.guide; }
+  [[nodiscard]] bool is_to_decide(const World& world, const Intent& intent, const Guide& ground) noexcept override;
+  void choose(const World& world, const Guide& ground) noexcept override;
+  [[nodiscard]] Next next(const World& world, const Intent& intent, const RobotState& now) noexcept override;
+
+  [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
+  void search(const Situation& situation) noexcept;
+  [[nodiscard]] StallState stall(const RobotState& here, const Guide& guide, Time now) noexcept;
+  [[nodiscard]] bool is_there(const World& world) const noexcept;
+
+  Trajectory trial_, best_;
+  Cost best_cost_;
+  StallState stall_;  ///< where it was when it last got on, or had nowhere to go
+  Time stalled_since_ = kNever;
+  float turned_ = 0.0F;          ///< the side that it turned to last
+  float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since and what was forgotten at rest
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,41 @@
+#pragma once
+// Makes the one Motion that a control loop holds.
+#include <cstdint>
+#include <memory>
+
+#include "hal/types/operator_input.h"
+#include "hal/types/robot_model.h"
+#include "planner/mapping/keep_out.h"
+#include "planner/motion/motion.h"
+
+namespace jaywalk::motion {
+
+/// What kind of motion takes the robot to its goal.
+enum class MotionKind : std::uint8_t {
+  kRollouts,  ///< of a nearly round body
+  kLongBody,  ///< along the path, as a body's outline allows
+  kPath,      ///< along the path at constant speed, as in the paper
+};
+
+struct MotionSetup {
+  RobotModel model;
+  MotionKind to_goal = MotionKind::kRollouts;
+  bool constant_speed = false;  ///< one speed from start to goal, never stopping; kPath implies it
+  StickUse steering = StickUse::kNone;
+  double comfort_distance_m = 1.0;  ///< a pedestrian's middle nearer than this to the body's discs costs
+  double goal_tolerance_m = 0.3;
+  double tick_s = 0.02;
+  double mover_radius_m = 0.3;                        ///< the robot's, of one that is nearly round
+  std::shared_ptr<const KeepOutField> keep_out = {};  ///< null: no such zones
+
+  [[nodiscard]] KeepOut keep_out_zones() const noexcept { return keep_out ? keep_out->view() : KeepOut{}; }
+};
+
+/// Throws nothing but std::bad_alloc.
+[[nodiscard]] std::unique_ptr<Motion> make_motion(const MotionSetup& setup);
+/// `to_goal`, which at the goal turns to the heading wanted there, unless it keeps its speed.
+[[nodiscard]] std::unique_ptr<Motion> turning_at_goal(const MotionSetup& setup, std::unique_ptr<Motion> to_goal);
+/// Makes a motion; another than make_motion(), for comparisons.
+using MakeMotion = std::unique_ptr<Motion> (*)(const MotionSetup&);
+
+}  // namespace jaywalk::motion

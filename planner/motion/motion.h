@@ -1,0 +1,81 @@
+#pragma once
+// Motion's door: from what the robot knows to the twist that it wants. The supervisor decides what becomes of that.
+#include <limits>
+#include <span>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/operator_input.h"
+#include "planner/planner.h"
+
+namespace jaywalk::motion {
+
+/// What the tracker knows, valid within the tick.
+struct Perceived {
+  std::span<const Track> tracks{}, moving{};  ///< all of them; those that move
+  std::span<const Stander> standing{};
+  const EvidenceMap& still;        ///< what stands
+  bool pedestrian_hidden = false;  ///< one went out of sight within kNearby_m lately: nothing backs at once
+};
+
+inline constexpr double kNearby_m = 2.5;  ///< of the axle: in the robot's way, or company of its rider
+
+/// What a tick knows, in the map. Valid within the tick.
+struct World {
+  Time now = kNever;
+  bool new_scan = false, new_plan = false;  ///< since the tick before; a plan counts while there is a goal
+  Pose2 map_from_robot{};
+  Twist2 wanted{}, driven{};  ///< asked for last, and what the supervisor made of it
+  Time rested_on = kNever;    ///< MotionStatus::rests_on, one tick before
+  const OperatorInput& input;
+  const LaserScan& scan;   ///< the newest
+  Pose2 map_from_laser{};  ///< at that scan
+  Perceived perceived;
+  const Plan& plan;  ///< the newest
+};
+
+/// What is to be done in this tick.
+struct Intent {
+  enum class Kind { kRest, kGoal, kStick };
+  Kind kind = Kind::kRest;
+  Stick stick{};                                              ///< of kStick
+  double most_mps = std::numeric_limits<double>::infinity();  ///< beside the robot's own limit
+};
+
+/// What supervisor, record and pages are told.
+struct MotionStatus {
+  Time rests_on = kNever;      ///< stamp of the scan that the commands rest on
+  bool turns_at_goal = false;  ///< only the heading is left to be reached
+  bool turn_blocked = false;   ///< there is no room for that
+  Twist2 stick_asks{};         ///< of a stick that steers, before anything is avoided
+};
+
+/// The stamp of a path that leads to the goal; without one, what was driven by before.
+[[nodiscard]] inline Time stamp_of_path(const World& world) noexcept {
+  return world.plan.status == PlanStatus::kOk ? world.plan.stamp : world.rested_on;
+}
+
+class GoalRollouts;
+
+/// Decides how the robot moves. One object drives from start to end; make_motion() makes it. A new kind of motion
+/// implements this, and has one line there (make_motion.h).
+///
+/// Memory in the constructor: no call allocates, throws or waits. Thread: the loop's.
+class Motion {
+ public:
+  virtual ~Motion() = default;
+  /// Each tick, before command(): keeps account of how the robot moves, also while another motion drives it.
+  virtual void observe(const World& world, const Intent& intent) noexcept = 0;
+  /// Each tick in which this motion drives: the twist that it wants.
+  [[nodiscard]] virtual Twist2 command(const World& world, const Intent& intent) noexcept = 0;
+  /// With a new scan or plan, after the wheels have their command: how to move from the next tick on.
+  virtual void decide(const World& world, const Intent& intent) noexcept = 0;
+  [[nodiscard]] virtual MotionStatus status() const noexcept = 0;
+  /// What to ask of the planner. Valid within the tick.
+  [[nodiscard]] virtual PlanRequest request(const World& world) const noexcept = 0;
+  /// At most one request in this time.
+  [[nodiscard]] virtual Duration plan_every() const noexcept { return Duration{0}; }
+  /// For pictures: the decisions over sampled futures on the way to a goal; null where rules drive.
+  [[nodiscard]] virtual const GoalRollouts* rollouts() const noexcept { return nullptr; }
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,85 @@
+#include "planner/motion/rollout_motion.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::motion {
+namespace {
+
+Seen seen_in(const World& world, const Guide& ground) noexcept {
+  return {world.now,
+          world.scan.stamp,
+          world.map_from_robot,
+          world.perceived.tracks,
+          world.perceived.standing,
+          world.perceived.still,
+          world.scan,
+          world.map_from_laser,
+          ground};
+}
+
+/// Where the robot will be when the wheels follow what is decided now.
+RobotState start_in(const World& world, const MotionBounds& bounds) noexcept {
+  const Pose2& here = world.map_from_robot;
+  const RobotState now{static_cast<float>(here.x),
+                       static_cast<float>(here.y),
+                       static_cast<float>(here.heading),
+                       static_cast<float>(world.driven.v_mps),
+                       static_cast<float>(world.driven.w_radps),
+                       0.0F};
+  return moved(now, {now.v, now.w}, bounds, kLagS);
+}
+
+}  // namespace
+
+RolloutMotion::RolloutMotion(const MotionSetup& setup)
+    : setup_(setup),
+      body_(robot_body(setup.model.footprint, setup.model.limits, setup.model.laser, setup.comfort_distance_m)),
+      futures_(std::make_unique<Futures>()) {}
+
+void RolloutMotion::observe(const World&, const Intent& intent) noexcept {
+  limit_speed_of(body_.bounds, setup_.model.limits, intent.most_mps);
+}
+
+void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
+  if (!world.new_scan || !finite(world.map_from_robot)) return;
+  memory_.update(seen_in(world, ground_before(world)));
+  const Guide& ground = this->ground(world);
+  if (!is_to_decide(world, intent, ground)) return;
+  ++decision_.number;
+  futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), ground, decision_.number);
+  decision_.start = start_in(world, body_.bounds);
+  decision_.start.accel = accel_;
+  returns_.update(world.scan, world.map_from_laser, decision_.start, body_, memory_.masked());
+  choose(world, ground);
+  decision_.at = world.now;
+  decision_.seen = world.scan.stamp;
+}
+
+Command RolloutMotion::command_at(Time now) const noexcept {
+  if (decision_.at == kNever || now - decision_.at > kHoldsFor) return {};
+  const auto step = static_cast<int>(to_seconds(now - decision_.at) / static_cast<double>(kStepS));
+  return decision_.trajectory.commands[static_cast<std::size_t>(std::clamp(step, 0, kSteps - 1))];
+}
+
+Twist2 RolloutMotion::command(const World& world, const Intent& intent) noexcept {
+  const Command was{static_cast<float>(world.driven.v_mps), static_cast<float>(world.driven.w_radps)};
+  if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor or another motion has set the speed
+  const Next next = this->next(world, intent, {0.0F, 0.0F, 0.0F, was.v, was.w, accel_});
+  accel_ = next.robot.accel;
+  commanded_ = {next.robot.v, next.robot.w};
+  if (next.rests && std::fabs(commanded_.v) < 1e-6F && std::fabs(commanded_.w) < 1e-6F) commanded_ = {};
+  return {static_cast<double>(commanded_.v), static_cast<double>(commanded_.w)};
+}
+
+PlanRequest RolloutMotion::request(const World& world) const noexcept {
+  return {.stamp = world.scan.stamp,
+          .map_from_robot = world.map_from_robot,
+          .goal_in_map = world.input.goal_in_map,
+          .speed_mps = setup_.model.limits.max_speed_mps,
+          .still = &world.perceived.still,
+          .masked = memory_.masked(),
+          .wants_potential = false};
+}
+
+}  // namespace jaywalk::motion

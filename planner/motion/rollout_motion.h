@@ -1,0 +1,82 @@
+#pragma once
+#include <memory>
+
+#include "planner/motion/make_motion.h"
+#include "planner/prediction/mover_memory.h"
+#include "planner/motion/trajectory_cost.h"
+
+namespace jaywalk::motion {
+
+/// What was decided, for pictures: as many fields as it takes to decide the same again.
+struct Decision {
+  std::uint32_t number = 0;  ///< from 1
+  Time at = kNever;
+  Time seen = kNever;  ///< stamp of the scan that it rests on
+  Trajectory trajectory;
+  Cost cost;
+  std::array<RobotState, kSteps> driven{};
+  // What it was decided for, beside futures and guide.
+  RobotState start;
+  Place goal;
+  float turned = 0.0F;
+  StallState stall;
+  bool went_on = false;  ///< `last` was tried: what was left of the decision before
+  Trajectory last;
+};
+
+/// Drives by roll-outs: with each scan it samples joint futures of all movers, rolls proposed trajectories out among
+/// them and takes the one that costs least; each tick then drives on along it, within the comfort limits. What is
+/// proposed, and over which ground, the two kinds say: GoalRollouts and StickRollouts.
+class RolloutMotion : public Motion {
+ public:
+  explicit RolloutMotion(const MotionSetup& setup);
+
+  void observe(const World& world, const Intent& intent) noexcept override;
+  [[nodiscard]] Twist2 command(const World& world, const Intent& intent) noexcept final;
+  void decide(const World& world, const Intent& intent) noexcept final;
+  [[nodiscard]] MotionStatus status() const noexcept final { return status_; }
+  [[nodiscard]] PlanRequest request(const World& world) const noexcept final;
+  /// Walls are no hurry: the roll-outs look out for movers.
+  [[nodiscard]] Duration plan_every() const noexcept final { return std::chrono::milliseconds(90); }
+
+  [[nodiscard]] const Decision& decision() const { return decision_; }
+  [[nodiscard]] const Futures& futures() const { return *futures_; }
+
+ protected:
+  /// A tick later on the way to what is decided.
+  struct Next {
+    RobotState robot;
+    bool rests = false;  ///< it is to come to rest
+  };
+
+  [[nodiscard]] const MoverMemory& memory() const { return memory_; }
+  [[nodiscard]] const Trajectory& decided() const { return decision_.trajectory; }
+  /// Of the last decision; rest where that is too old.
+  [[nodiscard]] Command command_at(Time now) const noexcept;
+  /// Whether the last decision still holds, so that what is left of it may be gone on with.
+  [[nodiscard]] bool holds(Time now) const noexcept { return decision_.at != kNever && now - decision_.at < kHoldsFor; }
+  [[nodiscard]] float tick_s() const noexcept { return static_cast<float>(setup_.tick_s); }
+
+  MotionSetup setup_;
+  RobotBody body_;
+  std::unique_ptr<Futures> futures_;
+  NearReturns returns_;
+  Decision decision_;
+  MotionStatus status_;
+
+ private:
+  /// The ground that movers were seen on; of this scan once their bodies are known.
+  [[nodiscard]] virtual const Guide& ground_before(const World& world) noexcept = 0;
+  [[nodiscard]] virtual const Guide& ground(const World& world) noexcept = 0;
+  /// Whether there is anything to decide.
+  [[nodiscard]] virtual bool is_to_decide(const World& world, const Intent& intent, const Guide& ground) noexcept = 0;
+  /// Takes the best trajectory of those that it proposes.
+  virtual void choose(const World& world, const Guide& ground) noexcept = 0;
+  [[nodiscard]] virtual Next next(const World& world, const Intent& intent, const RobotState& now) noexcept = 0;
+
+  MoverMemory memory_;
+  Command commanded_;   ///< last
+  float accel_ = 0.0F;  ///< of the ramp
+};
+
+}  // namespace jaywalk::motion

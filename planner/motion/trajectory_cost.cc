@@ -1,0 +1,80 @@
+#include "planner/motion/trajectory_cost.h"
+
+#include <algorithm>
+
+#include "planner/motion/cost/comfort_cost.h"
+#include "planner/motion/cost/mover_cost.h"
+#include "planner/motion/cost/stop_zone_cost.h"
+#include "planner/motion/cost/time_cost.h"
+#include "planner/motion/cost/unseen_cost.h"
+#include "planner/motion/cost/wall_cost.h"
+
+namespace jaywalk::motion {
+namespace {
+
+/// Rolls a trajectory out until it arrives or ends, at the price of the driving alone; returns how many states that
+/// are.
+int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* states, Cost& cost) noexcept {
+  TimeCost time(s);
+  ComfortCost comfort(s);
+  time.begin(cost);
+  RobotState robot = s.start;
+  const int last = s.stick != nullptr ? kStickSteps : kSteps;
+  for (int step = 0; step < last; ++step) {
+    const RobotState before = robot;
+    states[step] = robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
+    if (s.stick == nullptr) comfort.add(before, robot, cost);  // a person turns and speeds up at will
+    time.add(robot, cost);
+    if (time.is_there(robot)) {
+      cost.time -= price::kArrivedEarly;
+      return step + 1;
+    }
+  }
+  cost.time += s.stick != nullptr ? seconds_off(*s.stick, states, s.body.bounds) : time.to_go(robot);
+  return last;
+}
+
+/// What the states are near to.
+class SurroundingsCost {
+ public:
+  explicit SurroundingsCost(const Situation& s) : walls_(s), stop_zone_(s), unseen_(s), movers_(s) {}
+
+  void add(const RobotState& now, int step, Cost& cost) noexcept {
+    const float t = static_cast<float>(step + 1) * kStepS;
+    const cell::Heading along = cell::heading_at(now.heading);
+    const float clearance_m = walls_.add(now, along, t, cost);
+    stop_zone_.add(now, clearance_m, t, cost);
+    unseen_.add(now, along, cost);
+    if (is_of_futures(step)) movers_.add(now, along, (step + 1) / 2, t, cost);
+  }
+
+  /// Futures have a step for two of the robot's.
+  [[nodiscard]] static bool is_of_futures(int step) noexcept { return (step & 1) != 0; }
+
+ private:
+  WallCost walls_;
+  StopZoneCost stop_zone_;
+  UnseenCost unseen_;
+  MoverCost movers_;
+};
+
+}  // namespace
+
+Cost trajectory_cost(const Situation& s, const Trajectory& trajectory, float bound, RobotState* driven) noexcept {
+  Cost cost;
+  RobotState states[kSteps];
+  const int steps = roll_out(s, trajectory, states, cost);
+  if (driven != nullptr) {
+    std::copy_n(states, steps, driven);
+    std::fill(driven + steps, driven + kSteps, states[steps - 1]);
+  }
+  if (cost.total() > bound) return cost;  // what it is near to can only add
+  SurroundingsCost surroundings(s);
+  for (int step = 0; step < steps; ++step) {
+    surroundings.add(states[step], step, cost);
+    if (SurroundingsCost::is_of_futures(step) && cost.total() > bound) return cost;
+  }
+  return cost;
+}
+
+}  // namespace jaywalk::motion

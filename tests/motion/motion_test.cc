@@ -1,0 +1,113 @@
+// Motion's door: what each kind rests on, asks of the planner and tells of itself.
+#include "planner/motion/motion.h"
+
+#include <utility>
+
+#include "apps/rivals/baseline.h"
+#include "planner/motion/make_motion.h"
+#include "tests/motion/ground.h"
+#include "tests/motion/moment.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::motion;
+
+namespace {
+
+MotionSetup setup_of(MotionKind kind, bool constant_speed = false, StickUse steering = StickUse::kNone) {
+  return {.model = kind == MotionKind::kLongBody ? wheelchair() : p3dx(),
+          .to_goal = kind,
+          .constant_speed = constant_speed,
+          .steering = steering};
+}
+
+/// What a command rests on in that moment.
+Time rests_on(Motion& motion, const tests::Moment& moment, Time rested_on) {
+  World world = moment.world();
+  world.rested_on = rested_on;
+  motion.observe(world, moment.intent());
+  return motion.status().rests_on;
+}
+
+}  // namespace
+
+TEST_CASE("a long body's commands rest on the last path, those at constant speed on none when a plan has none") {
+  const tests::Ground ground;
+  tests::Moment moment(ground.map());
+  moment.go_to({4.0, 0.0});
+  const Time planned = moment.plan.stamp, before = planned - std::chrono::milliseconds(100);
+  const auto long_body = make_motion(setup_of(MotionKind::kLongBody));
+  const auto on_path = make_motion(setup_of(MotionKind::kPath, true));
+  moment.plan.status = PlanStatus::kOk;
+  CHECK(rests_on(*long_body, moment, before) == planned);
+  CHECK(rests_on(*on_path, moment, before) == planned);
+  moment.plan.status = PlanStatus::kNoPath;
+  CHECK(rests_on(*long_body, moment, before) == before);
+  CHECK(rests_on(*on_path, moment, before) == kNever);
+}
+
+TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a stick on the scan alone") {
+  const tests::Ground ground;
+  tests::Moment moment(ground.map());
+  moment.go_to({4.0, 0.0});
+  moment.plan.status = PlanStatus::kOk;
+  const auto motion = make_motion(setup_of(MotionKind::kRollouts, false, StickUse::kShared));
+  CHECK(rests_on(*motion, moment, moment.now) == kNever);  // nothing is decided yet
+  moment.input.has_goal = false;
+  moment.input.steers = true;
+  moment.input.stick = {0.5, 0.0};
+  moment.decide(*motion);
+  CHECK(rests_on(*motion, moment, kNever) == moment.scan.stamp);
+  CHECK(motion->status().stick_asks.v_mps == Approx(0.3).margin(1e-5));
+  CHECK(motion->command(moment.world(), moment.intent()).v_mps > 0.0);
+  moment.input.steers = false;
+  moment.drive(*motion, 0.02);
+  CHECK(motion->status().stick_asks == Twist2{});
+}
+
+TEST_CASE("roll-outs ask for plans rarely and past pedestrians, rules with each scan and with them marked") {
+  const tests::Ground ground;
+  tests::Moment moment(ground.map());
+  Track walker;
+  walker.id = 1;
+  walker.position_in_map = {1.0, 0.0};
+  walker.moving = true;
+  moment.tracks = {walker};
+  moment.go_to({4.0, 0.0});
+  moment.plan.status = PlanStatus::kOk;
+  for (const auto& [kind, long_body] : {std::pair{MotionKind::kRollouts, false}, {MotionKind::kLongBody, true}}) {
+    const auto motion = make_motion(setup_of(kind));
+    moment.decide(*motion);
+    const PlanRequest request = motion->request(moment.world());
+    CHECK(request.stamp == moment.scan.stamp);
+    CHECK(request.goal_in_map == Vec2{4.0, 0.0});
+    CHECK(request.moving.size() == (long_body ? 1 : 0));
+    CHECK(request.masked.size() == (long_body ? 0 : 1));
+    CHECK((request.body != nullptr) == long_body);
+    CHECK((motion->plan_every() > Duration{0}) != long_body);
+    CHECK((motion->rollouts() != nullptr) != long_body);
+  }
+}
+
+TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it; at constant speed it cannot") {
+  const tests::Ground ground;
+  for (const auto& [kind, constant] : {std::pair{MotionKind::kRollouts, false},
+                                       {MotionKind::kRollouts, true},
+                                       {MotionKind::kLongBody, false},
+                                       {MotionKind::kPath, true}}) {
+    tests::Moment moment(ground.map());
+    moment.go_to({});
+    moment.input.goal_heading_rad = 1.0;
+    const auto motion = make_motion(setup_of(kind, constant));
+    moment.drive(*motion, 0.02);
+    CHECK(motion->status().turns_at_goal != constant);
+    CHECK_FALSE(motion->status().turn_blocked);
+  }
+}
+
+TEST_CASE("a planner of others is a motion of its own; without a name it is ours") {
+  const MotionSetup setup = setup_of(MotionKind::kRollouts);
+  for (const char* name : {"none", "replan", "dwa", "orca"})
+    CHECK(baseline::maker_of(name)(setup)->rollouts() == nullptr);
+  CHECK(baseline::maker_of("")(setup)->rollouts() != nullptr);
+}
