@@ -1,4 +1,4 @@
-#include "planner/baseline/baseline.h"
+#include "apps/rivals/baseline.h"
 
 #include <algorithm>
 #include <cmath>

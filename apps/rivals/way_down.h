@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/baseline/baseline.h"
+#include "apps/rivals/baseline.h"
 #include "planner/cell/circle.h"
 
 namespace jaywalk::baseline {

@@ -1,8 +1,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/baseline/baseline.h"
-#include "planner/baseline/way_down.h"
+#include "apps/rivals/baseline.h"
+#include "apps/rivals/way_down.h"
 
 namespace jaywalk::baseline {
 namespace {

@@ -2,8 +2,8 @@
 #include <array>
 #include <cmath>
 
-#include "planner/baseline/baseline.h"
-#include "planner/baseline/way_down.h"
+#include "apps/rivals/baseline.h"
+#include "apps/rivals/way_down.h"
 
 namespace jaywalk::baseline {
 namespace {

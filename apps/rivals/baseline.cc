@@ -1,9 +1,9 @@
-#include "planner/baseline/baseline.h"
+#include "apps/rivals/baseline.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "planner/baseline/way_down.h"
+#include "apps/rivals/way_down.h"
 
 namespace jaywalk::baseline {
 namespace {

@@ -1,4 +1,4 @@
-#include "planner/baseline/way_down.h"
+#include "apps/rivals/way_down.h"
 
 #include <algorithm>
 #include <cmath>
