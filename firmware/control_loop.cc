@@ -125,7 +125,7 @@ motion::World ControlLoop::world(const TickRecord& t) const noexcept {
                         .moving = tracker().moving(),
                         .standing = tracker().standing(),
                         .still = tracker().still(),
-                        .pedestrian_hidden = tracker().hides_somebody(here.position(), motion::kNearby_m)},
+                        .pedestrian_hidden = tracker().hides_pedestrian(here.position(), motion::kNearby_m)},
           .plan = *plan_};
 }
 

@@ -32,7 +32,7 @@ bool Estimator::update(const TickRecord& t) noexcept {
   const LaserScan& seen = scan_frozen_ ? kNoScan : t.scan;  // a frozen one shows what was
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
   if (sees_given_movers_ && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
-  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist());
+  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist(), t.now);
   return new_scan;
 }
 

@@ -13,7 +13,7 @@
 #include "planner/mapping/evidence_map.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/mapping/keep_out.h"
-#include "planner/tracking/stander.h"
+#include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
@@ -55,7 +55,7 @@ struct PlanRequest {
   double speed_mps = 0.0;                  ///< the robot's cruising speed: warp numbers count its travel
   const EvidenceMap* still = nullptr;      ///< walls; read during submit only
   std::span<const Track> moving = {};      ///< copied during submit
-  std::span<const Stander> standing = {};  ///< where nobody passes, as wide as they are; read during submit only
+  std::span<const StandingPedestrian> standing = {};  ///< where nobody passes, as wide as they are; read during submit only
   std::span<const MoverDisc> masked = {};  ///< for the time to go; read during submit only
   /// Marks, potential and band are computed, and status and path are theirs: for what follows that path. Where false
   /// they are the time to go's, past walls alone, and an executor has nothing to do.

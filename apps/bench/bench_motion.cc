@@ -41,7 +41,7 @@ std::vector<Track> walkers_round(Vec2 middle, int count) {
     t.velocity_in_map = direction(1.7 * k) * 0.4;
     t.covariance = {0.001, 0.0, 0.002};
     t.radius_m = 0.27;
-    t.moving = true;
+    t.moving = t.has_walked = true;
   }
   return tracks;
 }
@@ -74,7 +74,8 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
   Time now{};
   const auto decide = [&] {
     now += duration_from_seconds(kScan_s);
-    for (Track& t : tracks) t.position_in_map = t.position_in_map + t.velocity_in_map * kScan_s, t.stamp = now;
+    for (Track& t : tracks)
+      t.position_in_map = t.position_in_map + t.velocity_in_map * kScan_s, t.stamp = t.still_since = now;
     scan->stamp = plan->stamp = now;
     motion->decide({.now = now,
                     .new_scan = true,

@@ -9,6 +9,7 @@
 
 #include "apps/jaywalk/interruption.h"
 #include "apps/jaywalk/progress.h"
+#include "apps/rivals/baseline.h"
 #include "apps/report/run_observer.h"
 #include "apps/view/sim_view.h"
 #include "firmware/loop_runner.h"
@@ -16,7 +17,7 @@
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
-#include "apps/rivals/baseline.h"
+#include "hal/types/rest.h"
 
 namespace jaywalk {
 namespace {
@@ -116,9 +117,6 @@ Hal hal_for(sim::Simulation& simulation, SimView* view) {
   return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock};
 }
 
-/// At a goal with a heading the robot is to stand.
-bool rests(const Twist2& twist) { return std::fabs(twist.v_mps) < 0.01 && std::fabs(twist.w_radps) < 0.02; }
-
 /// A person who steers has the goal in mind.
 OperatorInput with_goal(const OperatorInput& input) {
   OperatorInput wanted = input;
@@ -135,7 +133,7 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
   const OperatorInput wanted = with_goal(t.input);
   if (wanted.has_goal && wanted.is_reached_at(truth.map_from_robot) &&
-      (!wanted.wants_heading() || rests(truth.twist))) {
+      (!wanted.wants_heading() || is_at_rest(truth.twist))) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
   return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";

@@ -6,7 +6,7 @@
 
 #include "planner/cost_to_go/guide.h"
 #include "planner/motion/make_motion.h"
-#include "planner/prediction/mover_memory.h"
+#include "planner/prediction/mover_history.h"
 #include "planner/motion/robot_motion.h"
 #include "planner/tracking/track.h"
 
@@ -53,7 +53,7 @@ class BaselineMotion final : public motion::Motion {
   motion::MotionBounds bounds_;
   float radius_, tick_s_, tolerance_m_;
   double speed_mps_;
-  motion::MoverMemory memory_;  ///< tells walls from pedestrians in the plans that it asks for
+  motion::MoverHistory memory_;  ///< tells walls from pedestrians in the plans that it asks for
   motion::Command decided_, commanded_;
   Time decided_at_ = kNever, seen_ = kNever;
   float accel_ = 0.0F;  ///< of the ramp

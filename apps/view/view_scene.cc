@@ -97,7 +97,7 @@ std::string to_json(const HelloScene& hello) {
 
 std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
   Json standing = Json::array();
-  for (const Stander& s : snapshot.standing)
+  for (const StandingPedestrian& s : snapshot.standing)
     standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
   const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
   return dumped({{"hits", hits_of(snapshot.record, robot_from_laser)},

@@ -29,7 +29,7 @@ ShownMover shown(const motion::Futures& futures, std::size_t mover) noexcept {
 void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop) noexcept {
   into.record = record;
   copy(into.tracks, std::span<const Track>(loop.tracker().tracks()));
-  copy(into.standing, std::span<const Stander>(loop.tracker().standing()));
+  copy(into.standing, std::span<const StandingPedestrian>(loop.tracker().standing()));
   into.plan = loop.plan();
   into.movers.clear();
   const motion::GoalRollouts* rollouts = loop.motion().rollouts();

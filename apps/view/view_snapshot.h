@@ -26,7 +26,7 @@ struct ShownMover {
 struct ViewSnapshot {
   TickRecord record;
   FixedVector<Track, kMaxTracks> tracks;
-  FixedVector<Stander, kMaxTracks> standing;
+  FixedVector<StandingPedestrian, kMaxTracks> standing;
   FixedVector<ShownMover, motion::kMostMovers> movers;  ///< that walk or may; none without motion over futures
   Plan plan;
 };

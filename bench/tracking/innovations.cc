@@ -32,8 +32,8 @@ void Innovations::add(std::span<const Track> tracks) {
     const auto before = hits_before_.find(track.id);
     if (!track.moving || before == hits_before_.end() || track.hits == before->second) continue;
     count_ += 1;
-    sum_ += track.surprise;
-    within_ += track.surprise <= kWithin95 ? 1U : 0U;
+    sum_ += track.nis;
+    within_ += track.nis <= kWithin95 ? 1U : 0U;
   }
   hits_before_ = std::move(hits);
 }

@@ -1,13 +1,9 @@
 #include "firmware/robot/operator_desk.h"
 
 #include "hal/types/errors.h"
+#include "hal/types/rest.h"
 
 namespace jaywalk {
-namespace {
-
-constexpr double kRest_mps = 0.01;
-
-}  // namespace
 
 ControlReply OperatorDesk::reply_to(std::string_view line) {
   if (line == "stop" || line == "stop now") return take_stop(line == "stop now");
@@ -82,7 +78,7 @@ std::string OperatorDesk::restart_bus_and_reset(std::uint32_t emergencies) {
 }
 
 std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
-  if (status.speed_mps > kRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  if (status.speed_mps > kAtRest_mps) return "refused: the robot still moves; try again when it stands\n";
   ++wish_.resets;
   wishes_.publish(wish_);
   return "reset\n";

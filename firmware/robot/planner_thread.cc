@@ -39,7 +39,7 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
     if (!moving_.push_back(track)) break;
   }
   standing_.clear();
-  for (const Stander& stander : request.standing) {
+  for (const StandingPedestrian& stander : request.standing) {
     if (!standing_.push_back(stander)) break;
   }
   masked_.clear();

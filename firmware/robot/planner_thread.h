@@ -39,7 +39,7 @@ class PlannerThread final : public Planner {
   PlanRequest request_;
   EvidenceMap still_;
   FixedVector<Track, kMaxTracks> moving_;
-  FixedVector<Stander, kMaxTracks> standing_;
+  FixedVector<StandingPedestrian, kMaxTracks> standing_;
   FixedVector<MoverDisc, kMaxTracks> masked_;
   Mailbox<Plan> plans_;
   std::atomic<bool> busy_{false}, ending_{false};

@@ -7,10 +7,11 @@
 #include <cmath>
 #include <limits>
 
+#include "hal/types/rest.h"
+
 namespace jaywalk {
 namespace {
 
-constexpr double kRest_mps = 0.01;
 /// What a wheel said before that tells no speed any more.
 constexpr Duration kSpeedKnown = std::chrono::milliseconds(500);
 constexpr Duration kLongestRamp = std::chrono::seconds(5), kLongestDisarming = std::chrono::milliseconds(500);
@@ -72,7 +73,7 @@ void RobotLoop::live() noexcept {
     due = next_due(due);
     tick(due);
     if (ending_ && !asked_to_end) asked_to_end = due;
-    at_rest = !(status_.speed_mps > kRest_mps) && runner_.last().command.left_radps == 0.0 &&
+    at_rest = !(status_.speed_mps > kAtRest_mps) && runner_.last().command.left_radps == 0.0 &&
               runner_.last().command.right_radps == 0.0;
   }
   guard_.rest();
@@ -93,7 +94,7 @@ void RobotLoop::tick(Time due) noexcept {
   const Time began = clock_.now();
   guard_.beat(began);
   const TickRecord& t = runner_.tick_at(due);
-  devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kRest_mps);
+  devices_.resets.note_turning(speed_mps(t.wheels, t.now) > kAtRest_mps);
   tell(t);
   trace(t);
   observer_.after_tick(t, runner_.loop());
@@ -129,7 +130,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.foreign_frame = devices_.drive.foreign_frame();
   if (has(t.verdict.reasons, Reason::kLatched)) status_.goal_reached = false;
   if (t.input.has_goal) {
-    const bool stands = status_.speed_mps < kRest_mps;
+    const bool stands = status_.speed_mps < kAtRest_mps;
     status_.goal_reached = t.input.is_reached_at(t.pose.map_from_robot) && (stands || !t.input.wants_heading());
     status_.heading_error_rad = t.input.heading_error_rad(t.pose.map_from_robot);
   }

@@ -6,11 +6,11 @@
 
 #include "hil/faults/matrix_files.h"
 #include "hal/types/errors.h"
+#include "hal/types/rest.h"
 
 namespace jaywalk::faults {
 namespace {
 
-constexpr double kRest_mps = 0.01;
 constexpr double kSlower_mps = 0.005;  ///< below the speed at the fault by so much: it slows down
 constexpr double kBrake_mps2 = 1.0;    ///< the matrix' model
 constexpr double kBeyond_m = 0.05;     ///< motors' lag at the end of a ramp
@@ -59,7 +59,7 @@ void FaultBench::watch() noexcept {
   place_ = place;
   // What the motors are at, without the wheels' slip: a speed that a share of a percent more or less would blur.
   const double motors = robot_->far_end().rim_speed();
-  if (motors > motors_struck_ - kSlower_mps && motors > kRest_mps) last_fast_ = clock_.now();
+  if (motors > motors_struck_ - kSlower_mps && motors > kAtRest_mps) last_fast_ = clock_.now();
 }
 
 void FaultBench::hold_up(Duration time) noexcept {
@@ -116,7 +116,7 @@ void FaultBench::endure() {
   for (const Time end = due_ + kLongest; due_ < end && at_rest < 10;) {
     if (fault_.every_tick != nullptr) fault_.every_tick(*this);
     tick();
-    at_rest = rim_mps() < kRest_mps ? at_rest + 1 : 0;
+    at_rest = rim_mps() < kAtRest_mps ? at_rest + 1 : 0;
   }
 }
 
@@ -171,7 +171,7 @@ std::string FaultBench::complaint(const FaultResult& result) {
   if (!named(fault_.reason)) return "not named: " + to_string(seen_);
   const double reaction_ms = 1e3 * to_seconds(result.reaction), limit_ms = 1e3 * to_seconds(result.limit);
   if (result.reaction > result.limit) return in_words("reaction %.0f ms, more than %.0f", reaction_ms, limit_ms);
-  if (rim > kRest_mps) return in_words("still %.2f m/s after %.0f s", rim, to_seconds(kLongest));
+  if (rim > kAtRest_mps) return in_words("still %.2f m/s after %.0f s", rim, to_seconds(kLongest));
   if (fault_.outcome == Outcome::kLatched && !result.latched) return "not latched";
   const double v = speed_struck_;
   const double most_m = v * to_seconds(result.limit) + v * v / (2.0 * kBrake_mps2) + kBeyond_m;

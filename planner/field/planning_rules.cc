@@ -29,7 +29,7 @@ bool is_plausible(const Track& t) {
   return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kFarthest_m; });
 }
 
-bool is_plausible(const Stander& s) {
+bool is_plausible(const StandingPedestrian& s) {
   return std::fabs(s.position_in_map.x) <= kFarthest_m && std::fabs(s.position_in_map.y) <= kFarthest_m &&
          std::fabs(s.radius_m) <= kFarthest_m;
 }
@@ -134,7 +134,7 @@ void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot, s
 
 void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept {
   const Vec2 robot = request.map_from_robot.position();
-  for (const Stander& stander : request.standing) {
+  for (const StandingPedestrian& stander : request.standing) {
     const Vec2 middle = stander.position_in_map, half{stander.radius_m, stander.radius_m};
     if (!is_plausible(stander) || !(distance(robot, middle) <= window.cell_m * static_cast<double>(reach))) continue;
     const CellIndex low = window.cell_at(middle - half), high = window.cell_at(middle + half);

@@ -18,8 +18,8 @@ namespace {
 constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 
-// Share of the points: where so much lies on walkers the map holds those who have only come, or turn on the spot, and
-// wheels know better. By trial; half does not do (decision 53).
+// Share of the points: where so much lies on walkers the map holds walkers that have only come, or turn on the spot,
+// and wheels know better. By trial; half does not do (decision 53).
 constexpr double kAmongWalkers = 0.2;
 
 // Mean fit of scans to the map over some metres: below the lower the map no longer explains them, above the upper it
@@ -64,7 +64,7 @@ struct Localizer::State {
   void judge_map(const MatchResult& found, const Pose2& predicted) noexcept;
   /// Where the map does not explain scans any more: by the last keyframes. False where they do not match either.
   [[nodiscard]] bool match_submap(const Pose2& predicted) noexcept;
-  /// What matches put right, to those who learn of wheels.
+  /// What matches put right, to what learns of wheels.
   void learn(const Pose2& predicted, const Pose2& placed) noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.

@@ -34,8 +34,8 @@ class Localizer {
   ~Localizer();
 
   /// Moves the estimate on by the wheels' newest reading; a scan with a new sequence number is matched against `still`
-  /// (when it holds enough, which among walkers must have stood for a second), but for what lies on those who were
-  /// `moving` when the scan before was seen; a fix with a new one is blended by variance, if its stamp is
+  /// (when it holds enough, which among walkers must have stood for a second), but for what lies on tracks that
+  /// were `moving` when the scan before was seen; a fix with a new one is blended by variance, if its stamp is
   /// no older than the poses that are remembered, nor yet to come, and it is no mistake (FixGate). Without wheels
   /// (sequence 0 for ever), and while they are silent, scans alone carry the pose.
   [[nodiscard]] const PoseEstimate& update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,

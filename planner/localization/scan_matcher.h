@@ -15,7 +15,7 @@ namespace jaywalk {
 struct MatchResult {
   bool matched = false;       ///< false: too little of the scan lies on known walls; the belief is the prediction
   bool contradicted = false;  ///< not matched, though the map knows enough of what the scan sees: it is somewhere else
-  bool known_for_long = false;  ///< enough of what it lies on has stood for a second: who walks by has not
+  bool known_for_long = false;  ///< enough of what it lies on has stood for a second: a pedestrian walking by has not
   PoseBelief belief;
   double fit = 0.0;  ///< in [0, 1]: how well the points that are not in unknown space lie on walls, on average
   std::uint32_t points_used = 0;

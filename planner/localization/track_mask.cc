@@ -6,7 +6,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kBesideM = 0.2;         // a swinging arm or leg, and where the track may be off
-constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans says little of where he is
+constexpr double kLongestAheadS = 0.25;  // a track that is older than two scans says little of where it is
 
 void leave_out(Vec2 centre_in_robot, double radius_m, ScanPoints& points) {
   std::size_t kept = 0;

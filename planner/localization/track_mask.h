@@ -1,5 +1,5 @@
 #pragma once
-// Which of a scan's points tell nothing of walls: they lie on somebody who walks.
+// Which of a scan's points tell nothing of walls: they lie on a track that moves.
 #include <span>
 
 #include "planner/scan/scan_points.h"

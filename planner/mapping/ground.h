@@ -11,7 +11,7 @@ namespace jaywalk {
 /// What the map says of the place where a point lies.
 enum class Ground : std::uint8_t {
   kWall,     ///< a surface that has stood there is as near as noise and pose explain
-  kUnknown,  ///< nothing, or a surface that came only now: a wall in view for the first time, or somebody
+  kUnknown,  ///< nothing, or a surface that came only now: a wall in view for the first time, or a pedestrian
   kFree,     ///< beams passed there, three or more in a row (EvidenceMap::seen_free)
 };
 

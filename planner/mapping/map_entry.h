@@ -12,8 +12,8 @@ namespace jaywalk {
 
 /// What a scan's point may become in the map.
 enum class Becomes : std::uint8_t {
-  kNothing,   ///< somebody moves there: only the way to it is free
-  kObstacle,  ///< and no wall yet, however long it is seen: somebody may stand there (EvidenceMap::stands)
+  kNothing,   ///< something moves there: only the way to it is free
+  kObstacle,  ///< and no wall yet, however long it is seen: a pedestrian may stand there (EvidenceMap::stands)
   kWall,      ///< an obstacle, and a wall in time
 };
 using Entries = std::array<Becomes, kMaxBeams>;

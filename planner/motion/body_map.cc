@@ -37,7 +37,7 @@ BodyMap::BodyMap(const Footprint& footprint)
     spine_.push_back(inside_m_ - footprint.rear_m + last * k / std::max(gaps, 1.0));
 }
 
-void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing,
+void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const StandingPedestrian> standing,
                    std::span<const Track> moving, const KeepOut& keep_out) noexcept {
   const Vec2 centre = map_from_robot.position();
   std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
@@ -57,7 +57,7 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
       }
     }
   }
-  for (const Stander& stander : standing) stamp_round(stander.position_in_map, stander.radius_m + kCoat_m);
+  for (const StandingPedestrian& stander : standing) stamp_round(stander.position_in_map, stander.radius_m + kCoat_m);
   for (const Track& track : moving) {
     if (norm(track.velocity_in_map) < kMayStop_mps) stamp_round(track.position_in_map, track.radius_m + kCoat_m);
   }

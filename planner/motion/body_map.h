@@ -8,7 +8,7 @@
 #include "hal/types/robot_model.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/keep_out.h"
-#include "planner/tracking/stander.h"
+#include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
@@ -26,7 +26,7 @@ class BodyMap {
   /// `moving` those slower than 0.3 m/s, which have stopped for now or may well.
   /// Keep-out zones are like surfaces, unless the robot's axle is in one: then it may leave.
   /// Costs about 100 ns a node near a surface.
-  void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const Stander> standing = {},
+  void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const StandingPedestrian> standing = {},
             std::span<const Track> moving = {}, const KeepOut& keep_out = {}) noexcept;
 
   /// From the outline to the nearest surface (m): 0 when it lies on the outline, kFar_m at most, and that as well

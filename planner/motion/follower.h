@@ -9,6 +9,9 @@
 #include "planner/motion/motion.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
+#include "planner/tracking/standing_pedestrian.h"
+#include "planner/tracking/track.h"
+#include "planner/planner.h"
 
 namespace jaywalk {
 
@@ -28,7 +31,7 @@ struct FollowerInput {
   Vec2 goal_in_map;
   bool has_goal = false;
   std::span<const Track> tracks;                                    ///< all of them: see choose_speed
-  std::span<const Stander> standing = {};                           ///< see passing_speed
+  std::span<const StandingPedestrian> standing = {};                ///< see passing_speed
   double most_speed_mps = std::numeric_limits<double>::infinity();  ///< beside the robot's own limit
   Twist2 permitted_before;                                          ///< what the supervisor made of the last command
 };

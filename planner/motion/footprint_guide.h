@@ -18,8 +18,8 @@ struct GuideInput {
   Pose2 map_from_robot{};
   Twist2 wanted{}, driven{};  ///< what the follower asked for this tick, and what the supervisor made of it
   const EvidenceMap& still;
-  std::span<const Stander> standing = {};  ///< PlanRequest's
-  std::span<const Track> moving = {};      ///< the same
+  std::span<const StandingPedestrian> standing = {};  ///< PlanRequest's
+  std::span<const Track> moving = {};                 ///< the same
   Vec2 goal_in_map{};
   KeepOut keep_out{};              ///< where the body must not be though nothing stands there
   bool pedestrian_hidden = false;  ///< Perceived::pedestrian_hidden

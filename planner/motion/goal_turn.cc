@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/types/rest.h"
 #include "planner/motion/least_clearance.h"
 #include "planner/motion/straight_piece.h"
 #include "planner/motion/turned_piece.h"
@@ -15,10 +16,9 @@ namespace {
 constexpr std::array kMargins_m{0.10, 0.075};
 /// A way or a manoeuvre under way is kept while it has this: surfaces move by a centimetre as scans come in.
 constexpr double kLeastMargin_m = 0.045;
-constexpr double kLeft_m = 0.12;    // a manoeuvre left by more is given up
-constexpr double kOff_m = 0.45;     // straight away from where the supervisor refuses
-constexpr double kLook_rad = 0.06;  // between two looks at the outline: 5 cm of a wheelchair's foremost corner
-constexpr double kRest_mps = 0.01, kRest_radps = 0.02;
+constexpr double kLeft_m = 0.12;         // a manoeuvre left by more is given up
+constexpr double kOff_m = 0.45;          // straight away from where the supervisor refuses
+constexpr double kLook_rad = 0.06;       // between two looks at the outline: 5 cm of a wheelchair's foremost corner
 constexpr double kTurnGain_per_s = 2.0;  // as Steering::turn_radps()
 constexpr double kSettled = 1.0 / 3.0;   // of the heading's tolerance: close enough to stand still
 constexpr Duration kRefused = std::chrono::seconds(1), kLeftAlone = std::chrono::seconds(10);
@@ -29,10 +29,6 @@ constexpr double kClosest_rad = 0.07;  // what a search's steps of headings can 
 
 /// To the same heading the other way round.
 double long_way(double turn_rad) { return turn_rad > 0.0 ? turn_rad - 2.0 * kPi : turn_rad + 2.0 * kPi; }
-
-bool is_at_rest(const Twist2& twist) {
-  return std::fabs(twist.v_mps) < kRest_mps && std::fabs(twist.w_radps) < kRest_radps;
-}
 
 }  // namespace
 
@@ -75,7 +71,7 @@ Twist2 GoalTurn::command(const Pose2& here) noexcept {
   if (away_) return {};
   const double error = std::fabs(input_.heading_error_rad(here));
   settled_ = error <= input_.goal_heading_tolerance_rad * (settled_ ? 1.0 : kSettled);
-  if (settled_ || blocked_ || !chosen_ || std::fabs(driven_.v_mps) > kRest_mps) return {};
+  if (settled_ || blocked_ || !chosen_ || std::fabs(driven_.v_mps) > kAtRest_mps) return {};
   const double angle = std::fabs(to_go_rad_);
   const double most = std::min(limits_.max_turn_radps, slowing_speed(0.0, angle, limits_.max_turn_accel_radps2));
   return {0.0, std::copysign(std::min(kTurnGain_per_s * angle, most), to_go_rad_)};

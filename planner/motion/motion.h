@@ -12,7 +12,7 @@ namespace jaywalk::motion {
 /// What the tracker knows, valid within the tick.
 struct Perceived {
   std::span<const Track> tracks{}, moving{};  ///< all of them; those that move
-  std::span<const Stander> standing{};
+  std::span<const StandingPedestrian> standing{};
   const EvidenceMap& still;        ///< what stands
   bool pedestrian_hidden = false;  ///< one went out of sight within kNearby_m lately: nothing backs at once
 };

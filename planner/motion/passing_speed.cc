@@ -4,6 +4,7 @@
 
 #include "planner/motion/pursuit.h"
 #include "planner/motion/twist_ramp.h"
+#include "planner/tracking/tuning.h"
 
 namespace jaywalk {
 namespace {
@@ -16,10 +17,10 @@ double beside(double gap_m) { return std::max(gap_m / kGapTakes_s, kLeast_mps); 
 
 /// The most beside standing pedestrians, by the gap that `gap` has to a place.
 template <typename Gap>
-double most_beside(std::span<const Stander> standing, std::span<const Track> tracks, const SpeedChoiceConfig& config,
-                   const Gap& gap) {
+double most_beside(std::span<const StandingPedestrian> standing, std::span<const Track> tracks,
+                   const SpeedChoiceConfig& config, const Gap& gap) {
   double most = config.max_speed_mps;
-  for (const Stander& stander : standing)
+  for (const StandingPedestrian& stander : standing)
     most = std::min(most, beside(gap(stander.position_in_map) - stander.radius_m));
   for (const Track& track : tracks) {
     if (track.moving && norm(track.velocity_in_map) < kStoppedMps)
@@ -30,7 +31,7 @@ double most_beside(std::span<const Stander> standing, std::span<const Track> tra
 
 }  // namespace
 
-double passing_speed(const Way& way, const Pose2& map_from_robot, std::span<const Stander> standing,
+double passing_speed(const Way& way, const Pose2& map_from_robot, std::span<const StandingPedestrian> standing,
                      std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept {
   const Path& path = way.places;
   if (path.empty()) return config.max_speed_mps;

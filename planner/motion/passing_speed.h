@@ -2,7 +2,7 @@
 #include <span>
 
 #include "planner/motion/speed_choice.h"
-#include "planner/tracking/stander.h"
+#include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
@@ -12,7 +12,8 @@ namespace jaywalk {
 /// no faster than it would take a second for the gap between the two, 0.2 m/s at the least, so that it has all but
 /// stopped when that sets out; and it slows down in time for that. An empty way slows nothing. Source: our own rule;
 /// docs/algorithm.md, "Speed". Thread: the loop's; never allocates.
-[[nodiscard]] double passing_speed(const Way& way, const Pose2& map_from_robot, std::span<const Stander> standing,
-                                   std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;
+[[nodiscard]] double passing_speed(const Way& way, const Pose2& map_from_robot,
+                                   std::span<const StandingPedestrian> standing, std::span<const Track> tracks,
+                                   const SpeedChoiceConfig& config) noexcept;
 
 }  // namespace jaywalk

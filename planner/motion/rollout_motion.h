@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "planner/motion/make_motion.h"
-#include "planner/prediction/mover_memory.h"
+#include "planner/prediction/mover_history.h"
 #include "planner/motion/trajectory_cost.h"
 
 namespace jaywalk::motion {
@@ -49,7 +49,7 @@ class RolloutMotion : public Motion {
     bool rests = false;  ///< it is to come to rest
   };
 
-  [[nodiscard]] const MoverMemory& memory() const { return memory_; }
+  [[nodiscard]] const MoverHistory& memory() const { return memory_; }
   [[nodiscard]] const Trajectory& decided() const { return decision_.trajectory; }
   /// Of the last decision; rest where that is too old.
   [[nodiscard]] Command command_at(Time now) const noexcept;
@@ -74,7 +74,7 @@ class RolloutMotion : public Motion {
   virtual void choose(const World& world, const Guide& ground) noexcept = 0;
   [[nodiscard]] virtual Next next(const World& world, const Intent& intent, const RobotState& now) noexcept = 0;
 
-  MoverMemory memory_;
+  MoverHistory memory_;
   Command commanded_;   ///< last
   float accel_ = 0.0F;  ///< of the ramp
 };

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "planner/motion/pursuit.h"
+#include "planner/tracking/tuning.h"
 
 namespace jaywalk {
 namespace {
@@ -12,9 +13,9 @@ namespace {
 constexpr double kStep_s = 0.2;  // 0.12 m of travel at 0.6 m/s: finer than a body
 
 /// Goes along a way by arc length.
-class Walker {
+class PedestrianSample {
  public:
-  Walker(const Way& way, const Pose2& robot)
+  PedestrianSample(const Way& way, const Pose2& robot)
       : way_(way), robot_(robot), at_(nearest_point(way.places, robot.position())), position_(way.places[at_]) {}
   Vec2 advance(double length_m) {
     const Path& path = way_.places;
@@ -62,7 +63,7 @@ bool meets_a_mover(Vec2 robot, Vec2 ahead, double after_s, std::span<const Track
 /// Seconds until the first conflict when speeding up or slowing down to `speed`; the horizon when there is none.
 double free_time(const Way& way, const Pose2& robot, double speed_now, double speed, std::span<const Track> tracks,
                  const SpeedChoiceConfig& config) {
-  Walker walker(way, robot);
+  PedestrianSample walker(way, robot);
   double v = speed_now;
   const int steps = static_cast<int>(config.horizon_s / kStep_s);
   for (int k = 1; k <= steps; ++k) {

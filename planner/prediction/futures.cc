@@ -9,7 +9,7 @@ namespace {
 constexpr std::uint32_t kPurpose = 1;  ///< of the draws; a decision's other draws have others
 
 /// Whether a body of radius `reach - react` is in the quarter circle before a walker.
-bool in_way(const Walker& w, float dx, float dy, float reach) {
+bool in_way(const PedestrianSample& w, float dx, float dy, float reach) {
   if (dx * dx + dy * dy >= reach * reach) return false;
   const float ahead = dx * w.along.x + dy * w.along.y, aside = dy * w.along.x - dx * w.along.y;
   return std::fabs(aside) <= ahead;
@@ -17,13 +17,14 @@ bool in_way(const Walker& w, float dx, float dy, float reach) {
 
 }  // namespace
 
-void Futures::draw(std::span<const MoverBelief> seen, std::span<const Walker> hidden, const TurningModel& turning,
-                   const Guide& guide, std::uint32_t decision) noexcept {
+void Futures::draw(std::span<const MoverBelief> seen, std::span<const PedestrianSample> hidden,
+                   const TurningModel& turning, const Guide& guide, std::uint32_t decision) noexcept {
   movers_ = standing_count_ = 0;
   for (const MoverBelief& belief : seen) {
     if (movers_ == kMostMovers) break;
     for (std::uint32_t k = 0; k < kFutures; ++k) {
-      walkers_[movers_].in[k] = Walker::drawn(belief, turning, guide, cell::Draws({decision, kPurpose, belief.id, k}));
+      walkers_[movers_].in[k] =
+          PedestrianSample::drawn(belief, turning, guide, cell::Draws({decision, kPurpose, belief.id, k}));
     }
     newcomer_[movers_] = belief.newcomer;
     stood_[movers_] = belief.stood_s > kLongPauseS;
@@ -53,7 +54,7 @@ void Futures::note(int step) noexcept {
     at.walks = 0;
     float sum_x = 0.0F, sum_y = 0.0F, spread = 0.0F;
     for (int k = 0; k < kFutures; ++k) {
-      const Walker& w = walkers_[m].in[k];
+      const PedestrianSample& w = walkers_[m].in[k];
       at.x[k] = w.x, at.y[k] = w.y, at.along_x[k] = w.along.x, at.along_y[k] = w.along.y;
       at.walks |= w.walks ? 1U << k : 0U;
       sum_x += w.x, sum_y += w.y;
@@ -67,7 +68,7 @@ void Futures::note(int step) noexcept {
   }
 }
 
-/// Who has another mover in the quarter circle before him, in which futures; by where all were at the step's begin.
+/// Movers with another in the quarter circle before them, in which futures; by where all were at the step's begin.
 void Futures::find_blocked(int step) noexcept {
   std::fill_n(blocked_, movers_, 0U);
   for (std::size_t m = 0; m < movers_; ++m) {
@@ -79,7 +80,7 @@ void Futures::find_blocked(int step) noexcept {
       const float most = own.spread + other.spread + radius_[m] + kLookAheadM + radius_[o];
       if (dx * dx + dy * dy >= most * most) continue;
       for (std::uint32_t k = 0; k < kFutures; ++k) {
-        const Walker& w = walkers_[m].in[k];
+        const PedestrianSample& w = walkers_[m].in[k];
         if (w.walks && in_way(w, other.x[k] - w.x, other.y[k] - w.y, w.react_m + radius_[o])) blocked_[m] |= 1U << k;
       }
     }

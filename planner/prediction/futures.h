@@ -4,7 +4,7 @@
 #include <span>
 #include <vector>
 
-#include "planner/prediction/walker.h"
+#include "planner/prediction/pedestrian_model.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::motion {
@@ -14,7 +14,7 @@ inline constexpr std::size_t kMostMovers = 64;  ///< nearest first
 inline constexpr float kFutureStepS = 0.2F;
 inline constexpr int kFutureSteps = 31;  ///< 0 to 6 s
 
-/// Where everybody is in each of the futures, at one time.
+/// Where every mover is in each of the futures, at one time.
 struct MoverAt {
   float x[kFutures], y[kFutures];
   float along_x[kFutures], along_y[kFutures];
@@ -22,25 +22,25 @@ struct MoverAt {
   float mid_x, mid_y, spread;  ///< a circle that holds the places in all futures
 };
 
-/// A pedestrian who has stood for long.
+/// A pedestrian that has stood for long.
 struct StandingDisc {
   float x, y, radius;
 };
 
 /// Joint futures of all movers: in each they walk, stop, turn away from walls and from each other, and set out.
-/// Memory in the constructor. Thread: the loop's.
+/// History in the constructor. Thread: the loop's.
 class Futures {
  public:
   Futures() : at_(static_cast<std::size_t>(kFutureSteps) * kMostMovers), walkers_(kMostMovers) {}
 
   /// Those seen are drawn from what is believed of them; those out of sight are given as they may be, kFutures of each.
-  void draw(std::span<const MoverBelief> seen, std::span<const Walker> hidden, const TurningModel& turning,
+  void draw(std::span<const MoverBelief> seen, std::span<const PedestrianSample> hidden, const TurningModel& turning,
             const Guide& guide, std::uint32_t decision) noexcept;
 
   [[nodiscard]] std::size_t movers() const { return movers_; }
   /// While it stands it is a surface: the map's, if it was never seen to walk, or one of standing().
   [[nodiscard]] bool is_surface(std::size_t mover) const { return surface_[mover]; }
-  /// Those who have stood for long, where they stand: the same in all futures.
+  /// Pedestrians that have stood for long, where they stand: the same in all futures.
   [[nodiscard]] std::span<const StandingDisc> standing() const { return {standing_, standing_count_}; }
   /// Most likely no pedestrian: nothing is owed to it while it stands.
   [[nodiscard]] bool is_newcomer(std::size_t mover) const { return newcomer_[mover]; }
@@ -57,7 +57,7 @@ class Futures {
 
   std::vector<MoverAt> at_;
   struct Row {
-    Walker in[kFutures];
+    PedestrianSample in[kFutures];
   };
   std::vector<Row> walkers_;
   float radius_[kMostMovers] = {};

@@ -31,9 +31,9 @@ bool sees_through(const LaserScan& scan, const Pose2& laser, float heading_rad, 
 
 void OccludedMovers::add(const MoverBelief& belief, const TurningModel& turning, const Guide& guide) noexcept {
   if (!movers_.push_back({belief.id, 0.0F, belief.usual_mps})) return;
-  Walker* walkers = of(movers_.size() - 1);
+  PedestrianSample* walkers = of(movers_.size() - 1);
   for (std::uint32_t k = 0; k < kFutures; ++k) {
-    walkers[k] = Walker::drawn(belief, turning, guide, cell::Draws({0, kPurpose, belief.id, k}));
+    walkers[k] = PedestrianSample::drawn(belief, turning, guide, cell::Draws({0, kPurpose, belief.id, k}));
   }
 }
 
@@ -67,10 +67,10 @@ void OccludedMovers::update(float dt, const LaserScan& scan, const Pose2& map_fr
                             const Guide& guide) noexcept {
   const auto heading = static_cast<float>(map_from_laser.heading);
   for (std::size_t k = movers_.size(); k-- > 0;) {
-    Walker* walkers = of(k);
+    PedestrianSample* walkers = of(k);
     int kept = 0;
     for (int f = 0; f < kFutures; ++f) {
-      Walker w = walkers[f];
+      PedestrianSample w = walkers[f];
       w.step(guide, turning, false, dt);
       const bool gone = sees_through(scan, map_from_laser, heading, w.x, w.y) || guide.distance(w.x, w.y) < 0.1F;
       if (!gone) walkers[kept++] = w;

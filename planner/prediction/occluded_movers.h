@@ -6,7 +6,7 @@
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
 #include "planner/prediction/futures.h"
-#include "planner/prediction/walker.h"
+#include "planner/prediction/pedestrian_model.h"
 
 namespace jaywalk::motion {
 
@@ -28,7 +28,9 @@ class OccludedMovers {
               const Guide& guide) noexcept;
 
   /// kFutures of each, one mover after the other.
-  [[nodiscard]] std::span<const Walker> walkers() const { return {walkers_.data(), movers_.size() * kFutures}; }
+  [[nodiscard]] std::span<const PedestrianSample> walkers() const {
+    return {walkers_.data(), movers_.size() * kFutures};
+  }
 
  private:
   struct Mover {
@@ -36,10 +38,10 @@ class OccludedMovers {
     float age_s = 0.0F, usual_mps = 0.0F;
   };
   void drop(std::size_t k) noexcept;
-  [[nodiscard]] Walker* of(std::size_t k) { return walkers_.data() + k * kFutures; }
+  [[nodiscard]] PedestrianSample* of(std::size_t k) { return walkers_.data() + k * kFutures; }
 
   FixedVector<Mover, kMost> movers_;
-  std::array<Walker, kMost * kFutures> walkers_{};
+  std::array<PedestrianSample, kMost * kFutures> walkers_{};
 };
 
 }  // namespace jaywalk::motion

@@ -12,7 +12,7 @@ constexpr Duration kSettlesWithin = std::chrono::seconds(1);  // by trial; 1.5 s
 
 }  // namespace
 
-bool FirstScans::mislead(const Twist2& twist, Time now) noexcept {
+bool FirstScans::are_unreliable(const Twist2& twist, Time now) noexcept {
   if (scans_ < kFirst && ++scans_ > 1) {
     const bool jumped =
         std::fabs(twist.v_mps - last_.v_mps) > kJumpMps || std::fabs(twist.w_radps - last_.w_radps) > kJumpRadps;

@@ -4,14 +4,14 @@
 
 namespace jaywalk {
 
-/// Tells when the first scans were taken from a robot that drove and was thought to stand: scans alone know no speed
-/// before the third. Their sweeps were not put right and their poses are off, so that for a second whatever stands
-/// seems to walk a little.
+/// Unreliable first scans: taken from a robot that drove and was thought to stand, since scans alone know no speed
+/// before the third. Their sweeps were not put right and their poses are off, so that for a second everything seems to
+/// walk a little.
 class FirstScans {
  public:
-  /// Once a scan, with the robot's speed as it is thought to be at `now`. True while nobody can be said to walk: for a
+  /// Once a scan, with the robot's speed as it is thought to be at `now`. True while nothing can be said to walk: for a
   /// second after the speed jumped by more than a robot gains from one scan to the next.
-  [[nodiscard]] bool mislead(const Twist2& twist, Time now) noexcept;
+  [[nodiscard]] bool are_unreliable(const Twist2& twist, Time now) noexcept;
 
  private:
   int scans_ = 0;

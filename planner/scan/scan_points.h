@@ -32,7 +32,7 @@ struct Sweep {
   bool all_round = false;       ///< the last beam lies beside the first, or on it: there is no end
   double beam_s = 0.0;          ///< from a beam to the next, s; 0: taken all at once
 
-  /// All round the beam beside is there, but from a sweep before or after: who walks may not have been there yet.
+  /// All round the beam beside is there, but from a sweep before or after: a pedestrian may not have been there yet.
   [[nodiscard]] bool has_ends() const { return !all_round || beam_s > 0.0; }
   [[nodiscard]] bool begins_at(std::uint32_t beam) const { return has_ends() && beam == 0; }
   [[nodiscard]] bool ends_at(std::uint32_t beam) const { return has_ends() && beam + 1 == beams; }

@@ -7,7 +7,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kTurnRad = 0.1;
-constexpr double kBodyM = 0.5;  // about a turn's middle: whoever stands there is no wider, shoulders and all
+constexpr double kBodyM = 0.5;  // about a turn's middle: a pedestrian there is no wider, shoulders and all
 constexpr double kOwnM = 0.3;   // about the axle's: nobody stands there, so that near it everything is asked
 constexpr float kFarthestM = 1.0F;
 constexpr float kSameM = 0.03F;   // a laser's noise at this distance, twice

@@ -4,13 +4,13 @@
 #include <cmath>
 
 #include "planner/tracking/kalman.h"
-#include "planner/tracking/prediction.h"
+#include "planner/tracking/update.h"
 
 namespace jaywalk {
 namespace {
 
 constexpr double kLeastStdM = 1e-3;  // a filter that is told of no noise divides by none
-constexpr double kMostStdM = 1e3;    // who knows no more knows nothing
+constexpr double kMostStdM = 1e3;    // a system that knows no more knows nothing
 constexpr double kFarthestM = 1e7;   // a quarter of the way round the Earth
 constexpr double kWidestM = 1.0;     // by its radius
 
@@ -21,35 +21,36 @@ bool usable(const ObservedMover& mover) {
          mover.radius_m <= kWidestM;
 }
 
-Body first_report(const ObservedMover& mover, double std_m, Time stamp, std::uint32_t id) {
-  Body body = born_at(mover.position_in_map, std_m, mover.radius_m, stamp, id);
-  body.given = true;
-  body.given_id = mover.id;
-  body.track.moving = true;
-  return body;
+Target first_report(const ObservedMover& mover, double std_m, Time stamp, std::uint32_t id) {
+  Target target = born_at(mover.position_in_map, std_m, mover.radius_m, stamp, id);
+  target.existence.given = true;
+  target.existence.given_id = mover.id;
+  target.estimate.track.moving = true;
+  return target;
 }
 
-void report_again(Body& body, const ObservedMover& mover, double std_m, Time stamp) {
-  predict_to(body, stamp);
-  Track& track = body.track;
+void report_again(Target& target, const ObservedMover& mover, double std_m, Time stamp) {
+  predict_to(target.estimate, true, stamp);
+  Track& track = target.estimate.track;
   const double late_s = to_seconds(track.stamp - stamp);  // it has walked on since
   const Vec2 place = mover.position_in_map + track.velocity_in_map * late_s;
   correct(track.position_in_map, track.velocity_in_map, track.covariance, place, std_m * std_m);
-  body.track.hits += 1;
-  body.track.last_seen = stamp;
+  target.estimate.track.hits += 1;
+  target.estimate.track.last_seen = stamp;
 }
 
 }  // namespace
 
-void take_given(const OutsideFix& fix, Vec2 robot_in_map, Bodies& bodies, std::uint32_t& last_id) noexcept {
+void take_given(const OutsideFix& fix, Vec2 robot_in_map, Targets& targets, std::uint32_t& last_id) noexcept {
   if (!(fix.mover_std_m <= kMostStdM) || fix.stamp == kNever) return;  // NaN too
   const double std_m = std::max(fix.mover_std_m, kLeastStdM);
   for (const ObservedMover& mover : fix.movers) {
     if (!usable(mover)) continue;
-    const auto known =
-        std::find_if(bodies.begin(), bodies.end(), [&](const Body& b) { return b.given && b.given_id == mover.id; });
-    if (known == bodies.end()) {
-      admit(bodies, first_report(mover, std_m, fix.stamp, ++last_id), robot_in_map);
+    const auto known = std::find_if(targets.begin(), targets.end(), [&](const Target& b) {
+      return b.existence.given && b.existence.given_id == mover.id;
+    });
+    if (known == targets.end()) {
+      admit(targets, first_report(mover, std_m, fix.stamp, ++last_id), robot_in_map);
     } else {
       report_again(*known, mover, std_m, fix.stamp);
     }

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "planner/tracking/touching_bodies.h"
+#include "planner/tracking/split_detections.h"
 
 namespace jaywalk {
 namespace {
@@ -12,8 +12,8 @@ constexpr double kObservedM = 4.0;
 
 }  // namespace
 
-void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
-                 const Bodies& bodies) noexcept {
+void Scene::update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
+                   const Targets& targets) noexcept {
   self_mask_.learn(scan, map_from_robot);
   projection_.project(scan, robot_from_laser_, twist, points);
   const Sweep sweep = sweep_of(scan);
@@ -27,8 +27,8 @@ void Scene::look(const LaserScan& scan, const Pose2& map_from_robot, const Twist
     in_map.ground[k] = ground_at(still, in_map.position[k], points[k].range_m);
   }
   cut_at_jumps(points, sweep, segments_);
-  cut_between(bodies, in_map, segments_);
-  find_clusters(points, in_map, segments_, sweep, map_from_laser.position(), clusters);
+  split_detections(targets, in_map, segments_);
+  find_detections(points, in_map, segments_, sweep, map_from_laser.position(), detections);
 }
 
 bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexcept {
@@ -39,7 +39,7 @@ bool Scene::ends_on_robot(const LaserScan& scan, std::uint32_t beam) const noexc
   return range_m < kNearestSeenM || self_mask_.on_robot(beam, range_m);
 }
 
-/// Who stands half behind a mast is told so.
+/// A target half behind a mast is told so.
 void Scene::drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept {
   std::size_t kept = 0;
   for (ScanPoint point : points) {

@@ -1,9 +1,9 @@
 #pragma once
 // One scan taken apart.
-#include "planner/tracking/bodies.h"
-#include "planner/tracking/clusters.h"
+#include "planner/tracking/detection.h"
 #include "planner/scan/segments.h"
 #include "planner/scan/self_mask.h"
+#include "planner/tracking/target.h"
 
 namespace jaywalk {
 
@@ -12,16 +12,16 @@ class Scene {
  public:
   explicit Scene(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser), self_mask_(robot_from_laser) {}
 
-  /// Points, cut where the scan jumps and where known `bodies` touch, and the pieces that may be bodies; points on the
+  /// Points, cut where the scan jumps and where known `targets` touch, and the pieces that may be bodies; points on the
   /// robot itself are left out. `still` is the map from all scans before. The rest: as Tracker::update() has it.
-  void look(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
-            const Bodies& bodies) noexcept;
+  void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, const EvidenceMap& still,
+              const Targets& targets) noexcept;
 
   Pose2 map_from_laser;
   ScanPoints points;
   ScanPoints empty;    ///< ends of beams without a return, cut at kObservedM or at kSeesAll of the reach
   PointsInMap in_map;  ///< of as many points
-  Clusters clusters;
+  Detections detections;
 
  private:
   void drop_own_points(const LaserScan& scan, const Sweep& sweep) noexcept;

@@ -10,9 +10,6 @@ namespace jaywalk {
 /// Most tracks kept at once. When full, the newcomer or the farthest from the robot goes; what is wall as well, first.
 inline constexpr std::size_t kMaxTracks = 64;
 
-/// Who walked and is slower stands, for now (m/s).
-inline constexpr double kStoppedMps = 0.10;
-
 /// Covariance of (position, velocity) along either axis; x and y are alike and independent because
 /// process and measurement noise are isotropic. Units m^2, m^2/s, m^2/s^2.
 struct AxisCovariance {
@@ -30,11 +27,13 @@ struct Track {
   AxisCovariance covariance;  ///< of a published track honest: its middle lies within, whatever its radius
   double radius_m = 0.0;      ///< of the body
   bool moving = false;        ///< moving beyond reasonable doubt
+  bool has_walked = false;    ///< it moved since it is published, or a pedestrian was known to stand where it is
+  Time still_since = kNever;  ///< since when it has stayed within kStandsWithinM; kNever: not published yet
   std::uint32_t hits = 0;     ///< scans that saw it
   Time last_seen = kNever;
-  /// The last innovation, squared and over its variance: how far from where it was expected the last scan saw it.
+  /// Normalised innovation squared of the last detection: how far it was from where it was expected, over the variance.
   /// Chi-squared with two degrees of freedom, 2 on average, where the covariance is honest.
-  double surprise = 0.0;
+  double nis = 0.0;
 };
 
 }  // namespace jaywalk

@@ -3,25 +3,24 @@
 #include <algorithm>
 #include <limits>
 
-#include "planner/tracking/absence.h"
 #include "planner/tracking/association.h"
 #include "planner/tracking/entries.h"
 #include "planner/scan/first_scans.h"
 #include "planner/tracking/given_movers.h"
-#include "planner/tracking/hidden_walkers.h"
-#include "planner/mapping/loose_things.h"
+#include "planner/mapping/isolated_obstacles.h"
 #include "planner/mapping/map_entry.h"
-#include "planner/tracking/motion_judgement.h"
-#include "planner/tracking/prediction.h"
+#include "planner/tracking/motion_onset.h"
+#include "planner/tracking/occlusion.h"
 #include "planner/tracking/scene.h"
-#include "planner/tracking/sighting.h"
-#include "planner/tracking/standers.h"
+#include "planner/tracking/standing.h"
+#include "planner/tracking/tuning.h"
+#include "planner/tracking/update.h"
 
 namespace jaywalk {
 namespace {
 
-void rename(Clusters& clusters, std::uint32_t from, std::uint32_t to) {
-  for (Cluster& c : clusters) {
+void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
+  for (Detection& c : detections) {
     if (c.track_id == from) c.track_id = to;
   }
 }
@@ -40,114 +39,119 @@ struct Tracker::State {
   }
 
   void predict_all_to(Time stamp) noexcept;
-  void forget_bodies() noexcept;
+  void forget_targets() noexcept;
   void associate_and_correct() noexcept;
   void judge(const LineOfSight& sight, const Twist2& twist) noexcept;
   void drop_unseen(const LineOfSight& sight) noexcept;
-  void leave_hidden(const Body& body) noexcept;
+  void leave_hidden(const Target& target) noexcept;
   void birth() noexcept;
   void enter_still() noexcept;
+  void note_history(Estimate& estimate) const noexcept;
   void publish() noexcept;
 
   Pose2 robot_from_laser;
   Footprint own_body;
   EvidenceMap still;
   MapEntry entry;
-  LooseThings loose;
+  IsolatedObstacles loose;
   Scene scene;
   Entries entries{};
 
   FirstScans first_scans;
-  Bodies bodies;
-  HiddenWalkers hidden;
+  Targets targets;
+  OccludedTracks hidden;
   std::uint32_t last_id = 0;
   double unreported_s = std::numeric_limits<double>::infinity();  ///< since an outside system last told of movers
-  Time now = kNever;
+  Time now = kNever, told = kNever;                               ///< the scan's stamp; the loop's time
   double step_s = 0.0;
 
   FixedVector<Track, kMaxTracks> tracks, moving;
-  Standers standing;
+  StandingPedestrians standing;
 };
 
-void Tracker::State::forget_bodies() noexcept {
-  bodies.clear();
+void Tracker::State::forget_targets() noexcept {
+  targets.clear();
   hidden = {};
   first_scans = {};
 }
 
 void Tracker::State::predict_all_to(Time stamp) noexcept {
-  if (now != kNever && to_seconds(now) - to_seconds(stamp) > kForeseenS) forget_bodies();
+  if (now != kNever && to_seconds(now) - to_seconds(stamp) > kForeseenS) forget_targets();
   step_s = step_seconds(now, stamp);
   unreported_s += step_s;
   now = stamp;
-  for (Body& body : bodies) predict_to(body, stamp);
+  for (Target& target : targets) predict_to(target.estimate, target.existence.given, stamp);
 }
 
 void Tracker::State::associate_and_correct() noexcept {
-  associate(bodies, scene.clusters);
-  for (Body& body : bodies) {
+  associate(targets, scene.detections);
+  for (Target& target : targets) {
     Observation seen;
-    const bool found = observe(body, scene.clusters, seen);
-    body.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - body.seen_share);
+    const bool found = observe(target.estimate.track, target.appearance, scene.detections, seen);
+    target.existence.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - target.existence.seen_share);
     if (found) {
-      take_sight(body, seen, scene.map_from_laser, now);
+      update_with(target, seen, scene.map_from_laser, now);
     } else {
-      body.misses += 1;
+      target.existence.misses += 1;
     }
   }
 }
 
 void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexcept {
-  const bool misled = first_scans.mislead(twist, now);
+  const bool unreliable = first_scans.are_unreliable(twist, now);
   const Surroundings around{sight, still, scene.map_from_laser};
-  for (Body& body : bodies) {
-    if (misled && !body.given) forget_walk(body, scene.map_from_laser, now);
-    judge_motion(body, around, now);
+  for (Target& target : targets) {
+    if (unreliable && !target.existence.given) forget_walk(target, scene.map_from_laser, now);
+    judge_motion(target, around, now);
   }
 }
 
-/// Walkers come out again, and who had stopped stands there (note_standers() sees to it, and to how long).
-void Tracker::State::leave_hidden(const Body& body) noexcept {
-  const Track& seen = body.as_seen;
-  hidden.remember(body);
+/// A track that moves comes out again; one that had stopped is published as a standing pedestrian, for as long as
+/// update_standing() has it stand.
+void Tracker::State::leave_hidden(const Target& target) noexcept {
+  const Track& seen = target.estimate.as_seen;
+  hidden.remember(target);
   if (norm(seen.velocity_in_map) < kStoppedMps)
-    (void)standing.push_back({seen.position_in_map, body.track.radius_m, seen.last_seen});  // or has as many already
+    (void)standing.push_back(
+        {seen.position_in_map, target.estimate.track.radius_m, seen.last_seen});  // or has as many already
 }
 
 void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
-  for (std::size_t b = bodies.size(); b-- > 0;) {
-    Body& body = bodies[b];
-    const bool empty = sight.at(body.track.position_in_map, kEmptyWithinM) == Sight::kThrough;
-    if (body.misses > 0 && empty) body.looked_through_s += step_s;
-    if (!gone(body, now)) continue;
-    if (body.track.moving && !body.given && body.looked_through_s <= kLookedThroughForS) leave_hidden(body);
-    bodies.swap_remove(b);
+  for (std::size_t b = targets.size(); b-- > 0;) {
+    Target& target = targets[b];
+    const bool empty = sight.at(target.estimate.track.position_in_map, kEmptyWithinM) == Sight::kThrough;
+    if (target.existence.misses > 0 && empty) target.existence.looked_through_s += step_s;
+    if (!is_gone(target.estimate.track, target.existence, now)) continue;
+    if (target.estimate.track.moving && !target.existence.given &&
+        target.existence.looked_through_s <= kLookedThroughForS)
+      leave_hidden(target);
+    targets.swap_remove(b);
   }
-  hidden.wait(sight, now, step_s);
+  hidden.update(sight, now, step_s);
 }
 
 void Tracker::State::birth() noexcept {
   if (unreported_s < kForeseenS) return;  // it knows them all; where it falls silent the laser has to do
-  Clusters& clusters = scene.clusters;
-  for (std::size_t k = 0; k < clusters.size(); ++k) {
-    if (clusters[k].track_id != 0) continue;
+  Detections& detections = scene.detections;
+  for (std::size_t k = 0; k < detections.size(); ++k) {
+    if (detections[k].track_id != 0) continue;
     Observation seen;
-    if (!observe_new(clusters, k, last_id + 1, seen)) continue;
+    if (!observe_new(detections, k, last_id + 1, seen)) continue;
     last_id += 1;
-    Body body = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
-    note_sight(body, seen);
-    body.free_share = seen.in_free_space ? 1.0 : 0.0;
-    body.legs_share = seen.two_legs ? 1.0 : 0.0;
-    anchor_here(body, scene.map_from_laser, now);
-    if (hidden.return_as(body, now)) rename(clusters, last_id, body.track.id);
-    admit(bodies, body, scene.map_from_laser.position());
+    Target target = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
+    note_seen(target.estimate, target.appearance, seen);
+    target.onset.free_share = seen.in_free_space ? 1.0 : 0.0;
+    target.appearance.legs_share = seen.two_legs ? 1.0 : 0.0;
+    anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, scene.map_from_laser, now);
+    if (hidden.reidentify(target, now)) rename(detections, last_id, target.estimate.track.id);
+    admit(targets, target, scene.map_from_laser.position());
   }
 }
 
 void Tracker::State::enter_still() noexcept {
   const Vec2 laser_in_map = scene.map_from_laser.position();
   const std::size_t count = scene.points.size();
-  decide_entries(bodies, scene.clusters, scene.in_map, count, still, now, entries);
+  decide_entries(targets, scene.detections, scene.in_map, count, still, now, entries);
   still.roll_to(laser_in_map);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
   const Pose2 map_from_robot = scene.map_from_laser * inverse(robot_from_laser);
@@ -156,13 +160,26 @@ void Tracker::State::enter_still() noexcept {
   free_under(still, map_from_robot, own_body);
 }
 
+/// What motion is told of a track's past. A pedestrian known to stand where a track is found is that track.
+void Tracker::State::note_history(Estimate& estimate) const noexcept {
+  Track& track = estimate.track;
+  const auto is_here = [&](const StandingPedestrian& p) {
+    return distance(p.position_in_map, track.position_in_map) < kSamePedestrianM;
+  };
+  track.has_walked = track.has_walked || track.moving || std::any_of(standing.begin(), standing.end(), is_here);
+  if (track.still_since != kNever && distance(track.position_in_map, estimate.still_at) <= kStandsWithinM) return;
+  estimate.still_at = track.position_in_map;
+  track.still_since = told;
+}
+
 void Tracker::State::publish() noexcept {
   tracks.clear();
   moving.clear();
-  for (const Body& body : bodies) {
-    if (!body.confirmed()) continue;
-    Track track = body.track;
-    track.covariance.pp += body.off_std_m * body.off_std_m;
+  for (Target& target : targets) {
+    if (!target.confirmed()) continue;
+    note_history(target.estimate);
+    Track track = target.estimate.track;
+    track.covariance.pp += target.estimate.off_std_m * target.estimate.off_std_m;
     (void)tracks.push_back(track);  // as many places as bodies
     if (track.moving) (void)moving.push_back(track);
   }
@@ -171,25 +188,26 @@ void Tracker::State::publish() noexcept {
 Tracker::Tracker(const PerceptionConfig& config) : state_(std::make_unique<State>(config)) {}
 Tracker::~Tracker() = default;
 
-void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist) noexcept {
+void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist, Time told) noexcept {
   State& s = *state_;
   if (scan.stamp == kNever || !finite(map_from_robot)) return;
+  s.told = told == kNever ? scan.stamp : told;
   s.predict_all_to(scan.stamp);
-  s.scene.look(scan, map_from_robot, twist, s.still, s.bodies);
+  s.scene.update(scan, map_from_robot, twist, s.still, s.targets);
   s.associate_and_correct();
   const LineOfSight sight(scan, map_from_robot, s.robot_from_laser, twist);
   s.judge(sight, twist);
   s.drop_unseen(sight);
   s.birth();
   s.enter_still();
+  update_standing(s.targets, s.still, sight, s.now, s.standing);
   s.publish();
-  note_standers(s.bodies, s.still, sight, s.now, s.standing);
 }
 
 void Tracker::update_given(const OutsideFix& fix) noexcept {
   State& s = *state_;
   s.unreported_s = 0.0;
-  take_given(fix, s.scene.map_from_laser.position(), s.bodies, s.last_id);
+  take_given(fix, s.scene.map_from_laser.position(), s.targets, s.last_id);
   s.publish();
 }
 
@@ -201,21 +219,24 @@ void Tracker::forget_unseen() noexcept {
 const EvidenceMap& Tracker::still() const { return state_->still; }
 std::span<const Track> Tracker::tracks() const { return {state_->tracks.data(), state_->tracks.size()}; }
 std::span<const Track> Tracker::moving() const { return {state_->moving.data(), state_->moving.size()}; }
-std::span<const Stander> Tracker::standing() const { return {state_->standing.data(), state_->standing.size()}; }
+std::span<const StandingPedestrian> Tracker::standing() const {
+  return {state_->standing.data(), state_->standing.size()};
+}
 
-bool Tracker::hides_somebody(Vec2 place, double within_m) const noexcept {
+bool Tracker::hides_pedestrian(Vec2 place, double within_m) const noexcept {
   const State& s = *state_;
   const auto lost_near = [&](Vec2 seen_at, Time last_seen) {
-    const double unseen_s = to_seconds(s.now - last_seen);  // of who is in the map by now nobody keeps count
+    const double unseen_s = to_seconds(s.now - last_seen);  // longer: it is in the map by now
     return unseen_s > kLookedThroughForS && unseen_s < kRememberedS && distance(seen_at, place) < within_m;
   };
   return std::any_of(s.standing.begin(), s.standing.end(),
-                     [&](const Stander& him) { return lost_near(him.position_in_map, him.last_seen); }) ||
-         std::any_of(s.bodies.begin(), s.bodies.end(),
-                     [&](const Body& body) {
-                       return body.somebody && lost_near(body.as_seen.position_in_map, body.as_seen.last_seen);
+                     [&](const StandingPedestrian& p) { return lost_near(p.position_in_map, p.last_seen); }) ||
+         std::any_of(s.targets.begin(), s.targets.end(),
+                     [&](const Target& target) {
+                       return target.existence.maybe_pedestrian &&
+                              lost_near(target.estimate.as_seen.position_in_map, target.estimate.as_seen.last_seen);
                      }) ||
-         s.hidden.lost_near(place, within_m);
+         s.hidden.any_lost_near(place, within_m);
 }
 
 }  // namespace jaywalk

@@ -1,5 +1,5 @@
 #pragma once
-// Seeing: walls into the evidence map, things that move into tracks, from the laser alone.
+// The tracker: walls into the evidence map, things that move into tracks, from the laser alone.
 #include <memory>
 #include <span>
 
@@ -8,7 +8,7 @@
 #include "hal/types/robot_model.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/known_map.h"
-#include "planner/tracking/stander.h"
+#include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
@@ -30,32 +30,34 @@ class Tracker {
 
   /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
   /// pose at the scan's stamp. Ranges that are no returns change nothing; nor does a pose that is not
-  /// finite. `twist` puts right a sweep that takes time while the robot moves. Who moves is dated to the scan's stamp,
-  /// whenever in its sweep he was met. A stamp more than a second before the last one's is a clock's that was set: who
-  /// was seen is forgotten, what stands is not.
-  void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist = {}) noexcept;
+  /// finite. `twist` puts right a sweep that takes time while the robot moves. A moving track is dated to the scan's
+  /// stamp, whenever in its sweep it was met. A stamp more than a second before the last one's is a clock's that was
+  /// set: tracks are forgotten, what stands is not.
+  /// `told`: the loop's time, from which Track::still_since counts; the scan's stamp where it is not given.
+  void update(const LaserScan& scan, const Pose2& map_from_robot, const Twist2& twist = {},
+              Time told = kNever) noexcept;
 
   /// Mode paper: movers come from outside, named and noisy; a Kalman filter each. Beams that end
   /// within a mover's radius of its given position are kept out of the map by the next update().
   void update_given(const OutsideFix& fix) noexcept;
 
   /// For a robot that finds no way: what stands alone in the map, is no wider than bodies are and out of sight now may
-  /// have gone, and is unknown from now on (LooseThings).
+  /// have gone, and is unknown from now on (IsolatedObstacles).
   void forget_unseen() noexcept;
 
   [[nodiscard]] const EvidenceMap& still() const;
-  /// All tracks, moving or not; of walls, what is as wide as a body and stands alone: a pillar, somebody who stood
-  /// there for long. Who walks and has been hidden for more than a second is no track; who then comes out where and
-  /// when he should is the same one again (HiddenWalkers). Who stood is one for two seconds.
+  /// All tracks, moving or not; of walls, what is as wide as a body and stands alone: a pillar, or a pedestrian
+  /// that stood there for long. A moving track hidden for more than a second is dropped; one that then comes out where
+  /// and when it should is the same again (OccludedTracks). One that stood is kept for two seconds.
   [[nodiscard]] std::span<const Track> tracks() const;
   /// Those that move beyond reasonable doubt: what the planner warps.
   [[nodiscard]] std::span<const Track> moving() const;
-  /// Whoever stands, for as long as something stands there: wider than the map has him. Who walked, and whatever stands
-  /// on two legs, some furniture among it.
-  [[nodiscard]] std::span<const Stander> standing() const;
-  /// Whether somebody went out of sight within `within_m` of a place (in the map), and has not been seen since, for
-  /// eight seconds: he may stand there, or have come nearer.
-  [[nodiscard]] bool hides_somebody(Vec2 place, double within_m) const noexcept;
+  /// Standing pedestrians, for as long as something stands there: wider than the map has them. A track that walked, and
+  /// everything on two legs, some furniture among it.
+  [[nodiscard]] std::span<const StandingPedestrian> standing() const;
+  /// Whether a pedestrian went out of sight within `within_m` of a place (in the map), and has not been seen since, for
+  /// eight seconds: it may stand there, or have come nearer.
+  [[nodiscard]] bool hides_pedestrian(Vec2 place, double within_m) const noexcept;
 
  private:
   struct State;

@@ -68,7 +68,7 @@ TEST_CASE("a body's clearance is that of its outline, ahead 0.75 m from the axle
 TEST_CASE("somebody who stands is to a body as wide as he is, and 5 cm wider") {
   const Ground ground;
   BodyMap map(kChair.footprint);
-  const std::array<Stander, 1> standing{{{{1.30, 0.0}, 0.25}}};
+  const std::array<StandingPedestrian, 1> standing{{{{1.30, 0.0}, 0.25}}};
   map.draw(ground.map(), {}, standing);
   CHECK(map.clearance({0.0, 0.0, 0.0}) == Approx(0.25).margin(0.01));         // 1.30 - 0.25 - 0.05 - 0.75
   CHECK(map.clearance({0.6, 0.0, kPi / 2.0}) == Approx(0.075).margin(0.01));  // 1.30 - 0.30 - 0.6 - 0.325

@@ -7,7 +7,7 @@
 #include <memory>
 #include <vector>
 
-#include "planner/prediction/mover_memory.h"
+#include "planner/prediction/mover_history.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 
@@ -38,6 +38,8 @@ Track track_at(std::uint32_t id, Vec2 place, Vec2 velocity, Time stamp) {
           .covariance = {1e-4, 1e-5, 1e-3},
           .radius_m = 0.27,
           .moving = norm(velocity) > 0.15,
+          .has_walked = norm(velocity) > 0.0,
+          .still_since = stamp,
           .hits = 20,
           .last_seen = stamp};
 }
@@ -123,7 +125,7 @@ TEST_CASE("futures depend on who and when, not on the others' number: the same b
 TEST_CASE("one scan that drops a walker's velocity to nothing is not believed") {
   test::Guided g;
   (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverMemory memory;
+  MoverHistory memory;
   const LaserScan scan = open_scan();
   for (int k = 0; k < 12; ++k) {
     const Time now = time_from_seconds(0.1 * k);
@@ -146,7 +148,7 @@ TEST_CASE("one scan that drops a walker's velocity to nothing is not believed") 
 TEST_CASE("a walker out of sight lives on, until his places are seen to be empty") {
   test::Guided g;
   (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverMemory memory;
+  MoverHistory memory;
   LaserScan scan = open_scan();
   const auto update = [&](double t, std::span<const Track> tracks) {
     const Time now = time_from_seconds(t);
@@ -179,10 +181,10 @@ TEST_CASE("a walker out of sight lives on, until his places are seen to be empty
 namespace {
 
 /// What is remembered after five posts stood there for five seconds, the last of which walks off if it `leaves`.
-MoverMemory among_posts(bool leaves) {
+MoverHistory among_posts(bool leaves) {
   test::Guided g;
   (void)g.towards({0.0, -3.0}, {5.0, 5.0});
-  MoverMemory memory;
+  MoverHistory memory;
   const LaserScan scan = open_scan();
   for (int k = 0; k <= 50; ++k) {
     const Time now = time_from_seconds(0.1 * k);
@@ -207,10 +209,10 @@ MoverMemory among_posts(bool leaves) {
 TEST_CASE("what is new and stands walks off as often as those before it did: a fifth at first, worth five of them") {
   const TurningModel at_first;
   CHECK(at_first.walks_off_hz() == Approx(0.05F));  // 1 of 5 in 4 s
-  const auto posts = std::make_unique<MoverMemory>(among_posts(false));
+  const auto posts = std::make_unique<MoverHistory>(among_posts(false));
   CHECK(posts->turning().newcomers == 5.0F);
   CHECK(posts->turning().walks_off_hz() == Approx(0.025F));  // 1 of 10
-  const auto one_left = std::make_unique<MoverMemory>(among_posts(true));
+  const auto one_left = std::make_unique<MoverHistory>(among_posts(true));
   CHECK(one_left->turning().newcomers == 5.0F);
   CHECK(one_left->turning().walks_off_hz() == Approx(0.05F));  // 2 of 10
 }

@@ -4,8 +4,9 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/motion/guided.h"
 #include "tests/motion/moment.h"
+#include "tests/motion/guided.h"
+#include "tests/motion/track_past.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -84,7 +85,7 @@ class Drive {
                                      std::numeric_limits<float>::quiet_NaN());
     if (blind_guide) guide.to_go_s = nothing.data();
     moment_.plan.guide = guide;
-    const Track track{.id = 1,
+    const Track track = past_.of({.id = 1,
                       .stamp = moment_.now,
                       .position_in_map = mover,
                       .velocity_in_map = walks,
@@ -92,11 +93,12 @@ class Drive {
                       .radius_m = 0.27,
                       .moving = norm(walks) > 0.1,
                       .hits = 20,
-                      .last_seen = moment_.now};
+                      .last_seen = moment_.now});
     moment_.tracks.assign(has_mover ? 1U : 0U, track);
     moment_.decide(planner_);
   }
 
+  tests::TrackPast past_;
   test::Guided& ground_;
   tests::Moment moment_;
   double clock_s_ = 0.0;  ///< runs on from one run() to the next

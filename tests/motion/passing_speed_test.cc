@@ -25,7 +25,7 @@ Path straight_path() {
 
 /// The most at `x` on the path, past a pedestrian beside (3, 0) that leaves this gap there.
 double past(double x, double gap_m) {
-  const std::array standing{Stander{{3.0, kRobotM + kPersonM + gap_m}, kPersonM}};
+  const std::array standing{StandingPedestrian{{3.0, kRobotM + kPersonM + gap_m}, kPersonM}};
   return passing_speed({straight_path()}, {x, 0.0, 0}, standing, {}, kConfig);
 }
 
@@ -34,16 +34,16 @@ double past(double x, double gap_m) {
 TEST_CASE("nobody, or somebody far aside, slows nothing") {
   CHECK(passing_speed({straight_path()}, {0, 0, 0}, {}, {}, kConfig) == kTop_mps);
   CHECK(past(3.0, 0.7) == kTop_mps);
-  const std::array standing{Stander{{0.0, 0.0}, kPersonM}};
+  const std::array standing{StandingPedestrian{{0.0, 0.0}, kPersonM}};
   CHECK(passing_speed({Path{}}, {}, standing, {}, kConfig) == kTop_mps);
 }
 
 TEST_CASE("a long body minds whom its front passes, and not only whom its axle does") {
   SpeedChoiceConfig chair = kConfig;
   chair.robot = {.footprint = {.front_m = 0.75, .rear_m = 0.35, .half_width_m = 0.325}};
-  const std::array standing{Stander{{0.9, -0.72}, kPersonM}};  // 0.42 m from its corner
+  const std::array standing{StandingPedestrian{{0.9, -0.72}, kPersonM}};  // 0.42 m from its corner
   CHECK(passing_speed({straight_path()}, {}, standing, {}, chair) == Approx(0.2));
-  const std::array abeam{Stander{{0.2, -1.0}, kPersonM}};
+  const std::array abeam{StandingPedestrian{{0.2, -1.0}, kPersonM}};
   CHECK(passing_speed({straight_path()}, {}, abeam, {}, chair) == Approx(1.0 - 0.325 - 0.25));
 }
 
@@ -52,11 +52,11 @@ TEST_CASE("beside somebody the gap takes a second, and the robot creeps on where
   CHECK(past(3.0, 0.25) == Approx(0.25));
   CHECK(past(3.0, 0.05) == Approx(0.2));
   CHECK(past(3.0, -0.1) == Approx(0.2));
-  const std::array nearer{Stander{{3.0, 1.0}, kPersonM}};  // than from the path: 0.35 m, not 0.45
+  const std::array nearer{StandingPedestrian{{3.0, 1.0}, kPersonM}};  // than from the path: 0.35 m, not 0.45
   CHECK(passing_speed({straight_path()}, {3.0, 0.1, 0}, nearer, {}, kConfig) == Approx(0.35));
   SpeedChoiceConfig slow = kConfig;
   slow.max_speed_mps = 0.1;
-  const std::array standing{Stander{{3.0, 0.5}, kPersonM}};
+  const std::array standing{StandingPedestrian{{3.0, 0.5}, kPersonM}};
   CHECK(passing_speed({straight_path()}, {3.0, 0.0, 0}, standing, {}, slow) == 0.1);
 }
 
@@ -96,7 +96,7 @@ TEST_CASE("the follower goes by at that speed") {
                             .brake_mps2 = 1.0};
   Follower follower({.limits = limits, .robot = {.radius_m = kRobotM}});
   const Path path = straight_path();
-  const std::array standing{Stander{{3.0, 0.8}, kPersonM}};
+  const std::array standing{StandingPedestrian{{3.0, 0.8}, kPersonM}};
   Twist2 twist;
   for (int k = 0; k < 200; ++k) {
     twist = follower.along_path({.path = path,

@@ -6,6 +6,7 @@
 
 #include "tests/motion/ground.h"
 #include "tests/motion/moment.h"
+#include "tests/motion/track_past.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
@@ -52,7 +53,7 @@ class Ride {
 
  private:
   void decide() {
-    const Track track{.id = 1,
+    const Track track = past_.of({.id = 1,
                       .stamp = moment_.now,
                       .position_in_map = mover,
                       .velocity_in_map = walks,
@@ -60,10 +61,12 @@ class Ride {
                       .radius_m = 0.27,
                       .moving = norm(walks) > 0.1,
                       .hits = 20,
-                      .last_seen = moment_.now};
+                      .last_seen = moment_.now});
     moment_.tracks.assign(has_mover ? 1U : 0U, track);
     moment_.decide(shared_);
   }
+
+  tests::TrackPast past_;
 
   Footprint footprint_;
   tests::Moment moment_;

@@ -11,7 +11,7 @@ using namespace jaywalk::test;
 namespace {
 
 /// What is seen from the origin of a room whose ground was free.
-std::unique_ptr<Clusters> clusters_of(const Room& room) {
+std::unique_ptr<Detections> clusters_of(const Room& room) {
   const LaserScan scan = scan_of(room, {}, 1);
   const auto points = std::make_unique<ScanPoints>();
   ScanProjection().project(scan, {}, {}, *points);
@@ -20,13 +20,13 @@ std::unique_ptr<Clusters> clusters_of(const Room& room) {
   for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
   const auto segments = std::make_unique<Segments>();
   cut_at_jumps(*points, sweep_of(scan), *segments);
-  auto clusters = std::make_unique<Clusters>();
-  find_clusters(*points, *in_map, *segments, sweep_of(scan), {}, *clusters);
-  return clusters;
+  auto detections = std::make_unique<Detections>();
+  find_detections(*points, *in_map, *segments, sweep_of(scan), {}, *detections);
+  return detections;
 }
 
 /// What is seen of a disc of 0.4 m about (4, 0), from the origin, behind a wall 2 m off that ends at `edge_y`.
-std::unique_ptr<Clusters> clusters_behind(double edge_y) {
+std::unique_ptr<Detections> clusters_behind(double edge_y) {
   return clusters_of({.walls = {{{2.0, -3.0}, {2.0, edge_y}}}, .discs = {{{4.0, 0.0}, 0.4}}});
 }
 
@@ -35,10 +35,10 @@ std::unique_ptr<Clusters> clusters_behind(double edge_y) {
 TEST_CASE("where a side has the middle of who comes out does not depend on how much of him is in view") {
   Vec2 last;
   for (const double edge_y : {0.12, 0.08, 0.0, -0.08, -0.15}) {  // at 4 m twice as far aside
-    const auto clusters = clusters_behind(edge_y);
-    REQUIRE(clusters->size() == 1);
+    const auto detections = clusters_behind(edge_y);
+    REQUIRE(detections->size() == 1);
     Observation seen;
-    REQUIRE(observe_new(*clusters, 0, 1, seen));
+    REQUIRE(observe_new(*detections, 0, 1, seen));
     CHECK(seen.hidden_side == -1);
     CHECK(seen.position_in_map.y == Approx(0.15).margin(0.02));  // 0.25 m from the side that is seen, at 0.4
     CHECK(seen.position_in_map.x == Approx(4.0).margin(0.2));
@@ -46,36 +46,36 @@ TEST_CASE("where a side has the middle of who comes out does not depend on how m
     CHECK(norm(seen.was_off) == 0.0);
     last = seen.position_in_map;
   }
-  const auto clusters = clusters_behind(-1.0);
-  REQUIRE(clusters->size() == 1);
-  Body body = born_at(last, 0.01, 0.25, time_from_seconds(0.0), 1);
-  body.hidden_side = -1;
-  (*clusters)[0].track_id = 1;
+  const auto detections = clusters_behind(-1.0);
+  REQUIRE(detections->size() == 1);
+  Target target = born_at(last, 0.01, 0.25, time_from_seconds(0.0), 1);
+  target.appearance.hidden_side = -1;
+  (*detections)[0].track_id = 1;
   Observation whole;
-  REQUIRE(observe(body, *clusters, whole));
+  REQUIRE(observe(target.estimate.track, target.appearance, *detections, whole));
   CHECK(distance(whole.position_in_map, {4.0, 0.0}) < 0.03);
   CHECK(distance(whole.position_in_map - whole.was_off, last) < 0.05);
-  body.arc_m = 0.4;  // once his width is known, what has been said of him stands
-  REQUIRE(observe(body, *clusters, whole));
+  target.appearance.arc_m = 0.4;  // once his width is known, what has been said of him stands
+  REQUIRE(observe(target.estimate.track, target.appearance, *detections, whole));
   CHECK(norm(whole.was_off) == 0.0);
 }
 
 TEST_CASE("who goes behind something is as wide as he was") {
-  const auto clusters = clusters_behind(0.0);
-  REQUIRE(clusters->size() == 1);
-  const Observation unknown = observation_of(*clusters, 0, -1, 0.0, false);
+  const auto detections = clusters_behind(0.0);
+  REQUIRE(detections->size() == 1);
+  const Observation unknown = observation_of(*detections, 0, -1, 0.0, false);
   CHECK(unknown.radius_m < 0.3);
-  CHECK(observation_of(*clusters, 0, -1, 0.4, false).radius_m == 0.4);
+  CHECK(observation_of(*detections, 0, -1, 0.4, false).radius_m == 0.4);
 }
 
-TEST_CASE("a cluster between one who is surely near and one who may be anywhere is the former's") {
-  const auto clusters = std::make_unique<Clusters>();
-  REQUIRE(clusters->push_back({}));  // about the origin
-  const auto bodies = std::make_unique<Bodies>();
-  REQUIRE(bodies->push_back(born_at({0.0, 0.25}, 0.1, 0.27, time_from_seconds(0.0), 1)));  // 1.6 deviations off
-  REQUIRE(bodies->push_back(born_at({0.0, 0.25}, 0.7, 0.27, time_from_seconds(0.0), 2)));  // 0.4
-  associate(*bodies, *clusters);
-  CHECK((*clusters)[0].track_id == 1);
+TEST_CASE("a detection between one who is surely near and one who may be anywhere is the former's") {
+  const auto detections = std::make_unique<Detections>();
+  REQUIRE(detections->push_back({}));  // about the origin
+  const auto targets = std::make_unique<Targets>();
+  REQUIRE(targets->push_back(born_at({0.0, 0.25}, 0.1, 0.27, time_from_seconds(0.0), 1)));  // 1.6 deviations off
+  REQUIRE(targets->push_back(born_at({0.0, 0.25}, 0.7, 0.27, time_from_seconds(0.0), 2)));  // 0.4
+  associate(*targets, *detections);
+  CHECK((*detections)[0].track_id == 1);
 }
 
 TEST_CASE("two legs have their middle between them and of one alone it is deeper and less sure") {
@@ -101,34 +101,34 @@ TEST_CASE("two legs have their middle between them and of one alone it is deeper
 }
 
 TEST_CASE("who was seen on two legs is no arc when one hides the other or both are side by side") {
-  Body body = born_at({4.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
+  Target target = born_at({4.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
   Observation seen;
   const auto see = [&](const Room& room) {
-    const auto clusters = clusters_of(room);
-    for (Cluster& c : *clusters) c.track_id = 7;
-    CHECK(observe(body, *clusters, seen));
+    const auto detections = clusters_of(room);
+    for (Detection& c : *detections) c.track_id = 7;
+    CHECK(observe(target.estimate.track, target.appearance, *detections, seen));
   };
   const Room side_by_side{.walls = {}, .discs = {{{4.0, 0.1}, 0.08}, {{4.0, -0.1}, 0.08}}};
   see(side_by_side);
   CHECK(seen.arc_m > 0.15);  // it might as well be a body
   const double arc_m = seen.arc_m;
-  body.legs_share = 1.0;
+  target.appearance.legs_share = 1.0;
   see(side_by_side);
   CHECK(seen.arc_m == 0.0);
   CHECK(seen.std_m == Approx(0.07));
 
   const Room half_a_leg{.walls = {{{2.0, 0.02}, {2.0, 0.1}}}, .discs = {{{4.0, 0.0}, 0.06}}};
-  body.legs_share = 0.0;
-  body.arc_m = arc_m;
+  target.appearance.legs_share = 0.0;
+  target.appearance.arc_m = arc_m;
   see(half_a_leg);
   CHECK(seen.std_m < 0.05);  // less of a known body is in view
-  body.legs_share = 1.0;
-  body.arc_m = 0.0;
+  target.appearance.legs_share = 1.0;
+  target.appearance.arc_m = 0.0;
   see(half_a_leg);
   CHECK(seen.std_m > 0.2);
 }
 
-TEST_CASE("two points are a leg where legs have no more, and somebody new only with another one") {
+TEST_CASE("two points are a leg where legs have no more, and a new target only with another one") {
   CHECK(clusters_of({.walls = {}, .discs = {{{2.0, 0.0}, 0.009}}})->empty());  // at 2 m a leg has nine
 
   const auto one = clusters_of({.walls = {}, .discs = {{{9.0, 0.026}, 0.06}}});
@@ -137,9 +137,9 @@ TEST_CASE("two points are a leg where legs have no more, and somebody new only w
   Observation seen;
   CHECK_FALSE(observe_new(*one, 0, 1, seen));
   CHECK((*one)[0].track_id == 0);
-  Body known = born_at({9.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
+  Target known = born_at({9.0, 0.0}, 0.1, 0.25, time_from_seconds(0.0), 7);
   (*one)[0].track_id = 7;
-  CHECK(observe(known, *one, seen));
+  CHECK(observe(known.estimate.track, known.appearance, *one, seen));
 
   const auto two = clusters_of({.walls = {}, .discs = {{{9.0, 0.13}, 0.06}, {{9.0, -0.13}, 0.06}}});
   REQUIRE(two->size() == 2);

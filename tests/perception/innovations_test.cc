@@ -16,9 +16,9 @@ Track walker() {
   return track;
 }
 
-void see(Track& track, double surprise) {
+void see(Track& track, double nis) {
   track.hits += 1;
-  track.surprise = surprise;
+  track.nis = nis;
 }
 
 }  // namespace

@@ -3,7 +3,7 @@
 #include <memory>
 #include <utility>
 
-#include "planner/tracking/clusters.h"
+#include "planner/tracking/detection.h"
 #include "planner/mapping/ground.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
@@ -26,13 +26,13 @@ struct Cut {
       in_map.ground[k] = ground_at(still, points[k].in_robot, points[k].range_m);
     }
     cut_at_jumps(points, sweep, segments);
-    find_clusters(points, in_map, segments, sweep, {0.0, 0.0}, clusters);
+    find_detections(points, in_map, segments, sweep, {0.0, 0.0}, detections);
   }
 
   ScanPoints points;
   PointsInMap in_map;
   Segments segments;
-  Clusters clusters;
+  Detections detections;
 };
 
 EvidenceMap seen_free_all_over() {
@@ -73,20 +73,20 @@ TEST_CASE("a wall at a slant is one thing, and a body before it another") {
   CHECK(wall->segments.back().first == 1);  // the first and farthest has no step beyond it
   room.discs = {{{6.0, 0.5}, 0.27}};
   const auto cut = std::make_unique<Cut>(room, EvidenceMap(256, 0.1, {}), Fan{}, 0.01);
-  REQUIRE(cut->clusters.size() == 1);
-  CHECK(distance(cut->clusters[0].centre_in_map, {6.0, 0.5}) < 0.05);
+  REQUIRE(cut->detections.size() == 1);
+  CHECK(distance(cut->detections[0].centre_in_map, {6.0, 0.5}) < 0.05);
 }
 
 TEST_CASE("a body's centre lies behind its visible arc") {
   Room room;
   room.discs = {{{3.0, 1.0}, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  REQUIRE(cut->clusters.size() == 1);
-  const Cluster& cluster = cut->clusters[0];
-  CHECK(distance(cluster.centre_in_map, {3.0, 1.0}) < 0.04);
-  CHECK(cluster.radius_m == Approx(0.27).margin(0.03));
-  CHECK(cluster.in_free_space);
-  CHECK_FALSE(cluster.leg());
+  REQUIRE(cut->detections.size() == 1);
+  const Detection& detection = cut->detections[0];
+  CHECK(distance(detection.centre_in_map, {3.0, 1.0}) < 0.04);
+  CHECK(detection.radius_m == Approx(0.27).margin(0.03));
+  CHECK(detection.in_free_space);
+  CHECK_FALSE(detection.leg());
 }
 
 TEST_CASE("what is wider than a body is a wall wherever it stands") {
@@ -94,21 +94,21 @@ TEST_CASE("what is wider than a body is a wall wherever it stands") {
   room.walls = {{{3.0, -0.85}, {3.0, 0.85}}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
   CHECK(cut->segments.size() == 1);
-  CHECK(cut->clusters.empty());
+  CHECK(cut->detections.empty());
   Room closed = rectangle(12.0, 10.0);  // seen to end on both sides
   closed.walls.push_back(room.walls[0]);
-  CHECK(std::make_unique<Cut>(closed, seen_free_all_over())->clusters.empty());
+  CHECK(std::make_unique<Cut>(closed, seen_free_all_over())->detections.empty());
 }
 
 TEST_CASE("what is wider than 1.1 m may be a body where it is seen to end on both sides, and else is a wall") {
   Room room = rectangle(12.0, 10.0);
   room.discs = {{{3.0, 0.0}, 0.7}};
-  REQUIRE(std::make_unique<Cut>(room, seen_free_all_over())->clusters.size() == 1);
-  room.walls.push_back({{1.5, 0.29}, {1.5, 0.9}});                                 // hides a tenth of it
-  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->clusters.size() == 1);  // the little wall alone
+  REQUIRE(std::make_unique<Cut>(room, seen_free_all_over())->detections.size() == 1);
+  room.walls.push_back({{1.5, 0.29}, {1.5, 0.9}});                                   // hides a tenth of it
+  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->detections.size() == 1);  // the little wall alone
   room = {};
   room.discs = {{{3.0, 0.0}, 0.7}};  // nothing is seen beside it
-  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->clusters.empty());
+  CHECK(std::make_unique<Cut>(room, seen_free_all_over())->detections.empty());
 }
 
 TEST_CASE("points within a wall's noise are the wall's") {
@@ -148,7 +148,7 @@ TEST_CASE("in unknown space what goes on behind nearer things on both sides is n
   room.discs = {{{-1.0, 2.0}, 0.2}};
   const auto cut = std::make_unique<Cut>(room);
   bool gap = false, disc = false;
-  for (const Cluster& c : cut->clusters) {
+  for (const Detection& c : cut->detections) {
     gap = gap || distance(c.centre_in_map, {1.5, 0.0}) < 0.4;
     disc = disc || distance(c.centre_in_map, {-1.0, 2.0}) < 0.1;
   }
@@ -162,8 +162,8 @@ TEST_CASE("a body half behind something nearer knows which of its sides is hidde
                 {{5.0, -4.0}, {5.0, 4.0}}};  // hides what lies to the right of straight ahead
   room.discs = {{{3.0, 0.0}, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Cluster* half = nullptr;
-  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  const Detection* half = nullptr;
+  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());  // beams count from right to left
   CHECK_FALSE(half->high_hidden());
@@ -179,8 +179,8 @@ TEST_CASE("a side beside which beams return nothing is not seen to end") {
   room.walls = {{{1.0, 0.0}, {1.0, -0.8}}};  // hides one half, and behind the other there is nothing
   room.discs = {{{3.0, 0.0}, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Cluster* half = nullptr;
-  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
+  const Detection* half = nullptr;
+  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.1}) < 0.3 ? &c : half;
   REQUIRE(half != nullptr);
   CHECK(half->low_end == End::kHidden);
   CHECK(half->high_end == End::kUnknown);
@@ -191,8 +191,8 @@ TEST_CASE("what is half behind a leg does not emerge: legs take turns in hiding 
   Room room;
   room.discs = {{{2.0, 0.0}, 0.06}, {{3.0, 0.15}, 0.1}};  // the nearer hides what lies up to 0.09 m left of straight
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  const Cluster* half = nullptr;
-  for (const Cluster& c : cut->clusters) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
+  const Detection* half = nullptr;
+  for (const Detection& c : cut->detections) half = distance(c.centre_in_map, {3.0, 0.17}) < 0.2 ? &c : half;
   REQUIRE(half != nullptr);
   CHECK(half->low_hidden());
   CHECK_FALSE(half->emerges());
@@ -204,7 +204,7 @@ TEST_CASE("a narrow piece hides more than a leg where something wide that is nea
     room.walls = {{{0.5, 0.0}, {0.5, -0.8}}, {{piece_x_m, -1.0}, {piece_x_m, 0.1}}, {{6.0, -4.0}, {6.0, 4.0}}};
     room.discs = {{{3.0, 0.1 * 3.0 / piece_x_m}, 0.27}};
     const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-    for (const Cluster& c : cut->clusters) {
+    for (const Detection& c : cut->detections) {
       if (distance(c.centre_in_map, {3.0, 0.3}) < 0.35) return c.emerges();
     }
     return false;
@@ -234,8 +234,8 @@ TEST_CASE("who stood for long is watched before open space as well, where no bea
     room.walls.push_back({place + along * -0.25, place + along * 0.25});
   }
   const auto cut = stood(room);
-  REQUIRE(cut->clusters.size() == 1);
-  const Cluster& him = cut->clusters[0];
+  REQUIRE(cut->detections.size() == 1);
+  const Detection& him = cut->detections[0];
   CHECK(distance(him.centre_in_map, room.discs[0].centre) < 0.1);
   CHECK(him.low_end == End::kUnknown);
   CHECK(him.on_wall);
@@ -245,7 +245,7 @@ TEST_CASE("what has stood there half hidden is not watched, round or not, nor wh
   Room room;
   room.discs = {{{3.0, 0.0}, 0.5}};  // half of it is as wide as a body
   room.walls = {{{1.0, 0.0}, {1.0, -1.2}}};
-  CHECK(stood(room)->clusters.empty());
+  CHECK(stood(room)->detections.empty());
 }
 
 TEST_CASE("where a wall stands only what stands alone and is as wide as a body is watched") {
@@ -253,21 +253,21 @@ TEST_CASE("where a wall stands only what stands alone and is as wide as a body i
   room.discs = {{{3.0, 1.0}, 0.27}, {{2.0, -1.5}, 0.08}, {{3.4, 2.9}, 0.9}};
   room.walls.push_back({{1.0, 2.6}, {1.2, 2.9}});  // half a body's width
   const auto cut = stood(room);
-  REQUIRE(cut->clusters.size() == 1);
-  CHECK(distance(cut->clusters[0].centre_in_map, {3.0, 1.0}) < 0.04);
-  CHECK(cut->clusters[0].on_wall);
-  CHECK_FALSE(cut->clusters[0].in_free_space);
+  REQUIRE(cut->detections.size() == 1);
+  CHECK(distance(cut->detections[0].centre_in_map, {3.0, 1.0}) < 0.04);
+  CHECK(cut->detections[0].on_wall);
+  CHECK_FALSE(cut->detections[0].in_free_space);
 }
 
 TEST_CASE("what reaches the end of the sweep may go on outside it") {
   Room room = rectangle(10.0, 10.0);
   room.discs = {{direction(0.75 * kPi) * 3.0, 0.27}};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over());
-  REQUIRE(cut->clusters.size() == 1);
-  CHECK(cut->clusters[0].high_hidden());
-  CHECK_FALSE(cut->clusters[0].low_hidden());
-  CHECK_FALSE(cut->clusters[0].emerges());  // a glint on glass goes along with the robot there
-  CHECK(cut->clusters[0].beams.last == 810);
+  REQUIRE(cut->detections.size() == 1);
+  CHECK(cut->detections[0].high_hidden());
+  CHECK_FALSE(cut->detections[0].low_hidden());
+  CHECK_FALSE(cut->detections[0].emerges());  // a glint on glass goes along with the robot there
+  CHECK(cut->detections[0].beams.last == 810);
 }
 
 TEST_CASE("who stands where a scanner that looks all round begins its turn is one body, whole") {
@@ -277,15 +277,15 @@ TEST_CASE("who stands where a scanner that looks all round begins its turn is on
     for (const std::uint32_t beams : {720U, 721U}) {  // the last beam beside the first, or on it
       const Fan fan{.beams = beams, .first_rad = 0.0, .step_rad = step_deg * kPi / 180.0};
       const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
-      REQUIRE(cut->clusters.size() == 1);
-      const Cluster& cluster = cut->clusters[0];
-      CHECK(distance(cluster.centre_in_map, {3.0, 0.0}) < 0.04);
-      CHECK(cluster.low_end == End::kSeen);
-      CHECK(cluster.high_end == End::kSeen);
-      CHECK(cluster.radius_m == Approx(0.27).margin(0.03));
-      CHECK(cluster.beams.has(2));
-      CHECK(cluster.beams.has(718));
-      CHECK_FALSE(cluster.beams.has(360));
+      REQUIRE(cut->detections.size() == 1);
+      const Detection& detection = cut->detections[0];
+      CHECK(distance(detection.centre_in_map, {3.0, 0.0}) < 0.04);
+      CHECK(detection.low_end == End::kSeen);
+      CHECK(detection.high_end == End::kSeen);
+      CHECK(detection.radius_m == Approx(0.27).margin(0.03));
+      CHECK(detection.beams.has(2));
+      CHECK(detection.beams.has(718));
+      CHECK_FALSE(detection.beams.has(360));
     }
   }
 }
@@ -296,8 +296,8 @@ TEST_CASE("where a scan all round begins, sides and what hides them are told bey
   room.walls.push_back({{1.5, -1.0}, {1.5, -0.005}});  // hides the right half, up to the last beam
   const Fan fan{.beams = 720, .first_rad = 0.0, .step_rad = kPi / 360.0};
   const auto cut = std::make_unique<Cut>(room, seen_free_all_over(), fan);
-  REQUIRE(cut->clusters.size() == 2);  // the wall is as wide as a body may be
-  const Cluster& half = cut->clusters[0].centre_in_map.y > 0.0 ? cut->clusters[0] : cut->clusters[1];
+  REQUIRE(cut->detections.size() == 2);  // the wall is as wide as a body may be
+  const Detection& half = cut->detections[0].centre_in_map.y > 0.0 ? cut->detections[0] : cut->detections[1];
   CHECK(half.low_end == End::kHidden);
   CHECK(half.high_end == End::kSeen);
   CHECK(half.behind_more);
@@ -317,9 +317,9 @@ TEST_CASE("a circular room without a jump is one wall, and no body though its en
   const auto in_map = std::make_unique<PointsInMap>();
   for (std::size_t k = 0; k < points->size(); ++k) in_map->position[k] = (*points)[k].in_robot;
   in_map->ground.fill(Ground::kFree);
-  const auto clusters = std::make_unique<Clusters>();
-  find_clusters(*points, *in_map, *segments, sweep_of(*scan), {}, *clusters);
-  CHECK(clusters->empty());
+  const auto detections = std::make_unique<Detections>();
+  find_detections(*points, *in_map, *segments, sweep_of(*scan), {}, *detections);
+  CHECK(detections->empty());
 }
 
 TEST_CASE("a scan of which every beam is a piece of its own is taken apart to its end") {

@@ -55,7 +55,7 @@ TEST_CASE("a far door that a walker blocks, or somebody who stands, does not sto
   const bool stands = GENERATE(false, true);
   const EvidenceMap evidence = room_with_door();
   const std::vector<Track> tracks{walker(kDoor, {0.0, 0.0})};
-  const std::vector<Stander> standing{{kDoor, 0.25}};
+  const std::vector<StandingPedestrian> standing{{kDoor, 0.25}};
   const auto planner = make_cpu_planner(small_memory());
   PlanRequest request = request_on(evidence, {2.0, 12.8}, {23.0, 12.8});
   if (stands) request.standing = standing;
@@ -69,7 +69,7 @@ TEST_CASE("a far door that a walker blocks, or somebody who stands, does not sto
 TEST_CASE("the path keeps clear of all that is of somebody who stands") {
   const auto planner = make_cpu_planner(small_memory());
   const EvidenceMap map(512, 0.1, {0.0, 0.0});
-  const std::vector<Stander> standing{{{5.0, 0.0}, 0.25}};
+  const std::vector<StandingPedestrian> standing{{{5.0, 0.0}, 0.25}};
   PlanRequest request = request_on(map, {0.0, 0.0}, {10.0, 0.0});
   request.standing = standing;
   const Plan& plan = plan_of(*planner, request);
@@ -81,7 +81,7 @@ TEST_CASE("the path keeps clear of all that is of somebody who stands") {
 TEST_CASE("a goal that somebody stands on is approached") {
   const auto planner = make_cpu_planner(small_memory());
   const EvidenceMap map(512, 0.1, {0.0, 0.0});
-  const std::vector<Stander> standing{{{8.0, 0.0}, 0.25}};
+  const std::vector<StandingPedestrian> standing{{{8.0, 0.0}, 0.25}};
   PlanRequest request = request_on(map, {0.0, 0.0}, {8.0, 0.0});
   request.standing = standing;
   const Plan& plan = plan_of(*planner, request);

@@ -168,7 +168,7 @@ TEST_CASE("enormous but finite goals do no harm, nor do movers and standers that
   PlanRequest request = request_on(map, {0.0, 0.0}, {1e300, -1e300});
   request.moving = tracks;
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  const std::vector<Stander> standing{
+  const std::vector<StandingPedestrian> standing{
       {{1e200, -1e200}, 0.25}, {{nan, 0.0}, 0.25}, {{0.0, 0.0}, nan}, {{3.0, 0.0}, 1e9}};
   request.standing = standing;
   const Plan& plan = plan_of(*planner, request);

@@ -22,7 +22,8 @@ class SlowPlanner final : public Planner {
     draft_.path.clear();
     static_cast<void>(draft_.path.push_back(request.goal_in_map));
     static_cast<void>(draft_.path.push_back({static_cast<double>(request.still->evidence({0, 0})), 0.0}));
-    for (const Stander& stander : request.standing) static_cast<void>(draft_.path.push_back(stander.position_in_map));
+    for (const StandingPedestrian& stander : request.standing)
+      static_cast<void>(draft_.path.push_back(stander.position_in_map));
   }
   [[nodiscard]] const Plan& collect() noexcept override { return plan_ = draft_; }
   [[nodiscard]] FieldView view_field() const override { return {}; }
@@ -72,7 +73,7 @@ TEST_CASE("a planner in its own thread plans among those who stood when it was a
   std::atomic<bool> may{false};
   const EvidenceMap map(64, 0.1, {});
   PlannerThread planner(std::make_unique<SlowPlanner>(may), map, nobody);
-  std::array<Stander, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
+  std::array<StandingPedestrian, 2> standing{{{{1.0, 2.0}, 0.25}, {{3.0, 4.0}, 0.25}}};
   PlanRequest request = request_for(map, 3.0);
   request.standing = standing;
   planner.submit(request);

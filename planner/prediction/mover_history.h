@@ -1,0 +1,82 @@
+#pragma once
+#include <span>
+#include <vector>
+
+#include "hal/types/fixed_vector.h"
+#include "hal/types/laser_scan.h"
+#include "planner/mapping/evidence_map.h"
+#include "planner/prediction/occluded_movers.h"
+#include "planner/prediction/pedestrian_model.h"
+#include "planner/tracking/standing_pedestrian.h"
+#include "planner/tracking/track.h"
+#include "planner/planner.h"
+
+namespace jaywalk::motion {
+
+/// What a new scan has shown.
+struct Seen {
+  Time now{};
+  Time stamp = kNever;  ///< the scan's
+  Pose2 map_from_robot{};
+  std::span<const Track> tracks;
+  std::span<const StandingPedestrian> standing;
+  const EvidenceMap& still;
+  const LaserScan& scan;
+  Pose2 map_from_laser{};  ///< at the scan
+  const Guide& guide;
+};
+
+/// What is kept of each track beyond what the tracker says: how fast it walks, what it did when nothing made it turn,
+/// and where it may be when it is out of sight. Thread: the loop's.
+class MoverHistory {
+ public:
+  void update(const Seen& seen) noexcept;
+
+  /// Of every track that may walk within reach of the robot, nearest first.
+  [[nodiscard]] std::span<const MoverBelief> beliefs() const { return {beliefs_.data(), beliefs_.size()}; }
+  [[nodiscard]] std::span<const PedestrianSample> hidden() const { return occluded_.walkers(); }
+  [[nodiscard]] const TurningModel& turning() const { return turning_; }
+  /// Bodies that the map may hold and that are no walls.
+  [[nodiscard]] std::span<const MoverDisc> masked() const { return {masked_.data(), masked_.size()}; }
+
+ private:
+  /// One look at a track, half a second after the one before.
+  struct Look {
+    Vec2 place, velocity;
+  };
+  struct History {
+    Track track;  ///< as last seen
+    bool here = false;
+    bool came_out = false;  ///< of those out of sight one may have come out here
+    bool counted = false;   ///< among the newcomers
+    Time first_seen{};
+    double usual_mps = 0.0, steady_s = 0.0;
+    Vec2 velocity;  ///< believed: the track's, but for a drop that did not last
+    int drops = 0;
+    Time looked{};
+    Look before{}, last{};
+    int looks = 0, rests = 0;
+
+    [[nodiscard]] bool has_walked() const { return track.has_walked || came_out; }
+  };
+
+  History& history_of(const Track& track, const Seen& seen) noexcept;
+  static void note(History& m, const Track& track) noexcept;
+  void learn(History& m, const Seen& seen) noexcept;
+  void count_newcomer(History& m, double known_s, double enough_s) noexcept;
+  [[nodiscard]] bool in_the_open(const History& m, const Seen& seen) const noexcept;
+  void forget_gone(const Seen& seen) noexcept;
+  void believe(const Seen& seen) noexcept;
+  [[nodiscard]] bool may_walk(const History& m, const Seen& seen) const noexcept;
+  [[nodiscard]] MoverBelief belief_of(const History& m, Time now) const noexcept;
+  void add_standing(const Seen& seen) noexcept;
+
+  FixedVector<History, kMaxTracks> histories_;
+  FixedVector<MoverBelief, kMaxTracks> beliefs_;
+  FixedVector<MoverDisc, kMaxTracks> masked_;
+  OccludedMovers occluded_;
+  TurningModel turning_;
+  Time before_ = kNever;
+};
+
+}  // namespace jaywalk::motion

@@ -1,0 +1,183 @@
+#include "planner/tracking/detection.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+
+#include "hal/types/trig.h"
+#include "planner/scan/visible_arc.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kPieceM = 1.1;      // wider things that may go on unseen are walls
+constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
+constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
+constexpr double kMostFree = 0.6;    // of its points in free space: it came there
+constexpr std::uint32_t kFewestPoints = 3, kFewestOfLeg = 2;
+constexpr double kBulge = 0.3;        // of half its width: 0.32 to 0.6 of discs from 0.7 m on, none of a flat thing
+constexpr double kLegM = 0.1;         // across: where beams are farther apart than a third of it, legs have two points
+constexpr double kLegsM = 0.35;       // wider than a leg, or two side by side
+constexpr double kWellBeforeM = 1.0;  // farther than a person's other leg
+
+Outline outline_of(const Segment& segment, const PointsInMap& in_map) {
+  Outline outline;
+  const std::uint32_t span = segment.last - segment.first, most = static_cast<std::uint32_t>(Outline::capacity() - 1);
+  for (std::uint32_t k = 0; k <= most; ++k) (void)outline.push_back(in_map.position[segment.first + span * k / most]);
+  return outline;
+}
+
+/// The angle from `middle`, a unit vector, to an end of the segment, rad: it lies half a step beyond its last beam, on
+/// average.
+double angle_to(Vec2 end_from_laser, Vec2 middle, const Sweep& sweep) {
+  return std::fabs(atan2(cross(middle, end_from_laser), dot(middle, end_from_laser))) +
+         0.5 * std::fabs(sweep.angle_step_rad);
+}
+
+/// The disc whose visible arc the segment's points are.
+Detection detection_of(const Segment& segment, const ScanPoints& points, const PointsInMap& in_map, const Sweep& sweep,
+                       Vec2 laser) {
+  Vec2 sum;
+  for (std::uint32_t k = segment.first; k <= segment.last; ++k) sum = sum + in_map.position[k];
+  const Vec2 mean = sum * (1.0 / (segment.last - segment.first + 1));
+  const double range = std::max(distance(laser, mean), 1e-6);
+  const Vec2 along = (mean - laser) * (1.0 / range);
+  const double across = cross(along, in_map.position[segment.last] - in_map.position[segment.first]);
+  const double width = std::fabs(across);
+  const double spacing = width / std::max(1U, segment.last - segment.first);  // the arc's ends lie between beams
+  const double low = angle_to(in_map.position[segment.first] - laser, along, sweep);
+  const double high = angle_to(in_map.position[segment.last] - laser, along, sweep);
+  const SeenDisc disc = seen_disc(range, low + high);
+  const Vec2 chord_middle = (in_map.position[segment.first] + in_map.position[segment.last]) * 0.5;
+  return {.segment = segment,
+          .centre_in_map = mean + along * (disc.range_m - range),
+          .radius_m = std::max(disc.radius_m, 0.5 * (width + spacing)),
+          .mean_in_map = mean,
+          .mean_range_m = range,
+          .low_rad = low,
+          .high_rad = high,
+          .range_m = points[segment.first].range_m,
+          .spacing_m = spacing,
+          .sparse = segment.last - segment.first + 1 < kFewestPoints,
+          .outline_in_map = outline_of(segment, in_map),
+          .along = along,
+          .high_side = Vec2{-along.y, along.x} * (across < 0.0 ? -1.0 : 1.0),
+          .bulges = dot(chord_middle - mean, along) > kBulge * disc.radius_m};
+}
+
+struct GroundShares {
+  double wall = 0.0, free = 0.0;
+};
+
+GroundShares shares_of(const Segment& segment, const PointsInMap& in_map) {
+  double wall = 0.0, free = 0.0;
+  for (std::uint32_t k = segment.first; k <= segment.last; ++k) {
+    wall += in_map.ground[k] == Ground::kWall ? 1.0 : 0.0;
+    free += in_map.ground[k] == Ground::kFree ? 1.0 : 0.0;
+  }
+  const double count = segment.last - segment.first + 1;
+  return {wall / count, free / count};
+}
+
+/// The item before `k` of a list, or after it by `step` 1, round the list's ends where the scan goes all round; the
+/// list's size: there is none.
+std::size_t beside(std::size_t k, std::ptrdiff_t step, std::size_t size, const Sweep& sweep) {
+  const auto there = static_cast<std::ptrdiff_t>(k) + step, count = static_cast<std::ptrdiff_t>(size);
+  if (there >= 0 && there < count) return static_cast<std::size_t>(there);
+  return sweep.all_round ? static_cast<std::size_t>((there + count) % count) : size;
+}
+
+End end_at(const ScanPoints& points, const Sweep& sweep, std::size_t end, std::ptrdiff_t step) {
+  if (step < 0 ? points[end].after_own : points[end].before_own) return End::kHidden;
+  const std::size_t next = beside(end, step, points.size(), sweep);
+  if (next == points.size() || !sweep.neighbours(points[end].beam, points[next].beam)) return End::kUnknown;
+  return points[next].range_m <= points[end].range_m ? End::kHidden : End::kSeen;
+}
+
+void note_ends(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
+  const std::size_t first = detection.segment.first, last = detection.segment.last;
+  detection.beams = {points[first].beam, points[last].beam};
+  detection.low_end = sweep.begins_at(detection.beams.first) ? End::kHidden : end_at(points, sweep, first, -1);
+  detection.high_end = sweep.ends_at(detection.beams.last) ? End::kHidden : end_at(points, sweep, last, 1);
+}
+
+void note_times(const ScanPoints& points, const Sweep& sweep, Detection& detection) {
+  const auto& [first, last] = detection.segment;
+  double sum = 0.0, sum2 = 0.0;
+  for (std::uint32_t k = first; k <= last; ++k) {
+    const double late_s = sweep.beam_s * points[k].beam;
+    sum += late_s, sum2 += late_s * late_s;
+  }
+  const double count = last - first + 1;
+  detection.late_s = sum / count;
+  detection.late_std_s = std::sqrt(std::max(0.0, sum2 / count - detection.late_s * detection.late_s));
+}
+
+/// What find_clusters() looks at.
+struct Pieces {
+  const ScanPoints& points;
+  const PointsInMap& in_map;
+  const Segments& segments;
+  const Sweep& sweep;
+
+  [[nodiscard]] double range(std::size_t s) const { return points[segments[s].first].range_m; }
+  [[nodiscard]] double width(std::size_t s) const {
+    return distance(in_map.position[segments[s].first], in_map.position[segments[s].last]);
+  }
+  [[nodiscard]] std::size_t next(std::size_t s, std::ptrdiff_t step) const {
+    return beside(s, step, segments.size(), sweep);
+  }
+};
+
+/// Whether what lies beside segment `s` on one side hides more of it than a leg does: the next segment is wide, or it
+/// stands well before and goes on behind something nearer that is. Pieces of one heap hide each other, too.
+bool hides_more(const Pieces& pieces, std::size_t s, std::ptrdiff_t step) {
+  const std::size_t none = pieces.segments.size();
+  std::size_t k = pieces.next(s, step);
+  const bool well_before = k != none && pieces.range(k) < pieces.range(s) - kWellBeforeM;
+  while (well_before && pieces.width(k) <= kLegsM) {
+    const std::size_t beyond = pieces.next(k, step);
+    if (beyond == none || pieces.range(beyond) >= pieces.range(k)) return false;
+    k = beyond;
+  }
+  return k != none && pieces.width(k) > kLegsM;
+}
+
+std::uint32_t fewest_points(const Pieces& pieces, std::size_t s) {
+  const double spacing_m = pieces.range(s) * std::fabs(pieces.sweep.angle_step_rad);
+  return kFewestPoints * spacing_m > kLegM ? kFewestOfLeg : kFewestPoints;
+}
+
+/// By its ends and its middle: the ends of a wall all round the laser may meet.
+bool body_sized(const Pieces& pieces, std::size_t s) {
+  const auto& [first, last] = pieces.segments[s];
+  const Vec2 middle = pieces.in_map.position[first + (last - first) / 2];
+  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestM &&
+         pieces.width(s) < kWidestBodyM && distance(pieces.in_map.position[first], middle) < kWidestBodyM;
+}
+
+}  // namespace
+
+void find_detections(const ScanPoints& points, const PointsInMap& in_map, const Segments& segments, const Sweep& sweep,
+                     Vec2 laser, Detections& out) noexcept {
+  out.clear();
+  const Pieces pieces{points, in_map, segments, sweep};
+  for (std::size_t s = 0; s < segments.size(); ++s) {
+    if (!body_sized(pieces, s)) continue;
+    const GroundShares shares = shares_of(segments[s], in_map);
+    Detection detection = detection_of(segments[s], points, in_map, sweep, laser);
+    detection.on_wall = shares.wall > kMostWall;
+    detection.in_free_space = shares.free > kMostFree;
+    note_ends(points, sweep, detection);
+    note_times(points, sweep, detection);
+    if (pieces.width(s) > kPieceM && !detection.ends()) continue;
+    if (detection.on_wall && !detection.stands_alone()) continue;
+    if (detection.sparse && !detection.whole()) continue;
+    if (!detection.in_free_space && detection.low_hidden() && detection.high_hidden()) continue;
+    detection.behind_more =
+        (detection.low_hidden() && hides_more(pieces, s, -1)) || (detection.high_hidden() && hides_more(pieces, s, 1));
+    if (!out.push_back(detection)) return;
+  }
+}
+
+}  // namespace jaywalk

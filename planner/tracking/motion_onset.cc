@@ -1,0 +1,259 @@
+#include "planner/tracking/motion_onset.h"
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "planner/tracking/tuning.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kMostlySeen = 0.6;  // of the scans; what flickers is clutter
+constexpr double kGoneSigmas = 3.0;
+constexpr double kSpeedSigmas = 2.5;
+constexpr double kFastMps = 1.8;  // faster than people walk: more often a hop between two like things
+constexpr std::size_t kFewestPositions = 5;
+constexpr double kHopM = 0.5 * kStrideM;        // one leg is seen, then the other
+constexpr double kExplainedSwaying = 0.6;       // legs take turns in being seen
+constexpr double kPerM = 0.1, kCamePerM = 0.2;  // of the walk, a metre of range: 0.1 is 6 degrees of heading
+constexpr double kMayStand = 0.5;               // probability that it stands, at most
+// Of a target that stood: in no_people_left nothing that did came to more than 9.0 by its newest positions, at 8.5 nine
+// more of 125 starts set something off. Where it need not have stood a thing in Freiburg does. The noise of those that
+// start came to 2.0 in the simulation.
+constexpr double kStartsSigmas = 10.0, kNoiseStarting = 2.5;
+constexpr double kChordM = 0.25, kAlong = 0.7;  // legs are narrower; 45 degrees
+constexpr double kRound = 0.1;                  // half of what a quarter of a circle has
+constexpr double kSlant = 0.35;                 // 20 degrees off square to the beams
+constexpr double kRidesWithinM = 1.2;
+constexpr double kRidesShare = 0.6;       // of its way in the map is all that it moved before the laser
+constexpr std::uint32_t kOnsetScans = 2;  // in a row: a hop is over by the next scan
+// A pedestrian that turns on the spot walks on. Less than the 5 s in which one that stays is to be in the map.
+constexpr Duration kSlowFor = duration_from_seconds(4.3);
+constexpr Duration kSettleAfter = duration_from_seconds(1.2);
+
+/// What became of the anchor.
+struct OldPlace {
+  bool taken = false;    ///< beams still end there
+  bool through = false;  ///< beams pass over it, or find nothing there
+};
+
+bool covers(const Outline& outline, Vec2 place, double within) {
+  return std::any_of(outline.begin(), outline.end(), [&](Vec2 p) { return distance(p, place) < within; });
+}
+
+/// Of the points seen at the anchor, the half that lies behind on the target's way and that it has left. Beams that end
+/// on the target itself say nothing.
+OldPlace old_place(const MotionEvidence& e, const Surroundings& around) {
+  OldPlace old;
+  const double tolerance = wall_noise_m(distance(around.laser_in_map(), e.position()));
+  const Outline& outline = e.onset.anchor_outline;  // in the order of the beams, so that it has two ends
+  if (outline.empty()) return old;
+  const bool first_lags = dot(outline.back() - outline[0], e.way()) > 0.0;
+  for (std::size_t k = 0; k < (outline.size() + 1) / 2; ++k) {
+    const Vec2 place = outline[first_lags ? k : outline.size() - 1 - k];
+    if (covers(e.appearance.outline_in_map, place, tolerance)) continue;
+    const Sight seen = around.sight.at(place, tolerance, e.appearance.beams);
+    old.taken = old.taken || seen == Sight::kThere;
+    old.through = old.through || seen == Sight::kThrough || seen == Sight::kEmpty;
+  }
+  return old;
+}
+
+/// Whether one of the points ahead stands where beams passed before (EvidenceMap::seen_free): a walker comes there as
+/// soon as it has left its own cells of the map. Posts of a heap that show another side when the robot drives do not:
+/// what comes into view there was hidden, or stood there.
+bool enters_free_ground(const Outline& outline, Vec2 velocity, const EvidenceMap& still) {
+  if (outline.empty()) return false;
+  Vec2 sum;
+  for (const Vec2& p : outline) sum = sum + p;
+  const Vec2 middle = sum * (1.0 / static_cast<double>(outline.size()));
+  return std::any_of(outline.begin(), outline.end(),
+                     [&](Vec2 p) { return dot(p - middle, velocity) > 0.0 && still.seen_free(still.cell_at(p)); });
+}
+
+/// Some of its points stand off the line through its ends by kRound of its length.
+bool round(const Outline& outline) {
+  const Vec2 first = outline[0], chord = outline.back() - first;
+  return std::any_of(outline.begin(), outline.end(),
+                     [&](Vec2 p) { return std::fabs(cross(chord, p - first)) > kRound * dot(chord, chord); });
+}
+
+/// A piece of wall seen at a slant seems to slide along the wall when the robot drives. Then beams pass over where it
+/// was, too, and one of its ends is seen: that tells nothing but of round things.
+bool slides_along_itself(const MotionEvidence& e, Vec2 laser) {
+  const Outline& outline = e.appearance.outline_in_map;
+  const Vec2 chord = outline.back() - outline[0], way = e.way(), beam = e.position() - laser;
+  const bool slanted = std::fabs(dot(chord, beam)) > kSlant * norm(chord) * norm(beam);
+  const bool may_be_wall = slanted || (!e.appearance.whole && !e.onset.came_to_free_space());
+  return may_be_wall && norm(chord) > kChordM && std::fabs(dot(chord, way)) > kAlong * norm(chord) * norm(way);
+}
+
+bool ground_says_so(const MotionEvidence& e, const Surroundings& around, const OldPlace& old) {
+  return old.through || e.onset.came_to_free_space() ||
+         enters_free_ground(e.appearance.outline_in_map, e.estimate.track.velocity_in_map, around.still);
+}
+
+/// Of a steady walk, whether anything else says that it is one: the ground, or both sides of a body that went along for
+/// longer than the middle of a heap of posts goes as it shows another side (0.16 m, in BARN).
+bool borne_out(const MotionEvidence& e, const StraightFit& fit, const Surroundings& around, const OldPlace& old) {
+  return ground_says_so(e, around, old) || (rigid(e, fit) && fit.length_m > kStandsWithinM);
+}
+
+/// A walk without hops, of a target whose old place is not still taken: steady, where something else bears that out, or
+/// longer and swaying, as one leg or the other is seen, when the world agrees twice.
+bool walks(const MotionEvidence& e, const StraightFit& fit, const Surroundings& around) {
+  if (fit.longest_hop_m > kHopM) return false;
+  const OldPlace old = old_place(e, around);
+  if (old.taken) return false;
+  const bool came = e.onset.came_to_free_space(), left = old.through;
+  const bool told = left || edge_walks(e, fit);
+  if (!(told && round(e.appearance.outline_in_map)) && slides_along_itself(e, around.laser_in_map())) return false;
+  if (steady(e, fit) && borne_out(e, fit, around, old)) return true;
+  if (came && left) return fit.explained > kExplainedSwaying && fit.length_m > kStandsWithinM;
+  const double range_m = distance(around.laser_in_map(), e.position());
+  const double far = std::max(2.0 * kPersonRadiusM, (came ? kCamePerM : kPerM) * range_m);
+  return (came || e.appearance.whole) && fit.explained > kStraightExplains && fit.length_m - fit.width_change_m > far;
+}
+
+bool far_from_anchor(const MotionEvidence& e, const StraightFit& fit) {
+  const double least_m = steady(e, fit) ? least_steady_m(e, fit) : kStandsWithinM;
+  return norm(e.way()) > std::max(least_m, kGoneSigmas * std::sqrt(e.estimate.track.covariance.pp));
+}
+
+/// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
+bool rides_along(const MotionEvidence& e, const Pose2& map_from_laser) {
+  const Vec2 in_laser = inverse(map_from_laser) * e.position();
+  return norm(in_laser) < kRidesWithinM && distance(in_laser, e.onset.anchor_in_laser) < kRidesShare * norm(e.way());
+}
+
+bool at_a_walk(const StraightFit& fit) {
+  return fit.length_m > kStoppedMps * fit.duration_s && fit.length_m < kFastMps * fit.duration_s;
+}
+
+/// The filter has it walk rather than stand.
+bool filter_walks(const Estimate& estimate) {
+  return norm(estimate.track.velocity_in_map) > kStoppedMps && estimate.filter.weight(ImmFilter::kStands) <= kMayStand;
+}
+
+/// Fast against what the filter is unsure of, or steady.
+bool beyond_doubt(const MotionEvidence& e, const StraightFit& fit) {
+  if (edge_walks(e, fit) && at_a_walk(fit)) return true;
+  if (!filter_walks(e.estimate)) return false;
+  const Track& track = e.estimate.track;
+  return steady(e, fit) || norm(track.velocity_in_map) > kSpeedSigmas * std::sqrt(track.covariance.vv);
+}
+
+bool positions_enough(const MotionEvidence& e, const StraightFit& fit) {
+  return fit.positions >= (steady(e, fit) ? kFewestSteady : kFewestPositions);
+}
+
+MotionOnset by_all_positions(const MotionEvidence& e, const Surroundings& around) {
+  const StraightFit fit = e.onset.positions.fit();
+  if (!positions_enough(e, fit) || !far_from_anchor(e, fit) || !beyond_doubt(e, fit)) return MotionOnset::kNone;
+  if (!walks(e, fit, around)) return MotionOnset::kNone;
+  return rigid(e, fit) ? MotionOnset::kCertain : MotionOnset::kLikely;
+}
+
+/// A target that stood has walked only since: its newest positions alone, after others that it stood at. Both sides of
+/// a body must have gone along, its widths no farther apart than a beam explains. Its noise has just grown, since no
+/// filter foretold the first step.
+bool starts(const MotionEvidence& e, const Surroundings& around) {
+  const Appearance& seen = e.appearance;
+  if (!seen.whole || !as_wide_as_a_body(seen.arc_m) || seen.noise > kNoiseStarting || !filter_walks(e.estimate))
+    return false;
+  const StraightFit fit = e.onset.positions.fit_newest(kFewestPositions);
+  if (e.onset.positions.fit().duration_s - fit.duration_s < kPauseS) return false;
+  if (fit.sigmas < kStartsSigmas || fit.length_m < kSteadyM) return false;
+  if (!keeps_its_width(fit, fit.width_change_m - fit.spacing_m)) return false;
+  if (!at_a_walk(fit) || fit.longest_hop_m > kHopM) return false;
+  const OldPlace old = old_place(e, around);
+  const bool told = old.through && round(seen.outline_in_map);
+  if (old.taken || (!told && slides_along_itself(e, around.laser_in_map()))) return false;
+  return ground_says_so(e, around, old);
+}
+
+void anchor_target(Target& target, const Pose2& map_from_laser, Time now) {
+  anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, map_from_laser, now);
+}
+
+void judge_moving(Target& target, const Surroundings& around, Time now) {
+  Time& slow_since = target.onset.slow_since;
+  if (norm(target.estimate.track.velocity_in_map) >= kStoppedMps) {
+    slow_since = kNever;
+    return;
+  }
+  if (slow_since == kNever) slow_since = now;
+  if (now - slow_since < kSlowFor) return;
+  target.estimate.track.moving = false;
+  anchor_target(target, around.map_from_laser, now);
+  target.onset.anchored = std::exchange(slow_since, kNever);  // it has stood here for as long as it was slow
+}
+
+void note_onset(OnsetHistory& onset, MotionOnset seen) {
+  if (seen == MotionOnset::kNone) {
+    onset.onsets = 0;
+  } else {
+    onset.onsets += seen == MotionOnset::kCertain ? kOnsetScans : 1;
+  }
+}
+
+void begin_moving(Target& target) {
+  target.onset.onsets = 0;
+  target.estimate.track.moving = true;
+  target.estimate.filter.date_back(target.estimate.track, target.estimate.late_s);
+  target.existence.settled = false;
+}
+
+void judge_standing(Target& target, const Surroundings& around, Time now) {
+  if (target.existence.misses == 0) note_onset(target.onset, motion_onset(target, around));
+  if (target.onset.onsets >= kOnsetScans) return begin_moving(target);
+  const Duration stood = now - target.onset.anchored;
+  if (stood > kSettleAfter && norm(target.motion().way()) < kStandsWithinM) target.existence.settled = true;
+  if (stood > kMayGoOnWithin) anchor_target(target, around.map_from_laser, now);  // creeping is not walking
+}
+
+/// Not called moving, and no wall: a pedestrian that goes along beside the robot.
+bool came_along(const MotionEvidence& e) {
+  return e.appearance.solid() && e.appearance.whole && e.onset.came_to_free_space() &&
+         norm(e.way()) > 2.0 * kPersonRadiusM;
+}
+
+/// As thin as a leg, and stands where nothing stood: the other leg may be behind it.
+bool may_be_single_leg(const Appearance& seen, const OnsetHistory& onset) {
+  return seen.whole && seen.arc_m == 0.0 && onset.came_to_free_space();
+}
+
+bool may_be_pedestrian(const Target& target) {
+  if (target.estimate.track.moving) return true;
+  return target.confirmed() && (target.appearance.on_legs() || came_along(target.motion()) ||
+                                may_be_single_leg(target.appearance, target.onset));
+}
+
+}  // namespace
+
+MotionOnset motion_onset(const Target& target, const Surroundings& around) noexcept {
+  const MotionEvidence e = target.motion();
+  if (target.existence.seen_share <= kMostlySeen) return MotionOnset::kNone;
+  if (rides_along(e, around.map_from_laser)) return MotionOnset::kNone;
+  if (starts(e, around)) return MotionOnset::kCertain;  // what is taken for a wall must have stood
+  return target.appearance.on_wall ? MotionOnset::kNone : by_all_positions(e, around);
+}
+
+void judge_motion(Target& target, const Surroundings& around, Time now) noexcept {
+  if (target.existence.given) return;
+  if (target.estimate.track.moving) {
+    judge_moving(target, around, now);
+  } else {
+    judge_standing(target, around, now);
+  }
+  target.existence.maybe_pedestrian = target.existence.maybe_pedestrian || may_be_pedestrian(target);
+}
+
+void forget_walk(Target& target, const Pose2& map_from_laser, Time now) noexcept {
+  target.onset.positions.clear();
+  target.onset.onsets = 0;
+  anchor_target(target, map_from_laser, now);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,52 @@
+#pragma once
+// Targets that are not seen: how long they stay tracks, and which newcomer is one of them come out again.
+#include "planner/scan/line_of_sight.h"
+#include "planner/tracking/target.h"
+
+namespace jaywalk {
+
+/// Whether a target that is not seen is no track any more: beams have passed through where it should be, or it has been
+/// unseen for longer than one that moves, stands or is not confirmed yet may be.
+[[nodiscard]] bool is_gone(const Track& track, const Existence& existence, Time now) noexcept;
+
+/// Most that are remembered; when full, the one that has been out of view longest is forgotten.
+inline constexpr std::size_t kMaxOccludedTracks = 32;
+
+/// How long an occluded track is remembered, s: by trial on simulated seeds 1 to 6, longer gains next to nothing.
+inline constexpr double kRememberedS = 8.0;
+
+/// Tracks that moved out of view: a target that comes out where and when one of them should is the same one, and still
+/// moves. None of them is published: nothing is said of where they are until they are seen.
+class OccludedTracks {
+ public:
+  /// `target` moved when it was last seen, and is no track any more. One known too shortly is not remembered.
+  void remember(const Target& target) noexcept;
+
+  /// Forgets what has been out of view for long, or since a time yet to come, and what is not where it should be: beams
+  /// pass over that place.
+  void update(const LineOfSight& sight, Time now, double step_s) noexcept;
+
+  /// `newcomer`, seen for the first time, takes the identity, the speed and the width of the track that should be where
+  /// it is, and moves. How noisy it is seen is learnt anew: half of it may be hidden yet. False, and nothing changes,
+  /// when there is none.
+  bool reidentify(Target& newcomer, Time now) noexcept;
+
+  /// Whether one of them was within `within_m` of a place when it was seen last.
+  [[nodiscard]] bool any_lost_near(Vec2 place, double within_m) const noexcept;
+
+  [[nodiscard]] std::size_t size() const { return tracks_.size(); }
+
+ private:
+  struct Occluded {
+    Track as_seen;  ///< last
+    double arc_m = 0.0;
+    Time born = kNever;
+    double looked_through_s = 0.0;
+
+    /// Straight on: of those that come out again within seconds, most did.
+    [[nodiscard]] Vec2 place_at(Time now) const;
+  };
+  FixedVector<Occluded, kMaxOccludedTracks> tracks_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,176 @@
+#include "planner/tracking/straight_fit.h"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "planner/tracking/target_parts.h"
+
+namespace jaywalk {
+namespace {
+
+constexpr double kWalkMps = 1.5;
+constexpr double kLongestStepS = 0.13;                // a target unseen for longer may be another
+constexpr double kNoiseM = 0.01, kNoiseWeighs = 4.0;  // of a position an axis, as if known from so many
+constexpr double kRoundOffM2 = 1e-12;  // scatter of positions that are all the same, a micrometre's square
+
+/// Of `n` positions an axis, from what a walk leaves of their scatter: 2 n numbers, of which 4 went into the walk.
+double noise_variance(double left_m2, double n) {
+  return (left_m2 + kNoiseWeighs * kNoiseM * kNoiseM) / (2.0 * n - 4.0 + kNoiseWeighs);
+}
+
+constexpr double kSolidSigmas = 7.0, kThingSigmas = 15.0;
+// The same of bodies that came to free space: no false mover in no_people_left.
+constexpr double kCameSigmas = 4.5, kCameM = 0.06;
+constexpr double kRigidShare = 0.3;  // of its walk is all that its width changes by
+constexpr double kSideShare = 0.4;   // of its way is the least that a seen side went: 0.3 and 0.5 tell as much
+// Of what it grew by, where nothing says that it came: a surface that comes into view on one side and goes out of it on
+// the other: at a quarter of the headings of no_people_left. 1.5 to 3 tell as much.
+constexpr double kGrewUnfree = 2.0;
+constexpr double kEdges = 1.5;  // beam spacings: where its seen side is, is known to one
+
+/// Comes out from behind something wider than legs, which no leg that takes its turn does. Its free side is where its
+/// path is measured, and a surface that comes into view has that where it always was.
+bool emerges(const Appearance& seen) { return seen.edge_m > 0.0 && seen.steadily_seen(); }
+
+/// The least of a steady walk that is believed.
+struct LeastWalk {
+  double sigmas = 0.0, length_m = 0.0;
+};
+
+LeastWalk least_walk(const MotionEvidence& e, const StraightFit& fit) {
+  if (!e.appearance.solid() && !emerges(e.appearance)) return {kThingSigmas, kSteadyM};
+  if (e.onset.came_to_free_space() && fit.explained > kStraightExplains) return {kCameSigmas, kCameM};
+  return {kSolidSigmas, kSteadyM};
+}
+
+/// One side of the target went from `then` to `now`: along its way, or not.
+bool went_along(Vec2 way, Vec2 then, Vec2 now) { return dot(now - then, way) > kSideShare * dot(way, way); }
+
+/// Each side that is seen and was seen at the anchor went along.
+bool seen_sides_went(const Appearance& seen, const OnsetHistory& onset, Vec2 way) {
+  const Outline &then = onset.anchor_outline, &now = seen.outline_in_map;
+  if (then.empty() || now.empty()) return true;
+  const bool low = seen.low_seen() && onset.anchor_low_seen, high = seen.high_seen() && onset.anchor_high_seen;
+  return (!low || went_along(way, then[0], now[0])) && (!high || went_along(way, then.back(), now.back()));
+}
+
+}  // namespace
+
+/// Takes positions from the newest on backwards, and fits a walk to those that it has.
+class PositionHistory::Fit {
+ public:
+  explicit Fit(const Position& newest) : newest_(newest), last_(newest) {}
+  void add(const Position& older) noexcept;
+  [[nodiscard]] StraightFit result() const noexcept;
+
+ private:
+  /// How much farther it is from the position before to `position` than a walker comes in the time.
+  [[nodiscard]] static double hop(const Position& before, const Position& position) noexcept;
+
+  Position newest_, last_;  ///< last added: the oldest
+  StraightFit fit_;         ///< what needs no fit
+  double narrowest_m_ = std::numeric_limits<double>::infinity(), widest_whole_m_ = 0.0;
+  double n_ = 0.0, t_ = 0.0, tt_ = 0.0, pp_ = 0.0;  ///< sums; times and positions less the newest
+  Vec2 p_, tp_;
+};
+
+double PositionHistory::Fit::hop(const Position& before, const Position& position) noexcept {
+  const double walked_s = std::min(to_seconds(position.when - before.when), kLongestStepS);
+  return distance(before.seen.where_in_map, position.seen.where_in_map) - kWalkMps * walked_s;
+}
+
+void PositionHistory::Fit::add(const Position& position) noexcept {
+  const double t = to_seconds(position.when - newest_.when);
+  const Vec2 p = position.seen.where_in_map - newest_.seen.where_in_map;
+  n_ += 1.0, t_ += t, tt_ += t * t, pp_ += dot(p, p);
+  p_ = p_ + p, tp_ = tp_ + p * t;
+  if (fit_.positions > 0) fit_.longest_hop_m = std::max(fit_.longest_hop_m, hop(position, last_));
+  fit_.positions += 1;
+  fit_.duration_s = -t;
+  fit_.spacing_m = std::max(fit_.spacing_m, position.seen.spacing_m);
+  if (position.seen.whole) {
+    fit_.whole_positions += 1;
+    widest_whole_m_ = std::max(widest_whole_m_, position.seen.width_m);
+    narrowest_m_ = std::min(narrowest_m_, position.seen.width_m);
+  }
+  last_ = position;
+}
+
+StraightFit PositionHistory::Fit::result() const noexcept {
+  StraightFit fit = fit_;
+  const double tt = tt_ - t_ * t_ / n_, scatter = pp_ - dot(p_, p_) / n_;
+  if (fit.positions < 3 || !(tt > 0.0) || scatter < kRoundOffM2) return fit;
+  const Vec2 tp = tp_ - p_ * (t_ / n_), velocity = tp * (1.0 / tt);
+  const double explained = dot(velocity, tp);
+  fit.length_m = norm(velocity) * fit.duration_s;
+  fit.explained = explained / scatter;
+  fit.sigmas = norm(velocity) * std::sqrt(tt / noise_variance(std::max(scatter - explained, 0.0), n_));
+  fit.width_change_m = std::max(0.0, widest_whole_m_ - narrowest_m_);
+  return fit;
+}
+
+void PositionHistory::add(Time when, const Sample& seen) noexcept {
+  if (count_ > 0 && when - at(count_ - 1).since < kApart) {
+    Position& newest = positions_[(count_ - 1) % kPositions];
+    const Vec2 before = newest.seen.where_in_map;
+    newest.scans += 1;
+    newest.when += (when - newest.when) / newest.scans;
+    newest.seen = seen;
+    newest.seen.where_in_map = before + (seen.where_in_map - before) * (1.0 / newest.scans);
+    return;
+  }
+  positions_[count_ % kPositions] = {when, when, seen, 1};
+  ++count_;
+}
+
+void PositionHistory::move(Vec2 by_m) noexcept {
+  for (Position& position : positions_) position.seen.where_in_map = position.seen.where_in_map + by_m;
+}
+
+std::size_t PositionHistory::first() const noexcept {
+  std::size_t k = count_ - std::min(count_, kPositions);
+  while (k + 1 < count_ && at(count_ - 1).when - at(k).when > kRemembers) ++k;
+  return k;
+}
+
+StraightFit PositionHistory::fit() const noexcept {
+  if (count_ == 0) return {};
+  Fit fit(at(count_ - 1));
+  for (std::size_t k = count_; k-- > first();) fit.add(at(k));
+  return fit.result();
+}
+
+StraightFit PositionHistory::fit_newest(std::size_t fewest) const noexcept {
+  if (count_ == 0) return {};
+  StraightFit best;
+  Fit fit(at(count_ - 1));
+  for (std::size_t k = count_; k-- > first();) {
+    fit.add(at(k));
+    const StraightFit walk = fit.result();
+    if (walk.positions >= fewest && walk.sigmas > best.sigmas) best = walk;
+  }
+  return best;
+}
+
+bool steady(const MotionEvidence& e, const StraightFit& fit) noexcept {
+  const LeastWalk least = least_walk(e, fit);
+  const double grew_m = fit.width_change_m * (e.onset.came_to_free_space() ? 1.0 : kGrewUnfree);
+  return fit.sigmas > least.sigmas && seen_sides_went(e.appearance, e.onset, e.way()) &&
+         fit.length_m > std::max({least.length_m, grew_m, kEdges * e.appearance.edge_m});
+}
+
+double least_steady_m(const MotionEvidence& e, const StraightFit& fit) noexcept { return least_walk(e, fit).length_m; }
+
+bool keeps_its_width(const StraightFit& fit, double change_m) noexcept { return change_m < kRigidShare * fit.length_m; }
+
+bool rigid(const MotionEvidence& e, const StraightFit& fit) noexcept {
+  const bool both_sides = e.appearance.whole && fit.whole_positions >= kFewestSteady;
+  return both_sides && e.appearance.solid() && steady(e, fit) && keeps_its_width(fit, fit.width_change_m);
+}
+
+bool edge_walks(const MotionEvidence& e, const StraightFit& fit) noexcept {
+  return emerges(e.appearance) && steady(e, fit);
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,28 @@
+#pragma once
+// What the tracker keeps of a track's past, for tests that make tracks themselves.
+#include "planner/tracking/track.h"
+#include "planner/tracking/tuning.h"
+
+namespace jaywalk::tests {
+
+/// Of one track: whether it has walked, and since when it has been where it is.
+class TrackPast {
+ public:
+  [[nodiscard]] Track of(Track track) {
+    has_walked_ = has_walked_ || track.moving;
+    if (since_ == kNever || distance(at_, track.position_in_map) > kStandsWithinM) {
+      at_ = track.position_in_map;
+      since_ = track.stamp;
+    }
+    track.has_walked = has_walked_;
+    track.still_since = since_;
+    return track;
+  }
+
+ private:
+  bool has_walked_ = false;
+  Vec2 at_;
+  Time since_ = kNever;
+};
+
+}  // namespace jaywalk::tests

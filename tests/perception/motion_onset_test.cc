@@ -1,0 +1,325 @@
+#include "planner/tracking/motion_onset.h"
+
+#include <algorithm>
+
+#include "tests/perception/room.h"
+#include "tests/perception/walker.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+
+namespace {
+
+EvidenceMap nothing_known() { return EvidenceMap(256, 0.1, {}); }
+
+/// Nothing is known but that beams passed over the cell of `place`.
+EvidenceMap free_at(Vec2 place) {
+  EvidenceMap still = nothing_known();
+  still.add(still.cell_at(place), EvidenceMap::kMin);
+  return still;
+}
+
+/// Judges bodies by one scan of a room.
+struct Judge {
+  explicit Judge(const Room& room, const EvidenceMap& map = nothing_known()) : scan(scan_of(room, {}, 1)), still(map) {}
+  [[nodiscard]] MotionOnset operator()(const Target& target) const { return motion_onset(target, {sight, still, {}}); }
+
+  LaserScan scan;
+  EvidenceMap still;
+  LineOfSight sight{scan, {}, {}, {}};
+};
+
+/// As seen when it went aside to (3, 0.21): its right and its left side lie behind and ahead on its way.
+void show_sides(Target& target) {
+  target.appearance.outline_in_map.clear();
+  for (int k = 0; k < 5; ++k) (void)target.appearance.outline_in_map.push_back({3.0, 0.11 + 0.05 * k});
+}
+
+bool sees_it_start(const Target& target, const Room& room) { return Judge(room)(target) != MotionOnset::kNone; }
+
+}  // namespace
+
+TEST_CASE("who walked a metre and is seen to have left has set out") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.5}, 0.1}};
+  CHECK(sees_it_start(walker({3.0, -0.5}, {3.0, 0.5}), room));
+}
+
+TEST_CASE("a target that both sides of went along has set out for certain, and one that grew has not") {
+  // 0.2 m in a second, as straight as can be.
+  Target target = walker({3.0, 0.0}, {3.0, 0.2});
+  target.appearance.arc_m = 0.25;
+  const Judge judged(rectangle(12.0, 10.0));
+  CHECK(judged(target) == MotionOnset::kCertain);
+  target.onset.positions.clear();
+  for (int k = 1; k <= 10; ++k)  // its middle goes 0.2 m while one side stays where it is
+    target.onset.positions.add(time_from_seconds(0.1 * k),
+                               {.where_in_map = {3.0, 0.02 * k}, .width_m = 0.2 + 0.04 * k, .whole = true});
+  CHECK(judged(target) == MotionOnset::kNone);
+}
+
+TEST_CASE("what was seen whole at less than four places may have come into view on one side") {
+  Target target = walker({3.0, 0.0}, {3.0, 0.3});
+  target.appearance.arc_m = 0.25;
+  target.onset.free_share = 0.0;
+  const Judge judged(rectangle(12.0, 10.0));
+  const auto whole_for = [&](int places) {
+    target.onset.positions.clear();
+    for (int k = 1; k <= 10; ++k)
+      target.onset.positions.add(time_from_seconds(0.1 * k),
+                                 {.where_in_map = {3.0, 0.03 * k}, .whole = k > 10 - places});
+    return judged(target);
+  };
+  CHECK(whole_for(4) == MotionOnset::kCertain);
+  CHECK(whole_for(3) == MotionOnset::kLikely);  // its place of before is empty
+}
+
+TEST_CASE("who comes out from behind something has set out by the way of the side that is seen") {
+  // 0.2 m in a second, straight, on ground that was free before. The filter does not believe it yet.
+  Target target = walker({3.0, 0.0}, {3.0, 0.2});
+  target.appearance.whole = false;
+  target.estimate.track.velocity_in_map = {0.0, 0.05};
+  const Judge judged(rectangle(12.0, 10.0));
+  CHECK(judged(target) == MotionOnset::kNone);
+  target.appearance.edge_m = 0.03;
+  const Target came_out = target;
+  CHECK(judged(target) == MotionOnset::kLikely);
+  target.appearance.hidden_side = 1;
+  CHECK(judged(target) == MotionOnset::kLikely);
+  target.appearance.outline_in_map[0] =
+      target.onset.anchor_outline[0];  // what is seen to end stands: more of a thing came into view
+  CHECK(judged(target) == MotionOnset::kNone);
+  target.appearance.hidden_side = -1;
+  CHECK(judged(target) == MotionOnset::kLikely);
+  target.appearance.outline_in_map.back() = target.onset.anchor_outline.back();
+  CHECK(judged(target) == MotionOnset::kNone);
+  target = came_out;
+  target.appearance.edge_m = 0.15;  // so far apart are the beams: the way is not longer than one and a half of that
+  CHECK(judged(target) == MotionOnset::kNone);
+}
+
+TEST_CASE("a steady walk counts where it comes to ground that beams passed before, and else only what is long") {
+  // 0.2 m in a second to the left, from a place that a wall hides: nothing tells whether it still stands there. A heap
+  // of posts that shows another side does as much.
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
+  Target target = walker({3.0, 0.0}, {3.0, 0.2});
+  target.onset.free_share = 0.0;
+  target.appearance.arc_m = 0.25;
+  show_sides(target);
+  const Vec2 ahead{3.0, 0.31}, behind{3.0, 0.11};
+  CHECK(Judge(room)(target) == MotionOnset::kNone);
+  CHECK(Judge(room, free_at(ahead))(target) == MotionOnset::kCertain);
+  CHECK(Judge(room, free_at(behind))(target) == MotionOnset::kNone);
+  target.appearance.whole = false;  // it comes out from behind something
+  target.appearance.edge_m = 0.03;
+  CHECK(Judge(room)(target) == MotionOnset::kNone);
+  CHECK(Judge(room, free_at(ahead))(target) == MotionOnset::kLikely);
+  target.appearance.arc_m = 0.0;  // its width is not known yet
+  target.onset.positions.clear();
+  for (int k = 1; k <= 10; ++k)  // not as straight as a thing must go of which nothing is known
+    target.onset.positions.add(time_from_seconds(0.1 * k), {{3.0 + (k % 2 == 0 ? 0.022 : -0.022), 0.02 * k}});
+  CHECK(Judge(room, free_at(ahead))(target) == MotionOnset::kLikely);
+}
+
+TEST_CASE("who leaves a place where beams then find nothing has set out, and not where they were not measured") {
+  Room open;
+  open.discs = {{{3.0, 0.2}, 0.1}};
+  Target target = walker({3.0, 0.0}, {3.0, 0.2});
+  target.onset.free_share = 0.0;
+  target.appearance.arc_m = 0.25;
+  show_sides(target);
+  Judge judged(open);
+  CHECK(judged(target) == MotionOnset::kCertain);
+  for (float& range : judged.scan.range_m) range = range < 20.0F ? range : 0.0F;
+  CHECK(judged(target) == MotionOnset::kNone);
+}
+
+TEST_CASE("a steady walk of which the ground says nothing counts where both sides went along for a quarter metre") {
+  Room room = rectangle(12.0, 10.0);
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});  // hides the place that it came from
+  const Judge judged(room);
+  const auto seen = [](double length_m, double width_change_m) {
+    Target target = walker({3.0, 0.0}, {3.0, length_m});
+    target.onset.free_share = 0.0;
+    target.appearance.arc_m = 0.25;
+    target.onset.positions.clear();
+    for (int k = 0; k <= 10; ++k)
+      target.onset.positions.add(
+          time_from_seconds(0.1 * k),
+          {.where_in_map = {3.0, 0.1 * k * length_m}, .width_m = 0.5 + 0.1 * k * width_change_m, .whole = true});
+    return target;
+  };
+  CHECK(judged(seen(0.3, 0.0)) == MotionOnset::kCertain);
+  CHECK(judged(seen(0.2, 0.0)) == MotionOnset::kNone);  // a heap of posts goes 0.16 m
+  CHECK(judged(seen(0.3, 0.12)) == MotionOnset::kNone);
+  Target part = seen(0.3, 0.0);
+  part.appearance.whole = false;
+  CHECK(judged(part) == MotionOnset::kNone);
+}
+
+TEST_CASE("beams that end on a target do not say that it still stands where it set out from") {
+  // Half a metre wide and 8 m off, it goes 0.15 m away and as far to the left. Its right side was at (8, -0.25), 0.21 m
+  // from where it is now: more than 0.20 m, within which anything there is the same. But the beams to that place, three
+  // to either side of -1.8 degrees, reach to -0.8, and its right side is at -0.7 degrees and 0.15 m farther off.
+  Target target = walker({8.0, 0.0}, {8.15, 0.15});
+  target.appearance.arc_m = 0.25;
+  for (std::size_t k = 0; k < 5; ++k) {
+    target.onset.anchor_outline[k] = {8.0, -0.25 + 0.125 * static_cast<double>(k)};
+    target.appearance.outline_in_map[k] = target.onset.anchor_outline[k] + Vec2{0.15, 0.15};
+  }
+  Room room = rectangle(24.0, 10.0);
+  room.walls.push_back({{8.15, -0.1}, {8.15, 0.4}});
+  const Judge judged(room);
+  CHECK(judged(target) == MotionOnset::kNone);
+  target.appearance.beams = {403, 413};  // beam 405 is straight ahead: -0.67 to 2.67 degrees
+  CHECK(judged(target) == MotionOnset::kCertain);
+}
+
+TEST_CASE("a target that came to free space is known by a shorter walk than one on unknown ground") {
+  const Judge judged(rectangle(12.0, 10.0));
+  Target target = walker({3.0, 0.0}, {3.0, 0.09});  // shorter than 0.10 m
+  target.appearance.arc_m = 0.25;
+  target.estimate.track.velocity_in_map = {0.0, 0.3};
+  target.estimate.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  target.estimate.filter = ImmFilter(target.estimate.track);
+  CHECK(judged(target) == MotionOnset::kCertain);
+  target.onset.free_share = 0.0;
+  CHECK(judged(target) == MotionOnset::kNone);
+}
+
+TEST_CASE("who stood has set out by his newest places alone") {
+  const Judge judged(rectangle(12.0, 10.0));
+  Target target = walker({3.0, 0.0}, {3.0, 0.16});  // on ground of which nothing is known
+  target.appearance.arc_m = 0.25;
+  target.onset.free_share = 0.0;
+  target.appearance.noise = 2.0;  // no filter foretold the first step
+  target.estimate.track.velocity_in_map = {0.0, 0.4};
+  target.estimate.track.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 0.01};
+  target.estimate.filter = ImmFilter(target.estimate.track);
+  const auto stands_then_walks = [&](double grows_m) {
+    target.onset.positions.clear();
+    for (int k = 0; k < 20; ++k) {  // 4 cm a scan from the seventeenth on, of which every second scan sees a beam more
+      const double steps = std::max(0, k - 15);
+      target.onset.positions.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.04 * steps},
+                                                              .width_m = 0.5 + 0.06 * (k % 2) + grows_m * steps,
+                                                              .spacing_m = 0.06,
+                                                              .whole = true});
+    }
+    return judged(target);
+  };
+  CHECK(stands_then_walks(0.0) == MotionOnset::kCertain);
+  target.appearance.on_wall = true;  // for so long that he was taken for a wall
+  CHECK(stands_then_walks(0.0) == MotionOnset::kCertain);
+  target.appearance.on_wall = false;
+  CHECK(stands_then_walks(0.02) == MotionOnset::kNone);  // 8 cm wider at the end: half of its way
+  target.appearance.noise = 3.0;
+  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
+  target.appearance.noise = 2.0;
+  target.appearance.arc_m = 0.1;
+  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
+  target.appearance.arc_m = 0.25;
+  target.appearance.whole = false;
+  CHECK(stands_then_walks(0.0) == MotionOnset::kNone);
+  target.appearance.whole = true;
+  target.onset.positions.clear();
+  for (int k = 0; k < 6; ++k)  // he never stood
+    target.onset.positions.add(time_from_seconds(0.1 * k), {.where_in_map = {3.0, 0.032 * k}, .whole = true});
+  CHECK(judged(target) == MotionOnset::kLikely);
+  target.appearance.noise = 1.0;  // the filter foretold it
+  CHECK(judged(target) == MotionOnset::kCertain);
+  target.appearance.on_wall = true;  // and of a wall it is none
+  CHECK(judged(target) == MotionOnset::kNone);
+}
+
+TEST_CASE("who stood and was taken for a wall has set out where he left his place or came to free ground") {
+  Room room = rectangle(12.0, 10.0);
+  Target target = walker({3.0, 0.0}, {3.0, 0.2});
+  target.appearance.arc_m = 0.25;
+  target.onset.free_share = 0.0;
+  target.appearance.on_wall = true;
+  show_sides(target);
+  target.onset.positions.clear();
+  for (int k = 0; k < 20; ++k)
+    target.onset.positions.add(time_from_seconds(0.1 * k),
+                               {.where_in_map = {3.0, 0.04 * std::max(0, k - 14)}, .whole = true});
+  CHECK(Judge(room)(target) == MotionOnset::kCertain);  // beams pass over where he stood
+  room.walls.push_back({{2.0, 0.08}, {2.0, -1.0}});
+  CHECK(Judge(room)(target) == MotionOnset::kNone);
+  CHECK(Judge(room, free_at({3.0, 0.31}))(target) == MotionOnset::kCertain);
+}
+
+TEST_CASE("who most likely stands has not set out") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.5}, 0.1}};
+  Target target = walker({3.0, -0.5}, {3.0, 0.5});
+  Track still = target.estimate.track;
+  still.covariance = {.pp = 1e-4, .pv = 0.0, .vv = 1e-4};
+  target.estimate.filter = ImmFilter(still);
+  for (int k = 0; k < 20; ++k) {
+    target.estimate.filter.predict(still, 0.1);
+    target.estimate.filter.correct(still, {3.0, 0.5}, 0.02);
+  }
+  CHECK_FALSE(sees_it_start(target, room));
+}
+
+TEST_CASE("whose place still returns beams has not set out") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.5}, 0.1}, {{3.0, -0.5}, 0.1}};
+  CHECK_FALSE(sees_it_start(walker({3.0, -0.5}, {3.0, 0.5}), room));
+}
+
+TEST_CASE("who came the whole way in one hop has not set out") {
+  Room room = rectangle(12.0, 10.0);
+  room.discs = {{{3.0, 0.5}, 0.1}};
+  Target target = walker({3.0, -0.5}, {3.0, 0.5});
+  target.onset.positions.clear();
+  for (int k = 0; k < 10; ++k) target.onset.positions.add(time_from_seconds(0.1 * k), {{3.0, k < 5 ? -0.5 : 0.5}});
+  CHECK_FALSE(sees_it_start(target, room));
+}
+
+TEST_CASE("on ground of which nothing is known a short walk far off is not enough") {
+  // Coming towards the laser hides the place behind. Half a metre in a second, 8 m off: 0.8 m are wanted there, and
+  // 0.5 m at 3 m, less what rounding takes.
+  Target far = walker({8.5, 0.0}, {8.0, 0.0}), near = walker({3.6, 0.0}, {3.0, 0.0});
+  far.onset.free_share = near.onset.free_share = 0.0;
+  Room room = rectangle(24.0, 10.0);
+  room.discs = {{{8.0, 0.0}, 0.2}};
+  CHECK_FALSE(sees_it_start(far, room));
+  room.discs = {{{3.0, 0.0}, 0.2}};
+  CHECK(sees_it_start(near, room));
+}
+
+TEST_CASE("a piece of wall that slides along itself has not set out, and one broadside on has") {
+  // 0.4 m wide pieces; the place that each came from is out of sight behind a post.
+  Room room = rectangle(24.0, 10.0);
+  room.discs = {{{2.0, 0.0}, 0.3}};
+  Target slides = walker({4.0, 0.0}, {6.0, 0.0}), strides = slides;
+  slides.appearance.outline_in_map.clear(), strides.appearance.outline_in_map.clear();
+  for (int k = 0; k < 5; ++k) {
+    (void)slides.appearance.outline_in_map.push_back({5.8 + 0.1 * k, 0.0});
+    (void)strides.appearance.outline_in_map.push_back({6.0, -0.2 + 0.1 * k});
+  }
+  CHECK_FALSE(sees_it_start(slides, room));
+  CHECK(sees_it_start(strides, room));
+}
+
+TEST_CASE(
+    "a flat piece that slides along itself has not set out where beams pass over its old place, a round one has") {
+  // 0.4 m wide, at a slant, 0.85 m along its own line in a second: other parts of one wall come into view as a robot
+  // drives, and behind the gap that it is seen through another wall.
+  Target flat = walker({4.0, -0.6}, {4.6, 0.0});
+  flat.appearance.whole = false;
+  flat.onset.free_share = 0.0;
+  flat.appearance.outline_in_map.clear();
+  Target round = flat;
+  for (int k = -2; k <= 2; ++k) {
+    const Vec2 p{4.6 + 0.07 * k, 0.07 * k};
+    (void)flat.appearance.outline_in_map.push_back(p);
+    (void)round.appearance.outline_in_map.push_back(p + Vec2{-0.02, 0.02} * (4.0 - k * k));
+  }
+  const Room room = rectangle(12.0, 10.0);
+  CHECK_FALSE(sees_it_start(flat, room));
+  CHECK(sees_it_start(round, room));
+}
