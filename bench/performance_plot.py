@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Growth with the number of cells, as SVG, and the table of docs/performance.md, from what jaywalk bench measured.
+"""Growth with the number of cells, as SVG, and the table of docs/explanation/results.md#time, from what jaywalk bench measured.
 
     jaywalk bench --json bench.json && bench/performance_plot.py bench.json docs/performance.svg
 """

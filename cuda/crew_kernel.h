@@ -14,7 +14,7 @@ namespace jaywalk {
 extern __shared__ unsigned char block_memory[];
 
 /// Threads of a block: what a processor needs to hide its memory's latency; more would leave a thread fewer registers
-/// than the stages want (docs/decisions/0012-a-crew-runs-the-order.md).
+/// than the stages want (docs/explanation/decisions/gpu.md).
 inline constexpr int kBlockThreads = 512;
 /// Cells that the first block takes alone: sixteen of each thread take about as long as a crew to meet.
 inline constexpr std::int32_t kMostAlone = 8192;

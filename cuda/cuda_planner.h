@@ -8,8 +8,8 @@
 
 namespace jaywalk {
 
-/// A plan on the processor takes 15 ms at 512 cells a side (docs/performance.md): a device that takes longer than this
-/// is none to wait for. A plan is then still as old as two scans at 15 Hz at most.
+/// A plan on the processor takes 15 ms at 512 cells a side (docs/explanation/results.md#time): a device that takes
+/// longer than this is none to wait for. A plan is then still as old as two scans at 15 Hz at most.
 inline constexpr std::chrono::milliseconds kLongestKernel{50};
 
 /// A planner on the CUDA device of that number, from 0: the same stages in the same order as make_cpu_planner's, and

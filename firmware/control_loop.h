@@ -10,7 +10,6 @@
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
-
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/motion.h"
 #include "planner/motion/speed_zones.h"

@@ -9,7 +9,6 @@
 #include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
-
 #include "planner/mapping/known_map.h"
 #include "planner/motion/make_motion.h"
 #include "planner/planner.h"

@@ -9,7 +9,7 @@ const std::vector<std::string>& comfort_names() {
   return names;
 }
 
-// Gentle and brisk were chosen, not tuned; docs/scenarios.md has what they come to.
+// Gentle and brisk were chosen, not tuned; docs/reference/scenarios.md has what they come to.
 ComfortProfile profile_of(Comfort comfort) noexcept {
   switch (comfort) {
     case Comfort::kGentle:

@@ -15,7 +15,7 @@ namespace jaywalk {
 [[nodiscard]] std::vector<SettingKey> laser_keys(const std::string& section);
 
 /// A robot's model from a TOML file with the tables footprint, drive, limits and laser; every key is documented in
-/// docs/configuration.md. Throws StartupError "FILE:LINE: cause; remedy".
+/// docs/reference/configuration.md. Throws StartupError "FILE:LINE: cause; remedy".
 [[nodiscard]] RobotModel load_robot_model(const std::filesystem::path& file);
 
 /// "p3dx", "wheelchair", or the file of that path.

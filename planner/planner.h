@@ -10,8 +10,8 @@
 #include "hal/types/geometry.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
-#include "planner/mapping/evidence_map.h"
 #include "planner/cost_to_go/guide.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/mapping/keep_out.h"
 #include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
@@ -20,7 +20,7 @@ namespace jaywalk {
 
 /// How movers are marked on the grid.
 enum class PlanMode {
-  kPaper,  ///< one warp number a mover: only its future position is marked (docs/algorithm.md)
+  kPaper,  ///< one warp number a mover: only its future position is marked (docs/explanation/algorithm.md)
   kFull,   ///< its present body as well
 };
 
@@ -52,10 +52,11 @@ struct PlanRequest {
   Time stamp = kNever;  ///< of the scan that the request rests on
   Pose2 map_from_robot;
   Vec2 goal_in_map;
-  double speed_mps = 0.0;                  ///< the robot's cruising speed: warp numbers count its travel
-  const EvidenceMap* still = nullptr;      ///< walls; read during submit only
-  std::span<const Track> moving = {};      ///< copied during submit
-  std::span<const StandingPedestrian> standing = {};  ///< where nobody passes, as wide as they are; read during submit only
+  double speed_mps = 0.0;              ///< the robot's cruising speed: warp numbers count its travel
+  const EvidenceMap* still = nullptr;  ///< walls; read during submit only
+  std::span<const Track> moving = {};  ///< copied during submit
+  std::span<const StandingPedestrian> standing =
+      {};                                  ///< where nobody passes, as wide as they are; read during submit only
   std::span<const MoverDisc> masked = {};  ///< for the time to go; read during submit only
   /// Marks, potential and band are computed, and status and path are theirs: for what follows that path. Where false
   /// they are the time to go's, past walls alone, and an executor has nothing to do.

@@ -1,5 +1,5 @@
 # Flags that every target shares. They are part of correctness: the same source must give the same
-# bits with any optimisation level, sanitizer, compiler and processor (docs/conventions.md).
+# bits with any optimisation level, sanitizer, compiler and processor (docs/explanation/conventions.md).
 add_library(jaywalk_flags INTERFACE)
 target_compile_features(jaywalk_flags INTERFACE cxx_std_20)
 target_include_directories(jaywalk_flags INTERFACE ${PROJECT_SOURCE_DIR})

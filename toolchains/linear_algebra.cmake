@@ -1,4 +1,4 @@
-# Eigen under the float contract (docs/conventions.md, decision 44): what needs matrices links jaywalk_linear_algebra.
+# Eigen under the float contract (docs/explanation/conventions.md, decision determinism): what needs matrices links jaywalk_linear_algebra.
 find_package(Eigen3 3.3 REQUIRED NO_MODULE) # libeigen3-dev
 add_library(jaywalk_linear_algebra INTERFACE)
 target_link_libraries(jaywalk_linear_algebra INTERFACE Eigen3::Eigen)

@@ -9,13 +9,13 @@
 #include <string>
 #include <vector>
 
-#include "firmware/backends.h"
 #include "apps/bench/bench_maps.h"
 #include "apps/bench/bench_motion.h"
 #include "apps/bench/bench_rivals.h"
 #include "apps/bench/bench_tick.h"
-#include "apps/jaywalk/progress.h"
 #include "apps/bench/timing.h"
+#include "apps/jaywalk/progress.h"
+#include "firmware/backends.h"
 #include "hal/types/errors.h"
 #include "planner/planner.h"
 

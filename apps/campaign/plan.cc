@@ -3,8 +3,8 @@
 #include <map>
 
 #include "apps/campaign/campaign.h"
-#include "hal/sim/scenario.h"
 #include "hal/maps/wall_map.h"
+#include "hal/sim/scenario.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::campaign {

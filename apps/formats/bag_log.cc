@@ -8,9 +8,9 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/laser_mount.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"
-#include "apps/formats/logs/log_checks.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {

@@ -34,8 +34,8 @@ inline constexpr std::array<RosTopic, 10> kRosTopics{{{"/scan", "sensor_msgs/msg
                                                       {"/cmd_vel", "geometry_msgs/msg/Twist"}}};
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
 
-/// A run's ticks as ROS 2's messages (docs/outputs.md says when there is one of which topic). Each message is made only
-/// where its topic is wanted. Thread: one.
+/// A run's ticks as ROS 2's messages (docs/reference/outputs.md says when there is one of which topic). Each message is
+/// made only where its topic is wanted. Thread: one.
 class RosTopics {
  public:
   /// A message in CDR of the topic of that number.

@@ -6,11 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "apps/setup/armed_session.h"
+#include "apps/setup/calibration_plot.h"
+#include "apps/setup/guided_drive.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recording_stream.h"
-#include "apps/setup/calibration_plot.h"
-#include "apps/setup/guided_drive.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

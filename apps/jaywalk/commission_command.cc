@@ -38,7 +38,8 @@ int commission_robot(const SessionOptions& options) {
 void add_commission(CLI::App& app, int& exit_code) {
   static SessionOptions commission_options;
   CLI::App* commission = app.add_subcommand("commission", "Turn each wheel a little and check how all is wired");
-  commission->add_option("robot", commission_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  commission->add_option("robot", commission_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")
+      ->required();
   commission->add_option("--socket", commission_options.control_socket, "Control socket (default: the file's)");
   commission->add_flag("--yes", commission_options.yes, "The wheels may turn: do not ask");
   commission->add_flag("--allow-no-realtime", commission_options.allow_no_realtime,

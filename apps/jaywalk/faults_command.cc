@@ -9,9 +9,9 @@
 #include <utility>
 #include <vector>
 
+#include "hal/types/errors.h"
 #include "hil/faults/fault_matrix.h"
 #include "hil/faults/matrix_files.h"
-#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {

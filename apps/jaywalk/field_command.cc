@@ -7,9 +7,9 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "firmware/backends.h"
-#include "apps/jaywalk/map_cells.h"
 #include "apps/bench/timing.h"
+#include "apps/jaywalk/map_cells.h"
+#include "firmware/backends.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -51,7 +51,7 @@ std::uint64_t seed_of(const std::string& word) {
 
 void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
-  sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/scenarios.md)")->required();
+  sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/reference/scenarios.md)")->required();
   sim->add_option_function<std::string>(
          "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
          "Seed of everything random, 0 or more (default: the scenario's)")
@@ -198,7 +198,7 @@ void add_report(CLI::App& app, int& exit_code) {
 
 void add_campaign(CLI::App& app, int& exit_code) {
   CLI::App* command = app.add_subcommand("campaign", "Many simulated runs, as one experiment that can be interrupted");
-  command->add_option("campaign", campaign_options.file, "Campaign file (TOML; docs/campaigns.md)")->required();
+  command->add_option("campaign", campaign_options.file, "Campaign file (TOML; docs/how-to/campaigns.md)")->required();
   command->add_option("--jobs", campaign_options.jobs, "Runs at a time (default: all processors)")
       ->check(CLI::Range(1, 4096));
   command

@@ -9,8 +9,8 @@
 
 #include "apps/jaywalk/interruption.h"
 #include "apps/jaywalk/progress.h"
-#include "apps/rivals/baseline.h"
 #include "apps/report/run_observer.h"
+#include "apps/rivals/baseline.h"
 #include "apps/view/sim_view.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"

@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/view/view_server.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/run_parts.h"
-#include "apps/view/view_server.h"
 
 namespace jaywalk {
 

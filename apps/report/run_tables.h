@@ -8,8 +8,8 @@
 
 namespace jaywalk {
 
-/// robot.csv, movers.csv and tracks.csv (columns: docs/outputs.md), a tick at a time; on the disk within kLongestWait
-/// of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.
+/// robot.csv, movers.csv and tracks.csv (columns: docs/reference/outputs.md), a tick at a time; on the disk within
+/// kLongestWait of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.
 class RunTables {
  public:
   static constexpr Duration kLongestWait = std::chrono::milliseconds(500);

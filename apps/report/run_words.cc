@@ -9,8 +9,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "firmware/recording/run_parts.h"
 #include "apps/report/csv_rows.h"
+#include "firmware/recording/run_parts.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk {

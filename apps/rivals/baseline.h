@@ -3,11 +3,10 @@
 #include <span>
 #include <string>
 
-
 #include "planner/cost_to_go/guide.h"
 #include "planner/motion/make_motion.h"
-#include "planner/prediction/mover_history.h"
 #include "planner/motion/robot_motion.h"
+#include "planner/prediction/mover_history.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::baseline {

@@ -3,8 +3,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "apps/setup/mount_check.h"
 #include "apps/formats/logs/log_replay.h"
+#include "apps/setup/mount_check.h"
 #include "planner/localization/localizer.h"
 #include "planner/tracking/tracker.h"
 

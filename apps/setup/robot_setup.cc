@@ -4,9 +4,9 @@
 #include <array>
 #include <cstdio>
 
-#include "drivers/laser/scanner_setup.h"
 #include "apps/setup/drive_search.h"
 #include "apps/setup/scanner_search.h"
+#include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -5,13 +5,13 @@
 #include <optional>
 #include <string>
 
-#include "apps/jaywalk/interruption.h"
-#include "firmware/loop_runner.h"
 #include "apps/formats/ros_topics.h"
+#include "apps/jaywalk/interruption.h"
 #include "apps/view/frame_store.h"
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"
 #include "apps/view/view_server.h"
+#include "firmware/loop_runner.h"
 
 namespace jaywalk {
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
-#include "drivers/wire/file_descriptor.h"
 #include "apps/view/foxglove_session.h"
 #include "apps/view/websocket.h"
+#include "drivers/wire/file_descriptor.h"
 
 namespace jaywalk::view {
 

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "firmware/robot/ring.h"
 #include "apps/view/view_client.h"
+#include "firmware/robot/ring.h"
 
 namespace jaywalk::view {
 

@@ -3,9 +3,9 @@
 #include <cstdio>
 #include <utility>
 
+#include "apps/rivals/baseline.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/types/errors.h"
-#include "apps/rivals/baseline.h"
 
 namespace jaywalk {
 namespace {

@@ -3,8 +3,8 @@
 #include <filesystem>
 #include <string>
 
-#include "firmware/backends.h"
 #include "apps/why/recorded_run.h"
+#include "firmware/backends.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"

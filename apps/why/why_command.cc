@@ -6,11 +6,11 @@
 #include <string>
 #include <vector>
 
+#include "apps/report/picture/picture.h"
+#include "apps/report/picture/scene.h"
 #include "apps/why/relived_run.h"
 #include "apps/why/why_decision.h"
 #include "apps/why/why_words.h"
-#include "apps/report/picture/picture.h"
-#include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

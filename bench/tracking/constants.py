@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The named constants of perception, and how many: docs/tracking.md, "Constants".
+"""The named constants of perception, and how many: docs/explanation/results.md#tracking-and-poses, "Constants".
 
     bench/tracking/constants.py
     bench/tracking/constants.py planner/localization

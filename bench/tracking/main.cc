@@ -1,4 +1,5 @@
-// Scores what a run believed against what was there. docs/tracking.md has the commands behind its figures.
+// Scores what a run believed against what was there. docs/explanation/results.md#tracking-and-poses has the commands
+// behind its figures.
 #include <CLI/CLI.hpp>
 #include <cmath>
 #include <cstdio>

@@ -5,8 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/shown_text.h"
 #include "apps/formats/logs/text_lines.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {

@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""How a build sees the recordings: docs/tracking.md, "Recordings", has the figures.
+"""How a build sees the recordings: docs/explanation/results.md#tracking-and-poses, "Recordings", has the figures.
 
     bench/tracking/recordings.py ../shared/data
     bench/tracking/recordings.py ../shared/data --only nobody --headings 2

@@ -1,7 +1,7 @@
 #include "bench/tracking/reference_poses.h"
 
-#include "bench/tracking/number_table.h"
 #include "apps/formats/logs/scan_lines.h"
+#include "bench/tracking/number_table.h"
 #include "hal/types/errors.h"
 #include "hal/types/laser_scan.h"
 

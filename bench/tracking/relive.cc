@@ -2,12 +2,12 @@
 
 #include <cctype>
 
+#include "apps/formats/logs/line_file.h"
+#include "apps/formats/logs/log_replay.h"
+#include "apps/report/run_tables.h"
 #include "bench/tracking/run_folder.h"
 #include "firmware/estimator.h"
 #include "firmware/recording/recording_stream.h"
-#include "apps/report/run_tables.h"
-#include "apps/formats/logs/line_file.h"
-#include "apps/formats/logs/log_replay.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {

@@ -1,5 +1,5 @@
 #pragma once
-// What a run left in its folder (docs/outputs.md), as frames to score.
+// What a run left in its folder (docs/reference/outputs.md), as frames to score.
 #include <filesystem>
 #include <functional>
 #include <map>

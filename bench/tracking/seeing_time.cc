@@ -1,12 +1,13 @@
-// How long seeing takes in a crowd: processor time of the one thread, a scan at a time. docs/performance.md.
+// How long seeing takes in a crowd: processor time of the one thread, a scan at a time.
+// docs/explanation/results.md#time.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <ctime>
 #include <memory>
 
+#include "apps/report/distribution.h"
 #include "bench/command_line.h"
 #include "bench/tracking/crowd.h"
-#include "apps/report/distribution.h"
 
 namespace jaywalk::bench {
 namespace {

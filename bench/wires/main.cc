@@ -1,5 +1,6 @@
 // How long it takes from a tick's start to its last frame, and from a scan's last byte to the first frame whose verdict
-// used it: the whole controller in real time, CAN in this process, the scanner on a real socket. docs/performance.md.
+// used it: the whole controller in real time, CAN in this process, the scanner on a real socket.
+// docs/explanation/results.md#time.
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
@@ -91,7 +92,8 @@ int main(int argc, char** argv) {
   Options options;
   CLI::App app("Times ticks and scans on their way to the wheels, in real time", "jaywalk_wire_time");
   app.add_option("--scenario", options.scenario, "The far end's world")->capture_default_str();
-  app.add_option("--robot", options.robot, "The controller's side (docs/robot.md)")->capture_default_str();
+  app.add_option("--robot", options.robot, "The controller's side (docs/tutorial/first-real-robot.md)")
+      ->capture_default_str();
   app.add_option("--seconds", options.seconds, "How long")->check(CLI::Range(1.0, 3600.0))->capture_default_str();
   app.add_option("--out", options.out, "Folder for what the run leaves")->capture_default_str();
   if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;

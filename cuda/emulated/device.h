@@ -1,6 +1,6 @@
 #pragma once
 // An emulated CUDA device on one thread of the CPU. Kernels are the project's own, compiled by the host's compiler;
-// what is launched runs when something waits for it, so that a wait that is missing shows. docs/emulated-gpu.md.
+// what is launched runs when something waits for it, so that a wait that is missing shows. cuda/README.md.
 #include <cstdint>
 #include <deque>
 #include <functional>

@@ -9,6 +9,6 @@
 #SBATCH --cpus-per-task=1
 #SBATCH --output=jaywalk-%A_%a.txt
 set -eu
-PATH=$PWD/build/firmware:$PATH
+PATH=$PWD/build:$PATH
 exec jaywalk campaign "$CAMPAIGN" --out "$OUT" --jobs "${SLURM_CPUS_PER_TASK:-1}" \
   --shard "$SLURM_ARRAY_TASK_ID/$SLURM_ARRAY_TASK_COUNT"

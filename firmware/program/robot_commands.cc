@@ -58,7 +58,7 @@ int say_goal() {
 
 void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
   CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
-  run->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  run->add_option("robot", run_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
   add_backend(*run, run_options.backend, run_options.device);
   run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
   run->add_flag("--save-map", run_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
@@ -77,7 +77,7 @@ void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
 
 void add_check(CLI::App& app, int& exit_code) {
   CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
-  check->add_option("robot", run_options.robot, "Robot file (TOML; docs/robot.md)")->required();
+  check->add_option("robot", run_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
   check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
   add_backend(*check, run_options.backend, run_options.device);
   check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, said");

@@ -18,7 +18,7 @@ namespace {
 
 constexpr std::array kLeft{"recording.jwr", "robot.csv", "movers.csv", "tracks.csv",    "summary.json",
                            "run.png",       "run.svg",   "run.mcap",   "metadata.yaml", "arming.txt",
-                           "devices.json",  "map.yaml",  "map.pgm"};  // docs/outputs.md
+                           "devices.json",  "map.yaml",  "map.pgm"};  // docs/reference/outputs.md
 
 }  // namespace
 

@@ -1,5 +1,5 @@
 #pragma once
-// What a run on a robot leaves behind beside what every run leaves (docs/outputs.md).
+// What a run on a robot leaves behind beside what every run leaves (docs/reference/outputs.md).
 #include <filesystem>
 #include <string>
 #include <vector>

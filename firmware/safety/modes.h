@@ -28,7 +28,7 @@ struct ModeRow {
   Mode mode;
   std::string_view name;
   WireOrder wire;
-  std::string_view on_the_wire;  ///< in words, for docs/safety.md
+  std::string_view on_the_wire;  ///< in words, for docs/explanation/safety.md
 };
 
 /// One row a mode, in the order of Mode.

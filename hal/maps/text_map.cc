@@ -4,8 +4,8 @@
 #include <sstream>
 #include <string>
 
-#include "hal/shown_text.h"
 #include "hal/maps/wall_map.h"
+#include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 

@@ -1,5 +1,5 @@
 #pragma once
-// A scenario file (TOML, documented in docs/scenarios.md): the world, the robot in it, what moves,
+// A scenario file (TOML, documented in docs/reference/scenarios.md): the world, the robot in it, what moves,
 // what goes wrong. Loading refuses everything it does not understand.
 #include <cstdint>
 #include <filesystem>

@@ -7,8 +7,8 @@
 #include <string>
 
 #include "hal/hal.h"
-#include "hal/sim/scenario.h"
 #include "hal/maps/shapes.h"
+#include "hal/sim/scenario.h"
 
 namespace jaywalk::sim {
 

@@ -72,7 +72,7 @@ Wanderers::Blocker Wanderers::ahead(std::size_t self, double heading, const Surr
 }
 
 /// Whom the mover would run into from the side, where its zone does not look; walls cannot be met so
-/// (see docs/scenarios.md). Only coming nearer counts, so that two that touch can part.
+/// (see docs/reference/scenarios.md). Only coming nearer counts, so that two that touch can part.
 Wanderers::Blocker Wanderers::touched(std::size_t self, Vec2 next, const Surroundings& near) const noexcept {
   const MoverTruth& mover = movers_[self];
   const auto runs_into = [&](const MoverTruth& other) {

@@ -6,8 +6,8 @@
 #include <filesystem>
 #include <utility>
 
-#include "hil/emulators/byte_server.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/byte_server.h"
 
 namespace jaywalk::emulators {
 

@@ -7,8 +7,8 @@
 #include <span>
 #include <vector>
 
-#include "hil/emulators/byte_server.h"
 #include "hal/types/time.h"
+#include "hil/emulators/byte_server.h"
 
 namespace jaywalk::emulators {
 

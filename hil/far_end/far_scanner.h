@@ -1,8 +1,8 @@
 #pragma once
 #include <memory>
 
-#include "hil/emulators/scanner_server.h"
 #include "firmware/robot/robot_file.h"
+#include "hil/emulators/scanner_server.h"
 
 namespace jaywalk::rig {
 

@@ -4,10 +4,10 @@
 #include <memory>
 #include <span>
 
-#include "hil/far_end/far_scanner.h"
-#include "hil/far_end/wheel_drive.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/world.h"
+#include "hil/far_end/far_scanner.h"
+#include "hil/far_end/wheel_drive.h"
 
 namespace jaywalk::rig {
 

@@ -2,12 +2,12 @@
 #include <memory>
 #include <string_view>
 
-#include "hil/emulators/drive_objects.h"
 #include "firmware/robot/robot_file.h"
+#include "hil/emulators/drive_objects.h"
 
 namespace jaywalk::rig {
 
-/// An ODrive's watchdog as docs/robot.md advises it; longer where the loop is slow.
+/// An ODrive's watchdog as docs/tutorial/first-real-robot.md advises it; longer where the loop is slow.
 constexpr Duration kOdriveWatchdog = std::chrono::milliseconds(60);
 
 /// One wheel's drive at the far end of the bus, of any kind, in the wheel's units.

@@ -4,9 +4,9 @@
 #include <cmath>
 #include <cstdio>
 
-#include "hil/faults/matrix_files.h"
 #include "hal/types/errors.h"
 #include "hal/types/rest.h"
+#include "hil/faults/matrix_files.h"
 
 namespace jaywalk::faults {
 namespace {
@@ -135,8 +135,8 @@ FaultResult FaultBench::struck_at_speed() {
 }
 
 // The goal lies 106 degrees to the left, so that the robot has to turn: a gentle arc at 0.3 m/s is too slow for the
-// scan-based check (docs/safety.md). The reaction time starts when the left wheel, whose wiring is wrong, is commanded
-// above 0.1 m/s: below that, drive lag and encoder steps hide the fault.
+// scan-based check (docs/explanation/safety.md). The reaction time starts when the left wheel, whose wiring is wrong,
+// is commanded above 0.1 m/s: below that, drive lag and encoder steps hide the fault.
 FaultResult FaultBench::wrong_from_start() {
   constexpr double kDriving_mps = 0.1;
   FaultResult result;

@@ -1,10 +1,10 @@
 #pragma once
 #include <filesystem>
 
+#include "firmware/safety/reasons.h"
 #include "hil/far_end/in_process_robot.h"
 #include "hil/far_end/living_clock.h"
 #include "hil/faults/straight_planner.h"
-#include "firmware/safety/reasons.h"
 
 namespace jaywalk::faults {
 

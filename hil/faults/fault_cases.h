@@ -6,7 +6,8 @@
 
 namespace jaywalk::faults {
 
-/// Every fault of the matrix, in the order in which it is printed. docs/safety.md says what each stands for.
+/// Every fault of the matrix, in the order in which it is printed. docs/explanation/safety.md says what each stands
+/// for.
 [[nodiscard]] std::span<const FaultCase> all_cases() noexcept;
 
 }  // namespace jaywalk::faults

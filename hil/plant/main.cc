@@ -38,11 +38,13 @@ struct Options {
 
 Options options_from(int argc, char** argv, CLI::App& app) {
   Options options;
-  app.add_option("scenario", options.scenario, "Scenario file (docs/scenarios.md)")->required();
+  app.add_option("scenario", options.scenario, "Scenario file (docs/reference/scenarios.md)")->required();
   app.add_option("--log", options.log, "File for what happens")->required();
   app.add_option("--seed", options.seed, "Seed of everything random");
   app.add_option("--for", options.for_s, "Seconds until it ends by itself");
-  app.add_option("--robot", options.robot, "The controller's side of the same wires (docs/robot.md)")->required();
+  app.add_option("--robot", options.robot,
+                 "The controller's side of the same wires (docs/tutorial/first-real-robot.md)")
+      ->required();
   app.add_option("--can", options.can, "CAN interface (default: the controller's)");
   app.add_option("--order", options.orders, "What goes wrong from the start (hil/plant/orders.h)");
   app.parse(argc, argv);

@@ -2,7 +2,7 @@
 // The harmonic potential in complement and logarithm: u = 1 - phi, psi = -ln u. phi = 0 at the goal
 // and 1 in obstacles becomes psi = 0 and infinity, and a falling phi a falling psi. A solution is
 // kept as u = exp(-psi) v with v near 1, so that single precision resolves what phi cannot: in a
-// corridor w cells wide u falls by exp(-k) a cell (docs/algorithm.md).
+// corridor w cells wide u falls by exp(-k) a cell (docs/explanation/algorithm.md).
 #include "planner/cell/cell.h"
 #include "planner/cell/exp_log.h"
 

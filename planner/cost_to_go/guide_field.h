@@ -4,10 +4,10 @@
 #include <span>
 #include <vector>
 
-#include "planner/field/cost_repair.h"
+#include "planner/cost_to_go/guide.h"
 #include "planner/cost_to_go/guide_ways.h"
 #include "planner/cost_to_go/nearest_surfaces.h"
-#include "planner/cost_to_go/guide.h"
+#include "planner/field/cost_repair.h"
 #include "planner/planner.h"
 
 namespace jaywalk::field {

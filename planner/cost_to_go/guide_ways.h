@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/mapping/grid.h"
 #include "planner/field/start_field.h"
 #include "planner/mapping/evidence_map.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

@@ -3,8 +3,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/cost_to_go/nearest_surfaces.h"
 #include "planner/cost_to_go/guide.h"
+#include "planner/cost_to_go/nearest_surfaces.h"
 #include "planner/planner.h"
 
 namespace jaywalk::motion {

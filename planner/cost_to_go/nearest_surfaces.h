@@ -4,8 +4,8 @@
 #include <span>
 #include <vector>
 
-#include "planner/mapping/window.h"
 #include "planner/cost_to_go/guide.h"
+#include "planner/mapping/window.h"
 #include "planner/planner.h"
 
 namespace jaywalk::field {

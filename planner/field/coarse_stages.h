@@ -1,6 +1,6 @@
 #pragma once
 // Coarse levels of the potential's solver: blocks of 2 x 2 cells, weighted by exp(-2 psi), the weights
-// that make the rebased equations symmetric (docs/algorithm.md).
+// that make the rebased equations symmetric (docs/explanation/algorithm.md).
 #include "planner/field/board.h"
 #include "planner/field/executor.h"
 

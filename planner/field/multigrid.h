@@ -14,7 +14,7 @@ inline constexpr std::int32_t kCoarsestSide = 4;
 inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
 
 /// Cells a side beyond which a board's cells come from memory in every pass, and not from a cache of 32 MB: 512 x 512
-/// cells are solved in 17 MB, four times as many in 70 (docs/performance.md).
+/// cells are solved in 17 MB, four times as many in 70 (docs/explanation/results.md#time).
 inline constexpr std::int32_t kLargeSide = 512;
 
 struct Cycles {
@@ -90,7 +90,7 @@ struct CycleRules {
   /// Further sweeps after a correction, by depth; even numbers. Blocks of 8 cells are the largest that still tell the
   /// two sides of an ordinary wall apart; a level's error leaves a long corridor along them, a block or two a sweep,
   /// and they are few. Blocks of 2 and 4 tell those of a thin one apart. Numbers by trial on random maps
-  /// (docs/performance.md).
+  /// (docs/explanation/results.md#time).
   static constexpr JAYWALK_ORDER std::int32_t further_sweeps(std::int32_t depth) {
     return depth == 1 ? 6 : (depth == 2 ? 24 : (depth == kBulkyDepth ? 64 : 0));
   }

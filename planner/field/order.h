@@ -22,7 +22,7 @@ inline constexpr float kBandReach = 5.0F;
   return grid.side > 256 ? Cycles{3, 4} : Cycles{3, 5};
 }
 /// From the last submission's field: one where nothing has changed since, a second where the first has found something
-/// (docs/algorithm.md).
+/// (docs/explanation/algorithm.md).
 inline constexpr Cycles kWarmCycles{1, 2};
 
 /// Times that pits are lifted at most, and before the certificate is read again. A pit that rounding has made is a

@@ -3,8 +3,8 @@
 #include <cmath>
 
 #include "planner/cell/band.h"
-#include "planner/mapping/grid.h"
 #include "planner/field/potential_stages.h"
+#include "planner/mapping/grid.h"
 
 namespace jaywalk::field {
 

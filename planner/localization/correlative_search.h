@@ -3,8 +3,8 @@
 #include <cstddef>
 
 #include "hal/types/fixed_vector.h"
-#include "planner/mapping/evidence_map.h"
 #include "planner/localization/pose_belief.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk {
 
@@ -13,7 +13,7 @@ inline constexpr std::size_t kMostMatchPoints = 240;
 using MatchSample = FixedVector<Vec2, kMostMatchPoints>;
 
 /// What a scan is matched to. The defaults are for the map of what stands, which knows free space, and whose errors
-/// neighbouring points share: by trial, tables of docs/tracking.md.
+/// neighbouring points share: by trial, tables of docs/explanation/results.md#tracking-and-poses.
 struct ScanReference {
   const EvidenceMap& map;
   double kernel_m = 0.08;           ///< residuals beyond count less and less (Geman and McClure's kernel)

@@ -1,8 +1,8 @@
 #pragma once
 #include <optional>
 
-#include "planner/mapping/known_map.h"
 #include "planner/localization/correlative_search.h"
+#include "planner/mapping/known_map.h"
 
 namespace jaywalk {
 

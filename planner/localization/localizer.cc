@@ -19,12 +19,13 @@ constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;
 
 // Share of the points: where so much lies on walkers the map holds walkers that have only come, or turn on the spot,
-// and wheels know better. By trial; half does not do (decision 53).
+// and wheels know better. By trial; half does not do (decision localization).
 constexpr double kAmongWalkers = 0.2;
 
 // Mean fit of scans to the map over some metres: below the lower the map no longer explains them, above the upper it
 // does again. A robot that comes back to where its map was drawn long ago finds it off by the drift since. By trial on
-// Edmonton, where fits fall to 0.3; elsewhere they stay above 0.7 but for moments (docs/tracking.md).
+// Edmonton, where fits fall to 0.3; elsewhere they stay above 0.7 but for moments
+// (docs/explanation/results.md#tracking-and-poses).
 constexpr double kLostMapFit = 0.7, kFoundMapFit = 0.8, kMapFitWayM = 6.0;
 // Keyframes know no free space, and their points' errors are their own.
 constexpr double kSubmapKernelM = 0.2, kSubmapIndependentShare = 0.5;

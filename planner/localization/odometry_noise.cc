@@ -15,7 +15,8 @@ constexpr double kHeadingVarPerRad = 0.07 * 0.07;
 
 constexpr double kWindowHeadingVar = 0.1 * 0.1;
 constexpr double kWindowPositionVar = 0.14 * 0.14;
-constexpr double kMapHeading = 0.005, kMapM = 0.03;  // what the map may be off by: measured, docs/tracking.md
+constexpr double kMapHeading = 0.005,
+                 kMapM = 0.03;  // what the map may be off by: measured, docs/explanation/results.md#tracking-and-poses
 constexpr double kWindowGain = 0.5;
 
 // Kalman filter for the one number that WheelRadiusBias learns.

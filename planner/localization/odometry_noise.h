@@ -24,7 +24,7 @@ class OdometryNoiseEstimator {
  public:
   /// These wheels' doubt over that of unknown ones: at most 1, which is where they start, and never less than
   /// kLeastShare. The better of the two is taken for worse than it seems, the geometric mean of both: what slips on its
-  /// way slips when it turns, too. By trial: either alone, or one for both, is worse (decision 53).
+  /// way slips when it turns, too. By trial: either alone, or one for both, is worse (decision localization).
   [[nodiscard]] double metres() const { return metres_.beside(turns_); }
   [[nodiscard]] double turns() const { return turns_.beside(metres_); }
   [[nodiscard]] bool nothing_known() const { return metres_.believed >= 1.0 || turns_.believed >= 1.0; }

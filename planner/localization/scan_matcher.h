@@ -6,8 +6,8 @@
 // wall nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not
 // tell, as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
 // nothing.
-#include "planner/mapping/evidence_map.h"
 #include "planner/localization/correlative_search.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/scan/scan_points.h"
 
 namespace jaywalk {

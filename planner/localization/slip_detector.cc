@@ -3,7 +3,7 @@
 namespace jaywalk {
 namespace {
 
-// By trial (decision 53).
+// By trial (decision localization).
 constexpr double kDoubtfulSigmas = 3.0, kDoubtfulFit = 0.2, kBetterFit = 0.1;
 constexpr double kFitGain = 0.1;  // of the running mean
 // Without the wheels a search is wide. Scans more than 0.18 s apart would find other walls (Intel's: 0.45 degrees over

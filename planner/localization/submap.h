@@ -4,8 +4,8 @@
 #include <cstdint>
 #include <vector>
 
-#include "planner/mapping/evidence_map.h"
 #include "planner/localization/correlative_search.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk {
 

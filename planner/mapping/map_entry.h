@@ -33,7 +33,7 @@ class MapEntry {
              const Entries& entries, std::size_t count, double step_s = 0.0) noexcept;
 
   /// Marks the unknown cells along a beam without a return as observed, up to `to_in_map`. Such a cell is not free
-  /// (EvidenceMap::seen_free), and an occupied cell stays occupied (docs/decisions/0016 and 0075).
+  /// (EvidenceMap::seen_free), and an occupied cell stays occupied (docs/explanation/decisions/beams.md and 0075).
   static void mark_observed(EvidenceMap& map, Vec2 laser_in_map, Vec2 to_in_map) noexcept;
 
  private:

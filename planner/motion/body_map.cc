@@ -6,11 +6,11 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kPitch_m = 0.1;  // between samples of an outline
-constexpr double kMayStop_mps =
-    0.3;  // a pedestrian that turns about or comes to stand is slower; by trial (docs/decisions/0017)
-constexpr double kCoat_m = 0.05;   // inflates standing pedestrians, which may be wider than they are taken for
-constexpr double kGraze_m = 0.05;  // surfaces are known to so much: less deep is on the outline
+constexpr double kPitch_m = 0.1;      // between samples of an outline
+constexpr double kMayStop_mps = 0.3;  // a pedestrian that turns about or comes to stand is slower; by trial
+                                      // (docs/explanation/decisions/long-bodies.md)
+constexpr double kCoat_m = 0.05;      // inflates standing pedestrians, which may be wider than they are taken for
+constexpr double kGraze_m = 0.05;     // surfaces are known to so much: less deep is on the outline
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.
 void sample_edge(Vec2 a, Vec2 b, std::vector<Vec2>& points) {

@@ -9,9 +9,9 @@
 #include "planner/motion/motion.h"
 #include "planner/motion/speed_choice.h"
 #include "planner/motion/twist_ramp.h"
+#include "planner/planner.h"
 #include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 

@@ -9,7 +9,7 @@ namespace {
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
 constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
-constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/decisions/0081, 0083
+constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/explanation/decisions/motion-backward.md, 0083
 constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
 constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan

@@ -140,7 +140,7 @@ void TrajectoryProposals::arc_then_follow(int n, Trajectory& out) const noexcept
 }
 
 /// Turns to one of twelve headings, then drives straight on at full speed: an escape that the guide does not show
-/// (docs/decisions/0078).
+/// (docs/explanation/decisions/motion-rollouts.md).
 void TrajectoryProposals::go_straight(int n, Trajectory& out) const noexcept {
   const float heading = s_.start.heading + 2.0F * cell::kPiF * static_cast<float>(n) / static_cast<float>(kStraights);
   out.proposal = Proposal::kGoStraight;

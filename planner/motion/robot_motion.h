@@ -35,7 +35,7 @@ JAYWALK_CELL Command within(const MotionBounds& bounds, const Command& command) 
 
 /// The side (1: left, -1: right) that a robot turns to at `w` rad/s; `last` while it turns to neither.
 JAYWALK_CELL float turned_side(float w, float last) {
-  constexpr float kLeast = 0.1F;  // rad/s, as a campaign's report counts (docs/campaigns.md)
+  constexpr float kLeast = 0.1F;  // rad/s, as a campaign's report counts (docs/how-to/campaigns.md)
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 

@@ -2,8 +2,8 @@
 #include <memory>
 
 #include "planner/motion/make_motion.h"
-#include "planner/prediction/mover_history.h"
 #include "planner/motion/trajectory_cost.h"
+#include "planner/prediction/mover_history.h"
 
 namespace jaywalk::motion {
 

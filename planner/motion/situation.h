@@ -1,9 +1,9 @@
 #pragma once
-#include "planner/prediction/futures.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/stick_proposals.h"
 #include "planner/motion/trajectory.h"
+#include "planner/prediction/futures.h"
 
 namespace jaywalk::motion {
 

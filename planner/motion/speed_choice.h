@@ -23,7 +23,7 @@ struct SpeedChoiceConfig {
 /// The speed (m/s, 0 to the maximum) at which the robot, going the way from the place nearest to it, meets no mover for
 /// longest; the faster of equals, and none where all meet one at once and it is to stand then: a mover that has all
 /// but stopped is passing_speed()'s alone. Tries 0, 1/4, 1/2, 3/4 and all of the maximum against constant-velocity
-/// predictions. An empty way gives 0. Source: our own rule; docs/algorithm.md section "speed".
+/// predictions. An empty way gives 0. Source: our own rule; docs/explanation/algorithm.md section "speed".
 [[nodiscard]] double choose_speed(const Way& way, const Pose2& map_from_robot, double speed_now_mps,
                                   std::span<const Track> tracks, const SpeedChoiceConfig& config) noexcept;
 

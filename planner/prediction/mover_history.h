@@ -5,11 +5,11 @@
 #include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 #include "planner/mapping/evidence_map.h"
+#include "planner/planner.h"
 #include "planner/prediction/occluded_movers.h"
 #include "planner/prediction/pedestrian_model.h"
 #include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
-#include "planner/planner.h"
 
 namespace jaywalk::motion {
 

@@ -55,7 +55,7 @@ struct Sweep {
 inline constexpr double kNearestSeenM = 0.2;
 
 /// The share of its reach within which a scanner sees all: makers give the reach for what is bright. Chosen:
-/// docs/decisions/0016.
+/// docs/explanation/decisions/beams.md.
 inline constexpr double kSeesAll = 0.8;
 
 /// Beams beyond kMaxBeams are left out.

@@ -1,8 +1,8 @@
 #pragma once
 // One scan taken apart.
-#include "planner/tracking/detection.h"
 #include "planner/scan/segments.h"
 #include "planner/scan/self_mask.h"
+#include "planner/tracking/detection.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {

@@ -3,12 +3,12 @@
 #include <algorithm>
 #include <limits>
 
-#include "planner/tracking/association.h"
-#include "planner/tracking/entries.h"
-#include "planner/scan/first_scans.h"
-#include "planner/tracking/given_movers.h"
 #include "planner/mapping/isolated_obstacles.h"
 #include "planner/mapping/map_entry.h"
+#include "planner/scan/first_scans.h"
+#include "planner/tracking/association.h"
+#include "planner/tracking/entries.h"
+#include "planner/tracking/given_movers.h"
 #include "planner/tracking/motion_onset.h"
 #include "planner/tracking/occlusion.h"
 #include "planner/tracking/scene.h"

@@ -1,4 +1,4 @@
-// How often blocks meet in a solve, counted on the emulated device: what docs/performance.md has.
+// How often blocks meet in a solve, counted on the emulated device: what docs/explanation/results.md#time has.
 #include <cstdio>
 
 #include "tests/cuda/cuda_rig.h"

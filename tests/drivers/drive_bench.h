@@ -6,11 +6,11 @@
 #include <vector>
 
 #include "drivers/can/in_process_bus.h"
-#include "hil/emulators/odrive_node.h"
-#include "hil/emulators/vesc_node.h"
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/odrive_node.h"
+#include "hil/emulators/vesc_node.h"
 #include "tests/drivers/drive_plant.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/watched_port.h"

@@ -3,8 +3,8 @@
 #include <functional>
 
 #include "drivers/canopen/drive_base.h"
-#include "hil/emulators/cia402_node.h"
 #include "hal/hal.h"
+#include "hil/emulators/cia402_node.h"
 
 namespace jaywalk::tests {
 

@@ -3,8 +3,8 @@
 #include <deque>
 #include <memory>
 
-#include "hil/emulators/scanner_server.h"
 #include "drivers/laser/scanner_connection.h"
+#include "hil/emulators/scanner_server.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

@@ -2,8 +2,8 @@
 
 #include <string>
 
-#include "hil/emulators/sick_server.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/sick_server.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/support/catch.h"
 

@@ -27,7 +27,7 @@ bool drives(const TickRecord& t, const DriveModel& drive) {
 }
 
 /// At 0.3 rad/s, and so tightly that the slower wheel has less than three quarters of the faster one's speed: a wider
-/// bend to the wrong side could be a wheel that slips by half (docs/safety.md, what does not hold).
+/// bend to the wrong side could be a wheel that slips by half (docs/explanation/safety.md, what does not hold).
 bool turns(const TickRecord& t, const DriveModel& drive) {
   const double left = t.wheels.left_radps, right = t.wheels.right_radps, apart = std::fabs(right - left);
   return drive.wheel_radius_m * apart / drive.track_width_m >= 0.3 &&

@@ -44,7 +44,7 @@ Scene drive_through(const std::string& name) {
 
 // The robot forces nobody in any of them today. A change of its motion that is no worse may still force somebody in a
 // few, since each scene then runs differently: three are allowed. The baseline planners force somebody in 15 or 16 of
-// the 30 scenes and collide in 3 to 13 (docs/results.md).
+// the 30 scenes and collide in 3 to 13 (docs/explanation/results.md).
 TEST_CASE("in thirty scenes of failed runs the robot collides with nobody, forces at most three movers and drives on",
           "[long]") {
   const std::vector<std::string> names = scenes();

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <limits>
 
-#include "tests/motion/moment.h"
 #include "tests/motion/guided.h"
+#include "tests/motion/moment.h"
 #include "tests/motion/track_past.h"
 #include "tests/support/catch.h"
 
@@ -38,7 +38,7 @@ class Drive {
   Vec2 mover{}, walks{};
   bool blind_guide = false;
   double least_m = 10.0;    ///< between robot's and mover's middles
-  bool in_its_way = false;  ///< the robot's middle was in the mover's zone (docs/scenarios.md)
+  bool in_its_way = false;  ///< the robot's middle was in the mover's zone (docs/reference/scenarios.md)
   double slowest = 10.0, fastest = -10.0;
   float blind_over = 0.0F;  ///< m/s, the most that a part of the body exceeded what is permitted where nothing looks
 
@@ -86,14 +86,14 @@ class Drive {
     if (blind_guide) guide.to_go_s = nothing.data();
     moment_.plan.guide = guide;
     const Track track = past_.of({.id = 1,
-                      .stamp = moment_.now,
-                      .position_in_map = mover,
-                      .velocity_in_map = walks,
-                      .covariance = {1e-4, 1e-5, 1e-3},
-                      .radius_m = 0.27,
-                      .moving = norm(walks) > 0.1,
-                      .hits = 20,
-                      .last_seen = moment_.now});
+                                  .stamp = moment_.now,
+                                  .position_in_map = mover,
+                                  .velocity_in_map = walks,
+                                  .covariance = {1e-4, 1e-5, 1e-3},
+                                  .radius_m = 0.27,
+                                  .moving = norm(walks) > 0.1,
+                                  .hits = 20,
+                                  .last_seen = moment_.now});
     moment_.tracks.assign(has_mover ? 1U : 0U, track);
     moment_.decide(planner_);
   }

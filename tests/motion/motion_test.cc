@@ -71,7 +71,7 @@ TEST_CASE("roll-outs ask for plans rarely and past pedestrians, rules with each 
   Track walker;
   walker.id = 1;
   walker.position_in_map = {1.0, 0.0};
-  walker.moving = true;
+  walker.moving = walker.has_walked = true;
   moment.tracks = {walker};
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
@@ -83,6 +83,7 @@ TEST_CASE("roll-outs ask for plans rarely and past pedestrians, rules with each 
     CHECK(request.goal_in_map == Vec2{4.0, 0.0});
     CHECK(request.moving.size() == (long_body ? 1 : 0));
     CHECK(request.masked.size() == (long_body ? 0 : 1));
+    CHECK(request.wants_potential == long_body);
     CHECK((request.body != nullptr) == long_body);
     CHECK((motion->plan_every() > Duration{0}) != long_body);
     CHECK((motion->rollouts() != nullptr) != long_body);

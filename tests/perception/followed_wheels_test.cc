@@ -3,8 +3,8 @@
 #include <cstdio>
 #include <vector>
 
-#include "bench/tracking/relative_pose.h"
 #include "apps/formats/logs/log_replay.h"
+#include "bench/tracking/relative_pose.h"
 #include "planner/localization/localizer.h"
 #include "planner/tracking/tracker.h"
 #include "tests/recording/recordings.h"
@@ -63,7 +63,7 @@ TEST_CASE("Freiburg: over 10 m scans pull the robot off wheels made from correct
   if (!file) return;
   const RelativeError error = mean_of_starts(*file);
   CHECK(error.translation_percent < 0.5);
-  CHECK(error.heading_deg < 0.6);  // the reference's own: docs/tracking.md
+  CHECK(error.heading_deg < 0.6);  // the reference's own: docs/explanation/results.md#tracking-and-poses
 }
 
 TEST_CASE("Intel: over 10 m scans pull the robot off wheels made from corrected poses by a quarter degree at most") {

@@ -1,4 +1,4 @@
-// Eigen as the float contract needs it (docs/conventions.md).
+// Eigen as the float contract needs it (docs/explanation/conventions.md).
 #include <Eigen/Dense>
 
 #include "tests/support/allocation_guard.h"

@@ -1,4 +1,5 @@
-// Seeing is under the float contract (docs/conventions.md): one drive past walkers, and a digest of all it led to.
+// Seeing is under the float contract (docs/explanation/conventions.md): one drive past walkers, and a digest of all it
+// led to.
 #include <cstdint>
 #include <cstring>
 
@@ -90,9 +91,9 @@ std::uint64_t digest_of_drive(Duration sweep) {
 }  // namespace
 
 TEST_CASE("poses, tracks and map have the same bits with every compiler, optimisation level and processor") {
-  // The digest is what g++ 11 and 12, clang 14 and aarch64 give (docs/tracking.md has the list); it changes with what
-  // perception or localisation computes. g++ 12 with -march=x86-64-v3 gives another: it fuses a rotation's two products
-  // (vfmaddsub), whatever -ffp-contract=off says; clang does not.
+  // The digest is what g++ 11 and 12, clang 14 and aarch64 give (docs/explanation/results.md#tracking-and-poses has the
+  // list); it changes with what perception or localisation computes. g++ 12 with -march=x86-64-v3 gives another: it
+  // fuses a rotation's two products (vfmaddsub), whatever -ffp-contract=off says; clang does not.
   CHECK(digest_of_drive(Duration{0}) == 0x3946bc4b4241df98ULL);
   CHECK(digest_of_drive(std::chrono::milliseconds(50)) == 0x60853013cee2ebfeULL);
 }

@@ -3,8 +3,8 @@
 #include <memory>
 #include <utility>
 
-#include "planner/tracking/detection.h"
 #include "planner/mapping/ground.h"
+#include "planner/tracking/detection.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"
 

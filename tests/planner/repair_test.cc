@@ -3,8 +3,8 @@
 #include <array>
 #include <vector>
 
-#include "planner/field/bucket_queue.h"
 #include "planner/cost_to_go/guide_field.h"
+#include "planner/field/bucket_queue.h"
 #include "tests/planner/field_rig.h"
 #include "tests/planner/same_bytes.h"
 #include "tests/support/catch.h"

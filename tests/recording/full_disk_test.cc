@@ -2,8 +2,8 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "firmware/recording/recorder.h"
 #include "apps/report/run_report.h"
+#include "firmware/recording/recorder.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"

@@ -1,7 +1,7 @@
 #include "firmware/recording/run_parts.h"
 
-#include "firmware/recording/recorder.h"
 #include "apps/report/run_report.h"
+#include "firmware/recording/recorder.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"

@@ -4,12 +4,12 @@
 #include <filesystem>
 #include <fstream>
 
-#include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "apps/setup/calibration.h"
 #include "apps/setup/guided_drive.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

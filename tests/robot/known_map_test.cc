@@ -147,7 +147,8 @@ std::optional<LaserScan> scan_if_free(const std::string& map, const Pose2& pose)
 
 }  // namespace
 
-// Two minutes, so outside the suite: robot_tests "[places]". It prints the figures of docs/robot.md.
+// Two minutes, so outside the suite: robot_tests "[places]". It prints the figures of
+// docs/tutorial/first-real-robot.md.
 TEST_CASE("places drawn at random are found on their own map or refused", "[.][places]") {
   sim::Random random(GENERATE(78U, 79U), sim::Purpose::kPlacement);
   Tally own, other;

@@ -3,13 +3,13 @@
 #include <unistd.h>
 
 #include "drivers/can/link_facts.h"
-#include "hil/emulators/byte_server.h"
-#include "hil/emulators/sick_server.h"
-#include "hil/far_end/living_clock.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/scanner_check.h"
 #include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/byte_server.h"
+#include "hil/emulators/sick_server.h"
+#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,8 +1,8 @@
 #include <filesystem>
 #include <string>
 
-#include "hal/sim/simulation.h"
 #include "hal/maps/wall_map.h"
+#include "hal/sim/simulation.h"
 #include "tests/recording/recordings.h"
 #include "tests/support/catch.h"
 

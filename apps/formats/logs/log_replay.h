@@ -3,8 +3,8 @@
 #include <memory>
 #include <optional>
 
-#include "hal/hal.h"
 #include "apps/formats/logs/recorded_log.h"
+#include "hal/hal.h"
 
 namespace jaywalk::sim {
 

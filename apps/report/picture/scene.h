@@ -12,8 +12,8 @@
 #include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/tracking/track.h"
 #include "planner/planner.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
 

@@ -7,18 +7,19 @@
 namespace jaywalk::motion::price {
 
 // Conflict with a mover, in a share of the sampled futures (mover_cost.h).
-/// s, each future's first conflict, and as much again for touching (docs/decisions/0065: 36 of 48 runs reached, 35
-/// without the second). Half of it after lost time: 12 of 37 runs reached, not 15, and 17 forced a mover, not 8 (0082).
+/// s, each future's first conflict, and as much again for touching (docs/explanation/decisions/motion-prices.md: 36 of
+/// 48 runs reached, 35 without the second). Half of it after lost time: 12 of 37 runs reached, not 15, and 17 forced a
+/// mover, not 8 (decision motion-prices).
 inline constexpr float kConflict = 200.0F;
 inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts less by a factor e: decided on again
 /// Of a conflict with a mover that has stood for long: should it set out, the robot sees that before it drives on
-/// (0069).
+/// (decision standing-pedestrians).
 inline constexpr float kStandingWeight = 0.1F;
 
 // Nearness to movers (mover_cost.h): each look, 0.2 s.
 inline constexpr float kNearMover = 0.15F;  ///< a square metre within the comfort distance
-/// A m/s faster beside a standing mover than the gap within a second, or than kPoliteMps (0015). At 1.6 the P3-DX went
-/// by at 0.6 m/s, 13 cm off (0069: passage.toml).
+/// A m/s faster beside a standing mover than the gap within a second, or than kPoliteMps (decision
+/// standing-pedestrians). At 1.6 the P3-DX went by at 0.6 m/s, 13 cm off (0069: passage.toml).
 inline constexpr float kTooFast = 4.0F;
 inline constexpr float kPoliteMps = 0.2F;
 
@@ -26,11 +27,13 @@ inline constexpr float kPoliteMps = 0.2F;
 inline constexpr float kContact = 500.0F, kNearContact = 1000.0F;  ///< each step in a surface; nearer than kContactM
 inline constexpr float kContactM = 0.03F;                          ///< pose and map err
 inline constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;       ///< a second, at the body's edge
-inline constexpr float kByWall = 0.6F, kByWallM = 0.28F;           ///< the same, farther off; not when steered (0065)
+inline constexpr float kByWall = 0.6F,
+                       kByWallM = 0.28F;  ///< the same, farther off; not when steered (decision motion-prices)
 
 // What the supervisor would brake for (stop_zone_cost.h).
 inline constexpr float kStopZone = 40.0F;  ///< all of the speed, at once; by a factor e less each second (0079: map 4)
-inline constexpr float kBlindRim = 10.0F;  ///< a m/s that the supervisor would take away, each step (0038)
+inline constexpr float kBlindRim =
+    10.0F;  ///< a m/s that the supervisor would take away, each step (decision motion-prices)
 
 // Ground that was never seen (unseen_cost.h).
 inline constexpr float kUnseen = 40.0F;        ///< a second, with all of the rim
@@ -38,21 +41,26 @@ inline constexpr float kUnseenFadesM = 0.6F;   ///< after driving on so far it h
 inline constexpr float kUnseenDared = 0.15F;   ///< a second, where the only way leads there,
 inline constexpr float kUnseenTurned = 10.0F;  ///< and for each rad/s
 
-// Comfort (comfort_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (0038).
+// Comfort (comfort_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (decision motion-prices).
 inline constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m/s, rad/s in a step
 inline constexpr float kTurning = 0.01F, kSideways = 0.03F;  ///< a squared rad/s, m/s2, each step
 inline constexpr float kBackward = 0.02F;                    ///< each step
-/// Turning to the other side than last. At 0.6 or 1.0 the robot did so 5.2 to 7 times a minute, not 5 (0038).
+/// Turning to the other side than last. At 0.6 or 1.0 the robot did so 5.2 to 7 times a minute, not 5 (decision
+/// motion-prices).
 inline constexpr float kReversal = 1.5F;
 /// Changes of speed and side are worth so much way: a faster robot drives it sooner.
 inline constexpr float kPricedAtMps = 0.6F;
 
 // Time (time_cost.h).
-inline constexpr float kImpatience = 0.25F;   ///< a second before it sets out, for each that it has stood (0038)
-inline constexpr float kMostStoodS = 4.0F;    ///< at most so many. Fewer beside movers: 37 of 100 runs, not 46 (0082)
-inline constexpr float kMostAloneS = 12.0F;   ///< with no pedestrian about; BARN, seed 706: 0.332 to 0.358 (0076)
+inline constexpr float kImpatience =
+    0.25F;  ///< a second before it sets out, for each that it has stood (decision motion-prices)
+inline constexpr float kMostStoodS =
+    4.0F;  ///< at most so many. Fewer beside movers: 37 of 100 runs, not 46 (decision motion-prices)
+inline constexpr float kMostAloneS =
+    12.0F;  ///< with no pedestrian about; BARN, seed 706: 0.332 to 0.358 (decision motion-prices)
 inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
-/// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (0038).
+/// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
+/// motion-prices).
 inline constexpr float kFacingM = 0.35F;
 inline constexpr float kMostTimeToGoS = 500.0F;  ///< where no way is known
 

@@ -9,7 +9,7 @@ namespace jaywalk::motion {
 
 /// The time that a trajectory takes, and from its end to the goal; and what it costs to stand on. Waiting for a while
 /// may look best again and again: the longer the robot has made no progress, the dearer waiting is. With no pedestrian
-/// about, backing off and returning counts as waiting, too (docs/decisions/0076).
+/// about, backing off and returning counts as waiting, too (docs/explanation/decisions/motion-prices.md).
 class TimeCost {
  public:
   explicit TimeCost(const Situation& s) : s_(s), waits_(s.guide.time_to_go(s.start.x, s.start.y) < Guide::kNoWay_s) {}

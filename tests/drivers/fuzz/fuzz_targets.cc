@@ -15,11 +15,11 @@
 #include "drivers/canopen/eds_file.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/canopen/services.h"
-#include "hil/emulators/drive_objects.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
 #include "drivers/panel/input_event.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/drive_objects.h"
 #include "tests/drivers/fuzz/fuzz_scanners.h"
 
 namespace jaywalk::tests {
