@@ -11,7 +11,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr int kBefore = 50;  // ticks: by then whoever walks is known
+constexpr int kBefore = 50;  // ticks: by then walkers are confirmed
 
 sim::Walls walls_of(const BenchMap& map, double cell_m) {
   sim::WallMap walls;

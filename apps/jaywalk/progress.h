@@ -1,5 +1,5 @@
 #pragma once
-// How far a long command is, for whoever waits at a terminal.
+// How far a long command is, for a person at a terminal.
 #include <chrono>
 #include <cstdio>
 #include <string>

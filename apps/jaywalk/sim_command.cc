@@ -117,7 +117,7 @@ Hal hal_for(sim::Simulation& simulation, SimView* view) {
   return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock};
 }
 
-/// A person who steers has the goal in mind.
+/// A steering person has the goal in mind.
 OperatorInput with_goal(const OperatorInput& input) {
   OperatorInput wanted = input;
   wanted.has_goal = input.has_goal || input.steers;

@@ -20,7 +20,7 @@ constexpr Duration kStep = std::chrono::milliseconds(2);  ///< two frames fit in
 constexpr std::uint8_t kLastNode = 127;
 constexpr std::uint32_t kDriveProfile = 402;
 
-/// Who spoke without being asked.
+/// Nodes that spoke without being asked.
 struct Voices {
   std::set<std::uint8_t> odrives, odrive_estimates, vescs;
 

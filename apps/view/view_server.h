@@ -27,7 +27,7 @@ struct ViewDoor {
 };
 
 enum class MessageKind : std::uint8_t {
-  kHello,  ///< said to everybody who joins later, too
+  kHello,  ///< also sent to clients that join later
   kField,  ///< the same
   kFrame,  ///< of this moment
   kEnd,    ///< a run's last frame: said to everybody, however slow
@@ -56,7 +56,7 @@ class ViewServer {
   /// Pages and subscribers that look now.
   [[nodiscard]] int viewers() const noexcept { return viewers_; }
   [[nodiscard]] bool has_pages() const noexcept { return has_pages_; }
-  /// A bit a channel that somebody subscribes to.
+  /// A bit a channel that a client subscribes to.
   [[nodiscard]] std::uint32_t wanted() const noexcept { return wanted_; }
   /// What to type into a browser; with the token where one is wanted.
   [[nodiscard]] std::string url() const;

@@ -35,7 +35,7 @@ struct Past {
     for (const Track& track : run.loop().tracker().tracks())
       bodies.add(track.id, t.now, track.position_in_map, track.radius_m, track.moving);
   }
-  /// Of those who are followed now.
+  /// Of the tracks followed now.
   [[nodiscard]] std::vector<Trail> trails(const RelivedRun& run) const {
     std::vector<Trail> known;
     for (const Trail& trail : bodies.trails()) {

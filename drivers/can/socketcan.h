@@ -18,7 +18,7 @@ namespace jaywalk {
 /// A place on a real bus (or vcan, slcan) through the Linux kernel.
 ///
 /// Error frames change health() and are not handed out. Bus-off is reported and stays: recovery is for a person's
-/// reset, and then for who may set the link down and up.
+/// reset, and then for permission to set the link down and up.
 class SocketCan final : public CanBus {
  public:
   /// `socket` is open_can's; the clock, which outlives this, counts the control time line.

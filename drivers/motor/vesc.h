@@ -61,7 +61,7 @@ struct Fault {  ///< message 8 with the answer to ask_fault
 };
 
 struct Message {
-  std::uint8_t controller = 0;  ///< who sent it; of the last three kinds, to whom
+  std::uint8_t controller = 0;  ///< sender; of the last three kinds, receiver
   std::variant<Status, Temperatures, Travel, Piece, PiecesEnd, Fault> content;
 };
 

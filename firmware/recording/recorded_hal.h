@@ -5,7 +5,7 @@
 
 namespace jaywalk {
 
-/// Shows one TickRecord at a time; whoever owns it moves the recording on by writing to it. The command that the
+/// Shows one TickRecord at a time; its owner moves the recording on by writing to it. The command that the
 /// controller gives is kept for comparison. Thread: the loop's.
 class RecordedHal {
  public:

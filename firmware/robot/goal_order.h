@@ -8,7 +8,7 @@
 
 namespace jaywalk {
 
-/// Where somebody tells a robot to go.
+/// Where an operator tells a robot to go.
 struct GoalOrder {
   Vec2 position_in_map;
   double heading_rad = kAnyHeading;  ///< in (-pi, pi]; NaN: any

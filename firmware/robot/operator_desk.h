@@ -32,7 +32,7 @@ struct ClosedGround {
 ///
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
-/// A fault that is latched drops the goal: after a reset somebody has to say anew where to go. A goal that was reached
+/// A fault that is latched drops the goal: after a reset the goal must be given anew. A goal that was reached
 /// is dropped too, and so is one when a person takes the stick.
 class OperatorDesk final : public OperatorPanel {
  public:

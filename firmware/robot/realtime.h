@@ -14,7 +14,7 @@ struct RealtimeWishes {
   bool required = true;         ///< a run does not start without what it asks for here
 };
 
-/// Who goes before whom where processors are few: the guard, the loop, then whoever takes in what the scanner sends.
+/// Priorities where processors are few: the guard, the loop, then the thread that reads the scanner.
 /// After them come those that take a person's orders: the joystick's and the control socket's. Planner and report are
 /// ordinary threads: a plan that takes long holds up none of these.
 [[nodiscard]] constexpr int guard_priority(const RealtimeWishes& w) { return w.priority > 0 ? w.priority + 1 : 0; }

@@ -21,7 +21,7 @@ struct RunStatus {
   bool enabled = false;
   bool proved = true;                     ///< the drives passed their whole proof since their last trouble
   std::optional<CanFrame> foreign_frame;  ///< of another master, while that is the trouble
-  bool steered = false;  ///< a person drives by the stick; who told the robot a goal before has to tell it anew
+  bool steered = false;                   ///< a person drives by the stick; an earlier goal must be given anew
   bool has_goal = false;
   bool turns_at_goal = false;  ///< has come to the goal and turns to the heading wanted there
   std::size_t goals_left = 0;  ///< of the route, the one driven to among them

@@ -25,7 +25,7 @@ class StopZone {
 
   /// +infinity when nothing is met within the look-ahead. Cost: a few steps of 4 cm for each beam within reach.
   [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
-  /// Whether a beam ends within the footprint: on a part of the robot itself, or on somebody who touches it. Such a
+  /// Whether a beam ends within the footprint: on a part of the robot itself, or on a person touching it. Such a
   /// point forbids every motion that does not leave it.
   [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;
   /// How many do.

@@ -11,7 +11,7 @@ constexpr double kOfTheFoot = 2.0 / 3.0;      // what a shin goes to and fro
 // Chosen, not measured: shins in trousers, feet a hand apart, and less than a second from a stride to standing.
 constexpr double kLegRadiusM = 0.06;
 constexpr double kLegFromMiddleM = 0.1;  // to the side
-constexpr double kStepGrowsMps = 1.0;    // who sets out or stops comes to longer or shorter steps
+constexpr double kStepGrowsMps = 1.0;    // a pedestrian starting or stopping changes its steps by this
 
 /// Where the left foot is, in half steps ahead of the middle: it stands on the ground for one step, while the body goes
 /// over it, and comes forward with the next.

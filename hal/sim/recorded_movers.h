@@ -19,9 +19,9 @@ class RecordedMovers {
 
   void place(double now_s, const RobotBody& robot) noexcept;
 
-  /// Those who are there now.
+  /// The movers that are there now.
   [[nodiscard]] std::span<const MoverTruth> movers() const noexcept { return present_; }
-  /// Most who can be there at once.
+  /// Most that can be there at once.
   [[nodiscard]] std::size_t capacity() const noexcept { return people_.size(); }
   [[nodiscard]] std::uint32_t forced() const noexcept { return forced_; }
 

@@ -34,7 +34,7 @@ World::World(const Scenario& scenario, std::uint64_t seed)
   seen_.reserve(2 * movers_.capacity());
   truth_.now = Time{};
   move_movers();
-  truth_.contacts = truth_.contacts_caused = 0;  // whoever was recorded where the robot starts is no contact of its
+  truth_.contacts = truth_.contacts_caused = 0;  // a pedestrian recorded where the robot starts is no contact of its
   truth_.map_from_robot = plant_.map_from_robot();
 }
 

@@ -12,7 +12,7 @@ namespace jaywalk::emulators {
 class ByteServer {
  public:
   virtual ~ByteServer() = default;
-  /// True while somebody is connected; a newcomer takes the place of who was there.
+  /// True while a client is connected; a newcomer takes its place.
   [[nodiscard]] bool has_peer() noexcept;
   /// Goes up by one with each peer.
   [[nodiscard]] std::uint64_t peers() const noexcept { return peers_; }
@@ -60,7 +60,7 @@ class TcpServer final : public ByteServer {
   wire::FileDescriptor listener_;
 };
 
-/// A serial line: a pseudo terminal whose other end is found under `path`. Who listens there is not known; what nobody
+/// A serial line: a pseudo terminal whose other end is found under `path`. Listeners are not known; what nobody
 /// reads is lost.
 class PtyServer final : public ByteServer {
  public:

@@ -5,7 +5,7 @@
 
 namespace jaywalk::emulators {
 
-/// An LD19: ten turns a second, clockwise, 38 packets of 12 points a turn, to whoever listens. It obeys nothing.
+/// An LD19: ten turns a second, clockwise, 38 packets of 12 points a turn, to every listener. It obeys nothing.
 class LdServer final : public ScannerServer {
  public:
   LdServer(std::unique_ptr<ByteServer> wire, World world);

@@ -45,7 +45,7 @@ class OdriveNode {
   [[nodiscard]] Time heard_controller() const noexcept { return fed_; }
   /// What its encoder shows from now on, where a motor of the world's own follows velocity(): turns a second and turns.
   void measure(double velocity, double position) noexcept;
-  /// It lets go until somebody clears the error.
+  /// It lets go until the error is cleared.
   void raise_fault(std::uint32_t error) noexcept { disarm(error); }
 
  private:

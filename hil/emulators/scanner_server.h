@@ -52,8 +52,8 @@ struct SweepShape {
   return static_cast<std::uint32_t>(std::floor(static_cast<double>(range_m) / count_m + 0.5));
 }
 
-/// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells whoever
-/// wants to know. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
+/// A scanner at the far end of a wire: sweeps without end, asks the world for ranges while it does, and tells its
+/// clients. How commands and scans look is the derived class' matter. For tests and the bench; it shares no
 /// code with the driver that it talks to, except how numbers stand in bytes.
 class ScannerServer {
  public:
@@ -72,7 +72,7 @@ class ScannerServer {
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
 
-  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing; whoever else
+  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing; what else
   /// was lost stays so.
   void lose_beams(std::size_t first, std::size_t count);
   void lose_sector(double from_rad, double to_rad);
@@ -85,7 +85,7 @@ class ScannerServer {
   [[nodiscard]] const SweepShape& shape() const noexcept { return shape_; }
   /// Messages with ranges, a sweep each for most scanners.
   [[nodiscard]] std::uint64_t messages_sent() const noexcept { return messages_sent_; }
-  /// How often somebody connected.
+  /// How often a client connected.
   [[nodiscard]] std::uint64_t peers() const noexcept { return wire_->peers(); }
   [[nodiscard]] bool is_streaming() const noexcept { return streaming_; }
 

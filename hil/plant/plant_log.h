@@ -8,7 +8,7 @@
 
 namespace jaywalk::rig {
 
-/// What happened at the far end, for whoever judges a run: a line an event, "SECONDS words", seconds since start.
+/// What happened at the far end, for judging a run: a line an event, "SECONDS words", seconds since start.
 ///
 /// A drive's state that changes; the wheels begin to turn, come to rest and how; at the end what the world knows.
 /// A rest says how long after the controller's last heartbeat it came, where that is what ended the drive:

@@ -49,7 +49,7 @@ struct Guide {
   }
 
   /// The same to what the robot's body must keep clear of: a surface or a keep-out zone; below 0 in one. Of no concern
-  /// to those who walk.
+  /// to pedestrians.
   [[nodiscard]] JAYWALK_CELL float room(float x, float y) const {
     const float to_surface = distance(x, y), to_zone = keep_out.known() ? keep_out.distance(x, y) : kFar_m;
     return to_zone < to_surface ? to_zone : to_surface;

@@ -1,7 +1,7 @@
 #pragma once
 // The order of stages, once for every executor: what is done to a window's arrays between two choices of the host. An
 // order is plain values and runs wherever its executor does, on a device too: it calls nothing of the host's, and
-// chooses by `total` alone. `visits` is what its largest step takes, for whoever shares steps out.
+// chooses by `total` alone. `visits` is what its largest step takes, for sharing steps out.
 #include "planner/field/clearance_stages.h"
 #include "planner/field/field_arrays.h"
 #include "planner/field/multigrid.h"

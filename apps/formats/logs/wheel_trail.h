@@ -18,7 +18,7 @@ struct OdometryPose {
 };
 
 /// The drive that replayed wheel angles belong to. Recordings do not say what drove, and any
-/// differential drive would do: whoever integrates the angles uses the same numbers.
+/// differential drive would do: integrating the angles uses the same numbers.
 [[nodiscard]] DriveModel nominal_drive();
 
 /// Wheel readings that a differential drive integrating exact arcs turns back into the poses. Angles begin at zero with
