@@ -17,6 +17,16 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND JAYWALK_CXX_FLAGS -mno-fma)
 endif()
 
+# The fast linker, where it is and the compiler knows it (g++ from 12.1).
+include(CheckLinkerFlag)
+find_program(JAYWALK_MOLD mold)
+if(JAYWALK_MOLD)
+  check_linker_flag(CXX -fuse-ld=mold JAYWALK_LINKS_BY_MOLD)
+endif()
+if(JAYWALK_LINKS_BY_MOLD)
+  target_link_options(jaywalk_flags INTERFACE -fuse-ld=mold)
+endif()
+
 # Warnings are errors with the compilers that the project is tried with. A newer one may know new
 # warnings, and those must not keep a newcomer from building.
 set(JAYWALK_TRIED_COMPILER OFF)

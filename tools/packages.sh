@@ -12,6 +12,8 @@ missing_packages() {
   command -v cmake >/dev/null || echo cmake
   command -v ninja >/dev/null || command -v make >/dev/null || echo ninja-build
   command -v pkg-config >/dev/null || echo pkg-config
+  command -v ccache >/dev/null || echo ccache # these two for the time of a build
+  command -v mold >/dev/null || echo mold
   command -v ip >/dev/null || echo iproute2 # for the tests over wires
   command -v file >/dev/null || echo file # these two for packages
   command -v dpkg-shlibdeps >/dev/null || echo dpkg-dev
