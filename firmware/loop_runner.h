@@ -44,7 +44,7 @@ class LoopRunner {
   void report(const TrueState* truth, const OwnTime& own = {});
   /// The thread that reports: tells it of a tick that was kept.
   void report(const RunSample& sample);
-  /// Closes the recording and lets the observer finish; returns what a person looks at first. Call once, after the last
+  /// Closes the recording and finishes the observer; returns the file to look at first. Call once, after the last
   /// step. Throws StartupError where the disk does not take the summary.
   std::filesystem::path finish(RunEnd end);
   /// When all is written: throws StartupError naming the first file that the disk did not take all of.

@@ -11,7 +11,7 @@ namespace jaywalk {
 
 struct ControlSetup;
 
-/// Follows a run from outside; whatever it does not need it leaves as it is, which does nothing.
+/// Observes a run. Every function does nothing unless it is overridden.
 class TickObserver {
  public:
   virtual ~TickObserver() = default;
@@ -22,24 +22,24 @@ class TickObserver {
 
   /// Loop's thread, after each tick: copies what it wants; neither allocates nor waits.
   virtual void after_tick(const TickRecord& /*record*/, const ControlLoop& /*loop*/) noexcept {}
-  /// Planner's thread, after each plan that was made of `map`: the same.
+  /// Planner's thread, after each plan, which was made with `map`. The same limits.
   virtual void after_plan(const Planner& /*planner*/, const EvidenceMap& /*map*/, Time /*stamp*/) noexcept {}
 
-  /// Reporting thread, here and below; may be slow. Each tick that was kept.
+  /// This and all functions below: the reporting thread; they may be slow. Called once for each tick that was kept.
   virtual void report(const RunSample& /*sample*/) {}
-  /// Some 50 times a second on a robot, also where no tick came.
+  /// Called about 50 times a second on a robot, also when no tick came.
   virtual void follow() {}
-  /// Of ticks later than `last` is told in another folder. Throws StartupError where that cannot be.
+  /// Rows of ticks later than `last` go to the folder `part`. Throws StartupError where it cannot be made.
   virtual void continue_in(const std::filesystem::path& /*part*/, Time /*last*/) {}
-  /// Nothing is told in files any more.
+  /// No more rows are written.
   virtual void end_tables() {}
-  /// Written since the last continue_in().
+  /// Bytes written to the current folder.
   [[nodiscard]] virtual std::uintmax_t bytes() const { return 0; }
-  /// What the disk did not take, a line each; and whether there is such.
+  /// One line for each file that the disk did not take whole.
   [[nodiscard]] virtual std::vector<std::string> complaints() const { return {}; }
   [[nodiscard]] virtual bool is_losing() const { return false; }
-  /// Once, after the last tick. Returns what a person looks at first; empty: the folder. Throws StartupError where the
-  /// disk does not take all.
+  /// Once, after the last tick. Returns the file to look at first; empty: the run's folder. Throws StartupError where
+  /// a file cannot be written whole.
   virtual std::filesystem::path finish(const RunEnd& /*end*/, const ControlLoop& /*loop*/, const Planner& /*planner*/) {
     return {};
   }

@@ -15,7 +15,7 @@ enum class Comfort { kGentle, kNormal, kBrisk };
 /// What a profile makes of a robot's own limits, which are those of `normal`.
 struct ComfortProfile {
   double speed = 1.0, accel = 1.0, jerk = 1.0;  ///< shares; turning alike, but no quicker. None is faster.
-  double comfort_distance_m = 1.0;              ///< people whose middle is nearer than this to the robot's cost
+  double comfort_distance_m = 1.0;              ///< m; a pedestrian nearer than this to the robot costs
 };
 [[nodiscard]] ComfortProfile profile_of(Comfort comfort) noexcept;
 

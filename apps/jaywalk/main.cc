@@ -1,4 +1,5 @@
 #include <CLI/CLI.hpp>
+#include <array>
 #include <charconv>
 #include <cstdio>
 
@@ -19,6 +20,7 @@
 #include "apps/jaywalk/view_option.h"
 #include "apps/why/why_command.h"
 #include "firmware/program/choice_option.h"
+#include "firmware/program/help_footers.h"
 #include "firmware/program/parts_option.h"
 #include "firmware/program/program.h"
 #include "firmware/program/robot_commands.h"
@@ -30,6 +32,26 @@
 namespace {
 
 using namespace jaywalk;
+
+constexpr std::array<Footer, 13> kFooters{{
+    {"sim", "sim hal/sim/scenarios/crossing.toml --seed 2 --view",
+     "the goal was reached, nobody touched or made to turn", "it was not"},
+    {"replay", "replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
+     "a recording's commands come out otherwise"},
+    {"field", "field hal/sim/maps/map1.yaml --goal 24,24", "the field is certified", "it is not"},
+    {"export", "export out/sim", "exported", "-"},
+    {"why", "why out/sim 12.5", "told", "-"},
+    {"campaign", "campaign deploy/campaigns/first.toml --out out/first", "all runs are finished",
+     "it was stopped, or runs crashed or were refused"},
+    {"report", "report out/sim", "told", "runs of the campaign are missing"},
+    {"bench", "bench --largest 256 --json rows.json", "measured", "-"},
+    {"faults", "faults --out out/faults", "every row is ok", "one is not"},
+    {"commission", "commission deploy/config/wheelchair.toml", "wired as the file says", "not so"},
+    {"calibrate", "calibrate out/sim", "calibrated", "the drive tells too little"},
+    {"setup", "setup --answers answers.toml --out robot.toml", "written, and check finds all well",
+     "written, and something is not well"},
+    {"config", "config --explain laser.rate_hz", "explained", "-"},
+}};
 
 SimOptions sim_options;
 ReplayOptions replay_options;
@@ -224,6 +246,7 @@ int main(int argc, char** argv) {
     add_robot_commands(to, exit_code, observe);
     add_run_view(to);
     for (const auto add : {add_commission, add_calibrate, add_setup, add_config}) add(to, exit_code);
+    add_footers(to, kFooters);
     add_manual_options(to);
   });
 }

@@ -12,7 +12,8 @@ namespace jaywalk {
 /// What a run leaves in its folder beside the recording: tables, summary, pictures, and run.mcap where that is wanted.
 class RunObserver : public TickObserver {
  public:
-  /// `mcap`: leave run.mcap as well, with the bytes of `jaywalk export`; only for a loop whose own thread reports.
+  /// `mcap`: also write run.mcap, byte for byte what `jaywalk export` writes; only where loop and report share a
+  /// thread.
   explicit RunObserver(bool mcap = false) : wants_mcap_(mcap) {}
   /// The real walls, for the picture; without them it shows what the robot saw.
   void show_walls(std::vector<WallLine> walls) { walls_ = std::move(walls); }

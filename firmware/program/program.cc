@@ -8,7 +8,6 @@
 
 #include "firmware/backends.h"
 #include "firmware/program/command_words.h"
-#include "firmware/program/help_footers.h"
 #include "firmware/program/parse_message.h"
 #include "firmware/program/standard_streams.h"
 #include "hal/nearest_word.h"
@@ -39,7 +38,6 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const AddCommands& add_c
   app.require_subcommand(1);
   app.failure_message(parse_message);
   add_commands(app, exit_code);
-  add_footers(app);
   refuse_empty_words(argc, argv);
   require_command(app, argc, argv);
   try {

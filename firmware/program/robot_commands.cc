@@ -1,6 +1,7 @@
 #include "firmware/program/robot_commands.h"
 
 #include <algorithm>
+#include <array>
 #include <cstdio>
 #include <filesystem>
 #include <nlohmann/json.hpp>
@@ -9,6 +10,7 @@
 #include <vector>
 
 #include "firmware/program/choice_option.h"
+#include "firmware/program/help_footers.h"
 #include "firmware/program/parts_option.h"
 #include "firmware/program/run_command.h"
 #include "firmware/robot/control_socket.h"
@@ -17,6 +19,15 @@
 
 namespace jaywalk {
 namespace {
+
+constexpr std::array<Footer, 6> kFooters{{
+    {"run", "run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},
+    {"check", "check deploy/config/wheelchair.toml", "all is well", "something is not"},
+    {"goto", "goto 4.0,1.5 1.57", "the run goes", "it refuses"},
+    {"stop", "stop --now", "the run stops", "it refuses"},
+    {"reset", "reset", "the run may move again", "it refuses"},
+    {"status", "status --json", "the run answered", "it refuses"},
+}};
 
 RunOptions run_options;
 std::filesystem::path socket_path;
@@ -109,6 +120,7 @@ void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_
   add_socket(status);
   status->add_flag("--json", as_json, "As JSON: an object with a text for each line");
   status->callback([&exit_code] { exit_code = as_json ? say_as_json("status") : say("status"); });
+  add_footers(app, kFooters);
 }
 
 }  // namespace jaywalk

@@ -5,7 +5,7 @@
 int main(int argc, char** argv) {
   using namespace jaywalk;
   CLI::App app{"jaywalk on a robot. Not certified; a navigation laser is not a safety scanner.", "jaywalk_robot"};
-  const MakeObserver nothing_more = [](auto&&...) { return std::make_unique<TickObserver>(); };
+  const MakeObserver no_observer = [](auto&&...) { return std::make_unique<TickObserver>(); };
   return run_program(app, argc, argv,
-                     [&](CLI::App& to, int& exit_code) { add_robot_commands(to, exit_code, nothing_more); });
+                     [&](CLI::App& to, int& exit_code) { add_robot_commands(to, exit_code, no_observer); });
 }

@@ -25,7 +25,7 @@ struct RunOptions {
   bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
 };
 
-/// Makes what follows a run, before its first tick.
+/// Makes the observer of a run, before its first tick.
 using MakeObserver = std::function<std::unique_ptr<TickObserver>(const RunOptions& options, const RobotFile& file,
                                                                  const std::filesystem::path& control_socket)>;
 

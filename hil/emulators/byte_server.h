@@ -60,8 +60,8 @@ class TcpServer final : public ByteServer {
   wire::FileDescriptor listener_;
 };
 
-/// A serial line: a pseudo terminal whose other end is found under `path`. Listeners are not known; what nobody
-/// reads is lost.
+/// A serial line: a pseudo terminal whose other end is found under `path`. It cannot tell whether
+/// a reader is there; bytes that are not read are lost.
 class PtyServer final : public ByteServer {
  public:
   /// Replaces the link `path`. Throws StartupError where this machine has no pseudo terminals.

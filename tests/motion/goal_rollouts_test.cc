@@ -85,15 +85,7 @@ class Drive {
                                      std::numeric_limits<float>::quiet_NaN());
     if (blind_guide) guide.to_go_s = nothing.data();
     moment_.plan.guide = guide;
-    const Track track = past_.of({.id = 1,
-                                  .stamp = moment_.now,
-                                  .position_in_map = mover,
-                                  .velocity_in_map = walks,
-                                  .covariance = {1e-4, 1e-5, 1e-3},
-                                  .radius_m = 0.27,
-                                  .moving = norm(walks) > 0.1,
-                                  .hits = 20,
-                                  .last_seen = moment_.now});
+    const Track track = past_.of(mover, walks, moment_.now);
     moment_.tracks.assign(has_mover ? 1U : 0U, track);
     moment_.decide(planner_);
   }

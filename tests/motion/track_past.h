@@ -8,6 +8,18 @@ namespace jaywalk::tests {
 /// Of one track: whether it has walked, and since when it has been where it is.
 class TrackPast {
  public:
+  /// A well seen disc of 0.27 m radius.
+  [[nodiscard]] Track of(Vec2 position, Vec2 velocity, Time now) {
+    return of({.id = 1,
+               .stamp = now,
+               .position_in_map = position,
+               .velocity_in_map = velocity,
+               .covariance = {1e-4, 1e-5, 1e-3},
+               .radius_m = 0.27,
+               .moving = norm(velocity) > 0.1,
+               .hits = 20,
+               .last_seen = now});
+  }
   [[nodiscard]] Track of(Track track) {
     has_walked_ = has_walked_ || track.moving;
     if (since_ == kNever || distance(at_, track.position_in_map) > kStandsWithinM) {
