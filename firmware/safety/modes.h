@@ -28,20 +28,18 @@ struct ModeRow {
   Mode mode;
   std::string_view name;
   WireOrder wire;
-  std::string_view on_the_wire;  ///< in words, for docs/explanation/safety.md
 };
 
 /// One row a mode, in the order of Mode.
 inline constexpr std::array kModes{
-    ModeRow{Mode::kOff, "off", WireOrder::kNothing, "nothing"},
-    ModeRow{Mode::kStandby, "standby", WireOrder::kZero, "heartbeat, setpoints of zero, the arming proof; no torque"},
-    ModeRow{Mode::kArmed, "armed", WireOrder::kZero, "heartbeat, setpoints of zero; torque holds the wheels"},
-    ModeRow{Mode::kDriving, "driving", WireOrder::kSetpoints, "heartbeat, permitted speeds"},
-    ModeRow{Mode::kTurning, "turning", WireOrder::kSetpoints, "heartbeat, permitted speeds"},
-    ModeRow{Mode::kStopping, "stopping", WireOrder::kRamp, "heartbeat, speeds that ramp to zero"},
-    ModeRow{Mode::kLatched, "latched", WireOrder::kRamp,
-            "heartbeat, speeds that ramp to zero; where the feedback does not confirm it: quick stop, network stop, "
-            "then nothing"},
+    ModeRow{Mode::kOff, "off", WireOrder::kNothing},
+    ModeRow{Mode::kStandby, "standby", WireOrder::kZero},  // and the arming proof; no torque
+    ModeRow{Mode::kArmed, "armed", WireOrder::kZero},      // torque holds the wheels
+    ModeRow{Mode::kDriving, "driving", WireOrder::kSetpoints},
+    ModeRow{Mode::kTurning, "turning", WireOrder::kSetpoints},
+    ModeRow{Mode::kStopping, "stopping", WireOrder::kRamp},
+    // Where the feedback does not confirm the ramp: quick stop, network stop, then no frame.
+    ModeRow{Mode::kLatched, "latched", WireOrder::kRamp},
 };
 
 [[nodiscard]] constexpr const ModeRow& row_of(Mode mode) noexcept { return kModes[static_cast<std::size_t>(mode)]; }

@@ -104,7 +104,7 @@ void OdriveNode::move(double seconds) noexcept {
 }
 
 void OdriveNode::say(Time now) noexcept {
-  if (is_due(said_heartbeat_, heartbeat_period_, now)) send(0x01, errors_, state_);
+  if (is_due(said_heartbeat_, kHeartbeatPeriod, now)) send(0x01, errors_, state_);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
   const double position = has_encoder_ ? encoder_position_ - encoder_zero_ : position_;
   send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position)),

@@ -18,7 +18,6 @@ class OdriveNode {
 
   /// Zero: the watchdog is off, as it comes from the factory.
   void set_watchdog(Duration timeout) noexcept { watchdog_ = timeout; }
-  void set_heartbeat(Duration period) noexcept { heartbeat_period_ = period; }
   /// It says that its watchdog expired, and drives on.
   void lie_about_watchdog() noexcept { lies_ = true; }
   /// An error that clearing does not cure while it lasts; 0: it is mended.
@@ -59,7 +58,7 @@ class OdriveNode {
   CanBus& bus_;
   std::uint8_t node_;
   Duration watchdog_{std::chrono::milliseconds(60)};
-  Duration heartbeat_period_{std::chrono::milliseconds(10)};
+  static constexpr Duration kHeartbeatPeriod = std::chrono::milliseconds(10);
   bool lies_ = false, connected_ = true, estimates_ = true, stuck_ = false, deaf_ = false, muted_ = false;
   std::uint32_t lasting_error_ = 0;
   std::uint32_t errors_ = 0;
