@@ -13,7 +13,7 @@ OperatorControls::OperatorControls(const RobotFile& file, WiredDrive& drive, Clo
     watch_.emplace(clock, wiring_->joystick);
     joystick_.emplace(desk_, *watch_, wiring_->needs_dead_man, file.setup.steering != StickUse::kNone);
   }
-  gate_.emplace(joystick_ ? static_cast<OperatorPanel&>(*joystick_) : desk_, drive);
+  gate_.emplace(joystick_ ? static_cast<OperatorPanel&>(*joystick_) : desk_, desk_.permission(), drive);
 }
 
 void OperatorControls::start(int priority) {

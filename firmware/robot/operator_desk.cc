@@ -25,12 +25,16 @@ RunStatus OperatorDesk::status() {
 
 std::string OperatorDesk::take_stop(bool now) {
   const std::lock_guard lock(asking_);
-  ++wish_.number;
   ++wish_.stops;
-  wish_.route.clear();
   if (now) ++wish_.emergencies;
-  wishes_.publish(wish_);
+  wish({});
   return "stopping\n";
+}
+
+void OperatorDesk::wish(const Orders& orders) {
+  ++wish_.number;
+  wish_.orders = orders;
+  wishes_.publish(wish_);
 }
 
 std::string OperatorDesk::take_goal(std::string_view words) {
@@ -54,9 +58,7 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   if (status.latched) {
     return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
   }
-  ++wish_.number;
-  wish_.route = route;
-  wishes_.publish(wish_);
+  wish({.under = status.revoked, .route = route});
   return "going\n";
 }
 
@@ -66,21 +68,20 @@ ControlReply OperatorDesk::take_reset() {
   if (!status.latched) return "nothing to reset\n";
   if (status.bus.state != CanState::kBusOff) return reset_at_rest(status);
   // First of all: off the bus nobody knows how fast the wheels are.
-  return ControlReply([this, before = wish_.emergencies] { return restart_bus_and_reset(before); });
+  return ControlReply([this, before = wish_.stops] { return restart_bus_and_reset(before); });
 }
 
-std::string OperatorDesk::restart_bus_and_reset(std::uint32_t emergencies) {
+std::string OperatorDesk::restart_bus_and_reset(std::uint32_t stops) {
   if (const std::string complaint = restart_bus_(); !complaint.empty()) return "refused: " + complaint + "\n";
   if (!bus_comes_back()) return "refused: bus-off, and nobody is heard on the bus after a restart; see to the wires\n";
   const std::lock_guard lock(asking_);
-  if (wish_.emergencies != emergencies) return "refused: stopped anew meanwhile; see to it, then jaywalk reset\n";
+  if (wish_.stops != stops) return "refused: stopped anew meanwhile; see to it, then jaywalk reset\n";
   return reset_at_rest(statuses_.latest());
 }
 
 std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
   if (status.speed_mps > kAtRest_mps) return "refused: the robot still moves; try again when it stands\n";
-  ++wish_.resets;
-  wishes_.publish(wish_);
+  wish({.under = status.revoked, .reset = true});
   return "reset\n";
 }
 
@@ -96,10 +97,8 @@ bool OperatorDesk::bus_comes_back() {
 void OperatorDesk::close() {
   const std::lock_guard lock(asking_);
   closed_ = true;
-  ++wish_.number;
   ++wish_.stops;
-  wish_.route.clear();
-  wishes_.publish(wish_);
+  wish({});
 }
 
 OperatorInput OperatorDesk::latest() noexcept {
@@ -109,31 +108,30 @@ OperatorInput OperatorDesk::latest() noexcept {
   input_.goal_tolerance_m = tolerances_.place_m;
   input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
   input_.stop_orders = wish.stops;
-  input_.reset = wish.resets != seen_.resets;  // for one tick each
-  input_.emergency_stop = wish.emergencies != seen_.emergencies;
+  input_.emergency_stop = wish.emergencies != seen_.emergencies;  // for one tick, as a reset
+  input_.reset = is_new && permission_.give(wish.orders) && wish.orders.reset;
   seen_ = wish;
-  if (is_new) {
-    leg_ = 0;
-    head_for_leg();
-  }
+  head_for_goal();
   return input_;
 }
 
-void OperatorDesk::head_for_leg() noexcept {
-  input_.has_goal = leg_ < seen_.route.size();
-  if (!input_.has_goal) return;
-  input_.goal_in_map = seen_.route[leg_].position_in_map;
-  input_.goal_heading_rad = seen_.route[leg_].heading_rad;
+void OperatorDesk::head_for_goal() noexcept {
+  const GoalOrder* const goal = permission_.goal();
+  input_.has_goal = goal != nullptr;
+  if (goal == nullptr) return;
+  input_.goal_in_map = goal->position_in_map;
+  input_.goal_heading_rad = goal->heading_rad;
 }
 
-void OperatorDesk::tell(const RunStatus& status) noexcept {
-  const bool drops = status.latched || status.steered;
-  if (drops) leg_ = seen_.route.size();
-  if (status.goal_reached && input_.has_goal) ++leg_;
-  if (drops || status.goal_reached) head_for_leg();
-  RunStatus told = status;
-  told.goals_left = seen_.route.size() - leg_;
-  statuses_.publish(told);
+void OperatorDesk::tell(RunStatus& status) noexcept {
+  if (!status.latched) status.latched_by = Reason::kNone;
+  if (permission_.judge(status.reasons)) status.latched_by = without(status.reasons, kNoFaults);
+  if (status.goal_reached && input_.has_goal) permission_.goal_is_reached();
+  if (status.steered) permission_.give({.under = permission_.revoked()});
+  status.revoked = permission_.revoked();
+  status.goals_left = permission_.goals_left();
+  head_for_goal();
+  statuses_.publish(status);
 }
 
 }  // namespace jaywalk

@@ -8,6 +8,7 @@
 
 #include "firmware/robot/control_clients.h"
 #include "firmware/robot/goal_order.h"
+#include "firmware/robot/permission.h"
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
@@ -32,8 +33,8 @@ struct ClosedGround {
 ///
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
-/// A fault that is latched drops the goal: after a reset the goal must be given anew. A goal that was reached
-/// is dropped too, and so is one when a person takes the stick.
+/// A fault that is latched drops the goal (Permission): after a reset the goal must be given anew. A goal that was
+/// reached is dropped too, and so is one when a person takes the stick.
 class OperatorDesk final : public OperatorPanel {
  public:
   /// Brings the drives' bus back from bus-off; what went wrong, or empty. Called in the asker's thread, may wait.
@@ -57,26 +58,29 @@ class OperatorDesk final : public OperatorPanel {
 
   /// Loop's thread.
   [[nodiscard]] OperatorInput latest() noexcept override;
-  /// Loop's thread, after a tick.
-  void tell(const RunStatus& status) noexcept;
+  /// Loop's thread: what is permitted.
+  [[nodiscard]] Permission& permission() noexcept { return permission_; }
+  /// Loop's thread, after a tick: how it went. Adds what of the status the desk knows: of goals, and by what it stands.
+  void tell(RunStatus& status) noexcept;
 
  private:
   struct Wish {
-    std::uint32_t number = 0;  ///< of goals and stops
+    std::uint32_t number = 0;  ///< of what was asked for
     std::uint32_t stops = 0;
-    Route route;  ///< empty: nowhere to go
-    std::uint32_t resets = 0;
     std::uint32_t emergencies = 0;
+    Orders orders{};  ///< the newest
   };
 
   [[nodiscard]] RunStatus status();
   [[nodiscard]] std::string take_stop(bool now);
-  /// Loop's thread: the route's goal `leg_`, or none after its last.
-  void head_for_leg() noexcept;
+  /// Under the lock: takes the place of what was asked for before.
+  void wish(const Orders& orders);
+  /// Loop's thread: the goal that is permitted, or none.
+  void head_for_goal() noexcept;
   [[nodiscard]] std::string take_goal(std::string_view words);
   [[nodiscard]] ControlReply take_reset();
-  /// In a thread that may wait. `emergencies`: how many there were when the reset was asked for.
-  [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t emergencies);
+  /// In a thread that may wait. `stops`: how many there were when the reset was asked for.
+  [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t stops);
   /// Under the lock: presses reset for the loop.
   [[nodiscard]] std::string reset_at_rest(const RunStatus& status);
   /// True when the loop says that the bus is well again, within a second.
@@ -92,8 +96,8 @@ class OperatorDesk final : public OperatorPanel {
   Wish wish_;  ///< the askers'
   Mailbox<Wish> wishes_;
   Mailbox<RunStatus> statuses_;
-  Wish seen_;            ///< the loop's
-  std::size_t leg_ = 0;  ///< of the route that is driven
+  Wish seen_;  ///< the loop's
+  Permission permission_;
   OperatorInput input_;
 };
 

@@ -6,12 +6,14 @@ OperatorInput ResetGate::latest() noexcept {
   OperatorInput input = panel_.latest();
   const bool edge = input.reset && !reset_before_;
   reset_before_ = input.reset;
-  if (edge && !turns_) {
+  if (input.emergency_stop) {
+    permission_.revoke();
+  } else if (edge && !turns_) {
     drive_.reset();
-    waits_ = true;
+    permission_.let_reset_wait();
   }
-  input.reset = waits_ && (drive_.is_proved() || drive_.trouble() != DriveTrouble::kNone);
-  if (input.reset) waits_ = false;
+  input.reset = permission_.reset_waits() && drive_.is_proved();
+  if (input.reset) permission_.reset_is_done();
   return input;
 }
 

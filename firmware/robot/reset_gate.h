@@ -1,5 +1,6 @@
 #pragma once
 #include "drivers/wired_drive.h"
+#include "firmware/robot/permission.h"
 #include "hal/hal.h"
 
 namespace jaywalk {
@@ -7,12 +8,13 @@ namespace jaywalk {
 /// An operator panel in front of another whose reset reaches the loop only once the drives may turn again.
 ///
 /// A person's reset edge, at rest, resets the drives. Where they were in trouble that begins their whole proof (SAFETY
-/// 15), and the loop stays latched until both have passed it; where it fails the loop is told, and latches anew by
-/// that. Thread: the loop's.
+/// 15), and the loop stays latched until both have passed it. A stop, a fault and another order meanwhile void the
+/// reset (Permission). Thread: the loop's.
 class ResetGate final : public OperatorPanel {
  public:
-  /// Both outlive it.
-  ResetGate(OperatorPanel& panel, WiredDrive& drive) noexcept : panel_(panel), drive_(drive) {}
+  /// All outlive it.
+  ResetGate(OperatorPanel& panel, Permission& permission, WiredDrive& drive) noexcept
+      : panel_(panel), permission_(permission), drive_(drive) {}
 
   [[nodiscard]] OperatorInput latest() noexcept override;
   /// After each tick: whether a wheel is felt turning. There is no reset then.
@@ -20,10 +22,10 @@ class ResetGate final : public OperatorPanel {
 
  private:
   OperatorPanel& panel_;
+  Permission& permission_;
   WiredDrive& drive_;
   bool turns_ = false;
   bool reset_before_ = false;
-  bool waits_ = false;  ///< a reset that the loop was not told of yet
 };
 
 }  // namespace jaywalk

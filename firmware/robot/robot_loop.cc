@@ -118,10 +118,6 @@ double RobotLoop::speed_mps(const WheelState& wheels, Time now) const noexcept {
 }
 
 void RobotLoop::tell(const TickRecord& t) noexcept {
-  constexpr Reason kLimits = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
-                             Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched |
-                             Reason::kNotRecorded;
-  const bool was_latched = status_.latched;
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
   status_.speed_mps = speed_mps(t.wheels, t.now);
@@ -143,8 +139,6 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.reasons = t.verdict.reasons;
   status_.plan = t.plan_status;
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
-  if (!status_.latched) status_.latched_by = Reason::kNone;
-  if (status_.latched && !was_latched) status_.latched_by = without(t.verdict.reasons, kLimits);
   status_.drive = t.wheels.trouble;
   status_.laser = devices_.laser.health();
   status_.bus = devices_.bus.health();

@@ -46,6 +46,11 @@ constexpr bool has(Reason set, Reason bit) {
   return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit)) != 0;
 }
 
+/// Limits, remarks and states: what is no fault.
+inline constexpr Reason kNoFaults = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
+                                    Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched |
+                                    Reason::kNotRecorded | Reason::kSpeedZone;
+
 /// "stop_zone|plan_stale"; empty for none. For reports, never in the loop.
 [[nodiscard]] std::string to_string(Reason reasons);
 

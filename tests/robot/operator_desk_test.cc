@@ -22,10 +22,10 @@ struct Bench {
     desk.tell(status);
   }
   void latch() {
-    tell([](RunStatus& s) { s.latched = true, s.latched_by = Reason::kDrive; });
+    tell([](RunStatus& s) { s.latched = true, s.reasons = Reason::kLatched | Reason::kDrive; });
   }
   void unlatch() {
-    tell([](RunStatus& s) { s.latched = false; });
+    tell([](RunStatus& s) { s.latched = false, s.reasons = Reason::kNone; });
   }
 
   tests::HandClock clock;
@@ -85,8 +85,8 @@ TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of i
   CHECK(goal_x() == 0.0);
   CHECK(desk.obey("goto a b") == "going\n");
   CHECK(goal_x() == 1.0);
-  status.latched = true, desk.tell(status);
-  status.latched = false, desk.tell(status);
+  status.latched = true, status.reasons = Reason::kLatched | Reason::kBus, desk.tell(status);
+  status.latched = false, status.reasons = Reason::kNone, desk.tell(status);
   CHECK(goal_x() == 0.0);
   CHECK(desk.obey("goto attic").find("refused: goto: there is no place attic") == 0);
 }

@@ -24,6 +24,8 @@ constexpr std::array kEvents{
     Event{"no goal", [](SafetyCore& c) { c.drop_goal(); }},
     Event{"stop in", [](SafetyCore& c) { c.press_stop(); }},
     Event{"stop out", [](SafetyCore& c) { c.release_stop(); }},
+    Event{"stop now", [](SafetyCore& c) { c.stop_now(); }},
+    Event{"goal and reset as it latches", [](SafetyCore& c) { c.ask_as_it_latches(); }},
     Event{"reset", [](SafetyCore& c) { c.press_reset(); }},
     Event{"no scans", [](SafetyCore& c) { c.lose_scans(); }},
     Event{"scans", [](SafetyCore& c) { c.find_scans(); }},

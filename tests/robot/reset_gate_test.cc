@@ -39,7 +39,8 @@ struct Bench {
   }
   HeldPanel panel;
   SlowDrive drive;
-  ResetGate gate{panel, drive};
+  Permission permission;
+  ResetGate gate{panel, permission, drive};
 };
 
 }  // namespace
@@ -66,13 +67,34 @@ TEST_CASE("a reset after trouble of the drives reaches the loop when they are pr
   CHECK(bench.drive.resets == 1);
 }
 
-TEST_CASE("a proof that fails is told to the loop, which latches by it") {
+TEST_CASE("a proof that fails is a fault: it takes the reset that waited, and says so") {
+  Bench bench;
+  CHECK(bench.permission.judge(Reason::kLatched | Reason::kDrive));
+  bench.drive.proved = false;
+  CHECK_FALSE(bench.passes(true));
+  CHECK_FALSE(bench.permission.judge(Reason::kLatched));  // the trouble is forgotten
+  bench.drive.now = DriveTrouble::kNotProved;
+  CHECK_FALSE(bench.passes(false));
+  CHECK(bench.permission.judge(Reason::kLatched | Reason::kDrive));
+  CHECK_FALSE(bench.permission.judge(Reason::kLatched | Reason::kDrive));
+  bench.drive.proved = true;
+  CHECK_FALSE(bench.passes(false));
+}
+
+TEST_CASE("a stop while the proof runs takes the reset that waits, and so does one in the same tick") {
   Bench bench;
   bench.drive.proved = false;
   CHECK_FALSE(bench.passes(true));
-  bench.drive.now = DriveTrouble::kNotProved;
-  CHECK(bench.passes(false));
+  bench.panel.input.emergency_stop = true;
   CHECK_FALSE(bench.passes(false));
+  bench.panel.input.emergency_stop = false;
+  bench.drive.proved = true;
+  CHECK_FALSE(bench.passes(false));
+  bench.panel.input.emergency_stop = true;
+  CHECK_FALSE(bench.passes(true));
+  bench.panel.input.emergency_stop = false;
+  CHECK_FALSE(bench.passes(true));
+  CHECK(bench.drive.resets == 1);
 }
 
 TEST_CASE("there is no reset while a wheel is felt turning") {

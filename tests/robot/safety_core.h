@@ -1,13 +1,15 @@
 #pragma once
-// What stands between a wish and a wheel, with everything else left away: panel, reset gate, supervisor, a drive base
-// and two emulated drives, time moved on by hand. It holds the rules against every tick.
+// What stands between a wish and a wheel, with everything else left away: desk, stop button, reset gate, supervisor, a
+// drive base and two emulated drives, time moved on by hand. It holds the rules against every tick.
 #include <array>
 #include <sstream>
 #include <string>
 
 #include "drivers/can/in_process_bus.h"
+#include "firmware/robot/operator_desk.h"
 #include "firmware/robot/reset_gate.h"
 #include "firmware/safety/supervisor.h"
+#include "hal/types/rest.h"
 #include "planner/motion/diff_drive.h"
 #include "tests/drivers/drive_plant.h"
 #include "tests/drivers/watched_port.h"
@@ -23,16 +25,14 @@ class SafetyCore {
   }
 
   // What may happen.
-  void give_goal() { panel_.input.has_goal = supervisor_.mode() != Mode::kLatched; }  // the desk refuses it else
-  void drop_goal() { panel_.input.has_goal = false; }
-  void press_stop() { panel_.input.emergency_stop = true; }
-  void release_stop() { panel_.input.emergency_stop = false; }
-  void press_reset() {
-    reset_pressed_ = true;
-    panel_.input.reset = true;
-    tick();
-    panel_.input.reset = false;
-  }
+  void give_goal() { ask("goto 50 0"); }
+  void drop_goal() { ask("stop"); }
+  void stop_now() { ask("stop now"); }
+  void press_stop() { button_.held = true; }
+  void release_stop() { button_.held = false; }
+  void press_reset() { ask("reset"); }
+  /// A goal between the judgement that latches and its being told, and a reset before the tick after.
+  void ask_as_it_latches() { asks_as_it_latches_ = true; }
   void lose_scans() { scans_come_ = false; }
   void find_scans() { scans_come_ = true; }
   void tell_network(std::uint8_t command) {
@@ -55,8 +55,8 @@ class SafetyCore {
     std::ostringstream out;
     out << row_of(supervisor_.mode()).name << ' ' << name(wheels_.trouble) << ' ' << name(wheels_.stop) << ' '
         << base_.is_proved() << base_.is_enabled() << ' ' << left_.state_name() << ' ' << right_.state_name() << ' '
-        << (left_.velocity() != 0.0) << (right_.velocity() != 0.0) << ' ' << panel_.input.has_goal
-        << panel_.input.emergency_stop << scans_come_ << plugged_ << hangs_ << reset_pressed_ << proof_owed_;
+        << (left_.velocity() != 0.0) << (right_.velocity() != 0.0) << ' ' << has_goal_ << button_.held << scans_come_
+        << plugged_ << hangs_ << reset_given_ << goal_given_ << proof_owed_ << asks_as_it_latches_;
     return out.str();
   }
   /// The first rule that was broken; empty: none.
@@ -64,9 +64,16 @@ class SafetyCore {
   [[nodiscard]] Mode mode() const noexcept { return supervisor_.mode(); }
 
  private:
-  struct Panel final : OperatorPanel {
-    [[nodiscard]] OperatorInput latest() noexcept override { return input; }
-    OperatorInput input;
+  /// In front of the desk, as a joystick is.
+  struct StopButton final : OperatorPanel {
+    explicit StopButton(OperatorPanel& behind_it) noexcept : behind(behind_it) {}
+    [[nodiscard]] OperatorInput latest() noexcept override {
+      OperatorInput input = behind.latest();
+      input.emergency_stop = input.emergency_stop || held;
+      return input;
+    }
+    OperatorPanel& behind;
+    bool held = false;
   };
 
   static RobotModel model() {
@@ -99,15 +106,39 @@ class SafetyCore {
     look();
     wheels_ = base_.latest();
     const OperatorInput input = gate_.latest();
+    has_goal_ = input.has_goal;
+    if (button_.held) note_stop();
     const Time now = clock_.now();
-    permitted_ =
-        supervisor_
-            .judge(wish(input), {.scan = scan_, .wheels = wheels_, .input = input, .plan_stamp = now, .now = now})
-            .permitted;
+    const Verdict verdict = supervisor_.judge(
+        wish(input), {.scan = scan_, .wheels = wheels_, .input = input, .plan_stamp = now, .now = now});
+    permitted_ = verdict.permitted;
     base_.command(diff_drive_.wheel_speeds(permitted_, now));
-    gate_.note_turning(std::fabs(wheels_.left_radps) > 0.1 || std::fabs(wheels_.right_radps) > 0.1);
-    if (supervisor_.mode() == Mode::kLatched) panel_.input.has_goal = false;  // as the desk does
+    const bool latches = supervisor_.mode() == Mode::kLatched && before_ != Mode::kLatched && asks_as_it_latches_;
+    if (latches) ask("goto 50 0");
+    tell(verdict);
     hold_against_rules(now);
+    if (latches) asks_as_it_latches_ = false, ask("reset");
+  }
+  void tell(const Verdict& verdict) {
+    status_.running = true;
+    status_.speed_mps =
+        std::max(std::fabs(wheels_.left_radps), std::fabs(wheels_.right_radps)) * model().drive.wheel_radius_m;
+    status_.proved = base_.is_proved();
+    status_.drive = wheels_.trouble;
+    status_.reasons = verdict.reasons;
+    status_.latched = supervisor_.mode() == Mode::kLatched;
+    gate_.note_turning(status_.speed_mps > kAtRest_mps);
+    desk_.tell(status_);
+  }
+  void ask(const std::string& line) {
+    const std::string answer = desk_.obey(line);
+    if (line.starts_with("stop")) note_stop();
+    if (answer == "reset\n") reset_given_ = proof_asked_ = true;
+    if (answer == "going\n") goal_given_ = true;
+  }
+  void note_stop() {
+    goal_given_ = false;
+    if (supervisor_.mode() == Mode::kLatched) reset_given_ = false;
   }
 
   void hold_against_rules(Time now);
@@ -121,20 +152,25 @@ class SafetyCore {
   WatchedPort port_{bus_.port(0), clock_};
   emulators::Cia402Node left_{bus_.port(1), 5}, right_{bus_.port(2), 6};
   canopen::CanopenDriveBase base_;
-  Panel panel_;
-  ResetGate gate_{panel_, base_};
+  OperatorDesk desk_{clock_, {}, [] { return std::string(); }};
+  StopButton button_{desk_};
+  ResetGate gate_{button_, desk_.permission(), base_};
   Supervisor supervisor_{config()};
   DiffDrive diff_drive_{model().drive};
   LaserScan scan_{.stamp = Time{}};
   WheelState wheels_;
   Twist2 permitted_;
+  RunStatus status_;
+  bool has_goal_ = false, asks_as_it_latches_ = false;
   bool scans_come_ = true, plugged_ = true, hangs_ = false;
 
   // What the rules remember.
   Mode before_ = Mode::kStandby;
   Time latched_ = kNever;
   double speed_latched_ = 0.0;   ///< counts/s
-  bool reset_pressed_ = false;   ///< since it latched
+  bool reset_given_ = false;     ///< since it latched, and since the last stop while it was
+  bool goal_given_ = false;      ///< since it latched, and since the last stop
+  bool proof_asked_ = false;     ///< by a reset since it latched, one that a stop took back among them
   bool proof_owed_ = false;      ///< there was trouble, and since then no proof that began after a reset
   std::array<int, 2> proofs_{};  ///< writes to 1016h on the bus since the reset, by drive
   std::int32_t target_ = 0, target_before_ = 0;  ///< of the left drive, counts/s
@@ -149,7 +185,7 @@ inline void SafetyCore::follow_bus() {
     for (std::size_t k = 0; k < proofs_.size(); ++k) {
       const bool writes_watch = frame.id == 0x605U + k && (frame.bytes[0] & 0xE0U) == 0x20 && frame.bytes[1] == 0x16 &&
                                 frame.bytes[2] == 0x10;
-      if (writes_watch && reset_pressed_) ++proofs_[k];
+      if (writes_watch && proof_asked_) ++proofs_[k];
     }
     if (frame.id != 0x205 || frame.size < 6) continue;
     target_before_ = target_;
@@ -165,18 +201,20 @@ inline void SafetyCore::hold_against_rules(Time now) {
   if (mode == Mode::kLatched && before_ != Mode::kLatched) {
     latched_ = now;
     speed_latched_ = std::max(std::fabs(left_.velocity()), std::fabs(right_.velocity()));
-    reset_pressed_ = false;
+    reset_given_ = goal_given_ = false;
+    proof_asked_ = false;
     proofs_ = {};
   }
   const bool was_proved = proofs_[0] > 0 && proofs_[1] > 0 && base_.is_proved();
-  if (proof_owed_ && reset_pressed_ && was_proved) proof_owed_ = false;
+  if (proof_owed_ && was_proved) proof_owed_ = false;
   // 1: setpoints other than zero leave in three modes, and fall while latched.
   const bool may_move = row_of(mode).wire == WireOrder::kSetpoints || row_of(mode).wire == WireOrder::kRamp;
   if (target_ != 0 && !may_move) accuse("a setpoint left");
   if (mode == Mode::kLatched && target_ > target_before_ && before_ == Mode::kLatched) accuse("latched, and faster");
   // 2: from a fault to motion there is a reset and, where the drives were in trouble, their whole proof.
   if (mode == Mode::kDriving && before_ != Mode::kDriving) {
-    if (latched_ != kNever && !reset_pressed_) accuse("it drives without a reset");
+    if (latched_ != kNever && !reset_given_) accuse("it drives without a reset");
+    if (!goal_given_) accuse("it drives to a goal from before a stop or a fault");
     if (proof_owed_) accuse("it drives without a proof");
   }
   // 3: latched for the ramp and 100 ms, both wheels stand or nothing is sent; and the tick in which that begins.

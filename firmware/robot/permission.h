@@ -1,0 +1,67 @@
+#pragma once
+#include <cstdint>
+
+#include "firmware/robot/goal_order.h"
+#include "firmware/safety/reasons.h"
+
+namespace jaywalk {
+
+/// What a person asks for in one breath.
+struct Orders {
+  std::uint32_t under = 0;  ///< revocations that the asker had been told of (Permission::revoked())
+  Route route{};            ///< empty: nowhere to go
+  bool reset = false;
+};
+
+/// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every
+/// order, stop, fault and latch assigns anew, so that nothing given before them is left.
+///
+/// Orders come from other threads, which know the loop as it was a moment ago: those given before the last revocation
+/// are void, too. Thread: the loop's; never allocates, never waits.
+class Permission {
+ public:
+  /// Takes the place of all that was given before, a reset that waits among it. False: void, and nothing is given.
+  bool give(const Orders& orders) noexcept {
+    given_ = {};
+    if (orders.under != revoked_) return false;
+    given_.route = orders.route;
+    return true;
+  }
+  void revoke() noexcept {
+    revokes_reset_ = revokes_reset_ || given_.reset_waits;
+    given_ = {};
+    ++revoked_;
+  }
+  /// A tick's verdict: a latch, and a fault that comes while latched, revoke. True where it latched, or where a reset
+  /// that waited was revoked in this tick: by these reasons it stands.
+  bool judge(Reason reasons) noexcept;
+  /// How often, so far.
+  [[nodiscard]] std::uint32_t revoked() const noexcept { return revoked_; }
+
+  void let_reset_wait() noexcept { given_.reset_waits = true; }
+  [[nodiscard]] bool reset_waits() const noexcept { return given_.reset_waits; }
+  void reset_is_done() noexcept { given_.reset_waits = false; }
+
+  /// The goal that is driven to; none: nullptr.
+  [[nodiscard]] const GoalOrder* goal() const noexcept {
+    return given_.leg < given_.route.size() ? &given_.route[given_.leg] : nullptr;
+  }
+  void goal_is_reached() noexcept { given_.leg += goal() != nullptr ? 1U : 0U; }
+  /// That one among them.
+  [[nodiscard]] std::size_t goals_left() const noexcept { return given_.route.size() - given_.leg; }
+
+ private:
+  struct Given {
+    Route route;
+    std::size_t leg = 0;       ///< of the route that is driven
+    bool reset_waits = false;  ///< until the drives are proved
+  };
+
+  Given given_;
+  std::uint32_t revoked_ = 0;
+  bool revokes_reset_ = false;  ///< in this tick
+  bool latched_ = false;
+  Reason faults_ = Reason::kNone;  ///< of the tick before
+};
+
+}  // namespace jaywalk
