@@ -1,12 +1,14 @@
 #include "firmware/robot/control_clients.h"
 
+#include <fcntl.h>
 #include <poll.h>
 #include <sys/socket.h>
 
 #include <algorithm>
 #include <cerrno>
-#include <cstring>
 #include <system_error>
+
+#include "firmware/robot/stop_words.h"
 
 namespace jaywalk {
 namespace {
@@ -24,11 +26,13 @@ void send_to(int socket, std::string_view text) noexcept {
   static_cast<void>(::send(socket, text.data(), text.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
 }
 
-bool is_stop(std::string_view line) noexcept { return line.starts_with("stop"); }
+wire::FileDescriptor reserved() noexcept { return wire::FileDescriptor(::open("/dev/null", O_RDONLY | O_CLOEXEC)); }
 
 }  // namespace
 
-ControlClients::ControlClients(Answer answer) : answer_(std::move(answer)) { clients_.reserve(kMostClients + 1); }
+ControlClients::ControlClients(Answer answer) : answer_(std::move(answer)), reserve_(reserved()) {
+  clients_.reserve(kMostClients + 1);
+}
 
 void ControlClients::wait(int listener, Duration longest) {
   std::array<pollfd, kMostClients + 1> watched;
@@ -43,67 +47,85 @@ void ControlClients::wait(int listener, Duration longest) {
 }
 
 void ControlClients::serve(int listener, Time now) {
-  accept_new(listener, now);
   for (Client& client : clients_) read(client);
+  accept_new(listener, now);
   answer_job();
-  for (Client& client : clients_) {
-    if (client.state == State::kAsked && is_stop(client.order())) answer(client);
-  }
   std::size_t answers = 0;
   for (Client& client : clients_) {
     if (client.state == State::kAsked && answers++ < kMostAnswers) answer(client);
   }
   drop_done(now);
+  if (reserve_.get() < 0) reserve_ = reserved();
 }
 
 void ControlClients::accept_new(int listener, Time now) {
   for (std::size_t k = 0; k < kMostAccepted; ++k) {
-    wire::FileDescriptor socket(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
+    wire::FileDescriptor socket = accepted(listener);
     if (socket.get() < 0) return;
-    if (clients_.size() == kMostClients) make_room();
+    if (clients_.size() == kMostClients && !make_room()) return;
     Client& client = clients_.emplace_back();
     client.process = process_of(socket.get());
     client.since = now;
     client.socket = std::move(socket);
+    read(client);
   }
 }
 
-void ControlClients::make_room() {
-  const auto held_by = [this](pid_t process) {
-    return std::count_if(clients_.begin(), clients_.end(), [&](const Client& c) { return c.process == process; });
+wire::FileDescriptor ControlClients::accepted(int listener) {
+  const auto accept = [listener] {
+    return wire::FileDescriptor(::accept4(listener, nullptr, nullptr, SOCK_CLOEXEC | SOCK_NONBLOCK));
   };
-  auto loser = clients_.begin();
+  wire::FileDescriptor socket = accept();
+  if (socket.get() >= 0 || (errno != EMFILE && errno != ENFILE)) return socket;
+  if (!make_room()) reserve_ = {};
+  return accept();
+}
+
+bool ControlClients::make_room() {
+  std::array<pid_t, kMostClients> processes;
+  const auto end = std::transform(clients_.begin(), clients_.end(), processes.begin(),
+                                  [](const Client& client) { return client.process; });
+  std::sort(processes.begin(), end);
+  auto loser = clients_.end();
   std::ptrdiff_t most = 0;
   for (auto client = clients_.begin(); client != clients_.end(); ++client) {
     if (client->state == State::kAwaitsJob) continue;
-    const std::ptrdiff_t held = held_by(client->process);
+    const auto [first, last] = std::equal_range(processes.begin(), end, client->process);
+    const std::ptrdiff_t held = client->state == State::kDone ? std::ptrdiff_t{kMostClients} + 1 : last - first;
     if (held > most) loser = client, most = held;
   }
+  if (loser == clients_.end()) return false;
+  if (loser->state == State::kTalks) end_line(*loser, false);
   clients_.erase(loser);
+  return true;
 }
 
-void ControlClients::read(Client& client) noexcept {
+void ControlClients::read(Client& client) {
   if (client.state != State::kTalks) return;
-  char* const end = client.line.data() + client.length;
-  const ssize_t got = ::recv(client.socket.get(), end, client.line.size() - client.length, 0);
+  char* const end = client.text.data() + client.length;
+  const ssize_t got = ::recv(client.socket.get(), end, client.text.size() - client.length, 0);
   if (got < 0 && (errno == EAGAIN || errno == EINTR)) return;
-  if (got <= 0) {
-    client.state = State::kDone;  // went away before the end of its line
-    return;
-  }
-  client.length += static_cast<std::size_t>(got);
-  if (const void* newline = std::memchr(end, '\n', static_cast<std::size_t>(got)); newline != nullptr) {
-    client.length = static_cast<std::size_t>(static_cast<const char*>(newline) - client.line.data());
-    client.state = State::kAsked;
-  } else if (client.length == client.line.size()) {
-    send_to(client.socket.get(), "refused: too long a line\n");
-    client.state = State::kDone;
-  }
+  if (got > 0) client.length += static_cast<std::size_t>(got);
+  const std::size_t line = client.said().find('\n');
+  if (got <= 0) return end_line(client, false);
+  if (line < client.length || client.length > kLongestLine) end_line(client, line <= kLongestLine);
+}
+
+/// A stop among all that it said comes before what it said first.
+void ControlClients::end_line(Client& client, bool whole) {
+  client.state = State::kAsked;
+  if (stop_in(client.said()) != StopWords::kNone) return answer(client);
+  if (whole) return;
+  if (client.length > kLongestLine) send_to(client.socket.get(), "refused: too long a line\n");
+  client.state = State::kDone;
 }
 
 void ControlClients::answer(Client& client) {
   client.state = State::kDone;
-  const ControlReply reply = answer_(client.order());
+  constexpr std::array<std::string_view, 3> kStops{"", "stop", "stop now"};
+  const StopWords stop = stop_in(client.said());
+  const std::string_view first = client.said().substr(0, client.said().find('\n'));
+  const ControlReply reply = answer_(stop == StopWords::kNone ? first : kStops[static_cast<std::size_t>(stop)]);
   if (reply.job && job_.valid()) {
     send_to(client.socket.get(), "refused: an earlier order is still being carried out; try again\n");
   } else if (reply.job) {
@@ -133,9 +155,10 @@ void ControlClients::answer_job() {
 }
 
 void ControlClients::drop_done(Time now) {
-  std::erase_if(clients_, [now](const Client& client) {
-    return client.state == State::kDone || (client.state == State::kTalks && now - client.since > kPatience);
-  });
+  for (Client& client : clients_) {
+    if (client.state == State::kTalks && now - client.since > kPatience) end_line(client, false);
+  }
+  std::erase_if(clients_, [](const Client& client) { return client.state == State::kDone; });
 }
 
 }  // namespace jaywalk

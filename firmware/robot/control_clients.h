@@ -27,17 +27,18 @@ struct ControlReply {
 };
 
 /// Serves any number of clients in rounds; nothing in a round waits. Work per round is bounded, so that a flood costs
-/// its sender time and nobody else: kMostAccepted connections, kMostAnswers answers. Stops are answered before all
-/// else and are not counted. When all places are taken, the process with most of them loses its oldest.
+/// its sender time and nobody else: kMostAccepted connections, kMostAnswers answers. When all places or descriptors are
+/// taken, the process with most of them loses its oldest client.
 ///
-/// A stop that has come is answered in the round that reads it; it waits at most two rounds for that (one that is under
-/// way, and one more where kMostAccepted others connected before it). Thread: one.
+/// A stop (stop_words.h) is answered as soon as it is read, before all else, and is not counted: in the round that is
+/// under way when it comes, or the next. It need not be a client's first line, nor have an end where its client has.
+/// A descriptor is kept in reserve for it. Thread: one.
 class ControlClients {
  public:
   /// Must not wait. What begins with "refused" tells the asker that it failed.
   using Answer = std::function<ControlReply(std::string_view line)>;
   static constexpr std::size_t kLongestLine = 200;
-  static constexpr std::size_t kMostClients = 128, kMostAccepted = 64, kMostAnswers = 16;
+  static constexpr std::size_t kMostClients = 128, kMostAccepted = 512, kMostAnswers = 16;
   /// From connecting to the end of its line.
   static constexpr Duration kPatience = std::chrono::seconds(1);
 
@@ -54,24 +55,28 @@ class ControlClients {
     wire::FileDescriptor socket;
     pid_t process = 0;
     Time since = kNever;
-    std::array<char, kLongestLine + 1> line{};
+    std::array<char, 4 * kLongestLine> text{};
     std::size_t length = 0;
     enum class State : std::uint8_t { kTalks, kAsked, kAwaitsJob, kDone } state = State::kTalks;
-    [[nodiscard]] std::string_view order() const noexcept { return {line.data(), length}; }
+    [[nodiscard]] std::string_view said() const noexcept { return {text.data(), length}; }
   };
   using State = Client::State;
 
   void accept_new(int listener, Time now);
-  /// Drops the oldest client of the process that has most.
-  void make_room();
-  static void read(Client& client) noexcept;
+  [[nodiscard]] wire::FileDescriptor accepted(int listener);
+  /// Drops the oldest client of the process that has most; one that is done first of all. False: none can
+  /// be spared.
+  bool make_room();
+  void read(Client& client);
+  void end_line(Client& client, bool whole);
   void answer(Client& client);
   void start_job(Client& client, const std::function<std::string()>& job);
   void answer_job();
   void drop_done(Time now);
 
   Answer answer_;
-  std::vector<Client> clients_;  ///< the oldest first
+  std::vector<Client> clients_;   ///< the oldest first
+  wire::FileDescriptor reserve_;  ///< given up for a client where there is none left
   std::future<std::string> job_;
 };
 

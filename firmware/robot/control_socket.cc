@@ -1,17 +1,18 @@
 #include "firmware/robot/control_socket.h"
 
-#include <pthread.h>
-#include <signal.h>
 #include <sys/socket.h>
 #include <sys/stat.h>
 #include <sys/time.h>
 #include <sys/un.h>
+#include <unistd.h>
 
+#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstdlib>
 #include <cstring>
 
+#include "drivers/wire/thread_without_signals.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 
@@ -44,13 +45,31 @@ wire::FileDescriptor connected_to(const std::filesystem::path& path) {
   return made;
 }
 
+/// 0: there is no socket.
+ino_t inode_of(const std::filesystem::path& path) noexcept {
+  struct stat there {};
+  return ::lstat(path.c_str(), &there) == 0 && S_ISSOCK(there.st_mode) ? there.st_ino : 0;
+}
+
+/// Of a run that was killed. Whatever else has that name is kept.
+void remove_dead_socket(const std::filesystem::path& path) {
+  struct stat there {};
+  if (::lstat(path.c_str(), &there) != 0) return;
+  if (!S_ISSOCK(there.st_mode) || (there.st_uid != ::geteuid() && ::geteuid() != 0)) {
+    throw StartupError(path.string() + ": is there, and no socket of this user's",
+                       "give control_socket or --socket another name");
+  }
+  ::unlink(path.c_str());
+}
+
 wire::FileDescriptor listening_at(const std::filesystem::path& path) {
   const sockaddr_un address = address_of(path);
   if (connected_to(path).get() >= 0) {
     throw StartupError(path.string() + ": another run listens there", "end it, or give control_socket another name");
   }
-  ::unlink(address.sun_path);  // of a run that was killed
+  remove_dead_socket(path);
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
+  ::fchmod(made.get(), S_IRUSR | S_IWUSR);  // as long as it is not listening, nobody else's
   if (::bind(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
       ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0) {
     throw StartupError(path.string() + ": " + std::strerror(errno), "give control_socket a name that can be made");
@@ -75,19 +94,14 @@ std::filesystem::path default_control_socket() {
 }
 
 ControlSocket::ControlSocket(std::filesystem::path path, Answer answer, int priority)
-    : path_(std::move(path)), clients_(std::move(answer)), listener_(listening_at(path_)) {
-  sigset_t all, before;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this, priority] { serve(priority); });
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+    : path_(std::move(path)), clients_(std::move(answer)), listener_(listening_at(path_)), inode_(inode_of(path_)) {
+  thread_ = thread_without_signals("orders", [this, priority] { serve(priority); });
 }
 
 ControlSocket::~ControlSocket() {
   ending_ = true;
   thread_.join();
-  std::error_code gone;
-  std::filesystem::remove(path_, gone);
+  if (inode_of(path_) == inode_) ::unlink(path_.c_str());  // and no other file by then
 }
 
 void ControlSocket::serve(int priority) noexcept {
@@ -96,7 +110,8 @@ void ControlSocket::serve(int priority) noexcept {
     clients_.wait(listener_.get(), kLook);
     const auto began = std::chrono::steady_clock::now();
     clients_.serve(listener_.get(), Time{began.time_since_epoch()});
-    std::this_thread::sleep_until(began + kRound);
+    const auto ended = std::chrono::steady_clock::now();
+    std::this_thread::sleep_until(std::max(began + kRound, ended + (ended - began)));  // half a processor at most
   }
 }
 

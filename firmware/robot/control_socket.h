@@ -4,6 +4,8 @@
 //   goto X Y      the goal, m in the map         stop          no goal: the robot ramps to rest
 //   goto X Y H    and its heading there, rad     stop now      emergency stop, latched
 //   status        how it goes                    reset         after a latched fault, at rest
+#include <sys/types.h>
+
 #include <atomic>
 #include <filesystem>
 #include <string>
@@ -37,6 +39,7 @@ class ControlSocket {
   std::filesystem::path path_;
   ControlClients clients_;
   wire::FileDescriptor listener_;
+  ino_t inode_;  ///< the socket's
   std::atomic<bool> ending_{false};
   std::thread thread_;
 };

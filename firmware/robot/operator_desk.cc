@@ -1,12 +1,14 @@
 #include "firmware/robot/operator_desk.h"
 
+#include "firmware/robot/stop_words.h"
 #include "hal/types/errors.h"
 #include "hal/types/rest.h"
 
 namespace jaywalk {
 
 ControlReply OperatorDesk::reply_to(std::string_view line) {
-  if (line == "stop" || line == "stop now") return take_stop(line == "stop now");
+  line = trimmed(line);
+  if (const StopWords stop = stop_in(line); stop != StopWords::kNone) return take_stop(stop == StopWords::kStopNow);
   if (line == "status") return describe(status());
   if (line.starts_with("goto ")) return take_goal(line.substr(5));
   if (line == "reset") return take_reset();

@@ -20,12 +20,17 @@ std::filesystem::path place() {
 
 std::string echo(std::string_view line) { return "heard " + std::string(line) + "\n"; }
 
-/// What the socket answers to raw bytes.
-std::string answer_to(const std::string& bytes) {
-  const wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM, 0));
+sockaddr_un address_of_place() {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   std::strcpy(address.sun_path, place().c_str());
+  return address;
+}
+
+/// What the socket answers to raw bytes.
+std::string answer_to(const std::string& bytes) {
+  const wire::FileDescriptor peer(::socket(AF_UNIX, SOCK_STREAM, 0));
+  const sockaddr_un address = address_of_place();
   REQUIRE(::connect(peer.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
   static_cast<void>(::send(peer.get(), bytes.data(), bytes.size(), MSG_NOSIGNAL));
   ::shutdown(peer.get(), SHUT_WR);
@@ -60,9 +65,56 @@ TEST_CASE("a second run does not take the first one's socket, and a dead one's i
   }
   CHECK_FALSE(std::filesystem::exists(place()));
   CHECK_THROWS_AS(ask(place(), "status"), StartupError);
-  std::ofstream(place()) << "left behind";
+  {
+    const wire::FileDescriptor dead(::socket(AF_UNIX, SOCK_STREAM, 0));
+    const sockaddr_un address = address_of_place();
+    REQUIRE(::bind(dead.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) == 0);
+  }
   const ControlSocket socket(place(), echo);
   CHECK(ask(place(), "status") == "heard status\n");
+}
+
+TEST_CASE("what has the socket's name and is none is kept, whatever it is, and the run is refused") {
+  std::ofstream(place()) << "precious";
+  CHECK_THROWS_WITH(ControlSocket(place(), echo), Catch::Matchers::Contains("is there, and no socket of this user's"));
+  std::string kept;
+  std::ifstream(place()) >> kept;
+  CHECK(kept == "precious");
+  const std::filesystem::path link = place().string() + ".link";
+  std::filesystem::remove(link);
+  std::filesystem::create_symlink(place(), link);
+  CHECK_THROWS_AS(ControlSocket(link, echo), StartupError);
+  CHECK(std::filesystem::is_symlink(link));
+  CHECK(std::filesystem::is_regular_file(place()));
+  std::filesystem::remove(link);
+  std::filesystem::remove(place());
+}
+
+TEST_CASE("the end of a run takes its own socket away and nothing that lies there by then") {
+  {
+    const ControlSocket socket(place(), echo);
+    std::filesystem::remove(place());
+    std::ofstream(place()) << "precious";
+  }
+  CHECK(std::filesystem::is_regular_file(place()));
+  std::filesystem::remove(place());
+}
+
+TEST_CASE("a stop is one however it is said, as the last words of a client and after others in one write") {
+  const ControlSocket socket(place(), echo);
+  for (const char* said : {"stop now\r\n", "STOP NOW\n", "stop  now \n", "  Stop\tnow", "stop now",
+                           "goto 1 2\nstop now\n", "status\nstop now", "stop\nstop now\n"}) {
+    INFO(said);
+    CHECK(answer_to(said) == "heard stop now\n");
+  }
+  for (const char* said : {"stop", "stop\r\n", "stop here!\n", "goto 1 2\r\nSTOP\r\n", "Stopp\n"}) {
+    INFO(said);
+    CHECK(answer_to(said) == "heard stop\n");
+  }
+  for (const char* said : {"goto 1 2\n", "non stop\n", "sto\n"}) {
+    INFO(said);
+    CHECK(answer_to(said) == "heard " + std::string(said));
+  }
 }
 
 TEST_CASE("a socket that cannot be made is refused") {
