@@ -2,9 +2,10 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <signal.h>
 
 #include <algorithm>
+
+#include "drivers/wire/thread_without_signals.h"
 
 namespace jaywalk {
 
@@ -40,14 +41,8 @@ ScannerConnection::~ScannerConnection() {
   if (thread_.joinable()) thread_.join();
 }
 
-// Signals are for the threads that know what to do with them.
 bool ScannerConnection::start(int priority) {
-  sigset_t all, before;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  ::pthread_setname_np(thread_.native_handle(), "laser");
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = thread_without_signals("laser", [this] { run(); });
   const sched_param wanted{.sched_priority = priority};
   const int policy = priority > 0 ? SCHED_FIFO : SCHED_OTHER;
   return ::pthread_setschedparam(thread_.native_handle(), policy, &wanted) == 0;

@@ -2,7 +2,8 @@
 
 #include <pthread.h>
 #include <sched.h>
-#include <signal.h>
+
+#include "drivers/wire/thread_without_signals.h"
 
 namespace jaywalk::panel {
 
@@ -12,14 +13,9 @@ JoystickWatch::~JoystickWatch() {
 }
 
 void JoystickWatch::start(int priority) {
-  sigset_t all, before;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] {
+  thread_ = thread_without_signals("joystick", [this] {
     for (; !ending_; clock_.sleep_until(clock_.now() + kPeriod)) step();
   });
-  ::pthread_setname_np(thread_.native_handle(), "joystick");
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
   const sched_param wanted{.sched_priority = priority};
   if (priority > 0) ::pthread_setschedparam(thread_.native_handle(), SCHED_FIFO, &wanted);
 }

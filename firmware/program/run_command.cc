@@ -1,17 +1,16 @@
 #include "firmware/program/run_command.h"
 
-#include <signal.h>
-#include <time.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <thread>
 
 #include "drivers/can/restart_link.h"
 #include "firmware/recording/map_files.h"
+#include "firmware/recording/out_folder.h"
 #include "firmware/robot/armed_mark.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
@@ -24,6 +23,8 @@
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/service_manager.h"
+#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/stderr_relay.h"
 #include "firmware/robot/steady_clock.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
@@ -33,28 +34,7 @@ namespace {
 
 /// SAFETY: a stall of the loop that is longer than this stops the drives, whatever else happens.
 constexpr Duration kLongestStall = std::chrono::milliseconds(100);
-constexpr long kReportPeriod_ns = 20'000'000;
-
-/// SIGINT and SIGTERM wait from now on, here and in threads to come, until they are asked for.
-class EndSignals {
- public:
-  EndSignals() {
-    sigemptyset(&signals_);
-    sigaddset(&signals_, SIGINT);
-    sigaddset(&signals_, SIGTERM);
-    ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
-  }
-  /// Waits for one, kReportPeriod_ns at most.
-  [[nodiscard]] bool came() const {
-    const timespec limit{.tv_sec = 0, .tv_nsec = kReportPeriod_ns};
-    return ::sigtimedwait(&signals_, nullptr, &limit) > 0;
-  }
-
- private:
-  sigset_t signals_{};
-};
-
-void remark(const std::string& text) { std::fprintf(stderr, "jaywalk: %s\n", text.c_str()); }
+constexpr std::chrono::milliseconds kReportPeriod{20};
 
 /// What the loop's thread left for the report, and a line for a person where something happened.
 class LoopReport {
@@ -80,7 +60,7 @@ class LoopReport {
 
  private:
   void tell(const RunStatus& now) const {
-    if (now.latched && !last_.latched) {
+    if (now.latched && (!last_.latched || now.latched_by != last_.latched_by)) {
       std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
       if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
       remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
@@ -99,6 +79,14 @@ class LoopReport {
 void latch_at_start(OperatorDesk& desk) {
   static_cast<void>(desk.obey("stop now"));
   remark("the last run ended without disarming the drives: latched; see to it, then jaywalk reset");
+}
+
+/// What the drives said to their proof.
+std::vector<std::string> armed_by(WiredDrive& drive, ArmedMark& mark, const std::filesystem::path& out) {
+  mark.set();
+  const std::vector<std::string> proof = drive.arm();
+  write_arming(out, proof);
+  return proof;
 }
 
 std::string outcome(const RunStatus& last) {
@@ -139,19 +127,50 @@ void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& cl
   remark(words);
 }
 
-}  // namespace
-
-int run_robot(RunOptions options, const MakeObserver& make_observer) {
+RobotFile load_robot(const RunOptions& options) {
   RobotFile file = load_robot_file(options.robot);
   file.setup.backend = options.backend;
   file.setup.device = options.device;
   if (options.allow_no_realtime) file.realtime.required = false;
+  return file;
+}
+
+/// Where this run leaves its files: a folder of its own below --runs, or --out, where no earlier run's are.
+void choose_folder(RunOptions& options, std::optional<RunFolder>& folder) {
+  if (!options.runs.empty()) options.out = folder.emplace(options.runs, std::chrono::system_clock::now()).path();
+  const std::filesystem::path kept = set_aside(options.out);
+  if (!kept.empty()) remark("the recording of an earlier run lies in " + kept.string() + " now");
+}
+
+/// The drives are disarmed: writes what a run leaves. Returns the process's exit code.
+int conclude(const RunOptions& options, LoopRunner& runner, const LoopReport& report, const LoopTimes& times) {
+  const RunStatus& last = report.last();
+  const std::string robot = options.robot.filename().string();
+  const std::filesystem::path shown = runner.finish({.outcome = outcome(last),
+                                                     .success = outcome(last) == "reached",
+                                                     .heading_error_rad = at_goal(last),
+                                                     .missed_ticks = last.missed_ticks,
+                                                     .loop_times = &times,
+                                                     .scenario = robot,
+                                                     .title = robot + ": " + outcome(last)});
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  remark("disarmed; " + outcome(last) + "; see " + shown.string());
+  return last.latched ? 1 : 0;
+}
+
+}  // namespace
+
+int run_robot(RunOptions options, const MakeObserver& make_observer) {
+  RobotFile file = load_robot(options);
+  const StderrRelay relay;
+  SignalThread signals(order_priority(file.realtime));
   const std::string not_commissioned = require_commissioned(options.robot, file);
   if (!not_commissioned.empty()) remark(not_commissioned);
   std::optional<RunFolder> folder;
-  if (!options.runs.empty()) options.out = folder.emplace(options.runs, std::chrono::system_clock::now()).path();
+  choose_folder(options, folder);
   ServiceManager service = ServiceManager::from_environment();
-  ArmedMark armed(socket_for(options, file));
+  ArmedMark armed(own_runtime_folder(), file.drive.can);
   SteadyClock clock;
   locate_on_map(options.robot, file, clock);
   RobotDevices devices(file, clock);
@@ -177,12 +196,9 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
   controls.start(order_priority(file.realtime));
   devices.start();
-  armed.set();
-  const std::vector<std::string> proof = devices.drive().arm();
-  write_arming(options.out, proof);
+  const std::vector<std::string> proof = armed_by(devices.drive(), armed, options.out);
   if (folder) folder->keep(options.kept);
 
-  const EndSignals signals;
   if (armed.was_left()) latch_at_start(desk);
   guard.start(guard_priority(file.realtime));
   loop.start();
@@ -190,36 +206,18 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   remark("armed: " + in_short(proof) + "; ready for jaywalk goto X,Y [HEADING]");
   service.ready();
 
+  const SignalThread::Handler ends(
+      signals, [&] { service.stopping(), loop.end(); }, [&] { service.alive(loop.ticks(), clock.now()); });
   LoopReport report(runner, loop, *observer);
-  while (!loop.has_ended()) {
-    report.follow();
-    service.alive(report.last().ticks, clock.now());
-    if (!signals.came()) continue;
-    service.stopping();
-    loop.end();
-  }
+  for (; !loop.has_ended(); std::this_thread::sleep_for(kReportPeriod)) report.follow();
   service.loop_has_ended();
   report.follow();
-  const RunStatus& last = report.last();
-  const std::filesystem::path shown =
-      runner.finish({.outcome = outcome(last),
-                     .success = outcome(last) == "reached",
-                     .heading_error_rad = at_goal(last),
-                     .missed_ticks = last.missed_ticks,
-                     .loop_times = &loop.times(),
-                     .scenario = options.robot.filename().string(),
-                     .title = options.robot.filename().string() + ": " + outcome(last)});
-  write_devices(options.out, file.drive, last, not_permitted);
-  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
-  runner.require_recorded();
-  remark("disarmed; " + outcome(last) + "; see " + shown.string());
-  return last.latched ? 1 : 0;
+  write_devices(options.out, file.drive, report.last(), not_permitted);
+  return conclude(options, runner, report, loop.times());
 }
 
 int check_robot(const RunOptions& options) {
-  RobotFile file = load_robot_file(options.robot);
-  file.setup.backend = options.backend;
-  file.setup.device = options.device;
+  const RobotFile file = load_robot(options);
   const CommissioningRecord record = read_commissioned(options.robot, file);
   std::vector<CheckedPart> parts{{"file", true, options.robot.string()},
                                  {"commissioned", record.state != Commissioned::kFailed, record.said}};

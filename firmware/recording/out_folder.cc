@@ -11,6 +11,7 @@
 #include <iterator>
 #include <string>
 
+#include "firmware/recording/run_parts.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -34,6 +35,18 @@ OutFolder::OutFolder(const std::filesystem::path& path) : path_(path) {
 
 OutFolder::~OutFolder() {
   if (held_ >= 0) ::close(held_);
+}
+
+std::filesystem::path set_aside(const std::filesystem::path& out) {
+  if (!std::filesystem::exists(out / "recording.jwr") && parts_of(out).empty()) return {};
+  static_cast<void>(OutFolder(out));
+  std::filesystem::path from = std::filesystem::absolute(out).lexically_normal(), to;
+  if (!from.has_filename()) from = from.parent_path();  // "out/"
+  for (int k = 1; to.empty() || std::filesystem::exists(to); ++k) to = from.string() + "." + std::to_string(k);
+  std::error_code error;
+  std::filesystem::rename(from, to, error);
+  if (error) throw StartupError(out.string() + ": holds a run's recording: " + error.message(), "choose another --out");
+  return to;
 }
 
 void print_summary(const std::filesystem::path& out) {

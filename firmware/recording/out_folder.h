@@ -21,6 +21,11 @@ class OutFolder {
   int held_;
 };
 
+/// Where a run left its recording in `out` that folder is renamed, "out.1" for "out" and so on: no run writes over
+/// another's, which may have crashed. Returns the new name; empty where there was nothing to keep. Throws StartupError
+/// where another run writes there, or it cannot be renamed.
+std::filesystem::path set_aside(const std::filesystem::path& out);
+
 /// What summary.json in `out` says, on standard output.
 void print_summary(const std::filesystem::path& out);
 

@@ -49,8 +49,9 @@ class Recorder {
 
   /// What the disk did not take of the recording; empty: it has taken all. Draining thread.
   [[nodiscard]] std::string complaint() const { return lost_.empty() && writer_ ? writer_->complaint() : lost_; }
-  /// The disk takes no more of the recording, or of the tables beside it. Any thread.
-  [[nodiscard]] bool is_losing() const noexcept { return losing_.load(std::memory_order_relaxed); }
+  /// The disk takes no more of the recording, or of the tables beside it; or the draining thread has hung for so long
+  /// that the ring is full. Loop's thread.
+  [[nodiscard]] bool is_losing() const noexcept { return losing_.load(std::memory_order_relaxed) || !begun_in_ring_; }
   void note_loss() noexcept { losing_.store(true, std::memory_order_relaxed); }
 
   /// Records dropped so far because the ring was full. Any thread.
@@ -66,7 +67,7 @@ class Recorder {
   std::unique_ptr<RecordingWriter> writer_;
   std::vector<Slot> ring_;
   Slot spare_;  ///< what a tick fills while the ring is full
-  bool begun_in_ring_ = false;
+  bool begun_in_ring_ = true;
   Time last_drained_ = kNever;
   std::string lost_;  ///< what the disk did not take of a recording that is closed
   std::uint64_t lost_since_kept_ = 0;

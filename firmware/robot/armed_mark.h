@@ -1,14 +1,22 @@
 #pragma once
 #include <filesystem>
+#include <string>
+
+#include "drivers/wire/file_descriptor.h"
 
 namespace jaywalk {
 
-/// A file that exists while the drives are armed. Where it is there at start, the last run ended without disarming
-/// them: it was killed or it crashed. Start-up and end only, not for the loop.
+/// A folder that is this user's alone and lasts until the next boot: the first of $RUNTIME_DIRECTORY (systemd's),
+/// $XDG_RUNTIME_DIR, /run/user/UID, /run/jaywalk and jaywalk-UID in the folder for temporary files that is, or can be
+/// made. What is a link, another user's, or writable for others is left out. Throws StartupError where there is none.
+[[nodiscard]] std::filesystem::path own_runtime_folder();
+
+/// A file that exists while a robot's drives are armed. Where it is there at start, the last run on that robot ended
+/// without disarming them: it was killed or it crashed. Start-up and end only, not for the loop.
 class ArmedMark {
  public:
-  /// The mark of the run with that control socket lies beside the socket.
-  explicit ArmedMark(const std::filesystem::path& control_socket);
+  /// `robot` tells it from others: what its drives are wired to. Throws StartupError where `folder` cannot be opened.
+  ArmedMark(const std::filesystem::path& folder, std::string robot);
   /// An orderly end takes the file away.
   ~ArmedMark();
   ArmedMark(const ArmedMark&) = delete;
@@ -16,11 +24,12 @@ class ArmedMark {
 
   /// Whether the run before this one left it.
   [[nodiscard]] bool was_left() const noexcept { return was_left_; }
-  /// Throws StartupError where the file cannot be written.
+  /// Throws StartupError where the file cannot be written; a link is not followed.
   void set();
 
  private:
   std::filesystem::path file_;
+  wire::FileDescriptor folder_;
   bool was_left_, set_ = false;
 };
 

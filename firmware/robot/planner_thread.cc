@@ -1,10 +1,8 @@
 #include "firmware/robot/planner_thread.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <cassert>
 
+#include "drivers/wire/thread_without_signals.h"
 #include "planner/tracking/tracker.h"
 
 namespace jaywalk {
@@ -15,12 +13,7 @@ EvidenceMap map_for(const ControlSetup& setup) {
 
 PlannerThread::PlannerThread(std::unique_ptr<Planner> planner, const EvidenceMap& map, TickObserver& observer)
     : planner_(std::move(planner)), observer_(observer), still_(map) {
-  sigset_t all, before;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this] { run(); });
-  ::pthread_setname_np(thread_.native_handle(), "plan");
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = thread_without_signals("plan", [this] { run(); });
 }
 
 PlannerThread::~PlannerThread() {

@@ -1,12 +1,10 @@
 #include "firmware/robot/robot_loop.h"
 
-#include <pthread.h>
-#include <signal.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "drivers/wire/thread_without_signals.h"
 #include "hal/types/rest.h"
 
 namespace jaywalk {
@@ -37,11 +35,7 @@ RobotLoop::~RobotLoop() {
 }
 
 std::vector<std::string> RobotLoop::prepare(const RealtimeWishes& wishes) {
-  sigset_t all, before;  // signals are for the threads that know what to do with them
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_SETMASK, &all, &before);
-  thread_ = std::thread([this, wishes] { run(wishes); });
-  ::pthread_sigmask(SIG_SETMASK, &before, nullptr);
+  thread_ = thread_without_signals("loop", [this, wishes] { run(wishes); });
   stage_.wait(Stage::kPreparing);
   return not_permitted_;
 }
@@ -57,7 +51,6 @@ void RobotLoop::end() noexcept {
 }
 
 void RobotLoop::run(const RealtimeWishes& wishes) {
-  ::pthread_setname_np(::pthread_self(), "loop");
   not_permitted_ = enter_realtime(wishes);
   stage_ = Stage::kPrepared;
   stage_.notify_all();
@@ -142,7 +135,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.drive = t.wheels.trouble;
   status_.laser = devices_.laser.health();
   status_.bus = devices_.bus.health();
-  ++status_.ticks;
+  status_.ticks = ticks_.fetch_add(1, std::memory_order_relaxed) + 1;
   status_.stalls = guard_.stalls();
   desk_.tell(status_);
 }

@@ -59,6 +59,9 @@ class RobotLoop {
   void end() noexcept;
   [[nodiscard]] bool has_ended() const noexcept { return ended_; }
 
+  /// So far; any thread.
+  [[nodiscard]] std::uint64_t ticks() const noexcept { return ticks_.load(std::memory_order_relaxed); }
+
   /// The tick that is due at `due`, now: what the loop's thread does when it wakes. By hand where no thread was
   /// started.
   void tick(Time due) noexcept;
@@ -92,6 +95,7 @@ class RobotLoop {
   LoopTimes times_;
   std::optional<PageFaults> faults_before_;  ///< of this thread, at its first tick
   std::vector<std::string> not_permitted_;
+  std::atomic<std::uint64_t> ticks_{0};
   std::atomic<Stage> stage_{Stage::kPreparing};
   std::atomic<bool> ending_{false}, ended_{false};
   std::thread thread_;

@@ -31,7 +31,7 @@ struct RunStatus {
   double heading_error_rad = kAnyHeading;  ///< from the robot's heading to that, the short way; NaN where any will do
   Reason reasons = Reason::kNone;
   PlanStatus plan = PlanStatus::kNone;  ///< how the last plan that came went
-  std::uint32_t revoked = 0;  ///< how often goals and resets were revoked by a stop, a fault or a latch
+  std::uint32_t revoked = 0;            ///< how often goals and resets were revoked by a stop, a fault or a latch
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
   DriveTrouble drive = DriveTrouble::kNone;

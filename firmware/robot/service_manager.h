@@ -8,7 +8,7 @@
 namespace jaywalk {
 
 /// What systemd is told about a run: ready, alive, stopping (sd_notify(3): datagrams to $NOTIFY_SOCKET). Without
-/// systemd it says nothing. Thread: the one that reports, never the loop.
+/// systemd it says nothing. Threads: any but the loop's; alive() one.
 class ServiceManager {
  public:
   /// `socket`: $NOTIFY_SOCKET, a path or, after '@', a name in the abstract space; empty: none. `watchdog`: within

@@ -1,5 +1,6 @@
 #include "firmware/robot/stall_guard.h"
 
+#include "drivers/wire/thread_without_signals.h"
 #include "firmware/robot/realtime.h"
 
 namespace jaywalk {
@@ -13,7 +14,7 @@ StallGuard::~StallGuard() {
 }
 
 void StallGuard::start(int priority) {
-  thread_ = std::thread([this, priority] { watch(priority); });
+  thread_ = thread_without_signals("guard", [this, priority] { watch(priority); });
 }
 
 void StallGuard::watch(int priority) noexcept {

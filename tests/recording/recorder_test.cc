@@ -150,8 +150,10 @@ TEST_CASE("a full ring drops the tick, counts it, and the next one kept tells") 
   Recorder recorder({file, "", 4});
   for (std::uint32_t n = 0; n < 7; ++n) tick(recorder, n);
   CHECK(recorder.dropped() == 3);
+  CHECK(recorder.is_losing());  // who drains has hung: the tick knows
   REQUIRE(recorder.drain());
   tick(recorder, 7);
+  CHECK_FALSE(recorder.is_losing());
   REQUIRE(recorder.close());
 
   RecordingReader reader(file);

@@ -1,5 +1,10 @@
 #include "firmware/robot/armed_mark.h"
 
+#include <unistd.h>
+
+#include <cstdlib>
+#include <fstream>
+
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
@@ -7,31 +12,57 @@
 namespace jaywalk {
 namespace {
 
-TEST_CASE("a run that ended in order leaves no mark; one that was killed while armed does") {
+TEST_CASE("a run that ended in order leaves no mark; one that was killed while armed does, for the same robot alone") {
   const Scratch scratch;
-  const std::string socket = scratch.path("control");
   {
-    ArmedMark run(socket);
+    ArmedMark run(scratch.path(""), "can0");
     CHECK_FALSE(run.was_left());
     run.set();
-    CHECK(ArmedMark(socket).was_left());  // what a run would see that is started after a kill now
+    CHECK(ArmedMark(scratch.path(""), "can0").was_left());  // what a run would see that is started after a kill now
+    CHECK_FALSE(ArmedMark(scratch.path(""), "can1").was_left());
   }
-  CHECK_FALSE(ArmedMark(socket).was_left());
+  CHECK_FALSE(ArmedMark(scratch.path(""), "can0").was_left());
 }
 
 TEST_CASE("a run that never armed leaves the mark of the one before") {
   const Scratch scratch;
-  const std::string socket = scratch.path("control");
-  auto* killed = new ArmedMark(socket);  // its end never comes
+  auto* killed = new ArmedMark(scratch.path(""), "can0");  // its end never comes
   killed->set();
-  { const ArmedMark did_not_arm(socket); }
-  CHECK(ArmedMark(socket).was_left());
+  { const ArmedMark did_not_arm(scratch.path(""), "can0"); }
+  CHECK(ArmedMark(scratch.path(""), "can0").was_left());
   delete killed;
 }
 
 TEST_CASE("a mark that cannot be written keeps a run from starting") {
-  ArmedMark run("/nowhere/at/all/control");
+  CHECK_THROWS_AS(ArmedMark("/nowhere/at/all", "can0"), StartupError);
+}
+
+TEST_CASE("a link in the mark's place is not followed, and latches") {
+  const Scratch scratch;
+  std::ofstream(scratch.path("precious")) << "kept";
+  std::filesystem::create_symlink(scratch.path("precious"), scratch.path("jaywalk-can0.armed"));
+  ArmedMark run(scratch.path(""), "can0");
+  CHECK(run.was_left());
   CHECK_THROWS_AS(run.set(), StartupError);
+  std::string kept;
+  std::ifstream(scratch.path("precious")) >> kept;
+  CHECK(kept == "kept");
+}
+
+TEST_CASE("the folder for marks is this user's alone: one that is a link, or where others may write, is passed over") {
+  const Scratch scratch;
+  const std::string before = std::getenv("XDG_RUNTIME_DIR") != nullptr ? std::getenv("XDG_RUNTIME_DIR") : "";
+  const std::filesystem::path mine = scratch.path("mine"), link = scratch.path("link");
+  ::setenv("XDG_RUNTIME_DIR", mine.c_str(), 1);
+  CHECK(own_runtime_folder() == mine);
+  CHECK(std::filesystem::status(mine).permissions() == std::filesystem::perms::owner_all);
+  std::filesystem::permissions(mine, std::filesystem::perms::all);
+  CHECK(own_runtime_folder() != mine);
+  std::filesystem::permissions(mine, std::filesystem::perms::owner_all);
+  std::filesystem::create_directory_symlink(mine, link);
+  ::setenv("XDG_RUNTIME_DIR", link.c_str(), 1);
+  CHECK(own_runtime_folder() != link);
+  before.empty() ? ::unsetenv("XDG_RUNTIME_DIR") : ::setenv("XDG_RUNTIME_DIR", before.c_str(), 1);
 }
 
 }  // namespace

@@ -13,7 +13,8 @@ out=$(mktemp -d -p /dev/shm) || exit 1
 can=${RIG_CAN:-vcan0} far_can=${RIG_FAR_CAN:-vcan0}
 [ -e "/sys/class/net/$can" ] || { rm -r "$out"; echo "skipped: no interface $can"; exit 77; }
 sed "s/vcan0/$can/; s#/tmp/jaywalk_scanner#$out/scanner#" "$root/tools/rig/drive/${RIG_ROBOT:-robot}.toml" >"$out/robot.toml"
-export JAYWALK_SOCKET=$out/control
+export JAYWALK_SOCKET=$out/control XDG_RUNTIME_DIR=$out/own
+mkdir -m 700 "$out/own"
 failed=0
 run_pid='' plant_pid=''
 mkfifo "$out/orders"
@@ -53,6 +54,7 @@ end_plant() {
 # are the wires.
 start_run() {
   : >"$out/run.log"
+  rm -rf "$out/run"  # a run would set it aside, and the guest's memory is small
   "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --out "$out/run" "$@" >"$out/run.log" 2>&1 &
   run_pid=$!
   for _ in $(seq 100); do

@@ -3,6 +3,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "firmware/recording/out_folder.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
@@ -59,6 +60,27 @@ TEST_CASE("starts that fail, however many, leave no folder and push no run out")
 
 TEST_CASE("a place where no folder can be made is refused") {
   CHECK_THROWS_AS(RunFolder("/proc/nothing/here", at(0)), StartupError);
+}
+
+TEST_CASE("a folder that holds a run's recording, or parts of one, is set aside, and nothing in it is written over") {
+  const Scratch all;
+  const std::filesystem::path out = all.path("run");
+  CHECK(set_aside(out).empty());
+  std::filesystem::create_directories(out / "part-000003");
+  std::ofstream(out / "part-000003" / "recording.jwr") << "a crash";
+  CHECK(set_aside(out.string() + "/") == all.path("run.1"));
+  std::filesystem::create_directories(out);
+  std::ofstream(out / "notes") << "no run";
+  CHECK(set_aside(out).empty());
+  std::ofstream(out / "recording.jwr") << "another";
+  {
+    const OutFolder writes(out);
+    CHECK_THROWS_AS(set_aside(out), StartupError);
+  }
+  CHECK(set_aside(out) == all.path("run.2"));
+  CHECK(all.read("run.1/part-000003/recording.jwr") == "a crash");
+  CHECK(all.read("run.2/notes") == "no run");
+  CHECK_FALSE(exists(out));
 }
 
 }  // namespace
