@@ -50,7 +50,7 @@ void StderrRelay::pass_on(Ends& ends) noexcept {
     const char* next = part.data();
     while (got > 0) {
       const ssize_t taken = ::write(ends.out.get(), next, static_cast<std::size_t>(got));
-      if (taken < 0 && errno == EAGAIN) {  // somebody else's end of the same terminal does not block
+      if (taken < 0 && errno == EAGAIN) {  // another end of the same terminal was set not to block
         pollfd ready{.fd = ends.out.get(), .events = POLLOUT, .revents = 0};
         ::poll(&ready, 1, -1);
       } else if (taken < 0 && errno != EINTR) {
