@@ -53,7 +53,7 @@ struct RunSample {
   const Planner* planner = nullptr;   ///< the same
 };
 
-/// How it ended and under which conditions.
+/// How it ended and under which conditions: what summary.json says, a field a key, so more of them than elsewhere.
 struct RunEnd {
   std::string outcome = {};  ///< reached, collision, forced_mover, timeout, fault; "replayed" for a replay
   bool success = false;

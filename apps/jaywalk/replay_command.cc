@@ -120,7 +120,7 @@ std::optional<double> find_mount(const ReplayOptions& options, sim::RecordedLog&
   return yaw;
 }
 
-int replay_log(const ReplayOptions& options, const std::string& format) {
+sim::RecordedLog load_and_complain(const ReplayOptions& options, const std::string& format) {
   refuse_to_overwrite(options.logs, options.out);
   std::error_code missing;
   if (std::filesystem::equivalent(options.logs[0], options.out, missing))
@@ -128,6 +128,34 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   sim::RecordedLog recorded = load(options, format);
   std::istringstream complaints(recorded.complaint());
   for (std::string line; std::getline(complaints, line);) std::fprintf(stderr, "jaywalk: %s\n", line.c_str());
+  return recorded;
+}
+
+void suggest_mount(const Pose2& given, double missing_yaw) {
+  std::fprintf(
+      stderr,
+      "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
+      "%.2f,%.2f,%.2f, and on until this line is gone\n",
+      given.x, given.y, wrap_angle(given.heading + missing_yaw));
+}
+
+void tell(Progress& progress, const sim::LogReplay& log, Time now) {
+  if (!progress.is_due()) return;
+  const double lived_s = to_seconds(now - log.start_time()), whole_s = to_seconds(log.end_time() - log.start_time());
+  progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
+}
+
+/// Of a log or a recording: what is left of its replay, and a line about it.
+void conclude(const ReplayOptions& options, LoopRunner& runner, RunEnd end, const std::string& told) {
+  const std::filesystem::path drawn = runner.finish(std::move(end));
+  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
+  runner.require_recorded();
+  if (options.json) return print_summary(options.out);
+  std::printf("%s; see %s\n", told.c_str(), drawn.c_str());
+}
+
+int replay_log(const ReplayOptions& options, const std::string& format) {
+  sim::RecordedLog recorded = load_and_complain(options, format);
   const std::optional<double> found_yaw = find_mount(options, recorded);
   sim::LogReplay log(std::move(recorded));
   const ControlSetup setup = setup_for(log, options);
@@ -143,36 +171,23 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
     mount.add(runner.step().pose.map_from_robot);
     runner.report(nullptr, own_time);
     view.follow();
-    if (progress.is_due()) {
-      const double lived_s = to_seconds(runner.last().now - log.start_time());
-      const double whole_s = to_seconds(log.end_time() - log.start_time());
-      progress.show(lived_s / whole_s, std::to_string(std::lround(lived_s)) + " s");
-    }
+    tell(progress, log, runner.last().now);
   } while (!log.ended() && !interruption.came());
   progress.make_way();
-  if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels) {
-    const Pose2 given = setup.model.laser.robot_from_laser;
-    std::fprintf(
-        stderr,
-        "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
-        "%.2f,%.2f,%.2f, and on until this line is gone\n",
-        given.x, given.y, wrap_angle(given.heading + *yaw));
-  }
+  if (const auto yaw = mount.missing_yaw(); yaw && setup.wheels)
+    suggest_mount(setup.model.laser.robot_from_laser, *yaw);
   const std::string name = options.logs[0].filename().string();
   const bool whole = log.ended();
-  const std::filesystem::path drawn = runner.finish({.outcome = whole ? "replayed" : "interrupted",
-                                                     .success = whole,
-                                                     .found_mount_yaw_rad = found_yaw,
-                                                     .scenario = name});
-  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
-  runner.require_recorded();
   const std::size_t scans = log.log().scans.size();
-  if (options.json) {
-    print_summary(options.out);
-  } else {
-    std::printf("%s: %zu %s over %.1f s; see %s\n", name.c_str(), scans, scans == 1 ? "scan" : "scans",
-                to_seconds(log.end_time() - log.start_time()), drawn.c_str());
-  }
+  char told[100];
+  std::snprintf(told, sizeof told, ": %zu %s over %.1f s", scans, scans == 1 ? "scan" : "scans",
+                to_seconds(log.end_time() - log.start_time()));
+  conclude(options, runner,
+           {.outcome = whole ? "replayed" : "interrupted",
+            .success = whole,
+            .found_mount_yaw_rad = found_yaw,
+            .scenario = name},
+           name + told);
   view.stay(interruption);
   return whole ? 0 : 1;
 }
@@ -238,19 +253,13 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   progress.make_way();
   std::fputs(run.remarks(0, "").c_str(), stderr);
   const bool same = different == 0 || run.begins_anew();
-  const std::filesystem::path drawn = runner.finish({.outcome = "replayed",
-                                                     .success = same,
-                                                     .scenario = options.logs[0].filename().string(),
-                                                     .title = "replay of " + file});
-  if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
-  runner.require_recorded();
-  if (options.json) {
-    print_summary(options.out);
-  } else {
-    std::printf("%s: %llu ticks, %llu commands differ, %llu ticks missing; see %s\n", file.c_str(),
-                static_cast<unsigned long long>(ticks), static_cast<unsigned long long>(different),
-                static_cast<unsigned long long>(lost), drawn.c_str());
-  }
+  conclude(options, runner,
+           {.outcome = "replayed",
+            .success = same,
+            .scenario = options.logs[0].filename().string(),
+            .title = "replay of " + file},
+           file + ": " + std::to_string(ticks) + " ticks, " + std::to_string(different) + " commands differ, " +
+               std::to_string(lost) + " ticks missing");
   view.stay(interruption);
   return same ? 0 : 1;
 }

@@ -157,6 +157,24 @@ void tell(Progress& progress, const sim::Scenario& scenario, const sim::Truth& t
   progress.show(1.0 - left_m / whole_m, words);
 }
 
+RunEnd end_of(const SimOptions& options, const sim::Scenario& scenario, std::uint64_t seed,
+              const sim::Simulation& simulation, const LoopRunner& runner, const std::string& ended) {
+  const OperatorInput wanted = with_goal(runner.last().input);
+  std::optional<double> heading_error;
+  if (wanted.wants_heading()) heading_error = wanted.heading_error_rad(simulation.truth().map_from_robot);
+  return {.outcome = ended,
+          .success = ended == "reached",
+          .static_shortest_path_m = simulation.static_shortest_path_m(),
+          .heading_error_rad = heading_error,
+          .missed_ticks = options.realtime ? runner.overruns() : 0,
+          .seed = seed,
+          .scenario = scenario.name,
+          .settings = options.settings,
+          .planner = options.rival.empty() ? "ours" : options.rival,
+          .mover_rule = sim::Simulation::mover_rule(),
+          .title = scenario.name + ", seed " + std::to_string(seed) + ": " + ended};
+}
+
 }  // namespace
 
 int run_sim(const SimOptions& options) {
@@ -191,22 +209,8 @@ int run_sim(const SimOptions& options) {
   }
   progress.make_way();
   const double took_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  const OperatorInput wanted = with_goal(runner.last().input);
-  std::optional<double> heading_error;
-  if (wanted.wants_heading()) heading_error = wanted.heading_error_rad(simulation.truth().map_from_robot);
   const double lasted_s = to_seconds(simulation.truth().now);
-  const std::filesystem::path drawn =
-      runner.finish({.outcome = ended,
-                     .success = ended == "reached",
-                     .static_shortest_path_m = simulation.static_shortest_path_m(),
-                     .heading_error_rad = heading_error,
-                     .missed_ticks = options.realtime ? runner.overruns() : 0,
-                     .seed = seed,
-                     .scenario = scenario.name,
-                     .settings = options.settings,
-                     .planner = options.rival.empty() ? "ours" : options.rival,
-                     .mover_rule = sim::Simulation::mover_rule(),
-                     .title = scenario.name + ", seed " + std::to_string(seed) + ": " + ended});
+  const std::filesystem::path drawn = runner.finish(end_of(options, scenario, seed, simulation, runner, ended));
   if (options.save_map) save_map(runner.loop().tracker().still(), options.out);
   runner.require_recorded();
   if (options.json) {

@@ -11,6 +11,7 @@
 
 namespace jaywalk {
 
+/// A field an option of the command line: more than a struct has elsewhere.
 struct SimOptions {
   std::filesystem::path scenario;
   std::vector<std::string> settings = {};  ///< KEY=VALUE each, in place of the scenario's own

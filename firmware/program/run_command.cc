@@ -81,6 +81,15 @@ void latch_at_start(OperatorDesk& desk) {
   remark("the last run ended without disarming the drives: latched; see to it, then jaywalk reset");
 }
 
+/// Before the drives may turn a wheel: what the kernel did not permit, a line each.
+std::vector<std::string> entered_realtime(const RealtimeWishes& wishes, RobotLoop& loop) {
+  std::vector<std::string> not_permitted;
+  if (wishes.lock_memory) not_permitted = lock_memory();
+  for (const std::string& line : loop.prepare(wishes)) not_permitted.push_back(line);
+  require_realtime(wishes, not_permitted);
+  return not_permitted;
+}
+
 /// What the drives said to their proof.
 std::vector<std::string> armed_by(WiredDrive& drive, ArmedMark& mark, const std::filesystem::path& out) {
   mark.set();
@@ -187,13 +196,10 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
         return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
       },
       options.parts);
-  std::vector<std::string> not_permitted;
-  if (file.realtime.lock_memory) not_permitted = lock_memory();
   StallGuard guard(devices.brake(), clock, kLongestStall);
   RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard,
                  *observer);
-  for (const std::string& line : loop.prepare(file.realtime)) not_permitted.push_back(line);
-  require_realtime(file.realtime, not_permitted);  // before the drives may turn a wheel
+  const std::vector<std::string> not_permitted = entered_realtime(file.realtime, loop);
   controls.start(order_priority(file.realtime));
   devices.start();
   const std::vector<std::string> proof = armed_by(devices.drive(), armed, options.out);

@@ -15,6 +15,7 @@
 
 namespace jaywalk {
 
+/// All that crosses the HAL and the supervisor in a tick, as it is recorded: more fields than a struct has elsewhere.
 struct TickRecord {
   Time now = kNever;
   // In: what the devices said.

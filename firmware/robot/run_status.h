@@ -13,7 +13,7 @@
 
 namespace jaywalk {
 
-/// How a run goes, as the loop tells it after each tick.
+/// How a run goes, as the loop tells it after each tick: a field a line of the status, so more than elsewhere.
 struct RunStatus {
   bool running = false;  ///< the loop has begun
   Pose2 map_from_robot;

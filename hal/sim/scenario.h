@@ -96,6 +96,7 @@ struct StickSpec {
   std::filesystem::path file{};  ///< of a table
 };
 
+/// As flat as the file is read; its tables are structs of their own: more fields than a struct has elsewhere.
 struct Scenario {
   std::string name;
   std::uint64_t seed = 1;

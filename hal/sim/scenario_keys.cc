@@ -45,36 +45,41 @@ std::vector<SettingKey> world_keys() {
 }
 
 std::vector<SettingKey> robot_keys() {
-  return {{"robot", "start", kNumbers, {}, "m, m, rad", kNeeded, "[x, y, heading] of the drive axle's middle"},
-          {"robot", "goal", kNumbers, {}, "m, m, rad", kNeeded, "[x, y] or [x, y, heading]"},
-          {"robot",
-           "goal_tolerance_m",
-           kNumber,
-           {0.01, 10.0},
-           "m",
-           kScenario.goal_tolerance_m,
-           "the goal counts as reached within this"},
-          {"robot",
-           "goal_heading_tolerance_rad",
-           kNumber,
-           {0.01, kPi},
-           "rad",
-           kScenario.goal_heading_tolerance_rad,
-           "and within this of its heading"},
-          {"robot", "model", kText, {}, "", "\"p3dx\"", "\"p3dx\", \"wheelchair\", or a robot model file"},
-          {"robot",
-           "max_speed_mps",
-           kNumber,
-           {0.01, 500.0},
-           "m/s",
-           "the model's",
-           "cruising speed; at most what the wheels can do"},
-          comfort_key("robot"),
-          {"robot", "laser", kTable, {}, "", "the model's", "over the model's own"},
-          {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
-          {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},
-          {"robot", "pose_source", kTable, {}, "", "none", "a localisation system outside the robot, as the paper has"},
-          {"robot.laser",
+  return {
+      {"robot", "start", kNumbers, {}, "m, m, rad", kNeeded, "[x, y, heading] of the drive axle's middle"},
+      {"robot", "goal", kNumbers, {}, "m, m, rad", kNeeded, "[x, y] or [x, y, heading]"},
+      {"robot",
+       "goal_tolerance_m",
+       kNumber,
+       {0.01, 10.0},
+       "m",
+       kScenario.goal_tolerance_m,
+       "the goal counts as reached within this"},
+      {"robot",
+       "goal_heading_tolerance_rad",
+       kNumber,
+       {0.01, kPi},
+       "rad",
+       kScenario.goal_heading_tolerance_rad,
+       "and within this of its heading"},
+      {"robot", "model", kText, {}, "", "\"p3dx\"", "\"p3dx\", \"wheelchair\", or a robot model file"},
+      {"robot",
+       "max_speed_mps",
+       kNumber,
+       {0.01, 500.0},
+       "m/s",
+       "the model's",
+       "cruising speed; at most what the wheels can do"},
+      comfort_key("robot"),
+      {"robot", "laser", kTable, {}, "", "the model's", "over the model's own"},
+      {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
+      {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},
+      {"robot", "pose_source", kTable, {}, "", "none", "a localisation system outside the robot, as the paper has"}};
+}
+
+/// The tables below [robot].
+std::vector<SettingKey> robot_table_keys() {
+  return {{"robot.laser",
            "turns",
            kBoolean,
            {},
@@ -98,8 +103,11 @@ std::vector<SettingKey> robot_keys() {
           {"robot.truth", "left_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the left wheel"},
           {"robot.truth", "right_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the right wheel"},
           {"robot.truth", "track_width_m", kNumber, kTrack, "m", kModels, "between the wheels' contact points"},
-          {"robot.truth", "laser_mount", kNumbers, {}, "m, m, rad", kModels, "[x, y, yaw] of the laser on the robot"},
-          {"robot.pose_source", "enabled", kBoolean, {}, "", true, "false: as if the table were missing"},
+          {"robot.truth", "laser_mount", kNumbers, {}, "m, m, rad", kModels, "[x, y, yaw] of the laser on the robot"}};
+}
+
+std::vector<SettingKey> pose_source_keys() {
+  return {{"robot.pose_source", "enabled", kBoolean, {}, "", true, "false: as if the table were missing"},
           {"robot.pose_source", "rate_hz", kNumber, {0.1, 100.0}, "1/s", kPoseSource.rate_hz, "fixes a second"},
           {"robot.pose_source",
            "position_std_m",
@@ -209,8 +217,8 @@ std::vector<SettingKey> fault_keys() {
 
 FileKeys make_scenario_keys() {
   FileKeys file{"Scenario", {}};
-  for (const auto& keys :
-       {world_keys(), robot_keys(), laser_keys("robot.laser"), zone_keys(), stick_keys(), mover_keys(), fault_keys()})
+  for (const auto& keys : {world_keys(), robot_keys(), robot_table_keys(), pose_source_keys(),
+                           laser_keys("robot.laser"), zone_keys(), stick_keys(), mover_keys(), fault_keys()})
     file.keys.insert(file.keys.end(), keys.begin(), keys.end());
   return file;
 }

@@ -43,7 +43,8 @@ struct ShownArrays {
   FieldQuality* quality;
 };
 
-/// What the stages read and write; all of it the executor's memory.
+/// What the stages read and write; all of it the executor's memory. A pointer an array,
+/// and kernels take it whole: more fields than a struct has elsewhere.
 struct FieldArrays {
   std::uint8_t* occupants;
   float* warp;

@@ -244,7 +244,7 @@ class GridPlanner final : public Planner {
     const Vec2 from = request.map_from_robot.position();
     const Vec2 robot = window().in_cells(from);
     const std::int32_t fixed = starts_free ? 0 : 1;  // points before the start cell's
-    const std::int32_t count = follow(window().grid(), a.index, start, goal, a.points, fixed, kMaxBandPoints);
+    const std::int32_t count = follow(window().grid(), a.index, start, goal, {a.points, kMaxBandPoints}, fixed);
     if (count == 0) return PlanStatus::kNoPath;
     a.points[0] = {static_cast<float>(robot.x), static_cast<float>(robot.y)};
     const CellIndex wanted = window().cell_at(request.goal_in_map);
@@ -257,7 +257,7 @@ class GridPlanner final : public Planner {
       a.points[count - 1] = {static_cast<float>(there.x), static_cast<float>(there.y)};
     }
     if (!pass_.pull(window().grid(), fixed + 1, count)) return PlanStatus::kBackendFailed;
-    resample(window(), a.clearance, a.points, count, from, end, path);
+    resample(window(), a.clearance, {a.points, static_cast<std::size_t>(count)}, from, end, path);
     return PlanStatus::kOk;
   }
 

@@ -79,12 +79,13 @@ std::int32_t next_of(Grid grid, const std::uint8_t* index, std::int32_t c) {
 
 }  // namespace
 
-std::int32_t follow(Grid grid, const std::uint8_t* index, std::int32_t start, std::int32_t goal, cell::Point* points,
-                    std::int32_t count, std::int32_t capacity) noexcept {
+std::int32_t follow(Grid grid, const std::uint8_t* index, std::int32_t start, std::int32_t goal,
+                    std::span<cell::Point> points, std::int32_t count) noexcept {
+  const auto capacity = static_cast<std::int32_t>(points.size());
   std::int32_t c = start;
   for (std::int32_t steps = 0; steps <= grid.cells() && count < capacity; ++steps) {
     const std::int32_t i = c % grid.side, j = c / grid.side;
-    points[count++] = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
+    points[static_cast<std::size_t>(count++)] = {static_cast<float>(i) + 0.5F, static_cast<float>(j) + 0.5F};
     if (c == goal || count == capacity) return count;
     const std::int32_t next = next_of(grid, index, c);
     if (next == c) return 0;
@@ -111,9 +112,9 @@ float share_arriving(Grid grid, const float* psi, const std::uint8_t* index, std
   return joined == 0 ? 0.0F : static_cast<float>(arriving) / static_cast<float>(joined);
 }
 
-void resample(const Window& window, const float* clearance, const cell::Point* points, std::int32_t count, Vec2 from,
-              Vec2 to, Path& path) noexcept {
-  const Band band(points, count, window.in_cells(from), window.in_cells(to));
+void resample(const Window& window, const float* clearance, std::span<const cell::Point> points, Vec2 from, Vec2 to,
+              Path& path) noexcept {
+  const Band band(points.data(), static_cast<std::int32_t>(points.size()), window.in_cells(from), window.in_cells(to));
   const double most = static_cast<double>(kMaxPathPoints - 1), length = band.length() * window.cell_m;
   const double pieces = std::clamp(std::ceil(length / kSpacing), 1.0, most);
   const double spacing = std::min(length / pieces, kMaxSpacing) / window.cell_m;

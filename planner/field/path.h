@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "planner/field/path_stages.h"
 #include "planner/mapping/window.h"
 #include "planner/planner.h"
@@ -6,9 +8,9 @@
 namespace jaywalk::field {
 
 /// Follows the index matrix from `start` to `goal` and appends the centres of the cells to `points`, from
-/// place `count` on and at most `capacity`. Returns how many there are then; 0 when the way does not arrive.
+/// place `count` on and as many as there is room for. Returns how many there are then; 0 when the way does not arrive.
 [[nodiscard]] std::int32_t follow(Grid grid, const std::uint8_t* index, std::int32_t start, std::int32_t goal,
-                                  cell::Point* points, std::int32_t count, std::int32_t capacity) noexcept;
+                                  std::span<cell::Point> points, std::int32_t count) noexcept;
 
 /// Share of the joined cells (psi below infinity) from which following the index matrix arrives at `goal`.
 /// `seen` has room for a byte a cell.
@@ -19,7 +21,7 @@ namespace jaywalk::field {
 /// kMaxPathPoints beyond that, and closer at the band's corners: where the straight line from one place to the next
 /// would leave free cells (`clearance` above 0, by rows) it goes by the corner instead. First and last point exactly
 /// `from` and `to`.
-void resample(const Window& window, const float* clearance, const cell::Point* points, std::int32_t count, Vec2 from,
-              Vec2 to, Path& path) noexcept;
+void resample(const Window& window, const float* clearance, std::span<const cell::Point> points, Vec2 from, Vec2 to,
+              Path& path) noexcept;
 
 }  // namespace jaywalk::field

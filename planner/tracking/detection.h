@@ -35,6 +35,7 @@ enum class End : std::uint8_t {
 };
 
 /// A segment that is small enough for a body, and no part of a wall, or stands alone there: something may have come.
+/// Filled in stages, each of which reads what those before it found: more fields than a struct has elsewhere.
 struct Detection {
   Segment segment;
   BeamRun beams{};                       ///< that end on it, and those between

@@ -4,7 +4,8 @@
 
 namespace jaywalk {
 
-/// What one scan says of a body: one detection, or a person's two legs.
+/// What one scan says of a body: one detection, or a person's two legs. A field a measurement, so more of them than a
+/// struct has elsewhere.
 struct Observation {
   Vec2 position_in_map;
   double late_s = 0.0, late_std_s = 0.0;  ///< Detection's: when it was there

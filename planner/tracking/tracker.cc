@@ -27,6 +27,7 @@ void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
 
 }  // namespace
 
+/// Its parts, one a step of the update: more fields than a struct has elsewhere.
 struct Tracker::State {
   explicit State(const PerceptionConfig& c)
       : robot_from_laser(c.robot_from_laser),
@@ -151,7 +152,7 @@ void Tracker::State::birth() noexcept {
 void Tracker::State::enter_still() noexcept {
   const Vec2 laser_in_map = scene.map_from_laser.position();
   const std::size_t count = scene.points.size();
-  decide_entries(targets, scene.detections, scene.in_map, count, still, now, entries);
+  decide_entries(targets, scene.detections, {scene.in_map.position.data(), count}, still, now, entries);
   still.roll_to(laser_in_map);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
   const Pose2 map_from_robot = scene.map_from_laser * inverse(robot_from_laser);

@@ -25,7 +25,7 @@ struct Seen {
   }
   Target& target() { return targets[0]; }
   std::array<Becomes, 2> at(double now_s) {
-    decide_entries(targets, detections, in_map, 2, still, time_from_seconds(now_s), entries);
+    decide_entries(targets, detections, {in_map.position.data(), 2}, still, time_from_seconds(now_s), entries);
     return {entries[0], entries[1]};
   }
 

@@ -80,7 +80,7 @@ class Ways {
     const field::FieldArrays& a = rig_.arrays();
     const std::int32_t start = free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
     if (!cell::is_joined(rig_.psi[start])) return false;
-    const std::int32_t count = field::follow(rig_.grid, a.index, start, goal_, a.points, 0, field::kMaxBandPoints);
+    const std::int32_t count = field::follow(rig_.grid, a.index, start, goal_, {a.points, field::kMaxBandPoints}, 0);
     if (count < 3) return false;
     a.points[0] = within(start);
     a.points[count - 1] = within(goal_);
@@ -90,8 +90,8 @@ class Ways {
     CHECK(band.front() == raw.front());
     CHECK(band.back() == raw.back());
     const field::Window window{{0, 0}, kSide, 0.1};
-    field::resample(window, a.clearance, a.points, count, window.in_map(band.front()), window.in_map(band.back()),
-                    *path_);
+    field::resample(window, a.clearance, {a.points, static_cast<std::size_t>(count)}, window.in_map(band.front()),
+                    window.in_map(band.back()), *path_);
     Line path;
     for (const Vec2& p : *path_) path.push_back(window.in_cells(p));
     shapes = {shape_of(raw, rig_.grid, a.clearance), shape_of(band, rig_.grid, a.clearance),

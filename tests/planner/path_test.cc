@@ -67,7 +67,7 @@ TEST_CASE("the band shortens the raw path, turns less, and never leaves free cel
   rig.load(map, 3.0F, goal);
   REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
   const field::FieldArrays& a = rig.arrays();
-  const std::int32_t count = field::follow(rig.grid, a.index, start, goal, a.points, 0, field::kMaxBandPoints);
+  const std::int32_t count = field::follow(rig.grid, a.index, start, goal, {a.points, field::kMaxBandPoints}, 0);
   REQUIRE(count > 200);
   const std::vector<cell::Point> raw(a.points, a.points + count);
   REQUIRE(rig.pass.pull(rig.grid, 1, count));
@@ -92,10 +92,10 @@ TEST_CASE("a path cut at the capacity keeps its first part") {
   const field::Grid grid{64};
   std::vector<std::uint8_t> index(64 * 64, 0);  // 0: one cell to the right
   std::vector<cell::Point> points(10);
-  CHECK(field::follow(grid, index.data(), 0, 63, points.data(), 0, 10) == 10);
+  CHECK(field::follow(grid, index.data(), 0, 63, {points.data(), 10}, 0) == 10);
   CHECK(points[9].x == 9.5F);
   index[5] = field::kHere;  // a pit on the way
-  CHECK(field::follow(grid, index.data(), 0, 63, points.data(), 0, 10) == 0);
+  CHECK(field::follow(grid, index.data(), 0, 63, {points.data(), 10}, 0) == 0);
 }
 
 TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between points") {
@@ -104,7 +104,7 @@ TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between po
   for (int k = 0; k < 40; ++k)
     band.push_back({static_cast<float>(k) + 0.5F, k < 20 ? 10.5F : 0.5F * static_cast<float>(k) + 0.5F});
   const Vec2 from{10.07, -3.93}, to{13.96, -2.99};
-  field::resample(kWindow, kAllFree.data(), band.data(), 40, from, to, *path);
+  field::resample(kWindow, kAllFree.data(), {band.data(), 40}, from, to, *path);
   REQUIRE(path->size() > 30);
   CHECK((*path)[0] == from);
   CHECK(path->back() == to);
@@ -117,7 +117,7 @@ TEST_CASE("resampling starts and ends exactly and keeps 0.05 to 0.1 m between po
 TEST_CASE("a path of one point and one that goes nowhere are drawn") {
   const auto path = std::make_unique<Path>();
   const cell::Point here[2] = {{5.5F, 5.5F}, {5.5F, 5.5F}};
-  field::resample(kWindow, kAllFree.data(), here, 2, {1.0, 2.0}, {1.0, 2.0}, *path);
+  field::resample(kWindow, kAllFree.data(), {here, 2}, {1.0, 2.0}, {1.0, 2.0}, *path);
   CHECK(path->size() >= 1);
   CHECK(path->back() == Vec2{1.0, 2.0});
 }
@@ -129,7 +129,7 @@ TEST_CASE("a path goes by the band's corner where the straight line would cut th
   const cell::Point band[3] = {{10.0F, 10.9F}, {14.1F, 10.9F}, {14.1F, 29.6F}};
   const auto corner_in_map = kWindow.in_map({static_cast<double>(band[1].x), static_cast<double>(band[1].y)});
   const auto goes_by_corner = [&](const std::vector<float>& clearance) {
-    field::resample(kWindow, clearance.data(), band, 3, kWindow.in_map({10.0, 10.9}), kWindow.in_map({14.1, 29.6}),
+    field::resample(kWindow, clearance.data(), {band, 3}, kWindow.in_map({10.0, 10.9}), kWindow.in_map({14.1, 29.6}),
                     *path);
     bool found = false;
     for (const Vec2& p : *path) found = found || distance(p, corner_in_map) < 1e-9;
@@ -150,11 +150,11 @@ TEST_CASE("a long path spreads its points to 0.2 m and beyond that is cut") {
   const std::vector<float> lowest_row(16384, 9.0F);
   std::vector<cell::Point> band;
   for (int k = 0; k < 6000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 600 m
-  field::resample(wide, lowest_row.data(), band.data(), 6000, {10.0, -5.0}, {609.9, -5.0}, *path);
+  field::resample(wide, lowest_row.data(), {band.data(), 6000}, {10.0, -5.0}, {609.9, -5.0}, *path);
   CHECK(path->back() == Vec2{609.9, -5.0});
   CHECK(distance((*path)[0], (*path)[1]) == Approx(599.9 / 4095).epsilon(1e-3));
   for (int k = 6000; k < 12000; ++k) band.push_back({static_cast<float>(k), 0.0F});  // 1.2 km
-  field::resample(wide, lowest_row.data(), band.data(), 12000, {10.0, -5.0}, {1209.9, -5.0}, *path);
+  field::resample(wide, lowest_row.data(), {band.data(), 12000}, {10.0, -5.0}, {1209.9, -5.0}, *path);
   CHECK(path->full());
   CHECK(distance((*path)[0], (*path)[1]) == Approx(0.2).epsilon(1e-3));
   CHECK(path->back().x == Approx(10.0 + 4095 * 0.2).epsilon(1e-3));

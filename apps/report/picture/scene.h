@@ -63,7 +63,8 @@ struct DecisionScene {
   std::vector<FuturePlace> futures;
 };
 
-/// Parts that are empty are left out of the picture and of its legend.
+/// Parts that are empty are left out of the picture and of its legend. A field a part: more than a struct has
+/// elsewhere.
 struct PictureScene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< shown beside the map: "path", "46.2 m"
