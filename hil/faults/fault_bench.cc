@@ -131,6 +131,7 @@ FaultResult FaultBench::struck_at_speed() {
   endure();
   result.reaction = last_fast_ - struck_;
   result.stop_distance_m = way_m_;
+  if (fault_.at_rest != nullptr) fault_.at_rest(*this);
   return result;
 }
 

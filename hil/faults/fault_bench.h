@@ -37,6 +37,7 @@ struct FaultCase {
   RollsOut rolls_out = RollsOut::kNone;
   bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
   std::optional<sim::FaultKind> miswiring = {};
+  void (*at_rest)(FaultBench&) = nullptr;  ///< once the robot stands; may be null
 };
 
 struct FaultResult {
@@ -70,13 +71,14 @@ class FaultBench {
   void say_as_stranger(const CanFrame& frame) noexcept { (void)robot_->wires().port(3).send(frame); }
   [[nodiscard]] Duration tick_length() const noexcept { return file_.setup.tick(); }
   [[nodiscard]] StraightPlanner& planner() noexcept { return *planner_; }
+  /// The loop lives on for so long.
+  void wait(Duration time);
   /// The loop does not run for so long, for ever with max().
   void hold_up(Duration time) noexcept;
 
  private:
   void watch() noexcept;
   void tick();
-  void wait(Duration time);
   [[nodiscard]] bool reach_speed();
   [[nodiscard]] double rim_mps() noexcept;
   [[nodiscard]] bool named(Reason reason) const noexcept { return reason == Reason::kNone || has(seen_, reason); }

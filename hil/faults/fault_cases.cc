@@ -56,6 +56,15 @@ void stick_and_stop(FaultBench& bench, rig::WheelDrive& drive) {
   (void)bench.robot().desk().obey("stop now");
 }
 
+/// A reset, and a stop while the drives are being proved for it: the end of the proof lifts no latch.
+void reset_and_stop(FaultBench& bench) {
+  bench.wait(1s);
+  (void)bench.robot().desk().obey("reset");
+  bench.wait(2 * bench.tick_length());
+  (void)bench.robot().desk().obey("stop now");
+  bench.wait(6s);
+}
+
 void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
 
 /// Wrong wiring from the start, which the supervisor itself must tell.
@@ -74,6 +83,17 @@ FaultCase miswired(const char* name, sim::FaultKind kind) {
 const std::array kCases{
     FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
               Reason::kEmergencyStop, at_once, Outcome::kLatched},
+    FaultCase{"stop_in_proof",
+              [](FaultBench& b) { b.right_drive().restart(); },
+              nullptr,
+              Reason::kDrive | Reason::kWheelsDisobey,
+              feedback,
+              Outcome::kLatched,
+              {},
+              RollsOut::kAll,
+              false,
+              {},
+              reset_and_stop},
     FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, nullptr, Reason::kScanStale,
               scans, Outcome::kLatched},
     FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale,
