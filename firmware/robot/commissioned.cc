@@ -47,7 +47,8 @@ std::string today() {
 void replace(const std::filesystem::path& path, const std::string& text) {
   const std::filesystem::path beside = path.string() + ".new",
                               folder = path.has_parent_path() ? path.parent_path() : ".";
-  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0644);
+  static_cast<void>(::unlink(beside.c_str()));  // a link that was put there is not followed
+  const int file = ::open(beside.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
   bool kept = file >= 0 && ::write(file, text.data(), text.size()) == static_cast<ssize_t>(text.size());
   kept = file >= 0 && ::fsync(file) == 0 && kept;
   kept = file >= 0 && ::close(file) == 0 && kept;

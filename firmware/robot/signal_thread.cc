@@ -19,7 +19,7 @@ bool is_ignored(int signal) noexcept {
 }  // namespace
 
 SignalThread::SignalThread(int priority) {
-  ::signal(SIGPIPE, SIG_IGN);
+  for (const int signal : {SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
   sigemptyset(&signals_);
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
     if (signal != SIGHUP || !is_ignored(SIGHUP)) sigaddset(&signals_, signal);

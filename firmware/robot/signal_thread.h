@@ -9,8 +9,8 @@
 namespace jaywalk {
 
 /// Takes the signals that end a run, in a thread of its own that writes nowhere and waits for nothing else: SIGINT,
-/// SIGTERM and, unless the process was started to outlive its terminal (nohup), SIGHUP. SIGPIPE is ignored: a reader
-/// that is gone stops no robot.
+/// SIGTERM and, unless the process was started to outlive its terminal (nohup), SIGHUP. SIGPIPE is ignored, and
+/// so are a terminal's SIGTSTP, SIGTTIN and SIGTTOU: a reader that is gone and a run in the background stop no robot.
 class SignalThread {
  public:
   /// What the thread calls, for as long as this lives: `signalled` at each signal, `round` some 20 times a second.
