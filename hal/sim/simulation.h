@@ -32,7 +32,7 @@ struct Truth {
   double clearance_m = 0.0;           ///< footprint to the nearest wall or mover; 0 in contact
   double mover_clearance_m = 0.0;     ///< footprint to the nearest mover; +inf without movers
   std::uint32_t contacts = 0;         ///< episodes of touching so far
-  std::uint32_t contacts_caused = 0;  ///< those begun at a robot speed over 0.05 m/s
+  std::uint32_t contacts_caused = 0;  ///< those begun while any point of the outline moved faster than 0.05 m/s
   std::uint32_t forced_movers = 0;    ///< so far
 };
 

@@ -10,7 +10,7 @@
 namespace jaywalk::sim {
 namespace {
 
-constexpr double kCausedSpeed = 0.05;  // m/s: a contact at more is the robot's doing
+constexpr double kCausedSpeed = 0.05;  // m/s of any point of the outline: a contact at more is the robot's doing
 constexpr double kApartAgain = 0.01;   // m: an episode of touching ends at this gap
 constexpr double kOpenGround = 50.0;   // m round the walls; what lies farther out is a slip of unit or origin
 
@@ -71,11 +71,18 @@ double World::gap_to(std::span<const MoverTruth> movers) const noexcept {
   return nearest;
 }
 
-void World::touch(double robot_speed_mps) noexcept {
+void World::touch() noexcept {
   if (touching_) return;
   touching_ = true;
   ++truth_.contacts;
-  if (std::fabs(robot_speed_mps) > kCausedSpeed) ++truth_.contacts_caused;
+  if (outline_mps() > kCausedSpeed) ++truth_.contacts_caused;
+}
+
+/// Of the corner that a turn speeds up most and that is farthest from the axle.
+double World::outline_mps() const noexcept {
+  const double turn = std::fabs(plant_.twist().w_radps);
+  return norm({std::fabs(plant_.twist().v_mps) + turn * footprint_.half_width_m,
+               turn * std::max(footprint_.front_m, footprint_.rear_m)});
 }
 
 /// Walls and wandering movers stop the robot. The outline moves at most as far as the middle plus the turn times the
@@ -86,7 +93,7 @@ void World::keep_out_of_solids(const Pose2& before) noexcept {
   slack_m_ -= distance(before.position(), after.position()) + turned * footprint_.circumscribed_radius_m();
   if (slack_m_ > 0.0) return;
   if (walls_.clearance(footprint_, after) > 0.0 && gap_to(wanderers_.movers()) > 0.0) return;
-  touch(plant_.twist().v_mps);
+  touch();
   plant_.stop_at(before);
 }
 
@@ -96,7 +103,7 @@ void World::move_movers() noexcept {
   movers_.assign(wanderers_.movers().begin(), wanderers_.movers().end());
   movers_.insert(movers_.end(), recorded_.movers().begin(), recorded_.movers().end());
   see_movers();
-  if (wanderers_.bumped_robot()) touch(plant_.twist().v_mps);
+  if (wanderers_.bumped_robot()) touch();
   judge_gaps();
   truth_.movers = movers_;
   truth_.forced_movers = wanderers_.forced() + recorded_.forced();
@@ -123,7 +130,7 @@ void World::judge_gaps() noexcept {
   const double to_mover = std::min(to_wanderer, gap_to(recorded_.movers()));
   const double gap = std::min(to_wall, to_mover);
   slack_m_ = std::min(to_wall, to_wanderer);
-  if (to_mover <= 0.0) touch(plant_.twist().v_mps);
+  if (to_mover <= 0.0) touch();
   truth_.clearance_m = touching_ ? 0.0 : gap;
   if (gap > kApartAgain) touching_ = false;
   truth_.mover_clearance_m = to_mover;

@@ -45,7 +45,9 @@ class World {
   void move_movers() noexcept;
   void see_movers() noexcept;
   void judge_gaps() noexcept;
-  void touch(double robot_speed_mps) noexcept;
+  void touch() noexcept;
+  /// Speed (m/s) of the outline's fastest point.
+  [[nodiscard]] double outline_mps() const noexcept;
   /// The scenario itself, once its start and goal are known to be free and on the map.
   [[nodiscard]] const Scenario& with_free_places(const Scenario& scenario) const;
 

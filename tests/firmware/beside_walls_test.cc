@@ -1,0 +1,170 @@
+// From starts at random beside walls that lie partly out of the laser's sight: nothing is touched, and it leaves.
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <map>
+#include <string>
+
+#include "hal/sim/random.h"
+#include "tests/firmware/simulated_drive.h"
+#include "tests/recording/scratch.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+constexpr double kLimit_s = 60.0;
+constexpr double kLeft_m = 1.0;  // from where it began
+
+enum class Beside { kLongWall, kEndOfWall, kCornerBehind, kCornerAhead };
+constexpr std::array kNames{"long wall", "end of wall", "corner behind", "corner ahead"};
+
+/// A wall along y = 0, the robot above it at a gap.
+struct Start {
+  Beside kind = Beside::kLongWall;
+  RobotModel model;
+  double gap_m = 0.0;
+  Pose2 pose;
+  Vec2 goal;
+  std::string walls;
+};
+
+std::string line(Vec2 from, Vec2 to) {
+  const auto mm = [](double metres) { return std::to_string(std::lround(1000.0 * metres)) + " "; };
+  return mm(from.x) + mm(from.y) + mm(to.x) + mm(to.y) + "\n";
+}
+
+/// How far the outline reaches from the axle along a direction.
+double reach(const Footprint& body, double heading, Vec2 along) {
+  double most = 0.0;
+  for (const double x : {body.front_m, -body.rear_m}) {
+    for (const double y : {body.half_width_m, -body.half_width_m})
+      most = std::max(most, dot(direction(heading), along) * x + cross(direction(heading), along) * y);
+  }
+  return most;
+}
+
+/// Walls beside the start: the long one, with an end near the body or a corner before or behind it.
+std::string walls_beside(Start& start, sim::Random& random) {
+  const bool looks_left = std::fabs(start.pose.heading) > 0.5 * kPi;
+  const double ahead = (start.kind == Beside::kCornerAhead) != looks_left ? 1.0 : -1.0;
+  if (start.kind == Beside::kLongWall) return line({-6.0, 0.0}, {6.0, 0.0});
+  if (start.kind == Beside::kEndOfWall) {
+    const double end = random.uniform(-0.6, 1.0), sign = random.uniform() < 0.5 ? 1.0 : -1.0;
+    return line({sign * end, 0.0}, {sign * (end - 3.0), 0.0});
+  }
+  const double off = reach(start.model.footprint, start.pose.heading, {ahead, 0.0}) + random.uniform(0.03, 0.3);
+  return line({-6.0, 0.0}, {6.0, 0.0}) + line({ahead * off, 0.0}, {ahead * off, 2.0});
+}
+
+Start drawn(const RobotModel& model, std::uint64_t seed) {
+  sim::Random random(seed, sim::Purpose::kPlacement, 58);
+  Start start;
+  start.model = model;
+  const double kind = random.uniform();
+  start.kind = kind < 0.5    ? Beside::kLongWall
+               : kind < 0.7  ? Beside::kEndOfWall
+               : kind < 0.85 ? Beside::kCornerBehind
+                             : Beside::kCornerAhead;
+  const double fov_deg = random.uniform(180.0, 360.0);
+  start.model.laser.fov_rad = fov_deg * kPi / 180.0;
+  start.model.laser.beams = static_cast<std::uint32_t>(3.0 * fov_deg) + 1;
+  start.gap_m = random.uniform(0.03, 0.30);
+  const double tilt = random.uniform() < 0.5 ? 0.0 : random.uniform(-0.2, 0.2);
+  start.pose.heading = wrap_angle(tilt + (random.uniform() < 0.5 ? 0.0 : kPi));
+  start.pose.y = start.gap_m + reach(model.footprint, start.pose.heading, {0.0, -1.0});
+  start.walls = walls_beside(start, random);
+  const double aside = random.uniform(0.15, 0.85) * kPi;
+  start.goal = start.pose.position() + direction(aside) * random.uniform(2.5, 4.5);
+  start.goal.y = std::max(start.goal.y, 1.0);
+  return start;
+}
+
+std::string map_of(const Start& start) {
+  const std::string room = line({-6.0, -3.0}, {6.0, -3.0}) + line({6.0, -3.0}, {6.0, 6.0}) +
+                           line({6.0, 6.0}, {-6.0, 6.0}) + line({-6.0, 6.0}, {-6.0, -3.0});
+  const std::string lines = room + start.walls;
+  return "2D-Map\nNumLines: " + std::to_string(std::count(lines.begin(), lines.end(), '\n')) + "\nLINES\n" + lines +
+         "DATA\n";
+}
+
+struct Drive {
+  bool caused = false, touched = false, left = false, reached = false;
+  double seconds = 0.0;
+};
+
+Drive driven(const Start& start, std::uint64_t seed) {
+  const Scratch scratch;
+  const std::string map = scratch.write("walls.map", map_of(start));
+  SimulatedDrive drive("crossing", seed, [&](sim::Scenario& s) {
+    s.map_kind = sim::MapKind::kAria;
+    s.map_file = map;
+    s.wanderers.clear();
+    s.model = start.model;
+    s.start = start.pose;
+    s.goal = start.goal;
+  });
+  Drive result;
+  (void)drive.drive(kLimit_s, [&](const TickRecord& t) {
+    result.seconds = to_seconds(t.now);
+    result.left = result.left || distance(drive.truth().map_from_robot.position(), start.pose.position()) > kLeft_m;
+    result.reached = drive.to_goal_m() < 0.3;
+    return result.reached || drive.truth().contacts > 0;
+  });
+  result.touched = drive.truth().contacts > 0;
+  result.caused = drive.truth().contacts_caused > 0;
+  return result;
+}
+
+/// Trials of one kind.
+struct Tally {
+  int trials = 0, touched = 0, left = 0, reached = 0;
+};
+
+std::string kind_of(const Start& start) {
+  const double fov_deg = start.model.laser.fov_rad * 180.0 / kPi;
+  const char* const laser = fov_deg < 240.0 ? "180-240" : fov_deg < 300.0 ? "240-300" : "300-360";
+  const char* const gap = start.gap_m < 0.06 ? "3-6" : start.gap_m < 0.12 ? "6-12" : "12-30";
+  return start.model.name + ", " + kNames[static_cast<std::size_t>(start.kind)] + ", laser " + laser +
+         " degrees, gap " + gap + " cm";
+}
+
+void check_leaves(const RobotModel& model, int trials) {
+  std::map<std::string, Tally> by_kind;
+  Tally all;
+  for (int k = 0; k < trials; ++k) {
+    const auto seed = static_cast<std::uint64_t>(k + 1);
+    const Start start = drawn(model, seed);
+    const Drive drive = driven(start, seed);
+    CAPTURE(seed, kind_of(start), start.gap_m, start.pose.heading, start.goal.x, start.goal.y, drive.seconds);
+    CHECK_FALSE(drive.caused);
+    for (Tally* const tally : {&by_kind[kind_of(start)], &all}) {
+      ++tally->trials;
+      tally->touched += drive.touched ? 1 : 0;
+      tally->left += drive.left && !drive.touched ? 1 : 0;
+      tally->reached += drive.reached && !drive.touched ? 1 : 0;
+    }
+    if (!drive.reached)
+      std::printf("seed %d: %s: %s\n", k + 1, kind_of(start).c_str(), drive.touched ? "touched" : "not reached");
+  }
+  by_kind["all"] = all;
+  for (const auto& [kind, t] : by_kind)
+    std::printf("%3d trials, %3d touched, %3d left, %3d reached: %s\n", t.trials, t.touched, t.left, t.reached,
+                kind.c_str());
+  CHECK(all.left >= 0.95 * all.trials);
+}
+
+}  // namespace
+
+TEST_CASE("from twelve random starts beside walls a P3-DX leaves and touches nothing") { check_leaves(p3dx(), 12); }
+TEST_CASE("from twelve random starts beside walls a wheelchair leaves and touches nothing") {
+  check_leaves(wheelchair(), 12);
+}
+TEST_CASE("from a hundred random starts beside walls a P3-DX leaves and touches nothing", "[long]") {
+  check_leaves(p3dx(), 100);
+}
+TEST_CASE("from a hundred random starts beside walls a wheelchair leaves and touches nothing", "[long]") {
+  check_leaves(wheelchair(), 100);
+}
