@@ -52,7 +52,7 @@ void add_drive_and_body(std::vector<SettingKey>& keys) {
            {"footprint", "front_m", kNumber, kBodyMetres, "m", kNeeded, "from the drive axle to the foremost point"},
            {"footprint", "rear_m", kNumber, kBodyMetres, "m", kNeeded, "from the drive axle to the rearmost point"},
            {"footprint", "half_width_m", kNumber, kBodyMetres, "m", kNeeded, "half of the robot's width"},
-           {"drive", "wheel_radius_m", kNumber, {0.01, 1.0}, "m", kNeeded, "of a driven wheel"},
+           {"drive", "wheel_radius_m", kNumber, {0.02, 0.5}, "m", kNeeded, "of a driven wheel"},
            {"drive", "track_width_m", kNumber, {0.05, 3.0}, "m", kNeeded, "between the wheels' contact points"},
            {"drive", "max_wheel_speed_radps", kNumber, {0.1, 500.0}, "rad/s", kNeeded, "the motors' top speed"}})
     keys.push_back(key);

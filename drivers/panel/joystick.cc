@@ -9,6 +9,8 @@
 #include <cmath>
 #include <utility>
 
+#include "drivers/panel/device_keys.h"
+
 namespace jaywalk::panel {
 
 namespace {
@@ -104,6 +106,7 @@ void Joystick::open() noexcept {
   seen_released_ = false;
   forward_ = left_ = Axis();
   if (device_.get() < 0) return;
+  if (setup_.asks_device && !has_all(keys_of(device_.get()), setup_)) return close();
   on_bluetooth_ = ask_bus_(device_.get()) == BUS_BLUETOOTH;
   ask_present_state();
 }

@@ -23,6 +23,9 @@ struct JoystickSetup {
   /// The dead man counts for so long after the newest event of any button or axis; then it must be released and pressed
   /// anew. 0: for as long as it is held, as befits a cable.
   Duration dead_man_renew{0};
+  /// A device that does not tell of the stop, and of the dead man and the stick where they are needed, counts as gone.
+  bool asks_device = false;
+  bool needs_dead_man = true, steers = false;
 };
 
 struct JoystickState {

@@ -81,6 +81,8 @@ void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
       ->capture_default_str();
   add_parts(*run, run_options.parts);
   run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->add_flag("--uncommissioned", run_options.uncommissioned,
+                "Start although this robot was never commissioned, or differently wired");
   run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
                 "Start although the kernel refuses real-time priority or locked memory");
   run->callback([&exit_code, &make_observer] { exit_code = run_robot(run_options, make_observer); });
@@ -91,7 +93,7 @@ void add_check(CLI::App& app, int& exit_code) {
   check->add_option("robot", run_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
   check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
   add_backend(*check, run_options.backend, run_options.device);
-  check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, said");
+  check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, state (ok, warn, fail), said");
   check->callback([&exit_code] { exit_code = check_robot(run_options); });
 }
 

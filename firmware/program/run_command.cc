@@ -113,11 +113,11 @@ std::filesystem::path socket_for(const RunOptions& options, const RobotFile& fil
   return file.control_socket.empty() ? default_control_socket() : file.control_socket;
 }
 
-/// [{"part": "file", "ok": true, "said": "..."}, ...]
+/// [{"part": "file", "ok": true, "state": "ok", "said": "..."}, ...]
 void print_json(const std::vector<CheckedPart>& parts) {
   nlohmann::ordered_json rows = nlohmann::ordered_json::array();
   for (const CheckedPart& part : parts)
-    rows.push_back({{"part", part.part}, {"ok", part.is_well}, {"said", part.said}});
+    rows.push_back({{"part", part.part}, {"ok", part.is_well}, {"state", state_of(part)}, {"said", part.said}});
   std::printf("%s\n", rows.dump(1).c_str());
 }
 
@@ -174,7 +174,8 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   RobotFile file = load_robot(options);
   const StderrRelay relay;
   SignalThread signals(order_priority(file.realtime));
-  const std::string not_commissioned = require_commissioned(options.robot, file);
+  const std::string not_commissioned = require_commissioned(options.robot, file, options.uncommissioned);
+  if (file.panel) require_joystick(*file.panel);
   if (!not_commissioned.empty()) remark(not_commissioned);
   std::optional<RunFolder> folder;
   choose_folder(options, folder);
@@ -225,15 +226,17 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
 int check_robot(const RunOptions& options) {
   const RobotFile file = load_robot(options);
   const CommissioningRecord record = read_commissioned(options.robot, file);
-  std::vector<CheckedPart> parts{{"file", true, options.robot.string()},
-                                 {"commissioned", record.state != Commissioned::kFailed, record.said}};
+  std::vector<CheckedPart> parts{
+      {"file", true, options.robot.string()},
+      {"commissioned", record.state != Commissioned::kFailed, record.said, record.state != Commissioned::kPassed}};
   SteadyClock clock;
   for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) parts.push_back(part);
   if (options.json) {
     print_json(parts);
   } else {
     for (const CheckedPart& part : parts)
-      std::printf("%-4s  %-15s %s\n", part.is_well ? "ok" : "FAIL", part.part.c_str(), printable(part.said).c_str());
+      std::printf("%-4s  %-15s %s\n", part.is_well ? state_of(part) : "FAIL", part.part.c_str(),
+                  printable(part.said).c_str());
   }
   return std::all_of(parts.begin(), parts.end(), [](const CheckedPart& part) { return part.is_well; }) ? 0 : 1;
 }

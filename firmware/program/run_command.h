@@ -22,6 +22,7 @@ struct RunOptions {
   PartsKept parts;             ///< of this run
   std::filesystem::path control_socket;  ///< empty: the file's, else the default
   bool json = false;                     ///< of a check: for programs
+  bool uncommissioned = false;           ///< start although no commissioning of this wiring passed
   bool allow_no_realtime = false;        ///< start although the kernel refuses priority or locked memory
 };
 

@@ -15,25 +15,6 @@
 namespace jaywalk {
 namespace {
 
-/// Node numbers and units a radian, of the drives that the file has.
-std::array<double, 4> axes_of(const DriveWiring& drive) {
-  const auto& odrive = drive.odrive.axes;
-  const auto& vesc = drive.vesc.axes;
-  const auto& cia402 = drive.cia402.axes;
-  switch (drive.kind) {
-    case DriveKind::kOdrive:
-      return {static_cast<double>(odrive[0].node), odrive[0].turns_per_rad, static_cast<double>(odrive[1].node),
-              odrive[1].turns_per_rad};
-    case DriveKind::kVesc:
-      return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
-              static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
-    case DriveKind::kCia402:
-      break;
-  }
-  return {static_cast<double>(cia402[0].node), cia402[0].counts_per_rad, static_cast<double>(cia402[1].node),
-          cia402[1].counts_per_rad};
-}
-
 std::string today() {
   const std::time_t now = std::time(nullptr);
   std::tm utc{};
@@ -61,6 +42,10 @@ void replace(const std::filesystem::path& path, const std::string& text) {
   if (entry < 0) return;
   static_cast<void>(::fsync(entry));
   static_cast<void>(::close(entry));
+}
+
+std::string commission_it(const std::filesystem::path& robot) {
+  return "turn the wheels once: jaywalk commission " + robot.string();
 }
 
 }  // namespace
@@ -104,7 +89,7 @@ void withdraw_commissioned(const std::filesystem::path& robot, const RobotFile& 
 }
 
 CommissioningRecord read_commissioned(const std::filesystem::path& robot, const RobotFile& file) {
-  const std::string again = "; turn the wheels once: jaywalk commission " + robot.string();
+  const std::string again = "; " + commission_it(robot);
   std::ifstream in(commissioned_path(robot));
   const nlohmann::json json = nlohmann::json::parse(in, nullptr, false);
   const auto text = [&json](const char* key) {
@@ -119,13 +104,16 @@ CommissioningRecord read_commissioned(const std::filesystem::path& robot, const 
   return {Commissioned::kPassed, date, "commissioned on " + date};
 }
 
-std::string require_commissioned(const std::filesystem::path& robot, const RobotFile& file) {
+std::string require_commissioned(const std::filesystem::path& robot, const RobotFile& file, bool uncommissioned) {
   const CommissioningRecord record = read_commissioned(robot, file);
   if (record.state == Commissioned::kFailed)
     throw StartupError(
         robot.string() + ": commissioning failed on " + record.date,
         "mend what " + commissioned_path(robot).string() + " says, then jaywalk commission " + robot.string());
-  return record.state == Commissioned::kPassed ? "" : robot.string() + ": " + record.said;
+  if (record.state == Commissioned::kPassed) return "";
+  if (!uncommissioned)
+    throw StartupError(robot.string() + ": " + record.said, "or run it unproved on your own account: --uncommissioned");
+  return robot.string() + ": " + record.said;
 }
 
 }  // namespace jaywalk

@@ -34,7 +34,9 @@ void withdraw_commissioned(const std::filesystem::path& robot, const RobotFile& 
 /// A file that cannot be read counts as never; one that is of other wiring as changed.
 [[nodiscard]] CommissioningRecord read_commissioned(const std::filesystem::path& robot, const RobotFile& file);
 
-/// For `jaywalk run`: a remark, empty where all is well. Throws StartupError where commissioning failed.
-[[nodiscard]] std::string require_commissioned(const std::filesystem::path& robot, const RobotFile& file);
+/// For `jaywalk run`: a remark, empty where all is well. Throws StartupError where commissioning failed, and where
+/// there was none of this wiring unless a person takes it upon themselves (`uncommissioned`).
+[[nodiscard]] std::string require_commissioned(const std::filesystem::path& robot, const RobotFile& file,
+                                               bool uncommissioned);
 
 }  // namespace jaywalk

@@ -6,12 +6,11 @@ namespace {
 using enum KeyKind;
 
 constexpr Range kNodes{1.0, 127.0};  // CANopen's; ODrive and VESC take no other here
-constexpr Range kPerTurn{1e-3, 1e9};
 
 /// What a motor controller of `kind` needs that is one a wheel.
 void add_axes(std::vector<SettingKey>& keys, const std::string& kind, double left_node, const char* scale,
-              const char* meaning) {
-  keys.push_back({"drive:" + kind, scale, kNumber, kPerTurn, "", kNeeded, meaning});
+              const char* meaning, Range per_turn) {
+  keys.push_back({"drive:" + kind, scale, kNumber, per_turn, "", kNeeded, meaning});
   keys.push_back({"drive:" + kind, "left_node", kInteger, kNodes, "", left_node, "the left drive's number on the bus"});
   keys.push_back({"drive:" + kind, "right_node", kInteger, kNodes, "", left_node + 1.0, "the right drive's"});
 }
@@ -25,8 +24,8 @@ std::vector<SettingKey> drive_keys() {
       {"drive", "can", kText, {}, "", kNeeded, "the CAN interface, \"can0\" say"},
       {"drive", "left_reversed", kBoolean, {}, "", false, "the left motor looks the other way"},
       {"drive", "right_reversed", kBoolean, {}, "", false, "the right motor looks the other way"},
-      {"drive", "left_wheel_radius_m", kNumber, {0.01, 1.0}, "m", "the model's", "as jaywalk calibrate measures it"},
-      {"drive", "right_wheel_radius_m", kNumber, {0.01, 1.0}, "m", "the model's", "the same of the right wheel"},
+      {"drive", "left_wheel_radius_m", kNumber, {0.02, 0.5}, "m", "the model's", "as jaywalk calibrate measures it"},
+      {"drive", "right_wheel_radius_m", kNumber, {0.02, 0.5}, "m", "the model's", "the same of the right wheel"},
       {"drive", "track_width_m", kNumber, {0.05, 3.0}, "m", "the model's", "between the wheels' contact points"},
       {"drive",
        "allow_unproved",
@@ -35,9 +34,10 @@ std::vector<SettingKey> drive_keys() {
        "",
        false,
        "arm although a drive did not prove that it stops by itself"}};
-  add_axes(keys, "cia402", 2.0, "counts_per_wheel_turn", "encoder counts a turn of the wheel, gear included");
-  add_axes(keys, "odrive", 1.0, "motor_turns_per_wheel_turn", "the gear");
-  add_axes(keys, "vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs");
+  add_axes(keys, "cia402", 2.0, "counts_per_wheel_turn", "encoder counts a turn of the wheel, gear included",
+           {12.0, 1e8});
+  add_axes(keys, "odrive", 1.0, "motor_turns_per_wheel_turn", "the gear", {0.1, 1000.0});
+  add_axes(keys, "vesc", 1.0, "electrical_turns_per_wheel_turn", "gear times pole pairs", {1.0, 1e5});
   keys.push_back({"drive:cia402", "controller_node", kInteger, kNodes, "", 1.0,
                   "the node whose heartbeat the drives watch: this program"});
   keys.push_back({"drive:cia402",

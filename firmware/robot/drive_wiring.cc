@@ -101,6 +101,24 @@ void read_axes(TomlTable& table, const std::string& key, const DriveModel& model
 
 }  // namespace
 
+std::array<double, 4> axes_of(const DriveWiring& drive) {
+  const auto& odrive = drive.odrive.axes;
+  const auto& vesc = drive.vesc.axes;
+  const auto& cia402 = drive.cia402.axes;
+  switch (drive.kind) {
+    case DriveKind::kOdrive:
+      return {static_cast<double>(odrive[0].node), odrive[0].turns_per_rad, static_cast<double>(odrive[1].node),
+              odrive[1].turns_per_rad};
+    case DriveKind::kVesc:
+      return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
+              static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
+    case DriveKind::kCia402:
+      break;
+  }
+  return {static_cast<double>(cia402[0].node), cia402[0].counts_per_rad, static_cast<double>(cia402[1].node),
+          cia402[1].counts_per_rad};
+}
+
 DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   DriveWiring wiring;
   const StopLimits stop = stop_limits_of(model, tick);

@@ -23,6 +23,9 @@ struct DriveWiring {
   vesc::BaseSetup vesc;
 };
 
+/// Left node and scale, right node and scale, as the file has them: counts or turns a radian, negative where reversed.
+[[nodiscard]] std::array<double, 4> axes_of(const DriveWiring& drive);
+
 /// Reads the table to its end; a track width of its own goes into the model. Throws StartupError "FILE:LINE: cause;
 /// remedy" for anything wrong or unknown. `tick`: the loop's period, two of which every drive's timeout outlasts, or
 /// one late tick would trip it.

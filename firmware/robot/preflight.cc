@@ -1,5 +1,6 @@
 #include "firmware/robot/preflight.h"
 
+#include <fcntl.h>
 #include <sys/mman.h>
 #include <time.h>
 
@@ -11,6 +12,7 @@
 #include <thread>
 
 #include "drivers/can/link_facts.h"
+#include "drivers/panel/device_keys.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_controls.h"
@@ -94,12 +96,10 @@ std::string check_link(const std::string& can) {
 }
 
 std::string check_joystick(const PanelWiring& panel, Clock& clock) {
+  require_joystick(panel);
   panel::Joystick joystick(panel.joystick);
   joystick.poll(clock.now());
   const panel::JoystickState state = joystick.state();
-  if (!state.connected && std::filesystem::exists(panel.joystick.path))
-    throw StartupError(panel.joystick.path + ": is no joystick that this user may read",
-                       "give an evdev device (/dev/input/by-id/...-event-joystick), and join the group input");
   if (!state.connected)
     throw StartupError(panel.joystick.path + ": is not there", "plug it in, or correct [panel] joystick");
   refuse_unrenewed(state, panel);
@@ -131,6 +131,18 @@ std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& cloc
 }
 
 }  // namespace
+
+void require_joystick(const PanelWiring& panel) {
+  const std::string& path = panel.joystick.path;
+  const char* const remedy = "give an evdev device (/dev/input/by-id/...-event-joystick), and join the group input";
+  if (!std::filesystem::exists(path)) return;
+  const wire::FileDescriptor device(::open(path.c_str(), O_RDONLY | O_NONBLOCK | O_CLOEXEC));
+  if (device.get() < 0) throw StartupError(path + ": is no joystick that this user may read", remedy);
+  const std::string lacks = panel::lacking(panel::keys_of(device.get()), panel.joystick);
+  if (lacks.empty()) return;
+  const bool has_others = lacks.rfind("has no ", 0) == 0;
+  throw StartupError(path + ": " + lacks, has_others ? "press it and read its number: evtest " + path : remedy);
+}
 
 std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket, Clock& clock) {
   Inspection inspection;

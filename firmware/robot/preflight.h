@@ -12,8 +12,18 @@ namespace jaywalk {
 struct CheckedPart {
   std::string part;  ///< "scanner", "left drive", ...
   bool is_well = false;
-  std::string said;  ///< what it is; where it is not well, the cause and what to do about it
+  std::string said;    ///< what it is; where it is not well, the cause and what to do about it
+  bool warns = false;  ///< well, but a run wants a word about it
 };
+
+/// "ok", "warn" or "fail".
+[[nodiscard]] inline const char* state_of(const CheckedPart& part) {
+  return !part.is_well ? "fail" : part.warns ? "warn" : "ok";
+}
+
+/// Throws StartupError for a device that is there and is no joystick, or has not the buttons and the stick that the
+/// file counts on.
+void require_joystick(const PanelWiring& panel);
 
 /// Looks at all that a run needs: clock, real-time rights, memory, planner (a trial
 /// of its GPU), control socket, CAN interface, both drives, scanner,

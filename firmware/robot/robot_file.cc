@@ -5,6 +5,7 @@
 
 #include "firmware/robot/distinct_keys.h"
 #include "firmware/robot/known_map_file.h"
+#include "firmware/robot/plausible_robot.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"
@@ -50,6 +51,8 @@ PanelWiring read_panel(TomlTable table, StickUse& steering) {
   const auto button = [&table](const char* key) { return static_cast<std::uint16_t>(table.integer(key)); };
   joystick.path = table.text("joystick");
   panel.needs_dead_man = table.boolean("needs_dead_man");
+  joystick.asks_device = true;
+  joystick.needs_dead_man = panel.needs_dead_man;
   joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
   if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
@@ -58,6 +61,7 @@ PanelWiring read_panel(TomlTable table, StickUse& steering) {
   if (steering != StickUse::kNone && !panel.needs_dead_man) {
     table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
   }
+  joystick.steers = steering != StickUse::kNone;
   joystick.dead_man = button("dead_man_button");
   joystick.stop = button("stop_button");
   joystick.stop_opens = table.boolean("stop_opens");
@@ -118,6 +122,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.laser = read_wiring(laser);
   read_laser(laser, setup.model.laser);
   laser.finish();
+  const DriveModel nominal = setup.model.drive;
   robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));
   if (root.has("panel")) robot.panel = read_panel(root.table("panel"), setup.steering);
@@ -126,6 +131,7 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   for (TomlTable& table : root.tables("places")) robot.places.push_back(read_place(table, robot.places, setup));
   robot.control_socket = root.text("control_socket", "");
   root.finish();
+  require_plausible(robot, nominal, path.string());
   require_zone_in_reach(setup.model, setup.tick(), path.string());
   return robot;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <tuple>
 
+#include "drivers/panel/device_keys.h"
 #include "tests/drivers/panel_bench.h"
 #include "tests/drivers/random_bytes.h"
 
@@ -236,4 +237,36 @@ TEST_CASE("whatever a device says its state stays within its limits") {
     REQUIRE((state.connected || state.stop));
   }
   CHECK(bench.heap_calls == 0);
+}
+
+TEST_CASE("a device is asked for its stop, its dead man and its stick, as far as they are needed") {
+  DeviceKeys pad{.answers = true, .old_joystick = false, .buttons = {}, .axes = {}};
+  const auto give = [](auto& bits, unsigned code) {
+    bits[code / 8] = static_cast<std::uint8_t>(bits[code / 8] | 1U << code % 8);
+  };
+  JoystickSetup setup{.path = "pad"};
+  CHECK(lacking(DeviceKeys{}, setup) == "is no input device: it does not tell which buttons it has");
+  CHECK(lacking(pad, setup) == "has no button 305, which [panel] stop_button names");
+  give(pad.buttons, kStop);
+  CHECK(lacking(pad, setup) == "has no button 310, which [panel] dead_man_button names");
+  setup.needs_dead_man = false;
+  CHECK(lacking(pad, setup).empty());
+  setup.needs_dead_man = setup.steers = true;
+  give(pad.buttons, kDeadMan);
+  give(pad.axes, kX);
+  CHECK(lacking(pad, setup) == "has no stick, which [panel] steering needs");
+  give(pad.axes, kY);
+  CHECK(has_all(pad, setup));
+  pad.old_joystick = true, pad.answers = false;
+  CHECK(lacking(pad, setup).rfind("speaks the older joystick interface", 0) == 0);
+}
+
+TEST_CASE("a pipe in the place of a joystick that is asked what it has counts as gone") {
+  Bench pipe;
+  pipe.plug_in();
+  Joystick asked({.path = pipe.path(), .asks_device = true}), unasked({.path = pipe.path()});
+  asked.poll(Time{}), unasked.poll(Time{});
+  CHECK_FALSE(asked.state().connected);
+  CHECK(asked.state().stop);
+  CHECK(unasked.state().connected);
 }

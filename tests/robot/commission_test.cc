@@ -143,17 +143,19 @@ TEST_CASE("what was found is kept beside the robot file, and counts for that wir
   Bench bench("robot", std::nullopt);
   const std::filesystem::path robot = bench.folder / "mine.toml";
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kNotYet);
-  CHECK(says(require_commissioned(robot, bench.file), "never commissioned"));
+  CHECK(says(require_commissioned(robot, bench.file, true), "never commissioned"));
+  CHECK_THROWS_WITH(require_commissioned(robot, bench.file, false), Catch::Contains("--uncommissioned"));
   write_commissioned(robot, bench.file, {{"left drive", true, "well"}});
   CHECK(std::filesystem::exists(bench.folder / "mine.commissioned.json"));
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
-  CHECK(require_commissioned(robot, bench.file).empty());
+  CHECK(require_commissioned(robot, bench.file, false).empty());
   RobotFile changed = bench.file;
   changed.drive.cia402.axes[0].counts_per_rad *= -1.0;
-  CHECK(says(require_commissioned(robot, changed), "changed since"));
+  CHECK(says(require_commissioned(robot, changed, true), "changed since"));
+  CHECK_THROWS_AS(require_commissioned(robot, changed, false), StartupError);
   write_commissioned(robot, bench.file, {{"left drive", true, "well"}, {"right drive", false, "broken"}});
-  CHECK_THROWS_AS(require_commissioned(robot, bench.file), StartupError);
-  CHECK(says(require_commissioned(robot, changed), "changed since"));
+  CHECK_THROWS_AS(require_commissioned(robot, bench.file, true), StartupError);
+  CHECK(says(require_commissioned(robot, changed, true), "changed since"));
   std::ofstream(bench.folder / "mine.commissioned.json") << "{\"wiring\": 7";
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kNotYet);
 }
@@ -165,7 +167,7 @@ TEST_CASE("a commissioning that was begun leaves no pass of before, and its reco
   std::filesystem::create_hard_link(record, bench.folder / "first");
   withdraw_commissioned(robot, bench.file);
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kFailed);
-  CHECK_THROWS_AS(require_commissioned(robot, bench.file), StartupError);
+  CHECK_THROWS_AS(require_commissioned(robot, bench.file, true), StartupError);
   std::filesystem::rename(bench.folder / "first", record);  // nobody wrote into it
   CHECK(read_commissioned(robot, bench.file).state == Commissioned::kPassed);
   for (const auto& entry : std::filesystem::directory_iterator(bench.folder))

@@ -1,5 +1,6 @@
 #include "firmware/robot/preflight.h"
 
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "drivers/can/link_facts.h"
@@ -57,6 +58,21 @@ TEST_CASE("each part that is missing is told with what to do about it, and the o
   REQUIRE(find(parts, "joystick") != nullptr);
   CHECK_FALSE(find(parts, "joystick")->is_well);
   CHECK_FALSE(std::filesystem::exists(socket_path()));
+}
+
+TEST_CASE("what is no joystick, or has not the stop button, is refused by check and run") {
+  SteadyClock clock;
+  RobotFile file = nothing_connected();
+  const std::string pipe = std::filesystem::temp_directory_path() / ("jaywalk_stop_" + std::to_string(::getpid()));
+  REQUIRE(::mkfifo(pipe.c_str(), 0600) == 0);
+  file.panel = PanelWiring{.joystick = {.path = pipe}};
+  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+  REQUIRE(find(parts, "joystick") != nullptr);
+  CHECK_FALSE(find(parts, "joystick")->is_well);
+  CHECK(find(parts, "joystick")->said.rfind(pipe + ": is no input device", 0) == 0);
+  CHECK_THROWS_AS(require_joystick(*file.panel), StartupError);
+  std::filesystem::remove(pipe);
+  CHECK_NOTHROW(require_joystick(*file.panel));  // it may be plugged in later: until then it is a stop
 }
 
 TEST_CASE("an interface that is no CAN bus is told from one") {

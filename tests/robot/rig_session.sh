@@ -55,7 +55,7 @@ end_plant() {
 start_run() {
   : >"$out/run.log"
   rm -rf "$out/run"  # a run would set it aside, and the guest's memory is small
-  "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --out "$out/run" "$@" >"$out/run.log" 2>&1 &
+  "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --uncommissioned --out "$out/run" "$@" >"$out/run.log" 2>&1 &
   run_pid=$!
   for _ in $(seq 100); do
     [[ $(<"$out/run.log") != *"ready for"* ]] || return 0

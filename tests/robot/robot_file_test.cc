@@ -31,13 +31,15 @@ right_reversed = true
 
 class File {
  public:
-  explicit File(const std::string& text) { std::ofstream(path_) << text; }
+  explicit File(const std::string& text, const std::string& name = "robot")
+      : path_(std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()) + ".toml")) {
+    std::ofstream(path_) << text;
+  }
   ~File() { std::filesystem::remove(path_); }
   [[nodiscard]] const std::filesystem::path& path() const { return path_; }
 
  private:
-  std::filesystem::path path_ =
-      std::filesystem::temp_directory_path() / ("robot" + std::to_string(::getpid()) + ".toml");
+  std::filesystem::path path_;
 };
 
 RobotFile load(const std::string& text) {
@@ -164,7 +166,8 @@ TEST_CASE("every drive's timeout outlasts two of the loop's periods") {
   CHECK(refusal(at("20", "100")) == "loaded");
   CHECK(refusal(at("50", "40")) == "loaded");
   const auto motors = [](const std::string& kind, const std::string& key, const std::string& rate_hz) {
-    std::string text = with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn", kind + "\"\ncan = \"can0\"\n" + key);
+    std::string text =
+        with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600", kind + "\"\ncan = \"can0\"\n" + key + " = 20");
     return text.replace(text.find("[laser]"), 7, "rate_hz = " + rate_hz + "\n[laser]");
   };
   CHECK(load(motors("vesc", "electrical_turns_per_wheel_turn", "25")).drive.vesc.timeout_least ==
@@ -234,4 +237,77 @@ TEST_CASE("what is wrong in a robot file is refused with its line") {
   CHECK(refusal(with("76600", "0")).rfind("13: drive.counts_per_wheel_turn is 0; ", 0) == 0);
   CHECK(refusal(with("can = \"can0\"", "can = \"can0\"\ncontroller_timeout_ms = 1000"))
             .rfind("13: drive.controller_timeout_ms is 1000; ", 0) == 0);
+}
+
+TEST_CASE("a file that blinds the robot ahead is refused, a gap that is as wide as a post is not") {
+  const auto laser = [](const std::string& keys) { return with("range_m = 10.0", "range_m = 10.0\n" + keys); };
+  const auto blanked = [&](double from_deg, double to_deg) {
+    return std::string(kGood) + "\n[[laser.blanked]]\nfrom_deg = " + std::to_string(from_deg) +
+           "\nto_deg = " + std::to_string(to_deg) + "\n";
+  };
+  CHECK(refusal(blanked(-100.0, 100.0)).find("laser.mount, fov_deg, blanked: the laser does not look at") !=
+        std::string::npos);
+  CHECK(refusal(blanked(-30.0, 30.0)).find("of the way ahead") != std::string::npos);
+  CHECK(refusal(blanked(10.0, 14.0)) == "loaded");
+  CHECK(refusal(blanked(100.0, 130.0)) == "loaded");
+  CHECK(refusal(laser("mount = [0.0, 0.0, 3.14159]")).find("100 % of the way ahead") != std::string::npos);
+  CHECK(refusal(laser("mount = [0.1, 0.0, 2.5]")).find("of the way ahead") != std::string::npos);
+  CHECK(refusal(laser("mount = [0.1, 0.0, 0.3]")) == "loaded");
+  CHECK(refusal(laser("fov_deg = 30.0\nbeams = 200\nmount = [0.2, 0.0, 0.0]")).find("max_speed_mps = 0.3") !=
+        std::string::npos);
+  CHECK(refusal(laser("mount = [5.0, 0.0, 0.0]")).find("laser.mount: the laser stands 4.8 m off the body; ") !=
+        std::string::npos);
+  CHECK(refusal(laser("mount = [0.3, 0.1, 0.0]")) == "loaded");
+}
+
+TEST_CASE("half of the way may be out of sight of a robot that does not go faster than 0.3 m/s") {
+  const std::string gap = "\n[[laser.blanked]]\nfrom_deg = 0\nto_deg = 40\n";
+  CHECK(refusal(kGood + gap).find("for up to half of the way, set max_speed_mps = 0.3") != std::string::npos);
+  CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 0.3") + gap) == "loaded");
+  CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 0.3") +
+                "\n[[laser.blanked]]\nfrom_deg = -60\nto_deg = 60\n") != "loaded");
+}
+
+TEST_CASE("wheels, track and gear that no such robot has are refused") {
+  const auto drive = [](const std::string& keys) { return with("can = \"can0\"", "can = \"can0\"\n" + keys); };
+  const auto both = [&](const std::string& radius) {
+    return drive("left_wheel_radius_m = " + radius + "\nright_wheel_radius_m = " + radius);
+  };
+  CHECK(refusal(both("0.01")).rfind("13: drive.left_wheel_radius_m is 0.01; ", 0) == 0);
+  CHECK(refusal(both("0.3")).find("drive.left/right_wheel_radius_m: is 0.3 m, and the model's wheels have 0.0975 m") !=
+        std::string::npos);
+  CHECK(refusal(both("0.1")) == "loaded");
+  CHECK(refusal(drive("left_wheel_radius_m = 0.115")).find("the right one's 0.0975 m") != std::string::npos);
+  CHECK(refusal(drive("track_width_m = 0.6")).find("drive.track_width_m: is 0.6 m, and the model's 0.33 m") !=
+        std::string::npos);
+  CHECK(refusal(with("76600", "1")).rfind("13: drive.counts_per_wheel_turn is 1; ", 0) == 0);
+  // 0.5 m/s are 5.13 rad/s: 100 counts a turn are 82 a second, 1.6 in a tick of 50 Hz.
+  CHECK(refusal(with("76600", "100")).find("drive.counts_per_wheel_turn: 100 counts a turn are 1.6 in a tick") !=
+        std::string::npos);
+  CHECK(refusal(with("76600", "200")) == "loaded");
+  const auto motors = [](const std::string& kind, const std::string& line) {
+    return with("cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600", kind + "\"\ncan = \"can0\"\n" + line);
+  };
+  CHECK(refusal(motors("odrive", "motor_turns_per_wheel_turn = 900")).find("times a minute") != std::string::npos);
+  CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn = 9000")).find("times a minute") != std::string::npos);
+  CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn = 15")) == "loaded");
+}
+
+TEST_CASE("a model whose wheels cannot do what it promises is refused") {
+  const auto of_model = [](const std::string& radius, const std::string& turns) {
+    const File model("[footprint]\nfront_m = 0.3\nrear_m = 0.3\nhalf_width_m = 0.25\n[drive]\nwheel_radius_m = " +
+                         radius + "\ntrack_width_m = 0.42\nmax_wheel_speed_radps = " + turns +
+                         "\n[limits]\nmax_speed_mps = 0.6\nmax_turn_radps = 1.2\nmax_accel_mps2 = 0.4\n"
+                         "max_turn_accel_radps2 = 2.5\nmax_jerk_mps3 = 1.5\nbrake_mps2 = 0.9\n[laser]\n"
+                         "mount = [0.2, 0, 0]\nfov_deg = 270\nbeams = 811\nrate_hz = 15\nrange_min_m = 0.05\n"
+                         "range_m = 25\n",
+                     "model");
+    return refusal(with("\"p3dx\"", "\"" + model.path().string() + "\""));
+  };
+  CHECK(of_model("0.1", "12") == "loaded");
+  CHECK(of_model("0.1", "4").find("model: drive.max_wheel_speed_radps: times the wheel's radius") != std::string::npos);
+  CHECK(of_model("0.02", "12").find("model: drive.max_wheel_speed_radps: times the wheel's radius") !=
+        std::string::npos);
+  CHECK(of_model("0.35", "12").find("is longer than the body") != std::string::npos);
+  CHECK(of_model("0.01", "12") != "loaded");
 }

@@ -237,7 +237,7 @@ TEST_CASE("at a terminal what cannot be seen is asked, what is nonsense again, a
   CHECK(says(text, "right_reversed = true "));
   CHECK(says(text, "mount = [0.1, 0, 0] "));
   CHECK(says(text, "joystick = \"/dev/input/by-id/usb-Pad-event-joystick\""));
-  CHECK(says(said.str(), "drive.motor_turns_per_wheel_turn: the gear (0.001 to 1e+09): not one of these"));
+  CHECK(says(said.str(), "drive.motor_turns_per_wheel_turn: the gear (0.1 to 1000): not one of these"));
 }
 
 TEST_CASE("what the answers say besides is taken over whole") {
