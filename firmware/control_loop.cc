@@ -26,6 +26,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       estimator_(setup),
       motion_(setup.make_motion(setup.motion())),
       latency_(setup.model.drive),
+      known_walls_(setup.model.footprint),
       supervisor_(supervisor_config(setup)),
       diff_drive_(setup.model.drive),
       plan_(&planner.collect()) {}
@@ -75,8 +76,9 @@ void ControlLoop::ask(TickRecord& t) noexcept {
 void ControlLoop::permit(TickRecord& t) noexcept {
   const motion::MotionStatus status = motion_->status();
   t.latency = latency_.measured();
-  t.verdict = supervisor_.judge(t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, t.now, t.latency,
-                                           status.turns_at_goal, zone_speed_.here_mps, sent_});
+  t.verdict = supervisor_.judge(
+      t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, t.now, t.latency, status.turns_at_goal, zone_speed_.here_mps,
+                 sent_, known_walls_.near(tracker().still(), t.pose.map_from_robot)});
   if (status.turn_blocked) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
@@ -126,7 +128,8 @@ motion::World ControlLoop::world(const TickRecord& t) const noexcept {
                         .standing = tracker().standing(),
                         .still = tracker().still(),
                         .pedestrian_hidden = tracker().hides_pedestrian(here.position(), motion::kNearby_m)},
-          .plan = *plan_};
+          .plan = *plan_,
+          .unseen_walls = supervisor_.unseen_walls()};
 }
 
 }  // namespace jaywalk

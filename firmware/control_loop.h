@@ -6,6 +6,7 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/estimator.h"
+#include "firmware/known_walls.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
@@ -56,6 +57,7 @@ class ControlLoop {
   Estimator estimator_;
   std::unique_ptr<motion::Motion> motion_;  ///< never null
   Latency latency_;
+  KnownWalls known_walls_;
   Supervisor supervisor_;
   DiffDrive diff_drive_;
   const Plan* plan_;                                    ///< what collect() last answered, never null

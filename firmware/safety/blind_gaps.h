@@ -39,6 +39,14 @@ class BlindGaps {
   /// How near the laser something can be hidden by lost beams; +infinity where nothing can.
   [[nodiscard]] double nearest_lost_m() const noexcept { return nearest_lost_m_; }
   [[nodiscard]] bool has_blanked() const noexcept { return !laser_.blanked.empty(); }
+  [[nodiscard]] std::size_t beams() const noexcept { return beams_; }
+  /// The beam `step` (1 or -1) from one; beams() beyond the rim of the field of view.
+  [[nodiscard]] std::size_t beside(std::size_t beam, int step) const noexcept {
+    if (!all_round_ && beam == (step > 0 ? beams_ - 1 : 0)) return beams_;
+    return step > 0 ? (beam + 1) % beams_ : (beam + beams_ - 1) % beams_;
+  }
+  /// Whether there is such a beam, and it is not blanked.
+  [[nodiscard]] bool looks(std::size_t beam) const noexcept { return beam < beams_ && !blanked_[beam]; }
 
  private:
   /// Of a beam: measured something or not, or never asked.

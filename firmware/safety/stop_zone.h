@@ -1,4 +1,6 @@
 #pragma once
+#include <span>
+
 #include "firmware/safety/swept_path.h"
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
@@ -23,8 +25,15 @@ class StopZone {
  public:
   explicit StopZone(const StopZoneConfig& config);
 
-  /// +infinity when nothing is met within the look-ahead. Cost: a few steps of 4 cm for each beam within reach.
-  [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist) const noexcept;
+  /// +infinity when nothing is met within the look-ahead. `unseen`: what stands where the laser does not look, in the
+  /// robot's frame. Cost: a few steps of 4 cm for each beam and point within reach.
+  [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist,
+                             std::span<const Vec2> unseen = {}) const noexcept;
+  /// Whether it may creep on (kCreep_mps of its rim) beside what is within kBeside_m already: no part of the way that
+  /// it looks along comes nearer than that by more than kSwing_m, nor nearer than kLeast_m. For noise would keep it
+  /// there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the mean.
+  [[nodiscard]] bool may_creep(const LaserScan& scan, const Twist2& twist, std::span<const Vec2> unseen,
+                               double reaction_s) const noexcept;
   /// Whether a beam ends within the footprint: on a part of the robot itself, or on a person touching it. Such a
   /// point forbids every motion that does not leave it.
   [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;
@@ -40,6 +49,7 @@ class StopZone {
   [[nodiscard]] double speed_to_stop_within(double gap_m, double reaction_s) const noexcept;
 
   static constexpr double kFullMargin_mps = 0.4;
+  static constexpr double kBeside_m = 0.07, kCreep_mps = 0.1, kSwing_m = 0.01, kLeast_m = 0.02;
 
  private:
   /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.

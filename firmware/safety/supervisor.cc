@@ -42,6 +42,7 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       stop_zone_(stop_zone_for(config.model, config.tick)),
       watch_(config.model.footprint, config.model.laser.robot_from_laser, StopZoneConfig{}.margin_m),
       gaps_(config.model.laser),
+      unseen_walls_(config.model.footprint, config.model.laser.robot_from_laser),
       scan_timing_(config.model.laser.rate_hz),
       frozen_scan_(config.model.drive),
       felt_motion_(config.model.drive, config.model.limits.brake_mps2),
@@ -80,6 +81,7 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   if (scan_timing_.is_stale(input.scan, input.now)) reasons |= Reason::kScanStale;
   if (input.scan.sequence > 0 && !is_trustworthy(input.scan, config_.model.laser)) reasons |= Reason::kScanInvalid;
   gaps_.update(input.scan);
+  unseen_walls_.update(input.scan, gaps_, input.known_walls);
   if (sight_loss_.is_lost(gaps_.counts(), input.now)) reasons |= Reason::kSightLost;
   if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
   return reasons;
@@ -143,9 +145,13 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   const double fresh = plan_share(input.plan_stamp, input.now);  // of the limits: shares of what is wanted add up
   if (fresh < 1.0) verdict.reasons |= Reason::kPlanStale;
   at_most(share_within(twist, limits, fresh), Reason::kPlanStale);
-  verdict.gap_m = stop_zone_.gap_m(input.scan, twist);
+  verdict.gap_m = stop_zone_.gap_m(input.scan, twist, unseen_walls_.points());
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
-  if (rim_speed > 0.0) at_most(stop_zone_.speed_to_stop_within(verdict.gap_m, reaction) / rim_speed, Reason::kStopZone);
+  double stops_from_mps = stop_zone_.speed_to_stop_within(verdict.gap_m, reaction);
+  const double creep_mps = std::min(rim_speed, StopZone::kCreep_mps);
+  if (stops_from_mps < creep_mps && stop_zone_.may_creep(input.scan, twist, unseen_walls_.points(), reaction))
+    stops_from_mps = creep_mps;
+  if (rim_speed > 0.0) at_most(stops_from_mps / rim_speed, Reason::kStopZone);
   if (verdict.gap_m == 0.0 && stop_zone_.beams_on_body(input.scan) > 0) verdict.reasons |= Reason::kTouched;
   return twist;
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <limits>
+#include <span>
 
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/felt_motion.h"
@@ -10,6 +11,7 @@
 #include "firmware/safety/seen_motion.h"
 #include "firmware/safety/sight_loss.h"
 #include "firmware/safety/stop_zone.h"
+#include "firmware/safety/unseen_walls.h"
 #include "firmware/safety/verdict.h"
 #include "firmware/safety/watch.h"
 #include "hal/types/laser_scan.h"
@@ -42,6 +44,7 @@ struct SafetyInput {
   bool at_goal = false;                                             ///< only the heading is left to be reached
   double most_speed_mps = std::numeric_limits<double>::infinity();  ///< where it is; a person's rule, not a danger
   WheelCommand sent{};                                              ///< what the drive was sent in the tick before
+  std::span<const Vec2> known_walls{};                              ///< near the robot and in its frame, of its map
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
@@ -55,6 +58,8 @@ class Supervisor {
   explicit Supervisor(const SupervisorConfig& config);
   [[nodiscard]] Verdict judge(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Mode mode() const noexcept { return mode_; }
+  /// UnseenWalls' of the last tick: motion does well to keep off them, too.
+  [[nodiscard]] std::span<const Vec2> unseen_walls() const noexcept { return unseen_walls_.points(); }
   /// False while an earlier fault waits for its reset, or the drives for their proof: ask for nothing until then.
   [[nodiscard]] bool takes_wishes() const noexcept;
 
@@ -77,6 +82,7 @@ class Supervisor {
   StopZone stop_zone_;
   Watch watch_;
   BlindGaps gaps_;
+  UnseenWalls unseen_walls_;
   ScanTiming scan_timing_;
   SightLoss sight_loss_;
   FrozenScan frozen_scan_;

@@ -60,7 +60,8 @@ bool BodyAhead::follows(const Path& path, double most_mps, double margin_m) cons
     const double least = least_clearance_m(margin_m, at_start, room);
     room = map.clearance(pose);
     if (room < least) return false;
-    if (steering.turns_first() && map.goes_unseen(pose.position(), direction(pose.heading))) return false;
+    const BodyMap::Part swings = steering.turns_first() ? BodyMap::Part::kAll : BodyMap::Part::kBehindAxle;
+    if (map.goes_unseen(pose.position(), direction(pose.heading), swings)) return false;
     if (distance(pose.position(), path.back()) < margin_m) return true;
   }
   return true;

@@ -18,7 +18,7 @@ struct BodyAhead {
 
   /// Along the path, which is not empty, with the follower's own steering and at most at `most_mps`: with `margin_m`
   /// all the way, or where there is less from the start no less, for 1.6 m or 8 s. Does not turn on the spot into what
-  /// it has not seen.
+  /// it has not seen, nor swing its rear there.
   [[nodiscard]] bool follows(const Path& path, double most_mps, double margin_m) const noexcept;
   /// On the arc that it is on, or turning on the spot, slowing down within comfort until it stands: 5 cm off
   /// everything.

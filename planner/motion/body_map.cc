@@ -10,6 +10,7 @@ constexpr double kPitch_m = 0.1;      // between samples of an outline
 constexpr double kMayStop_mps = 0.3;  // a pedestrian that turns about or comes to stand is slower; by trial
                                       // (docs/explanation/decisions/long-bodies.md)
 constexpr double kCoat_m = 0.05;      // inflates standing pedestrians, which may be wider than they are taken for
+constexpr double kStoodOn_m = 0.03;   // the least that a wall may be off unseen
 constexpr double kGraze_m = 0.05;     // surfaces are known to so much: less deep is on the outline
 
 /// Points from `a` towards `b`, evenly spaced, without `b`.
@@ -38,10 +39,12 @@ BodyMap::BodyMap(const Footprint& footprint)
 }
 
 void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const StandingPedestrian> standing,
-                   std::span<const Track> moving, const KeepOut& keep_out) noexcept {
+                   std::span<const Track> moving, const KeepOut& keep_out,
+                   std::span<const Vec2> unseen_walls) noexcept {
   const Vec2 centre = map_from_robot.position();
   std::fill(distance_.begin(), distance_.end(), static_cast<float>(kFar_m * kFar_m));
   low_ = centre - Vec2{kReach_m, kReach_m};
+  robot_from_map_ = inverse(map_from_robot);
   const double reach_m = kReach_m + kFar_m;
   const CellIndex first = still.cell_at(centre - Vec2{reach_m, reach_m});
   const CellIndex last = still.cell_at(centre + Vec2{reach_m, reach_m});
@@ -63,30 +66,32 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
   }
   const bool is_in_one = keep_out.distance(static_cast<float>(centre.x), static_cast<float>(centre.y)) < 0.0F;
   if (keep_out.known() && !is_in_one) stamp_zones(keep_out);
-  note_unseen(still, map_from_robot);
+  for (const Vec2 wall : unseen_walls) stamp(map_from_robot * wall);
+  note_unseen(still);
   for (float& d : distance_) d = std::sqrt(d);
 }
 
-void BodyMap::note_unseen(const EvidenceMap& still, const Pose2& map_from_robot) noexcept {
-  const Transform2 robot_from_map(inverse(map_from_robot));
+void BodyMap::note_unseen(const EvidenceMap& still) noexcept {
   for (std::int32_t j = 0; j < kPatches; ++j) {
     for (std::int32_t i = 0; i < kPatches; ++i) {
       const Vec2 p = low_ + Vec2{(i + 0.5) * kPatch_m, (j + 0.5) * kPatch_m};
       const CellIndex cell = still.cell_at(p);
       const bool seen = still.seen_free(cell) || still.occupied(cell);
-      const bool stood_on = footprint_.distance_to(robot_from_map * p) < kPatch_m;
-      unseen_[static_cast<std::size_t>(j * kPatches + i)] = seen || stood_on ? 0 : 1;
+      unseen_[static_cast<std::size_t>(j * kPatches + i)] = seen ? 0 : 1;
     }
   }
 }
 
-bool BodyMap::goes_unseen(Vec2 position, Vec2 ahead) const noexcept {
+bool BodyMap::goes_unseen(Vec2 position, Vec2 ahead, Part part) const noexcept {
+  const Transform2 robot_from_map(robot_from_map_);
   for (const Vec2 p : outline_) {
+    if (part == Part::kBehindAxle && p.x > 0.0) continue;
     const Vec2 on_map = position + Vec2{ahead.x * p.x - ahead.y * p.y, ahead.y * p.x + ahead.x * p.y};
     if (!covers(on_map)) continue;
     const Vec2 at = (on_map - low_) * (1.0 / kPatch_m);
     const std::int32_t patch = static_cast<std::int32_t>(at.y) * kPatches + static_cast<std::int32_t>(at.x);
-    if (unseen_[static_cast<std::size_t>(patch)] != 0) return true;
+    const bool seen = unseen_[static_cast<std::size_t>(patch)] == 0;
+    if (!seen && footprint_.distance_to(robot_from_map * on_map) > kStoodOn_m) return true;
   }
   return false;
 }

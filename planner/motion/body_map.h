@@ -24,10 +24,11 @@ class BodyMap {
 
   /// Draws what stands within kReach_m (each axis) of the robot, pedestrians 5 cm wider than they are taken for; of
   /// `moving` those slower than 0.3 m/s, which have stopped for now or may well.
-  /// Keep-out zones are like surfaces, unless the robot's axle is in one: then it may leave.
-  /// Costs about 100 ns a node near a surface.
+  /// `unseen_walls`, in the robot's frame, are surfaces. Keep-out zones are like surfaces, unless the robot's axle is
+  /// in one: then it may leave. Costs about 100 ns a node near a surface.
   void draw(const EvidenceMap& still, const Pose2& map_from_robot, std::span<const StandingPedestrian> standing = {},
-            std::span<const Track> moving = {}, const KeepOut& keep_out = {}) noexcept;
+            std::span<const Track> moving = {}, const KeepOut& keep_out = {},
+            std::span<const Vec2> unseen_walls = {}) noexcept;
 
   /// From the outline to the nearest surface (m): 0 when it lies on the outline, kFar_m at most, and that as well
   /// beyond the drawn square. Of a surface more than 5 cm inside minus its depth, corners apart. The outline is sampled
@@ -39,9 +40,10 @@ class BodyMap {
   [[nodiscard]] double clearance(Vec2 position_in_map, Vec2 ahead, double least_m = 0.0) const noexcept;
   /// From a point to the nearest surface (m), interpolated between nodes 5 cm apart; kFar_m at most.
   [[nodiscard]] double distance_at(Vec2 p_in_map) const noexcept;
-  /// Whether part of the outline lies where nothing was ever seen, neither free nor occupied. Where the robot stood
-  /// when the map was drawn counts as seen.
-  [[nodiscard]] bool goes_unseen(Vec2 position_in_map, Vec2 ahead) const noexcept;
+  /// Whether part of the outline, or of that behind the axle, lies where nothing was ever seen, neither free nor
+  /// occupied. Where the robot stood when the map was drawn, and 3 cm round that, counts as seen.
+  enum class Part { kAll, kBehindAxle };
+  [[nodiscard]] bool goes_unseen(Vec2 position_in_map, Vec2 ahead, Part part = Part::kAll) const noexcept;
   /// Whether a point lies in the drawn square.
   [[nodiscard]] bool covers(Vec2 p_in_map) const noexcept;
 
@@ -57,7 +59,7 @@ class BodyMap {
   static constexpr double kPatch_m = 0.1;
   static constexpr std::int32_t kPatches = 64;  ///< along an axis
 
-  void note_unseen(const EvidenceMap& still, const Pose2& map_from_robot) noexcept;
+  void note_unseen(const EvidenceMap& still) noexcept;
   void stamp(Vec2 surface_in_map) noexcept;
   void stamp_zones(const KeepOut& keep_out) noexcept;
   void stamp_round(Vec2 centre_in_map, double radius_m) noexcept;
@@ -69,6 +71,7 @@ class BodyMap {
   std::vector<float> distance_;
   std::vector<std::uint8_t> unseen_;  ///< patches of kPatch_m in the same square
   Vec2 low_;
+  Pose2 robot_from_map_;  ///< when it was drawn
 };
 
 }  // namespace jaywalk

@@ -49,7 +49,8 @@ GuideInput guide_input(const motion::World& world, const KeepOut& keep_out) noex
           .goal_in_map = world.input.goal_in_map,
           .keep_out = keep_out,
           .pedestrian_hidden = world.perceived.pedestrian_hidden,
-          .now = world.now};
+          .now = world.now,
+          .unseen_walls = world.unseen_walls};
 }
 
 FootprintGuide::FootprintGuide(const Footprint& footprint, const MotionLimits& limits)
@@ -64,7 +65,7 @@ void FootprintGuide::update(const GuideInput& input) noexcept {
     unfit_.pause();
     return;
   }
-  map_.draw(input.still, input.map_from_robot, input.standing, input.moving, input.keep_out);
+  map_.draw(input.still, input.map_from_robot, input.standing, input.moving, input.keep_out, input.unseen_walls);
   if (refused && may_back_off(input)) {
     refused_.forget();
     unfit_.pause();

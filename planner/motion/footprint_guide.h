@@ -21,9 +21,10 @@ struct GuideInput {
   std::span<const StandingPedestrian> standing = {};  ///< PlanRequest's
   std::span<const Track> moving = {};                 ///< the same
   Vec2 goal_in_map{};
-  KeepOut keep_out{};              ///< where the body must not be though nothing stands there
-  bool pedestrian_hidden = false;  ///< Perceived::pedestrian_hidden
-  Time now{};                      ///< the tick's: waits are counted by it
+  KeepOut keep_out{};                    ///< where the body must not be though nothing stands there
+  bool pedestrian_hidden = false;        ///< Perceived::pedestrian_hidden
+  Time now{};                            ///< the tick's: waits are counted by it
+  std::span<const Vec2> unseen_walls{};  ///< World's
 };
 
 [[nodiscard]] GuideInput guide_input(const motion::World& world, const KeepOut& keep_out) noexcept;

@@ -138,6 +138,10 @@ RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent,
   if (setup_.constant_speed && has_goal) to.v = body_.bounds.speed;
   RobotState next = moved(now, to, body_.bounds, tick_s());
   if (!setup_.constant_speed) next.w = body_.blind.turn_at(next.v, next.w);
+  if (returns_.is_beside() && to.v != 0.0F) {  // a turn that comes before its speed would swing a corner into it
+    const float most = std::fabs(to.w / to.v * next.v);
+    next.w = std::clamp(next.w, -most, most);
+  }
   turned_ = turned_side(next.w, turned_);
   if (rests) stalled_since_ = kNever;
   return {next, rests};

@@ -82,7 +82,7 @@ void GoalTurn::update(const GuideInput& input) noexcept {
   now_ = input.now;
   const bool refused = is_refused(input);
   if (settled_) return waited_.pause();
-  map_.draw(input.still, input.map_from_robot, input.standing, input.moving, input.keep_out);
+  map_.draw(input.still, input.map_from_robot, input.standing, input.moving, input.keep_out, input.unseen_walls);
   if (goes_on(input, refused)) return waited_.pause();
   if (refused && !drive_.active()) refused_until(to_go_rad_) = now_ + kLeftAlone;
   if (refused) searches_ = 0;

@@ -31,6 +31,8 @@ struct World {
   Pose2 map_from_laser{};  ///< at that scan
   Perceived perceived;
   const Plan& plan;  ///< the newest
+  std::span<const Vec2>
+      unseen_walls{};  ///< what the supervisor reckons with where no laser looks; in the robot's frame
 };
 
 /// What is to be done in this tick.

@@ -8,7 +8,8 @@ namespace {
 
 // The stop zone's margin at rest (StopZoneConfig), and the speed of the rim from which all of it counts (StopZone).
 constexpr float kCreepMarginM = 0.04F, kStopZoneMarginMps = 0.4F;
-constexpr float kEdgeM = 0.01F;  ///< a range's noise
+constexpr float kCreepMps = 0.1F, kSwingM = 0.01F;  // the same; StopZone's may_creep()
+constexpr float kEdgeM = 0.01F;                     ///< a range's noise
 constexpr float kNearerM =
     2e-4F;  ///< less is no approach: StopZone's, and single precision a kilometre from the origin
 
@@ -47,11 +48,12 @@ void NearReturns::update(const LaserScan& scan, const Pose2& map_from_laser, con
     const auto sector = std::min(static_cast<std::size_t>(turns * static_cast<float>(kSectors)), kSectors - 1);
     if (away < nearest[sector] && !is_of_a_mover(p, movers)) nearest[sector] = away, hit[sector] = p;
   }
-  count_ = 0;
+  count_ = 0, nearest_ = kBesideM;
   for (std::size_t k = 0; k < kSectors; ++k) {
     if (nearest[k] >= reach_m + body.rim_m) continue;
     x_[count_] = static_cast<float>(hit[k].x), y_[count_] = static_cast<float>(hit[k].y);
     gap_[count_] = gap_to(robot, along, body, x_[count_], y_[count_]) - kNearerM;
+    nearest_ = std::min(nearest_, gap_[count_]);
     ++count_;
   }
 }
@@ -64,7 +66,9 @@ float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) 
     least = gap < gap_[k] && gap < least ? gap : least;
   }
   if (least >= kStopZoneMarginM + kEdgeM) return 0.0F;
-  const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m, may = permitted_rim(least);
+  const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m,
+              creep = is_beside() && least > nearest_ - kSwingM ? kCreepMps : 0.0F,
+              may = std::max(permitted_rim(least), creep);
   return rim > may ? 1.0F - may / rim : 0.0F;
 }
 

@@ -19,15 +19,21 @@ class NearReturns {
               std::span<const MoverDisc> movers) noexcept;
 
   /// Which share of the speed at `robot` the supervisor takes away, in [0, 1]: beside a point that is nearer than it
-  /// was at the look, the outline's edge may go no faster than the stop zone's margin there allows.
+  /// was at the look, the outline's edge may go no faster than the stop zone's margin there allows; where something was
+  /// nearer than 7 cm, as fast as it may creep beside that.
   [[nodiscard]] float braked_share(const RobotState& robot, const RobotBody& body) const noexcept;
+
+  /// Whether something was so near that the supervisor lets the robot creep at most.
+  [[nodiscard]] bool is_beside() const noexcept { return nearest_ < kBesideM; }
 
   static constexpr float kForS = 1.5F;  ///< so far ahead the supervisor's braking is foreseen
 
  private:
+  static constexpr float kBesideM = 0.07F;  ///< StopZone's
   static constexpr std::size_t kSectors = 120;
   float x_[kSectors] = {}, y_[kSectors] = {}, gap_[kSectors] = {};
   std::size_t count_ = 0;
+  float nearest_ = kBesideM;  ///< of the gaps, and no more than that
 };
 
 }  // namespace jaywalk::motion

@@ -76,13 +76,20 @@ class DrivenRobot {
 
   /// What is done to each scan before anything looks at it.
   std::function<void(LaserScan&)> spoil = [](LaserScan&) {};
+  /// Whether the loop's map has the obstacles.
+  bool knows_obstacles = false;
 
   Verdict tick(const Twist2& wanted) {
     now_ += duration_from_seconds(tick_s_);
     if (scan_.sequence == 0 || to_seconds(now_ - scan_.stamp) > 1.0 / model_.laser.rate_hz - 1e-6) sweep();
     wheels_.stamp = now_;
     ++wheels_.sequence;
-    const Verdict verdict = supervisor_.judge(wanted, {scan_, wheels_, input_, now_, now_});
+    const Verdict verdict = supervisor_.judge(wanted, {.scan = scan_,
+                                                       .wheels = wheels_,
+                                                       .input = input_,
+                                                       .plan_stamp = now_,
+                                                       .now = now_,
+                                                       .known_walls = known_walls()});
     for (int k = 0; k < 10; ++k) move(verdict.permitted, 0.1 * tick_s_);
     return verdict;
   }
@@ -103,6 +110,18 @@ class DrivenRobot {
   }
 
  private:
+  std::span<const Vec2> known_walls() {
+    known_.clear();
+    if (!knows_obstacles) return {};
+    for (const Obstacle& obstacle : obstacles_) {
+      for (const Vec2 p : obstacle.rim()) {
+        const Vec2 d = p - pose_.position();
+        const double c = std::cos(pose_.heading), s = std::sin(pose_.heading);
+        if (norm(d) < 1.5) known_.push_back({c * d.x + s * d.y, c * d.y - s * d.x});
+      }
+    }
+    return known_;
+  }
   void sweep() {
     scan_.stamp = now_;
     ++scan_.sequence;
@@ -130,6 +149,7 @@ class DrivenRobot {
 
   RobotModel model_;
   std::vector<Obstacle> obstacles_;
+  std::vector<Vec2> known_;  ///< in the robot's frame
   Supervisor supervisor_;
   double tick_s_;
   Time now_ = time_from_seconds(1.0);

@@ -1,0 +1,93 @@
+#include "firmware/safety/unseen_walls.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kOff_m = 0.03;       // three standard deviations of a range: farther from the line is another surface
+constexpr double kApart_m = 0.3;      // between two hits of a wall
+constexpr double kSeed_m = 0.15;      // so much of it tells its direction from noise
+constexpr double kShortest_m = 0.25;  // of what is seen of it: its direction is good to a few degrees
+constexpr double kLongest_m = 3.0;    // more says nothing about the piece beside the robot
+constexpr double kPerSeen = 3.0;      // it is continued by so many times what is seen of it: errors grow with that
+constexpr double kSpacing_m = 0.04;   // as the stop zone's steps
+constexpr int kRefitEvery = 8, kMissing = 3;
+
+/// Straight line through points, by total least squares.
+class LineFit {
+ public:
+  void add(Vec2 p) noexcept {
+    ++count_;
+    sum_ = sum_ + p;
+    xx_ += p.x * p.x, xy_ += p.x * p.y, yy_ += p.y * p.y;
+    if (count_ % kRefitEvery != 0) return;
+    const double n = count_;
+    middle_ = sum_ * (1.0 / n);
+    // The principal axis of the points' covariance.
+    along_ = direction(0.5 * atan2(2.0 * (xy_ / n - middle_.x * middle_.y),
+                                   xx_ / n - middle_.x * middle_.x - yy_ / n + middle_.y * middle_.y));
+  }
+  [[nodiscard]] bool known() const noexcept { return count_ >= kRefitEvery; }
+  [[nodiscard]] double off_m(Vec2 p) const noexcept { return cross(along_, p - middle_); }
+  [[nodiscard]] Vec2 along() const noexcept { return along_; }
+  [[nodiscard]] Vec2 foot_of(Vec2 p) const noexcept { return middle_ + along_ * dot(along_, p - middle_); }
+
+ private:
+  int count_ = 0;
+  Vec2 sum_{}, middle_{}, along_{};
+  double xx_ = 0.0, xy_ = 0.0, yy_ = 0.0;
+};
+
+bool cuts(const LineFit& line, const Footprint& body) noexcept {
+  double least = 1e9, most = -1e9;
+  for (const double x : {body.front_m, -body.rear_m}) {
+    for (const double y : {body.half_width_m, -body.half_width_m})
+      least = std::min(least, line.off_m({x, y})), most = std::max(most, line.off_m({x, y}));
+  }
+  return least <= 0.0 && most >= 0.0;
+}
+
+}  // namespace
+
+UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept
+    : footprint_(footprint), robot_from_laser_(robot_from_laser), laser_from_robot_(inverse(robot_from_laser)) {}
+
+void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known) noexcept {
+  points_.clear();
+  for (const Vec2 point : known) add(gaps, point);
+  for (std::size_t beam = 0; beam < gaps.beams(); ++beam) {
+    for (const int step : {1, -1})
+      if (gaps.looks(beam) && !gaps.looks(gaps.beside(beam, -step))) continue_wall(scan, gaps, beam, step);
+  }
+}
+
+void UnseenWalls::add(const BlindGaps& gaps, Vec2 point) noexcept {
+  const bool counts = footprint_.distance_to(point) > 0.0 && gaps.at(laser_from_robot_ * point) == Sight::kUnwatched;
+  if (counts) (void)points_.push_back(point);
+}
+
+void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, std::size_t rim, int step) noexcept {
+  LineFit line;
+  Vec2 first{}, last{};
+  int missing = 0;
+  for (std::size_t beam = rim; gaps.looks(beam) && missing <= kMissing; beam = gaps.beside(beam, step)) {
+    const Vec2 hit = robot_from_laser_ * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+    const bool belongs = scan.is_hit(beam) && (distance(first, last) < kSeed_m || std::fabs(line.off_m(hit)) < kOff_m);
+    missing = belongs ? 0 : missing + 1;
+    if (!belongs) continue;
+    if (last == Vec2{}) first = last = hit;
+    if (distance(hit, last) > kApart_m || distance(hit, first) > kLongest_m) break;
+    line.add(last = hit);
+  }
+  const double seen_m = distance(first, last);
+  if (!line.known() || seen_m < kShortest_m || cuts(line, footprint_)) return;
+  const Vec2 outward = line.along() * (dot(line.along(), first - last) > 0.0 ? 1.0 : -1.0), from = line.foot_of(first);
+  const double length_m =
+      std::min(kPerSeen * seen_m, norm(from) + footprint_.circumscribed_radius_m());  // past the body
+  for (double gone = 0.0; gone < length_m; gone += kSpacing_m) add(gaps, from + outward * gone);
+}
+
+}  // namespace jaywalk

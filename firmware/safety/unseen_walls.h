@@ -1,0 +1,35 @@
+#pragma once
+#include <span>
+
+#include "firmware/safety/blind_gaps.h"
+#include "hal/types/fixed_vector.h"
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+/// Walls where the laser does not look, as points for the stop zone: those that the loop knows from its map, and each
+/// wall that is straight up to the rim of sight, continued past the body.
+///
+/// A continued wall is a guess that only ever slows: it ends a body's length beyond the robot, and a line that would
+/// cut the body is none. Thread: the loop's; never allocates, never throws.
+class UnseenWalls {
+ public:
+  UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept;
+
+  /// `known`: surfaces near the robot, in its frame.
+  void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known) noexcept;
+  /// In the robot's frame, 4 cm apart or less.
+  [[nodiscard]] std::span<const Vec2> points() const noexcept { return {points_.data(), points_.size()}; }
+
+ private:
+  /// The wall whose hits begin at beam `rim` and go on inward, `step` (1 or -1) beams at a time.
+  void continue_wall(const LaserScan& scan, const BlindGaps& gaps, std::size_t rim, int step) noexcept;
+  void add(const BlindGaps& gaps, Vec2 point) noexcept;
+
+  Footprint footprint_;
+  Transform2 robot_from_laser_, laser_from_robot_;
+  FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first
+};
+
+}  // namespace jaywalk
