@@ -2,7 +2,7 @@
 # What the build needs from the system, and how it gets there; sourced by tools/demo and tools/test.
 
 # Names hold for Debian 12 and Ubuntu 22.04 and 24.04.
-readonly kLibraries=(catch2 fonts-dejavu-core libbz2-dev libcairo2-dev libcli11-dev libeigen3-dev liblz4-dev libpng-dev libsqlite3-dev
+readonly kLibraries=(catch2 fonts-dejavu-core libboost-dev libbz2-dev libcairo2-dev libcli11-dev libeigen3-dev liblz4-dev libpng-dev libsqlite3-dev libssl-dev
   libtoml11-dev libyaml-cpp-dev libzstd-dev nlohmann-json3-dev zlib1g-dev)
 
 # missing_packages: the Debian packages that are not there, one a line. A program counts wherever it came from.

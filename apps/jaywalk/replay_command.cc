@@ -83,7 +83,9 @@ class ReplayView {
  public:
   ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
     if (!options.view) return;
-    live_ = std::make_unique<LiveView>(*options.view, true, [](const view::ViewOrder&) { return std::string(); });
+    live_ = std::make_unique<LiveView>(*options.view, true, [](const view::ViewOrder&, const view::Reply& reply) {
+      reply("a recording takes no orders\n");
+    });
     live_->begin({.title = options.logs[0].filename().string(),
                   .model = runner.setup().model,
                   .takes_goals = false,

@@ -18,7 +18,8 @@ inline std::uint16_t port_of(const std::string& word) {
                      "give a whole number from 0 to 65535 (0: any that is free)");
 }
 
-/// --view [PORT], --view-address and --view-origin. Parsing throws StartupError for what is no port.
+/// --view [PORT], --view-address, --view-certificate and --view-origin. Parsing throws StartupError for what is no
+/// port.
 inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
   const auto here = [&chosen]() -> view::ViewAddress& { return chosen ? *chosen : chosen.emplace(); };
   command
@@ -30,8 +31,14 @@ inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen
   command
       .add_option_function<std::string>(
           "--view-address", [here](const std::string& word) { here().address = word; },
-          "Serve it on this IPv4 address of the machine, with a token (default: 127.0.0.1, this machine alone)")
+          "Serve it on this IPv4 address of the machine, by TLS and with a token (default: 127.0.0.1, this machine "
+          "alone)")
       ->type_name("ADDRESS");
+  command
+      .add_option_function<std::string>(
+          "--view-certificate", [here](const std::string& word) { here().certificate = word; },
+          "PEM file with certificate and key for TLS (default: a self-signed one, made at the first start)")
+      ->type_name("FILE");
   command
       .add_option_function<std::string>(
           "--view-origin", [here](const std::string& word) { here().origin = word; },

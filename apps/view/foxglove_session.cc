@@ -14,6 +14,7 @@ using Json = nlohmann::json;
 
 constexpr char kMessageData = 1;  ///< opcode of binary frames, either way
 constexpr std::size_t kMostNumbers = 64;
+constexpr std::size_t kMostShown = 40;  ///< letters of what a client said
 constexpr int kWarning = 1;
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
@@ -88,16 +89,17 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
   if (op == "subscribe") {
     for (const Json& wish : list_in(json, "subscriptions")) {
       const auto id = number_in(wish, "id"), channel = number_in(wish, "channelId");
-      if (!id || !channel || *channel >= channels_ || subscriptions_.size() >= kMostNumbers) {
+      if (!id || !channel || *channel >= channels_) {
         outcome.status = warning("a subscription names no channel");
-        continue;
+      } else if (!subscriptions_.emplace(*channel, *id).second) {
+        outcome.status = warning("a channel is subscribed to already");
+      } else {
+        outcome.subscribed.push_back(*channel);
       }
-      subscriptions_[*id] = *channel;
-      outcome.subscribed.push_back(*channel);
     }
   } else if (op == "unsubscribe") {
     for (const Json& id : list_in(json, "subscriptionIds"))
-      if (id.is_number_unsigned()) subscriptions_.erase(id.get<std::uint32_t>());
+      std::erase_if(subscriptions_, [&id](const auto& one) { return id.is_number_unsigned() && id == one.second; });
   } else if (op == "advertise") {
     for (const Json& channel : list_in(json, "channels")) {
       const auto id = number_in(channel, "id");
@@ -108,7 +110,7 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
     for (const Json& id : list_in(json, "channelIds"))
       if (id.is_number_unsigned()) published_.erase(id.get<std::uint32_t>());
   } else {
-    outcome.status = warning("not served: " + op);
+    outcome.status = warning("not served: " + op.substr(0, kMostShown));
   }
   return outcome;
 }
@@ -123,27 +125,27 @@ FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) 
   if (found == published_.end())
     return {.order = "", .status = warning("a message of a channel that is not advertised")};
   const auto& [topic, encoding] = found->second;
-  if (topic != "/goal_pose") return {.order = "", .status = warning(topic + " is not taken: publish /goal_pose")};
+  if (topic != "/goal_pose")
+    return {.order = "", .status = warning(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose")};
   const auto goal = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
   if (!goal) return {.order = "", .status = warning("/goal_pose: no geometry_msgs/PoseStamped in the frame map")};
   return {.order = words_of(*goal), .status = ""};
 }
 
 std::optional<std::uint32_t> FoxgloveSession::subscription(std::size_t channel) const {
-  for (const auto& [id, of] : subscriptions_)
-    if (of == channel) return id;
-  return std::nullopt;
+  const auto found = subscriptions_.find(channel);
+  return found == subscriptions_.end() ? std::nullopt : std::optional(found->second);
 }
 
 std::uint32_t FoxgloveSession::wanted() const {
   std::uint32_t bits = 0;
-  for (const auto& [id, channel] : subscriptions_) bits |= 1U << channel;
+  for (const auto& [channel, id] : subscriptions_) bits |= 1U << channel;
   return bits;
 }
 
-std::string foxglove_message(std::uint32_t subscription, Time stamp, std::string_view message) {
+std::string foxglove_head(std::uint32_t subscription, Time stamp) {
   const auto ns = static_cast<std::uint64_t>(std::max<std::int64_t>(stamp.time_since_epoch().count(), 0));
-  return std::string(1, kMessageData) + little_endian(subscription, 4) + little_endian(ns, 8) + std::string(message);
+  return std::string(1, kMessageData) + little_endian(subscription, 4) + little_endian(ns, 8);
 }
 
 }  // namespace jaywalk::view

@@ -50,11 +50,11 @@ class FoxgloveSession {
     std::string topic, encoding;
   };
   std::size_t channels_;
-  std::map<std::uint32_t, std::size_t> subscriptions_;  ///< the client's number, the channel
+  std::map<std::size_t, std::uint32_t> subscriptions_;  ///< the client's number of a channel, one each
   std::map<std::uint32_t, Published> published_;        ///< by the client's number
 };
 
-/// Message Data: the payload of a binary frame.
-[[nodiscard]] std::string foxglove_message(std::uint32_t subscription, Time stamp, std::string_view message);
+/// What stands before a message in a binary frame of Message Data.
+[[nodiscard]] std::string foxglove_head(std::uint32_t subscription, Time stamp);
 
 }  // namespace jaywalk::view

@@ -28,25 +28,29 @@ std::vector<view::FoxgloveChannel> channels() {
 LiveView::LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
-      server_(where, {.on_order = [this](std::string_view text) { return answer(text); }, .channels = channels()}),
+      server_(where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
+                      .channels = channels()}),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
         server_.push(channel, stamp, std::move(message));
       }) {
   std::printf("view: %s\n", server_.url().c_str());
+  if (const std::string known_by = server_.fingerprint(); !known_by.empty())
+    std::printf("its certificate, SHA-256: %s\n", known_by.c_str());
   std::fflush(stdout);
 }
 
 /// {"tick":N}, {"past":true}, or an order.
-std::string LiveView::answer(std::string_view text) {
+void LiveView::answer(std::string_view text, const view::Reply& reply) {
   if (const auto order = view::parse_order(text)) {
-    const std::string said = obey_(*order);
-    return said.empty() ? "" : nlohmann::json{{"kind", "said"}, {"text", said}}.dump();
+    return obey_(*order, [reply](const std::string& said) {
+      reply(said.empty() ? "" : nlohmann::json{{"kind", "said"}, {"text", said}}.dump());
+    });
   }
   const auto asked = nlohmann::json::parse(text, nullptr, false);
-  if (!keeps_ticks_ || !asked.is_object()) return "";
-  if (asked.contains("past")) return store_.past(kMostStripTicks);
-  if (!asked.contains("tick") || !asked["tick"].is_number_unsigned()) return "";
-  return store_.then(asked["tick"].get<std::uint64_t>());
+  if (!keeps_ticks_ || !asked.is_object()) return;
+  if (asked.contains("past")) return reply(store_.past(kMostStripTicks));
+  if (asked.contains("tick") && asked["tick"].is_number_unsigned())
+    reply(store_.then(asked["tick"].get<std::uint64_t>()));
 }
 
 void LiveView::begin(view::HelloScene hello, Duration tick) {

@@ -19,11 +19,11 @@ namespace jaywalk {
 /// calls; clients are served by a thread of their own. Thread: one, between ticks or beside the loop.
 class LiveView {
  public:
-  /// What became of an order, for the page; called on the server's thread.
-  using Obey = std::function<std::string(const view::ViewOrder&)>;
+  /// Takes an order, and tells the page what became of it; called on the server's thread, must not wait.
+  using Obey = std::function<void(const view::ViewOrder&, view::Reply)>;
 
-  /// `keeps_ticks`: any tick can be asked for, as long as the program runs. Prints the line `view: http://...`. Throws
-  /// StartupError where the address cannot be served.
+  /// `keeps_ticks`: any tick can be asked for, as long as the program runs. Prints the line `view: http://...`, with
+  /// TLS its certificate's fingerprint too. Throws StartupError where the address cannot be served.
   LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey);
 
   /// Before the first tick. `keeps_ticks` and `tick_s` of `hello` are set here.
@@ -37,6 +37,7 @@ class LiveView {
   void show_map(const EvidenceMap& map, Time now) { topics_.add_map(map, now); }
   [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_.wanted()); }
 
+  [[nodiscard]] std::string url() const { return server_.url(); }
   [[nodiscard]] int viewers() const noexcept { return server_.viewers(); }
   /// Whether a client subscribes to messages: these want every tick.
   [[nodiscard]] bool has_subscribers() const noexcept { return server_.wanted() != 0; }
@@ -45,7 +46,7 @@ class LiveView {
   void stay(bool until_told, const Interruption& interruption) const;
 
  private:
-  [[nodiscard]] std::string answer(std::string_view text);
+  void answer(std::string_view text, const view::Reply& reply);
   void show_field_of(const LoopRunner& runner);
 
   Obey obey_;

@@ -6,11 +6,30 @@
 
 namespace jaywalk {
 
-RunView::RunView(const view::ViewAddress& where, std::filesystem::path control_socket, const std::string& title,
+namespace {
+
+view::ViewAddress with_token(view::ViewAddress where) {
+  where.wants_token = true;
+  return where;
+}
+
+std::string answer_of(const std::filesystem::path& control_socket, const std::string& line) {
+  try {
+    return ask(control_socket, line);
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& control_socket, const std::string& title,
                  const ControlSetup& setup, const EvidenceMap& map)
-    : control_socket_(std::move(control_socket)),
-      planner_tap_(map),
-      live_(where, false, [this](const view::ViewOrder& order) { return obey(order); }) {
+    : planner_tap_(map),
+      courier_([control_socket](const std::string& line) { return answer_of(control_socket, line); }),
+      live_(with_token(where), false,
+            [this](const view::ViewOrder& order, const view::Reply& reply) { obey(order, reply); }),
+      address_file_(control_socket, live_.url()) {
   live_.begin({.title = title, .model = setup.model, .takes_pauses = false}, setup.tick());
 }
 
@@ -25,14 +44,9 @@ void RunView::follow() {
   planner_tap_.taken();
 }
 
-std::string RunView::obey(const view::ViewOrder& order) const {
-  try {
-    if (order.stop) return ask(control_socket_, "stop");
-    if (!order.goal) return "";
-    return ask(control_socket_, "goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}));
-  } catch (const StartupError& error) {
-    return error.what();
-  }
+void RunView::obey(const view::ViewOrder& order, const view::Reply& reply) {
+  if (order.stop) return courier_.stop(reply);
+  if (order.goal) courier_.go("goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}), reply);
 }
 
 }  // namespace jaywalk

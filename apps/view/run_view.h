@@ -5,16 +5,19 @@
 
 #include "apps/report/run_observer.h"
 #include "apps/view/live_view.h"
+#include "apps/view/order_courier.h"
 #include "apps/view/planner_tap.h"
+#include "apps/view/secret.h"
 
 namespace jaywalk {
 
 /// The live page of a run on a robot: 25 ticks a second through a ring, goals and stops through the run's control
-/// socket, as those of any client; and what a run leaves in its folder. No page delays a tick.
+/// socket, as those of any client; and what a run leaves in its folder. No page delays a tick. To look and to set goals
+/// wants a token, on this machine too: the socket is not everybody's either. The address with the token lies beside it.
 class RunView final : public RunObserver {
  public:
   /// Takes the memory. Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
-  RunView(const view::ViewAddress& where, std::filesystem::path control_socket, const std::string& title,
+  RunView(const view::ViewAddress& where, const std::filesystem::path& control_socket, const std::string& title,
           const ControlSetup& setup, const EvidenceMap& map);
 
   void after_tick(const TickRecord& record, const ControlLoop& loop) noexcept override {
@@ -27,12 +30,13 @@ class RunView final : public RunObserver {
   void follow() override;
 
  private:
-  [[nodiscard]] std::string obey(const view::ViewOrder& order) const;
+  void obey(const view::ViewOrder& order, const view::Reply& reply);
 
-  std::filesystem::path control_socket_;
   view::SnapshotTap snapshots_;
   view::PlannerTap planner_tap_;
+  view::OrderCourier courier_;  ///< outlives the server, which calls it
   LiveView live_;
+  view::AddressFile address_file_;
 };
 
 }  // namespace jaywalk

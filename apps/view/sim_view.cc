@@ -11,9 +11,11 @@ constexpr auto kLookEvery = std::chrono::milliseconds(5);  // at the page's orde
 }  // namespace
 
 SimView::SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals)
-    : panel_(panel), takes_goals_(takes_goals), live_(where, true, [this](const view::ViewOrder& order) {
+    : panel_(panel),
+      takes_goals_(takes_goals),
+      live_(where, true, [this](const view::ViewOrder& order, const view::Reply& reply) {
         orders_.add(order);
-        return std::string();
+        if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
       }) {}
 
 void SimView::begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls) {

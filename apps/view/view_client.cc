@@ -1,141 +1,215 @@
 #include "apps/view/view_client.h"
 
-#include <sys/socket.h>
+#include <algorithm>
+#include <array>
+#include <boost/beast/core/detect_ssl.hpp>
 
-#include <cerrno>
-
-#include "apps/view/http.h"
 #include "apps/view/live_page.h"
 
 namespace jaywalk::view {
 namespace {
 
-constexpr std::size_t kMostReceived = 16384;  ///< bytes of a request's head, or of orders not yet read
+namespace asio = boost::asio;
+namespace beast = boost::beast;
+namespace http = beast::http;
+namespace websocket = beast::websocket;
 
-/// A name that another site's page cannot have: else a foreign name that leads to this machine would do as well.
-bool is_loopback_name(const std::string& host) {
-  const std::string name = host.substr(0, host.rfind(':'));
-  return name == "127.0.0.1" || name == "localhost";
-}
+constexpr std::size_t kMostRequest = 8192;     ///< bytes of its head; a body is not wanted
+constexpr std::size_t kMostPayload = 8192;     ///< orders have about 50, an advertisement with its schema some hundred
+constexpr std::size_t kMostUnread = 64 << 10;  ///< bytes: a client with more is asked for nothing
+constexpr std::chrono::seconds kAnswered{5};   ///< from its first byte to the answer's last
+constexpr std::chrono::seconds kQuiet{20};     ///< a WebSocket; it is asked by a ping after half of it
+constexpr double kMessages_hz = 50.0, kMostAtOnce = 100.0;
 
-/// Browsers say whose page opens a WebSocket: our own may and one that was named, since orders move the robot.
-bool may_order(const HttpRequest& request, const std::string& named) {
-  const std::string origin = request.header("origin");
-  return origin.empty() || origin == named || origin == "http://" + request.header("host");
-}
+std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
 
 }  // namespace
 
-bool ViewClient::serve(Clock::time_point now) {
-  if (!receive(now) || is_idle(now)) return false;
-  if (!ends_) upgraded_ ? answer_frames() : answer_http();
-  return flush() && !(ends_ && unsent_.empty());
+ViewClient::ViewClient(asio::ip::tcp::socket socket, ViewHouse& house)
+    : socket_(std::move(socket)), house_(house), received_(2 * kMostRequest), allowance_(kMostAtOnce) {
+  Error error;
+  auto& tcp = socket_.next_layer().next_layer();
+  tcp.set_option(asio::ip::tcp::no_delay(true), error);
+  const auto peer = tcp.remote_endpoint(error).address(), own = tcp.local_endpoint(error).address();
+  if (error || !peer.is_v4()) return;
+  address_ = peer.to_v4().to_uint();
+  local_ = peer.is_loopback() || peer == own;
 }
 
-bool ViewClient::receive(Clock::time_point now) {
-  char room[4096];
-  const ssize_t count = ::recv(socket_.get(), room, sizeof room, MSG_DONTWAIT);
-  if (count < 0) return errno == EAGAIN || errno == EINTR;
-  received_.append(room, static_cast<std::size_t>(count));
-  if (upgraded_) heard_ = now;  // a request has kUnasked in all
-  return count > 0 && received_.size() <= kMostReceived;
+template <class Next>
+auto ViewClient::then(Next next) {
+  return
+      [self = shared_from_this(), next](Error error, auto... count) { error ? self->close() : next(*self, count...); };
 }
 
-bool ViewClient::is_idle(Clock::time_point now) {
-  if (!upgraded_) return now - heard_ > kUnasked;
-  if (now - pinged_ > kPing && unsent_.empty()) {
-    unsent_ += to_frame(Opcode::kPing, "");
-    pinged_ = now;
+template <class Take>
+Reply ViewClient::reply_to(Take take) {
+  return [io = house_.io, self = weak_from_this(), take](std::string text) {
+    asio::post(*io, [self, take, text = std::move(text)] {
+      if (const auto client = self.lock(); client && client->stage() != Stage::kGone) take(*client, text);
+    });
+  };
+}
+
+void ViewClient::start() {
+  if (!house_.tls) return read_request();
+  beast::async_detect_ssl(socket_.next_layer(), received_, then([](ViewClient& client, bool is_tls) {
+                            if (!is_tls) return client.read_request();
+                            client.socket_.next_layer().begin_tls(
+                                *client.house_.tls, client.received_.data(),
+                                client.then([](ViewClient& encrypted, std::size_t used) {
+                                  encrypted.received_.consume(used);
+                                  encrypted.read_request();
+                                }));
+                          }));
+}
+
+void ViewClient::read_request() {
+  request_.emplace().header_limit(kMostRequest);
+  request_->body_limit(kMostRequest);
+  http::async_read(socket_.next_layer(), received_, *request_, [self = shared_from_this()](Error error, std::size_t) {
+    if (error && error.category() == http::make_error_code(http::error::bad_target).category())
+      return self->respond(Status::bad_request, "text/plain", error.message() + "\n");
+    error ? self->close() : self->answer_request();
+  });
+}
+
+void ViewClient::answer_request() {
+  const auto& asked = request_->get();
+  const ViewVerdict verdict = judge({.method = text_of(asked.method_string()),
+                                     .target = text_of(asked.target()),
+                                     .host = text_of(asked[http::field::host]),
+                                     .origin = text_of(asked[http::field::origin]),
+                                     .subprotocols = text_of(asked[http::field::sec_websocket_protocol]),
+                                     .is_upgrade = websocket::is_upgrade(asked),
+                                     .is_local = local_,
+                                     .is_encrypted = socket_.next_layer().is_encrypted()},
+                                    house_.rules);
+  if (verdict.service == Service::kSocket) return upgrade(verdict.subprotocol);
+  static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
+  if (verdict.service == Service::kPage)
+    return respond(Status::ok, "text/html; charset=utf-8", std::string(live_page()));
+  if (verdict.service == Service::kStop)
+    return house_.door.on_order(R"({"stop":true})", reply_to([](ViewClient& client, const std::string& said) {
+                                  client.respond(Status::ok, "application/json", said);
+                                }));
+  respond(http::int_to_status(verdict.status), "text/plain; charset=utf-8", verdict.said);
+}
+
+void ViewClient::respond(Status status, std::string type, std::string body) {
+  response_.emplace(status, 11);
+  response_->set(http::field::content_type, type);
+  response_->set(http::field::cache_control, "no-store");
+  response_->set(http::field::x_frame_options, "DENY");
+  response_->set("Referrer-Policy", "no-referrer");
+  response_->body() = std::move(body);
+  response_->keep_alive(false);
+  response_->prepare_payload();
+  http::async_write(socket_.next_layer(), *response_, then([](ViewClient& client, std::size_t) {
+                      client.served_ = true;
+                      Error error;  // closed at once, what it still sends would make the kernel take the answer back
+                      auto& tcp = client.socket_.next_layer().next_layer();
+                      tcp.shutdown(asio::ip::tcp::socket::shutdown_send, error);
+                      tcp.async_wait(asio::ip::tcp::socket::wait_read,
+                                     client.then([](ViewClient& heard) { heard.close(); }));
+                    }));
+}
+
+void ViewClient::upgrade(const std::string& subprotocol) {
+  if (!house_.enter(*this, Stage::kLooks)) {
+    static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
+    return respond(Status::service_unavailable, "text/plain", "as many look as may: close a page\n");
   }
-  return now - heard_ > kIdle;
+  if (!subprotocol.empty()) foxglove_.emplace(house_.door.channels.size());
+  socket_.set_option(websocket::stream_base::timeout{kAnswered, kQuiet, true});
+  socket_.set_option(websocket::stream_base::decorator([subprotocol](websocket::response_type& response) {
+    if (!subprotocol.empty()) response.set(http::field::sec_websocket_protocol, subprotocol);
+  }));
+  socket_.read_message_max(kMostPayload);
+  socket_.auto_fragment(false);
+  socket_.async_accept(request_->get(), then([](ViewClient& client) {
+                         client.request_.reset();
+                         client.received_.clear();
+                         if (!client.foxglove_) client.house_.welcome(client);
+                         if (client.foxglove_)
+                           for (std::string& text : foxglove_greeting(client.house_.door.channels))
+                             client.send({"", std::make_shared<const std::string>(std::move(text))});
+                         client.read_on();
+                       }));
 }
 
-bool ViewClient::flush() {
-  if (unsent_.empty()) return true;
-  const ssize_t sent = ::send(socket_.get(), unsent_.data(), unsent_.size(), MSG_NOSIGNAL | MSG_DONTWAIT);
-  if (sent < 0) return errno == EAGAIN || errno == EINTR;
-  unsent_.erase(0, static_cast<std::size_t>(sent));
-  return true;
+void ViewClient::read_on() {
+  if (reads_ || request_ || stage_ != Stage::kLooks || outbox_.bytes() > kMostUnread || allowance_ < 1.0) return;
+  reads_ = true;
+  socket_.async_read(received_, then([](ViewClient& client, std::size_t) {
+                       client.reads_ = false;
+                       client.allowance_ -= 1.0;
+                       client.take_message();
+                       client.received_.clear();
+                       client.read_on();
+                     }));
 }
 
-void ViewClient::offer(std::string_view message) {
-  if (!ends_ && unsent_.empty()) queue(message);
-}
-
-void ViewClient::queue(std::string_view message) {
-  if (is_page()) unsent_ += to_frame(Opcode::kText, message);
-}
-
-void ViewClient::offer(std::size_t channel, Time stamp, std::string_view message) {
-  constexpr std::size_t kMostWaiting = 1U << 20U;  ///< bytes: a tick's topics come one by one
-  if (!ends_ && unsent_.size() < kMostWaiting) queue(channel, stamp, message);
-}
-
-void ViewClient::queue(std::size_t channel, Time stamp, std::string_view message) {
-  const auto wanted = foxglove_ ? foxglove_->subscription(channel) : std::nullopt;
-  if (wanted) unsent_ += to_frame(Opcode::kBinary, foxglove_message(*wanted, stamp, message));
-}
-
-void ViewClient::refuse(std::string_view status, std::string_view why) {
-  unsent_ += http_answer(status, "text/plain; charset=utf-8", why);
-  ends_ = true;
-}
-
-void ViewClient::answer_http() {
-  const auto end = received_.find("\r\n\r\n");
-  if (end == std::string::npos) return;
-  const auto request = parse_request(std::string_view(received_).substr(0, end + 4));
-  received_.erase(0, end + 4);
-  if (!request || request->method != "GET") return refuse("400 Bad Request", "GET alone is served\n");
-  if (rules_.loopback && !is_loopback_name(request->header("host")))
-    return refuse("403 Forbidden", "ask for 127.0.0.1 or localhost\n");
-  if (!rules_.token.empty() && query_value(request->query, "token") != rules_.token)
-    return refuse("403 Forbidden", "the address that was printed ends in a token: give it whole\n");
-  const std::string key = request->header("sec-websocket-key");
-  const std::string subprotocol = foxglove_subprotocol(request->header("sec-websocket-protocol"));
-  if (request->path == "/" && key.empty()) {
-    unsent_ += http_answer("200 OK", "text/html; charset=utf-8", live_page());
-    ends_ = true;
-  } else if (request->path != "/ws" && subprotocol.empty()) {
-    refuse("404 Not Found", "there are / and /ws\n");
-  } else if (key.empty() || !may_order(*request, rules_.origin)) {
-    refuse("403 Forbidden", "a WebSocket from this server's own page alone, or one named with --view-origin\n");
-  } else {
-    upgrade(key, subprotocol);
-  }
-}
-
-void ViewClient::upgrade(const std::string& key, const std::string& subprotocol) {
-  unsent_ += "HTTP/1.1 101 Switching Protocols\r\nUpgrade: websocket\r\nConnection: Upgrade\r\n";
-  if (!subprotocol.empty()) unsent_ += "Sec-WebSocket-Protocol: " + subprotocol + "\r\n";
-  unsent_ += "Sec-WebSocket-Accept: " + accept_key(key) + "\r\n\r\n";
-  upgraded_ = true;
-  joined_ = subprotocol.empty();
-  if (joined_) return;
-  foxglove_.emplace(rules_.channels.size());
-  for (const std::string& text : foxglove_greeting(rules_.channels)) unsent_ += to_frame(Opcode::kText, text);
-}
-
-void ViewClient::answer_frames() {
-  ClientFrame frame;
-  FrameState state = take_frame(received_, frame);
-  for (; state == FrameState::kWhole; state = take_frame(received_, frame)) answer(frame);
-  ends_ = ends_ || state == FrameState::kRefused;
-}
-
-void ViewClient::answer(const ClientFrame& frame) {
-  if (frame.opcode == Opcode::kPing && unsent_.empty()) unsent_ += to_frame(Opcode::kPong, frame.payload);
-  if (frame.opcode == Opcode::kClose) unsent_ += to_frame(Opcode::kClose, ""), ends_ = true;
-  if (frame.opcode == Opcode::kBinary && foxglove_) obey(foxglove_->take_binary(frame.payload));
-  if (frame.opcode != Opcode::kText) return;
-  if (foxglove_) return obey(foxglove_->take_text(frame.payload));
-  if (const std::string answer = rules_.on_order(frame.payload); !answer.empty()) queue(answer);
+void ViewClient::take_message() {
+  const auto bytes = received_.cdata();
+  const std::string_view text(static_cast<const char*>(bytes.data()), bytes.size());
+  if (foxglove_) return obey(socket_.got_text() ? foxglove_->take_text(text) : foxglove_->take_binary(text));
+  house_.door.on_order(text, reply_to([](ViewClient& client, const std::string& said) {
+                         if (!said.empty()) client.send({"", std::make_shared<const std::string>(said)});
+                       }));
 }
 
 void ViewClient::obey(const FoxgloveSession::Outcome& outcome) {
-  if (!outcome.order.empty()) static_cast<void>(rules_.on_order(outcome.order));
-  if (!outcome.status.empty()) unsent_ += to_frame(Opcode::kText, outcome.status);
-  subscribed_.insert(subscribed_.end(), outcome.subscribed.begin(), outcome.subscribed.end());
+  if (!outcome.order.empty()) house_.door.on_order(outcome.order, [](const std::string&) {});
+  if (!outcome.status.empty()) send({"", std::make_shared<const std::string>(outcome.status)});
+  for (const std::size_t channel : outcome.subscribed) house_.repeat(*this, channel);
+}
+
+void ViewClient::offer(const ViewMessage& message) {
+  if (stage_ != Stage::kLooks || request_) return;
+  const bool is_topic = message.kind == MessageKind::kTopic;
+  if (is_topic != foxglove_.has_value()) return;
+  if (!is_topic && (message.kind != MessageKind::kFrame || outbox_.is_empty())) return send({"", message.text});
+  if (const auto wanted = is_topic ? foxglove_->subscription(message.channel) : std::nullopt)
+    send({foxglove_head(*wanted, message.stamp), message.text, false});
+}
+
+void ViewClient::send(Outbox::Message message) {
+  if (outbox_.add(std::move(message)) && !writes_) write_on();
+}
+
+void ViewClient::write_on() {
+  if (outbox_.is_empty() || stage_ == Stage::kGone) return;
+  const Outbox::Message& next = outbox_.front();
+  writes_ = true;
+  writing_since_ = Clock::now();
+  socket_.binary(!next.is_text);
+  socket_.async_write(std::array{asio::buffer(next.head), asio::buffer(*next.body)},
+                      then([](ViewClient& client, std::size_t) {
+                        client.writes_ = false;
+                        client.outbox_.pop();
+                        client.write_on();
+                        client.read_on();
+                      }));
+}
+
+void ViewClient::tick(Clock::time_point now) {
+  allowance_ = std::min(kMostAtOnce, allowance_ + kMessages_hz * std::chrono::duration<double>(now - ticked_).count());
+  ticked_ = now;
+  if (stage_ != Stage::kLooks && now - since_ > kAnswered) return close();
+  if (writes_ && now - writing_since_ > kQuiet) return close();
+  read_on();
+}
+
+Placed ViewClient::placed(Clock::time_point now) const noexcept {
+  const Clock::duration stuck = writes_ ? now - writing_since_ : Clock::duration{};
+  return {.address = address_, .since = since_, .stuck = stuck, .is_served = served_};
+}
+
+void ViewClient::close() noexcept {
+  Error error;
+  socket_.next_layer().next_layer().close(error);
+  stage_ = Stage::kGone;
 }
 
 }  // namespace jaywalk::view

@@ -1,76 +1,99 @@
 #pragma once
-#include <chrono>
-#include <functional>
+// One client's connection, by Boost.Beast. Included by the server alone: Beast takes long to compile.
+#include <boost/beast/core.hpp>
+#include <boost/beast/http.hpp>
+#include <boost/beast/websocket.hpp>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
-#include <vector>
 
+#include "apps/view/client_places.h"
+#include "apps/view/door_stream.h"
 #include "apps/view/foxglove_session.h"
-#include "apps/view/websocket.h"
-#include "drivers/wire/file_descriptor.h"
+#include "apps/view/outbox.h"
+#include "apps/view/view_door.h"
+#include "apps/view/view_message.h"
+#include "apps/view/view_rules.h"
 
 namespace jaywalk::view {
 
-/// What a client may have, and how it must ask.
-struct ViewRules {
-  std::string token;  ///< to be given as ?token=; empty: none is wanted
-  bool loopback = true;
-  std::string origin;  ///< one more site whose pages may open a WebSocket; empty: none
-  /// Called on the server's thread with one JSON text; what it returns is sent to that client.
-  std::function<std::string(std::string_view)> on_order;
-  std::vector<FoxgloveChannel> channels;  ///< at most 32
+class ViewClient;
+
+/// What a client is served by.
+struct ViewHouse {
+  ViewHouse() = default;
+  ViewHouse(const ViewHouse&) = delete;
+  ViewHouse& operator=(const ViewHouse&) = delete;
+  virtual ~ViewHouse() = default;
+  /// Gives `client` a place of that stage; false: there is none.
+  [[nodiscard]] virtual bool enter(ViewClient& client, Stage stage) = 0;
+  /// It has a WebSocket now: offers what the page shows.
+  virtual void welcome(ViewClient& client) = 0;
+  /// It subscribes to a channel: offers what that said last.
+  virtual void repeat(ViewClient& client, std::size_t channel) = 0;
+
+  std::shared_ptr<boost::asio::io_context> io = std::make_shared<boost::asio::io_context>(1);
+  std::shared_ptr<boost::asio::ssl::context> tls;  ///< none: not served
+  ViewRules rules;
+  ViewDoor door;
 };
 
-/// One browser's connection: first HTTP, then a WebSocket of the page's own (/ws) or of Foxglove's (any path). Nothing
-/// waits. A connection that says nothing for kIdle, or asks for nothing within kUnasked, is over; a WebSocket is asked
-/// by a ping every kPing. Thread: the server's.
-class ViewClient {
+/// First TLS or not, as the client begins; then one request of HTTP; then, maybe, a WebSocket of the page's own or of
+/// Foxglove's. Nothing waits. What it has not read is bounded (Outbox): a client with much unread is asked for nothing
+/// more, and loses messages; what it says is taken at kMessages_hz. Thread: the server's.
+class ViewClient : public std::enable_shared_from_this<ViewClient> {
  public:
   using Clock = std::chrono::steady_clock;
-  static constexpr std::chrono::seconds kIdle{30}, kUnasked{5}, kPing{10};
 
-  ViewClient(wire::FileDescriptor socket, const ViewRules& rules) : socket_(std::move(socket)), rules_(rules) {}
+  ViewClient(boost::asio::ip::tcp::socket socket, ViewHouse& house);
+  void start();
+  /// From time to time: ends what is late, and goes on reading.
+  void tick(Clock::time_point now);
+  /// Sends the message if it is for this client and there is room.
+  void offer(const ViewMessage& message);
+  void close() noexcept;
 
-  /// Reads what came, answers it, and sends what is left. False: the connection is over.
-  [[nodiscard]] bool serve(Clock::time_point now);
-  /// Sends the page's message whole, or leaves it out while an earlier one is not yet gone: a slow client loses frames.
-  void offer(std::string_view message);
-  /// The same to a subscriber of a Foxglove channel.
-  void offer(std::size_t channel, Time stamp, std::string_view message);
-  /// True once, after the page's upgrade: hello is to be sent.
-  [[nodiscard]] bool has_joined() noexcept { return std::exchange(joined_, false); }
-  /// Channels that it has just subscribed to, once: what they last said is to be sent.
-  [[nodiscard]] std::vector<std::size_t> subscribed() noexcept { return std::exchange(subscribed_, {}); }
-  /// The same as offer(), but behind what is unsent: for the few messages that a newcomer needs.
-  void queue(std::string_view message);
-  void queue(std::size_t channel, Time stamp, std::string_view message);
-
-  [[nodiscard]] int socket() const noexcept { return socket_.get(); }
-  [[nodiscard]] bool has_unsent() const noexcept { return !unsent_.empty(); }
-  [[nodiscard]] bool is_page() const noexcept { return upgraded_ && !foxglove_; }
+  [[nodiscard]] Placed placed(Clock::time_point now) const noexcept;
+  [[nodiscard]] Stage stage() const noexcept { return stage_; }
+  void set_stage(Stage stage) noexcept { stage_ = stage; }
+  [[nodiscard]] bool is_local() const noexcept { return local_; }
+  [[nodiscard]] bool has_unsent() const noexcept { return !outbox_.is_empty(); }
+  [[nodiscard]] bool is_page() const noexcept { return stage_ == Stage::kLooks && !foxglove_; }
   /// A bit a channel that it subscribes to.
-  [[nodiscard]] std::uint32_t wanted() const { return foxglove_ ? foxglove_->wanted() : 0; }
+  [[nodiscard]] std::uint32_t wanted() const { return stage_ == Stage::kLooks && foxglove_ ? foxglove_->wanted() : 0; }
 
  private:
-  [[nodiscard]] bool receive(Clock::time_point now);
-  [[nodiscard]] bool flush();
-  [[nodiscard]] bool is_idle(Clock::time_point now);
-  void answer_http();
-  void upgrade(const std::string& key, const std::string& subprotocol);
-  void answer_frames();
-  void answer(const ClientFrame& frame);
+  using Error = boost::beast::error_code;
+  using Status = boost::beast::http::status;
+  void read_request();
+  void answer_request();
+  void respond(Status status, std::string type, std::string body);
+  void upgrade(const std::string& subprotocol);
+  void read_on();
+  void take_message();
   void obey(const FoxgloveSession::Outcome& outcome);
-  void refuse(std::string_view status, std::string_view why);
+  void send(Outbox::Message message);
+  void write_on();
+  /// A handler that does nothing when something went wrong but close.
+  template <class Next>
+  auto then(Next next);
+  template <class Take>
+  Reply reply_to(Take take);
 
-  wire::FileDescriptor socket_;
-  const ViewRules& rules_;
-  std::string received_, unsent_;
+  boost::beast::websocket::stream<DoorStream> socket_;
+  ViewHouse& house_;
+  std::uint32_t address_ = 0;
+  bool local_ = false;
+  Stage stage_ = Stage::kGone;
+  Clock::time_point since_ = Clock::now(), ticked_ = since_, writing_since_{};
+  boost::beast::flat_buffer received_;
+  std::optional<boost::beast::http::request_parser<boost::beast::http::string_body>> request_;
+  std::optional<boost::beast::http::response<boost::beast::http::string_body>> response_;
   std::optional<FoxgloveSession> foxglove_;
-  std::vector<std::size_t> subscribed_;
-  Clock::time_point heard_ = Clock::now(), pinged_ = heard_;
-  bool upgraded_ = false, joined_ = false, ends_ = false;
+  Outbox outbox_;
+  double allowance_;  ///< messages that it may send now
+  bool reads_ = false, writes_ = false, served_ = false;
 };
 
 }  // namespace jaywalk::view

@@ -1,9 +1,9 @@
 #include "apps/view/view_scene.h"
 
+#include <openssl/evp.h>
+
 #include <cmath>
 #include <nlohmann/json.hpp>
-
-#include "apps/view/websocket.h"
 
 namespace jaywalk::view {
 namespace {
@@ -129,14 +129,17 @@ std::string frame_head(const FrameScene& frame) {
 }
 
 std::string to_json(const FieldPicture& field, std::uint64_t number) {
-  const auto* const bytes = reinterpret_cast<const char*>(field.cells.data());
+  std::string base64(4 * ((field.cells.size() + 2) / 3) + 1, '\0');
+  ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()), field.cells.data(),
+                    static_cast<int>(field.cells.size()));
+  base64.pop_back();  // a zero behind it
   return dumped({{"kind", "field"},
                  {"number", number},
                  {"x", mm(field.low_x_m)},
                  {"y", mm(field.low_y_m)},
                  {"cell_m", field.cell_m},
                  {"width", field.width},
-                 {"cells", base64({bytes, field.cells.size()})}});
+                 {"cells", base64}});
 }
 
 }  // namespace jaywalk::view

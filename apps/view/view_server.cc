@@ -1,168 +1,239 @@
 #include "apps/view/view_server.h"
 
 #include <arpa/inet.h>
-#include <netinet/in.h>
-#include <netinet/tcp.h>
-#include <poll.h>
-#include <pthread.h>
-#include <signal.h>
-#include <sys/random.h>
-#include <sys/socket.h>
+#include <fcntl.h>
 
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <boost/asio/steady_timer.hpp>
+#include <list>
+#include <utility>
 #include <vector>
 
+#include "apps/view/background_thread.h"
+#include "apps/view/certificate.h"
+#include "apps/view/secret.h"
+#include "apps/view/view_client.h"
+#include "firmware/robot/ring.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::view {
 namespace {
 
-constexpr std::size_t kMostClients = 8;  ///< others are turned away
-constexpr int kLookEvery_ms = 10;        ///< a frame waits this long at most: little beside the 40 ms between frames
+namespace asio = boost::asio;
+using Tcp = asio::ip::tcp;
+using Error = boost::system::error_code;
 
-std::string made_token() {
-  unsigned char bytes[16];
-  if (::getrandom(bytes, sizeof bytes, 0) != sizeof bytes)
-    throw StartupError("no random numbers for the page's token", "serve it on 127.0.0.1");
-  std::string token;
-  for (const unsigned char byte : bytes)
-    token += "0123456789abcdef"[byte >> 4U], token += "0123456789abcdef"[byte & 15U];
-  return token;
-}
+constexpr std::chrono::milliseconds kTick{10};       ///< little beside the 40 ms between frames
+constexpr std::chrono::milliseconds kFarewell{500};  ///< at the end, for what is not sent yet
+constexpr int kAcceptedAtOnce = 8;  ///< few, so that what they ask is read before their place may go to others
+constexpr int kBacklog = 1024;
 
-in_addr parsed(const std::string& address) {
-  in_addr out{};
-  if (::inet_pton(AF_INET, address.c_str(), &out) != 1)
-    throw StartupError("--view-address " + shown(address) + ": no IPv4 address",
+Tcp::endpoint parsed(const ViewAddress& where) {
+  in_addr address{};
+  if (::inet_pton(AF_INET, where.address.c_str(), &address) != 1)
+    throw StartupError("--view-address " + shown(where.address) + ": no IPv4 address",
                        "give one of this machine's, such as 127.0.0.1; 0.0.0.0 serves all of them");
-  return out;
+  return {asio::ip::address_v4(ntohl(address.s_addr)), where.port};
 }
 
 }  // namespace
 
-ViewServer::ViewServer(const ViewAddress& where, ViewDoor door) : address_(where.address), said_(door.channels.size()) {
-  rules_.on_order = std::move(door.on_order);
-  rules_.channels = std::move(door.channels);
-  rules_.origin = where.origin;
-  rules_.loopback = where.address == "127.0.0.1";
-  sockaddr_in at{};
-  at.sin_family = AF_INET;
-  at.sin_addr = parsed(where.address);
-  at.sin_port = htons(where.port);
-  if (!rules_.loopback) rules_.token = made_token();
-  listener_ = wire::FileDescriptor(::socket(AF_INET, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
-  const int on = 1;
-  static_cast<void>(::setsockopt(listener_.get(), SOL_SOCKET, SO_REUSEADDR, &on, sizeof on));
-  auto* const any = reinterpret_cast<sockaddr*>(&at);
-  socklen_t size = sizeof at;
-  if (::bind(listener_.get(), any, size) != 0 || ::listen(listener_.get(), 4) != 0 ||
-      ::getsockname(listener_.get(), any, &size) != 0) {
-    throw StartupError("--view: " + address_ + ":" + std::to_string(where.port) + " cannot be served",
+class ViewServer::House final : public ViewHouse {
+ public:
+  House(const ViewAddress& where, ViewDoor asked);
+  ~House() override;
+  void push(ViewMessage message);
+
+  bool enter(ViewClient& client, Stage stage) override;
+  void welcome(ViewClient& client) override;
+  void repeat(ViewClient& client, std::size_t channel) override;
+
+  std::string address;  ///< with the port
+  std::atomic<int> viewers{0};
+  std::atomic<bool> has_pages{false};
+  std::atomic<std::uint32_t> wanted{0};
+
+ private:
+  void listen(const Tcp::endpoint& at);
+  void await_newcomers();
+  void accept_newcomers();
+  void tick();
+  void pass_on();
+  void count_clients();
+
+  Tcp::acceptor listener_{*io};
+  asio::steady_timer timer_{*io};
+  Ring<ViewMessage, 64> ring_;  ///< a tick has ten topics and a frame at most
+  std::list<std::shared_ptr<ViewClient>> clients_;
+  std::array<ViewMessage, 2> kept_;  ///< hello and the newest field
+  std::vector<ViewMessage> said_;    ///< by each channel, last
+  bool lacks_descriptor_ = false;
+  std::atomic<bool> ends_{false};
+  ViewClient::Clock::time_point ended_{};
+  std::thread thread_;
+};
+
+ViewServer::House::House(const ViewAddress& where, ViewDoor asked) : said_(asked.channels.size()) {
+  door = std::move(asked);
+  rules = {.origin = where.origin, .loopback = where.address == "127.0.0.1"};
+  rules.encrypted = !rules.loopback;
+  const Tcp::endpoint at = parsed(where);
+  if (rules.encrypted || where.wants_token) rules.token = made_token();
+  if (rules.encrypted) tls = tls_context(where.certificate);
+  try {
+    listen(at);
+  } catch (const boost::system::system_error& error) {
+    throw StartupError("--view: " + where.address + ":" + std::to_string(where.port) + ": " + error.code().message(),
                        "end what listens there, or give another port (--view alone takes a free one)");
   }
-  port_ = ntohs(at.sin_port);
-  thread_ = std::thread([this] { run(); });
+  await_newcomers();
+  thread_ = background_thread("view", [this] {
+    tick();
+    io->run();
+  });
 }
 
-ViewServer::~ViewServer() {
+ViewServer::House::~House() {
   ends_ = true;
   thread_.join();
+  for (const auto& client : clients_) client->close();
 }
 
-std::string ViewServer::url() const {
-  std::string url = "http://" + address_ + ":" + std::to_string(port_) + "/";
-  return rules_.token.empty() ? url : url + "?token=" + rules_.token;
+void ViewServer::House::listen(const Tcp::endpoint& at) {
+  listener_.open(Tcp::v4());
+  static_cast<void>(::fcntl(listener_.native_handle(), F_SETFD, FD_CLOEXEC));
+  listener_.set_option(Tcp::acceptor::reuse_address(true));
+  listener_.bind(at);
+  listener_.listen(kBacklog);
+  listener_.non_blocking(true);
+  address = at.address().to_string() + ":" + std::to_string(listener_.local_endpoint().port());
 }
 
-void ViewServer::push(MessageKind kind, std::string text) {
-  ViewMessage* const slot = ring_.draft();
-  if (slot == nullptr) return;
-  *slot = {.kind = kind, .text = std::move(text)};
-  ring_.publish();
+void ViewServer::House::await_newcomers() {
+  listener_.async_wait(Tcp::acceptor::wait_read, [this](Error error) {
+    if (!error) accept_newcomers();
+  });
 }
 
-void ViewServer::push(std::size_t channel, Time stamp, std::string message) {
-  ViewMessage* const slot = ring_.draft();
-  if (slot == nullptr) return;
-  *slot = {.kind = MessageKind::kTopic, .text = std::move(message), .channel = channel, .stamp = stamp};
-  ring_.publish();
-}
-
-void ViewServer::run() {
-  sigset_t all;
-  sigfillset(&all);
-  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);  // signals are for the thread that drives
-  const sched_param ordinary{};
-  static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary));  // whatever its maker has
-  static_cast<void>(::pthread_setname_np(::pthread_self(), "view"));
-  while (!ends_) {
-    std::vector<pollfd> watched{{listener_.get(), POLLIN, 0}};
-    for (const ViewClient& client : clients_)
-      watched.push_back({client.socket(), static_cast<short>(client.has_unsent() ? POLLIN | POLLOUT : POLLIN), 0});
-    static_cast<void>(::poll(watched.data(), watched.size(), kLookEvery_ms));
-    accept_newcomers();
-    pass_on();
-    serve_clients();
-    count_clients();
+/// Where there is no descriptor for one, the oldest that has not asked yet gives up its own by the next tick.
+void ViewServer::House::accept_newcomers() {
+  Error error;
+  for (int k = 0; k < kAcceptedAtOnce && !error; ++k) {
+    Tcp::socket socket(*io);
+    listener_.accept(socket, error);
+    if (error) break;
+    static_cast<void>(::fcntl(socket.native_handle(), F_SETFD, FD_CLOEXEC));
+    const auto& client = clients_.emplace_back(std::make_shared<ViewClient>(std::move(socket), *this));
+    static_cast<void>(enter(*client, Stage::kAsks));
+    client->start();
   }
+  if (!error || error == asio::error::would_block || error == asio::error::connection_aborted) return await_newcomers();
+  const auto oldest = std::find_if(clients_.begin(), clients_.end(),
+                                   [](const auto& client) { return client->stage() == Stage::kAsks; });
+  if (oldest != clients_.end()) (*oldest)->close();
+  lacks_descriptor_ = true;
+}
+
+bool ViewServer::House::enter(ViewClient& newcomer, Stage stage) {
+  std::vector<Placed> placed;
+  std::vector<ViewClient*> clients;
+  const auto now = ViewClient::Clock::now();
+  for (const auto& client : clients_) {
+    if (client->stage() != stage || client->is_local() != newcomer.is_local()) continue;
+    placed.push_back(client->placed(now));
+    clients.push_back(client.get());
+  }
+  if (placed.size() >= places(stage)) {
+    const auto loser = gives_way(placed, stage, newcomer.placed(now).address);
+    if (!loser) return false;
+    clients[*loser]->close();
+  }
+  newcomer.set_stage(stage);
+  return true;
+}
+
+void ViewServer::House::welcome(ViewClient& client) {
+  for (const ViewMessage& kept : kept_)
+    if (kept.text) client.offer(kept);
+}
+
+void ViewServer::House::repeat(ViewClient& client, std::size_t channel) {
+  if (said_[channel].text) client.offer(said_[channel]);
+}
+
+void ViewServer::House::push(ViewMessage message) {
+  ViewMessage* const slot = ring_.draft();
+  if (slot == nullptr) return;
+  *slot = std::move(message);
+  ring_.publish();
+}
+
+void ViewServer::House::tick() {
+  const auto now = ViewClient::Clock::now();
+  if (ends_ && ended_ == ViewClient::Clock::time_point{}) ended_ = now;
   pass_on();
-  serve_clients();
+  for (const auto& client : clients_) client->tick(now);
+  std::erase_if(clients_, [](const auto& client) { return client->stage() == Stage::kGone; });
+  count_clients();
+  if (std::exchange(lacks_descriptor_, false)) accept_newcomers();
+  const bool all_sent = std::none_of(clients_.begin(), clients_.end(), [](const auto& c) { return c->has_unsent(); });
+  if (ends_ && (all_sent || now - ended_ > kFarewell)) return io->stop();
+  timer_.expires_after(kTick);
+  timer_.async_wait([this](Error) { tick(); });
 }
 
-void ViewServer::accept_newcomers() {
-  wire::FileDescriptor peer(::accept4(listener_.get(), nullptr, nullptr, SOCK_NONBLOCK | SOCK_CLOEXEC));
-  if (peer.get() < 0 || clients_.size() >= kMostClients) return;
-  const int on = 1;
-  static_cast<void>(::setsockopt(peer.get(), IPPROTO_TCP, TCP_NODELAY, &on, sizeof on));
-  clients_.emplace_back(std::move(peer), rules_);
-}
-
-void ViewServer::pass_on() {
+void ViewServer::House::pass_on() {
   for (const ViewMessage* m = ring_.front(); m != nullptr; m = ring_.front()) {
-    if (m->kind == MessageKind::kHello) hello_ = m->text;
-    if (m->kind == MessageKind::kField) field_ = m->text;
+    if (m->kind == MessageKind::kHello) kept_[0] = *m;
+    if (m->kind == MessageKind::kField) kept_[1] = *m;
     if (m->kind == MessageKind::kTopic) said_[m->channel] = *m;
-    for (ViewClient& client : clients_) hand(*m, client);
+    for (const auto& client : clients_) client->offer(*m);
     ring_.pop();
   }
 }
 
-void ViewServer::hand(const ViewMessage& m, ViewClient& client) {
-  if (m.kind == MessageKind::kTopic) return client.offer(m.channel, m.stamp, m.text);
-  m.kind == MessageKind::kEnd ? client.queue(m.text) : client.offer(m.text);
-}
-
-void ViewServer::serve_clients() {
-  const auto now = ViewClient::Clock::now();
-  std::erase_if(clients_, [this, now](ViewClient& client) {
-    if (!client.serve(now)) return true;
-    welcome(client);
-    return false;
-  });
-}
-
-void ViewServer::welcome(ViewClient& client) {
-  if (client.has_joined()) {
-    for (const std::string* kept : {&hello_, &field_})
-      if (!kept->empty()) client.queue(*kept);
-  }
-  for (const std::size_t channel : client.subscribed()) {
-    if (const ViewMessage& said = said_[channel]; said.stamp != kNever) client.queue(channel, said.stamp, said.text);
-  }
-}
-
-void ViewServer::count_clients() {
-  int viewers = 0;
+void ViewServer::House::count_clients() {
+  int looking = 0;
   bool pages = false;
-  std::uint32_t wanted = 0;
-  for (const ViewClient& client : clients_) {
-    wanted |= client.wanted();
-    pages = pages || client.is_page();
-    viewers += client.is_page() || client.wanted() != 0 ? 1 : 0;
+  std::uint32_t channels = 0;
+  for (const auto& client : clients_) {
+    channels |= client->wanted();
+    pages = pages || client->is_page();
+    looking += client->is_page() || client->wanted() != 0 ? 1 : 0;
   }
-  viewers_ = viewers;
-  has_pages_ = pages;
-  wanted_ = wanted;
+  viewers = looking;
+  has_pages = pages;
+  wanted = channels;
 }
+
+ViewServer::ViewServer(const ViewAddress& where, ViewDoor door)
+    : house_(std::make_unique<House>(where, std::move(door))) {}
+
+ViewServer::~ViewServer() = default;
+
+void ViewServer::push(MessageKind kind, std::string text) {
+  house_->push({.kind = kind, .text = std::make_shared<const std::string>(std::move(text))});
+}
+
+void ViewServer::push(std::size_t channel, Time stamp, std::string message) {
+  house_->push({.kind = MessageKind::kTopic,
+                .text = std::make_shared<const std::string>(std::move(message)),
+                .channel = channel,
+                .stamp = stamp});
+}
+
+int ViewServer::viewers() const noexcept { return house_->viewers; }
+bool ViewServer::has_pages() const noexcept { return house_->has_pages; }
+std::uint32_t ViewServer::wanted() const noexcept { return house_->wanted; }
+
+std::string ViewServer::url() const {
+  const std::string scheme = house_->tls ? "https://" : "http://";
+  return scheme + house_->address + "/" + (house_->rules.token.empty() ? "" : "?token=" + house_->rules.token);
+}
+
+std::string ViewServer::fingerprint() const { return house_->tls ? fingerprint_of(*house_->tls) : ""; }
 
 }  // namespace jaywalk::view

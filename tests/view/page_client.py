@@ -43,11 +43,12 @@ def simulation(jaywalk, scenario, out, *options):
     return Run(jaywalk, "sim", scenario, "--backend", "cpu", "--out", out, *options)
 
 
-def http(port, path="/", **headers):
-    """The whole answer to a GET, as text."""
+def http(port, path="/", method="GET", **headers):
+    """The whole answer, as text."""
     with socket.create_connection(("127.0.0.1", port), timeout=10) as link:
-        given = {"Host": f"127.0.0.1:{port}", **{name.replace("_", "-"): value for name, value in headers.items()}}
-        link.sendall(("GET " + path + " HTTP/1.1\r\n" + "".join(f"{n}: {v}\r\n" for n, v in given.items()) + "\r\n").encode())
+        upgrade = {"Upgrade": "websocket", "Connection": "Upgrade", "Sec-WebSocket-Version": 13} if "Sec_WebSocket_Key" in headers else {}
+        given = {"Host": f"127.0.0.1:{port}", **upgrade, **{name.replace("_", "-"): value for name, value in headers.items()}}
+        link.sendall((f"{method} {path} HTTP/1.1\r\n" + "".join(f"{n}: {v}\r\n" for n, v in given.items()) + "\r\n").encode())
         answer = b""
         while b"\r\n\r\n" not in answer or not answer.startswith(b"HTTP/1.1 101"):
             part = link.recv(65536)

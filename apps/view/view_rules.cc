@@ -1,0 +1,61 @@
+#include "apps/view/view_rules.h"
+
+#include <openssl/crypto.h>
+
+#include <algorithm>
+
+#include "apps/view/foxglove_session.h"
+
+namespace jaywalk::view {
+namespace {
+
+/// A name that another site's page cannot have: else a foreign name that leads to this machine would do as well.
+bool is_loopback_name(const std::string& host) {
+  const std::string name = host.substr(0, host.rfind(':'));
+  return name == "127.0.0.1" || name == "localhost";
+}
+
+/// Browsers say whose page opens a WebSocket: our own may and one that was named, since orders move the robot.
+bool may_order(const ViewRequest& request, const std::string& named) {
+  const std::string scheme = request.is_encrypted ? "https://" : "http://";
+  return request.origin.empty() || request.origin == named || request.origin == scheme + request.host;
+}
+
+/// The value of `name` in a query such as "a=1&token=2"; empty where it is not there.
+std::string_view query_value(std::string_view query, std::string_view name) {
+  while (!query.empty()) {
+    const std::string_view part = query.substr(0, query.find('&'));
+    query.remove_prefix(std::min(query.size(), part.size() + 1));
+    if (part.starts_with(name) && part.substr(name.size()).starts_with('=')) return part.substr(name.size() + 1);
+  }
+  return "";
+}
+
+ViewVerdict refused(unsigned status, std::string said) { return {.status = status, .said = std::move(said) + "\n"}; }
+
+}  // namespace
+
+bool is_same_secret(std::string_view a, std::string_view b) {
+  return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
+}
+
+ViewVerdict judge(const ViewRequest& request, const ViewRules& rules) {
+  const std::string_view target = request.target, path = target.substr(0, target.find('?'));
+  const std::string_view query = target.substr(std::min(target.size(), path.size() + 1));
+  const bool permitted = rules.token.empty() || is_same_secret(query_value(query, "token"), rules.token);
+  if (rules.encrypted && !request.is_encrypted && !request.is_local)
+    return refused(403, "another machine must ask by https://");
+  if (path == "/stop" && request.method != "POST") return refused(405, "a stop is a POST");
+  if (path == "/stop" && (permitted || request.is_local)) return {.service = Service::kStop};
+  if (path != "/stop" && request.method != "GET") return refused(405, "GET is served, and POST /stop");
+  if (rules.loopback && !is_loopback_name(request.host)) return refused(403, "ask for 127.0.0.1 or localhost");
+  if (!permitted) return refused(403, "the address that was printed ends in a token: give it whole");
+  const std::string subprotocol = foxglove_subprotocol(request.subprotocols);
+  if (path == "/" && !request.is_upgrade) return {.service = Service::kPage};
+  if (path != "/ws" && subprotocol.empty()) return refused(404, "there are /, /ws and /stop");
+  if (!request.is_upgrade || !may_order(request, rules.origin))
+    return refused(403, "a WebSocket from this server's own page alone, or one named with --view-origin");
+  return {.service = Service::kSocket, .status = 101, .subprotocol = subprotocol};
+}
+
+}  // namespace jaywalk::view

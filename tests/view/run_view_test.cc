@@ -1,0 +1,251 @@
+// The live page of a run, and what clients of all kinds can do to it.
+#include "apps/view/run_view.h"
+
+#include <sys/resource.h>
+#include <sys/stat.h>
+#include <unistd.h>
+
+#include <fstream>
+#include <future>
+#include <random>
+
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/planner_thread.h"
+#include "firmware/robot/robot_file.h"
+#include "hal/types/errors.h"
+#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/living_clock.h"
+#include "tests/support/catch.h"
+#include "tests/view/hostile_process.h"
+#include "tests/view/page_socket.h"
+
+using namespace jaywalk;
+using namespace jaywalk::view;
+using namespace std::chrono_literals;
+
+namespace {
+
+std::filesystem::path place(const std::string& name) {
+  return std::filesystem::temp_directory_path() / ("view" + std::to_string(::getpid()) + "_" + name);
+}
+
+RobotFile wiring() {
+  RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
+  file.setup.backend = Backend::kCpu;
+  return file;
+}
+
+std::string text_of(const std::filesystem::path& path) {
+  std::ifstream file(path);
+  return {std::istreambuf_iterator<char>(file), {}};
+}
+
+/// A run's control socket that keeps what it is told, and its page.
+struct Bench {
+  std::string address() const { return text_of(socket.string() + ".view"); }
+  std::string told() {
+    const std::scoped_lock lock(mutex);
+    return lines;
+  }
+
+  std::filesystem::path socket = place("control");
+  std::mutex mutex;
+  std::string lines;
+  ControlSocket control{socket, [this](std::string_view line) {
+                          const std::scoped_lock lock(mutex);
+                          lines += std::string(line) + "\n";
+                          return "heard " + std::string(line) + "\n";
+                        }};
+  RunView page{{}, socket, "bench", wiring().setup, map_for(wiring().setup)};
+};
+
+}  // namespace
+
+TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control socket, a stop wants none") {
+  Bench bench;
+  const std::string url = bench.address();
+  const std::uint16_t port = port_of(url);
+  struct stat kind {};
+  REQUIRE(::stat((bench.socket.string() + ".view").c_str(), &kind) == 0);
+  CHECK((kind.st_mode & 0777U) == 0640U);
+
+  const auto stranger = connected(port);
+  say(stranger, upgrade("/ws") + frame(R"({"goal":[1,2]})"));
+  CHECK(heard(stranger).find(" 403 ") != std::string::npos);
+  const auto stop = connected(port);
+  say(stop, request("POST /stop"));
+  CHECK(heard(stop).find("heard stop") != std::string::npos);
+  CHECK(bench.told() == "stop\n");
+
+  const std::string query = query_of(url.substr(0, url.size() - 1));
+  const auto friendly = connected(port);
+  say(friendly, upgrade("/ws" + query));
+  CHECK(heard(friendly, "\r\n\r\n").find(" 101 ") != std::string::npos);
+  say(friendly, frame(R"({"goal":[1,2]})"));
+  CHECK(heard(friendly, "heard goto").find("heard goto") != std::string::npos);
+  CHECK(bench.told() == "stop\ngoto 1 2\n");
+}
+
+TEST_CASE("the file with the address goes with the run, and a file of another kind in its place stays as it is") {
+  { const Bench bench; }
+  const std::filesystem::path socket = place("control"), file = socket.string() + ".view";
+  CHECK_FALSE(std::filesystem::exists(file));
+  std::ofstream(file) << "precious";
+  CHECK_THROWS_AS(AddressFile(socket, "http://127.0.0.1:1/?token=a"), StartupError);
+  CHECK(text_of(file) == "precious");
+  std::filesystem::remove(file);
+  std::ofstream(place("elsewhere")) << "http://127.0.0.1:1/?token=a";
+  std::filesystem::create_symlink(place("elsewhere"), file);
+  CHECK_THROWS_AS(AddressFile(socket, "http://127.0.0.1:1/?token=a"), StartupError);
+  std::filesystem::remove(file);
+  std::ofstream(file) << "http://127.0.0.1:1/?token=left";  // by a run that was killed
+  { const AddressFile mine(socket, "http://127.0.0.1:2/?token=b"); }
+  CHECK_FALSE(std::filesystem::exists(file));
+  std::filesystem::remove(place("elsewhere"));
+}
+
+TEST_CASE("a stop waits for no goal, takes back the one that waits, and follows the one on its way") {
+  std::mutex mutex;
+  std::vector<std::string> carried;
+  std::promise<void> slow, begun, last;
+  OrderCourier courier([&](const std::string& line) {
+    if (line == "goto 1 1") begun.set_value(), slow.get_future().wait();
+    const std::scoped_lock lock(mutex);
+    carried.push_back(line);
+    if (line == "goto 3 3") last.set_value();
+    return line;
+  });
+  std::promise<std::string> taken_back, stopped;
+  courier.go("goto 1 1", [](const std::string&) {});
+  begun.get_future().wait();
+  courier.go("goto 2 2", [&](const std::string& said) { taken_back.set_value(said); });
+  courier.stop([&](const std::string& said) { stopped.set_value(said); });
+  CHECK(stopped.get_future().get() == "stop");  // while the goal is still on its way
+  CHECK(taken_back.get_future().get() == "taken back by a stop\n");
+  slow.set_value();
+  std::promise<std::string> after;
+  while (true) {  // the goal's own stop
+    const std::scoped_lock lock(mutex);
+    if (carried.size() == 3) break;
+  }
+  courier.go("goto 3 3", [](const std::string&) {});
+  last.get_future().wait();
+  CHECK(carried == std::vector<std::string>{"stop", "goto 1 1", "stop", "goto 3 3"});
+}
+
+namespace {
+
+struct Figures {
+  long grown_kB = 0;
+  std::uint64_t ticks = 0, missed = 0;
+  double slowest_stop_ms = 0.0;
+  int stops = 0, stops_heard = 0, pages = 0, pages_served = 0;
+};
+
+long resident_kB() {
+  long pages = 0, resident = 0;
+  std::ifstream("/proc/self/statm") >> pages >> resident;
+  return resident * (::sysconf(_SC_PAGESIZE) / 1024);
+}
+
+/// A run in real time with its control socket and its page, beside hostile clients in a process of their own.
+class BesetRun {
+ public:
+  explicit BesetRun(HostileProcess& hostile) : hostile_(hostile) {
+    clock_.live = [this] { robot_.step_far_end(); };
+    robot_.laser().start();
+    while (robot_.laser().latest().sequence == 0) clock_.sleep_until(clock_.now() + 1ms);
+    REQUIRE(robot_.loop().prepare({.priority = 50}).size() <= 2);  // what this machine does not permit
+    static_cast<void>(robot_.drive().arm());
+    robot_.loop().start();
+  }
+  ~BesetRun() {
+    robot_.loop().end();
+    while (!robot_.loop().has_ended()) follow(10ms);
+    std::filesystem::remove_all(folder_);
+  }
+  /// Beset for that long, after two seconds in peace.
+  Figures besiege(std::chrono::seconds long_) {
+    const std::string url = text_of(socket_.string() + ".view"), query = query_of(url.substr(0, url.size() - 1));
+    const auto page = connected(port_of(url));
+    say(page, upgrade("/ws" + query));
+    follow(2s);
+    const long before = resident_kB();
+    const std::uint64_t missed = figures_.missed, ticks = figures_.ticks;
+    hostile_.begin(port_of(url), query);
+    const auto end = std::chrono::steady_clock::now() + long_;
+    while (std::chrono::steady_clock::now() < end) {
+      follow(200ms);
+      stop_once(port_of(url));
+      const auto newcomer = connected(port_of(url));
+      say(newcomer, request("GET /" + query));
+      figures_.pages_served += heard(newcomer).find("<canvas") != std::string::npos ? 1 : 0;
+      ++figures_.pages;
+      figures_.grown_kB = std::max(figures_.grown_kB, resident_kB() - before);
+    }
+    figures_.missed -= missed, figures_.ticks -= ticks;
+    return figures_;
+  }
+
+ private:
+  void follow(std::chrono::milliseconds for_) {
+    SteadyClock mine;
+    for (const Time end = mine.now() + for_; mine.now() < end; mine.sleep_until(mine.now() + 5ms)) {
+      robot_.runner().drain();
+      for (; robot_.loop().traces().front() != nullptr; robot_.loop().traces().pop()) {
+        figures_.ticks = robot_.loop().traces().front()->status.ticks;
+        figures_.missed = robot_.loop().traces().front()->status.missed_ticks;
+      }
+      page_.follow();
+    }
+  }
+  void stop_once(std::uint16_t port) {
+    const auto began = std::chrono::steady_clock::now();
+    const auto peer = connected(port);
+    say(peer, request("POST /stop"));
+    figures_.stops_heard += heard(peer).find("\"said\"") != std::string::npos ? 1 : 0;
+    ++figures_.stops;
+    const std::chrono::duration<double, std::milli> took = std::chrono::steady_clock::now() - began;
+    figures_.slowest_stop_ms = std::max(figures_.slowest_stop_ms, took.count());
+  }
+
+  HostileProcess& hostile_;
+  Figures figures_;
+  std::filesystem::path folder_ = place("run"), socket_ = place("beset");
+  rig::RealLivingClock clock_;
+  RunView page_{{}, socket_, "beset", wiring().setup, map_for(wiring().setup)};
+  rig::InProcessRobot robot_{wiring(),
+                             sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"),
+                             3,
+                             clock_,
+                             folder_,
+                             [this](std::unique_ptr<Planner> planner) -> std::unique_ptr<Planner> {
+                               return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup),
+                                                                      page_);
+                             },
+                             page_};
+  ControlSocket control_{socket_, [this](std::string_view line) { return robot_.desk().reply_to(line); }};
+};
+
+void beset(int clients, std::chrono::seconds for_) {
+  HostileProcess hostile(clients);
+  Figures figures;
+  {
+    BesetRun run(hostile);
+    figures = run.besiege(for_);
+  }
+  std::printf("%d hostile clients: memory +%ld kB, %lu of %lu ticks missed, slowest of %d stops %.1f ms\n", clients,
+              figures.grown_kB, figures.missed, figures.ticks, figures.stops, figures.slowest_stop_ms);
+  CHECK(figures.stops_heard == figures.stops);
+  CHECK(figures.pages_served == figures.pages);
+  CHECK(figures.grown_kB < 20'000);
+  CHECK(figures.ticks > 0);
+}
+
+}  // namespace
+
+TEST_CASE("a hundred hostile clients take neither memory nor a stop's or a newcomer's place") { beset(100, 5s); }
+
+TEST_CASE("a thousand hostile clients take neither memory nor a stop's or a newcomer's place for a minute", "[long]") {
+  beset(1000, 60s);
+}
