@@ -55,7 +55,7 @@ std::string in_cdr(const geometry_msgs_msg_dds__PoseStamped_& goal) {
 
 }  // namespace
 
-DdsTopics::DdsTopics(std::uint32_t domain)
+DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals)
     : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")) {
   for (const PassedOn& one : kPassedOn) {
     const auto qos = qos_of(one.kept);
@@ -63,6 +63,7 @@ DdsTopics::DdsTopics(std::uint32_t domain)
     const dds_entity_t topic = checked(dds_create_topic(participant_, one.type, name.c_str(), nullptr, nullptr), name);
     writers_[one.topic()] = checked(dds_create_writer(participant_, topic, qos.get(), nullptr), name);
   }
+  if (!takes_goals) return;
   const dds_entity_t topic = checked(
       dds_create_topic(participant_, &geometry_msgs_msg_dds__PoseStamped__desc, "rt/goal_pose", nullptr, nullptr),
       "rt/goal_pose");
@@ -99,9 +100,9 @@ std::optional<std::string> DdsTopics::take_goal() {
   std::optional<std::string> newest;
   void* sample = nullptr;
   dds_sample_info_t about;
-  while (dds_take(goals_, &sample, &about, 1, 1) > 0) {
+  while (goals_ && dds_take(*goals_, &sample, &about, 1, 1) > 0) {
     if (about.valid_data) newest = in_cdr(*static_cast<const geometry_msgs_msg_dds__PoseStamped_*>(sample));
-    dds_return_loan(goals_, &sample, 1);
+    dds_return_loan(*goals_, &sample, 1);
     sample = nullptr;
   }
   return newest;

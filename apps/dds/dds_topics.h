@@ -10,12 +10,12 @@
 
 namespace jaywalk::dds {
 
-/// A participant with a writer for each topic that is passed on ("/scan" is rt/scan, as ROS 2 names it), and a reader
-/// of rt/goal_pose. Reliable, the last ten; /map is kept for newcomers. Thread: one.
+/// A participant with a writer for each topic that is passed on ("/scan" is rt/scan, as ROS 2 names it), and, where it
+/// takes goals, a reader of rt/goal_pose. Reliable, the last ten; /map is kept for newcomers. Thread: one.
 class DdsTopics {
  public:
   /// Throws StartupError where DDS finds no network it can use.
-  explicit DdsTopics(std::uint32_t domain);
+  DdsTopics(std::uint32_t domain, bool takes_goals);
   ~DdsTopics();
   DdsTopics(const DdsTopics&) = delete;
   DdsTopics& operator=(const DdsTopics&) = delete;
@@ -23,12 +23,12 @@ class DdsTopics {
   [[nodiscard]] static std::set<std::string> topics();
   /// `message`: CDR behind its encapsulation header. False where its bytes do not fit the topic's type: it is not sent.
   bool publish(const std::string& topic, std::string message);
-  /// The newest goal that came, as a PoseStamped in CDR.
+  /// The newest goal that came, as a PoseStamped in CDR; none where none are taken.
   [[nodiscard]] std::optional<std::string> take_goal();
 
  private:
   dds_entity_t participant_;
-  dds_entity_t goals_;
+  std::optional<dds_entity_t> goals_;
   std::map<std::string, dds_entity_t> writers_;
 };
 

@@ -1,6 +1,8 @@
 #pragma once
-// The client's end of foxglove.websocket.v1 (github.com/foxglove/ws-protocol, docs/spec.md) over a WebSocket (RFC
-// 6455).
+// The client's end of foxglove.websocket.v1 (github.com/foxglove/ws-protocol, docs/spec.md), by Boost.Beast.
+#include <boost/asio/io_context.hpp>
+#include <boost/beast/core/flat_buffer.hpp>
+#include <boost/beast/websocket.hpp>
 #include <chrono>
 #include <cstdint>
 #include <map>
@@ -9,7 +11,7 @@
 #include <string>
 #include <string_view>
 
-#include "drivers/wire/file_descriptor.h"
+#include "apps/view/door_stream.h"
 
 namespace jaywalk::dds {
 
@@ -21,9 +23,10 @@ struct FoxgloveMessage {
 /// A live view of a run, from another process. Thread: one.
 class FoxgloveClient {
  public:
-  /// `url` as `jaywalk ... --view` prints it: http://ADDRESS:PORT/, with ?token= where one is wanted; IPv4. Subscribes
-  /// to those of `topics` that the run has. Throws StartupError where nothing answers there as it should.
-  FoxgloveClient(const std::string& url, std::set<std::string> topics);
+  /// `url` as `jaywalk ... --view` prints it: http://ADDRESS:PORT/, with ?token= where one is wanted, or https:// with
+  /// the certificate's `fingerprint`; IPv4. Subscribes to those of `topics` that the run has. Throws StartupError where
+  /// nothing answers there as it should.
+  FoxgloveClient(const std::string& url, const std::string& fingerprint, std::set<std::string> topics);
 
   /// The next message that comes within `wait`. Throws StartupError when the run has ended or the connection is lost.
   [[nodiscard]] std::optional<FoxgloveMessage> next(std::chrono::milliseconds wait);
@@ -31,18 +34,23 @@ class FoxgloveClient {
   void publish_goal(std::string_view message);
 
  private:
-  void send(std::uint8_t opcode, std::string_view payload);
-  void send_all(std::string_view bytes);
-  void receive(std::chrono::milliseconds wait);
-  /// A whole frame's opcode and payload, where one has come.
-  [[nodiscard]] std::optional<std::pair<std::uint8_t, std::string>> take_frame();
-  void take_text(const std::string& text);
+  using Error = boost::system::error_code;
+  /// Begins something with a handler, and waits for its end, five seconds at most.
+  template <class Begin>
+  void finish(Begin begin);
+  void begin_tls(const std::string& fingerprint);
+  void send(bool is_text, std::string_view payload);
+  void take_text(std::string_view text);
   [[noreturn]] void lost(const std::string& cause) const;
 
   std::string url_;
   std::set<std::string> topics_;
-  wire::FileDescriptor socket_;
-  std::string received_;
+  boost::asio::io_context io_;
+  std::optional<boost::asio::ssl::context> tls_;
+  boost::beast::websocket::stream<view::DoorStream> socket_;
+  boost::beast::flat_buffer received_;
+  std::optional<Error> came_;  ///< how the read that was begun last went
+  bool reads_ = false;
   std::map<std::uint32_t, std::string> subscribed_;  ///< topics by their subscription's number
 };
 

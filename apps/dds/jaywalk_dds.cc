@@ -1,5 +1,5 @@
-// jaywalk_dds: passes a run's topics on to ROS 2 and other programs on DDS, and their goals to the run. A process of
-// its own: what a write to the network takes never meets a tick.
+// jaywalk_dds: passes a run's topics on to ROS 2 and other programs on DDS, and, with --goals, their goals to the run.
+// A process of its own: what a write to the network takes never meets a tick.
 #include <CLI/CLI.hpp>
 #include <csignal>
 #include <cstdio>
@@ -17,11 +17,18 @@ constexpr auto kWait = std::chrono::milliseconds(10);  // longest that a goal wa
 
 volatile std::sig_atomic_t ends = 0;
 
-void run(const std::string& url, std::uint32_t domain) {
-  dds::DdsTopics topics(domain);
-  dds::FoxgloveClient live(url, dds::DdsTopics::topics());
+struct Options {
+  std::string url, fingerprint;
+  std::uint32_t domain = 0;
+  bool takes_goals = false;
+};
+
+void run(const Options& options) {
+  dds::DdsTopics topics(options.domain, options.takes_goals);
+  dds::FoxgloveClient live(options.url, options.fingerprint, dds::DdsTopics::topics());
   std::map<std::string, bool> refused;
-  std::printf("jaywalk_dds: %s on DDS domain %u\n", url.c_str(), domain);
+  std::printf("jaywalk_dds: %s on DDS domain %u; %s\n", options.url.c_str(), options.domain,
+              options.takes_goals ? "any program there can set goals" : "takes no goals");
   std::fflush(stdout);
   while (ends == 0) {
     if (const auto message = live.next(kWait); message && !topics.publish(message->topic, message->bytes)) {
@@ -36,13 +43,17 @@ void run(const std::string& url, std::uint32_t domain) {
 }  // namespace
 
 int main(int argc, char** argv) {
-  std::string url;
-  std::uint32_t domain = 0;
+  Options options;
   CLI::App app{
-      "jaywalk_dds: a run's topics on DDS (rt/scan, rt/odom, rt/tf, rt/map, rt/plan, rt/tracks), and goals from "
-      "rt/goal_pose"};
-  app.add_option("url", url, "What a run with --view prints: http://127.0.0.1:PORT/")->required();
-  app.add_option("--domain", domain, "DDS domain; ROS 2's ROS_DOMAIN_ID")
+      "jaywalk_dds: a run's topics on DDS (rt/scan, rt/odom, rt/tf, rt/map, rt/plan, rt/tracks), and, with --goals, "
+      "goals from rt/goal_pose"};
+  app.add_option("url", options.url, "What a run with --view prints: http://127.0.0.1:PORT/, with its token")
+      ->required();
+  app.add_flag("--goals", options.takes_goals,
+               "Take goals: DDS asks nobody who he is, so that any program in the domain can send the robot anywhere");
+  app.add_option("--fingerprint", options.fingerprint,
+                 "Of the certificate behind an https:// address, as the run prints it: AB:CD:...");
+  app.add_option("--domain", options.domain, "DDS domain; ROS 2's ROS_DOMAIN_ID")
       ->check(CLI::Range(0, 232))
       ->capture_default_str();
   app.footer(
@@ -52,7 +63,7 @@ int main(int argc, char** argv) {
   std::signal(SIGINT, [](int) { ends = 1; });
   std::signal(SIGTERM, [](int) { ends = 1; });
   try {
-    run(url, domain);
+    run(options);
   } catch (const StartupError& error) {
     std::fprintf(stderr, "jaywalk_dds: %s\n", error.what());
     return 2;

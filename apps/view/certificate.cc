@@ -106,10 +106,10 @@ std::shared_ptr<ssl::context> tls_context(const Path& own) {
   return context;
 }
 
-std::string fingerprint_of(ssl::context& context) {
+std::string fingerprint_of(const X509* certificate) {
   std::array<unsigned char, EVP_MAX_MD_SIZE> bytes{};
   unsigned count = 0;
-  ::X509_digest(::SSL_CTX_get0_certificate(context.native_handle()), ::EVP_sha256(), bytes.data(), &count);
+  ::X509_digest(certificate, ::EVP_sha256(), bytes.data(), &count);
   std::string text;
   for (unsigned k = 0; k < count; ++k) {
     char two[4];

@@ -12,7 +12,7 @@ namespace jaywalk::view {
 /// that cannot be read or made.
 [[nodiscard]] std::shared_ptr<boost::asio::ssl::context> tls_context(const std::filesystem::path& own);
 
-/// SHA-256 of its certificate as browsers show it: "AB:CD:...".
-[[nodiscard]] std::string fingerprint_of(boost::asio::ssl::context& context);
+/// SHA-256 of a certificate as browsers show it: "AB:CD:...".
+[[nodiscard]] std::string fingerprint_of(const X509* certificate);
 
 }  // namespace jaywalk::view

@@ -19,10 +19,11 @@ class DoorStream {
   [[nodiscard]] const next_layer_type& next_layer() const { return socket_; }
   [[nodiscard]] bool is_encrypted() const noexcept { return tls_.has_value(); }
 
+  using Role = boost::asio::ssl::stream_base::handshake_type;
   /// `received`: what came of the handshake so far; the handler is told how much of it was used.
   template <class Buffers, class Handler>
-  void begin_tls(boost::asio::ssl::context& context, const Buffers& received, Handler handler) {
-    tls_.emplace(socket_, context).async_handshake(boost::asio::ssl::stream_base::server, received, std::move(handler));
+  void begin_tls(Role role, boost::asio::ssl::context& context, const Buffers& received, Handler handler) {
+    tls_.emplace(socket_, context).async_handshake(role, received, std::move(handler));
   }
   template <class Buffers, class Handler>
   void async_read_some(const Buffers& buffers, Handler&& handler) {

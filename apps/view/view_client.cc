@@ -56,7 +56,7 @@ void ViewClient::start() {
   beast::async_detect_ssl(socket_.next_layer(), received_, then([](ViewClient& client, bool is_tls) {
                             if (!is_tls) return client.read_request();
                             client.socket_.next_layer().begin_tls(
-                                *client.house_.tls, client.received_.data(),
+                                DoorStream::Role::server, *client.house_.tls, client.received_.data(),
                                 client.then([](ViewClient& encrypted, std::size_t used) {
                                   encrypted.received_.consume(used);
                                   encrypted.read_request();

@@ -234,6 +234,8 @@ std::string ViewServer::url() const {
   return scheme + house_->address + "/" + (house_->rules.token.empty() ? "" : "?token=" + house_->rules.token);
 }
 
-std::string ViewServer::fingerprint() const { return house_->tls ? fingerprint_of(*house_->tls) : ""; }
+std::string ViewServer::fingerprint() const {
+  return house_->tls ? fingerprint_of(::SSL_CTX_get0_certificate(house_->tls->native_handle())) : "";
+}
 
 }  // namespace jaywalk::view
