@@ -1,6 +1,5 @@
 #include "apps/view/certificate.h"
 
-#include <fcntl.h>
 #include <openssl/pem.h>
 #include <openssl/rand.h>
 #include <openssl/x509.h>
@@ -8,11 +7,8 @@
 #include <unistd.h>
 
 #include <array>
-#include <cerrno>
 #include <cstdlib>
-#include <cstring>
 
-#include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::view {
@@ -20,8 +16,8 @@ namespace {
 
 namespace ssl = boost::asio::ssl;
 using Path = std::filesystem::path;
-template <class T>
-using Owned = std::unique_ptr<T, void (*)(T*)>;
+template <class T, class End>
+using Owned = std::unique_ptr<T, End*>;
 
 constexpr long kValid_s = 10L * 365 * 24 * 3600;  ///< it is known by its fingerprint: the years say nothing
 constexpr const char* kRemedy = "give a PEM file with certificate and key by --view-certificate";
@@ -34,74 +30,50 @@ Path state_folder() {
   throw StartupError("no folder for the live page's certificate: neither HOME nor XDG_STATE_HOME is set", kRemedy);
 }
 
-/// Key and certificate, self-signed, P-256.
-std::string made_pem() {
-  const Owned<EVP_PKEY> key(::EVP_EC_gen("P-256"), &::EVP_PKEY_free);
-  const Owned<X509> made(::X509_new(), &::X509_free);
-  const Owned<BIO> text(::BIO_new(::BIO_s_mem()), [](BIO* bio) { ::BIO_free(bio); });
-  std::array<unsigned char, 8> serial{};
-  bool sound = key && made && text && ::RAND_bytes(serial.data(), serial.size()) == 1;
-  if (sound) {
-    X509_NAME* const name = ::X509_get_subject_name(made.get());
-    const Owned<BIGNUM> number(::BN_bin2bn(serial.data(), serial.size(), nullptr), &::BN_free);
-    sound = ::X509_set_version(made.get(), 2) == 1 &&
-            ::BN_to_ASN1_INTEGER(number.get(), ::X509_get_serialNumber(made.get())) != nullptr &&
-            ::X509_gmtime_adj(::X509_getm_notBefore(made.get()), 0) != nullptr &&
-            ::X509_gmtime_adj(::X509_getm_notAfter(made.get()), kValid_s) != nullptr &&
-            ::X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC,
-                                         reinterpret_cast<const unsigned char*>("jaywalk live page"), -1, -1, 0) == 1 &&
-            ::X509_set_issuer_name(made.get(), name) == 1 && ::X509_set_pubkey(made.get(), key.get()) == 1 &&
-            ::X509_sign(made.get(), key.get(), ::EVP_sha256()) > 0 &&
-            ::PEM_write_bio_PrivateKey(text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1 &&
-            ::PEM_write_bio_X509(text.get(), made.get()) == 1;
-  }
-  if (!sound) throw StartupError("no certificate could be made for the live page", kRemedy);
-  char* bytes = nullptr;
-  const long size = BIO_get_mem_data(text.get(), &bytes);
-  return {bytes, static_cast<std::size_t>(size)};
-}
-
-[[noreturn]] void failed(const Path& path, const std::string& cause) {
-  throw StartupError(path.string() + ": " + cause, kRemedy);
+/// Key and certificate, self-signed, P-256. False: it could not be written.
+bool write_pem(std::FILE* file) {
+  const Owned<EVP_PKEY, decltype(::EVP_PKEY_free)> key(::EVP_EC_gen("P-256"), &::EVP_PKEY_free);
+  const Owned<X509, decltype(::X509_free)> made(::X509_new(), &::X509_free);
+  std::int64_t serial = 0;  // browsers want another one for another key of the same name
+  if (!key || !made || ::RAND_bytes(reinterpret_cast<unsigned char*>(&serial), sizeof serial - 1) != 1) return false;
+  X509_NAME* const name = ::X509_get_subject_name(made.get());
+  const auto* const words = reinterpret_cast<const unsigned char*>("jaywalk live page");
+  return ::X509_set_version(made.get(), X509_VERSION_3) == 1 &&
+         ::ASN1_INTEGER_set_int64(::X509_get_serialNumber(made.get()), serial) == 1 &&
+         ::X509_gmtime_adj(::X509_getm_notBefore(made.get()), 0) != nullptr &&
+         ::X509_gmtime_adj(::X509_getm_notAfter(made.get()), kValid_s) != nullptr &&
+         ::X509_NAME_add_entry_by_txt(name, "CN", MBSTRING_ASC, words, -1, -1, 0) == 1 &&
+         ::X509_set_issuer_name(made.get(), name) == 1 && ::X509_set_pubkey(made.get(), key.get()) == 1 &&
+         ::X509_sign(made.get(), key.get(), ::EVP_sha256()) > 0 &&
+         ::PEM_write_PrivateKey(file, key.get(), nullptr, nullptr, 0, nullptr, nullptr) == 1 &&
+         ::PEM_write_X509(file, made.get()) == 1 && std::fflush(file) == 0;
 }
 
 /// Whole or not at all; where another start was quicker, its file stays.
 void make(const Path& path) {
-  const std::string pem = made_pem();
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   ::chmod(path.parent_path().c_str(), S_IRWXU);
   std::string draft = path.string() + ".XXXXXX";
-  const wire::FileDescriptor file(::mkostemp(draft.data(), O_CLOEXEC));  // mode 0600
-  if (file.get() < 0) failed(path, std::strerror(errno));
-  const bool written = ::write(file.get(), pem.data(), pem.size()) == static_cast<ssize_t>(pem.size());
-  const bool linked = written && (::link(draft.c_str(), path.c_str()) == 0 || errno == EEXIST);
-  const int cause = errno;
+  const int made = ::mkstemp(draft.data());  // mode 0600
+  const Owned<std::FILE, decltype(::fclose)> file(made < 0 ? nullptr : ::fdopen(made, "w"), &::fclose);
+  if (!file || !write_pem(file.get())) throw StartupError(path.string() + ": cannot be made", kRemedy);
+  static_cast<void>(::link(draft.c_str(), path.c_str()));
   ::unlink(draft.c_str());
-  if (!linked) failed(path, std::strerror(cause));
-}
-
-std::string read_whole(const Path& path, int flags) {
-  const wire::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | flags));
-  std::string text(1U << 16U, '\0');
-  const ssize_t got = file.get() < 0 ? -1 : ::read(file.get(), text.data(), text.size());
-  if (got < 0) failed(path, std::strerror(errno));
-  return text.substr(0, static_cast<std::size_t>(got));
 }
 
 }  // namespace
 
-std::shared_ptr<ssl::context> tls_context(const Path& own) {
-  const Path path = own.empty() ? state_folder() / "view.pem" : own;
-  if (own.empty() && !std::filesystem::exists(std::filesystem::symlink_status(path))) make(path);
-  const std::string pem = read_whole(path, own.empty() ? O_NOFOLLOW : 0);
+std::shared_ptr<ssl::context> tls_context(const Path& given) {
+  const Path path = given.empty() ? state_folder() / "view.pem" : given;
+  if (given.empty() && !std::filesystem::exists(std::filesystem::symlink_status(path))) make(path);
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   try {
     context->set_options(ssl::context::default_workarounds | ssl::context::no_tlsv1 | ssl::context::no_tlsv1_1);
-    context->use_certificate_chain(boost::asio::buffer(pem));
-    context->use_private_key(boost::asio::buffer(pem), ssl::context::pem);
+    context->use_certificate_chain_file(path.string());
+    context->use_private_key_file(path.string(), ssl::context::pem);
   } catch (const boost::system::system_error& error) {
-    failed(path, "no certificate and its key: " + error.code().message());
+    throw StartupError(path.string() + ": no certificate and its key: " + error.code().message(), kRemedy);
   }
   return context;
 }
@@ -112,9 +84,9 @@ std::string fingerprint_of(const X509* certificate) {
   ::X509_digest(certificate, ::EVP_sha256(), bytes.data(), &count);
   std::string text;
   for (unsigned k = 0; k < count; ++k) {
-    char two[4];
-    std::snprintf(two, sizeof two, "%s%02X", k == 0 ? "" : ":", bytes[k]);
-    text += two;
+    text += k == 0 ? "" : ":";
+    text += "0123456789ABCDEF"[bytes[k] >> 4U];
+    text += "0123456789ABCDEF"[bytes[k] & 15U];
   }
   return text;
 }

@@ -28,14 +28,14 @@ std::vector<view::FoxgloveChannel> channels() {
 LiveView::LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
-      server_(where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
-                      .channels = channels()}),
+      server_(view::ViewServer::serve(
+          where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
+                  .channels = channels()})),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
-        server_.push(channel, stamp, std::move(message));
+        server_->push(channel, stamp, std::move(message));
       }) {
-  std::printf("view: %s\n", server_.url().c_str());
-  if (const std::string known_by = server_.fingerprint(); !known_by.empty())
-    std::printf("its certificate, SHA-256: %s\n", known_by.c_str());
+  std::printf("view: %s\n", server_->url().c_str());
+  if (!server_->fingerprint().empty()) std::printf("its certificate, SHA-256: %s\n", server_->fingerprint().c_str());
   std::fflush(stdout);
 }
 
@@ -58,7 +58,7 @@ void LiveView::begin(view::HelloScene hello, Duration tick) {
   zone_.emplace(model_, tick);
   hello.keeps_ticks = keeps_ticks_;
   hello.tick_s = to_seconds(tick);
-  server_.push(view::MessageKind::kHello, to_json(hello));
+  server_->push(view::MessageKind::kHello, to_json(hello));
 }
 
 void LiveView::follow(const LoopRunner& runner, const std::string& ended, bool at_once) {
@@ -81,15 +81,15 @@ void LiveView::show_field_of(const LoopRunner& runner) {
 void LiveView::show(const view::FieldPicture& field) {
   std::string text = to_json(field, field_++);
   if (keeps_ticks_) store_.add_field(text);
-  server_.push(view::MessageKind::kField, std::move(text));
+  server_->push(view::MessageKind::kField, std::move(text));
 }
 
 void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once) {
   const TickRecord& t = snapshot.record;
   if (path_.stamp != snapshot.plan.stamp) keep_path(snapshot.plan, path_);
-  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, server_.wanted());
+  topics_.add(t, {snapshot.tracks.begin(), snapshot.tracks.size()}, path_, model_, server_->wanted());
   const auto now = std::chrono::steady_clock::now();
-  const bool is_due = server_.has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
+  const bool is_due = server_->has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
   const bool changed = t.scan.sequence != scan_shown_ || snapshot.plan.sequence != plan_shown_ || scene_.empty();
   if (changed) {
@@ -108,7 +108,7 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
   }
   if (!is_due) return;
   pushed_ = now;
-  server_.push(ended.empty() ? view::MessageKind::kFrame : view::MessageKind::kEnd, head + scene_ + "}");
+  server_->push(ended.empty() ? view::MessageKind::kFrame : view::MessageKind::kEnd, head + scene_ + "}");
 }
 
 void LiveView::stay(bool until_told, const Interruption& interruption) const {

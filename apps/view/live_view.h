@@ -35,12 +35,12 @@ class LiveView {
   void show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once = false);
   void show(const view::FieldPicture& field);
   void show_map(const EvidenceMap& map, Time now) { topics_.add_map(map, now); }
-  [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_.wanted()); }
+  [[nodiscard]] bool is_map_due(Time now) const { return topics_.is_map_due(now, server_->wanted()); }
 
-  [[nodiscard]] std::string url() const { return server_.url(); }
-  [[nodiscard]] int viewers() const noexcept { return server_.viewers(); }
+  [[nodiscard]] std::string url() const { return server_->url(); }
+  [[nodiscard]] int viewers() const noexcept { return server_->viewers(); }
   /// Whether a client subscribes to messages: these want every tick.
-  [[nodiscard]] bool has_subscribers() const noexcept { return server_.wanted() != 0; }
+  [[nodiscard]] bool has_subscribers() const noexcept { return server_->wanted() != 0; }
   /// The run is over: goes on to serve what was kept until all viewers have been gone for some seconds, or for as long
   /// as `until_told`, or until an interruption.
   void stay(bool until_told, const Interruption& interruption) const;
@@ -60,7 +60,7 @@ class LiveView {
   std::uint64_t tick_ = 0, field_ = 0;
   Time field_shown_ = kNever;
   std::chrono::steady_clock::time_point pushed_{};
-  view::ViewServer server_;
+  std::unique_ptr<view::ViewServer> server_;
   exchange::RosTopics topics_;
   PlannedPath path_;  ///< of the newest plan
 };

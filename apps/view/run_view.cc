@@ -1,5 +1,8 @@
 #include "apps/view/run_view.h"
 
+#include <boost/asio/post.hpp>
+#include <thread>
+
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"
@@ -13,23 +16,20 @@ view::ViewAddress with_token(view::ViewAddress where) {
   return where;
 }
 
-std::string answer_of(const std::filesystem::path& control_socket, const std::string& line) {
-  try {
-    return ask(control_socket, line);
-  } catch (const StartupError& error) {
-    return error.what();
-  }
-}
+/// Nothing waits for one more than these.
+constexpr unsigned kMostWaiting = 32;
 
 }  // namespace
 
 RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& control_socket, const std::string& title,
                  const ControlSetup& setup, const EvidenceMap& map)
-    : planner_tap_(map),
-      courier_([control_socket](const std::string& line) { return answer_of(control_socket, line); }),
+    : control_socket_(control_socket),
+      planner_tap_(map),
       live_(with_token(where), false,
             [this](const view::ViewOrder& order, const view::Reply& reply) { obey(order, reply); }),
       address_file_(control_socket, live_.url()) {
+  boost::asio::post(stops_, view::be_in_background);
+  boost::asio::post(goals_, view::be_in_background);
   live_.begin({.title = title, .model = setup.model, .takes_pauses = false}, setup.tick());
 }
 
@@ -45,8 +45,40 @@ void RunView::follow() {
 }
 
 void RunView::obey(const view::ViewOrder& order, const view::Reply& reply) {
-  if (order.stop) return courier_.stop(reply);
-  if (order.goal) courier_.go("goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}), reply);
+  if (order.stop) return stop(reply);
+  if (order.goal) go("goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}), reply);
+}
+
+std::string RunView::said_to(const std::string& line) const {
+  try {
+    return ask(control_socket_, line);
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+}
+
+/// Where many wait, those that have not gone yet are this one's as well.
+void RunView::stop(const view::Reply& reply) {
+  if (stops_asked_ - stops_done_ >= kMostWaiting) return reply("stopping\n");
+  ++stops_asked_;
+  boost::asio::post(stops_, [this, reply] {
+    reply(said_to("stop"));
+    ++stops_done_;
+  });
+}
+
+/// After the stops before it. A stop that comes before it goes takes it back; one that comes while it is on its way may
+/// have overtaken it, and is said once more.
+void RunView::go(const std::string& line, const view::Reply& reply) {
+  if (goals_waiting_ >= kMostWaiting) return reply("refused: too many goals at once\n");
+  ++goals_waiting_;
+  boost::asio::post(goals_, [this, line, reply, stops = stops_asked_.load()] {
+    while (static_cast<int>(stops_done_ - stops) < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
+    const bool goes = stops == stops_asked_;
+    reply(goes ? said_to(line) : "taken back by a stop\n");
+    if (goes && stops != stops_asked_) static_cast<void>(said_to("stop"));
+    --goals_waiting_;
+  });
 }
 
 }  // namespace jaywalk

@@ -1,11 +1,12 @@
 #pragma once
+#include <atomic>
+#include <boost/asio/thread_pool.hpp>
 #include <filesystem>
 #include <optional>
 #include <string>
 
 #include "apps/report/run_observer.h"
 #include "apps/view/live_view.h"
-#include "apps/view/order_courier.h"
 #include "apps/view/planner_tap.h"
 #include "apps/view/secret.h"
 
@@ -31,10 +32,16 @@ class RunView final : public RunObserver {
 
  private:
   void obey(const view::ViewOrder& order, const view::Reply& reply);
+  std::string said_to(const std::string& line) const;
+  void stop(const view::Reply& reply);
+  void go(const std::string& line, const view::Reply& reply);
 
+  std::string control_socket_;
   view::SnapshotTap snapshots_;
   view::PlannerTap planner_tap_;
-  view::OrderCourier courier_;  ///< outlives the server, which calls it
+  std::atomic<unsigned> stops_asked_{0}, stops_done_{0}, goals_waiting_{0};
+  boost::asio::thread_pool stops_{1},
+      goals_{1};  ///< the socket may take seconds to answer; outlive the server, which calls
   LiveView live_;
   view::AddressFile address_file_;
 };

@@ -7,32 +7,13 @@
 
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <optional>
+#include <fstream>
 
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::view {
-namespace {
-
-/// What a regular file of this user begins with; a link is none. Empty where there is no file.
-std::optional<std::string> own_text(const std::filesystem::path& path) {
-  const wire::FileDescriptor file(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
-  if (file.get() < 0) return errno == ENOENT ? std::optional<std::string>("") : std::nullopt;
-  struct stat kind {};
-  std::array<char, 512> text{};
-  if (::fstat(file.get(), &kind) != 0 || !S_ISREG(kind.st_mode) || kind.st_uid != ::geteuid()) return std::nullopt;
-  const ssize_t got = ::read(file.get(), text.data(), text.size());
-  return got < 0 ? std::nullopt : std::optional<std::string>(std::in_place, text.data(), static_cast<std::size_t>(got));
-}
-
-bool is_address(const std::string& text) {
-  return text.empty() || (text.starts_with("http") && text.find("/?token=") != std::string::npos);
-}
-
-}  // namespace
 
 std::string made_token() {
   std::array<unsigned char, 16> bytes{};
@@ -44,25 +25,21 @@ std::string made_token() {
   return token;
 }
 
-AddressFile::AddressFile(const std::filesystem::path& control_socket, std::string url)
-    : path_(control_socket.string() + ".view"), url_(std::move(url) + "\n") {
-  const auto before = own_text(path_);
-  if (!before || !is_address(*before))
-    throw StartupError(path_.string() + ": not written by a run, or another user's: it stays as it is",
-                       "move it away, or give control_socket another name");
-  std::string draft = path_.string() + ".XXXXXX";
-  const wire::FileDescriptor file(::mkostemp(draft.data(), O_CLOEXEC));
-  const auto size = static_cast<ssize_t>(url_.size());
+AddressFile::AddressFile(const std::filesystem::path& control_socket, const std::string& url)
+    : path_(control_socket.string() + ".view") {
+  std::string before;
+  if (std::filesystem::is_regular_file(std::filesystem::symlink_status(path_)))
+    std::getline(std::ifstream(path_), before);
+  if (before.starts_with("http") && before.find("/?token=") != std::string::npos)
+    ::unlink(path_.c_str());  // of a run that was killed
+  const wire::FileDescriptor file(::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
+  const std::string line = url + "\n";
   if (file.get() < 0 || ::fchmod(file.get(), S_IRUSR | S_IWUSR | S_IRGRP) != 0 ||
-      ::write(file.get(), url_.data(), url_.size()) != size || ::rename(draft.c_str(), path_.c_str()) != 0) {
-    const std::string cause = std::strerror(errno);
-    if (file.get() >= 0) ::unlink(draft.c_str());
-    throw StartupError(path_.string() + ": " + cause, "give control_socket a folder in which files can be made");
-  }
+      ::write(file.get(), line.data(), line.size()) != static_cast<ssize_t>(line.size()))
+    throw StartupError(path_.string() + ": " + std::strerror(errno),
+                       "move away what has that name, or give control_socket another one, in a folder of yours");
 }
 
-AddressFile::~AddressFile() {
-  if (own_text(path_) == url_) ::unlink(path_.c_str());
-}
+AddressFile::~AddressFile() { ::unlink(path_.c_str()); }
 
 }  // namespace jaywalk::view

@@ -13,7 +13,6 @@
 #include "apps/view/foxglove_session.h"
 #include "apps/view/outbox.h"
 #include "apps/view/view_door.h"
-#include "apps/view/view_message.h"
 #include "apps/view/view_rules.h"
 
 namespace jaywalk::view {

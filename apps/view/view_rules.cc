@@ -43,7 +43,7 @@ ViewVerdict judge(const ViewRequest& request, const ViewRules& rules) {
   const std::string_view target = request.target, path = target.substr(0, target.find('?'));
   const std::string_view query = target.substr(std::min(target.size(), path.size() + 1));
   const bool permitted = rules.token.empty() || is_same_secret(query_value(query, "token"), rules.token);
-  if (rules.encrypted && !request.is_encrypted && !request.is_local)
+  if (!rules.loopback && !request.is_encrypted && !request.is_local)
     return refused(403, "another machine must ask by https://");
   if (path == "/stop" && request.method != "POST") return refused(405, "a stop is a POST");
   if (path == "/stop" && (permitted || request.is_local)) return {.service = Service::kStop};

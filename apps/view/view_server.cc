@@ -2,16 +2,18 @@
 
 #include <arpa/inet.h>
 #include <fcntl.h>
+#include <pthread.h>
+#include <signal.h>
 
 #include <algorithm>
 #include <array>
 #include <atomic>
 #include <boost/asio/steady_timer.hpp>
 #include <list>
+#include <thread>
 #include <utility>
 #include <vector>
 
-#include "apps/view/background_thread.h"
 #include "apps/view/certificate.h"
 #include "apps/view/secret.h"
 #include "apps/view/view_client.h"
@@ -39,24 +41,15 @@ Tcp::endpoint parsed(const ViewAddress& where) {
   return {asio::ip::address_v4(ntohl(address.s_addr)), where.port};
 }
 
-}  // namespace
-
-class ViewServer::House final : public ViewHouse {
+class BeastServer final : public ViewServer, public ViewHouse {
  public:
-  House(const ViewAddress& where, ViewDoor asked);
-  ~House() override;
-  void push(ViewMessage message);
+  BeastServer(const ViewAddress& where, ViewDoor asked);
+  ~BeastServer() override;
 
+ private:
   bool enter(ViewClient& client, Stage stage) override;
   void welcome(ViewClient& client) override;
   void repeat(ViewClient& client, std::size_t channel) override;
-
-  std::string address;  ///< with the port
-  std::atomic<int> viewers{0};
-  std::atomic<bool> has_pages{false};
-  std::atomic<std::uint32_t> wanted{0};
-
- private:
   void listen(const Tcp::endpoint& at);
   void await_newcomers();
   void accept_newcomers();
@@ -66,7 +59,6 @@ class ViewServer::House final : public ViewHouse {
 
   Tcp::acceptor listener_{*io};
   asio::steady_timer timer_{*io};
-  Ring<ViewMessage, 64> ring_;  ///< a tick has ten topics and a frame at most
   std::list<std::shared_ptr<ViewClient>> clients_;
   std::array<ViewMessage, 2> kept_;  ///< hello and the newest field
   std::vector<ViewMessage> said_;    ///< by each channel, last
@@ -76,13 +68,15 @@ class ViewServer::House final : public ViewHouse {
   std::thread thread_;
 };
 
-ViewServer::House::House(const ViewAddress& where, ViewDoor asked) : said_(asked.channels.size()) {
+BeastServer::BeastServer(const ViewAddress& where, ViewDoor asked) : said_(asked.channels.size()) {
   door = std::move(asked);
   rules = {.origin = where.origin, .loopback = where.address == "127.0.0.1"};
-  rules.encrypted = !rules.loopback;
   const Tcp::endpoint at = parsed(where);
-  if (rules.encrypted || where.wants_token) rules.token = made_token();
-  if (rules.encrypted) tls = tls_context(where.certificate);
+  if (!rules.loopback || where.wants_token) rules.token = made_token();
+  if (!rules.loopback) {
+    tls = tls_context(where.certificate);
+    fingerprint_ = fingerprint_of(::SSL_CTX_get0_certificate(tls->native_handle()));
+  }
   try {
     listen(at);
   } catch (const boost::system::system_error& error) {
@@ -90,36 +84,38 @@ ViewServer::House::House(const ViewAddress& where, ViewDoor asked) : said_(asked
                        "end what listens there, or give another port (--view alone takes a free one)");
   }
   await_newcomers();
-  thread_ = background_thread("view", [this] {
+  thread_ = std::thread([this] {
+    be_in_background();
     tick();
     io->run();
   });
 }
 
-ViewServer::House::~House() {
+BeastServer::~BeastServer() {
   ends_ = true;
   thread_.join();
   for (const auto& client : clients_) client->close();
 }
 
-void ViewServer::House::listen(const Tcp::endpoint& at) {
+void BeastServer::listen(const Tcp::endpoint& at) {
   listener_.open(Tcp::v4());
   static_cast<void>(::fcntl(listener_.native_handle(), F_SETFD, FD_CLOEXEC));
   listener_.set_option(Tcp::acceptor::reuse_address(true));
   listener_.bind(at);
   listener_.listen(kBacklog);
   listener_.non_blocking(true);
-  address = at.address().to_string() + ":" + std::to_string(listener_.local_endpoint().port());
+  url_ = (tls ? "https://" : "http://") + at.address().to_string() + ":" +
+         std::to_string(listener_.local_endpoint().port()) + "/" + (rules.token.empty() ? "" : "?token=" + rules.token);
 }
 
-void ViewServer::House::await_newcomers() {
+void BeastServer::await_newcomers() {
   listener_.async_wait(Tcp::acceptor::wait_read, [this](Error error) {
     if (!error) accept_newcomers();
   });
 }
 
 /// Where there is no descriptor for one, the oldest that has not asked yet gives up its own by the next tick.
-void ViewServer::House::accept_newcomers() {
+void BeastServer::accept_newcomers() {
   Error error;
   for (int k = 0; k < kAcceptedAtOnce && !error; ++k) {
     Tcp::socket socket(*io);
@@ -137,7 +133,7 @@ void ViewServer::House::accept_newcomers() {
   lacks_descriptor_ = true;
 }
 
-bool ViewServer::House::enter(ViewClient& newcomer, Stage stage) {
+bool BeastServer::enter(ViewClient& newcomer, Stage stage) {
   std::vector<Placed> placed;
   std::vector<ViewClient*> clients;
   const auto now = ViewClient::Clock::now();
@@ -155,23 +151,16 @@ bool ViewServer::House::enter(ViewClient& newcomer, Stage stage) {
   return true;
 }
 
-void ViewServer::House::welcome(ViewClient& client) {
+void BeastServer::welcome(ViewClient& client) {
   for (const ViewMessage& kept : kept_)
     if (kept.text) client.offer(kept);
 }
 
-void ViewServer::House::repeat(ViewClient& client, std::size_t channel) {
+void BeastServer::repeat(ViewClient& client, std::size_t channel) {
   if (said_[channel].text) client.offer(said_[channel]);
 }
 
-void ViewServer::House::push(ViewMessage message) {
-  ViewMessage* const slot = ring_.draft();
-  if (slot == nullptr) return;
-  *slot = std::move(message);
-  ring_.publish();
-}
-
-void ViewServer::House::tick() {
+void BeastServer::tick() {
   const auto now = ViewClient::Clock::now();
   if (ends_ && ended_ == ViewClient::Clock::time_point{}) ended_ = now;
   pass_on();
@@ -185,7 +174,7 @@ void ViewServer::House::tick() {
   timer_.async_wait([this](Error) { tick(); });
 }
 
-void ViewServer::House::pass_on() {
+void BeastServer::pass_on() {
   for (const ViewMessage* m = ring_.front(); m != nullptr; m = ring_.front()) {
     if (m->kind == MessageKind::kHello) kept_[0] = *m;
     if (m->kind == MessageKind::kField) kept_[1] = *m;
@@ -195,7 +184,7 @@ void ViewServer::House::pass_on() {
   }
 }
 
-void ViewServer::House::count_clients() {
+void BeastServer::count_clients() {
   int looking = 0;
   bool pages = false;
   std::uint32_t channels = 0;
@@ -204,38 +193,24 @@ void ViewServer::House::count_clients() {
     pages = pages || client->is_page();
     looking += client->is_page() || client->wanted() != 0 ? 1 : 0;
   }
-  viewers = looking;
-  has_pages = pages;
-  wanted = channels;
+  viewers_ = looking;
+  has_pages_ = pages;
+  wanted_ = channels;
 }
 
-ViewServer::ViewServer(const ViewAddress& where, ViewDoor door)
-    : house_(std::make_unique<House>(where, std::move(door))) {}
+}  // namespace
 
-ViewServer::~ViewServer() = default;
-
-void ViewServer::push(MessageKind kind, std::string text) {
-  house_->push({.kind = kind, .text = std::make_shared<const std::string>(std::move(text))});
+void be_in_background() noexcept {
+  sigset_t all;
+  sigfillset(&all);
+  ::pthread_sigmask(SIG_BLOCK, &all, nullptr);
+  const sched_param ordinary{};
+  static_cast<void>(::pthread_setschedparam(::pthread_self(), SCHED_OTHER, &ordinary));
+  static_cast<void>(::pthread_setname_np(::pthread_self(), "view"));
 }
 
-void ViewServer::push(std::size_t channel, Time stamp, std::string message) {
-  house_->push({.kind = MessageKind::kTopic,
-                .text = std::make_shared<const std::string>(std::move(message)),
-                .channel = channel,
-                .stamp = stamp});
-}
-
-int ViewServer::viewers() const noexcept { return house_->viewers; }
-bool ViewServer::has_pages() const noexcept { return house_->has_pages; }
-std::uint32_t ViewServer::wanted() const noexcept { return house_->wanted; }
-
-std::string ViewServer::url() const {
-  const std::string scheme = house_->tls ? "https://" : "http://";
-  return scheme + house_->address + "/" + (house_->rules.token.empty() ? "" : "?token=" + house_->rules.token);
-}
-
-std::string ViewServer::fingerprint() const {
-  return house_->tls ? fingerprint_of(::SSL_CTX_get0_certificate(house_->tls->native_handle())) : "";
+std::unique_ptr<ViewServer> ViewServer::serve(const ViewAddress& where, ViewDoor door) {
+  return std::make_unique<BeastServer>(where, std::move(door));
 }
 
 }  // namespace jaywalk::view

@@ -1,13 +1,10 @@
 #pragma once
 // Serves the live page and its WebSocket from a thread of its own.
-#include <cstdint>
+#include <atomic>
 #include <filesystem>
-#include <memory>
-#include <string>
 
 #include "apps/view/view_door.h"
-#include "apps/view/view_message.h"
-#include "hal/types/time.h"
+#include "firmware/robot/ring.h"
 
 namespace jaywalk::view {
 
@@ -24,24 +21,40 @@ struct ViewAddress {
 class ViewServer {
  public:
   /// Throws StartupError where the address is none, the port is taken or the certificate cannot be used.
-  ViewServer(const ViewAddress& where, ViewDoor door);
-  ~ViewServer();
+  [[nodiscard]] static std::unique_ptr<ViewServer> serve(const ViewAddress& where, ViewDoor door);
+  ViewServer() = default;
+  virtual ~ViewServer() = default;
+  ViewServer(const ViewServer&) = delete;
+  ViewServer& operator=(const ViewServer&) = delete;
 
-  void push(MessageKind kind, std::string text);
-  void push(std::size_t channel, Time stamp, std::string message);
+  void push(MessageKind kind, std::string text) { push(kind, 0, kNever, std::move(text)); }
+  void push(std::size_t channel, Time stamp, std::string text) {
+    push(MessageKind::kTopic, channel, stamp, std::move(text));
+  }
   /// Pages and subscribers that look now.
-  [[nodiscard]] int viewers() const noexcept;
-  [[nodiscard]] bool has_pages() const noexcept;
+  [[nodiscard]] int viewers() const noexcept { return viewers_; }
+  [[nodiscard]] bool has_pages() const noexcept { return has_pages_; }
   /// A bit a channel that a client subscribes to.
-  [[nodiscard]] std::uint32_t wanted() const noexcept;
+  [[nodiscard]] std::uint32_t wanted() const noexcept { return wanted_; }
   /// What to type into a browser; with the token where one is wanted.
-  [[nodiscard]] std::string url() const;
+  [[nodiscard]] const std::string& url() const noexcept { return url_; }
   /// SHA-256 of the certificate, as browsers show it; empty without TLS.
-  [[nodiscard]] std::string fingerprint() const;
+  [[nodiscard]] const std::string& fingerprint() const noexcept { return fingerprint_; }
+
+ protected:
+  Ring<ViewMessage, 64> ring_;  ///< a tick has ten topics and a frame at most
+  std::atomic<int> viewers_{0};
+  std::atomic<bool> has_pages_{false};
+  std::atomic<std::uint32_t> wanted_{0};
+  std::string url_, fingerprint_;
 
  private:
-  class House;
-  std::unique_ptr<House> house_;
+  void push(MessageKind kind, std::size_t channel, Time stamp, std::string text) {
+    ViewMessage* const slot = ring_.draft();
+    if (slot == nullptr) return;
+    *slot = {kind, std::make_shared<const std::string>(std::move(text)), channel, stamp};
+    ring_.publish();
+  }
 };
 
 }  // namespace jaywalk::view

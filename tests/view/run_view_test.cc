@@ -51,10 +51,13 @@ struct Bench {
   std::filesystem::path socket = place("control");
   std::mutex mutex;
   std::string lines;
-  ControlSocket control{socket, [this](std::string_view line) {
+  std::promise<void> slow;  ///< lets the goal 0, 0 be answered
+  ControlSocket control{socket, [this](std::string_view line) -> ControlReply {
                           const std::scoped_lock lock(mutex);
                           lines += std::string(line) + "\n";
-                          return "heard " + std::string(line) + "\n";
+                          const std::string said = "heard " + std::string(line) + "\n";
+                          if (line != "goto 0 0") return ControlReply(said);
+                          return ControlReply([this, said] { return slow.get_future().wait(), said; });
                         }};
   RunView page{{}, socket, "bench", wiring().setup, map_for(wiring().setup)};
 };
@@ -105,32 +108,21 @@ TEST_CASE("the file with the address goes with the run, and a file of another ki
 }
 
 TEST_CASE("a stop waits for no goal, takes back the one that waits, and follows the one on its way") {
-  std::mutex mutex;
-  std::vector<std::string> carried;
-  std::promise<void> slow, begun, last;
-  OrderCourier courier([&](const std::string& line) {
-    if (line == "goto 1 1") begun.set_value(), slow.get_future().wait();
-    const std::scoped_lock lock(mutex);
-    carried.push_back(line);
-    if (line == "goto 3 3") last.set_value();
-    return line;
-  });
-  std::promise<std::string> taken_back, stopped;
-  courier.go("goto 1 1", [](const std::string&) {});
-  begun.get_future().wait();
-  courier.go("goto 2 2", [&](const std::string& said) { taken_back.set_value(said); });
-  courier.stop([&](const std::string& said) { stopped.set_value(said); });
-  CHECK(stopped.get_future().get() == "stop");  // while the goal is still on its way
-  CHECK(taken_back.get_future().get() == "taken back by a stop\n");
-  slow.set_value();
-  std::promise<std::string> after;
-  while (true) {  // the goal's own stop
-    const std::scoped_lock lock(mutex);
-    if (carried.size() == 3) break;
-  }
-  courier.go("goto 3 3", [](const std::string&) {});
-  last.get_future().wait();
-  CHECK(carried == std::vector<std::string>{"stop", "goto 1 1", "stop", "goto 3 3"});
+  Bench bench;
+  std::string url = bench.address();
+  url.pop_back();
+  const auto page = connected(port_of(url));
+  say(page, upgrade("/ws" + query_of(url)) + "");
+  REQUIRE(heard(page, "\r\n\r\n").find(" 101 ") != std::string::npos);
+  say(page, frame(R"({"goal":[0,0]})"));  // takes its time
+  while (bench.told().empty()) std::this_thread::sleep_for(1ms);
+  say(page, frame(R"({"goal":[2,2]})") + frame(R"({"stop":true})"));
+  CHECK(heard(page, "heard stop").find("heard goto") == std::string::npos);
+  bench.slow.set_value();
+  CHECK(heard(page, "taken back").find("heard goto 0 0") != std::string::npos);
+  say(page, frame(R"({"goal":[3,3]})"));
+  CHECK(heard(page, "heard goto 3 3").find("2 2") == std::string::npos);
+  CHECK(bench.told() == "goto 0 0\nstop\nstop\ngoto 3 3\n");
 }
 
 namespace {

@@ -13,7 +13,7 @@ using namespace std::chrono_literals;
 namespace {
 
 const ViewRules kRun{.token = "abc"};
-const ViewRules kNetwork{.token = "abc", .loopback = false, .encrypted = true};
+const ViewRules kNetwork{.token = "abc", .loopback = false};
 const ViewRules kSimulation{};
 
 ViewRequest request(const char* method, const char* target, bool is_local = true) {
