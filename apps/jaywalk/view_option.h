@@ -31,13 +31,12 @@ inline void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen
   command
       .add_option_function<std::string>(
           "--view-address", [here](const std::string& word) { here().address = word; },
-          "Serve it on this IPv4 address of the machine, by TLS and with a token (default: 127.0.0.1, this machine "
-          "alone)")
+          "Serve it on this IPv4 address, by TLS and with a token (default: 127.0.0.1, this machine alone)")
       ->type_name("ADDRESS");
   command
       .add_option_function<std::string>(
           "--view-certificate", [here](const std::string& word) { here().certificate = word; },
-          "PEM file with certificate and key for TLS (default: a self-signed one, made at the first start)")
+          "Certificate and key for TLS, in PEM (default: self-signed)")
       ->type_name("FILE");
   command
       .add_option_function<std::string>(
