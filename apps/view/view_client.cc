@@ -85,6 +85,7 @@ void ViewClient::answer_request() {
                                      .is_local = local_,
                                      .is_encrypted = socket_.next_layer().is_encrypted()},
                                     house_.rules);
+  if (stage_ == Stage::kGone && verdict.service != Service::kStop) return;  // gave way before it was heard
   if (verdict.service == Service::kSocket) return upgrade(verdict.subprotocol);
   static_cast<void>(house_.enter(*this, Stage::kIsAnswered));
   if (verdict.service == Service::kPage)

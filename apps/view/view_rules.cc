@@ -31,13 +31,14 @@ std::string_view query_value(std::string_view query, std::string_view name) {
   return "";
 }
 
-ViewVerdict refused(unsigned status, std::string said) { return {.status = status, .said = std::move(said) + "\n"}; }
-
-}  // namespace
-
+/// Takes the same time whatever differs.
 bool is_same_secret(std::string_view a, std::string_view b) {
   return a.size() == b.size() && CRYPTO_memcmp(a.data(), b.data(), a.size()) == 0;
 }
+
+ViewVerdict refused(unsigned status, std::string said) { return {.status = status, .said = std::move(said) + "\n"}; }
+
+}  // namespace
 
 ViewVerdict judge(const ViewRequest& request, const ViewRules& rules) {
   const std::string_view target = request.target, path = target.substr(0, target.find('?'));

@@ -36,7 +36,4 @@ struct ViewVerdict {
 /// that any page open in a browser here may stop the robot, and none may move it.
 [[nodiscard]] ViewVerdict judge(const ViewRequest& request, const ViewRules& rules);
 
-/// Takes the same time whatever differs.
-[[nodiscard]] bool is_same_secret(std::string_view a, std::string_view b);
-
 }  // namespace jaywalk::view
