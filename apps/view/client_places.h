@@ -10,6 +10,7 @@ namespace jaywalk::view {
 /// How far a client has come.
 enum class Stage : std::uint8_t {
   kAsks,        ///< its request is not whole yet
+  kEncrypts,    ///< nor that, by TLS: it costs a hundred times the memory
   kIsAnswered,  ///< a page, a stop or a refusal is on its way to it
   kLooks,       ///< it has a WebSocket
   kGone
@@ -17,7 +18,8 @@ enum class Stage : std::uint8_t {
 
 /// Places of a stage; this machine's clients and those of others have as many each, so that neither take the other's.
 [[nodiscard]] constexpr std::size_t places(Stage stage) noexcept {
-  return stage == Stage::kAsks ? 64 : stage == Stage::kIsAnswered ? 16 : 8;
+  constexpr std::size_t kPlaces[] = {128, 64, 16, 8, 0};
+  return kPlaces[static_cast<std::size_t>(stage)];
 }
 
 /// A client in its place.

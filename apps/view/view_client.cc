@@ -55,6 +55,7 @@ void ViewClient::start() {
   if (!house_.tls) return read_request();
   beast::async_detect_ssl(socket_.next_layer(), received_, then([](ViewClient& client, bool is_tls) {
                             if (!is_tls) return client.read_request();
+                            static_cast<void>(client.house_.enter(client, Stage::kEncrypts));
                             client.socket_.next_layer().begin_tls(
                                 DoorStream::Role::server, *client.house_.tls, client.received_.data(),
                                 client.then([](ViewClient& encrypted, std::size_t used) {
