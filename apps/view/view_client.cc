@@ -18,7 +18,7 @@ constexpr std::size_t kMostRequest = 8192;     ///< bytes of its head; a body is
 constexpr std::size_t kMostPayload = 8192;     ///< orders have about 50, an advertisement with its schema some hundred
 constexpr std::size_t kMostUnread = 64 << 10;  ///< bytes: a client with more is asked for nothing
 constexpr std::chrono::seconds kAnswered{5};   ///< from its first byte to the answer's last
-constexpr std::chrono::seconds kQuiet{20};     ///< a WebSocket; it is asked by a ping after half of it
+constexpr std::chrono::seconds kQuiet{30};     ///< a WebSocket; it is asked by a ping after half of it
 constexpr double kMessages_hz = 50.0, kMostAtOnce = 100.0;
 
 std::string text_of(beast::string_view text) { return {text.data(), text.size()}; }
