@@ -98,7 +98,7 @@ void ViewClient::answer_request() {
   respond(http::int_to_status(verdict.status), "text/plain; charset=utf-8", verdict.said);
 }
 
-void ViewClient::respond(Status status, std::string type, std::string body) {
+void ViewClient::respond(Status status, const char* type, std::string body) {
   response_.emplace(status, 11);
   response_->set(http::field::content_type, type);
   response_->set(http::field::cache_control, "no-store");

@@ -67,7 +67,7 @@ class ViewClient : public std::enable_shared_from_this<ViewClient> {
   using Status = boost::beast::http::status;
   void read_request();
   void answer_request();
-  void respond(Status status, std::string type, std::string body);
+  void respond(Status status, const char* type, std::string body);
   void upgrade(const std::string& subprotocol);
   void read_on();
   void take_message();
