@@ -81,7 +81,7 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   if (scan_timing_.is_stale(input.scan, input.now)) reasons |= Reason::kScanStale;
   if (input.scan.sequence > 0 && !is_trustworthy(input.scan, config_.model.laser)) reasons |= Reason::kScanInvalid;
   gaps_.update(input.scan);
-  unseen_walls_.update(input.scan, gaps_, input.known_walls);
+  unseen_walls_.update(input.scan, gaps_, input.known_walls, input.known_ground);
   if (sight_loss_.is_lost(gaps_.counts(), input.now)) reasons |= Reason::kSightLost;
   if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
   return reasons;

@@ -9,8 +9,8 @@ namespace {
 
 constexpr double kOff_m = 0.03;       // three standard deviations of a range: farther from the line is another surface
 constexpr double kApart_m = 0.3;      // between two hits of a wall
-constexpr double kSeed_m = 0.15;      // so much of it tells its direction from noise
-constexpr double kShortest_m = 0.25;  // of what is seen of it: its direction is good to a few degrees
+constexpr double kSeed_m = 0.10;      // so much of it tells its direction from noise
+constexpr double kShortest_m = 0.15;  // of what is seen of it: its direction is good to a few degrees
 constexpr double kLongest_m = 3.0;    // more says nothing about the piece beside the robot
 constexpr double kPerSeen = 3.0;      // it is continued by so many times what is seen of it: errors grow with that
 constexpr double kSpacing_m = 0.04;   // as the stop zone's steps
@@ -55,7 +55,9 @@ bool cuts(const LineFit& line, const Footprint& body) noexcept {
 UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept
     : footprint_(footprint), robot_from_laser_(robot_from_laser), laser_from_robot_(inverse(robot_from_laser)) {}
 
-void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known) noexcept {
+void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
+                         const KnownGround* ground) noexcept {
+  ground_ = ground;
   points_.clear();
   for (const Vec2 point : known) add(gaps, point);
   for (std::size_t beam = 0; beam < gaps.beams(); ++beam) {
@@ -87,7 +89,10 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
   const Vec2 outward = line.along() * (dot(line.along(), first - last) > 0.0 ? 1.0 : -1.0), from = line.foot_of(first);
   const double length_m =
       std::min(kPerSeen * seen_m, norm(from) + footprint_.circumscribed_radius_m());  // past the body
-  for (double gone = 0.0; gone < length_m; gone += kSpacing_m) add(gaps, from + outward * gone);
+  for (double gone = 0.0; gone < length_m; gone += kSpacing_m) {
+    const Vec2 place = from + outward * gone;
+    if (ground_ == nullptr || !ground_->seen_free(place)) add(gaps, place);
+  }
 }
 
 }  // namespace jaywalk

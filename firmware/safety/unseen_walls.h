@@ -8,17 +8,25 @@
 
 namespace jaywalk {
 
+/// What the loop's map knows of the ground near the robot, in its frame.
+class KnownGround {
+ public:
+  virtual ~KnownGround() = default;
+  [[nodiscard]] virtual bool seen_free(Vec2 place) const noexcept = 0;
+};
+
 /// Walls where the laser does not look, as points for the stop zone: those that the loop knows from its map, and each
 /// wall that is straight up to the rim of sight, continued past the body.
 ///
-/// A continued wall is a guess that only ever slows: it ends a body's length beyond the robot, and a line that would
-/// cut the body is none. Thread: the loop's; never allocates, never throws.
+/// A continued wall is a guess that only ever slows: it ends a body's length beyond the robot and is none where the map
+/// saw free ground, and a line that would cut the body is none. Thread: the loop's; never allocates, never throws.
 class UnseenWalls {
  public:
   UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept;
 
-  /// `known`: surfaces near the robot, in its frame.
-  void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known) noexcept;
+  /// `known`: surfaces near the robot, in its frame. `ground`: null where there is no map.
+  void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
+              const KnownGround* ground = nullptr) noexcept;
   /// In the robot's frame, 4 cm apart or less.
   [[nodiscard]] std::span<const Vec2> points() const noexcept { return {points_.data(), points_.size()}; }
 
@@ -28,6 +36,7 @@ class UnseenWalls {
   void add(const BlindGaps& gaps, Vec2 point) noexcept;
 
   Footprint footprint_;
+  const KnownGround* ground_ = nullptr;  ///< during update()
   Transform2 robot_from_laser_, laser_from_robot_;
   FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first
 };

@@ -66,7 +66,10 @@ void BodyMap::draw(const EvidenceMap& still, const Pose2& map_from_robot, std::s
   }
   const bool is_in_one = keep_out.distance(static_cast<float>(centre.x), static_cast<float>(centre.y)) < 0.0F;
   if (keep_out.known() && !is_in_one) stamp_zones(keep_out);
-  for (const Vec2 wall : unseen_walls) stamp(map_from_robot * wall);
+  for (const Vec2 wall : unseen_walls) {
+    const Vec2 here = map_from_robot * wall;
+    if (!still.seen_free(still.cell_at(here))) stamp(here);
+  }
   note_unseen(still);
   for (float& d : distance_) d = std::sqrt(d);
 }

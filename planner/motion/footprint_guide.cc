@@ -24,8 +24,10 @@ constexpr Duration kPatience = std::chrono::seconds(5);  // time that a pedestri
 constexpr Duration kLookRound = std::chrono::seconds(10);
 constexpr Duration kUnfit = std::chrono::milliseconds(450);  // before it takes up more than a way forward
 constexpr double kOtherGoal_m = 0.2;
-constexpr double kOff_m = 0.12;         // a manoeuvre left by more is given up
-constexpr double kAheadOnPath_m = 3.0;  // how far on a manoeuvre is to lead
+constexpr double kOff_m = 0.12;          // a manoeuvre left by more is given up
+constexpr double kAheadOnPath_m = 3.0;   // how far on a manoeuvre is to lead
+constexpr double kSetOut_m = 0.6;        // then a scanner at the front has seen what is beside the rear
+constexpr std::size_t kSetOutPoses = 4;  // of 0.1 m: less is no way on
 constexpr double kBackOut_m = 0.6, kBackOff_m = 0.45;
 
 bool pedestrian_near(const GuideInput& input) {
@@ -175,7 +177,17 @@ bool FootprintGuide::unseen_behind(const Pose2& here, double back_m) const noexc
   return map_.goes_unseen(here * Vec2{-back_m, 0.0}, direction(here.heading));
 }
 
+/// From where it began nothing beside its rear was ever seen: first straight on, where it sees, and then it turns.
+bool FootprintGuide::sets_out_straight(const Pose2& here) noexcept {
+  if (std::exchange(has_set_out_, true)) return false;
+  draw_straight(map_, here, kSetOut_m, kTightMargin_m, back_);
+  if (back_.size() < kSetOutPoses) return false;
+  drive_.begin(back_, ManoeuvreDrive::Steering::kHeld);
+  return true;
+}
+
 void FootprintGuide::search(const GuideInput& input) noexcept {
+  if (sets_out_straight(input.map_from_robot)) return;
   const bool stands = std::fabs(input.driven.v_mps) < 0.02 && std::fabs(input.driven.w_radps) < 0.1;
   const ManoeuvreGoal goal = goal_along(input);
   // One search an update: where there is none with room, every fourth is one with less.

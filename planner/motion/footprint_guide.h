@@ -59,6 +59,7 @@ class FootprintGuide {
   void look_round(const Pose2& here) noexcept;
   [[nodiscard]] bool keeps_manoeuvre(const GuideInput& input) const noexcept;
   [[nodiscard]] bool is_refused(const GuideInput& input) noexcept;
+  [[nodiscard]] bool sets_out_straight(const Pose2& here) noexcept;
   void search(const GuideInput& input) noexcept;
 
   MotionLimits limits_;
@@ -68,6 +69,7 @@ class FootprintGuide {
   ManoeuvreDrive drive_;
   Manoeuvre back_;
   Vec2 goal_in_map_;
+  bool has_set_out_ = false;  ///< has searched before
   double most_speed_mps_ = std::numeric_limits<double>::infinity();
   bool brakes_hard_ = false;
   int rounds_ = 0;    ///< how often it has looked round since the path fitted last

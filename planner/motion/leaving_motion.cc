@@ -10,15 +10,17 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr double kBeside_m = 0.07, kLeft_m = 0.10;     // takes over within the first, lets go beyond the second
-constexpr double kSwing_m = 0.01, kFloor_m = 0.02;     // StopZone's may_creep()
-constexpr double kLook_m = 1.0, kStep_m = 0.05;        // an arc's length, and from pose to pose
-constexpr double kShortest_m = 0.15;                   // less is no way
-constexpr double kCreep_mps = 0.09;                    // of the rim: the supervisor permits 0.1
-constexpr double kBack_m = 0.03, kUnseenBack_m = 1.0;  // what going back must be better by; over unseen ground
-constexpr double kKept_m = 0.005;                      // what another arc must be better by
-constexpr double kForgiven_m = 0.05;                   // refused here, an arc may do so far away
-constexpr Duration kRefused = std::chrono::milliseconds(700);
+constexpr double kBeside_m = 0.07, kLeft_m = 0.10;            // takes over within the first, lets go beyond the second;
+constexpr double kStuckBeside_m = 0.13, kStuckLeft_m = 0.15;  // where to_goal has not moved it for a while
+constexpr double kSwing_m = 0.01, kFloor_m = 0.02;            // StopZone's may_creep()
+constexpr double kLook_m = 1.0, kStep_m = 0.05;               // an arc's length, and from pose to pose
+constexpr double kShortest_m = 0.15;                          // less is no way
+constexpr double kCreep_mps = 0.09;                           // of the rim: the supervisor permits 0.1
+constexpr double kBack_m = 0.03, kUnseenBack_m = 1.0;         // what going back must be better by; over unseen ground
+constexpr double kGoesOn_m = 3.0;                             // the gear changes only where there is no way on
+constexpr double kKept_m = 0.005;                             // what another arc must be better by
+constexpr double kForgiven_m = 0.05;                          // refused here, an arc may do so far away
+constexpr Duration kRefused = std::chrono::milliseconds(700), kStuck = std::chrono::seconds(3);
 
 Pose2 along(const Pose2& from, double curvature_per_m, double length_m) {
   const double turned = curvature_per_m * length_m;
@@ -72,7 +74,7 @@ MotionStatus LeavingMotion::status() const noexcept {
 bool LeavingMotion::is_called_for(const World& world, const Intent& intent) const noexcept {
   const Vec2 here = world.map_from_robot.position();
   const auto near = [&](const Track& track) { return distance(track.position_in_map, here) < kNearby_m; };
-  return intent.kind == Intent::Kind::kGoal && world.plan.status == PlanStatus::kOk &&
+  return intent.kind == Intent::Kind::kGoal && world.plan.status != PlanStatus::kNone &&
          (chosen_ >= 0 || is_at_rest(world.driven)) && !to_goal_->status().turns_at_goal &&
          distance(here, world.input.goal_in_map) > setup_.goal_tolerance_m &&
          std::none_of(world.perceived.moving.begin(), world.perceived.moving.end(), near);
@@ -82,7 +84,7 @@ void LeavingMotion::look_round(const World& world) noexcept {
   const EvidenceMap& still = world.perceived.still;
   surfaces_.clear();
   for_each_surface_near(
-      still, world.map_from_robot.position(), setup_.model.footprint.circumscribed_radius_m() + kLook_m + kLeft_m,
+      still, world.map_from_robot.position(), setup_.model.footprint.circumscribed_radius_m() + kLook_m + kStuckLeft_m,
       [&](CellIndex cell) { return still.occupied(cell); }, [&](Vec2 p) { (void)surfaces_.push_back(p); });
   for (const Vec2 wall : world.unseen_walls) (void)surfaces_.push_back(world.map_from_robot * wall);
   at_start_m_ = clearance(world.map_from_robot, 0.0);
@@ -91,7 +93,7 @@ void LeavingMotion::look_round(const World& world) noexcept {
 /// Up to 15 cm; anything below `least_m`, if that is where it lies, ends the looking.
 double LeavingMotion::clearance(const Pose2& map_from_robot, double least_m) const noexcept {
   const Transform2 robot_from_map(inverse(map_from_robot));
-  double nearest = 0.15;
+  double nearest = kStuckLeft_m;
   for (const Vec2 surface : surfaces_) {
     nearest = std::min(nearest, setup_.model.footprint.distance_to(robot_from_map * surface));
     if (nearest < least_m) break;
@@ -116,14 +118,20 @@ double LeavingMotion::worth(int number, const World& world) const noexcept {
       if (arc.sign < 0.0 && !still.seen_free(cell) && !still.occupied(cell)) paid = kUnseenBack_m;
     }
     room = here, reached = gone;
-    if (room >= kLeft_m) break;
+    if (room >= left_m_) break;
   }
-  return reached < kShortest_m && room < kLeft_m ? -10.0 : room - paid + (number == chosen_ ? kKept_m : 0.0);
+  if (reached < kShortest_m && room < left_m_) return -10.0;
+  const bool goes_on = chosen_ >= 0 && arc.sign == LeavingMotion::arc(chosen_).sign;
+  return room - paid + (goes_on ? kGoesOn_m : 0.0) + (number == chosen_ ? kKept_m : 0.0);
 }
 
 void LeavingMotion::choose(const World& world) noexcept {
   const Vec2 here = world.map_from_robot.position();
-  if (at_start_m_ >= (chosen_ < 0 ? kBeside_m : kLeft_m)) {
+  stands_.update(chosen_ < 0 && is_at_rest(world.driven), world.now);
+  const bool is_stuck = stands_.total() > kStuck;
+  if (chosen_ < 0) left_m_ = is_stuck ? kStuckLeft_m : kLeft_m;
+  const double beside_m = is_stuck ? kStuckBeside_m : kBeside_m;
+  if (at_start_m_ >= (chosen_ < 0 ? beside_m : left_m_)) {
     chosen_ = -1;
     return;
   }

@@ -11,7 +11,8 @@ namespace jaywalk::motion {
 ///
 /// It creeps along one of a few arcs, looked at anew with each scan: the one at whose end the outline is farthest from
 /// what stands, without coming more than a centimetre nearer meanwhile. Forward comes first, where the laser looks;
-/// what the supervisor refuses is left out. It takes over at rest alone, and not among movers. Thread: the loop's.
+/// what the supervisor refuses is left out. It takes over at rest alone, and not among movers; where to_goal has stood
+/// for three seconds beside something, at twice that distance. Thread: the loop's.
 class LeavingMotion final : public Motion {
  public:
   LeavingMotion(const MotionSetup& setup, std::unique_ptr<Motion> to_goal);
@@ -40,10 +41,11 @@ class LeavingMotion final : public Motion {
   MotionSetup setup_;
   std::unique_ptr<Motion> to_goal_;  ///< never null
   FixedVector<Vec2, 2048> surfaces_;
+  double left_m_ = 0.0;        ///< beyond this to_goal drives again
   double at_start_m_ = 0.0;    ///< clearance of the last look
   int chosen_ = -1;            ///< number of the arc; -1: to_goal drives
   std::uint32_t refused_ = 0;  ///< a bit an arc
-  HeldTime held_up_;
+  HeldTime held_up_, stands_;  ///< by the supervisor; of to_goal's own accord
   Vec2 refused_at_{};
   Ramp ramp_;
   Time seen_ = kNever;

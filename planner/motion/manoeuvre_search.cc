@@ -126,8 +126,8 @@ bool ManoeuvreSearch::fits_on_the_way(Node& node) const noexcept {
   }
   node.clearance = static_cast<float>(nearest);
   if (nearest < least) return false;
-  const BodyMap::Part pushes = move.gear == Gear::kForward ? BodyMap::Part::kBehindAxle : BodyMap::Part::kAll;
-  return !map_->goes_unseen(node.position, axes_[static_cast<std::size_t>(node.heading)], pushes);
+  return move.gear == Gear::kForward ||
+         !map_->goes_unseen(node.position, axes_[static_cast<std::size_t>(node.heading)]);
 }
 
 void ManoeuvreSearch::push(const Node& node) noexcept {
