@@ -147,7 +147,8 @@ void check_leaves(const RobotModel& model, int trials) {
       tally->reached += drive.reached && !drive.touched ? 1 : 0;
     }
     if (!drive.reached)
-      std::printf("seed %d: %s: %s\n", static_cast<int>(seed), kind_of(start).c_str(), drive.touched ? "touched" : "not reached");
+      std::printf("seed %d: %s: %s\n", static_cast<int>(seed), kind_of(start).c_str(),
+                  drive.touched ? "touched" : "not reached");
   }
   by_kind["all"] = all;
   for (const auto& [kind, t] : by_kind)
