@@ -45,6 +45,27 @@ bool FeltMotion::is_off(Wheel& wheel, const Span& commanded, double felt_mps, do
   return wheel.off_m > kFault_m;
 }
 
+/// One-sided sums each way: counters that are read less often than speeds lag and catch up.
+bool FeltMotion::is_apart(Wheel& wheel, double rolled_m, double felt_mps, double step_s) noexcept {
+  const double off_m = rolled_m - felt_mps * step_s,
+               tolerated_m = (kOff_mps + kOffShare * std::fabs(felt_mps)) * step_s;
+  wheel.ahead_m = std::clamp(wheel.ahead_m + off_m - tolerated_m, 0.0, 2.0 * kApart_m);
+  wheel.behind_m = std::clamp(wheel.behind_m - off_m - tolerated_m, 0.0, 2.0 * kApart_m);
+  return std::max(wheel.ahead_m, wheel.behind_m) > kApart_m;
+}
+
+bool FeltMotion::contradicts_itself(const WheelState& wheels) noexcept {
+  const double step_s = to_seconds(wheels.stamp - counted_.stamp), radius = drive_.wheel_radius_m;
+  const bool follows = counted_.sequence != 0 && step_s > 0.0 && wheels.stamp - counted_.stamp <= kOldest;
+  const double left_m = radius * (wheels.left_rad - counted_.left_rad),
+               right_m = radius * (wheels.right_rad - counted_.right_rad);
+  counted_ = wheels;
+  if (!follows || !std::isfinite(left_m) || !std::isfinite(right_m)) return left_.apart || right_.apart;
+  left_.apart = is_apart(left_, left_m, radius * wheels.left_radps, step_s);
+  right_.apart = is_apart(right_, right_m, radius * wheels.right_radps, step_s);
+  return left_.apart || right_.apart;
+}
+
 bool FeltMotion::disobeys(const WheelCommand& command, const WheelState& wheels, Time now) noexcept {
   const Duration step = judged_ == kNever ? Duration{0} : now - judged_;
   judged_ = now;
@@ -61,7 +82,8 @@ bool FeltMotion::disobeys(const WheelCommand& command, const WheelState& wheels,
   };
   const bool left = judge(left_, &Sent::left_mps, wheels.left_radps);
   const bool right = judge(right_, &Sent::right_mps, wheels.right_radps);
-  return left || right;
+  const bool apart = readable && contradicts_itself(wheels);
+  return left || right || apart;
 }
 
 }  // namespace jaywalk

@@ -13,13 +13,17 @@ namespace jaywalk {
 /// until then. So its speed lies between a slowest and a fastest that follow the least and the greatest command of the
 /// last kObeysWithin, the slow way with that ramp. What it is outside by more than kOff_mps and kOffShare of the bound
 /// is summed up (Page 1954, CUSUM); kFault_m is disobedience: reversed, stuck, or turning without a command. Speeds and
-/// ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s. Thread: the loop's.
+/// ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s.
+///
+/// How far a wheel's angle turns is held against its speed in the same way, up to kApart_m: counters that stand while
+/// speeds go on are disobedience as well. Thread: the loop's.
 class FeltMotion {
  public:
   static constexpr Duration kObeysWithin = std::chrono::milliseconds(200);  ///< bus, motor (50 ms), feedback's age
   static constexpr double kOff_mps = 0.02;
   static constexpr double kOffShare = 0.15;
   static constexpr double kFault_m = 0.03;  ///< steps of coarse encoders cancel out long before
+  static constexpr double kApart_m = 0.06;  ///< counters read 20 times a second are 0.06 m late at 1.2 m/s
 
   FeltMotion(const DriveModel& drive, double ramp_mps2) : drive_(drive), ramp_mps2_(ramp_mps2) {}
 
@@ -34,8 +38,10 @@ class FeltMotion {
     double least = 0.0, greatest = 0.0;
   };
   struct Wheel {
-    Span may_be;         ///< m/s
-    double off_m = 0.0;  ///< that it went too far or not far enough, of late
+    Span may_be;                           ///< m/s
+    double off_m = 0.0;                    ///< that it went too far or not far enough, of late
+    double ahead_m = 0.0, behind_m = 0.0;  ///< that its angle turned more or less than its speed says, likewise
+    bool apart = false;
   };
   struct Sent {
     Time from = kNever;
@@ -46,8 +52,12 @@ class FeltMotion {
   [[nodiscard]] Span commanded(double Sent::*wheel, Time now, bool zero_too) const noexcept;
   [[nodiscard]] bool is_off(Wheel& wheel, const Span& commanded, double felt_mps, double step_s) const noexcept;
 
+  [[nodiscard]] static bool is_apart(Wheel& wheel, double rolled_m, double felt_mps, double step_s) noexcept;
+  [[nodiscard]] bool contradicts_itself(const WheelState& wheels) noexcept;
+
   DriveModel drive_;
   double ramp_mps2_;
+  WheelState counted_;
   std::array<Sent, kMostCommands> sent_{};
   std::size_t newest_ = 0;
   Wheel left_, right_;

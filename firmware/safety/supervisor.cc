@@ -44,9 +44,7 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       gaps_(config.model.laser),
       unseen_walls_(config.model.footprint, config.model.laser.robot_from_laser),
       scan_timing_(config.model.laser.rate_hz),
-      frozen_scan_(config.model.drive),
-      felt_motion_(config.model.drive, config.model.limits.brake_mps2),
-      seen_motion_(config.model),
+      motion_model_(config.model),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}
 
 bool Supervisor::takes_wishes() const noexcept {
@@ -69,7 +67,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
   Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
-  if (config_.judges_motion) reasons |= motion_faults(input);
+  reasons |= motion_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
@@ -83,7 +81,6 @@ Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
   gaps_.update(input.scan);
   unseen_walls_.update(input.scan, gaps_, input.known_walls, input.known_ground);
   if (sight_loss_.is_lost(gaps_.counts(), input.now)) reasons |= Reason::kSightLost;
-  if (frozen_scan_.is_frozen(input.scan, input.wheels)) reasons |= Reason::kScanFrozen;
   return reasons;
 }
 
@@ -97,10 +94,9 @@ Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexce
 }
 
 Reason Supervisor::motion_faults(const SafetyInput& input) noexcept {
-  Reason reasons = Reason::kNone;
-  if (felt_motion_.disobeys(input.sent, input.wheels, input.now)) reasons |= Reason::kWheelsDisobey;
-  if (seen_motion_.contradicts(input.scan, input.wheels, input.now)) reasons |= Reason::kMotionMismatch;
-  return reasons;
+  const Reason reasons = motion_model_.judge(input.scan, input.wheels, input.sent, input.now);
+  constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
+  return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {

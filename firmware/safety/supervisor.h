@@ -3,12 +3,10 @@
 #include <span>
 
 #include "firmware/safety/blind_gaps.h"
-#include "firmware/safety/felt_motion.h"
-#include "firmware/safety/frozen_scan.h"
 #include "firmware/safety/modes.h"
+#include "firmware/safety/motion_model.h"
 #include "firmware/safety/reaction.h"
 #include "firmware/safety/scan_timing.h"
-#include "firmware/safety/seen_motion.h"
 #include "firmware/safety/sight_loss.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/unseen_walls.h"
@@ -86,9 +84,7 @@ class Supervisor {
   UnseenWalls unseen_walls_;
   ScanTiming scan_timing_;
   SightLoss sight_loss_;
-  FrozenScan frozen_scan_;
-  FeltMotion felt_motion_;
-  SeenMotion seen_motion_;
+  MotionModel motion_model_;
   Twist2 permitted_;         ///< last tick's
   bool lost_ahead_ = false;  ///< what lost beams could hide held it up, last tick
   int missed_ = 0;

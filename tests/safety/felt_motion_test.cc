@@ -19,7 +19,9 @@ struct Bench {
   bool runs_away = false;                      ///< it turns as it turned
   DriveTrouble trouble = DriveTrouble::kNone;
   FeltMotion felt{DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0};
-  double now_s = 1.0, left_mps = 0.0, right_mps = 0.0;
+  double now_s = 1.0, left_mps = 0.0, right_mps = 0.0, left_m = 0.0, right_m = 0.0;
+  double left_counts = 1.0, right_counts = 1.0;  ///< what their counters make of the wheels' turning
+  double counted_every_s = 0.001;
   std::deque<WheelState> readings{};
   WheelCommand sent{};
 
@@ -35,8 +37,13 @@ struct Bench {
       now_s += 0.001;
       left_mps = turned(left_mps, left_motor * 0.1 * sent.left_radps);
       right_mps = turned(right_mps, right_motor * 0.1 * sent.right_radps);
+      left_m += 0.001 * left_counts * left_mps;
+      right_m += 0.001 * right_counts * right_mps;
+      const bool counts = readings.empty() || std::fmod(now_s + 1e-6, counted_every_s) < 0.001;
       readings.push_back({.stamp = time_from_seconds(now_s),
                           .sequence = 1,
+                          .left_rad = counts ? 10.0 * left_m : readings.back().left_rad,
+                          .right_rad = counts ? 10.0 * right_m : readings.back().right_rad,
                           .left_radps = read(left_mps),
                           .right_radps = read(right_mps),
                           .trouble = trouble});
@@ -108,6 +115,8 @@ TEST_CASE("wheels that turn though they are commanded to stand are told, on eith
       for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
         const WheelState wheels{.stamp = time_from_seconds(t),
                                 .sequence = 1,
+                                .left_rad = left ? 10.0 * felt_mps * t : 0.0,
+                                .right_rad = left ? 0.0 : 10.0 * felt_mps * t,
                                 .left_radps = left ? 10.0 * felt_mps : 0.0,
                                 .right_radps = left ? 0.0 : 10.0 * felt_mps};
         if (felt.disobeys({}, wheels, time_from_seconds(t))) told_s = t;
@@ -148,5 +157,28 @@ TEST_CASE("feedback that stopped coming, or is no number, says nothing of obedie
     if (t > 1.0) wheels.left_radps = std::numeric_limits<double>::quiet_NaN(), wheels.stamp = time_from_seconds(t);
     const bool disobeyed = felt.disobeys({time_from_seconds(t), 3.0, 3.0}, wheels, time_from_seconds(t));
     if (t > 0.12) CHECK_FALSE(disobeyed);
+  }
+}
+
+TEST_CASE("a counter that stands, or counts half or twice as much, while its wheel's speed is alive is told") {
+  for (const double speed : {0.2, 0.3, 0.6}) {
+    for (const auto& [left, right] :
+         {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}, {0.5, 0.5}, {1.0, 2.0}, {-1.0, 1.0}}) {
+      Bench bench;
+      REQUIRE(std::isinf(bench.told_after(2.0, [&](double) { return std::pair{speed, speed}; })));
+      bench.left_counts = left;
+      bench.right_counts = right;
+      const double within_s = left == 0.5 ? 1.5 : 0.6;
+      CHECK(bench.told_after(2.0, [&](double) { return std::pair{speed, speed}; }) < within_s);
+    }
+  }
+}
+
+TEST_CASE("counters that are read less often than speeds, or a few per cent off, are no fault") {
+  for (const double every_s : {0.001, 0.02, 0.05}) {
+    for (const double counts : {0.95, 1.0, 1.05}) {
+      Bench bench{.left_counts = counts, .counted_every_s = every_s};
+      CHECK(std::isinf(bench.told_after(18.0, lively)));
+    }
   }
 }

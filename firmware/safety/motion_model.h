@@ -1,0 +1,90 @@
+#pragma once
+#include <array>
+#include <cstddef>
+#include <cstdint>
+
+#include "firmware/safety/felt_motion.h"
+#include "firmware/safety/reasons.h"
+#include "firmware/safety/scan_pair.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk {
+
+/// One model of seen, felt and commanded motion (SAFETY 18 and 23): how far the wheels go by what the scans show,
+/// against what the robot file says, and how the scanner is turned in its mount, are states with bounds.
+///
+/// What is felt against what is commanded, and each wheel's angle against its speed, is FeltMotion's. Of what is seen,
+/// each newer scan is matched to one kept at most kMost_m before (ScanPair). The match is held against the most likely
+/// motion within the bounds: each wheel goes kLeastGain to kMostGain times as far as it rolls, and none of it aside by
+/// more than a mount that is turned by kMostYaw. The logarithm of their likelihoods' ratio is summed up from pair to
+/// pair (Page 1954); kEvidence of it contradicts the wheels. For each sector of the view the same is done for "stands
+/// still" against "moves as the robot does": a sector that stands while the robot drives is blind. A gain that slip
+/// could cause is a fault where a Kalman filter finds it so over metres.
+///
+/// Told where the scans can tell: not in open ground, nor, of the way along them, between bare walls. Thread: the
+/// loop's. Memory is fixed; a scan costs about 0.1 ms.
+class MotionModel {
+ public:
+  explicit MotionModel(const RobotModel& model);
+
+  /// Once a tick, with the newest scan and reading, and what the drive was sent in the tick before: kScanFrozen while
+  /// the scanner repeats what it saw to the last bit, kMotionMismatch from a contradiction on for kHolds,
+  /// kWheelsDisobey.
+  [[nodiscard]] Reason judge(const LaserScan& scan, const WheelState& wheels, const WheelCommand& sent,
+                             Time now) noexcept;
+
+  static constexpr Duration kHolds = std::chrono::milliseconds(500);
+
+ private:
+  static constexpr std::size_t kMostReadings = 128;
+  using Costs = std::array<double, ScanPair::kSectors>;
+  /// How far each wheel's rim has rolled (m).
+  struct Rolled {
+    double left_m = 0.0, right_m = 0.0;
+  };
+  struct Reading {
+    Time stamp = kNever;
+    Rolled rolled;
+  };
+  /// How far each wheel moved the robot, and how far it went aside, half way through its turn.
+  struct Moved {
+    double left_m = 0.0, right_m = 0.0, aside_m = 0.0;
+  };
+
+  void note(const WheelState& wheels) noexcept;
+  [[nodiscard]] bool rolled_at(Time stamp, Rolled& rolled) const noexcept;
+  void look(const LaserScan& scan) noexcept;
+  void note_repeats(const LaserScan& scan, const Rolled& rolled) noexcept;
+  /// Matches the scan, and adds to what speaks against the wheels.
+  void compare(const LaserScan& scan, const Rolled& felt) noexcept;
+  [[nodiscard]] ScanPair::Fit best_fit(const LaserScan& scan, const Rolled& felt) const noexcept;
+  [[nodiscard]] Pose2 within_bounds(const ScanPair::Fit& fit, const Rolled& felt) const noexcept;
+  [[nodiscard]] bool is_blind() const noexcept;
+  void keep(const LaserScan& scan, const Rolled& rolled) noexcept;
+  void update_gain(const Rolled& felt) noexcept;
+  [[nodiscard]] Pose2 pose_of(const Moved& moved) const noexcept;
+  [[nodiscard]] Moved moved_to(const Pose2& kept_from_now) const noexcept;
+
+  DriveModel drive_;
+  FeltMotion felt_motion_;
+  ScanPair pair_;
+  std::array<Reading, kMostReadings> readings_{};
+  std::size_t newest_ = 0;
+  std::uint32_t wheels_seen_ = 0, scan_seen_ = 0;
+
+  Time kept_stamp_ = kNever;
+  Rolled kept_rolled_, felt_before_;
+  ScanPair::Fit fit_{};                         ///< of the newest scan to the kept one
+  bool fitted_ = false;                         ///< there is one
+  double evidence_ = 0.0, evidence_now_ = 0.0;  ///< of the pairs before, and of this one
+  Costs blind_{}, blind_now_{};                 ///< likewise, of each sector
+  int times_ = 0;                               ///< scans in a row that had enough of it
+  double against_wheels_ = 0.0;  ///< of this pair, by walls alone: any motion's advantage over that of the wheels
+  double gain_ = 1.0, gain_var_;
+  Time contradicted_ = kNever;
+  int repeats_ = 0;
+  Rolled at_first_;  ///< of those
+  bool frozen_ = false;
+};
+
+}  // namespace jaywalk

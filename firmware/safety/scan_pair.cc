@@ -1,0 +1,170 @@
+#include "firmware/safety/scan_pair.h"
+
+#include <Eigen/Cholesky>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace jaywalk {
+namespace {
+
+constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kMostError_m = 0.15;               ///< whatever is farther off is something else
+constexpr double kChord_m = 0.05;                   ///< to either side: with less a range's noise turns the surface
+constexpr double kFlat_m = 0.18, kUneven_m = 0.02;  ///< to either side, and the mean off it: a pedestrian is round
+constexpr double kEdge_m = 0.1;
+constexpr float kRoundWeight = 0.06F;
+constexpr double kLeastNoise_m = 0.008, kMostNoise_m = 0.06;  ///< beams are discrete, surfaces rough
+constexpr double kCoarse_m = 0.1;                             ///< an error that weighs a quarter, to begin with
+constexpr int kSteps = 7;
+constexpr double kOutlier = 4.5;              ///< negative log-likelihood at three standard deviations
+const Eigen::Vector3d kPrior{1.0, 1.0, 1.0};  ///< of a step, as information: no point at all has a thousand
+
+/// Of the beams, so that no more than kMostPoints are looked at.
+std::uint32_t every(const LaserScan& scan) {
+  constexpr std::uint32_t kMost = ScanPair::kMostPoints;
+  return (scan.beam_count + kMost - 1) / kMost;
+}
+
+}  // namespace
+
+bool ScanPair::usable(const LaserScan& scan) noexcept {
+  if (scan.beam_count < 2 || scan.beam_count > kMaxBeams) return false;
+  if (!std::isfinite(scan.first_angle_rad) || !(std::fabs(scan.angle_step_rad) > 1e-6F)) return false;
+  if (scan.beam_count == beams_ && scan.first_angle_rad == first_angle_rad_ && scan.angle_step_rad == angle_step_rad_)
+    return true;
+  beams_ = scan.beam_count;
+  first_angle_rad_ = scan.first_angle_rad;
+  angle_step_rad_ = scan.angle_step_rad;
+  for (std::size_t beam = 0; beam < beams_; ++beam) direction_[beam] = direction(scan.angle_rad(beam));
+  points_.clear();
+  return true;
+}
+
+bool ScanPair::is_flat(const LaserScan& scan, std::uint32_t beam) const noexcept {
+  const auto place = [&](std::uint32_t k) { return direction_[k] * static_cast<double>(scan.range_m[k]); };
+  const Vec2 here = place(beam);
+  const auto end = [&](std::uint32_t step) {  // wraps round below the first beam
+    std::uint32_t k = beam;
+    while (k + step < scan.beam_count && scan.is_hit(k + step) && distance(place(k), here) < kFlat_m) {
+      const double apart_m = scan.range_m[k] * std::fabs(scan.angle_step_rad);
+      if (std::fabs(scan.range_m[k + step] - scan.range_m[k]) > kEdge_m + 4.0 * apart_m) break;
+      k += step;
+    }
+    return k;
+  };
+  const std::uint32_t low = end(std::numeric_limits<std::uint32_t>::max()), high = end(1U);
+  if (distance(place(low), here) < kFlat_m || distance(place(high), here) < kFlat_m) return false;
+  const Vec2 along = place(high) - place(low);
+  double off = 0.0;
+  for (std::uint32_t k = low + 1; k < high; ++k) off += cross(along, place(k) - place(low));
+  return std::fabs(off) < kUneven_m * norm(along) * static_cast<double>(high - low - 1);
+}
+
+void ScanPair::keep(const LaserScan& scan) noexcept {
+  points_.clear();
+  const Transform2 to_robot(robot_from_laser_);
+  for (std::uint32_t beam = every(scan) / 2; beam < scan.beam_count; beam += every(scan)) {
+    if (!scan.is_hit(beam)) continue;
+    const Vec2 hit = to_robot * (direction_[beam] * static_cast<double>(scan.range_m[beam]));
+    if (!points_.push_back({beam, scan.range_m[beam], is_flat(scan, beam) ? 1.0F : kRoundWeight, hit})) break;
+  }
+  few_walls_ = std::count_if(points_.begin(), points_.end(), [](const Point& p) { return p.weight == 1.0F; }) < 30;
+}
+
+double ScanPair::repeated(const LaserScan& scan) noexcept {
+  int hits = 0, same = 0;
+  for (std::uint32_t beam = 0, k = 0; beam < scan.beam_count && k < kMostPoints; beam += every(scan), ++k) {
+    hits += scan.is_hit(beam) ? 1 : 0;
+    same += scan.is_hit(beam) && scan.range_m[beam] == before_[k] ? 1 : 0;
+    before_[k] = scan.range_m[beam];
+  }
+  return hits == 0 ? 0.0 : static_cast<double>(same) / hits;
+}
+
+ScanPair::Errors ScanPair::errors(const LaserScan& scan, const Pose2& kept_from_now, bool hidden_too) const noexcept {
+  const Transform2 to_laser(inverse(kept_from_now * robot_from_laser_));
+  Errors errors{};
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    errors[k] = static_cast<float>(residual(scan, to_laser * points_[k].in_robot, hidden_too).error_m);
+  return errors;
+}
+
+ScanPair::Fit ScanPair::fit(const LaserScan& scan, const Pose2& start) const noexcept {
+  Fit fit{.kept_from_now = start, .noise_m = kMostNoise_m};
+  for (int step = 0; step < kSteps; ++step) improve(scan, fit);
+  return fit;
+}
+
+/// Noise by the median of the errors (Rousseeuw and Croux 1993): half of them may be outliers.
+void ScanPair::improve(const LaserScan& scan, Fit& fit) const noexcept {
+  const double scale_m = std::clamp(3.0 * fit.noise_m, 3.0 * kLeastNoise_m, kCoarse_m);
+  const Transform2 to_robot(robot_from_laser_), to_laser(inverse(fit.kept_from_now * robot_from_laser_));
+  Eigen::Matrix3d normal_equations = kPrior.asDiagonal();
+  Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
+  FixedVector<float, kMostPoints> errors;
+  double all = 1e-9, near = 0.0;
+  for (const Point& point : points_) {
+    const Vec2 in_laser = to_laser * point.in_robot;
+    const Residual found = residual(scan, in_laser, false);
+    if (std::isnan(found.error_m)) continue;
+    const Vec2 in_robot = to_robot * in_laser, normal = to_robot.rotate(found.normal);
+    const double share = 1.0 / (1.0 + found.error_m * found.error_m / (scale_m * scale_m));
+    const double weight = point.weight * share * share;
+    const Eigen::Vector3d row(-normal.x, -normal.y, -cross(in_robot, normal));
+    normal_equations += weight * row * row.transpose();
+    gradient += weight * found.error_m * row;
+    all += point.weight, near += std::fabs(found.error_m) < scale_m ? point.weight : 0.0F;
+    if (point.weight < 1.0F && !few_walls_) continue;
+    static_cast<void>(errors.push_back(static_cast<float>(std::fabs(found.error_m))));
+  }
+  fit.compared = all;
+  fit.explained = near / all;
+  if (errors.empty()) return;
+  std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
+  fit.noise_m = std::clamp(1.48 * errors[errors.size() / 2], kLeastNoise_m, kMostNoise_m);
+  fit.information = normal_equations / (fit.noise_m * fit.noise_m);
+  const Eigen::Vector3d by = normal_equations.ldlt().solve(-gradient);
+  fit.kept_from_now = fit.kept_from_now * Pose2{by.x(), by.y(), by.z()};
+}
+
+std::array<double, ScanPair::kSectors> ScanPair::advantage(const Errors& better, const Errors& worse, double noise_m,
+                                                           bool walls) const noexcept {
+  const auto cost = [noise_m](float error_m) {
+    const double off = error_m / noise_m;
+    return std::min(0.5 * off * off, kOutlier);
+  };
+  std::array<double, kSectors> sum{};
+  for (std::size_t k = 0; k < points_.size(); ++k) {
+    if (std::isnan(better[k]) || std::isnan(worse[k]) || (walls && points_[k].weight < 1.0F)) continue;
+    sum[points_[k].beam * kSectors / beams_] += points_[k].weight * (cost(worse[k]) - cost(better[k]));
+  }
+  return sum;
+}
+
+/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge.
+ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
+  constexpr Residual kNone{kNan, {}};
+  const double step = scan.angle_step_rad, full = std::fabs(step);
+  const double from_first = wrap_angle(atan2(in_laser.y, in_laser.x) - scan.first_angle_rad) / step;
+  const auto beam =
+      static_cast<std::int64_t>(std::floor((from_first < -0.5 ? from_first + 2.0 * kPi / full : from_first) + 0.5));
+  if (beam < 0 || beam >= static_cast<std::int64_t>(scan.beam_count)) return kNone;
+  const double range_m = scan.range_m[static_cast<std::size_t>(beam)];
+  if (!scan.is_hit(static_cast<std::size_t>(beam))) return kNone;
+  if (!hidden_too && norm(in_laser) > range_m + kMostError_m) return kNone;
+  const auto beside =
+      static_cast<std::int64_t>(std::clamp(kChord_m / (range_m * full), 1.0, std::max(0.3 / full, 1.0)));
+  if (beam < beside || beam + beside >= static_cast<std::int64_t>(scan.beam_count)) return kNone;
+  const auto middle = static_cast<std::size_t>(beam), low = static_cast<std::size_t>(beam - beside),
+             high = static_cast<std::size_t>(beam + beside);
+  if (!scan.is_hit(low) || !scan.is_hit(high)) return kNone;
+  const double apart_m = range_m * full * static_cast<double>(2 * beside);
+  if (std::fabs(scan.range_m[high] - scan.range_m[low]) > 0.05 + 4.0 * apart_m) return kNone;
+  const Vec2 along = direction_[high] * scan.range_m[high] - direction_[low] * scan.range_m[low];
+  const Vec2 normal = Vec2{-along.y, along.x} * (1.0 / std::max(norm(along), 1e-6));
+  const double error = dot(normal, in_laser - direction_[middle] * range_m);
+  return {std::clamp(error, -kMostError_m, kMostError_m), normal};
+}
+
+}  // namespace jaywalk

@@ -1,0 +1,80 @@
+#pragma once
+#include <Eigen/Core>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+
+#include "hal/types/fixed_vector.h"
+#include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
+
+namespace jaywalk {
+
+/// Matches a newer raw scan against hits kept of an older one, point to line (Censi 2008), with neither map nor
+/// planner: what each motion of the robot between them leaves as an error, and the motion that leaves the least.
+///
+/// A point's error is its distance to the surface that the newer scan shows in its direction, across the surface. Hits
+/// on surfaces shorter than a wall count for less: people and their bags move. Thread: the loop's; memory is fixed.
+class ScanPair {
+ public:
+  static constexpr std::size_t kMostPoints = 160, kSectors = 24;
+  /// Of each kept point (m); NaN where it could not be compared.
+  using Errors = std::array<float, kMostPoints>;
+  struct Fit {
+    Pose2 kept_from_now{};                                  ///< of the robot
+    Eigen::Matrix3d information = Eigen::Matrix3d::Zero();  ///< of (x, y, heading) in the robot's frame now
+    double noise_m = 0.0;                                   ///< standard deviation of the errors, outliers apart
+    double compared = 0.0;                                  ///< sum of the weights of the points that could be
+    double explained = 0.0;                                 ///< share of them that are no outliers
+  };
+
+  explicit ScanPair(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
+
+  /// Whether the scan's beams have directions; where they are others than before, nothing is kept any more.
+  [[nodiscard]] bool usable(const LaserScan& scan) noexcept;
+  void keep(const LaserScan& scan) noexcept;
+  [[nodiscard]] bool is_kept() const noexcept { return !points_.empty(); }
+  [[nodiscard]] double sector_rad() const noexcept {
+    return std::fabs(static_cast<double>(angle_step_rad_)) * beams_ / static_cast<double>(kSectors);
+  }
+  /// Share of the hits that the scan repeats, to the last bit, of the one that this was asked about before.
+  [[nodiscard]] double repeated(const LaserScan& scan) noexcept;
+
+  /// Points that something nearer hides are left out, but for `hidden_too`: what moves along takes its shadow with it.
+  [[nodiscard]] Errors errors(const LaserScan& scan, const Pose2& kept_from_now,
+                              bool hidden_too = false) const noexcept;
+  /// Gauss-Newton with outliers weighed down (Geman and McClure 1987).
+  [[nodiscard]] Fit fit(const LaserScan& scan, const Pose2& start) const noexcept;
+  /// One step of it: how good the fit is where it is, and there it is moved on.
+  void improve(const LaserScan& scan, Fit& fit) const noexcept;
+  /// By how much the logarithm of the likelihood of errors with that noise, outliers at three of it, is greater than
+  /// that of others, in each sector of the view; `walls`: of flat surfaces alone.
+  [[nodiscard]] std::array<double, kSectors> advantage(const Errors& better, const Errors& worse, double noise_m,
+                                                       bool walls) const noexcept;
+
+ private:
+  struct Point {
+    std::uint32_t beam = 0;
+    float range_m = 0.0F;
+    float weight = 0.0F;  ///< 1 on a wall
+    Vec2 in_robot;
+  };
+  struct Residual {
+    double error_m;
+    Vec2 normal;  ///< of the surface, in the laser's frame
+  };
+  [[nodiscard]] Residual residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept;
+  /// Whether the surface that a beam hits goes on straight to either side.
+  [[nodiscard]] bool is_flat(const LaserScan& scan, std::uint32_t beam) const noexcept;
+
+  Pose2 robot_from_laser_;
+  std::array<Vec2, kMaxBeams> direction_{};  ///< of the beams, in the laser's frame
+  std::uint32_t beams_ = 0;                  ///< those directions are of
+  float first_angle_rad_ = 0.0F, angle_step_rad_ = 0.0F;
+  FixedVector<Point, kMostPoints> points_;
+  Errors before_{};         ///< ranges, for repeated()
+  bool few_walls_ = false;  ///< too few to tell the noise by
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,116 @@
+#pragma once
+// A room with furniture and people for random trials, and what a laser sees of it: formulas of its own.
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <random>
+#include <vector>
+
+#include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+
+namespace jaywalk::trials {
+
+using Engine = std::mt19937_64;
+
+inline double uniform(Engine& engine, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(engine);
+}
+
+struct Wall {
+  Vec2 from, to;
+};
+/// A pedestrian, round, who walks straight and turns where the room ends.
+struct Walker {
+  Vec2 centre, velocity;
+  double radius_m = 0.2;
+};
+
+/// Turned against the axes, 5 to 11 m by 4 to 8 m, with 3 to 9 pieces of furniture.
+class Room {
+ public:
+  Room(Engine& engine, int people) : half_{uniform(engine, 2.5, 5.5), uniform(engine, 2.0, 4.0)} {
+    turn_ = uniform(engine, -kPi, kPi);
+    add_box({0.0, 0.0}, half_, 0.0);
+    const int pieces = static_cast<int>(uniform(engine, 3.0, 10.0));
+    for (int k = 0; k < pieces; ++k) {
+      const Vec2 place{uniform(engine, -half_.x, half_.x), uniform(engine, -half_.y, half_.y)};
+      if (std::hypot(place.x, place.y) < 1.7) continue;  // the robot starts there
+      add_box(place, {uniform(engine, 0.1, 0.6), uniform(engine, 0.1, 0.4)}, uniform(engine, -kPi, kPi));
+    }
+    for (int k = 0; k < people; ++k) {
+      const double way = uniform(engine, -kPi, kPi), speed = uniform(engine, 0.0, 1.3);
+      const double place = uniform(engine, -kPi, kPi);
+      walkers_.push_back({{1.6 * std::cos(place), 1.6 * std::sin(place)},
+                          {speed * std::cos(way), speed * std::sin(way)},
+                          uniform(engine, 0.15, 0.3)});
+    }
+  }
+
+  /// People turn round before they walk into the robot.
+  void move(double step_s, Vec2 robot) {
+    for (Walker& walker : walkers_) {
+      const Vec2 to_robot = robot - walker.centre;
+      const bool approaches = to_robot.x * walker.velocity.x + to_robot.y * walker.velocity.y > 0.0;
+      if (approaches && std::hypot(to_robot.x, to_robot.y) < 0.7 + walker.radius_m) {
+        walker.velocity = walker.velocity * -1.0;
+      }
+      walker.centre = walker.centre + walker.velocity * step_s;
+      const Vec2 in_room = turned(walker.centre, -turn_);
+      Vec2 way = turned(walker.velocity, -turn_);
+      if (in_room.x * way.x > 0.0 && std::fabs(in_room.x) > half_.x - 0.4) way.x = -way.x;
+      if (in_room.y * way.y > 0.0 && std::fabs(in_room.y) > half_.y - 0.4) way.y = -way.y;
+      walker.velocity = turned(way, turn_);
+    }
+  }
+  /// How far a ray runs; infinity where it meets nothing.
+  [[nodiscard]] double range(Vec2 from, Vec2 way) const {
+    double nearest = std::numeric_limits<double>::infinity();
+    for (const Wall& wall : walls_) {
+      const Vec2 along = wall.to - wall.from, to = wall.from - from;
+      const double across = way.x * along.y - way.y * along.x;
+      if (std::fabs(across) < 1e-12) continue;
+      const double r = (to.x * along.y - to.y * along.x) / across, share = (to.x * way.y - to.y * way.x) / across;
+      if (r > 0.0 && share >= 0.0 && share <= 1.0) nearest = std::min(nearest, r);
+    }
+    for (const Walker& walker : walkers_) {
+      const Vec2 to = walker.centre - from;
+      const double ahead = to.x * way.x + to.y * way.y, aside = way.x * to.y - way.y * to.x;
+      const double inside = walker.radius_m * walker.radius_m - aside * aside;
+      if (ahead > 0.0 && inside > 0.0) nearest = std::min(nearest, ahead - std::sqrt(inside));
+    }
+    return nearest;
+  }
+
+ private:
+  static Vec2 turned(Vec2 v, double by) {
+    return {std::cos(by) * v.x - std::sin(by) * v.y, std::sin(by) * v.x + std::cos(by) * v.y};
+  }
+  void add_box(Vec2 centre, Vec2 half, double heading) {
+    const Vec2 corner[4] = {{half.x, half.y}, {-half.x, half.y}, {-half.x, -half.y}, {half.x, -half.y}};
+    for (int k = 0; k < 4; ++k)
+      walls_.push_back({turned(centre + turned(corner[k], heading), turn_),
+                        turned(centre + turned(corner[(k + 1) % 4], heading), turn_)});
+  }
+
+  Vec2 half_;
+  double turn_ = 0.0;
+  std::vector<Wall> walls_;
+  std::vector<Walker> walkers_;
+};
+
+/// A scan's ranges from a pose of the laser, without noise.
+inline void sweep(const Room& room, const Pose2& map_from_laser, const LaserModel& laser, LaserScan& scan) {
+  scan.beam_count = laser.beams;
+  scan.first_angle_rad = static_cast<float>(-0.5 * laser.fov_rad);
+  scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
+  scan.range_min_m = static_cast<float>(laser.range_min_m);
+  scan.range_max_m = static_cast<float>(laser.range_max_m);
+  for (std::size_t k = 0; k < scan.beam_count; ++k) {
+    const double way = map_from_laser.heading + scan.angle_rad(k);
+    scan.range_m[k] =
+        static_cast<float>(room.range({map_from_laser.x, map_from_laser.y}, {std::cos(way), std::sin(way)}));
+  }
+}
+
+}  // namespace jaywalk::trials
