@@ -101,6 +101,7 @@ void MotionModel::look(const LaserScan& scan) noexcept {
   Rolled rolled;
   if (!rolled_at(scan.stamp, rolled)) return;
   note_repeats(scan, rolled);
+  if (repeats_ > 0) return;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
   const Rolled felt{rolled.left_m - kept_rolled_.left_m, rolled.right_m - kept_rolled_.right_m};
   const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
