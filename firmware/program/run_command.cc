@@ -205,7 +205,6 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   devices.start();
   const std::vector<std::string> proof = armed_by(devices.drive(), armed, options.out);
   if (folder) folder->keep(options.kept);
-
   if (armed.was_left()) latch_at_start(desk);
   guard.start(guard_priority(file.realtime));
   loop.start();
