@@ -94,7 +94,7 @@ struct Guide {
       add(t[1][n], fx[n] * (1.0F - fy[n]), sum, weight);
       add(t[2][n], (1.0F - fx[n]) * fy[n], sum, weight);
       add(t[3][n], fx[n] * fy[n], sum, weight);
-      seconds[n] = inside[n] & (weight > 0.05F) ? sum / weight : kNoWay_s;
+      seconds[n] = (inside[n] & (weight > 0.05F)) ? sum / weight : kNoWay_s;
     }
   }
 
