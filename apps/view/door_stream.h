@@ -41,7 +41,8 @@ class DoorStream {
   std::optional<boost::asio::ssl::stream<next_layer_type&>> tls_;
 };
 
-/// Beast asks for it at a WebSocket's end, whose last frame says that nothing was cut off: TLS need not say so again.
+/// Beast calls this when a WebSocket has ended. The WebSocket's closing frame has shown that nothing was cut off, so
+/// the connection is closed without TLS's own closing message.
 template <class Handler>
 void async_teardown(boost::beast::role_type role, DoorStream& stream, Handler&& handler) {
   boost::beast::websocket::async_teardown(role, stream.next_layer(), std::forward<Handler>(handler));

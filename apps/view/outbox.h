@@ -6,8 +6,8 @@
 
 namespace jaywalk::view {
 
-/// Messages that wait to be sent to one client: kMostBytes and one message at most, whatever it asks for. Bodies are
-/// shared by those who get the same.
+/// Messages that wait to be sent to one client: kMostBytes and one message at most, whatever it asks for. Clients
+/// that are sent the same message share its body.
 class Outbox {
  public:
   static constexpr std::size_t kMostBytes = 512U << 10U;

@@ -7,8 +7,8 @@ namespace jaywalk::view {
 /// 128 random bits in hexadecimal. Throws StartupError where the system has none.
 [[nodiscard]] std::string made_token();
 
-/// A page's address with its token in a file beside the control socket, NAME.view, for those who may use that: mode
-/// 0640. Goes with the run.
+/// A file beside the control socket, NAME.view, that holds the page's address with its token. Owner and group can read
+/// it (mode 0640), as they can use the socket. The run's end removes it.
 class AddressFile {
  public:
   /// Throws StartupError where it cannot be made, or its name is taken by what no run wrote.

@@ -11,14 +11,14 @@
 
 namespace jaywalk::view {
 
-/// For the first line of a thread: it is of ordinary priority, whatever its maker has, and takes no signals: these are
-/// for the thread that drives.
+/// Makes the calling thread one of ordinary priority that takes no signals. Threads of the page call it first: they
+/// inherit priority and signals from the thread that made them.
 void be_in_background() noexcept;
 
 /// Takes one text for the client that asked; empty: there is nothing to say. Any thread, once; does not wait.
 using Reply = std::function<void(std::string)>;
 
-/// Whom the server asks.
+/// What the server calls when a client gives an order, and which channels it offers.
 struct ViewDoor {
   /// A JSON text of the page's, or a stop or a goal of others as such. Called on the server's thread: must not wait.
   std::function<void(std::string_view, Reply)> on_order;

@@ -15,7 +15,8 @@ bool is_loopback_name(const std::string& host) {
   return name == "127.0.0.1" || name == "localhost";
 }
 
-/// Browsers say whose page opens a WebSocket: our own may and one that was named, since orders move the robot.
+/// A browser names the site whose page opens a WebSocket (Origin). Only our own page and the named site may open one,
+/// since orders move the robot.
 bool may_order(const ViewRequest& request, const std::string& named) {
   const std::string scheme = request.is_encrypted ? "https://" : "http://";
   return request.origin.empty() || request.origin == named || request.origin == scheme + request.host;

@@ -6,10 +6,10 @@
 
 namespace jaywalk::view {
 
-/// Whose requests are answered.
+/// Which requests are answered.
 struct ViewRules {
   std::string token{};   ///< to be given as ?token=; empty: none is wanted
-  std::string origin{};  ///< one more site whose pages may open a WebSocket; empty: none
+  std::string origin{};  ///< another site that may open a WebSocket; empty: none
   bool loopback = true;  ///< served on 127.0.0.1 alone; else other machines must come by TLS
 };
 

@@ -22,7 +22,7 @@ namespace jaywalk {
 /// could cause is a fault where a Kalman filter finds it so over metres.
 ///
 /// Told where the scans can tell: not in open ground, nor, of the way along them, between bare walls. Thread: the
-/// loop's. Memory is fixed; a scan costs about 0.1 ms.
+/// loop's. Memory is fixed.
 class MotionModel {
  public:
   explicit MotionModel(const RobotModel& model);
