@@ -78,7 +78,7 @@ void ControlLoop::permit(TickRecord& t) noexcept {
   t.latency = latency_.measured();
   t.verdict = supervisor_.judge(
       t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, t.now, t.latency, status.turns_at_goal, zone_speed_.here_mps,
-                 sent_, known_walls_.near(tracker().still(), t.pose.map_from_robot), &known_walls_});
+                 sent_, known_walls_.near(tracker().still(), t.pose.map_from_robot), &known_walls_, t.pose.doubtful});
   if (status.turn_blocked) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;

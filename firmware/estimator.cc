@@ -9,7 +9,8 @@ constexpr Duration kNoWayFor = std::chrono::seconds(10);  // time for a person i
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
           .drive = setup.model.drive,
-          .robot_from_laser = setup.model.laser.robot_from_laser};
+          .robot_from_laser = setup.model.laser.robot_from_laser,
+          .doubts = setup.judges_motion};
 }
 
 PerceptionConfig perception_config(const ControlSetup& setup) {
@@ -32,8 +33,9 @@ bool Estimator::update(const TickRecord& t) noexcept {
   const LaserScan& seen = scan_frozen_ ? kNoScan : t.scan;  // a frozen one shows what was
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
   if (sees_given_movers_ && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
-  if (new_scan) tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist(), t.now);
-  return new_scan;
+  if (!new_scan || pose_.doubtful) return false;
+  tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist(), t.now);
+  return true;
 }
 
 void Estimator::forget_where_stuck(const TickRecord& t) noexcept {

@@ -16,7 +16,8 @@ class Estimator {
  public:
   explicit Estimator(const ControlSetup& setup);
 
-  /// From what the devices said in this tick. True with a new scan, which the tracks then rest on.
+  /// From what the devices said in this tick. True with a new scan, which the tracks then rest on; not where the pose
+  /// is in doubt.
   [[nodiscard]] bool update(const TickRecord& t) noexcept;
   /// Where it has stood for ten seconds with a goal and no path to it: what is mapped out of sight may have gone. Looks
   /// at the tick's input and at what became of its plan.

@@ -123,7 +123,7 @@ std::string otherwise(const TickRecord& t, std::span<const Track> tracks, const 
 }  // namespace
 
 std::string in_words(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 25> kWords{
+  constexpr std::array<std::pair<Reason, const char*>, 26> kWords{
       {{Reason::kStopZone, "something stands in its way"},
        {Reason::kScanStale, "the newest scan is too old"},
        {Reason::kScanInvalid, "the scan cannot be trusted"},
@@ -148,7 +148,8 @@ std::string in_words(Reason reasons) {
        {Reason::kStopUnconfirmed, "the wheels do not confirm a stop"},
        {Reason::kForeignMaster, "another program commands the drives"},
        {Reason::kNotRecorded, "the disk is full (a remark)"},
-       {Reason::kSpeedZone, "a zone in the map wants it slower"}}};
+       {Reason::kSpeedZone, "a zone in the map wants it slower"},
+       {Reason::kPoseDoubtful, "where it is was guessed over a gap"}}};
   std::string words;
   for (const auto& [bit, said] : kWords) {
     if (has(reasons, bit)) words += (words.empty() ? "" : "; ") + std::string(said);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "hal/types/errors.h"
 
@@ -141,7 +142,11 @@ void CanopenDriveBase::begin_operation() noexcept {
   phase_ = Phase::kProved;
   began_ = now();
   bus_watch_.begin(bus_.health());
-  for (std::size_t k = 0; k < axes_.size(); ++k) axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling);
+  const bool heard_all = std::exchange(frames_lost_, bus_.health().frames_lost) == bus_.health().frames_lost;
+  for (std::size_t k = 0; k < axes_.size(); ++k) {
+    const bool counts_on = axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling, heard_all);
+    if (!counts_on) wheels_.sequence = 0;
+  }
 }
 
 WheelState CanopenDriveBase::latest() noexcept {

@@ -35,6 +35,7 @@ void WheelAxis::take(const ReceivedFrame& received) noexcept {
 void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
   network_ = state;
   heard_ = stamp;
+  restarted_ = restarted_ || state == NmtState::kBootUp;
   if (state == NmtState::kOperational) return;
   if (left_network_ != DriveTrouble::kDriveRestarted) {
     left_network_ = state == NmtState::kBootUp ? DriveTrouble::kDriveRestarted : DriveTrouble::kNotOperational;
@@ -65,16 +66,19 @@ void WheelAxis::take_position(const CanFrame& frame) noexcept {
 
 double WheelAxis::turned_rad() const noexcept { return static_cast<double>(counts_) / setup_.counts_per_rad; }
 
-// A drive that restarted counts from where it likes: its position goes on from the next that comes.
-void WheelAxis::begin(Time heard, Time settled) noexcept {
+// A drive that restarted, or may have, counts from where it likes: its position goes on from the next that comes.
+bool WheelAxis::begin(Time heard, Time settled, bool heard_all) noexcept {
+  const bool counts_on = has_position_ && heard_all && !restarted_;
   heard_ = heard;
   settled_ = settled;
   unanswered_since_ = kNever;
   state_ = DriveState::kUnknown;
   feedback_ = {};
-  has_position_ = fresh_status_ = fresh_position_ = was_enabled_ = false;
+  has_position_ = counts_on;
+  fresh_status_ = fresh_position_ = was_enabled_ = restarted_ = false;
   resets_fault_ = true;
   left_network_ = DriveTrouble::kNone;
+  return counts_on;
 }
 
 void WheelAxis::note_sync(Time now) noexcept {

@@ -32,8 +32,9 @@ class WheelAxis {
   /// Any frame of the bus; those that are not this drive's are passed over.
   void take(const ReceivedFrame& received) noexcept;
   /// The drive was proved: what it does from now on counts. `heard`: its heartbeat; faults that it shows until
-  /// `settled` are those being reset.
-  void begin(Time heard, Time settled) noexcept;
+  /// `settled` are those being reset. `heard_all`: no frame was lost since. False where its angle may not go on from
+  /// before.
+  bool begin(Time heard, Time settled, bool heard_all) noexcept;
   /// A SYNC was sent.
   void note_sync(Time now) noexcept;
   /// What is wrong with it by what it said since begin().
@@ -67,6 +68,7 @@ class WheelAxis {
   WheelFeedback feedback_;
   std::uint32_t raw_position_ = 0;
   bool has_position_ = false;
+  bool restarted_ = false;  ///< since begin()
   std::int64_t counts_ = 0;
   bool fresh_status_ = false, fresh_position_ = false;
   // What is held against it.

@@ -10,7 +10,8 @@ namespace {
 /// Frames that one tick takes in: a bus at 1 Mbit/s brings some 9000 a second.
 constexpr int kMostAtOnce = 512;
 
-/// A position that differs by more from what the speed explains is that of a counter that began anew.
+/// A position that differs by more from what the speed explains, held or braked to rest since, is that of a counter
+/// that began anew.
 constexpr double kJump_rad = 0.5;
 
 }  // namespace
@@ -42,11 +43,12 @@ void MotorPair::publish(Time stamp) noexcept {
   const auto complete = [](const MotorAxis& a) { return a.fresh_position && a.fresh_speed; };
   if (!std::all_of(axes_.begin(), axes_.end(), complete)) return;
   wheels_ = {.stamp = stamp,
-             .sequence = wheels_.sequence + 1,
+             .sequence = counts_on_ ? wheels_.sequence + 1 : 1,
              .left_rad = axes_[0].turned_rad,
              .right_rad = axes_[1].turned_rad,
              .left_radps = axes_[0].speed_radps,
              .right_radps = axes_[1].speed_radps};
+  counts_on_ = true;
   for (MotorAxis& a : axes_) a.fresh_position = a.fresh_speed = false;
 }
 
@@ -66,8 +68,10 @@ void MotorPair::note_turned(std::size_t index, Time stamp, double turned_rad) no
   MotorAxis& a = axes_[index];
   const bool continues = a.placed != kNever;
   const double explained_rad = continues ? a.speed_radps * to_seconds(stamp - a.placed) : 0.0;
-  const bool jumps = continues && !(std::fabs(turned_rad - explained_rad) <= kJump_rad);
+  const double nearest_rad = std::clamp(turned_rad, std::min(explained_rad, 0.0), std::max(explained_rad, 0.0));
+  const bool jumps = continues && !(std::fabs(turned_rad - nearest_rad) <= kJump_rad);
   if (jumps) lose_proof(DriveTrouble::kDriveRestarted);
+  counts_on_ = counts_on_ && continues && !jumps;
   if (continues && !jumps) a.turned_rad += turned_rad;
   a.placed = stamp;
   a.fresh_position = true;

@@ -111,6 +111,7 @@ class MotorPair : public WiredDrive {
   std::array<MotorAxis, 2> axes_;  ///< left, right
   std::array<StopLadder, 2> ladders_;
   WheelState wheels_;
+  bool counts_on_ = false;  ///< both angles, since the last reading
   DriveTrouble trouble_ = DriveTrouble::kNone;
   StopStage stop_ = StopStage::kNone;
   bool armed_ = false, awaits_zero_ = true;

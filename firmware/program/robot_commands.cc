@@ -20,10 +20,11 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::array<Footer, 6> kFooters{{
+constexpr std::array<Footer, 7> kFooters{{
     {"run", "run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},
     {"check", "check deploy/config/wheelchair.toml", "all is well", "something is not"},
     {"goto", "goto 4.0,1.5 1.57", "the run goes", "it refuses"},
+    {"here", "here 4.0,1.5 1.57", "the run takes it", "it refuses"},
     {"stop", "stop --now", "the run stops", "it refuses"},
     {"reset", "reset", "the run may move again", "it refuses"},
     {"status", "status --json", "the run answered", "it refuses"},
@@ -60,11 +61,12 @@ int say_as_json(const std::string& line) {
   return 0;
 }
 
-int say_goal() {
+/// `order`: what to do with it.
+int say_place(const std::string& order) {
   std::string words;
   for (const std::string& word : goal) words += " " + word;
-  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say("goto" + words);
-  return say("goto " + words_of(read_goal_order(words)));
+  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say(order + words);
+  return say(order + " " + words_of(read_goal_order(words)));
 }
 
 void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
@@ -110,7 +112,14 @@ void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_
       ->expected(1, static_cast<int>(Route::capacity()))
       ->required();
   add_socket(go);
-  go->callback([&exit_code] { exit_code = say_goal(); });
+  go->callback([&exit_code] { exit_code = say_place("goto"); });
+  CLI::App* here = app.add_subcommand("here", "Tell a run that stands where it is");
+  here->add_option("place", goal, "X,Y HEADING in the map (m, rad), or the name of a place that has one")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->required();
+  add_socket(here);
+  here->callback([&exit_code] { exit_code = say_place("here"); });
   CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
   stop->add_flag("--now", now, "As an emergency: brake hard, and latch until a reset");
   add_socket(stop);

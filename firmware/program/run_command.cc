@@ -16,7 +16,6 @@
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/device_report.h"
 #include "firmware/robot/known_map_file.h"
-#include "firmware/robot/no_pose_source.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/planner_thread.h"
 #include "firmware/robot/preflight.h"
@@ -190,9 +189,9 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
       socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
       order_priority(file.realtime));
   const std::unique_ptr<TickObserver> observer = make_observer(options, file, socket_for(options, file));
-  NoPoseSource no_fixes;
   LoopRunner runner(
-      file.setup, {devices.laser(), devices.drive(), controls.panel(), no_fixes, clock}, options.out, true, *observer,
+      file.setup, {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock}, options.out, true,
+      *observer,
       [&](std::unique_ptr<Planner> planner) {
         return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
       },

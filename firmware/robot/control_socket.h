@@ -4,6 +4,7 @@
 //   goto X Y      the goal, m in the map         stop          no goal: the robot ramps to rest
 //   goto X Y H    and its heading there, rad     stop now      emergency stop, latched
 //   status        how it goes                    reset         after a latched fault, at rest
+//   here X Y H    where it is, at rest
 #include <sys/types.h>
 
 #include <atomic>

@@ -1,5 +1,7 @@
 #include "firmware/robot/operator_desk.h"
 
+#include <cmath>
+
 #include "firmware/robot/stop_words.h"
 #include "hal/types/errors.h"
 #include "hal/types/rest.h"
@@ -11,8 +13,9 @@ ControlReply OperatorDesk::reply_to(std::string_view line) {
   if (const StopWords stop = stop_in(line); stop != StopWords::kNone) return take_stop(stop == StopWords::kStopNow);
   if (line == "status") return describe(status());
   if (line.starts_with("goto ")) return take_goal(line.substr(5));
+  if (line.starts_with("here ")) return take_place(line.substr(5));
   if (line == "reset") return take_reset();
-  return "refused: not understood; say goto X Y [HEADING], stop, reset or status\n";
+  return "refused: not understood; say goto X Y [HEADING], here X Y HEADING, stop, reset or status\n";
 }
 
 std::string OperatorDesk::obey(std::string_view line) {
@@ -64,6 +67,23 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   return "going\n";
 }
 
+std::string OperatorDesk::take_place(std::string_view words) {
+  GoalOrder place;
+  try {
+    const Route route = read_route(words, places_);
+    place = route[0];
+    if (route.size() != 1 || std::isnan(place.heading_rad)) return "refused: here: say one place, and its heading\n";
+  } catch (const StartupError& error) {
+    return std::string("refused: ") + error.what() + "\n";
+  }
+  const std::lock_guard lock(asking_);
+  const RunStatus& status = statuses_.latest();
+  if (!status.running) return "refused: the robot is not ready yet; try again\n";
+  if (!(status.speed_mps <= kAtRest_mps)) return "refused: the robot still moves; try again when it stands\n";
+  wish({.under = status.revoked, .here = Pose2{place.position_in_map.x, place.position_in_map.y, place.heading_rad}});
+  return "there\n";
+}
+
 ControlReply OperatorDesk::take_reset() {
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
@@ -83,6 +103,9 @@ std::string OperatorDesk::restart_bus_and_reset(std::uint32_t stops) {
 
 std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
   if (status.speed_mps > kAtRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  if (has(status.reasons, Reason::kPoseDoubtful) && status.proved) {
+    return "refused: where the robot is was guessed over a gap; say jaywalk here X,Y HEADING, then jaywalk reset\n";
+  }
   wish({.under = status.revoked, .reset = true});
   return "reset\n";
 }
@@ -111,7 +134,10 @@ OperatorInput OperatorDesk::latest() noexcept {
   input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
   input_.stop_orders = wish.stops;
   input_.emergency_stop = wish.emergencies != seen_.emergencies;  // for one tick, as a reset
-  input_.reset = is_new && permission_.give(wish.orders) && wish.orders.reset;
+  const bool given = is_new && permission_.give(wish.orders);
+  input_.reset = given && wish.orders.reset;
+  if (given && wish.orders.here) told_place_.tell(*wish.orders.here);
+  told_place_.step(input_.stamp);
   seen_ = wish;
   head_for_goal();
   return input_;

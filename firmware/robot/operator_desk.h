@@ -10,6 +10,7 @@
 #include "firmware/robot/goal_order.h"
 #include "firmware/robot/permission.h"
 #include "firmware/robot/run_status.h"
+#include "firmware/robot/told_place.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
 #include "hal/types/map_zones.h"
@@ -60,6 +61,8 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] OperatorInput latest() noexcept override;
   /// Loop's thread: what is permitted.
   [[nodiscard]] Permission& permission() noexcept { return permission_; }
+  /// Loop's thread: where people say that the robot is.
+  [[nodiscard]] PoseSource& told_place() noexcept { return told_place_; }
   /// Loop's thread, after a tick: how it went. Adds what of the status the desk knows: of goals, and by what it stands.
   void tell(RunStatus& status) noexcept;
 
@@ -78,6 +81,8 @@ class OperatorDesk final : public OperatorPanel {
   /// Loop's thread: the goal that is permitted, or none.
   void head_for_goal() noexcept;
   [[nodiscard]] std::string take_goal(std::string_view words);
+  /// It drops the goal: at rest only.
+  [[nodiscard]] std::string take_place(std::string_view words);
   [[nodiscard]] ControlReply take_reset();
   /// In a thread that may wait. `stops`: how many there were when the reset was asked for.
   [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t stops);
@@ -98,6 +103,7 @@ class OperatorDesk final : public OperatorPanel {
   Mailbox<RunStatus> statuses_;
   Wish seen_;  ///< the loop's
   Permission permission_;
+  ToldPlace told_place_;
   OperatorInput input_;
 };
 

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 
 #include "firmware/robot/goal_order.h"
 #include "firmware/safety/reasons.h"
@@ -11,6 +12,7 @@ struct Orders {
   std::uint32_t under = 0;  ///< revocations that the asker had been told of (Permission::revoked())
   Route route{};            ///< empty: nowhere to go
   bool reset = false;
+  std::optional<Pose2> here{};  ///< where the robot is, in the map
 };
 
 /// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every

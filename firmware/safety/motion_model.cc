@@ -60,8 +60,7 @@ Reason MotionModel::judge(const LaserScan& scan, const WheelState& wheels, const
   note(wheels);
   if (scan.sequence != scan_seen_ && scan.sequence != 0 && readings_[newest_].stamp >= scan.stamp) {
     scan_seen_ = scan.sequence;
-    if (pair_.usable(scan)) look(scan);
-    if (times_ >= kTimes) contradicted_ = now;
+    if (pair_.usable(scan) && look(scan) && times_ >= kTimes) contradicted_ = now;
   }
   Reason reasons = felt_motion_.disobeys(sent, wheels, now) ? Reason::kWheelsDisobey : Reason::kNone;
   if (frozen_) reasons |= Reason::kScanFrozen;
@@ -97,21 +96,23 @@ bool MotionModel::rolled_at(Time stamp, Rolled& rolled) const noexcept {
   return false;
 }
 
-void MotionModel::look(const LaserScan& scan) noexcept {
+bool MotionModel::look(const LaserScan& scan) noexcept {
   Rolled rolled;
-  if (!rolled_at(scan.stamp, rolled)) return;
+  if (!rolled_at(scan.stamp, rolled)) return false;
   note_repeats(scan, rolled);
-  if (repeats_ > 0) return;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
+  if (repeats_ > 0) return false;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
   const Rolled felt{rolled.left_m - kept_rolled_.left_m, rolled.right_m - kept_rolled_.right_m};
   const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
   const bool too_old = !pair_.is_kept() || scan.stamp - kept_stamp_ > kOldest || scan.stamp < kept_stamp_;
-  if (!too_old && (path_m >= kLeast_m || turn_rad >= kLeast_rad)) compare(scan, felt);
+  const bool compares = !too_old && (path_m >= kLeast_m || turn_rad >= kLeast_rad);
+  if (compares) compare(scan, felt);
   const bool unexplained = !too_old && path_m >= kLeast_m && !fitted_;
   if (too_old || unexplained || path_m >= kMost_m || turn_rad >= kMost_rad) {
     if (fitted_ && !too_old) update_gain(felt);
     keep(scan, rolled);
   }
+  return compares;
 }
 
 void MotionModel::note_repeats(const LaserScan& scan, const Rolled& rolled) noexcept {

@@ -53,7 +53,8 @@ class MotionModel {
 
   void note(const WheelState& wheels) noexcept;
   [[nodiscard]] bool rolled_at(Time stamp, Rolled& rolled) const noexcept;
-  void look(const LaserScan& scan) noexcept;
+  /// False where it tells nothing, as at rest.
+  bool look(const LaserScan& scan) noexcept;
   void note_repeats(const LaserScan& scan, const Rolled& rolled) noexcept;
   /// Matches the scan, and adds to what speaks against the wheels.
   void compare(const LaserScan& scan, const Rolled& felt) noexcept;

@@ -6,7 +6,7 @@
 namespace jaywalk {
 
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 25> kNames{{{Reason::kStopZone, "stop_zone"},
+  constexpr std::array<std::pair<Reason, const char*>, 26> kNames{{{Reason::kStopZone, "stop_zone"},
                                                                    {Reason::kScanStale, "scan_stale"},
                                                                    {Reason::kScanInvalid, "scan_invalid"},
                                                                    {Reason::kScanFrozen, "scan_frozen"},
@@ -30,7 +30,8 @@ std::string to_string(Reason reasons) {
                                                                    {Reason::kStopUnconfirmed, "stop_unconfirmed"},
                                                                    {Reason::kForeignMaster, "foreign_master"},
                                                                    {Reason::kNotRecorded, "not_recorded"},
-                                                                   {Reason::kSpeedZone, "speed_zone"}}};
+                                                                   {Reason::kSpeedZone, "speed_zone"},
+                                                                   {Reason::kPoseDoubtful, "pose_doubtful"}}};
   std::string words;
   for (const auto& [bit, name] : kNames) {
     if (!has(reasons, bit)) continue;

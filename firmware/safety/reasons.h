@@ -32,6 +32,7 @@ enum class Reason : std::uint32_t {
   kForeignMaster = 1U << 22,    ///< fault, latched: another program commands the drives
   kNotRecorded = 1U << 23,      ///< remark: the disk takes no more of the recording or the tables
   kSpeedZone = 1U << 24,        ///< limit: faster than the zone in the map where the robot is
+  kPoseDoubtful = 1U << 25,     ///< fault, latched: where it is was guessed over a gap for too long
 };
 
 constexpr Reason operator|(Reason a, Reason b) {

@@ -69,6 +69,7 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
   Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
   reasons |= motion_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
+  if (input.pose_doubtful) reasons |= Reason::kPoseDoubtful;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
   if (!std::isfinite(wanted.v_mps) || !std::isfinite(wanted.w_radps)) reasons |= Reason::kNotFinite;
   return reasons;
@@ -110,7 +111,7 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
 void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
   constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
                              Reason::kStopUnconfirmed | Reason::kForeignMaster | Reason::kWheelsDisobey |
-                             Reason::kMotionMismatch;
+                             Reason::kMotionMismatch | Reason::kPoseDoubtful;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;

@@ -44,6 +44,7 @@ struct SafetyInput {
   WheelCommand sent{};                                              ///< what the drive was sent in the tick before
   std::span<const Vec2> known_walls{};                              ///< near the robot and in its frame, of its map
   const KnownGround* known_ground = nullptr;                        ///< of the same map; null: there is none
+  bool pose_doubtful = false;                                       ///< where it is was guessed for too long
 };
 
 /// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted

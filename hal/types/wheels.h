@@ -41,8 +41,10 @@ enum class StopStage : std::uint8_t {
 /// What the wheel encoders say; the two wheels of a differential drive.
 struct WheelState {
   Time stamp = kNever;
-  std::uint32_t sequence = 0;  ///< grows by one a reading; 0: none yet
-  double left_rad = 0.0;       ///< angle turned since start; forward is positive; never wraps
+  /// Grows by one a reading; 0: none yet. Begins anew at 1 where the angles do not go on from the reading before: a
+  /// counter restarted, or nobody counted.
+  std::uint32_t sequence = 0;
+  double left_rad = 0.0;  ///< angle turned since start; forward is positive; never wraps
   double right_rad = 0.0;
   double left_radps = 0.0;
   double right_radps = 0.0;

@@ -35,7 +35,8 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       laser_(make_laser(file_, clock)),
       drive_(make_drive(file_.drive, bus_, clock)),
       controls_(file_, *drive_, clock, [] { return std::string(); }),
-      runner_(file_.setup, {*laser_, *drive_, controls_.panel(), no_fixes_, clock}, out, true, observer, wrap),
+      runner_(file_.setup, {*laser_, *drive_, controls_.panel(), controls_.desk().told_place(), clock}, out, true,
+              observer, wrap),
       guard_(no_brake_, clock, std::chrono::seconds(1)),
       loop_(runner_, {*drive_, *laser_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer) {
   messages_.reserve(kMostMessages);

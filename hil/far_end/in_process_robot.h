@@ -7,7 +7,6 @@
 #include <vector>
 
 #include "drivers/can/in_process_bus.h"
-#include "firmware/robot/no_pose_source.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_loop.h"
 #include "hil/far_end/simulated_robot.h"
@@ -79,7 +78,6 @@ class InProcessRobot {
   std::unique_ptr<ScannerConnection> laser_;
   std::unique_ptr<WiredDrive> drive_;
   OperatorControls controls_;
-  NoPoseSource no_fixes_;
   LoopRunner runner_;
   NoBrake no_brake_;
   StallGuard guard_;  ///< not started: time may stand still here

@@ -7,6 +7,7 @@
 #include "planner/localization/fix_update.h"
 #include "planner/localization/odometry.h"
 #include "planner/localization/odometry_noise.h"
+#include "planner/localization/pose_doubt.h"
 #include "planner/localization/slip_detector.h"
 #include "planner/localization/submap.h"
 #include "planner/localization/track_mask.h"
@@ -41,6 +42,13 @@ Eigen::Matrix3d of_wheels(const OdometryNoise& noise, double metres, double turn
   return diagonal(metres * noise.position_var, metres * noise.position_var, turns * noise.heading_var);
 }
 
+/// Of two wheels that were counted over a silence it is not known which went first: the place is off by the arc's
+/// height.
+Eigen::Matrix3d unknown_way(const ArcStep& step) {
+  const double height_m = 0.5 * step.distance_m * step.turn_rad;
+  return diagonal(height_m * height_m, height_m * height_m, 0.0);
+}
+
 }  // namespace
 
 struct Localizer::State {
@@ -50,12 +58,15 @@ struct Localizer::State {
         map_from_odom(c.map_from_robot_at_start),
         covariance(diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar)),
         since_last_match(covariance),
-        if_wheels_slipped(covariance) {
+        if_wheels_slipped(covariance),
+        at_last_wheels(covariance) {
     publish();
   }
 
   void move_by_wheels(const WheelState& wheels) noexcept;
   void coast_to(Time stamp) noexcept;
+  /// Wheels counted on over a silence: what was guessed meanwhile is forgotten.
+  void end_silence(const ArcStep& way, const Pose2& map_from_robot, Time stamp) noexcept;
   void place_scan(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
   [[nodiscard]] bool match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept;
   /// Where it would be had it gone on as it went.
@@ -95,7 +106,9 @@ struct Localizer::State {
   Pose2 odom_from_robot_at_scan;
   Time scan_stamp = kNever;
 
-  Coasting coasting;  ///< while wheels say nothing
+  Coasting coasting;               ///< while wheels say nothing
+  Eigen::Matrix3d at_last_wheels;  ///< covariance when they spoke last
+  PoseDoubt doubt;
   FixGate fix_gate;
   Twist2 twist;
 
@@ -104,9 +117,12 @@ struct Localizer::State {
 };
 
 void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
+  const bool bridges = odometry.bridges(wheels);
+  if (bridges) covariance = since_last_match = if_wheels_slipped = at_last_wheels;
   const Pose2 before = map_from_odom * odometry.odom_from_robot();
   const ArcStep step = odometry.take(wheels);
   const Pose2 after = map_from_odom * odometry.odom_from_robot();
+  if (bridges) end_silence(step, after, wheels.stamp);
   twist = odometry.twist();
   const double dx = after.x - before.x, dy = after.y - before.y;
   const OdometryNoise noise = noise_of_unknown_wheels(step);
@@ -116,6 +132,17 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
   odometry_noise.drove(step);
   radius_bias.drove(step);
+  at_last_wheels = covariance;
+}
+
+void Localizer::State::end_silence(const ArcStep& way, const Pose2& map_from_robot, Time stamp) noexcept {
+  doubt.settle();
+  covariance += unknown_way(way);
+  coasting = {};
+  coasting.placed(map_from_robot, stamp);
+  odom_from_robot_at_scan = odometry.odom_from_robot();
+  map_from_robot_at_scan = map_from_robot;
+  scan_stamp = stamp;
 }
 
 void Localizer::State::coast_to(Time stamp) noexcept {
@@ -126,6 +153,7 @@ void Localizer::State::coast_to(Time stamp) noexcept {
   covariance += more;
   since_last_match += more;
   if_wheels_slipped = covariance;
+  if (config.doubts && odometry.has_wheels()) doubt.coasted(step);
 }
 
 void Localizer::State::take(const MatchResult& found, const Pose2& predicted) noexcept {
@@ -170,7 +198,7 @@ PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
 }
 
 bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept {
-  if (!config.match_scans) return false;
+  if (!config.match_scans || doubt.is_doubtful()) return false;
   projection.project(scan, config.robot_from_laser, twist, points);
   const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
   const auto seen = static_cast<double>(points.size());
@@ -193,9 +221,13 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   const bool matched = match(scan, still, moving);
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
-  sample_of(points, sample);
-  submap.add(sample, there);
+  if (!doubt.is_doubtful()) {
+    sample_of(points, sample);
+    submap.add(sample, there);
+  }
   if (matched) {
+    doubt.matched();
+    odometry.placed();
     coasting.placed(there, scan.stamp);
   } else {
     coasting.not_placed(there, scan.stamp);
@@ -214,6 +246,8 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
   since_last_match = if_wheels_slipped = covariance;
+  odometry.placed();
+  doubt.settle();
   if (lost) submap.begin_anew();
   odometry_noise.begin_anew();
   radius_bias.begin_anew();
@@ -225,7 +259,8 @@ void Localizer::State::publish() noexcept {
   estimate = {.stamp = odometry.stamp(),
               .map_from_robot = map_from_odom * odometry.odom_from_robot(),
               .position_std_m = std::sqrt(0.5 * (covariance(0, 0) + covariance(1, 1))),
-              .heading_std_rad = std::sqrt(covariance(2, 2))};
+              .heading_std_rad = std::sqrt(covariance(2, 2)),
+              .doubtful = doubt.is_doubtful()};
 }
 
 Localizer::Localizer(const LocalizationConfig& config) : state_(std::make_unique<State>(config)) {}

@@ -17,6 +17,7 @@ struct LocalizationConfig {
   DriveModel drive;
   Pose2 robot_from_laser;
   bool match_scans = true;
+  bool doubts = true;  ///< false where nobody could say where it is: of a log
 };
 
 /// Pose and how sure we are of it, at `stamp`.
@@ -25,6 +26,7 @@ struct PoseEstimate {
   Pose2 map_from_robot;
   double position_std_m = 0.0;
   double heading_std_rad = 0.0;
+  bool doubtful = false;  ///< it went on unseen for longer than its pose stays good for (PoseDoubt)
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.

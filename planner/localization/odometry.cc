@@ -48,14 +48,25 @@ ArcStep Odometry::since_last(const WheelState& wheels) const noexcept {
     const ArcStep step{now.v_mps * seconds, now.w_radps * seconds};
     return believable(step, seconds) ? step : ArcStep{};
   }
-  const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
-  const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
-  const ArcStep step{0.5 * (left + right), (right - left) / drive_.track_width_m};
+  const ArcStep step = counted(wheels);
   return believable(step, to_seconds(wheels.stamp - last_.stamp)) ? step : ArcStep{};
 }
 
+ArcStep Odometry::counted(const WheelState& wheels) const noexcept {
+  const double left = (wheels.left_rad - last_.left_rad) * drive_.wheel_radius_m;
+  const double right = (wheels.right_rad - last_.right_rad) * drive_.wheel_radius_m;
+  return {0.5 * (left + right), (right - left) / drive_.track_width_m};
+}
+
+bool Odometry::bridges(const WheelState& wheels) const noexcept {
+  return coasted_ && bridgeable_ && wheels.sequence > last_.sequence &&
+         believable(counted(wheels), to_seconds(wheels.stamp - last_.stamp));
+}
+
 ArcStep Odometry::take(const WheelState& wheels) noexcept {
-  ArcStep step = since_last(wheels);
+  const bool bridge = bridges(wheels);
+  const Pose2 from = bridge ? odom_from_robot_at_last_ : odom_from_robot();
+  ArcStep step = bridge ? counted(wheels) : since_last(wheels);
   step.turn_rad += radius_bias_ * step.distance_m;
   if (last_.sequence != 0)
     period_s_ = std::clamp(to_seconds(wheels.stamp) - to_seconds(last_.stamp), 0.0, kLongestPeriodS);
@@ -63,7 +74,9 @@ ArcStep Odometry::take(const WheelState& wheels) noexcept {
   coasted_ = false;
   twist_ = twist_of(wheels, drive_);
   twist_.w_radps += radius_bias_ * twist_.v_mps;
-  remember({wheels.stamp, after_arc(odom_from_robot(), step)});
+  odom_from_robot_at_last_ = after_arc(from, step);
+  if (bridge) forgotten_ = count_;  // the guesses
+  remember({wheels.stamp, odom_from_robot_at_last_});
   return step;
 }
 
@@ -78,6 +91,7 @@ bool Odometry::remembers(Time stamp) const noexcept {
 }
 
 void Odometry::coast(const Pose2& before_from_after, Time stamp) noexcept {
+  if (!coasted_) bridgeable_ = has_wheels();
   coasted_ = true;
   twist_ = {};  // of wheels that say nothing
   remember({stamp, odom_from_robot() * before_from_after});

@@ -25,17 +25,23 @@ class Odometry {
  public:
   explicit Odometry(const DriveModel& drive) : drive_(drive) {}
 
-  /// Takes a reading with a new sequence number: what the wheels did since the last; after a silence in which the robot
-  /// coasted, what they do now. A step that is not finite, or faster than twice what the motors can do (encoders that
-  /// restarted), counts as standing.
+  /// Takes a reading with a new sequence number: what the wheels did since the last; after a silence in which scans
+  /// were matched, what they do now. A step that is not finite, or faster than twice what the motors can do (encoders
+  /// that restarted), counts as standing.
   ArcStep take(const WheelState& wheels) noexcept;
+  /// Whether take() would count on from the reading before a silence, in place of what was guessed since: not after a
+  /// match, nor where an encoder restarted.
+  [[nodiscard]] bool bridges(const WheelState& wheels) const noexcept;
+  /// While it coasts: a match put it where it is, which no wheel knows better.
+  void placed() noexcept { bridgeable_ = false; }
   /// From now on the robot turns by so much more with every metre than its wheels say (rad / m, to the left).
   void set_radius_bias(double turn_per_m) noexcept { radius_bias_ = turn_per_m; }
   /// While wheels are silent: moves by a pose in the robot's own frame.
   void coast(const Pose2& before_from_after, Time stamp) noexcept;
 
   /// The newest pose is the wheels' own.
-  [[nodiscard]] bool by_wheels() const { return last_.sequence != 0 && !coasted_; }
+  [[nodiscard]] bool by_wheels() const { return has_wheels() && !coasted_; }
+  [[nodiscard]] bool has_wheels() const { return last_.sequence != 0; }
   /// They have not said anything for so long before `stamp` that the robot may be elsewhere, or never.
   [[nodiscard]] bool wheels_silent(Time stamp) const noexcept;
   [[nodiscard]] const Twist2& twist() const { return twist_; }
@@ -63,10 +69,13 @@ class Odometry {
 
   DriveModel drive_;
   [[nodiscard]] ArcStep since_last(const WheelState& wheels) const noexcept;
+  [[nodiscard]] ArcStep counted(const WheelState& wheels) const noexcept;
 
   WheelState last_;
   double period_s_ = 0.0;  ///< between the last two readings
-  bool coasted_ = false;   ///< since the last reading
+  Pose2 odom_from_robot_at_last_;
+  bool coasted_ = false;     ///< since the last reading
+  bool bridgeable_ = false;  ///< and no match since
   double radius_bias_ = 0.0;
   Twist2 twist_;
   std::array<Entry, kRemembered> entries_{};

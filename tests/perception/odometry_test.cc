@@ -56,10 +56,32 @@ TEST_CASE("wheels are silent after a quarter of a second, or two and a half of t
   CHECK(odometry.wheels_silent(time_from_seconds(1.76)));
 }
 
-TEST_CASE("after a silence the robot is where it coasted to, and the first reading goes by its speed") {
+TEST_CASE("after a silence in which nothing matched the wheels count on from before it, and the guess is forgotten") {
   Odometry odometry(kDrive);
   (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
   odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
+  odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(2.0));
+  const WheelState back = reading(2, 2.1, 3.0, 3.0);  // it braked after 0.3 m
+  CHECK(odometry.bridges(back));
+  CHECK(odometry.take(back).distance_m == Approx(0.3));
+  CHECK(odometry.odom_from_robot().x == Approx(0.3));
+  CHECK(odometry.at(time_from_seconds(1.5)).x == Approx(0.3));
+  CHECK_FALSE(odometry.bridges(reading(3, 2.2, 3.0, 3.0)));
+}
+
+TEST_CASE("counters that began anew in a silence do not bridge it") {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(7, 0.0, 5.0, 5.0));
+  odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
+  CHECK_FALSE(odometry.bridges(reading(1, 1.1, 5.0, 5.0)));
+  CHECK_FALSE(odometry.bridges(reading(8, 1.1, 5000.0, 5000.0)));
+}
+
+TEST_CASE("after a silence with matches the robot is where they put it, and the first reading goes by its speed") {
+  Odometry odometry(kDrive);
+  (void)odometry.take(reading(1, 0.0, 0.0, 0.0));
+  odometry.coast({0.6, 0.0, 0.0}, time_from_seconds(1.0));
+  odometry.placed();
   CHECK_FALSE(odometry.by_wheels());
   WheelState back = reading(2, 1.1, 6.0, 6.0);  // 0.6 m in all, that the robot has gone already
   back.left_radps = back.right_radps = 5.0;     // 0.5 m/s

@@ -24,6 +24,21 @@ TEST_CASE("an emergency stop is latched until a reset edge at zero setpoint with
   CHECK(bench.tick({0.01, 0.0}).permitted.v_mps == 0.01);
 }
 
+TEST_CASE("a pose in doubt is latched, and no reset moves the robot before it is known") {
+  Bench bench;
+  bench.ticks(30, {0.5, 0.0});
+  bench.pose_doubtful = true;
+  bench.ticks(50, {0.5, 0.0});
+  bench.reset();
+  const Verdict verdict = bench.ticks(10, {0.5, 0.0});
+  CHECK(verdict.permitted == Twist2{});
+  CHECK(verdict.reasons == (Reason::kPoseDoubtful | Reason::kLatched));
+  bench.pose_doubtful = false;
+  CHECK(bench.ticks(10, {0.5, 0.0}).permitted == Twist2{});
+  bench.reset();
+  CHECK(bench.ticks(10, {0.5, 0.0}).permitted.v_mps > 0.0);
+}
+
 TEST_CASE("no reset counts while the stick is out of its middle: nothing drives off with it") {
   Bench bench;
   bench.input.has_goal = false;

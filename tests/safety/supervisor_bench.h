@@ -17,6 +17,7 @@ struct Bench {
   bool scan_fresh = true, wheels_fresh = true, plan_fresh = true;
   MeasuredLatency latency;
   double most_speed_mps = std::numeric_limits<double>::infinity();
+  bool pose_doubtful = false;
   Supervisor supervisor;
 
   explicit Bench(bool latches_all = false, const RobotModel& model = p3dx())
@@ -36,7 +37,8 @@ struct Bench {
     if (scan_fresh) scan.stamp = now;
     if (wheels_fresh) wheels.stamp = now;
     if (plan_fresh) plan_stamp = now;
-    return supervisor.judge(wanted, {scan, wheels, input, plan_stamp, now, latency, false, most_speed_mps});
+    return supervisor.judge(
+        wanted, {scan, wheels, input, plan_stamp, now, latency, false, most_speed_mps, {}, {}, nullptr, pose_doubtful});
   }
   /// A press of the reset button at rest.
   void reset() {
