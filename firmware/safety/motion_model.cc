@@ -26,8 +26,9 @@ constexpr int kPeople = 2;         ///< sectors
 constexpr double kRough_m = 0.05;  ///< of errors before a fit
 /// Natural logarithms of likelihood ratios; what a pair less decays between pairs.
 constexpr double kEvidence = 10.0, kBlind = 27.0, kDrift = 3.0, kMoves = 4.0;
-/// A blind sector pulls the match towards itself: what it gains over it counts threefold.
-constexpr double kPulled = 3.0;
+/// A blind sector pulls the match towards itself: what it gains over it counts threefold. More than twice what it
+/// could gain on average, by its walls' directions, is chance.
+constexpr double kPulled = 3.0, kChance = 2.0;
 constexpr double kBlind_rad = 0.7;  ///< no pedestrian is as wide at a metre
 constexpr int kTimes = 2, kBoundSteps = 3, kSweeps = 50;
 /// Gain over metres: advantage a point from which on a match tells another than the wheels, slip's share of a pair as a
@@ -165,8 +166,9 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
     const ScanPair::Errors standing = pair_.errors(scan, {}, true);
     blind_now_ = pair_.advantage(standing, pair_.errors(scan, by_wheels, true), noise, true);
     const Costs over_bound = pair_.advantage(standing, pair_.errors(scan, bound, true), noise, true);
+    const Costs most = pair_.gain_of_standing(scan, by_wheels, noise);
     for (std::size_t k = 0; k < blind_now_.size(); ++k)
-      blind_now_[k] = std::min(blind_now_[k], kPulled * over_bound[k]);
+      blind_now_[k] = std::min({blind_now_[k], kPulled * over_bound[k], kChance * most[k]});
   }
   const bool blind = is_blind();
   const bool moves_else = evidence_now_ > kDrift && evidence_ + evidence_now_ > kEvidence;

@@ -142,6 +142,19 @@ std::array<double, ScanPair::kSectors> ScanPair::advantage(const Errors& better,
   return sum;
 }
 
+std::array<double, ScanPair::kSectors> ScanPair::gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
+                                                                  double noise_m) const noexcept {
+  const Transform2 standing(inverse(robot_from_laser_)), moved(inverse(kept_from_now * robot_from_laser_));
+  std::array<double, kSectors> sum{};
+  for (const Point& point : points_) {
+    if (point.weight < 1.0F) continue;
+    const Vec2 in_laser = standing * point.in_robot;
+    const double off = dot(residual(scan, in_laser, true).normal, moved * point.in_robot - in_laser) / noise_m;
+    sum[point.beam * kSectors / beams_] += std::min(0.5 * off * off, kOutlier);
+  }
+  return sum;
+}
+
 /// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge.
 ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
   constexpr Residual kNone{kNan, {}};

@@ -53,6 +53,11 @@ class ScanPair {
   [[nodiscard]] std::array<double, kSectors> advantage(const Errors& better, const Errors& worse, double noise_m,
                                                        bool walls) const noexcept;
 
+  /// What standing surfaces would gain so over ones that moved, on average, if they stand: by what the two predict of
+  /// each point, across its surface. Nothing along a wall.
+  [[nodiscard]] std::array<double, kSectors> gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
+                                                              double noise_m) const noexcept;
+
  private:
   struct Point {
     std::uint32_t beam = 0;
