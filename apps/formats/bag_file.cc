@@ -3,6 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
+#include <cstring>
 #include <fstream>
 #include <optional>
 #include <vector>
@@ -15,6 +16,8 @@
 namespace jaywalk::exchange {
 namespace {
 
+constexpr std::string_view kZstdMagic = "\x28\xB5\x2F\xFD";
+
 enum class Format { kNone, kMcap, kRos1, kSqlite, kZstd };
 
 Format format_of(const std::filesystem::path& file) {
@@ -25,45 +28,38 @@ Format format_of(const std::filesystem::path& file) {
   if (begins("\x89MCAP")) return Format::kMcap;
   if (begins("#ROSBAG")) return Format::kRos1;
   if (begins("SQLite format 3")) return Format::kSqlite;
-  return begins("\x28\xB5\x2F\xFD") ? Format::kZstd : Format::kNone;
+  return begins(kZstdMagic) ? Format::kZstd : Format::kNone;
 }
-
-/// What metadata.yaml says of a rosbag2 folder.
-struct Folder {
-  std::vector<std::filesystem::path> files;
-  bool packed_messages = false;
-};
 
 /// Files of the folder itself: names in metadata.yaml lead nowhere else.
 std::filesystem::path inside(const std::filesystem::path& folder, const std::string& name) {
   return folder / std::filesystem::path(name).filename();
 }
 
-Folder described(const std::filesystem::path& metadata) {
-  Folder folder;
+/// The files that a rosbag2 folder's list names; none where it is empty, as loss of power leaves it.
+std::vector<std::filesystem::path> listed_files(const std::filesystem::path& metadata) {
+  std::vector<std::filesystem::path> files;
   try {
-    const YAML::Node all = YAML::LoadFile(metadata.string())["rosbag2_bagfile_information"];
-    for (const YAML::Node& file : all["relative_file_paths"])
-      folder.files.push_back(inside(metadata.parent_path(), file.as<std::string>()));
-    const YAML::Node mode = all["compression_mode"];
-    std::string said = mode ? mode.as<std::string>() : "";
-    std::transform(said.begin(), said.end(), said.begin(), [](unsigned char c) { return std::tolower(c); });
-    folder.packed_messages = said == "message";
+    const YAML::Node all = YAML::LoadFile(metadata.string());
+    if (!all.IsMap()) return files;
+    for (const YAML::Node& file : all["rosbag2_bagfile_information"]["relative_file_paths"])
+      files.push_back(inside(metadata.parent_path(), file.as<std::string>()));
   } catch (const YAML::Exception& error) {
     throw StartupError(metadata.string() + ":" + std::to_string(std::max(error.mark.line, 0) + 1) + ": " + error.msg,
                        "give what 'ros2 bag reindex' makes of the folder");
   }
-  return folder;
+  return files;
 }
 
-Folder contents(const std::filesystem::path& path) {
-  if (std::filesystem::exists(path / "metadata.yaml")) return described(path / "metadata.yaml");
-  Folder folder;
-  for (const auto& entry : std::filesystem::directory_iterator(path)) {
-    if (entry.is_regular_file() && format_of(entry.path()) != Format::kNone) folder.files.push_back(entry.path());
+/// The recordings that lie in it, by their names: b_2 before b_10.
+std::vector<std::filesystem::path> found_files(const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> files;
+  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+    if (entry.is_regular_file() && format_of(entry.path()) != Format::kNone) files.push_back(entry.path());
   }
-  std::sort(folder.files.begin(), folder.files.end());
-  return folder;
+  std::sort(files.begin(), files.end(),
+            [](const auto& a, const auto& b) { return ::strverscmp(a.c_str(), b.c_str()) < 0; });
+  return files;
 }
 
 /// What a packed file unpacks to, for as long as it is read.
@@ -90,7 +86,7 @@ class UnpackedFile {
   std::filesystem::path path_;
 };
 
-void read_file(const std::filesystem::path& file, bool packed_messages, const BagSink& sink) {
+void read_file(const std::filesystem::path& file, const BagSink& sink) {
   require_readable(file, file.string() + ": ", "give a recording");
   switch (format_of(file)) {
     case Format::kMcap:
@@ -98,11 +94,11 @@ void read_file(const std::filesystem::path& file, bool packed_messages, const Ba
     case Format::kRos1:
       return read_ros1_bag(file, sink);
     case Format::kSqlite:
-      return read_sqlite_bag(file, packed_messages, sink);
+      return read_sqlite_bag(file, sink);
     case Format::kZstd: {
       const UnpackedFile unpacked(file);
       if (format_of(unpacked.path()) == Format::kZstd) break;
-      return read_file(unpacked.path(), packed_messages, sink);
+      return read_file(unpacked.path(), sink);
     }
     case Format::kNone:
       break;
@@ -111,18 +107,62 @@ void read_file(const std::filesystem::path& file, bool packed_messages, const Ba
                      "give an MCAP file, a ROS 2 bag or a ROS 1 bag");
 }
 
+/// Passes messages on that rosbag2 packed one by one (compression_mode "message"): no message in CDR begins so. What
+/// does not unpack is an empty one.
+BagSink unpacking(const BagSink& sink) {
+  return [&sink](const BagMessage& message) {
+    if (message.wire != Wire::kCdr || message.bytes.rfind(kZstdMagic, 0) != 0) return sink(message);
+    const auto unpacked = unpack_zstd(message.bytes, kMostRecordBytes);
+    BagMessage whole = message;
+    whole.bytes = unpacked ? std::string_view(*unpacked) : std::string_view();
+    sink(whole);
+  };
+}
+
+/// The parts of a recording in the order of their times; a damaged one is left out, and told.
+std::vector<std::filesystem::path> in_order(const std::vector<std::filesystem::path>& parts, std::string& left_out) {
+  std::vector<std::pair<Time, std::filesystem::path>> timed;
+  for (const std::filesystem::path& part : parts) {
+    std::vector<Time> logged;
+    try {
+      read_file(part, [&](const BagMessage& message) { logged.push_back(message.logged); });
+    } catch (const StartupError& error) {
+      left_out += "left out: " + std::string(error.what()) + "\n";
+      continue;
+    }
+    if (logged.empty()) continue;
+    const auto middle = logged.begin() + static_cast<std::ptrdiff_t>(logged.size() / 2);
+    std::nth_element(logged.begin(), middle, logged.end());
+    timed.emplace_back(*middle, part);
+  }
+  if (timed.empty()) return parts;
+  std::stable_sort(timed.begin(), timed.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
+  std::vector<std::filesystem::path> ordered;
+  for (const auto& part : timed) ordered.push_back(part.second);
+  return ordered;
+}
+
 }  // namespace
 
 bool is_bag(const std::filesystem::path& path) {
   return std::filesystem::is_directory(path) || format_of(path) != Format::kNone;
 }
 
-void read_bag(const std::filesystem::path& path, const BagSink& sink) {
-  if (!std::filesystem::is_directory(path)) return read_file(path, false, sink);
-  const Folder folder = contents(path);
-  if (folder.files.empty())
-    throw StartupError(path.string() + ": no recording in this folder", "give a ROS 2 bag's folder");
-  for (const std::filesystem::path& file : folder.files) read_file(file, folder.packed_messages, sink);
+std::string read_bag(const std::filesystem::path& path, const BagSink& sink) {
+  const BagSink whole = unpacking(sink);
+  std::string left_out;
+  std::vector<std::filesystem::path> files{path};
+  if (std::filesystem::is_directory(path)) {
+    const std::filesystem::path metadata = path / "metadata.yaml";
+    files = std::filesystem::exists(metadata) ? listed_files(metadata) : decltype(files){};
+    if (files.empty()) {
+      files = found_files(path);
+      if (files.size() > 1) files = in_order(files, left_out);
+    }
+    if (files.empty()) throw StartupError(path.string() + ": no recording in this folder", "give a ROS 2 bag's folder");
+  }
+  for (const std::filesystem::path& file : files) read_file(file, whole);
+  return left_out;
 }
 
 }  // namespace jaywalk::exchange

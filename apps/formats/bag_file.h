@@ -24,15 +24,17 @@ using BagSink = std::function<void(const BagMessage&)>;
 /// Whether `path` is a folder, or a file that begins as one of the formats does.
 [[nodiscard]] bool is_bag(const std::filesystem::path& path);
 
-/// Every message of a ROS type in the file or folder, in its order. Throws StartupError with place, cause and remedy
-/// for what cannot be read, is cut short or damaged: all check sums that a format has are checked.
-void read_bag(const std::filesystem::path& path, const BagSink& sink);
+/// Every message of a ROS type in the file or folder, in its order; messages that rosbag2 packed one by one come
+/// unpacked. The parts of a folder without a list of them (metadata.yaml is written last) come by the middle one of
+/// their messages' times, equal ones by their names in natural order. A damaged part of several is left out there;
+/// returns what was left out, a line each. Throws StartupError with place, cause and remedy for what cannot be read, is
+/// cut short or damaged: all check sums that a format has are checked.
+[[nodiscard]] std::string read_bag(const std::filesystem::path& path, const BagSink& sink);
 
 /// The single formats; read_bag() tells them apart.
 void read_mcap(const std::filesystem::path& file, const BagSink& sink);
 void read_ros1_bag(const std::filesystem::path& file, const BagSink& sink);
-/// `packed`: each message is packed with zstd.
-void read_sqlite_bag(const std::filesystem::path& file, bool packed, const BagSink& sink);
+void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink);
 
 /// An attachment of an MCAP file: where its bytes are.
 struct Attachment {

@@ -1,5 +1,7 @@
 #include "apps/formats/bag_log.h"
 
+#include <algorithm>
+#include <cmath>
 #include <cstdio>
 #include <map>
 #include <set>
@@ -8,6 +10,7 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/laser_mount.h"
+#include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/log_checks.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"
@@ -18,11 +21,14 @@ namespace {
 
 constexpr const char* kScans = "sensor_msgs/LaserScan";
 constexpr const char* kOdometry = "nav_msgs/Odometry";
+constexpr double kLongestSweepS = 1.0;
+constexpr double kSamePeriod = 1.05;  // stamps and drivers' figures are that exact
 
 /// All that a replay could need of a recording, by topic.
 struct BagContents {
   std::map<std::string, std::vector<ScanMessage>> scans;
   std::map<std::string, std::vector<OdometryMessage>> odometry;
+  sim::RecordedLog unreadable;  ///< counts what was left out
   FrameTree frames;
   std::map<std::string, std::string> others;  ///< topics of other types, with those
 };
@@ -40,7 +46,8 @@ class Collector {
     } else if (message.type == "tf2_msgs/TFMessage" || message.type == "tf/tfMessage") {
       std::vector<std::vector<TransformMessage>> transforms;
       take(read_transforms(message.bytes, message.wire), transforms, message);
-      for (const TransformMessage& transform : transforms.front()) found_.frames.add(transform);
+      for (const auto& some : transforms)
+        for (const TransformMessage& transform : some) found_.frames.add(transform);
     } else {
       found_.others.emplace(topic, message.type);
     }
@@ -51,11 +58,13 @@ class Collector {
   void take(std::optional<Read> read, std::vector<Read>& list, const BagMessage& message) {
     const std::size_t number = ++numbers_[std::string(message.topic)];
     if (!read) {
-      sim::LogPlace{file_ + ": " + shown(message.topic), number, "message"}.refuse(
-          "its bytes are no " + std::string(message.type), "record it again, or give another topic");
+      const sim::LogPlace place{file_ + ": " + shown(message.topic), number, "message"};
+      found_.unreadable.refuse(place, "its bytes are no " + shown(message.type));
+      return;
     }
     if constexpr (requires { read->stamp; }) {
       if (read->stamp == Time{}) read->stamp = message.logged;
+      read->number = number;
     }
     list.push_back(std::move(*read));
   }
@@ -101,57 +110,96 @@ std::string choose(const std::string& file, const std::map<std::string, Messages
   return topics.begin()->first;
 }
 
-/// Between the robot and the scans' frame; the remark's words for where it comes from as well.
-std::pair<LaserMount, std::string> mount_of(const std::string& file, const BagContents& found, const std::string& base,
-                                            const std::string& frame, const BagOptions& options) {
-  if (options.robot_from_laser) return {{*options.robot_from_laser}, "as given"};
-  const auto joined = found.frames.find(base, frame);
-  if (!joined) return {{options.otherwise}, "no transform from " + shown(base) + " to " + shown(frame) + " says it"};
-  const auto level = level_mount(*joined);
-  if (!level) {
-    throw StartupError(file + ": the laser of frame " + shown(frame) + " does not look about level",
-                       "give scans of a plane, or the mount with --laser-mount X,Y,YAW");
+/// The frames that may be the robot's: what the odometry moves first, then what robots call theirs.
+std::vector<std::string> bases_of(const BagContents& found, const std::string& odom_topic) {
+  std::vector<std::string> bases;
+  if (!odom_topic.empty()) {
+    for (const OdometryMessage& message : found.odometry.at(odom_topic))
+      if (!message.child_frame.empty() && bases.empty()) bases.push_back(message.child_frame);
   }
-  return {*level, "from " + shown(base) + " to " + shown(frame) + (level->upside_down ? ", upside down" : "")};
+  for (const char* usual : {"base_link", "base_footprint"})
+    if (bases.empty() || FrameTree::bare(bases.front()) != usual) bases.emplace_back(usual);
+  return bases;
 }
 
-void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& scans,
+/// The first that is named; an odd first message may name none.
+std::string frame_of(const std::vector<ScanMessage>& scans) {
+  const auto named =
+      std::find_if(scans.begin(), scans.end(), [](const ScanMessage& scan) { return !scan.frame.empty(); });
+  return named == scans.end() ? "" : named->frame;
+}
+
+/// Between the robot and the scans' frame; the remark's words for where it comes from as well.
+std::pair<LaserMount, std::string> mount_of(const std::string& file, const BagContents& found,
+                                            const std::vector<std::string>& bases, const std::string& frame,
+                                            const BagOptions& options) {
+  if (options.robot_from_laser) return {{*options.robot_from_laser}, "as given"};
+  for (const std::string& base : bases) {
+    const auto joined = found.frames.find(base, frame);
+    if (!joined) continue;
+    const auto level = level_mount(*joined);
+    if (!level) {
+      throw StartupError(file + ": the laser of frame " + shown(frame) + " does not look about level",
+                         "give scans of a plane, or the mount with --laser-mount X,Y,YAW");
+    }
+    return {*level, "from " + shown(base) + " to " + shown(frame) + (level->upside_down ? ", upside down" : "")};
+  }
+  return {{options.otherwise}, "no transform from " + shown(bases.front()) + " to " + shown(frame) + " says it"};
+}
+
+void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& messages,
                bool upside_down) {
   sim::LogPlace place{name, 0, "message"};
-  for (const ScanMessage& message : scans) {
-    ++place.number;
-    const std::size_t every = (message.range_m.size() + kMaxBeams - 1) / kMaxBeams;
+  sim::LogScans scans(log);
+  for (const ScanMessage& message : messages) {
+    place.number = message.number;
+    const std::size_t every = std::max<std::size_t>((message.range_m.size() + kMaxBeams - 1) / kMaxBeams, 1);
     std::vector<double> ranges;
     for (std::size_t k = 0; k < message.range_m.size(); k += every) ranges.push_back(message.range_m[k]);
     const float sense = upside_down ? -1.0F : 1.0F;
-    const sim::RecordedScan scan{.stamp = message.stamp,
-                                 .beams = static_cast<std::uint32_t>(ranges.size()),
-                                 .first_angle_rad = sense * message.first_angle_rad,
-                                 .angle_step_rad = sense * message.angle_step_rad * static_cast<float>(every),
-                                 .range_min_m = message.range_min_m,
-                                 .range_max_m = message.range_max_m};
-    check_scan(place, scan);
-    drop_leapt_scan(log, place, scan.stamp);
-    (void)add_scan(log, place, scan, ranges, sim::kNoLimit);
+    scans.add(place,
+              {.stamp = message.stamp,
+               .beams = static_cast<std::uint32_t>(ranges.size()),
+               .first_angle_rad = sense * message.first_angle_rad,
+               .angle_step_rad = sense * message.angle_step_rad * static_cast<float>(every),
+               .range_min_m = message.range_min_m,
+               .range_max_m = message.range_max_m},
+              ranges, sim::kNoLimit);
   }
+  (void)scans.settle_times(place);
 }
 
-void add_odometry(sim::RecordedLog& log, const std::string& name, const std::vector<OdometryMessage>& odometry) {
+void add_odometry(sim::RecordedLog& log, const std::string& name, const std::vector<OdometryMessage>& messages) {
   sim::LogPlace place{name, 0, "message"};
-  sim::OdometryPoses poses(log);
-  for (const OdometryMessage& message : odometry) {
-    ++place.number;
-    poses.add({message.stamp, sim::sound_pose(place, message.pose), message.twist}, place);
+  sim::LogOdometry odometry(log);
+  for (const OdometryMessage& message : messages) {
+    place.number = message.number;
+    odometry.add({message.stamp, message.pose, message.twist}, place);
   }
+  odometry.settle(place);
 }
 
-/// The frame that the odometry moves, or what robots without one call theirs.
-std::string base_of(const BagContents& found, const std::string& odom_topic) {
-  if (!odom_topic.empty()) {
-    const auto& messages = found.odometry.at(odom_topic);
-    if (!messages.empty() && !messages.front().child_frame.empty()) return messages.front().child_frame;
+/// How long a sweep takes by its messages, unless that is longer than from one scan to the next: then the laser is
+/// taken to spin.
+Duration sweep_of(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& messages) {
+  std::vector<double> sweeps_s;
+  for (const ScanMessage& message : messages) {
+    if (message.range_m.size() > 1)
+      sweeps_s.push_back(static_cast<double>(message.beam_step_s) * static_cast<double>(message.range_m.size() - 1));
   }
-  return found.frames.has("base_footprint") && !found.frames.has("base_link") ? "base_footprint" : "base_link";
+  std::sort(sweeps_s.begin(), sweeps_s.end(),
+            [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
+  const double sweep_s = sweeps_s.empty() ? 0.0 : sweeps_s[sweeps_s.size() / 2];
+  const double rate_hz = log.laser().rate_hz, period_s = rate_hz > 0.0 ? 1.0 / rate_hz : kLongestSweepS;
+  if (!(sweep_s > 0.0)) return log.spinning_sweep();
+  if (sweep_s <= kSamePeriod * period_s && sweep_s < kLongestSweepS) return duration_from_seconds(sweep_s);
+  const Duration taken = log.spinning_sweep();
+  char told[128];
+  std::snprintf(told, sizeof told,
+                ": time_increment says sweeps of %.3f s, scans come every %.3f s: taken to sweep in %.3f s", sweep_s,
+                period_s, to_seconds(taken));
+  log.add_remark(name + told);
+  return taken;
 }
 
 }  // namespace
@@ -159,7 +207,7 @@ std::string base_of(const BagContents& found, const std::string& odom_topic) {
 sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& options) {
   const std::string file = path.string();
   BagContents found;
-  read_bag(path, Collector(file, found));
+  const std::string left_out = read_bag(path, Collector(file, found));
   const std::string scan_topic = choose(file, found.scans, options.scan_topic, "--scan-topic", kScans);
   const std::string odom_topic = choose(file, found.odometry, options.odom_topic, "--odom-topic", kOdometry);
   if (scan_topic.empty()) {
@@ -167,24 +215,27 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
                        "record the laser's scans");
   }
   const std::vector<ScanMessage>& scans = found.scans.at(scan_topic);
-  const auto [mount, source] = mount_of(file, found, base_of(found, odom_topic), scans.front().frame, options);
-  sim::RecordedLog log;
+  sim::RecordedLog log = std::move(found.unreadable);
+  if (!left_out.empty()) log.add_remark(left_out.substr(0, left_out.size() - 1));
+  const std::string scan_name = file + ": " + shown(scan_topic), odom_name = file + ": " + shown(odom_topic);
+  if (scans.empty()) sim::require_scans(log, scan_name, "a laser");
+  const auto [mount, source] = mount_of(file, found, bases_of(found, odom_topic), frame_of(scans), options);
   log.robot_from_laser = mount.robot_from_laser;
-  add_scans(log, file + ": " + scan_topic, scans, mount.upside_down);
-  require_scans(log, file + ": " + scan_topic, "a laser");
+  add_scans(log, scan_name, scans, mount.upside_down);
+  require_scans(log, scan_name, "a laser");
+  sim::fit_beams(log, scan_name);
   if (!odom_topic.empty()) {
-    add_odometry(log, file + ": " + odom_topic, found.odometry.at(odom_topic));
-    compare_times(log, file + ": " + odom_topic);
+    add_odometry(log, odom_name, found.odometry.at(odom_topic));
+    if (!log.odometry.empty()) compare_times(log, odom_name);
   }
-  const double sweep_s =
-      static_cast<double>(scans.front().beam_step_s) * static_cast<double>(scans.front().range_m.size() - 1);
-  log.sweep = sweep_s > 0.0 && sweep_s < 1.0 ? duration_from_seconds(sweep_s) : log.spinning_sweep();
+  log.sweep = sweep_of(log, scan_name, scans);
+  sim::remark_gaps(log, scan_name);
   char at[96];
   const Pose2& p = mount.robot_from_laser;
   std::snprintf(at, sizeof at, "laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
-  log.remark += (log.remark.empty() ? "" : "\n") + file + ": scans of " + shown(scan_topic) +
-                (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " + at + source +
-                ")";
+  log.add_remark(file + ": scans of " + shown(scan_topic) +
+                 (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " + at + source +
+                 ")");
   return log;
 }
 

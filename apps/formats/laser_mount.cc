@@ -13,6 +13,7 @@ constexpr std::size_t kDeepest = 64;  // frames in one another: more is a circle
 }  // namespace
 
 void FrameTree::add(const TransformMessage& transform) {
+  if (!transform.parent_from_child.matrix().allFinite()) return;
   const Edge edge{bare(transform.parent), transform.parent_from_child};
   const auto [known, is_new] = parents_.emplace(bare(transform.child), edge);
   if (is_new) return;

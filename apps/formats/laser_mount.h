@@ -13,7 +13,8 @@ namespace jaywalk::exchange {
 /// Frames by the frame that each lies in, as tf has them: a forest.
 class FrameTree {
  public:
-  /// Names may begin with a slash. What says something else than before makes its frame one that moves.
+  /// What has a NaN says nothing. Names may begin with a slash. What says something else than before makes its frame
+  /// one that moves.
   void add(const TransformMessage& transform);
   [[nodiscard]] bool has(const std::string& frame) const { return parents_.count(bare(frame)) > 0; }
   /// base_from_frame, along the tree; nothing where no way joins them, or one of its frames moves.

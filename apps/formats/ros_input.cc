@@ -1,6 +1,7 @@
 #include "apps/formats/ros_input.h"
 
 #include <cmath>
+#include <limits>
 
 namespace jaywalk::exchange {
 namespace {
@@ -31,7 +32,9 @@ SpatialFrame read_frame(WireReader& in) {
   const double x = in.f64(), y = in.f64(), z = in.f64();
   Eigen::Vector4d xyzw;
   for (int k = 0; k < 4; ++k) xyzw[k] = in.f64();
-  return spatial_frame(x, y, z, xyzw);
+  if (xyzw.allFinite()) return spatial_frame(x, y, z, xyzw);
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  return spatial_frame(kNone, kNone, kNone, {0.0, 0.0, 0.0, 1.0});
 }
 
 Pose2 in_the_plane(const SpatialFrame& frame) {

@@ -20,6 +20,7 @@ struct ScanMessage {
   float beam_step_s = 0.0F;
   float range_min_m = 0.0F, range_max_m = 0.0F;
   std::vector<float> range_m;
+  std::size_t number = 0;  ///< of its topic's messages, from 1
 };
 
 /// nav_msgs/Odometry, its pose and twist in the plane.
@@ -28,6 +29,7 @@ struct OdometryMessage {
   std::string child_frame;
   Pose2 pose;
   Twist2 twist;
+  std::size_t number = 0;  ///< of its topic's messages, from 1
 };
 
 /// One of tf2_msgs/TFMessage.

@@ -6,8 +6,6 @@
 #include <string>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/byte_file.h"
-#include "apps/formats/unpacking.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
@@ -86,7 +84,7 @@ std::map<std::int64_t, Topic> topics_of(const Database& database) {
 
 }  // namespace
 
-void read_sqlite_bag(const std::filesystem::path& file, bool packed, const BagSink& sink) {
+void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink) {
   require_readable(file, file.string() + ": ", "give a recording");
   const Database database(file);
   Database::Rows check(database, "PRAGMA quick_check(1)");
@@ -100,10 +98,8 @@ void read_sqlite_bag(const std::filesystem::path& file, bool packed, const BagSi
                       " is of a topic that the bag does not describe");
     }
     if (!topic->second.cdr) continue;
-    const auto unpacked = packed ? unpack_zstd(messages.bytes(3), kMostRecordBytes) : std::nullopt;
-    if (packed && !unpacked) database.refuse("message " + std::to_string(messages.number(0)) + " does not unpack");
     const Time logged{std::chrono::nanoseconds(messages.number(2))};
-    sink({topic->second.name, topic->second.type, Wire::kCdr, logged, packed ? *unpacked : messages.bytes(3)});
+    sink({topic->second.name, topic->second.type, Wire::kCdr, logged, messages.bytes(3)});
   }
 }
 

@@ -97,19 +97,22 @@ std::string packed(const std::string& method, const std::string& bytes) {
   return out;
 }
 
-std::string scan_bytes(bool ros1, std::int64_t ns, const std::string& frame, std::vector<float> ranges) {
+std::string scan_bytes(bool ros1, std::int64_t ns, const std::string& frame, std::vector<float> ranges,
+                       const MadeFan& fan) {
   Fields out(ros1);
-  out.header(ns, frame).put(0.0F).put(3.14159274F).put(1.57079637F).put(0.0F).put(0.1F).put(0.05F).put(25.0F);
+  out.header(ns, frame).put(0.0F).put(3.14159274F).put(fan.step_rad).put(fan.beam_step_s).put(0.1F);
+  out.put(fan.range_min_m).put(fan.range_max_m);
   out.put(static_cast<std::uint32_t>(ranges.size()));
   for (const float range : ranges) out.put(range);
   return out.put(std::uint32_t{0}).message();
 }
 
-std::string odometry_bytes(bool ros1, std::int64_t ns, double x) {
+std::string odometry_bytes(bool ros1, std::int64_t ns, double x, double v_mps, const std::string& child,
+                           double quaternion_w) {
   Fields out(ros1);
-  out.header(ns, "odom").text("base_link").put(x).put(0.0).put(0.0).put(0.0).put(0.0).put(0.0).put(1.0);
+  out.header(ns, "odom").text(child).put(x).put(0.0).put(0.0).put(0.0).put(0.0).put(0.0).put(quaternion_w);
   for (int k = 0; k < 36; ++k) out.put(0.0);
-  out.put(1.0).put(0.0).put(0.0).put(0.0).put(0.0).put(0.25);
+  out.put(v_mps).put(0.0).put(0.0).put(0.0).put(0.0).put(0.25);
   for (int k = 0; k < 36; ++k) out.put(0.0);
   return out.message();
 }
@@ -136,7 +139,7 @@ std::vector<MadeMessage> made_drive(bool ros1) {
   return drive;
 }
 
-std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method) {
+std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method, bool pack_each) {
   const std::string magic("\x89MCAP0\r\n", 8);
   const auto numbers = numbered(messages);
   std::string records;
@@ -144,7 +147,7 @@ std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string&
     const std::size_t n = numbers.at(m.topic);
     records += mcap_record(3, u16(n) + sized(ros2_name(m.type)) + sized("ros2msg") + sized(""));
     records += mcap_record(4, u16(n) + u16(n) + sized(m.topic) + sized("cdr") + sized(""));
-    records += mcap_record(5, u16(n) + u32(0) + raw(m.ns) + raw(m.ns) + m.bytes);
+    records += mcap_record(5, u16(n) + u32(0) + raw(m.ns) + raw(m.ns) + packed(pack_each ? "zstd" : "", m.bytes));
   }
   const std::string chunk = packed(method, records);
   const std::string data = magic + mcap_record(1, sized("ros2") + sized("made")) +

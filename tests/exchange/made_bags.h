@@ -16,9 +16,14 @@ struct MadeMessage {
 /// `method`: "", "zstd", "lz4", "bz2".
 [[nodiscard]] std::string packed(const std::string& method, const std::string& bytes);
 
-/// Messages of three beams at 0, 90 and 180 degrees, one a tenth of a second from `first_ns` on.
-[[nodiscard]] std::string scan_bytes(bool ros1, std::int64_t ns, const std::string& frame, std::vector<float> ranges);
-[[nodiscard]] std::string odometry_bytes(bool ros1, std::int64_t ns, double x);
+/// What a scan says of its beams: 90 degrees apart from 0 on where nothing else is given.
+struct MadeFan {
+  float step_rad = 1.57079637F, beam_step_s = 0.0F, range_min_m = 0.05F, range_max_m = 25.0F;
+};
+[[nodiscard]] std::string scan_bytes(bool ros1, std::int64_t ns, const std::string& frame, std::vector<float> ranges,
+                                     const MadeFan& fan = {});
+[[nodiscard]] std::string odometry_bytes(bool ros1, std::int64_t ns, double x, double v_mps = 1.0,
+                                         const std::string& child = "base_link", double quaternion_w = 1.0);
 struct MadeFrame {
   std::string parent, child;
   double x = 0.0, y = 0.0;
@@ -29,7 +34,9 @@ struct MadeFrame {
 /// Ten scans and ten poses 0.1 m apart, and the laser 0.2 m ahead of the robot's middle.
 [[nodiscard]] std::vector<MadeMessage> made_drive(bool ros1);
 
-[[nodiscard]] std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method);
+/// `pack_each`: messages packed one by one with zstd, as rosbag2's compression_mode "message" does.
+[[nodiscard]] std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method,
+                                  bool pack_each = false);
 [[nodiscard]] std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method);
 void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messages, bool pack_each);
 

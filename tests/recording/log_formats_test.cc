@@ -65,7 +65,8 @@ TEST_CASE("one stamp far ahead of its time is left out, and those after it are n
     CHECK(log.scans.size() == (ahead == "100.3" ? 5 : 4));
     CHECK(log.range_m.size() == 3 * log.scans.size());
     CHECK(log.scans.back().stamp == time_from_seconds(100.5));
-    CHECK((log.complaint().find("line 4: the one before it is ahead") != std::string::npos) == (ahead != "100.3"));
+    CHECK((log.complaint().find("line 3: its time is ahead of those after it") != std::string::npos) ==
+          (ahead != "100.3"));
   }
   const RecordedLog first = load_scan_odom(scratch.write("scan.txt", "900" + rest + "100.2" + rest + "100.3" + rest));
   CHECK(first.scans.front().stamp == time_from_seconds(100.2));
@@ -140,16 +141,17 @@ TEST_CASE("lines of a wrong length and lines back in time are left out, counted 
   const Scratch scratch;
   const RecordedLog log = load_scan_odom(scratch.write("scan.txt",
                                                        "1.0 0 0.1 0.1 9 2 1 1\n"
+                                                       "1.05 0 0.1 0.1 9 2 1 1\n"
                                                        "1.1 0 0.1 0.1 9 2 1\n"
                                                        "0.9 0 0.1 0.1 9 2 1 1\n"
                                                        "1.2 0 0.1 0.1 9 2 1 1\n"
                                                        "1.2 0 0.1 0.1 9 2 1 1\n"
                                                        "1.3 0 0.1"));
-  CHECK(log.scans.size() == 2);
+  CHECK(log.scans.size() == 3);
   REQUIRE(log.refused.size() == 2);
-  CHECK(log.complaint().find("scan.txt: 2 lines left out, the first is line 2: its number of words") !=
+  CHECK(log.complaint().find("scan.txt: 2 lines left out, the first is line 3: its number of words") !=
         std::string::npos);
-  CHECK(log.complaint().find("2 lines left out, the first is line 3: its time does not grow") != std::string::npos);
+  CHECK(log.complaint().find("2 lines left out, the first is line 4: its time does not grow") != std::string::npos);
 }
 
 TEST_CASE("a line whose n does not count its ranges is left out wherever it stands") {
@@ -179,20 +181,16 @@ TEST_CASE("what is wrong in any other way is refused with file and line") {
   const auto of = [&](const std::string& text) { return refusal(scratch.write("bad.txt", text)); };
   CHECK(of("1.0 0 0.1 0.1 9 2 1 1\n1.1 0 0.1 0.1 9 2 1 1x\n").find("bad.txt:2: '1x' (word 8) is not a number") !=
         std::string::npos);
-  CHECK(of("1.0 0 0 0.1 9 2 1 1\n").find("bad.txt:1: beam angles") != std::string::npos);
-  CHECK(of("1.0 1e30 0.1 0.1 9 2 1 1\n").find("bad.txt:1: beam angles") != std::string::npos);
-  CHECK(of("0 0 0.1 0.1 9 2 1 1\n3600.1 0 0.1 0.1 9 2 1 1\n").find("bad.txt:2: a scan more than an hour") !=
-        std::string::npos);
-  CHECK(of("1.0 1e7 0 0 3.1 9 2 1 1\n1.1 1e7 0 0 3.1 9 2 1 1\n").find("bad.txt:2: a pose that is none") !=
-        std::string::npos);
-  CHECK(of("1.0 0 0.1 9 9 2 1 1\n").find("bad.txt:1: range limits") != std::string::npos);
+  CHECK(of("1.0 0 0 0.1 9 2 1 1\n").find("bad.txt:1: no scan in it: beam angles") != std::string::npos);
+  CHECK(of("1.0 1e30 0.1 0.1 9 2 1 1\n").find("bad.txt:1: no scan in it: beam angles") != std::string::npos);
+  CHECK(of("1.0 0 0.1 9 9 2 1 1\n").find("bad.txt:1: no scan in it: range limits") != std::string::npos);
   CHECK(of("nan 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of nan") != std::string::npos);
   CHECK(of("1e300 0 0.1 0 9 2 1 1\n").find("bad.txt:1: a time of") != std::string::npos);
   CHECK(of("hello world\n").find("bad.txt:1: no scan in it") != std::string::npos);
   CHECK(of("").find("bad.txt: no scan in it") != std::string::npos);
   std::string wide = "1.0 0 0.1 0.1 9 3000";
   for (int i = 0; i < 3000; ++i) wide += " 1";
-  CHECK(of(wide).find("bad.txt:1: 3000 beams") != std::string::npos);
+  CHECK(of(wide).find("bad.txt:1: no scan in it: 3000 beams") != std::string::npos);
   CHECK(of(std::string(2'000'000, '1')).find("over 1 MiB") != std::string::npos);
   CHECK(refusal(scratch.path("missing.txt")).find("no such file") != std::string::npos);
   CHECK(refusal(scratch.folder().string()).find("a folder") != std::string::npos);
@@ -200,6 +198,62 @@ TEST_CASE("what is wrong in any other way is refused with file and line") {
     CHECK_THROWS_AS(load_scan_odom(scratch.write("scan.txt", kTwoScans), scratch.write("odom.txt", odometry)),
                     StartupError);
   }
+}
+
+TEST_CASE("a line that is odd is left out, counted and told, wherever it stands") {
+  const Scratch scratch;
+  const std::string good = " 0 0.1 0.1 9 2 5.5 6.5\n";
+  const std::pair<const char*, const char*> odd[] = {
+      {"10.5 0 0 0.1 9 2 5.5 6.5\n", "beam angles that make no fan"},
+      {"10.5 0 nan 0.1 9 2 5.5 6.5\n", "beam angles that make no fan"},
+      {"10.5 0 0.1 0 0 2 5.5 6.5\n", "range limits that hold nothing"},
+      {"10.5 0 0.1 -0.01 9 2 5.5 6.5\n", "range limits that hold nothing"},
+      {"3.5 0 0.1 0.1 9 2 5.5 6.5\n", "its time"},
+      {"3617 0 0.1 0.1 9 2 5.5 6.5\n", "its time is over an hour from the others'"}};
+  for (const auto& [line, cause] : odd) {
+    for (int before = 0; before <= 4; ++before) {
+      std::string text;
+      for (int k = 0; k <= 4; ++k) text += (k == before ? line : "") + std::to_string(10 + k) + good;
+      const RecordedLog log = load_scan_odom(scratch.write("scan.txt", text));
+      INFO(text << log.complaint());
+      CHECK((log.scans.size() == 5 || (std::string(cause) == "its time" && log.scans.size() == 6)));
+      CHECK((log.scans.size() == 6 ||
+             log.complaint().find("1 line left out, the first is line " + std::to_string(before + 1) + ": " + cause) !=
+                 std::string::npos));
+    }
+  }
+  const RecordedLog log =
+      load_scan_odom(scratch.write("scan.txt", kTwoScans),
+                     scratch.write("odom.txt", "100.4 1e256 0 0 0 0\n100.5 0 0 0 nan 0\n100.6 1 2 0.5 0.25 0\n"));
+  CHECK(log.odometry.size() == 1);
+  CHECK(log.complaint().find("line 1: a pose that is none") != std::string::npos);
+  CHECK(log.complaint().find("line 2: a speed that is none") != std::string::npos);
+}
+
+TEST_CASE("scans whose number of beams changes get the median one's, each from its own directions") {
+  const Scratch scratch;
+  // Five beams 0.1 rad apart, then nine 0.05 apart over the same fan, then three 0.2 apart, then two of the first half.
+  const RecordedLog log = load_scan_odom(scratch.write("scan.txt",
+                                                       "1.0 -0.2 0.1 0.1 9 5 1 2 3 4 5\n"
+                                                       "1.1 -0.2 0.05 0.1 9 9 1 8 2 1.5 3 8 4 nan inf\n"
+                                                       "1.2 -0.2 0.2 0.1 9 3 1 3 5\n"
+                                                       "1.3 -0.2 0.1 0.1 9 2 6 7\n"
+                                                       "1.4 -0.2 0.1 0.1 9 5 1 2 3 4 5\n"));
+  REQUIRE(log.scans.size() == 5);
+  for (const RecordedScan& scan : log.scans) CHECK(scan.beams == 5);
+  REQUIRE(log.range_m.size() == 25);
+  const std::vector<float> fine(log.range_m.begin() + 5, log.range_m.begin() + 10);
+  CHECK(fine[0] == 1.0F);
+  CHECK(std::min(fine[1], fine[2]) == 1.5F);  // the thin thing at -0.05 rad is on one of its neighbours
+  CHECK(fine[3] == 4.0F);
+  CHECK(std::isinf(fine[4]));
+  CHECK(log.range_m[10] == 1.0F);
+  CHECK(log.range_m[12] == 3.0F);
+  CHECK((log.range_m[11] == 1.0F || log.range_m[11] == 3.0F));  // no beam of its own: one beside it
+  CHECK(log.range_m[15] == 6.0F);
+  CHECK(log.range_m[16] == 7.0F);
+  CHECK(std::isnan(log.range_m[17]));
+  CHECK(log.complaint().find("scans of 2 to 9 beams, each read as 5") != std::string::npos);
 }
 
 TEST_CASE("a range of a kilometre is nothing, whatever the limits say") {
@@ -222,74 +276,6 @@ TEST_CASE("a compressed recording reads like a plain one, and a cut one is refus
   const std::string bytes = scratch.read("scan.txt.gz");
   CHECK(refusal(scratch.write("cut.gz", bytes.substr(0, bytes.size() / 2))).find("damaged or cut") !=
         std::string::npos);
-}
-
-TEST_CASE("CARMEN beams of 180 and 181 are one degree apart and begin at the right") {
-  const double degree = kPi / 180;
-  CHECK(carmen_fan(180, kPi).first_angle_rad == Approx(-90 * degree));
-  CHECK(carmen_fan(180, kPi).angle_step_rad == Approx(degree));
-  CHECK(carmen_fan(181, kPi).angle_step_rad == Approx(degree));
-  CHECK(carmen_fan(360, kPi).angle_step_rad == Approx(degree / 2));
-}
-
-TEST_CASE(
-    "where scans lie beside what the ODOM lines say, those are of another frame and left out; an arc is not beside") {
-  const Scratch scratch;
-  // Half a metre a scan straight ahead, an ODOM line half way; from the 18th scan on each is `beside_m` off, to the
-  // left.
-  const auto log_with = [&](double beside_m, int from) {
-    std::string text;
-    for (int k = 1; k <= 20; ++k) {
-      const std::string x = std::to_string(0.5 * k), half = std::to_string(0.5 * k - 0.25), t = std::to_string(k);
-      const std::string y = std::to_string(k >= from ? beside_m * (k - from + 1) : 0.0);
-      const std::string before = std::to_string(k > from ? beside_m * (k - from) : 0.0);
-      text += "ODOM " + half + " " + before + " 0 0 0 0 " + std::to_string(k - 0.5) + " host 1\n";
-      text += "FLASER 2 1 1 " + x + " " + y + " 0 " + x + " " + y + " 0 " + t + " host " + t + "\n";
-    }
-    text += "ODOM 0 0 0 0 0 0 0.5 host 1\n";  // back in time
-    const RecordedLog log = load_carmen(scratch.write("beside.carmen", text));
-    const bool all_left_out = log.complaint().find("all ODOM lines are left out") != std::string::npos;
-    const bool one = log.complaint().find("1 line left out, the first is line 41: an ODOM line") != std::string::npos;
-    CHECK(all_left_out != one);
-    CHECK(all_left_out == (log.odometry.size() == 20));
-    return log.odometry.size();
-  };
-  CHECK(log_with(0.03, 18) == 20);  // three of 20 scans
-  CHECK(log_with(0.03, 19) == 40);  // two: one in ten
-  CHECK(log_with(0.005, 1) == 40);  // no more than wheels may slip
-  // A quarter circle of 1 m radius in one step: (1, 1, 90 degrees) lies on its mean heading.
-  const std::string arc = "ODOM 0 0 0 0 0 0 1 host 1\nFLASER 2 1 1 1 1 1.5707963 1 1 1.5707963 2 host 2\n";
-  CHECK(load_carmen(scratch.write("arc.carmen", arc)).odometry.size() == 2);
-}
-
-TEST_CASE("CARMEN lines become scans and odometry, the FLASER pose before ODOM") {
-  // The ODOM line of 2.0 is contradicted by the FLASER line of 2.0, the one of time 0 goes back.
-  const Scratch scratch;
-  const RecordedLog log = load_carmen(scratch.write("log.carmen",
-                                                    "# comment\n"
-                                                    "PARAM robot_length 0.47 1 merci 1\n"
-                                                    "ODOM 0 0 0 0 0 0 1.5 host 1.5\n"
-                                                    "ODOM 5 5 0 0 0 0 2.0 host 2.0\n"
-                                                    "FLASER 4 1.0 81.91 50 3 9 9 9 1 0.5 0.25 2.0 host 2.0\n"
-                                                    "ODOM 1 0.5 0.25 0 0 0 0 host 0\n"
-                                                    "ODOM 2 0.5 0.25 0 0 0 2.5 host 2.5\n"));
-  REQUIRE(log.scans.size() == 1);
-  CHECK(log.range_m[0] == 1.0F);
-  CHECK(std::isinf(log.range_m[1]));
-  CHECK(std::isinf(log.range_m[2]));
-  REQUIRE(log.odometry.size() == 3);
-  CHECK(log.odometry[1].pose == Pose2{1, 0.5, 0.25});
-  CHECK(log.odometry[1].stamp == time_from_seconds(2.0));
-  REQUIRE(log.refused.size() == 1);
-  CHECK(log.refused[0].first_line == 6);
-}
-
-TEST_CASE("a CARMEN log without scans, or with damaged ones, is refused") {
-  const Scratch scratch;
-  CHECK_THROWS_AS(load_carmen(scratch.write("a", "ODOM 0 0 0 0 0 0 1.5 host 1.5\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("b", "FLASER 2 1 1 0 0 0 0 x 0 2.0 host 2.0\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("c", "FLASER 0 0 0 0 0 0 0 2.0 host 2.0\n")), StartupError);
-  CHECK_THROWS_AS(load_carmen(scratch.write("d", "FLASER\n")), StartupError);
 }
 
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)

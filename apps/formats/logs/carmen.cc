@@ -1,7 +1,13 @@
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstdio>
+#include <optional>
 #include <utility>
+#include <vector>
 
+#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/logs/scan_lines.h"
 #include "hal/types/trig.h"
@@ -13,8 +19,6 @@ constexpr double kApertureRad = kPi;
 constexpr double kNothingFromM = 50.0;  ///< SICK's codes are 81.83 and 81.91, others write 50
 constexpr float kRangeMinM = 0.02F;
 
-// FLASER n r1..rn x y theta odom_x odom_y odom_theta t host t
-constexpr std::size_t kLaserRanges = 2, kLaserTail = 9, kOdomPoseInTail = 3, kTimeInTail = 6;
 // ODOM x y theta tv rv accel t host t
 constexpr std::size_t kOdomWords = 10, kOdomTime = 7;
 
@@ -45,51 +49,143 @@ struct LaserPoses {
   }
 };
 
-void read_laser(RecordedLog& log, LaserPoses& poses, const LineFile& file) {
-  const std::size_t words = file.words().size();
-  const std::size_t beams = words > 1 ? file.count(1, 1'000'000) : 0;
-  if (words != kLaserRanges + beams + kLaserTail) {
-    log.refuse(file.place(), kWrongLength);
-    return;
-  }
-  if (beams == 0 || beams > kMaxBeams) {
-    file.refuse(std::to_string(beams) + " beams", "give scans of 1 to " + std::to_string(kMaxBeams) + " beams");
-  }
-  const std::size_t tail = kLaserRanges + beams;
-  const BeamFan fan = carmen_fan(beams, kApertureRad);
-  RecordedScan scan;
-  scan.stamp = time_from_seconds(file.seconds(tail + kTimeInTail));
-  scan.beams = static_cast<std::uint32_t>(beams);
-  scan.first_angle_rad = fan.first_angle_rad;
-  scan.angle_step_rad = fan.angle_step_rad;
-  scan.range_min_m = kRangeMinM;
-  scan.range_max_m = static_cast<float>(kNothingFromM);
-  if (!add_scan(log, file, scan, kLaserRanges, kNothingFromM)) return;
-  while (!log.odometry.empty() && log.odometry.back().stamp >= scan.stamp) log.odometry.pop_back();
-  const OdometryPose pose{scan.stamp, pose_at(file, tail + kOdomPoseInTail), std::nullopt};
-  poses.add(log.odometry, pose);
-  log.odometry.push_back(pose);
-}
+/// Where a laser message has what. FLASER's beams are CARMEN's old ones over half a turn, the newer messages say
+/// theirs.
+struct LaserMessage {
+  const char* name;
+  std::size_t count;  ///< the word that says how many ranges follow it
+  std::size_t pose;   ///< the robot's, by its odometry, in words behind ranges and remissions; 0: it has none
+  std::size_t time;   ///< in words behind those
+  std::size_t tail;   ///< how many words are behind those
+  bool tells_beams;   ///< kind, first angle, field of view, step, longest range, accuracy, remission mode come first
+};
+// FLASER n r.. x y theta odom_x odom_y odom_theta t host t
+// ROBOTLASER1 (7 words) n r.. m remissions.. laser_pose(3) robot_pose(3) tv rv (3 distances) t host t
+// RAWLASER1 (7 words) n r.. m remissions.. t host t
+constexpr std::array<LaserMessage, 3> kLasers{
+    {{"ROBOTLASER1", 8, 3, 11, 14, true}, {"FLASER", 1, 3, 6, 9, false}, {"RAWLASER1", 8, 0, 0, 3, true}}};
+constexpr double kSameMountM = 0.02, kSameMountRad = 0.01;
+constexpr std::size_t kLaserPose = 0;  // of ROBOTLASER1, likewise: in the frame of the robot's
 
-void read_odometry(RecordedLog& log, const LineFile& file) {
-  if (file.words().size() != kOdomWords) {
-    log.refuse(file.place(), kWrongLength);
-    return;
-  }
-  const Time stamp = time_from_seconds(file.seconds(kOdomTime));
-  if (!log.odometry.empty() && stamp <= log.odometry.back().stamp) {
-    log.refuse(file.place(), kOdomStands);
-    return;
-  }
-  log.odometry.push_back({stamp, pose_at(file, 1), std::nullopt});
-}
+/// What a log says at one place: a scan with the robot's pose, or a pose between scans.
+struct Event {
+  OdometryPose pose;
+  std::size_t line = 0;
+  bool of_scan = false;
+};
 
-/// Those whose time does not grow are no matter then.
-void leave_out_odometry(RecordedLog& log, LaserPoses& poses, const std::string& file) {
-  log.odometry = std::move(poses.poses);
-  std::erase_if(log.refused, [](const RefusedLines& r) { return r.cause == kOdomStands; });
-  log.remark =
-      file + ": its scans' poses lie beside its ODOM lines, as if corrected afterwards: all ODOM lines are left out";
+/// The messages of one log. The laser's are those of one kind: logs have the same scans in several.
+class CarmenReader {
+ public:
+  CarmenReader(RecordedLog& log, const LaserMessage& laser) : log_(log), laser_(laser), scans_(log) {}
+
+  void read(const LineFile& file) {
+    if (file.words().front() == laser_.name) read_laser(file);
+    if (file.words().front() == "ODOM") read_odometry(file);
+  }
+  /// Odometry, and what corrections left of it, of the scans that stay.
+  void settle(const LogPlace& place) {
+    const std::vector<bool> stays = scans_.settle_times(place);
+    if (log_.scans.empty()) return;
+    if (mount_ && mount_is_fixed_ && log_.robot_from_laser == Pose2{}) use_mount(place.file);
+    std::size_t scan = 0;
+    for (const Event& event : events_) {
+      if (!event.of_scan) {
+        append_between(event, {place.file, event.line});
+      } else if (stays[scan++] && laser_.pose > 0) {
+        append_scan(event.pose);
+      }
+    }
+    if (poses_.were_corrected()) leave_out_odometry(place.file);
+  }
+
+ private:
+  void read_laser(const LineFile& file) {
+    const std::size_t words = file.words().size(), first = laser_.count + 1;
+    const std::size_t beams = words > laser_.count ? file.count(laser_.count, 1'000'000) : 0;
+    std::size_t tail = first + beams;
+    if (laser_.tells_beams && words > tail) tail += 1 + file.count(tail, 1'000'000);  // remissions behind their number
+    if (words != tail + laser_.tail) return log_.refuse(file.place(), kWrongLength);
+    const RecordedScan scan = scan_of(file, beams, tail);
+    const bool tells_limit = laser_.tells_beams && scan.range_max_m < kNothingFromM;
+    const double nothing_from_m = tells_limit ? static_cast<double>(scan.range_max_m) : kNothingFromM;
+    std::optional<Pose2> pose = Pose2{};
+    if (laser_.pose > 0) pose = sound_pose(pose_at(file, tail + laser_.pose));
+    if (!pose) return log_.refuse(file.place(), kNoPose);
+    if (!add_scan(scans_, file, scan, first, nothing_from_m)) return;
+    if (laser_.tells_beams && laser_.pose > 0) see_mount(inverse(*pose) * pose_at(file, tail + kLaserPose));
+    events_.push_back({{scan.stamp, *pose, std::nullopt}, file.line(), true});
+  }
+  void see_mount(const Pose2& mount) {
+    if (!mount_) mount_ = mount;
+    const Pose2 apart = inverse(*mount_) * mount;
+    mount_is_fixed_ =
+        mount_is_fixed_ && distance(apart.position(), {}) < kSameMountM && std::fabs(apart.heading) < kSameMountRad;
+  }
+  void use_mount(const std::string& file) {
+    log_.robot_from_laser = *mount_;
+    char at[80];
+    std::snprintf(at, sizeof at, ": laser at %.3f,%.3f,%.4f, as the log's poses have it", mount_->x, mount_->y,
+                  mount_->heading);
+    log_.add_remark(file + at);
+  }
+  RecordedScan scan_of(const LineFile& file, std::size_t beams, std::size_t tail) const {
+    RecordedScan scan;
+    scan.stamp = time_from_seconds(file.seconds(tail + laser_.time));
+    scan.beams = static_cast<std::uint32_t>(beams);
+    scan.range_min_m = kRangeMinM;
+    scan.range_max_m = static_cast<float>(kNothingFromM);
+    const BeamFan fan = carmen_fan(beams, kApertureRad);
+    scan.first_angle_rad = laser_.tells_beams ? static_cast<float>(file.number(2)) : fan.first_angle_rad;
+    scan.angle_step_rad = laser_.tells_beams ? static_cast<float>(file.number(4)) : fan.angle_step_rad;
+    if (laser_.tells_beams) scan.range_max_m = static_cast<float>(file.number(5));
+    return scan;
+  }
+  void read_odometry(const LineFile& file) {
+    if (file.words().size() != kOdomWords) return log_.refuse(file.place(), kWrongLength);
+    const std::optional<Pose2> pose = sound_pose(pose_at(file, 1));
+    if (!pose) return log_.refuse(file.place(), kNoPose);
+    events_.push_back({{time_from_seconds(file.seconds(kOdomTime)), *pose, std::nullopt}, file.line(), false});
+  }
+  void append_scan(const OdometryPose& pose) {
+    while (!log_.odometry.empty() && log_.odometry.back().stamp >= pose.stamp) log_.odometry.pop_back();
+    poses_.add(log_.odometry, pose);
+    log_.odometry.push_back(pose);
+  }
+  void append_between(const Event& event, const LogPlace& place) {
+    const Time stamp = event.pose.stamp;
+    if (stamp + kOtherClockFrom < log_.scans.front().stamp || stamp - kOtherClockFrom > log_.scans.back().stamp)
+      return log_.refuse(place, kOtherClock);
+    if (!log_.odometry.empty() && stamp <= log_.odometry.back().stamp) return log_.refuse(place, kOdomStands);
+    log_.odometry.push_back(event.pose);
+  }
+  /// Those whose time does not grow are no matter then.
+  void leave_out_odometry(const std::string& file) {
+    log_.odometry = std::move(poses_.poses);
+    std::erase_if(log_.refused, [](const RefusedLines& r) { return r.cause == kOdomStands; });
+    log_.add_remark(
+        file + ": its scans' poses lie beside its ODOM lines, as if corrected afterwards: all ODOM lines are left out");
+  }
+
+  RecordedLog& log_;
+  const LaserMessage& laser_;
+  LogScans scans_;
+  LaserPoses poses_;
+  std::vector<Event> events_;
+  std::optional<Pose2> mount_;  ///< of the laser, by the poses of both
+  bool mount_is_fixed_ = true;  ///< not so where one of them was corrected afterwards
+};
+
+/// The kind of laser message in the log that tells most; FLASER where there is none.
+const LaserMessage& laser_of(const std::filesystem::path& path) {
+  std::array<bool, kLasers.size()> has{};
+  LineFile file(path);
+  while (file.next()) {
+    for (std::size_t k = 0; k < kLasers.size(); ++k) has[k] = has[k] || file.words().front() == kLasers[k].name;
+    if (has.front()) break;
+  }
+  const auto* const found = std::find(has.begin(), has.end(), true);
+  return kLasers[found == has.end() ? 1 : static_cast<std::size_t>(found - has.begin())];
 }
 
 }  // namespace
@@ -97,14 +193,13 @@ void leave_out_odometry(RecordedLog& log, LaserPoses& poses, const std::string& 
 RecordedLog load_carmen(const std::filesystem::path& path, const Pose2& robot_from_laser) {
   RecordedLog log;
   log.robot_from_laser = robot_from_laser;
+  CarmenReader reader(log, laser_of(path));
   LineFile file(path);
-  LaserPoses poses;
-  while (file.next()) {
-    if (file.words().front() == "FLASER") read_laser(log, poses, file);
-    if (file.words().front() == "ODOM") read_odometry(log, file);
-  }
-  require_scans(log, file.name(), "CARMEN messages, FLASER among them");
-  if (poses.were_corrected()) leave_out_odometry(log, poses, file.name());
+  while (file.next()) reader.read(file);
+  reader.settle(file.place());
+  require_scans(log, file.name(), "CARMEN messages, FLASER, ROBOTLASER1 or RAWLASER1 among them");
+  fit_beams(log, file.name());
+  remark_gaps(log, file.name());
   return log;
 }
 

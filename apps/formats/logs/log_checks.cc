@@ -5,13 +5,12 @@
 #include <cmath>
 #include <cstdio>
 
+#include "apps/formats/logs/log_times.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 namespace {
 
-constexpr Duration kLongestGap =
-    std::chrono::hours(1);                 // a tick lasts 20 ms: a clock set right would be replayed for ever
 constexpr double kFarthestRange = 1000.0;  // m
 constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
 constexpr std::size_t kLeastFar = 30;      // ranges: fewer are chance
@@ -20,94 +19,157 @@ constexpr float kTurn = static_cast<float>(2.0 * kPi);
 constexpr double kFastest = 1000.0;                     // m/s, rad/s
 constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
 constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
-constexpr Duration kLeap = std::chrono::seconds(1);
+constexpr double kGapS = 1.0, kGapPeriods = 5.0;
 
-/// Whether the last stamp stands alone, more than a second ahead of those before and after it.
-template <class Stamped>
-bool last_leapt(const std::vector<Stamped>& list, Time now) {
-  if (list.empty() || list.back().stamp - now <= kLeap) return false;
-  return list.size() < 2 || now > list[list.size() - 2].stamp;
+/// Why a scan makes no fan; empty where it does.
+std::string fault_of(const RecordedScan& scan) {
+  if (scan.beams == 0) return "it is empty";
+  if (scan.beams > kMaxBeams) return std::to_string(scan.beams) + " beams, over " + std::to_string(kMaxBeams);
+  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
+  if (!fan || scan.angle_step_rad == 0.0F) return "beam angles that make no fan";
+  const bool limits = scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F;
+  return limits ? "" : "range limits that hold nothing";
 }
 
 }  // namespace
 
-void check_scan(const LogPlace& place, const RecordedScan& scan) {
-  if (scan.beams == 0 || scan.beams > kMaxBeams) {
-    place.refuse(std::to_string(scan.beams) + " beams",
-                 "give scans of 1 to " + std::to_string(kMaxBeams) + " beams, or leave some out");
-  }
-  const bool fan = std::fabs(scan.first_angle_rad) <= kTurn && std::fabs(scan.angle_step_rad) <= kTurn;
-  if (!fan || scan.angle_step_rad == 0.0F) place.refuse("beam angles that make no fan", "give angles in radians");
-  if (!(scan.range_max_m > scan.range_min_m && scan.range_min_m >= 0.0F)) {
-    place.refuse("range limits that hold nothing", "give 0 <= range_min < range_max, in metres");
-  }
-}
-
-void drop_leapt_scan(RecordedLog& log, const LogPlace& place, Time now) {
-  if (!last_leapt(log.scans, now)) return;
-  log.range_m.resize(log.scans.back().first_range);
-  log.scans.pop_back();
-  log.refuse(place, kTimeLeapt);
-}
-
-bool add_scan(RecordedLog& log, const LogPlace& place, RecordedScan scan, std::span<const double> ranges,
-              double nothing_from_m) {
-  if (!log.scans.empty() && scan.stamp <= log.scans.back().stamp) {
-    log.refuse(place, kTimeStands);
+bool LogScans::add(const LogPlace& place, RecordedScan scan, std::span<const double> ranges, double nothing_from_m) {
+  if (const std::string fault = fault_of(scan); !fault.empty()) {
+    log_.refuse(place, fault);
     return false;
-  }
-  if (!log.scans.empty() && scan.stamp - log.scans.back().stamp > kLongestGap) {
-    place.refuse("a scan more than an hour after the one before", "cut the recording here");
   }
   nothing_from_m = std::min(nothing_from_m, kFarthestRange);
   scan.range_max_m = std::min(scan.range_max_m, static_cast<float>(kFarthestRange));
-  scan.first_range = log.range_m.size();
+  scan.first_range = log_.range_m.size();
   double far = 0.0;  // the last of them
   for (const double range : ranges) {
     if (std::isfinite(range) && range > kFarForRobots) {
-      if (far > 0.0 && std::fabs(range - far) > 0.5) ++log.far_ranges;
+      if (far > 0.0 && std::fabs(range - far) > 0.5) ++log_.far_ranges;
       far = range;
     }
-    log.range_m.push_back(static_cast<float>(range >= nothing_from_m ? kNoLimit : range));
+    log_.range_m.push_back(static_cast<float>(range >= nothing_from_m ? kNoLimit : range));
   }
-  log.scans.push_back(scan);
+  log_.scans.push_back(scan);
+  numbers_.push_back(place.number);
   return true;
+}
+
+std::vector<bool> LogScans::settle_times(LogPlace place) {
+  std::vector<Time> stamps;
+  for (const RecordedScan& scan : log_.scans) stamps.push_back(scan.stamp);
+  const std::vector<const char*> causes = judge_times(stamps);
+  std::vector<bool> stays;
+  std::vector<float> ranges;
+  for (std::size_t k = 0; k < causes.size(); ++k) {
+    stays.push_back(causes[k] == nullptr);
+    RecordedScan& scan = log_.scans[k];
+    if (stays.back()) {
+      const auto from = log_.range_m.begin() + static_cast<std::ptrdiff_t>(scan.first_range);
+      scan.first_range = ranges.size();
+      ranges.insert(ranges.end(), from, from + scan.beams);
+    } else {
+      place.number = numbers_[k];
+      log_.refuse(place, causes[k]);
+    }
+  }
+  keep(log_.scans, stays);
+  log_.range_m = std::move(ranges);
+  return stays;
 }
 
 void require_scans(const RecordedLog& log, const std::string& file, const std::string& expected) {
   if (log.far_ranges >= kLeastFar && 3 * log.far_ranges > log.range_m.size())
     throw StartupError(file + ": a third of its ranges are over 100 m", "give metres: millimetres / 1000");
   if (!log.scans.empty()) return;
-  const std::string place = log.refused.empty() ? file : file + ":" + std::to_string(log.refused.front().first_line);
-  throw StartupError(place + ": no scan in it", "give a file of " + expected);
+  if (log.refused.empty()) throw StartupError(file + ": no scan in it", "give a file of " + expected);
+  const RefusedLines& first = log.refused.front();
+  LogPlace{first.file, first.first_line, first.unit}.refuse("no scan in it: " + first.cause,
+                                                            "give a file of " + expected);
 }
 
-Pose2 sound_pose(const LogPlace& place, const Pose2& pose) {
+void remark_gaps(RecordedLog& log, const std::string& file) {
+  constexpr std::size_t kMostTold = 8;
+  const double least_s = std::max(kGapS, kGapPeriods / std::max(log.laser().rate_hz, 1e-3));
+  std::string told;
+  std::size_t gaps = 0;
+  for (std::size_t k = 1; k < log.scans.size(); ++k) {
+    const double gap_s = to_seconds(log.scans[k].stamp - log.scans[k - 1].stamp);
+    if (gap_s < least_s || ++gaps > kMostTold) continue;
+    char text[64];
+    std::snprintf(text, sizeof text, "%s%.1f s from %.1f s on", told.empty() ? "" : ", ", gap_s,
+                  to_seconds(log.scans[k - 1].stamp - log.scans.front().stamp));
+    told += text;
+  }
+  if (gaps > kMostTold) told += " and " + std::to_string(gaps - kMostTold) + " more";
+  if (gaps > 0) log.add_remark(file + ": no scans for " + told);
+}
+
+std::optional<Pose2> sound_pose(const Pose2& pose) {
   const bool near = std::fabs(pose.x) <= kFarthestPlace && std::fabs(pose.y) <= kFarthestPlace;
-  if (!near || !(std::fabs(pose.heading) < 1e4)) place.refuse("a pose that is none", "give metres and radians");
-  return {pose.x, pose.y, wrap_angle(pose.heading)};
+  if (!near || !(std::fabs(pose.heading) < 1e4)) return std::nullopt;
+  return Pose2{pose.x, pose.y, wrap_angle(pose.heading)};
 }
 
-void OdometryPoses::add(const OdometryPose& said, const LogPlace& place) {
+void LogOdometry::add(const OdometryPose& said, const LogPlace& place) {
+  const std::optional<Pose2> pose = sound_pose(said.pose);
+  if (!pose) return log_.refuse(place, kNoPose);
   const Twist2 twist = said.twist.value_or(Twist2{});
-  if (!(std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)) {
-    place.refuse("a speed that is none", "give m/s and rad/s, or delete the " + place.unit);
+  if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest) {
+    said_.push_back({{said.stamp, *pose, said.twist}, place.number});
+  } else {
+    without_speed_.push_back({{said.stamp, *pose, std::nullopt}, place.number});
   }
-  if (last_leapt(log_.odometry, said.stamp)) {
-    log_.odometry.pop_back();
-    log_.refuse(place, kTimeLeapt);
+}
+
+void LogOdometry::settle(LogPlace place) {
+  if (said_.empty()) std::swap(said_, without_speed_);
+  for (const Said& said : without_speed_) {
+    place.number = said.number;
+    log_.refuse(place, "a speed that is none");
   }
-  if (!log_.odometry.empty() && said.stamp <= log_.odometry.back().stamp) {
-    log_.refuse(place, kTimeStands);
-  } else if (!log_.odometry.empty() && jumps(log_.odometry.back(), said)) {
+  leave_out_distant_times(place);
+  std::vector<Time> stamps;
+  for (const Said& said : said_) stamps.push_back(said.pose.stamp);
+  const std::vector<const char*> causes = judge_times(stamps);
+  for (std::size_t k = 0; k < said_.size(); ++k) {
+    place.number = said_[k].number;
+    if (causes[k] == nullptr) append(said_[k].pose, place);
+    if (causes[k] != nullptr) log_.refuse(place, causes[k]);
+  }
+  if (!log_.odometry.empty()) return;
+  for (const RefusedLines& refused : log_.refused) {
+    if (refused.file == place.file)
+      LogPlace{refused.file, refused.first_line, refused.unit}.refuse("no odometry in it: " + refused.cause,
+                                                                      "give other odometry, or the scans alone");
+  }
+}
+
+/// Unless all are: then the clocks were never set by one another, which compare_times tells.
+void LogOdometry::leave_out_distant_times(const LogPlace& place) {
+  const auto is_near = [&](const Said& said) {
+    return said.pose.stamp + kOtherClockFrom >= log_.scans.front().stamp &&
+           said.pose.stamp - kOtherClockFrom <= log_.scans.back().stamp;
+  };
+  if (std::none_of(said_.begin(), said_.end(), is_near)) return;
+  LogPlace at = place;
+  for (const Said& said : said_) {
+    at.number = said.number;
+    if (!is_near(said)) log_.refuse(at, kOtherClock);
+  }
+  std::erase_if(said_, [&](const Said& said) { return !is_near(said); });
+}
+
+void LogOdometry::append(OdometryPose said, const LogPlace& place) {
+  if (!log_.odometry.empty() && jumps(log_.odometry.back(), said)) {
     here_from_said_ = log_.odometry.back().pose * inverse(said.pose);
     log_.refuse(place, "it jumps farther than robots drive: taken to begin anew there");
   } else {
-    log_.odometry.push_back({said.stamp, here_from_said_ * said.pose, said.twist});
+    said.pose = here_from_said_ * said.pose;
+    log_.odometry.push_back(said);
   }
 }
 
-bool OdometryPoses::jumps(const OdometryPose& last, const OdometryPose& said) const {
+bool LogOdometry::jumps(const OdometryPose& last, const OdometryPose& said) const {
   const double drives_m = kJumpM + kFastestDriveMps * to_seconds(said.stamp - last.stamp);
   return distance((here_from_said_ * said.pose).position(), last.pose.position()) > drives_m;
 }
@@ -124,7 +186,7 @@ void compare_times(RecordedLog& log, const std::string& odometry_name) {
   if (without_s < kMostWithoutS) return;
   char text[80];
   std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
-  log.remark = odometry_name + text;
+  log.add_remark(odometry_name + text);
 }
 
 }  // namespace jaywalk::sim

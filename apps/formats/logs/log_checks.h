@@ -1,49 +1,77 @@
 #pragma once
 // What every reader of recordings checks before it believes a scan or a pose.
 #include <limits>
+#include <optional>
 #include <span>
 #include <string>
+#include <vector>
 
 #include "apps/formats/logs/recorded_log.h"
 
 namespace jaywalk::sim {
 
-inline constexpr const char* kTimeStands = "its time does not grow";
-inline constexpr const char* kTimeLeapt = "the one before it is ahead of its time";
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Throws StartupError where the scan's beams, angles or limits make no fan.
-void check_scan(const LogPlace& place, const RecordedScan& scan);
+/// Scans in the order of recording. Those that make no fan are left out and counted at once, those whose time is not of
+/// one clock that runs (judge_times) at the end.
+class LogScans {
+ public:
+  explicit LogScans(RecordedLog& log) : log_(log) {}
 
-/// Takes the last scan back where its stamp alone is more than a second ahead of those before and after it.
-void drop_leapt_scan(RecordedLog& log, const LogPlace& place, Time now);
+  /// Appends `ranges` (m, one a beam) and the scan itself. Readings of `nothing_from_m`, or 1 km, and over become
+  /// infinite. False where it was left out.
+  bool add(const LogPlace& place, RecordedScan scan, std::span<const double> ranges, double nothing_from_m);
+  /// Leaves out those of wrong times: for each that was added whether it stays. `place`: theirs, with any number.
+  std::vector<bool> settle_times(LogPlace place);
 
-/// Appends `ranges` (m, one a beam) and the scan itself, unless its time does not grow. Readings of `nothing_from_m`,
-/// or 1 km, and over become infinite. False when refused. Throws StartupError for a scan more than an hour after the
-/// one before.
-bool add_scan(RecordedLog& log, const LogPlace& place, RecordedScan scan, std::span<const double> ranges,
-              double nothing_from_m);
+ private:
+  RecordedLog& log_;
+  std::vector<std::size_t> numbers_;  ///< where each stands
+};
 
-/// Throws StartupError where no scan was read, naming the first line of `file` that was refused, and where a third of
+/// Removes of `list` what does not stay.
+template <class Item>
+void keep(std::vector<Item>& list, const std::vector<bool>& stays) {
+  std::size_t kept = 0;
+  for (std::size_t k = 0; k < list.size(); ++k)
+    if (stays[k]) list[kept++] = list[k];
+  list.resize(kept);
+}
+
+/// Throws StartupError where no scan was read, naming the first place that was refused and why, and where a third of
 /// the ranges are over 100 m.
 void require_scans(const RecordedLog& log, const std::string& file, const std::string& expected);
 
-/// `pose`, its heading wrapped. Throws StartupError when it is NaN or lies beyond 1000 km.
-[[nodiscard]] Pose2 sound_pose(const LogPlace& place, const Pose2& pose);
+/// Gaps between scans, of over a second and five of their periods: the remark tells each.
+void remark_gaps(RecordedLog& log, const std::string& file);
 
-/// Odometry that may begin anew on its way.
-class OdometryPoses {
+/// `pose`, its heading wrapped. Nothing where it is NaN or lies beyond 1000 km.
+[[nodiscard]] std::optional<Pose2> sound_pose(const Pose2& pose);
+inline constexpr const char* kNoPose = "a pose that is none";
+
+/// Odometry that may begin anew on its way, in the order of recording; the scans are known.
+class LogOdometry {
  public:
-  explicit OdometryPoses(RecordedLog& log) : log_(log) {}
+  explicit LogOdometry(RecordedLog& log) : log_(log) {}
 
-  /// A pose as the recording says it. One whose time does not grow is left out and counted; one that lies farther than
-  /// a robot drives begins anew there. Throws StartupError for a speed that is none.
+  /// A pose as the recording says it. One that is none is left out and counted, so is one with a speed that is none.
   void add(const OdometryPose& said, const LogPlace& place);
+  /// Appends to the log's those whose times are of one clock that runs, within an hour of the scans; one that lies
+  /// farther than a robot drives begins anew there. Where no speed of any is one, poses alone count. Throws
+  /// StartupError where none is left, with why the first of them was left out.
+  void settle(LogPlace place);
 
  private:
+  void leave_out_distant_times(const LogPlace& place);
+  void append(OdometryPose said, const LogPlace& place);
   [[nodiscard]] bool jumps(const OdometryPose& last, const OdometryPose& said) const;
 
+  struct Said {
+    OdometryPose pose;
+    std::size_t number = 0;
+  };
   RecordedLog& log_;
+  std::vector<Said> said_, without_speed_;
   Pose2 here_from_said_;  ///< from the frame of the poses at hand to that of the first
 };
 

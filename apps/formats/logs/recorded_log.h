@@ -55,10 +55,11 @@ struct RecordedLog {
   std::vector<RefusedLines> refused;   ///< what was left out; empty for a clean recording
   std::vector<Time> own_stamps;  ///< of the scans, as recorded, where theirs are even instead (LineClock); or empty
   std::size_t far_ranges = 0;    ///< over 100 m, and another than the last one over 100 m
-  std::string remark;            ///< what else a person should know; or empty
+  std::string remark;            ///< what else a person should know, a line each; or empty
 
   /// Counts what is left out; the first of its kind is remembered.
   void refuse(const LogPlace& place, std::string_view cause);
+  void add_remark(const std::string& line) { remark += (remark.empty() ? "" : "\n") + line; }
   /// "scan.txt: 3 lines left out, the first is line 17: its time does not grow"; a line a reason, and the remark.
   [[nodiscard]] std::string complaint() const;
   /// The recording's own time at `stamp`: `stamp` itself where its times could be taken as they are.
@@ -81,7 +82,8 @@ struct RecordedLog {
 /// place. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a robot that turns sees the whole
 /// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
 ///
-/// Lines of a wrong length, those whose time does not grow, and single ones far ahead of it, are left out and counted.
+/// Lines of a wrong length, of no fan, pose or speed, and those whose time is not of one clock that runs (judge_times),
+/// are left out and counted. Scans of changing numbers of beams get one (fit_beams).
 /// Odometry none of which is of the scans' time is an error, and what it lacks of that is remarked upon from a second
 /// on. Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
 /// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
@@ -89,14 +91,16 @@ struct RecordedLog {
                                          const std::optional<std::filesystem::path>& odom_file = std::nullopt,
                                          const Pose2& robot_from_laser = {});
 
-/// Reads a CARMEN log: FLASER and ODOM lines; other messages are passed over. .gz as it is.
+/// Reads a CARMEN log: ODOM lines and those of its laser, ROBOTLASER1, FLASER or RAWLASER1, the first of these that it
+/// has; other messages are passed over. .gz as it is. The newer two say where their beams are, and ROBOTLASER1 where
+/// the laser is: that counts where `robot_from_laser` is zero.
 ///
-/// The scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams
+/// FLASER's scanner looks ahead over 180 degrees; beam 0 points to -90 degrees. An even number n of beams
 /// is 180/n degrees apart, an odd one 180/(n - 1): 180 and 181 beams both at one degree. Readings
 /// of 50 m and over are the scanners' codes for "nothing" and become infinite.
-/// Odometry is the robot's pose in the FLASER lines, and the ODOM lines between them. Where a log's
+/// Odometry is the robot's pose in the laser's lines, and the ODOM lines between them. Where a log's
 /// poses were corrected afterwards its ODOM lines repeat, go back in time or jump; those that do not
-/// come after what is known are left out and counted, and a FLASER line overrules what it contradicts. Where more than
+/// come after what is known are left out and counted, and a laser's line overrules what it contradicts. Where more than
 /// one scan in ten lies a centimetre beside where the ODOM lines led, those are of another frame, and all are left out.
 /// Errors as load_scan_odom.
 [[nodiscard]] RecordedLog load_carmen(const std::filesystem::path& file, const Pose2& robot_from_laser = {});

@@ -7,11 +7,11 @@ namespace jaywalk::sim {
 
 inline constexpr const char* kWrongLength = "its number of words does not fit";
 
-/// log_checks.h's add_scan with the ranges in words [first_word, first_word + scan.beams).
-bool add_scan(RecordedLog& log, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
+/// LogScans::add with the ranges in words [first_word, first_word + scan.beams).
+bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
               double nothing_from_m);
 
-/// Word i, i + 1, i + 2 as a sound pose.
+/// Word i, i + 1, i + 2 as a pose.
 [[nodiscard]] Pose2 pose_at(const LineFile& file, std::size_t i);
 
 }  // namespace jaywalk::sim

@@ -1,3 +1,4 @@
+#include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/line_clock.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/logs/scan_lines.h"
@@ -23,7 +24,7 @@ Form form_of(const LineFile& file) {
   return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kUnknown;
 }
 
-void read_plain(RecordedLog& log, const LineFile& file) {
+void read_plain(LogScans& scans, const LineFile& file) {
   RecordedScan scan;
   scan.stamp = time_from_seconds(file.seconds(0));
   scan.first_angle_rad = static_cast<float>(file.number(1));
@@ -31,9 +32,7 @@ void read_plain(RecordedLog& log, const LineFile& file) {
   scan.range_min_m = static_cast<float>(file.number(3));
   scan.range_max_m = static_cast<float>(file.number(4));
   scan.beams = static_cast<std::uint32_t>(file.words().size() - kPlainHead);
-  check_scan(file.place(), scan);
-  drop_leapt_scan(log, file.place(), scan.stamp);
-  add_scan(log, file, scan, kPlainHead, kNoLimit);
+  add_scan(scans, file, scan, kPlainHead, kNoLimit);
 }
 
 /// Reads the lines that tell how the robot moved since the line before.
@@ -42,17 +41,25 @@ class MotionLines {
   /// By the lines' own times, or evenly where `wrong` is given: what a reading by their own times has found.
   explicit MotionLines(RecordedLog& log, const LineClock* wrong = nullptr) : log_(log), wrong_(wrong) {}
 
-  void read(const LineFile& file) {
+  void read(LogScans& scans, const LineFile& file) {
     const Time said = time_from_seconds(file.seconds(0));
     const Pose2 moved = lines_ == 0 ? Pose2{} : pose_at(file, 1);  // the first's led to where this begins
-    odometry_ = sound_pose(file.place(), odometry_ * moved);
+    const std::optional<Pose2> led_to = sound_pose(odometry_ * moved);
+    if (!led_to) return log_.refuse(file.place(), kNoPose);
+    odometry_ = *led_to;
     RecordedScan scan = scan_of(file);
     scan.stamp = wrong_ == nullptr ? said : wrong_->even(lines_);
     clock_.see(said, moved);
     ++lines_;
-    if (!add_scan(log_, file, scan, kMotionHead, file.number(5))) return;
+    if (!add_scan(scans, file, scan, kMotionHead, file.number(5))) return;
     log_.odometry.push_back({scan.stamp, odometry_, std::nullopt});
     if (wrong_ != nullptr) log_.own_stamps.push_back(said);
+  }
+  /// What goes with the scans that stay.
+  void keep_those(const std::vector<bool>& stays) {
+    if (!any()) return;
+    keep(log_.odometry, stays);
+    if (wrong_ != nullptr) keep(log_.own_stamps, stays);
   }
 
   [[nodiscard]] const LineClock& clock() const { return clock_; }
@@ -66,7 +73,6 @@ class MotionLines {
     scan.first_angle_rad = fan.first_angle_rad;
     scan.angle_step_rad = fan.angle_step_rad;
     scan.range_max_m = static_cast<float>(file.number(5));
-    check_scan(file.place(), scan);
     return scan;
   }
 
@@ -80,17 +86,19 @@ class MotionLines {
 /// True when the scans carried their own odometry.
 bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines& motion) {
   LineFile file(path);
+  LogScans scans(log);
   Form form = Form::kUnknown;
   while (file.next()) {
     if (form == Form::kUnknown) form = form_of(file);
     if (form == Form::kUnknown || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
       log.refuse(file.place(), kWrongLength);
     } else if (form == Form::kPlain) {
-      read_plain(log, file);
+      read_plain(scans, file);
     } else {
-      motion.read(file);
+      motion.read(scans, file);
     }
   }
+  motion.keep_those(scans.settle_times(file.place()));
   require_scans(log, file.name(), "lines 't angle_min angle_inc range_min range_max n r1..rn'");
   return motion.any();
 }
@@ -106,23 +114,24 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
   log.robot_from_laser = mount;
   MotionLines evenly(log, &wrong);
   (void)read_scans(log, path, evenly);
-  log.remark = path.string() + ": the robot drives in " + std::to_string(wrong.stood()) +
-               " lines though their time stands still: these are not the laser's times; its scans are taken to be "
-               "evenly spaced over the whole";
+  log.add_remark(path.string() + ": the robot drives in " + std::to_string(wrong.stood()) +
+                 " lines though their time stands still: these are not the laser's times; its scans are taken to be "
+                 "evenly spaced over the whole");
   return true;
 }
 
 void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
   LineFile file(path);
-  OdometryPoses poses(log);
+  LogOdometry odometry(log);
   while (file.next()) {
     if (file.words().size() == 6) {
       const Twist2 twist{file.number(4), file.number(5)};
-      poses.add({time_from_seconds(file.seconds(0)), pose_at(file, 1), twist}, file.place());
+      odometry.add({time_from_seconds(file.seconds(0)), pose_at(file, 1), twist}, file.place());
     } else {
       log.refuse(file.place(), kWrongLength);
     }
   }
+  odometry.settle(file.place());
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");
 }
 
@@ -141,6 +150,8 @@ RecordedLog load_scan_odom(const std::filesystem::path& scan_file,
     read_odometry(log, *odom_file);
     compare_times(log, odom_file->string());
   }
+  fit_beams(log, scan_file.string());
+  remark_gaps(log, scan_file.string());
   if (!own_odometry) log.sweep = log.spinning_sweep();
   return log;
 }

@@ -1,0 +1,73 @@
+#include "apps/formats/logs/log_times.h"
+
+#include <algorithm>
+
+namespace jaywalk::sim {
+namespace {
+
+struct Span {
+  Time first, last;
+};
+
+/// Of the largest group of stamps without such a gap; of equal ones the earliest.
+Span largest_group(std::span<const Time> stamps) {
+  std::vector<Time> sorted(stamps.begin(), stamps.end());
+  std::sort(sorted.begin(), sorted.end());
+  std::size_t begin = 0, best = 0, most = 0;
+  for (std::size_t k = 1; k <= sorted.size(); ++k) {
+    if (k < sorted.size() && sorted[k] - sorted[k - 1] <= kOtherClockFrom) continue;
+    if (k - begin > most) most = k - begin, best = begin;
+    begin = k;
+  }
+  return {sorted[best], sorted[best + most - 1]};
+}
+
+/// The longest sequence of `stamps[of[...]]` that rises strictly, by patience sorting: places in `stamps`. Of several
+/// the one that ends earliest, and of those one that spans the least.
+std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std::vector<std::size_t>& of) {
+  std::vector<std::vector<std::size_t>> ends;  // what a longest sequence of each length ends with; stamps fall
+  for (const std::size_t k : of) {
+    const auto place = std::lower_bound(ends.begin(), ends.end(), stamps[k],
+                                        [&](const auto& end, Time stamp) { return stamps[end.back()] < stamp; });
+    if (place == ends.end()) {
+      ends.push_back({k});
+    } else {
+      place->push_back(k);
+    }
+  }
+  std::vector<std::size_t> rising;
+  for (auto end = ends.rbegin(); end != ends.rend(); ++end) {
+    const auto fits = [&](std::size_t k) { return stamps[k] < stamps[rising.back()]; };
+    rising.push_back(rising.empty() ? end->back() : *std::find_if(end->begin(), end->end(), fits));
+  }
+  std::reverse(rising.begin(), rising.end());
+  return rising;
+}
+
+}  // namespace
+
+std::vector<const char*> judge_times(std::span<const Time> stamps) {
+  std::vector<const char*> causes(stamps.size(), kOtherClock);
+  if (stamps.empty()) return causes;
+  const Span group = largest_group(stamps);
+  std::vector<std::size_t> inside;
+  for (std::size_t k = 0; k < stamps.size(); ++k) {
+    if (stamps[k] < group.first || stamps[k] > group.last) continue;
+    inside.push_back(k);
+    causes[k] = kTimeStands;
+  }
+  const std::vector<std::size_t> rising = longest_rising(stamps, inside);
+  std::size_t next = 0;  // the first kept one that is not before k
+  for (const std::size_t k : inside) {
+    while (next < rising.size() && rising[next] < k) ++next;
+    if (next == rising.size()) continue;
+    if (rising[next] == k) {
+      causes[k] = nullptr;
+    } else if (stamps[k] > stamps[rising[next]]) {
+      causes[k] = kTimeLeapt;
+    }
+  }
+  return causes;
+}
+
+}  // namespace jaywalk::sim
