@@ -73,10 +73,9 @@ nlohmann::json json_of(const KnownMap& map) {
 }
 
 std::shared_ptr<const KnownMap> known_map_of(const nlohmann::json& json) {
-  constexpr std::int32_t kMostCells = 4096;
   const auto low = json.at("low").get<std::array<std::int32_t, 2>>();
   const auto size = json.at("size").get<std::array<std::int32_t, 2>>();
-  if (size[0] < 1 || size[1] < 1 || size[0] > kMostCells || size[1] > kMostCells)
+  if (size[0] < 1 || size[1] < 1 || size[0] > kMostKnownCells || size[1] > kMostKnownCells)
     throw std::invalid_argument("a map of no size");
   KnownMap map{json.at("cell_m").get<double>(), {low[0], low[1]}, size[0], size[1], {}};
   map.cells = cells_of(json.at("cells").get<std::string>(),

@@ -4,7 +4,7 @@
 #include <string>
 #include <utility>
 
-#include "hal/maps/image_file.h"
+#include "hal/maps/occupancy.h"
 #include "hal/sim/walls.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
@@ -13,31 +13,15 @@ namespace jaywalk {
 namespace {
 
 constexpr double kDefaultCell_m = 0.1;
-/// map_server's own threshold, for pictures that come without a YAML file.
-constexpr double kOccupiedAbove = 0.65;
 
 void check_size(const std::string& file, double width, double height) {
   const double most = field::kMostMapCells;
   if (width <= most && height <= most) return;
-  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution, or a smaller map");
+  throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution");
 }
 
-MapCells cells_of(const std::string& file, sim::Raster raster) {
-  check_size(file, raster.width, raster.height);
+MapCells cells_of(sim::Raster raster) {
   return {{raster.width, raster.height, std::move(raster.solid)}, raster.map_from_raster, raster.cell_m};
-}
-
-MapCells picture_cells(const std::filesystem::path& file, double cell_m) {
-  const sim::GreyImage image = sim::load_image(file);
-  sim::Raster raster{{}, cell_m, image.width, image.height, {}};
-  for (std::int32_t row = image.height - 1; row >= 0; --row) {
-    for (std::int32_t column = 0; column < image.width; ++column) {
-      const int grey = image.grey[static_cast<std::size_t>(row) * static_cast<std::size_t>(image.width) +
-                                  static_cast<std::size_t>(column)];
-      raster.solid.push_back((255 - grey) / 255.0 > kOccupiedAbove ? 1 : 0);
-    }
-  }
-  return cells_of(file.string(), std::move(raster));
 }
 
 /// Lines and discs as cells: those whose middle is within half a cell. A line leaves no gap that way which a step to a
@@ -70,11 +54,11 @@ MapCells load_map_cells(const std::filesystem::path& file, std::optional<double>
   require_readable(file, name + ": ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
     if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
-    return cells_of(name, sim::load_raster_map(file).raster);
+    return cells_of(sim::load_raster_map(file, field::kMostMapCells).raster);
   }
   if (ending == ".png" || ending == ".pgm") {
     if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");
-    return picture_cells(file, *cell_m);
+    return cells_of(sim::read_raster(file, {}, *cell_m, field::kMostMapCells));
   }
   if (ending == ".map") return drawn_cells(file, sim::load_aria_map(file), cell_m.value_or(kDefaultCell_m));
   if (ending == ".txt") return drawn_cells(file, sim::load_cylinder_map(file), cell_m.value_or(kDefaultCell_m));

@@ -13,7 +13,6 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::int32_t kMostCells = 2048;
 constexpr double kLeastShare =
     0.9;  ///< of a scan's points, seen walls: true places have 0.91 or more (robot_tests "[places]")
 constexpr double kNearlyAsWell = 0.97;  ///< of the best place's share
@@ -70,10 +69,11 @@ std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml
   map->low = {cell_of(box.low.x, cell_m), cell_of(box.low.y, cell_m)};
   map->width = cell_of(box.high.x, cell_m) - map->low.i + 1;
   map->height = cell_of(box.high.y, cell_m) - map->low.j + 1;
-  if (map->width > kMostCells || map->height > kMostCells)
-    throw StartupError(yaml.string() + ": more than " + std::to_string(kMostCells) + " cells of " +
-                           std::to_string(cell_m) + " m a side",
-                       "cut the map to where the robot drives");
+  if (map->width > kMostKnownCells || map->height > kMostKnownCells) {
+    char side[48];
+    std::snprintf(side, sizeof side, ": more than %.0f m a side", kMostKnownCells * cell_m);
+    throw StartupError(yaml.string() + side, "cut the map to where the robot drives");
+  }
   map->cells.assign(static_cast<std::size_t>(map->width) * static_cast<std::size_t>(map->height), KnownCell::kUnknown);
   draw(raster, *map);
   return map;

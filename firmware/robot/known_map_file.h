@@ -11,7 +11,7 @@
 namespace jaywalk {
 
 /// A ROS map_server file in cells of `cell_m`, whatever its own resolution and yaw: a cell that holds part of a wall is
-/// one. Throws StartupError for a file that is no map, or one of more than 2048 cells a side.
+/// one. Throws StartupError for a file that is no map, or one of more than kMostKnownCells a side.
 [[nodiscard]] std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml, double cell_m);
 
 /// Where `scan` was taken, by matching it over the whole map. Throws StartupError, beginning with `place`, where it

@@ -1,19 +1,39 @@
 #pragma once
 #include <cstdint>
 #include <filesystem>
+#include <memory>
 #include <vector>
 
 namespace jaywalk::sim {
 
-/// Grey values, row by row from the top as in the picture; 0 black, 255 white.
-struct GreyImage {
-  std::int32_t width = 0;
-  std::int32_t height = 0;
-  std::vector<std::uint8_t> grey;
+/// How bright a pixel is, 0 black to 65535 white: the mean of its channels as they stand in the file, in its own bit
+/// depth (no gamma, no weights), as map_server has it.
+struct Pixel {
+  std::uint16_t colour = 0;      ///< of the channels without transparency
+  std::uint16_t with_alpha = 0;  ///< of all, transparency among them; `colour` where there is none
+  bool opaque = true;
 };
 
-/// Reads PNG (colour becomes grey, transparency lies on white) or PGM (P2, P5, 8 or 16 bit). Throws StartupError
-/// "FILE: cause; remedy" for anything else, a damaged file, or more than 64 million pixels.
-[[nodiscard]] GreyImage load_image(const std::filesystem::path& file);
+/// A PNG (of any kind) or PGM (P2, P5, 8 or 16 bit) picture, read a row at a time: a map of gigapixels takes a row's
+/// memory.
+class ImageFile {
+ public:
+  /// Throws StartupError "FILE: cause; remedy" for anything else, or more than 3,000 million pixels.
+  explicit ImageFile(const std::filesystem::path& file);
+  ~ImageFile();
+  ImageFile(const ImageFile&) = delete;
+  ImageFile& operator=(const ImageFile&) = delete;
+
+  [[nodiscard]] std::int32_t width() const;
+  [[nodiscard]] std::int32_t height() const;
+  /// The next row from the top, of width() pixels; at most height() of them. Throws StartupError where it is damaged.
+  void next_row(std::vector<Pixel>& row);
+
+  /// One of the formats.
+  class Rows;
+
+ private:
+  std::unique_ptr<Rows> rows_;
+};
 
 }  // namespace jaywalk::sim

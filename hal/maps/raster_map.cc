@@ -1,11 +1,13 @@
 #include <yaml-cpp/yaml.h>
 
+#include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <fstream>
 #include <set>
 #include <string>
 
-#include "hal/maps/image_file.h"
+#include "hal/maps/occupancy.h"
 #include "hal/maps/wall_map.h"
 #include "hal/types/errors.h"
 
@@ -16,8 +18,7 @@ struct RasterSettings {
   std::filesystem::path image;
   double cell_m = 0.0;
   Pose2 origin;  ///< the picture's lower left corner in the map
-  bool negate = false;
-  double occupied_above = 0.65, free_below = 0.196;
+  OccupancyRule rule;
 };
 
 /// The YAML file's keys, each refused with its line when it is wrong.
@@ -94,6 +95,16 @@ Pose2 read_origin(const MapYaml& yaml) {
   return {origin[0], origin[1], wrap_angle(origin[2])};
 }
 
+/// In any case, as map_server takes it.
+MapMode read_mode(const MapYaml& yaml) {
+  std::string said = yaml.get<std::string>("mode", "trinary");
+  std::transform(said.begin(), said.end(), said.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (said == "scale") return MapMode::kScale;
+  if (said == "raw") return MapMode::kRaw;
+  if (said != "trinary") yaml.refuse("mode", "is none of trinary, scale, raw");
+  return MapMode::kTrinary;
+}
+
 RasterSettings read_settings(const std::filesystem::path& file) {
   const MapYaml yaml(file);
   RasterSettings settings;
@@ -103,27 +114,12 @@ RasterSettings read_settings(const std::filesystem::path& file) {
   settings.cell_m = yaml.get<double>("resolution");
   if (!(settings.cell_m >= 0.001 && settings.cell_m <= 10.0)) yaml.refuse("resolution", "is outside 0.001 to 10 m");
   settings.origin = read_origin(yaml);
-  settings.negate = yaml.get<int>("negate", 0) != 0;
-  settings.occupied_above = yaml.share("occupied_thresh", 0.65);
-  settings.free_below = yaml.share("free_thresh", 0.196);
-  if (settings.free_below > settings.occupied_above) yaml.refuse("free_thresh", "is over occupied_thresh");
-  if (yaml.get<std::string>("mode", "trinary") != "trinary") yaml.refuse("mode", "is not trinary");
+  settings.rule.negate = yaml.get<int>("negate", 0) != 0;
+  settings.rule.occupied_above = yaml.share("occupied_thresh", 0.65);
+  settings.rule.free_below = yaml.share("free_thresh", 0.196);
+  if (settings.rule.free_below > settings.rule.occupied_above) yaml.refuse("free_thresh", "is over occupied_thresh");
+  settings.rule.mode = read_mode(yaml);
   return settings;
-}
-
-Raster rasterise(const RasterSettings& settings, const GreyImage& image) {
-  Raster raster{settings.origin, settings.cell_m, image.width, image.height, {}};
-  raster.solid.reserve(image.grey.size());
-  for (std::int32_t row = 0; row < image.height; ++row) {
-    const std::size_t top_down = static_cast<std::size_t>(image.height - 1 - row);
-    for (std::size_t column = 0; column < static_cast<std::size_t>(image.width); ++column) {
-      const int grey = image.grey[top_down * static_cast<std::size_t>(image.width) + column];
-      const double occupancy = (settings.negate ? grey : 255 - grey) / 255.0;
-      raster.solid.push_back(occupancy > settings.occupied_above);
-      raster.free.push_back(occupancy < settings.free_below);
-    }
-  }
-  return raster;
 }
 
 /// Edges along one grid line: `differs(k)` says whether an edge runs from k to k + 1; `point(k)` is where k lies.
@@ -164,10 +160,11 @@ std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_fi
   return read_settings(yaml_file).image;
 }
 
-WallMap load_raster_map(const std::filesystem::path& yaml_file) {
+WallMap load_raster_map(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
   const RasterSettings settings = read_settings(yaml_file);
   WallMap map;
-  map.raster = rasterise(settings, load_image(settings.image));
+  map.raster = read_raster(settings.image, settings.rule, settings.cell_m, most_cells);
+  map.raster.map_from_raster = settings.origin;
   map.segments = edges_of(map.raster);
   return map;
 }

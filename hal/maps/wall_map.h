@@ -18,7 +18,7 @@ struct Raster {
   std::int32_t width = 0;
   std::int32_t height = 0;
   std::vector<std::uint8_t> solid;   ///< width x height, row by row; 1: wall
-  std::vector<std::uint8_t> free{};  ///< the same; 1: known to be none, below free_thresh. Empty for a bare picture
+  std::vector<std::uint8_t> free{};  ///< the same; 1: known to be none, below free_thresh. May be empty: of none
 
   /// False outside the raster.
   [[nodiscard]] bool solid_cell(std::int32_t column, std::int32_t row) const noexcept {
@@ -45,9 +45,13 @@ struct WallMap {
 /// What a map is read from: the file itself and, of a raster map, its picture. Throws as load_wall_map() does.
 [[nodiscard]] std::vector<std::filesystem::path> files_of_map(MapKind kind, const std::filesystem::path& file);
 
-/// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode trinary. A cell is a
-/// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls.
-[[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file);
+/// 500 m in cells of 5 cm: a raster takes two bytes a cell.
+inline constexpr std::int32_t kMostRasterCells = 10'000;
+/// ROS map_server: YAML with image, resolution, origin, negate, occupied_thresh, free_thresh, mode. A cell is a
+/// wall when its occupancy exceeds occupied_thresh; unknown cells are not walls. What has more cells a side than
+/// `most_cells` is read in larger ones (occupancy.h).
+[[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file,
+                                      std::int32_t most_cells = kMostRasterCells);
 /// The picture that such a file names.
 [[nodiscard]] std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file);
 /// MobileSim's text map in millimetres: its LINES are walls; when it has none, its DATA points are, as discs.

@@ -8,6 +8,9 @@ namespace jaywalk {
 
 enum class KnownCell : std::uint8_t { kUnknown, kFree, kWall };
 
+/// A side of the largest: 500 m in cells of 10 cm.
+inline constexpr std::int32_t kMostKnownCells = 5000;
+
 /// A map from before the run, in the evidence map's cells.
 struct KnownMap {
   double cell_m = 0.1;
