@@ -26,7 +26,7 @@ Format format_of(const std::filesystem::path& file) {
   in.read(head.data(), static_cast<std::streamsize>(head.size()));
   const auto begins = [&](std::string_view magic) { return head.rfind(magic, 0) == 0; };
   if (begins("\x89MCAP")) return Format::kMcap;
-  if (begins("#ROSBAG")) return Format::kRos1;
+  if (begins("#ROS")) return Format::kRos1;
   if (begins("SQLite format 3")) return Format::kSqlite;
   return begins(kZstdMagic) ? Format::kZstd : Format::kNone;
 }

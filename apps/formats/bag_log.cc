@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/formats/bag_file.h"
+#include "apps/formats/foxglove_input.h"
 #include "apps/formats/laser_mount.h"
 #include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/log_checks.h"
@@ -39,21 +40,36 @@ class Collector {
 
   void operator()(const BagMessage& message) {
     const std::string topic(message.topic);
-    if (message.type == kScans) {
+    const bool foxglove = message.wire == Wire::kProtobuf;
+    if (foxglove && message.type == "foxglove.LaserScan") {
+      take(read_foxglove_scan(message.bytes), found_.scans[topic], message);
+    } else if (foxglove && message.type == "foxglove.FrameTransform") {
+      std::vector<TransformMessage> transforms;
+      take(read_foxglove_transform(message.bytes), transforms, message);
+      add(transforms);
+    } else if (foxglove && message.type == "foxglove.FrameTransforms") {
+      std::vector<std::vector<TransformMessage>> transforms;
+      take(read_foxglove_transforms(message.bytes), transforms, message);
+      for (const auto& some : transforms) add(some);
+    } else if (message.wire != Wire::kCdr && message.wire != Wire::kRos1) {
+      found_.others.emplace(topic, message.type);
+    } else if (message.type == kScans) {
       take(read_scan(message.bytes, message.wire), found_.scans[topic], message);
     } else if (message.type == kOdometry) {
       take(read_odometry(message.bytes, message.wire), found_.odometry[topic], message);
     } else if (message.type == "tf2_msgs/TFMessage" || message.type == "tf/tfMessage") {
       std::vector<std::vector<TransformMessage>> transforms;
       take(read_transforms(message.bytes, message.wire), transforms, message);
-      for (const auto& some : transforms)
-        for (const TransformMessage& transform : some) found_.frames.add(transform);
+      for (const auto& some : transforms) add(some);
     } else {
       found_.others.emplace(topic, message.type);
     }
   }
 
  private:
+  void add(const std::vector<TransformMessage>& transforms) {
+    for (const TransformMessage& transform : transforms) found_.frames.add(transform);
+  }
   template <class Read>
   void take(std::optional<Read> read, std::vector<Read>& list, const BagMessage& message) {
     const std::size_t number = ++numbers_[std::string(message.topic)];
@@ -147,10 +163,21 @@ std::pair<LaserMount, std::string> mount_of(const std::string& file, const BagCo
   return {{options.otherwise}, "no transform from " + shown(bases.front()) + " to " + shown(frame) + " says it"};
 }
 
+/// The farthest hit of all: for messages that say no limit.
+float farthest_of(const std::vector<ScanMessage>& messages) {
+  float farthest = 1.0F;
+  for (const ScanMessage& message : messages) {
+    for (const float range : message.range_m)
+      if (std::isfinite(range)) farthest = std::max(farthest, range);
+  }
+  return farthest;
+}
+
 void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& messages,
                bool upside_down) {
   sim::LogPlace place{name, 0, "message"};
   sim::LogScans scans(log);
+  const float farthest_m = farthest_of(messages);
   for (const ScanMessage& message : messages) {
     place.number = message.number;
     const std::size_t every = std::max<std::size_t>((message.range_m.size() + kMaxBeams - 1) / kMaxBeams, 1);
@@ -163,7 +190,7 @@ void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector
                .first_angle_rad = sense * message.first_angle_rad,
                .angle_step_rad = sense * message.angle_step_rad * static_cast<float>(every),
                .range_min_m = message.range_min_m,
-               .range_max_m = message.range_max_m},
+               .range_max_m = std::isinf(message.range_max_m) ? farthest_m : message.range_max_m},
               ranges, sim::kNoLimit);
   }
   (void)scans.settle_times(place);
@@ -220,7 +247,7 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   const std::string scan_name = file + ": " + shown(scan_topic), odom_name = file + ": " + shown(odom_topic);
   if (scans.empty()) sim::require_scans(log, scan_name, "a laser");
   const auto [mount, source] = mount_of(file, found, bases_of(found, odom_topic), frame_of(scans), options);
-  log.robot_from_laser = mount.robot_from_laser;
+  log.robot_from_laser = mount.robot_from_laser * scans.front().frame_from_scan;
   add_scans(log, scan_name, scans, mount.upside_down);
   require_scans(log, scan_name, "a laser");
   sim::fit_beams(log, scan_name);
@@ -231,7 +258,7 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   log.sweep = sweep_of(log, scan_name, scans);
   sim::remark_gaps(log, scan_name);
   char at[96];
-  const Pose2& p = mount.robot_from_laser;
+  const Pose2& p = log.robot_from_laser;
   std::snprintf(at, sizeof at, "laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
   log.add_remark(file + ": scans of " + shown(scan_topic) +
                  (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " + at + source +

@@ -16,8 +16,14 @@ constexpr const char* kRemedy = "take an undamaged copy of it, or what 'mcap rec
 
 struct Channel {
   std::string topic, type;
-  bool cdr = false;
+  Wire wire = Wire::kOther;
 };
+
+Wire wire_of(std::string_view encoding) {
+  if (encoding == "cdr") return Wire::kCdr;
+  if (encoding == "ros1") return Wire::kRos1;
+  return encoding == "protobuf" ? Wire::kProtobuf : Wire::kOther;
+}
 
 /// "sensor_msgs/msg/LaserScan" is ROS 2's way to say it.
 std::string ros1_name(std::string_view type) {
@@ -96,8 +102,8 @@ class McapMessages {
   void add_channel(LittleEndian& in) {
     const std::uint16_t number = in.u16(), schema = in.u16();
     const std::string_view topic = in.sized(), encoding = in.sized();
-    channels_[number] = {std::string(topic), schemas_[schema], encoding == "cdr"};
-    ros1_[number] = encoding == "ros1";
+    channels_[number] = {std::string(topic), schemas_[schema], wire_of(encoding)};
+    if (channels_[number].wire == Wire::kOther) channels_[number].type += " in " + std::string(encoding);
   }
   void pass_on(LittleEndian& in) {
     const std::uint16_t number = in.u16();
@@ -106,9 +112,7 @@ class McapMessages {
     (void)in.u64();  // when it was published
     const auto channel = channels_.find(number);
     if (channel == channels_.end()) file_.refuse("a message of a channel that the file does not describe");
-    if (!in.ok() || !(channel->second.cdr || ros1_[number])) return;
-    const Wire wire = channel->second.cdr ? Wire::kCdr : Wire::kRos1;
-    sink_({channel->second.topic, channel->second.type, wire, logged, in.rest()});
+    if (in.ok()) sink_({channel->second.topic, channel->second.type, channel->second.wire, logged, in.rest()});
   }
   void open_chunk(LittleEndian& in) {
     (void)in.u64(), (void)in.u64();  // of its first and last message
@@ -135,7 +139,6 @@ class McapMessages {
   const BagSink& sink_;
   std::map<std::uint16_t, std::string> schemas_;
   std::map<std::uint16_t, Channel> channels_;
-  std::map<std::uint16_t, bool> ros1_;
 };
 
 }  // namespace

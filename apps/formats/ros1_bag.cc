@@ -1,6 +1,9 @@
 // ROS 1's bags, format 2.0 (wiki.ros.org/Bags/Format/2.0): records of header fields and bytes. The format has no check
-// sums but those of what it is packed with.
+// sums but those of what it is packed with. Its index is not believed: recorders of 2010 wrote one of wrong lengths,
+// and 'rosbag reindex' leaves bytes before it that are nothing.
+#include <algorithm>
 #include <map>
+#include <optional>
 #include <string>
 
 #include "apps/formats/bag_file.h"
@@ -8,14 +11,18 @@
 #include "apps/formats/little_endian.h"
 #include "apps/formats/unpacking.h"
 #include "hal/shown_text.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk::exchange {
 namespace {
 
 constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
+constexpr std::uint64_t kLongestHead = 1U << 16U;  // bytes of a record's fields: topics and callers have names
+constexpr std::uint64_t kIndexEntry = 12;          // bytes: time and offset
+constexpr std::uint64_t kSearched = 1U << 20U;     // bytes at a time
 constexpr const char* kRemedy = "take an undamaged copy of it, or what 'rosbag reindex' makes of this one";
 
-enum Op : std::uint8_t { kMessageData = 2, kBagHeader = 3, kChunk = 5, kConnection = 7 };
+enum Op : std::uint8_t { kMessageData = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kConnection = 7 };
 
 /// "name=value" fields, each behind its length; empty where they are none.
 std::map<std::string, std::string, std::less<>> fields_of(std::string_view bytes, bool& ok) {
@@ -34,14 +41,25 @@ std::map<std::string, std::string, std::less<>> fields_of(std::string_view bytes
 class Ros1Bag {
  public:
   Ros1Bag(const std::filesystem::path& path, const BagSink& sink) : file_(path, kRemedy), sink_(sink) {
-    if (file_.read(0, kMagic.size()) != kMagic) file_.refuse(0, "no ROS 1 bag of format 2.0");
+    if (file_.size() >= kMagic.size() && file_.read(0, kMagic.size()) == kMagic) return;
+    const std::string first = file_.read(0, std::min<std::uint64_t>(32, file_.size()));
+    throw StartupError(
+        file_.name() + ": '" + shown(first.substr(0, first.find('\n'))) + "', no ROS 1 bag of format 2.0",
+        "write it anew with Python's rosbag, which reads the older formats");
   }
 
   void read() {
     for (at_ = kMagic.size(); at_ < file_.size();) {
-      const std::string head = sized_at(at_), body = sized_at(at_ + 4 + head.size());
-      take(head, body, true);
-      at_ += 8 + head.size() + body.size();
+      const std::optional<Record> record = record_at(at_);
+      if (!record) {
+        const std::uint64_t junk = at_;
+        if (!find_record()) file_.refuse(junk, "the file ends before what begins here, or that is no record");
+        continue;
+      }
+      at_ = record->begin;
+      if (record->op == kBagHeader || record->op == kChunk || record->op == kConnection || record->op == kMessageData)
+        take(record->fields, file_.read(record->end - record->bytes, record->bytes), true);
+      at_ = record->end;
     }
     if (!headed_) refuse("there is no bag header");
     if (chunks_ != chunks_said_) {
@@ -54,10 +72,60 @@ class Ros1Bag {
     std::string topic, type;
   };
   using Fields = std::map<std::string, std::string, std::less<>>;
+  struct Record {
+    std::uint64_t begin = 0, end = 0;
+    std::uint64_t bytes = 0;  ///< of its body, which ends it
+    std::uint8_t op = 0;
+    Fields fields;
+  };
 
-  std::string sized_at(std::uint64_t at) {
+  /// The record that begins there; nothing where none does, or the file ends before it.
+  std::optional<Record> record_at(std::uint64_t at) {
+    if (at + 4 > file_.size()) return std::nullopt;
+    const std::uint64_t head_bytes = u32_at(at);
+    if (head_bytes > kLongestHead || at + 8 + head_bytes > file_.size()) return std::nullopt;
+    bool ok = true;
+    Record record{at, 0, 0, 0, fields_of(file_.read(at + 4, head_bytes), ok)};
+    const auto op = record.fields.find("op");
+    if (!ok || op == record.fields.end() || op->second.size() != 1) return std::nullopt;
+    record.op = static_cast<std::uint8_t>(op->second.front());
+    record.bytes = u32_at(at + 4 + head_bytes);
+    const std::uint64_t body = at + 8 + head_bytes;
+    if (record.op == kIndexData) record.bytes = bytes_of_index(record, body);
+    record.end = body + record.bytes;
+    return record.end <= file_.size() ? std::optional(record) : std::nullopt;
+  }
+  /// By its number of entries, where what follows them is a record: those of 2010 claim more bytes than they have.
+  std::uint64_t bytes_of_index(const Record& record, std::uint64_t body) {
+    const auto count = record.fields.find("count");
+    if (count == record.fields.end() || count->second.size() != sizeof(std::uint32_t)) return record.bytes;
+    const std::uint64_t entries = LittleEndian(count->second).u32() * kIndexEntry, after = body + entries;
+    const bool follows = after == file_.size() || (after + 8 <= file_.size() && begins_record(file_.read(after, 8)));
+    return entries < record.bytes && follows ? entries : record.bytes;
+  }
+  /// A head's length, and that of its first field.
+  static bool begins_record(std::string_view bytes) {
+    LittleEndian in(bytes);
+    const std::uint32_t head = in.u32(), field = in.u32();
+    return in.ok() && head <= kLongestHead && field >= 2 && field + 4 <= head;
+  }
+  /// Moves on to the next record behind what is none; false where there is none.
+  bool find_record() {
+    while (++at_ + 8 <= file_.size()) {
+      const std::string some = file_.read(at_, std::min(kSearched, file_.size() - at_));
+      for (std::size_t k = 0; k + 8 <= some.size(); ++k) {
+        if (begins_record(std::string_view(some).substr(k, 8)) && record_at(at_ + k)) {
+          at_ += k;
+          return true;
+        }
+      }
+      at_ += some.size() - 8;
+    }
+    return false;
+  }
+  std::uint32_t u32_at(std::uint64_t at) {
     const std::string size = file_.read(at, 4);
-    return file_.read(at + 4, LittleEndian(size).u32());
+    return LittleEndian(size).u32();
   }
   template <class T>
   [[nodiscard]] T number(const Fields& fields, std::string_view name) const {
@@ -66,10 +134,7 @@ class Ros1Bag {
       refuse("a record without '" + std::string(name) + "'");
     return LittleEndian(found->second).number<T>();
   }
-  void take(std::string_view head, std::string_view body, bool outside) {
-    bool ok = true;
-    const Fields fields = fields_of(head, ok);
-    if (!ok) refuse("a record whose header is damaged");
+  void take(const Fields& fields, std::string_view body, bool outside) {
     const auto op = number<std::uint8_t>(fields, "op");
     if (op == kBagHeader && outside) read_header(fields);
     if (op == kChunk && outside) open_chunk(fields, body);
@@ -95,8 +160,10 @@ class Ros1Bag {
     LittleEndian records(*unpacked);
     while (!records.empty()) {
       const std::string_view head = records.sized(), inner = records.sized();
-      if (!records.ok()) refuse("a chunk with something else than records in it");
-      take(head, inner, false);
+      bool ok = records.ok();
+      const Fields inside = fields_of(head, ok);
+      if (!ok) refuse("a chunk with something else than records in it");
+      take(inside, inner, false);
     }
   }
   void connect(const Fields& fields, std::string_view body) {

@@ -20,6 +20,7 @@ struct ScanMessage {
   float beam_step_s = 0.0F;
   float range_min_m = 0.0F, range_max_m = 0.0F;
   std::vector<float> range_m;
+  Pose2 frame_from_scan;   ///< where its origin lies; sensor_msgs has it in the frame's
   std::size_t number = 0;  ///< of its topic's messages, from 1
 };
 

@@ -1,5 +1,5 @@
 #pragma once
-// The fields of a message, one after the other, as ROS 2 (CDR) and ROS 1 write them.
+// The fields of a message, one after the other, as ROS 2 (CDR) and ROS 1 write them, which WireReader reads.
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -9,8 +9,10 @@
 namespace jaywalk::exchange {
 
 enum class Wire {
-  kCdr,  ///< OMG's CDR (XCDR1) behind its encapsulation header: numbers at multiples of their size, either byte order
-  kRos1  ///< little endian, packed
+  kCdr,   ///< OMG's CDR (XCDR1) behind its encapsulation header: numbers at multiples of their size, either byte order
+  kRos1,  ///< little endian, packed
+  kProtobuf,  ///< foxglove_input.h reads it
+  kOther      ///< nothing here reads it
 };
 
 /// Reads from bytes that the caller keeps. Behind the end, and in what is no CDR, it gives zeros and `ok` turns false

@@ -52,8 +52,6 @@ class PgmRows final : public ImageFile::Rows {
 
 }  // namespace
 
-std::unique_ptr<ImageFile::Rows> pgm_rows(const std::filesystem::path& file) {
-  return std::make_unique<PgmRows>(file);
-}
+std::unique_ptr<ImageFile::Rows> pgm_rows(const std::filesystem::path& file) { return std::make_unique<PgmRows>(file); }
 
 }  // namespace jaywalk::sim

@@ -122,8 +122,6 @@ class PngRows final : public ImageFile::Rows {
 
 }  // namespace
 
-std::unique_ptr<ImageFile::Rows> png_rows(const std::filesystem::path& file) {
-  return std::make_unique<PngRows>(file);
-}
+std::unique_ptr<ImageFile::Rows> png_rows(const std::filesystem::path& file) { return std::make_unique<PngRows>(file); }
 
 }  // namespace jaywalk::sim

@@ -82,6 +82,49 @@ TEST_CASE("a damaged part of several is left out and told, and so is the gap tha
   says(log, "no scans for 1.6 s from 2.9 s on");
 }
 
+TEST_CASE("Foxglove's LaserScan in protobuf is read, and its frames tell the mount") {
+  std::vector<MadeMessage> drive = made_drive(false);
+  drive.front() = {"/frames", "foxglove.FrameTransform", 1, foxglove_frame_bytes({"base_link", "laser", 0.2, 0.1})};
+  for (MadeMessage& message : drive) {
+    if (message.topic != "/scan") continue;
+    message.type = "foxglove.LaserScan";
+    message.bytes = foxglove_scan_bytes(message.ns, "laser", 3.0, {1.0, 2.0, 7.5, 4.0});
+  }
+  const sim::RecordedLog log = read(drive);
+  REQUIRE(log.scans.size() == 10);
+  CHECK(log.scans[3].beams == 4);
+  CHECK(log.scans[3].angle_step_rad == 1.0F);
+  CHECK(log.scans[3].range_max_m == 7.5F);
+  CHECK(log.scans[3].stamp == Time{Duration{kBegin + 3 * kSecond / 10}});
+  CHECK(log.range_m[2] == 7.5F);
+  CHECK(log.odometry.size() == 10);
+  CHECK(log.robot_from_laser == Pose2{0.2, 0.1, 0.0});
+  CHECK_THROWS_WITH(read({{"/a", "other.Scan", 1, "x"}}), Catch::Contains("there are: /a (other.Scan)"));
+}
+
+TEST_CASE("ROS 1 bags are read by their chunks, whatever their index claims and whatever lies before it") {
+  const Scratch scratch;
+  for (const std::string& behind :
+       {ros1_index(10, 120), ros1_index(10, 200), ros1_index(1, 20) + ros1_index(30, 600), std::string(777, '\xEE'),
+        ros1_index(3, 60) + std::string("\1\0\0\0 junk that begins like a record", 35)}) {
+    for (const std::string method : {"", "bz2"}) {
+      const sim::RecordedLog log = load_bag(scratch.write("a.bag", ros1_bag_of(made_drive(true), method, behind)), {});
+      CHECK(log.scans.size() == 10);
+      CHECK(log.odometry.size() == 10);
+      CHECK(log.refused.empty());
+    }
+  }
+}
+
+TEST_CASE("a ROS bag of an older format is named, and what reads it") {
+  const Scratch scratch;
+  for (const std::string first : {"#ROSRECORD V1.2", "#ROSLOG V1.1", "#ROSBAG V1.2"}) {
+    CHECK_THROWS_WITH(
+        load_bag(scratch.write("a.bag", first + "\n" + std::string(200, ' ')), {}),
+        Catch::Contains("'" + first + "', no ROS 1 bag of format 2.0; write it anew with Python's rosbag"));
+  }
+}
+
 TEST_CASE("an odd message is left out, counted and told with its place, be it the first or amid") {
   const auto scan = [](const MadeFan& fan, std::vector<float> ranges = {1.0F, 2.0F, 3.0F}) {
     return [=](std::int64_t ns) { return scan_bytes(false, ns, "laser", ranges, fan); };

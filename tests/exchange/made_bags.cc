@@ -61,7 +61,27 @@ std::uint32_t crc(const std::string& s) {
   return static_cast<std::uint32_t>(crc32(0, reinterpret_cast<const Bytef*>(s.data()), static_cast<uInt>(s.size())));
 }
 
-std::string ros2_name(std::string type) { return type.insert(type.find('/'), "/msg"); }
+/// A field of protobuf: its key, its length, its bytes.
+std::string proto(int field, const std::string& bytes) {
+  std::string out(1, static_cast<char>(field * 8 + 2));
+  for (std::size_t n = bytes.size(); true; n >>= 7U) {
+    out += static_cast<char>((n & 0x7FU) | (n > 0x7FU ? 0x80U : 0U));
+    if (n <= 0x7FU) return out + bytes;
+  }
+}
+std::string proto(int field, double value) { return std::string(1, static_cast<char>(field * 8 + 1)) + raw(value); }
+std::string proto(int field, std::int64_t value) {
+  std::string out(1, static_cast<char>(field * 8));
+  for (auto n = static_cast<std::uint64_t>(value); true; n >>= 7U) {
+    out += static_cast<char>((n & 0x7FU) | (n > 0x7FU ? 0x80U : 0U));
+    if (n <= 0x7FU) return out;
+  }
+}
+
+std::string ros2_name(std::string type) {
+  if (type.find('/') == std::string::npos) return type;
+  return type.insert(type.find('/'), "/msg");
+}
 
 /// A number for each topic, from 1.
 std::map<std::string, std::size_t> numbered(const std::vector<MadeMessage>& messages) {
@@ -127,6 +147,21 @@ std::string frames_bytes(bool ros1, const std::vector<MadeFrame>& frames) {
   return out.message();
 }
 
+std::string foxglove_scan_bytes(std::int64_t ns, const std::string& frame, double last_rad,
+                                const std::vector<double>& ranges) {
+  std::string packed;
+  for (const double range : ranges) packed += raw(range);
+  return proto(1, proto(1, ns / kBillion) + proto(2, ns % kBillion)) + proto(2, frame) + proto(4, 0.0) +
+         proto(5, last_rad) + proto(6, packed) + proto(7, packed);
+}
+
+std::string foxglove_frame_bytes(const MadeFrame& frame) {
+  const auto& q = frame.quaternion;
+  return proto(1, proto(1, std::int64_t{5})) + proto(2, frame.parent) + proto(3, frame.child) +
+         proto(4, proto(1, frame.x) + proto(2, frame.y)) +
+         proto(5, proto(1, q[0]) + proto(2, q[1]) + proto(3, q[2]) + proto(4, q[3]));
+}
+
 std::vector<MadeMessage> made_drive(bool ros1) {
   std::vector<MadeMessage> drive{
       {"/tf_static", "tf2_msgs/TFMessage", kBillion, frames_bytes(ros1, {{"base_link", "laser", 0.2, 0.0}})}};
@@ -146,7 +181,8 @@ std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string&
   for (const MadeMessage& m : messages) {
     const std::size_t n = numbers.at(m.topic);
     records += mcap_record(3, u16(n) + sized(ros2_name(m.type)) + sized("ros2msg") + sized(""));
-    records += mcap_record(4, u16(n) + u16(n) + sized(m.topic) + sized("cdr") + sized(""));
+    const std::string encoding = m.type.find('/') == std::string::npos ? "protobuf" : "cdr";
+    records += mcap_record(4, u16(n) + u16(n) + sized(m.topic) + sized(encoding) + sized(""));
     records += mcap_record(5, u16(n) + u32(0) + raw(m.ns) + raw(m.ns) + packed(pack_each ? "zstd" : "", m.bytes));
   }
   const std::string chunk = packed(method, records);
@@ -156,9 +192,16 @@ std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string&
   return data + mcap_record(15, u32(crc(data))) + mcap_record(2, std::string(20, '\0')) + magic;
 }
 
-std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method) {
+std::string ros1_index(std::size_t entries, std::size_t claimed) {
+  return ros1_fields({{"op", "\4"}, {"ver", u32(1)}, {"conn", u32(1)}, {"count", u32(entries)}}) + u32(claimed) +
+         std::string(entries * 12, '\x2A');
+}
+
+std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method,
+                        const std::string& behind) {
   const auto numbers = numbered(messages);
-  std::string records;
+  std::string chunks, records;
+  std::size_t put = 0, count = 0;
   for (const MadeMessage& m : messages) {
     const std::string conn = u32(numbers.at(m.topic));
     records += ros1_fields({{"op", "\7"}, {"conn", conn}, {"topic", m.topic}}) +
@@ -168,16 +211,20 @@ std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::str
                             {"time", u32(static_cast<std::size_t>(m.ns / kBillion)) +
                                          u32(static_cast<std::size_t>(m.ns % kBillion))}}) +
                sized(m.bytes);
+    const bool full = !behind.empty() && put + 1 == messages.size() / 2;
+    if (++put < messages.size() && !full) continue;
+    chunks +=
+        ros1_fields({{"op", "\5"}, {"compression", method.empty() ? "none" : method}, {"size", u32(records.size())}}) +
+        sized(packed(method, records)) + behind;
+    records.clear();
+    ++count;
   }
-  const std::string chunk =
-      ros1_fields({{"op", "\5"}, {"compression", method.empty() ? "none" : method}, {"size", u32(records.size())}}) +
-      sized(packed(method, records));
   const auto head = [&](std::size_t index) {
     return "#ROSBAG V2.0\n" +
-           ros1_fields({{"op", "\3"}, {"index_pos", u64(index)}, {"conn_count", u32(3)}, {"chunk_count", u32(1)}}) +
+           ros1_fields({{"op", "\3"}, {"index_pos", u64(index)}, {"conn_count", u32(3)}, {"chunk_count", u32(count)}}) +
            sized(std::string(200, ' '));
   };
-  return head(head(0).size() + chunk.size()) + chunk;
+  return head(head(0).size() + chunks.size()) + chunks + (behind.empty() ? "" : ros1_index(1, 12));
 }
 
 void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messages, bool pack_each) {

@@ -34,10 +34,20 @@ struct MadeFrame {
 /// Ten scans and ten poses 0.1 m apart, and the laser 0.2 m ahead of the robot's middle.
 [[nodiscard]] std::vector<MadeMessage> made_drive(bool ros1);
 
-/// `pack_each`: messages packed one by one with zstd, as rosbag2's compression_mode "message" does.
+/// foxglove.LaserScan and foxglove.FrameTransform in protobuf: beams from 0 to `last_rad`.
+[[nodiscard]] std::string foxglove_scan_bytes(std::int64_t ns, const std::string& frame, double last_rad,
+                                              const std::vector<double>& ranges);
+[[nodiscard]] std::string foxglove_frame_bytes(const MadeFrame& frame);
+
+/// A type without "/" is Foxglove's, in protobuf. `pack_each`: messages packed one by one with zstd, as rosbag2's
+/// compression_mode "message" does.
 [[nodiscard]] std::string mcap_of(const std::vector<MadeMessage>& messages, const std::string& method,
                                   bool pack_each = false);
-[[nodiscard]] std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method);
+/// `behind`: bytes behind each chunk, where the format has its index; two chunks where there are any.
+[[nodiscard]] std::string ros1_bag_of(const std::vector<MadeMessage>& messages, const std::string& method,
+                                      const std::string& behind = "");
+/// An index record of `entries` that says `claimed` bytes and has `entries` * 12.
+[[nodiscard]] std::string ros1_index(std::size_t entries, std::size_t claimed);
 void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messages, bool pack_each);
 
 }  // namespace jaywalk::tests

@@ -64,6 +64,19 @@ TEST_CASE("a map's cells are walls, free or unknown, in cells of 0.1 m whatever 
   CHECK(map->at({-5, 0}) == KnownCell::kUnknown);
 }
 
+TEST_CASE("a map of up to 500 m a side is read, whatever its cells, and a larger one refused") {
+  const Scratch scratch;
+  const auto yaml = [&](int pixels, const std::string& resolution) {
+    scratch.write("m.pgm",
+                  "P5 " + std::to_string(pixels) + " 1 255\n" + std::string(static_cast<std::size_t>(pixels), '\xFE'));
+    return scratch.write("m.yaml", "image: m.pgm\nresolution: " + resolution + "\norigin: [0.05, 0.05, 0.0]\n");
+  };
+  CHECK(load_known_map(yaml(3111, "0.045"), 0.1)->at({1399, 0}) == KnownCell::kFree);
+  CHECK(load_known_map(yaml(4999, "0.1"), 0.1)->at({4999, 0}) == KnownCell::kFree);
+  CHECK(load_known_map(yaml(49'000, "0.01"), 0.1)->at({4899, 0}) == KnownCell::kFree);
+  CHECK_THROWS_WITH(load_known_map(yaml(5100, "0.1"), 0.1), Catch::Contains("more than 500 m a side"));
+}
+
 TEST_CASE("a map that is turned lies where its origin says") {
   const Scratch scratch;
   // A row of three cells of 0.1 m that runs up the y axis: free, free, wall.

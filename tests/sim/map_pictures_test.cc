@@ -30,8 +30,8 @@ std::string png(std::uint32_t width, int depth, int kind, const std::string& sam
   const std::string row = std::string(1, '\0') + samples;
   compress(reinterpret_cast<Bytef*>(packed.data()), &size, reinterpret_cast<const Bytef*>(row.data()), row.size());
   packed.resize(size);
-  const std::string head = high_first(width) + high_first(1) + static_cast<char>(depth) + static_cast<char>(kind) +
-                           std::string(3, '\0');
+  const std::string head =
+      high_first(width) + high_first(1) + static_cast<char>(depth) + static_cast<char>(kind) + std::string(3, '\0');
   return "\x89PNG\r\n\x1a\n" + chunk("IHDR", head) + more + chunk("IDAT", packed) + chunk("IEND", "");
 }
 
@@ -102,14 +102,14 @@ TEST_CASE("binary, 16 bit and commented PGM give the same picture as plain text"
   CHECK(greys(scratch.write("a.pgm", "P2\n# made by hand\n2 2 # wide, high\n255\n0 255 128 7\n")) == expected);
   CHECK(greys(scratch.write("b.pgm", std::string("P5 2 2 255\n\x00\xff\x80\x07", 15))) == expected);
   // 128 of 255 is 32896 = 0x8080 of 65535, and 7 is 1799 = 0x0707.
-  CHECK(greys(scratch.write("c.pgm", std::string("P5 2 2 65535\n\x00\x00\xff\xff\x80\x80\x07\x07", 21))) ==
-        expected);
+  CHECK(greys(scratch.write("c.pgm", std::string("P5 2 2 65535\n\x00\x00\xff\xff\x80\x80\x07\x07", 21))) == expected);
 }
 
 TEST_CASE("a map of more cells than are wanted is read in larger ones: a wall where a pixel is, free where all are") {
   const Scratch scratch;
   // Seven by three pixels, one wall at the top right corner and one unknown pixel at the bottom left.
-  scratch.write("m.pgm", "P2 7 3 255  255 255 255 255 255 255 0  255 255 255 255 255 255 255  205 255 255 255 255 255 255");
+  scratch.write("m.pgm",
+                "P2 7 3 255  255 255 255 255 255 255 0  255 255 255 255 255 255 255  205 255 255 255 255 255 255");
   const auto yaml = scratch.write("m.yaml", "image: m.pgm\nresolution: 0.1\norigin: [1, 2, 0]\n");
   const Raster raster = load_raster_map(yaml, 4).raster;
   CHECK(raster.width == 4);
