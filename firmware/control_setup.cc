@@ -144,6 +144,7 @@ std::string to_text(const ControlSetup& setup) {
   if (setup.given_movers) json["given_movers"] = true;
   if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
   json["berth_m"] = setup.comfort_distance_m;
+  if (setup.unix_from_loop != Duration{0}) json["unix_from_loop_ns"] = setup.unix_from_loop.count();
   if (setup.part != 1) json["part"] = setup.part;
   if (!setup.zones.empty()) json["zones"] = setup.zones;
   if (setup.known_map) json["known_map"] = json_of(*setup.known_map);
@@ -161,6 +162,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     setup.given_movers = json.value("given_movers", false);
     setup.steering = json.value("steering", StickUse::kNone);
     setup.comfort_distance_m = json.at("berth_m").get<double>();
+    setup.unix_from_loop = Duration{json.value("unix_from_loop_ns", std::int64_t{0})};
     setup.part = json.value("part", setup.part);
     setup.zones = json.value("zones", setup.zones);
     if (json.contains("known_map")) setup.known_map = known_map_of(json["known_map"]);

@@ -9,6 +9,7 @@
 #include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/time.h"
 #include "planner/mapping/known_map.h"
 #include "planner/motion/make_motion.h"
 #include "planner/planner.h"
@@ -39,6 +40,8 @@ struct ControlSetup {
   std::shared_ptr<const KnownMap> known_map{};  ///< what is known before the first scan; null: nothing
   std::vector<MapZone> zones{};                 ///< where not to drive, and where slowly
   double comfort_distance_m = 1.0;              ///< people nearer than this cost; hal/comfort.h
+  Duration unix_from_loop{
+      0};        ///< the wall clock less the loop's at the start; 0: the loop's has no wall clock beside it
   int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
   /// Whether the body's shape matters on the way: one that is nearly round plans with the circle that holds it, a long

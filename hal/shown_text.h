@@ -22,4 +22,17 @@ namespace jaywalk {
   return text;
 }
 
+/// For a person: "-0", "-0.00" become "0", "0.00" wherever a number in `text` is that.
+[[nodiscard]] inline std::string without_minus_zero(std::string text) {
+  const auto is_of_number = [](char c) { return (c >= '0' && c <= '9') || c == '.'; };
+  const auto is_of_word = [&](char c) { return is_of_number(c) || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z'); };
+  for (std::size_t at = 0; (at = text.find("-0", at)) != std::string::npos; ++at) {
+    std::size_t end = at + 1;
+    while (end < text.size() && (text[end] == '0' || text[end] == '.')) ++end;
+    const bool more = end < text.size() && (is_of_number(text[end]) || text[end] == 'e' || text[end] == 'x');
+    if (!more && (at == 0 || !is_of_word(text[at - 1]))) text.erase(at, 1);
+  }
+  return text;
+}
+
 }  // namespace jaywalk

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/report/csv_rows.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::campaign {
 namespace {
@@ -39,7 +40,7 @@ template <class... Numbers>
 std::string text_of(const char* format, Numbers... numbers) {
   char text[160];
   std::snprintf(text, sizeof text, format, numbers...);
-  return text;
+  return without_minus_zero(text);
 }
 
 std::string where(const RobotRow& row) {

@@ -20,9 +20,10 @@ struct PassedOn {
   bool kept = false;  ///< for readers that come later
   [[nodiscard]] const char* topic() const { return exchange::kRosTopics[number].name; }
 };
-const std::array<PassedOn, 6> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
+const std::array<PassedOn, 7> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds__LaserScan__desc},
                                          {exchange::kOdom, &nav_msgs_msg_dds__Odometry__desc},
                                          {exchange::kTf, &tf2_msgs_msg_dds__TFMessage__desc},
+                                         {exchange::kTfStatic, &tf2_msgs_msg_dds__TFMessage__desc, true},
                                          {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
                                          {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
                                          {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc}}};

@@ -261,8 +261,8 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   const Pose2& p = log.robot_from_laser;
   std::snprintf(at, sizeof at, "laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
   log.add_remark(file + ": scans of " + shown(scan_topic) +
-                 (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " + at + source +
-                 ")");
+                 (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " +
+                 without_minus_zero(at) + source + ")");
   return log;
 }
 

@@ -4,6 +4,7 @@
 #include <cstring>
 
 #include "apps/formats/mcap_format.h"
+#include "apps/formats/unpacking.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {
@@ -35,11 +36,13 @@ McapWriter::McapWriter(const std::string& file) : file_(file), out_(file, std::i
   put(record(kHeader, sized("ros2") + sized("jaywalk")));
 }
 
-std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& type, const std::string& schema) {
+std::uint16_t McapWriter::add_channel(const std::string& topic, const std::string& type, const std::string& schema,
+                                      const std::string& qos) {
   const auto number = static_cast<std::uint16_t>(topics_.size() + 1);
   topics_.push_back({topic, type});
   const std::string records = record(kSchema, u16(number) + sized(type) + sized("ros2msg") + sized(schema)) +
-                              record(kChannel, u16(number) + u16(number) + sized(topic) + sized("cdr") + sized(""));
+                              record(kChannel, u16(number) + u16(number) + sized(topic) + sized("cdr") +
+                                                   sized(sized("offered_qos_profiles") + sized(qos)));
   definitions_ += records;
   chunk_ += records;
   return number;
@@ -65,9 +68,10 @@ void McapWriter::put(std::string_view bytes) {
 
 void McapWriter::put_chunk() {
   if (chunk_.empty()) return;
+  const std::string packed = packed_zstd(chunk_);
   const std::string chunk = record(kChunk, u64(chunk_first_ns_) + u64(chunk_last_ns_) + u64(chunk_.size()) +
-                                               u32(crc_of(chunk_)) + sized("") + u64(chunk_.size()) + chunk_);
-  ChunkIndex index{chunk_first_ns_, chunk_last_ns_, offset_, chunk.size(), 0, chunk_.size(), {}};
+                                               u32(crc_of(chunk_)) + sized("zstd") + u64(packed.size()) + packed);
+  ChunkIndex index{chunk_first_ns_, chunk_last_ns_, offset_, chunk.size(), 0, packed.size(), chunk_.size(), {}};
   put(chunk);
   const std::uint64_t behind = offset_;
   for (const auto& [channel, entries] : message_index_) {
@@ -84,7 +88,7 @@ std::string McapWriter::index_record(const ChunkIndex& chunk) const {
   std::string offsets;
   for (const auto& [channel, offset] : chunk.index_offsets) offsets += u16(channel) + u64(offset);
   return record(kChunkIndex, u64(chunk.first_ns) + u64(chunk.last_ns) + u64(chunk.offset) + u64(chunk.length) +
-                                 sized(offsets) + u64(chunk.index_length) + sized("") + u64(chunk.size) +
+                                 sized(offsets) + u64(chunk.index_length) + sized("zstd") + u64(chunk.packed_size) +
                                  u64(chunk.size));
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-// MCAP files (mcap.dev/spec): records of messages in chunks, each with an index, a summary at the end.
+// MCAP files (mcap.dev/spec): records of messages in chunks packed with zstd, each with an index, a summary at the end.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
@@ -18,8 +18,10 @@ class McapWriter {
   /// Throws StartupError when the file cannot be made.
   explicit McapWriter(const std::string& file);
 
-  /// A topic of messages of one type in CDR; `schema`: its definition as ROS 2 writes it. Returns its number.
-  std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& schema);
+  /// A topic of messages of one type in CDR; `schema`: its definition as ROS 2 writes it; `qos`: rosbag2's
+  /// profile of it. Returns its number.
+  std::uint16_t add_channel(const std::string& topic, const std::string& type, const std::string& schema,
+                            const std::string& qos);
   /// One message, its stamp not before 0.
   void write(std::uint16_t channel, Time stamp, std::string_view message);
   /// A whole file beside the messages, under its own name. Throws StartupError where it cannot be read.
@@ -39,7 +41,7 @@ class McapWriter {
 
  private:
   struct ChunkIndex {
-    std::uint64_t first_ns, last_ns, offset, length, index_length, size;
+    std::uint64_t first_ns, last_ns, offset, length, index_length, packed_size, size;
     std::map<std::uint16_t, std::uint64_t> index_offsets;
   };
   void put(std::string_view bytes);

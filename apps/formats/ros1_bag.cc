@@ -95,13 +95,16 @@ class Ros1Bag {
     record.end = body + record.bytes;
     return record.end <= file_.size() ? std::optional(record) : std::nullopt;
   }
-  /// By its number of entries, where what follows them is a record: those of 2010 claim more bytes than they have.
+  /// By its number of entries, unless only what it claims leads to a record: those of 2010 claim more than they have.
   std::uint64_t bytes_of_index(const Record& record, std::uint64_t body) {
     const auto count = record.fields.find("count");
     if (count == record.fields.end() || count->second.size() != sizeof(std::uint32_t)) return record.bytes;
-    const std::uint64_t entries = LittleEndian(count->second).u32() * kIndexEntry, after = body + entries;
-    const bool follows = after == file_.size() || (after + 8 <= file_.size() && begins_record(file_.read(after, 8)));
-    return entries < record.bytes && follows ? entries : record.bytes;
+    const std::uint64_t entries = LittleEndian(count->second).u32() * kIndexEntry;
+    const auto record_follows = [&](std::uint64_t after) {
+      return after == file_.size() || (after + 8 <= file_.size() && begins_record(file_.read(after, 8)));
+    };
+    const bool claim_holds = !record_follows(body + entries) && record_follows(body + record.bytes);
+    return entries >= record.bytes || claim_holds ? record.bytes : entries;
   }
   /// A head's length, and that of its first field.
   static bool begins_record(std::string_view bytes) {

@@ -66,9 +66,9 @@ void value(CdrWriter& out, const char* key, const std::string& said) { out.text(
 
 }  // namespace
 
-std::string laser_scan(const LaserScan& scan) {
+std::string laser_scan(const LaserScan& scan, Time time) {
   CdrWriter out;
-  header(out, scan.stamp, "laser");
+  header(out, time, "laser");
   const double step = static_cast<double>(scan.angle_step_rad), beams = std::max(1.0, scan.beam_count - 1.0);
   out.f32(scan.angle_rad(0)).f32(scan.angle_rad(scan.beam_count - 1U)).f32(step);
   out.f32(to_seconds(scan.sweep) / beams).f32(to_seconds(scan.period));
@@ -78,7 +78,7 @@ std::string laser_scan(const LaserScan& scan) {
   return out.message();
 }
 
-std::string points(const LaserScan& scan) {
+std::string points(const LaserScan& scan, Time time) {
   constexpr unsigned kFloat32 = 7;
   constexpr std::size_t kPointBytes = 12;
   CdrWriter data;  // for its numbers alone
@@ -90,7 +90,7 @@ std::string points(const LaserScan& scan) {
     ++hits;
   }
   CdrWriter out;
-  header(out, scan.stamp, "laser");
+  header(out, time, "laser");
   out.u32(1).u32(hits).u32(3);
   std::size_t offset = 0;
   for (const char* axis : {"x", "y", "z"}) {
@@ -101,24 +101,30 @@ std::string points(const LaserScan& scan) {
   return out.message();
 }
 
-std::string odometry(const TickRecord& tick, const DriveModel& drive) {
+std::string odometry(const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive, Time time) {
   CdrWriter out;
-  header(out, tick.now, "map");
+  header(out, time, "odom");
   out.text("base_link");
-  pose(out, tick.pose.map_from_robot);
+  pose(out, frames.odom_from_robot);
   zeros(out, 36);
-  const double left = drive.wheel_radius_m * tick.wheels.left_radps,
-               right = drive.wheel_radius_m * tick.wheels.right_radps;
+  const double left = drive.wheel_radius_m * wheels.left_radps, right = drive.wheel_radius_m * wheels.right_radps;
   twist(out, {0.5 * (left + right), (right - left) / drive.track_width_m});
   zeros(out, 36);
   return out.message();
 }
 
-std::string transforms(const TickRecord& tick, const Pose2& robot_from_laser) {
+std::string transforms(const RobotFrames& frames, Time time) {
   CdrWriter out;
   out.u32(2);
-  transform(out, tick.now, "map", "base_link", tick.pose.map_from_robot);
-  transform(out, tick.now, "base_link", "laser", robot_from_laser);
+  transform(out, time, "map", "odom", frames.map_from_odom);
+  transform(out, time, "odom", "base_link", frames.odom_from_robot);
+  return out.message();
+}
+
+std::string static_transforms(const Pose2& robot_from_laser, Time time) {
+  CdrWriter out;
+  out.u32(1);
+  transform(out, time, "base_link", "laser", robot_from_laser);
   return out.message();
 }
 
@@ -128,22 +134,22 @@ std::string command(const TickRecord& tick) {
   return out.message();
 }
 
-std::string goal_pose(const TickRecord& tick) {
+std::string goal_pose(const OperatorInput& input, Time time) {
   CdrWriter out;
-  header(out, tick.now, "map");
-  const double heading = tick.input.wants_heading() ? tick.input.goal_heading_rad : 0.0;
-  pose(out, {tick.input.goal_in_map.x, tick.input.goal_in_map.y, heading});
+  header(out, time, "map");
+  const double heading = input.wants_heading() ? input.goal_heading_rad : 0.0;
+  pose(out, {input.goal_in_map.x, input.goal_in_map.y, heading});
   return out.message();
 }
 
-std::string path(const PlannedPath& path) {
+std::string path(const PlannedPath& path, Time time) {
   CdrWriter out;
-  header(out, path.stamp, "map");
+  header(out, time, "map");
   out.u32(path.points.size());
   for (std::size_t k = 0; k < path.points.size(); ++k) {
     const Vec2 here = in_metres(path.points[k]),
                ahead = in_metres(path.points[std::min(k + 1, path.points.size() - 1)]);
-    header(out, path.stamp, "map");
+    header(out, time, "map");
     pose(out, {here.x, here.y, std::atan2(ahead.y - here.y, ahead.x - here.x)});
   }
   return out.message();
@@ -156,13 +162,13 @@ std::string tracks(std::span<const Track> tracks, Time stamp) {
   return out.message();
 }
 
-std::string diagnostics(const TickRecord& tick) {
+std::string diagnostics(const TickRecord& tick, Time time) {
   constexpr unsigned kOk = 0, kWarn = 1, kError = 2;
   const std::string reasons = to_string(tick.verdict.reasons);
   char gap[32];
   std::snprintf(gap, sizeof gap, "%.3f", tick.verdict.gap_m);
   CdrWriter out;
-  header(out, tick.now, "");
+  header(out, time, "");
   out.u32(1).u8(has(tick.verdict.reasons, Reason::kLatched) ? kError : reasons.empty() ? kOk : kWarn);
   out.text("jaywalk supervisor").text(reasons.empty() ? "drives as planned" : reasons).text("").u32(2);
   value(out, "plan", name_of(tick.plan_status));

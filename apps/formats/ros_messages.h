@@ -1,6 +1,6 @@
 #pragma once
-// A tick as ROS 2's messages, in CDR. Frames: "map", "base_link" (the drive axle's middle), "laser". Stamps are the
-// loop's clock; in a simulation it begins at 0.
+// A tick as ROS 2's messages, in CDR. Frames by REP 105: "map", "odom", "base_link" (the drive axle's middle), "laser".
+// Each message's stamp is given.
 #include <span>
 #include <string>
 
@@ -10,24 +10,32 @@
 
 namespace jaywalk::exchange {
 
+/// Where the robot is: its wheels' own frame drifts against the map.
+struct RobotFrames {
+  Pose2 map_from_odom, odom_from_robot;
+};
+
 /// sensor_msgs/LaserScan. A beam that measured and found nothing is +inf, one that knows nothing NaN (REP 117).
-[[nodiscard]] std::string laser_scan(const LaserScan& scan);
+[[nodiscard]] std::string laser_scan(const LaserScan& scan, Time stamp);
 /// sensor_msgs/PointCloud2 of the hits, in the laser's frame.
-[[nodiscard]] std::string points(const LaserScan& scan);
-/// nav_msgs/Odometry: the estimated pose in the map, the wheels' own speed.
-[[nodiscard]] std::string odometry(const TickRecord& tick, const DriveModel& drive);
-/// tf2_msgs/TFMessage: map to base_link, base_link to laser.
-[[nodiscard]] std::string transforms(const TickRecord& tick, const Pose2& robot_from_laser);
+[[nodiscard]] std::string points(const LaserScan& scan, Time stamp);
+/// nav_msgs/Odometry: the wheels' pose in odom, and their speed.
+[[nodiscard]] std::string odometry(const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive,
+                                   Time stamp);
+/// tf2_msgs/TFMessage: map to odom, odom to base_link.
+[[nodiscard]] std::string transforms(const RobotFrames& frames, Time stamp);
+/// tf2_msgs/TFMessage: base_link to laser.
+[[nodiscard]] std::string static_transforms(const Pose2& robot_from_laser, Time stamp);
 /// geometry_msgs/Twist: what the supervisor permitted.
 [[nodiscard]] std::string command(const TickRecord& tick);
 /// geometry_msgs/PoseStamped.
-[[nodiscard]] std::string goal_pose(const TickRecord& tick);
+[[nodiscard]] std::string goal_pose(const OperatorInput& input, Time stamp);
 /// nav_msgs/Path.
-[[nodiscard]] std::string path(const PlannedPath& path);
+[[nodiscard]] std::string path(const PlannedPath& path, Time stamp);
 /// visualization_msgs/MarkerArray: a cylinder a track, red where it moves.
 [[nodiscard]] std::string tracks(std::span<const Track> tracks, Time stamp);
 /// diagnostic_msgs/DiagnosticArray: reasons, plan, gap.
-[[nodiscard]] std::string diagnostics(const TickRecord& tick);
+[[nodiscard]] std::string diagnostics(const TickRecord& tick, Time stamp);
 /// nav_msgs/OccupancyGrid of what is known: 100 occupied, 0 seen free, -1 unknown.
 [[nodiscard]] std::string occupancy(const EvidenceMap& map, Time stamp);
 

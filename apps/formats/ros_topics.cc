@@ -21,6 +21,16 @@ void RosTopics::forget(std::uint32_t topics) {
   if ((topics & bit(kPlan)) != 0) plan_seen_ = kNever;
   if ((topics & bit(kGoal)) != 0) goal_seen_ = {};
   if ((topics & bit(kMap)) != 0) mapped_ = kNever;
+  if ((topics & bit(kTfStatic)) != 0) told_static_ = false;
+}
+
+/// Without wheels odom is the map.
+RobotFrames RosTopics::frames_at(const TickRecord& t, const RobotModel& model) {
+  if (!odometry_) odometry_.emplace(model.drive);
+  if (t.wheels.sequence == 0) return {{}, t.pose.map_from_robot};
+  if (t.wheels.stamp != odometry_->stamp()) (void)odometry_->take(t.wheels);
+  const Pose2 odom_from_robot = odometry_->odom_from_robot();
+  return {t.pose.map_from_robot * inverse(odom_from_robot), odom_from_robot};
 }
 
 void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const PlannedPath& path,
@@ -29,12 +39,16 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
   wanted_ = wanted;
   if (wanted == 0) return;
   const auto wants = [wanted](RosTopicNumber topic) { return (wanted & bit(topic)) != 0; };
-  if (wants(kTf)) push_(kTf, t.now, transforms(t, model.laser.robot_from_laser));
-  if (wants(kOdom)) push_(kOdom, t.now, odometry(t, model.drive));
-  if (wants(kCmdVel)) push_(kCmdVel, t.now, command(t));
+  const Time now = wall(t.now);
+  const RobotFrames frames = frames_at(t, model);
+  if (wants(kTfStatic) && !std::exchange(told_static_, true))
+    push_(kTfStatic, now, static_transforms(model.laser.robot_from_laser, now));
+  if (wants(kTf)) push_(kTf, now, transforms(frames, now));
+  if (wants(kOdom)) push_(kOdom, now, odometry(frames, t.wheels, model.drive, now));
+  if (wants(kCmdVel)) push_(kCmdVel, now, command(t));
   if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, tracks, wanted);
   if (wants(kPlan) && !path.points.empty() && path.stamp != plan_seen_) {
-    push_(kPlan, t.now, exchange::path(path));
+    push_(kPlan, now, exchange::path(path, wall(path.stamp)));
     plan_seen_ = path.stamp;
   }
   add_goal(t, wanted);
@@ -43,23 +57,25 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
 
 void RosTopics::add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted) {
   scan_seen_ = t.scan.sequence;
-  if ((wanted & bit(kScan)) != 0) push_(kScan, t.now, laser_scan(t.scan));
-  if ((wanted & bit(kPoints)) != 0) push_(kPoints, t.now, points(t.scan));
-  if ((wanted & bit(kTracks)) != 0) push_(kTracks, t.now, exchange::tracks(tracks, t.now));
+  const Time now = wall(t.now), taken = wall(t.scan.stamp);
+  if ((wanted & bit(kScan)) != 0) push_(kScan, now, laser_scan(t.scan, taken));
+  if ((wanted & bit(kPoints)) != 0) push_(kPoints, now, points(t.scan, taken));
+  if ((wanted & bit(kTracks)) != 0) push_(kTracks, now, exchange::tracks(tracks, now));
 }
 
 void RosTopics::add_goal(const TickRecord& t, std::uint32_t wanted) {
   const OperatorInput &now = t.input, &before = goal_seen_;
   const bool same =
       now.goal_in_map == before.goal_in_map && same_heading(now.goal_heading_rad, before.goal_heading_rad);
-  if (now.has_goal && (wanted & bit(kGoal)) != 0 && !(before.has_goal && same)) push_(kGoal, t.now, goal_pose(t));
+  if (now.has_goal && (wanted & bit(kGoal)) != 0 && !(before.has_goal && same))
+    push_(kGoal, wall(t.now), goal_pose(now, wall(t.now)));
   goal_seen_ = now;
 }
 
 void RosTopics::add_diagnostics(const TickRecord& t) {
   const bool is_due = told_ == kNever || age(told_, t.now) >= kDiagnosticsEvery;
   if (!is_due && t.verdict.reasons == reasons_) return;
-  push_(kDiagnostics, t.now, diagnostics(t));
+  push_(kDiagnostics, wall(t.now), diagnostics(t, wall(t.now)));
   reasons_ = t.verdict.reasons;
   told_ = t.now;
 }
@@ -69,7 +85,7 @@ bool RosTopics::is_map_due(Time now, std::uint32_t wanted) const {
 }
 
 void RosTopics::add_map(const EvidenceMap& map, Time now) {
-  push_(kMap, now, occupancy(map, now));
+  push_(kMap, wall(now), occupancy(map, wall(now)));
   mapped_ = now;
 }
 

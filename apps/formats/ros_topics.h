@@ -3,12 +3,15 @@
 #include <array>
 #include <cstdint>
 #include <functional>
+#include <optional>
 #include <span>
 #include <string>
 #include <utility>
 
+#include "apps/formats/ros_messages.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/types/robot_model.h"
+#include "planner/localization/odometry.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/tracking/track.h"
 
@@ -17,21 +20,35 @@ namespace jaywalk::exchange {
 struct RosTopic {
   const char* name;
   const char* type;
+  bool latched = false;  ///< kept for readers that come later: durability transient local
 };
 
 /// A topic's number is its place in kRosTopics.
-enum RosTopicNumber : std::uint8_t { kScan, kPoints, kOdom, kTf, kMap, kPlan, kGoal, kTracks, kDiagnostics, kCmdVel };
+enum RosTopicNumber : std::uint8_t {
+  kScan,
+  kPoints,
+  kOdom,
+  kTf,
+  kMap,
+  kPlan,
+  kGoal,
+  kTracks,
+  kDiagnostics,
+  kCmdVel,
+  kTfStatic
+};
 
-inline constexpr std::array<RosTopic, 10> kRosTopics{{{"/scan", "sensor_msgs/msg/LaserScan"},
+inline constexpr std::array<RosTopic, 11> kRosTopics{{{"/scan", "sensor_msgs/msg/LaserScan"},
                                                       {"/points", "sensor_msgs/msg/PointCloud2"},
                                                       {"/odom", "nav_msgs/msg/Odometry"},
                                                       {"/tf", "tf2_msgs/msg/TFMessage"},
-                                                      {"/map", "nav_msgs/msg/OccupancyGrid"},
+                                                      {"/map", "nav_msgs/msg/OccupancyGrid", true},
                                                       {"/plan", "nav_msgs/msg/Path"},
                                                       {"/goal_pose", "geometry_msgs/msg/PoseStamped"},
                                                       {"/tracks", "visualization_msgs/msg/MarkerArray"},
                                                       {"/diagnostics", "diagnostic_msgs/msg/DiagnosticArray"},
-                                                      {"/cmd_vel", "geometry_msgs/msg/Twist"}}};
+                                                      {"/cmd_vel", "geometry_msgs/msg/Twist"},
+                                                      {"/tf_static", "tf2_msgs/msg/TFMessage", true}}};
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
 
 /// A run's ticks as ROS 2's messages (docs/reference/outputs.md says when there is one of which topic). Each message is
@@ -41,7 +58,9 @@ class RosTopics {
   /// A message in CDR of the topic of that number.
   using Push = std::function<void(std::size_t topic, Time stamp, std::string message)>;
 
-  explicit RosTopics(Push push) : push_(std::move(push)) {}
+  /// `unix_from_loop` is added to all stamps.
+  explicit RosTopics(Push push, Duration unix_from_loop = Duration{0})
+      : push_(std::move(push)), unix_from_loop_(unix_from_loop) {}
 
   /// A tick, what was tracked in it and the newest plan's path, with no points where there is none or it was told
   /// before. `wanted`: a bit a topic. A topic that was not wanted before is told whatever it last said.
@@ -53,11 +72,16 @@ class RosTopics {
 
  private:
   void forget(std::uint32_t topics);
+  [[nodiscard]] Time wall(Time loop) const { return loop + unix_from_loop_; }
+  [[nodiscard]] RobotFrames frames_at(const TickRecord& t, const RobotModel& model);
   void add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted);
   void add_goal(const TickRecord& t, std::uint32_t wanted);
   void add_diagnostics(const TickRecord& t);
 
   Push push_;
+  Duration unix_from_loop_;
+  std::optional<Odometry> odometry_;
+  bool told_static_ = false;
   std::uint32_t wanted_ = 0;  ///< last time
   std::uint32_t scan_seen_ = 0;
   OperatorInput goal_seen_;

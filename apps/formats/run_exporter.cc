@@ -1,5 +1,6 @@
 #include "apps/formats/run_exporter.h"
 
+#include <algorithm>
 #include <fstream>
 #include <string>
 
@@ -9,13 +10,30 @@
 namespace jaywalk {
 namespace {
 
+/// rosbag2's QoS profile of a topic: reliable, keep last; none of its times are limited.
+std::string qos_of(const std::string& name) {
+  const auto* const topic = std::find_if(exchange::kRosTopics.begin(), exchange::kRosTopics.end(),
+                                         [&](const exchange::RosTopic& one) { return one.name == name; });
+  const bool latched = topic != exchange::kRosTopics.end() && topic->latched;
+  const std::string for_ever = "\n    sec: 9223372036\n    nsec: 854775807\n";
+  return std::string("- history: 1\n  depth: ") + (latched ? "1" : "10") +
+         "\n  reliability: 1\n  durability: " + (latched ? "1" : "2") + "\n  deadline:" + for_ever +
+         "  lifespan:" + for_ever + "  liveliness: 1\n  liveliness_lease_duration:" + for_ever +
+         "  avoid_ros_namespace_conventions: false";
+}
+
+std::string in_quotes(std::string text) {
+  for (std::size_t at = 0; (at = text.find('\n', at)) != std::string::npos; at += 2) text.replace(at, 1, "\\n");
+  return text;
+}
+
 /// What `ros2 bag` wants beside the file (rosbag2's version 5 of it).
 void write_metadata(const std::filesystem::path& file, const exchange::McapWriter& mcap) {
   std::string topics;
   for (const auto& topic : mcap.topics()) {
     topics += "    - topic_metadata:\n        name: " + topic.name + "\n        type: " + topic.type +
-              "\n        serialization_format: cdr\n        offered_qos_profiles: \"\"\n      message_count: " +
-              std::to_string(topic.messages) + "\n";
+              "\n        serialization_format: cdr\n        offered_qos_profiles: \"" + in_quotes(qos_of(topic.name)) +
+              "\"\n      message_count: " + std::to_string(topic.messages) + "\n";
   }
   const std::string lasted = std::to_string(mcap.last_ns() - mcap.first_ns()), began = std::to_string(mcap.first_ns()),
                     count = std::to_string(mcap.messages()), name = file.filename().string();
@@ -32,16 +50,16 @@ void write_metadata(const std::filesystem::path& file, const exchange::McapWrite
 
 }  // namespace
 
-RunExporter::RunExporter(const std::filesystem::path& file, const RobotModel& model)
+RunExporter::RunExporter(const std::filesystem::path& file, const ControlSetup& setup)
     : path_(file),
       file_(file.string()),
-      model_(model),
-      topics_([this](std::size_t topic, Time stamp, const std::string& message) {
-        file_.write(channels_[topic], stamp, message);
-      }) {
+      model_(setup.model),
+      topics_([this](std::size_t topic, Time stamp,
+                     const std::string& message) { file_.write(channels_[topic], stamp, message); },
+              setup.unix_from_loop) {
   for (std::size_t k = 0; k < channels_.size(); ++k) {
-    const auto& [name, type] = exchange::kRosTopics[k];
-    channels_[k] = file_.add_channel(name, type, exchange::ros_schema(type));
+    const exchange::RosTopic& topic = exchange::kRosTopics[k];
+    channels_[k] = file_.add_channel(topic.name, topic.type, exchange::ros_schema(topic.type), qos_of(topic.name));
   }
 }
 

@@ -4,6 +4,7 @@
 
 #include "apps/formats/mcap_writer.h"
 #include "apps/formats/ros_topics.h"
+#include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/types/robot_model.h"
 #include "planner/tracking/tracker.h"
@@ -14,7 +15,7 @@ namespace jaywalk {
 class RunExporter {
  public:
   /// Throws StartupError when the file cannot be made.
-  RunExporter(const std::filesystem::path& file, const RobotModel& model);
+  RunExporter(const std::filesystem::path& file, const ControlSetup& setup);
 
   /// What the tick tells, and what was seen up to it.
   void add(const TickRecord& t, const Tracker& tracker);

@@ -70,4 +70,11 @@ std::optional<std::string> unpack_zstd(std::string_view packed, std::size_t most
   return out;
 }
 
+std::string packed_zstd(std::string_view bytes) {
+  std::string out(ZSTD_compressBound(bytes.size()), '\0');
+  out.resize(
+      ZSTD_compress(out.data(), out.size(), bytes.data(), bytes.size(), 1));  // with that much room it cannot fail
+  return out;
+}
+
 }  // namespace jaywalk::exchange

@@ -1,5 +1,5 @@
 #pragma once
-// What other recorders pack their bytes with.
+// What recorders pack their bytes with.
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -15,5 +15,8 @@ namespace jaywalk::exchange {
 
 /// zstd's frames that do not say how much comes out, at most `most` bytes.
 [[nodiscard]] std::optional<std::string> unpack_zstd(std::string_view packed, std::size_t most);
+
+/// One of zstd's frames, at its fastest usual level.
+[[nodiscard]] std::string packed_zstd(std::string_view bytes);
 
 }  // namespace jaywalk::exchange

@@ -101,13 +101,14 @@ class Share {
     }
   }
 
-  /// Returns whether nothing is left.
+  /// Returns whether nothing is left; else stopped() is the exit code.
   bool run() {
     Teller teller(all_, all_ - left_.size());
     const Interruption interruption;
     for (std::size_t next = 0; next < left_.size() || pool_.size() > 0;) {
       for (; next < left_.size() && pool_.size() < jobs_; ++next)
         pool_.start(left_[next], runs_[left_[next]], folder_.begin(runs_[left_[next]]));
+      if (interruption.came()) stopped_ = interruption.exit_code();
       if (interruption.came() || !take_ended(teller)) return stop();
       teller.show();
       std::this_thread::sleep_for(kBetweenLooks);
@@ -115,6 +116,7 @@ class Share {
     return true;
   }
   [[nodiscard]] std::size_t not_run() const { return not_run_; }
+  [[nodiscard]] int stopped() const { return stopped_; }
 
  private:
   /// False where a run was stopped from outside: it is not finished, and the campaign is to stop as well.
@@ -140,6 +142,7 @@ class Share {
   campaign::RunPool pool_;
   std::size_t jobs_, all_ = 0, not_run_ = 0;
   std::vector<std::size_t> left_;
+  int stopped_ = 1;
 };
 
 }  // namespace
@@ -160,7 +163,7 @@ int run_campaign(const CampaignOptions& options) {
   Share share(options, campaign, plan);
   if (!share.run()) {
     std::fprintf(stderr, "jaywalk: stopped; the same command goes on with what is left\n");
-    return 1;
+    return share.stopped();
   }
   if (share.not_run() > 0)
     std::fprintf(stderr, "jaywalk: %zu runs crashed or were refused; the report names them\n", share.not_run());

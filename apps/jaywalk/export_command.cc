@@ -34,7 +34,7 @@ int run_export(const ExportOptions& options) {
   std::error_code missing;
   if (std::filesystem::equivalent(run.file(), out, missing))
     throw StartupError(run.file().string() + ": would be overwritten", "choose another --out");
-  RunExporter exporter(out, run.setup().model);
+  RunExporter exporter(out, run.setup());
   export_all(run, exporter);
   exporter.finish(run.is_in_parts() ? std::filesystem::path() : run.file());
   std::printf("%s: %llu messages on %zu topics over %.1f s\n", out.c_str(),

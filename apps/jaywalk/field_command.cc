@@ -10,6 +10,7 @@
 #include "apps/bench/timing.h"
 #include "apps/jaywalk/map_cells.h"
 #include "firmware/backends.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -33,8 +34,11 @@ std::int32_t cell_number(double metres, double cell_m) {
 void tell_moved_goal(const FieldOptions& options, const MapCells& map, CellIndex asked, CellIndex at) {
   if (!options.goal || (asked.i == at.i && asked.j == at.j)) return;
   const Vec2 to = map.map_from_cells * Vec2{(at.i + 0.5) * map.cell_m, (at.j + 0.5) * map.cell_m};
-  std::fprintf(stderr, "jaywalk: --goal %.2f,%.2f lies in a wall or too near one; the field leads to %.2f,%.2f\n",
-               options.goal->x, options.goal->y, to.x, to.y);
+  char text[160];
+  std::snprintf(text, sizeof text,
+                "jaywalk: --goal %.2f,%.2f lies in a wall or too near one; the field leads to %.2f,%.2f\n",
+                options.goal->x, options.goal->y, to.x, to.y);
+  std::fputs(without_minus_zero(text).c_str(), stderr);
 }
 
 CellIndex goal_cell(const FieldOptions& options, const MapCells& map, const MapField& solver) {

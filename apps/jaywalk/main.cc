@@ -34,8 +34,7 @@ namespace {
 using namespace jaywalk;
 
 constexpr std::array<Footer, 13> kFooters{{
-    {"sim", "sim hal/sim/scenarios/crossing.toml --seed 2 --view",
-     "the goal was reached, nobody touched or made to turn", "it was not"},
+    {"sim", "sim crossing --seed 2 --view", "the goal was reached, nobody touched or made to turn", "it was not"},
     {"replay", "replay scans.txt odometry.txt --laser-mount 0.1,0,0", "replayed",
      "a recording's commands come out otherwise"},
     {"field", "field hal/sim/maps/map1.yaml --goal 24,24", "the field is certified", "it is not"},
@@ -73,7 +72,9 @@ std::uint64_t seed_of(const std::string& word) {
 
 void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
-  sim->add_option("scenario", sim_options.scenario, "Scenario file (TOML; docs/reference/scenarios.md)")->required();
+  sim->add_option("scenario", sim_options.scenario,
+                  "Scenario file (TOML; docs/reference/scenarios.md), or the name of a shipped one")
+      ->required();
   sim->add_option_function<std::string>(
          "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
          "Seed of everything random, 0 or more (default: the scenario's)")

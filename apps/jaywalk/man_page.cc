@@ -6,8 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "hal/shown_text.h"
-#include "hal/types/errors.h"
+#include "apps/jaywalk/completion.h"
 
 namespace jaywalk {
 namespace {
@@ -52,25 +51,6 @@ std::string section_of(const CLI::App& command) {
   std::string text = ".SS jaywalk " + roff(command.get_name()) + "\n" + roff(command.get_description()) + ".\n";
   for (const CLI::Option* option : command.get_options()) text += entry_of(*option);
   return text + ".PP\n.nf\n" + roff(command.get_footer()) + "\n.fi\n";
-}
-
-std::string long_names(const CLI::App& app) {
-  std::string words;
-  for (const CLI::Option* option : app.get_options())
-    for (const std::string& name : option->get_lnames()) words += (words.empty() ? "--" : " --") + name;
-  return words;
-}
-
-/// The allowed words of an option, "full|paper", where its value is one of a few.
-std::string choices_of(const CLI::App& command) {
-  std::string text;
-  for (const CLI::Option* option : command.get_options()) {
-    std::string words = option->get_type_name();
-    if (words.find('|') == std::string::npos) continue;
-    std::replace(words.begin(), words.end(), '|', ' ');
-    text += "    '" + command.get_name() + " --" + option->get_lnames().front() + "') words='" + words + "' ;;\n";
-  }
-  return text;
 }
 
 /// "--out", "--mode full|paper", "--seed N", "scenario": words that the parser thinks of say nothing.
@@ -147,39 +127,15 @@ bad input or set-up. `jaywalk COMMAND --help` has an example too; `jaywalk --man
   return page;
 }
 
-std::string bash_completion(const CLI::App& app) {
-  std::string names, options, choices;
-  for (const CLI::App* command : commands_of(app)) {
-    names += command->get_name() + " ";
-    options += "    " + command->get_name() + ") words='" + long_names(*command) + "' ;;\n";
-    choices += choices_of(*command);
-  }
-  return "# bash completion of jaywalk\n_jaywalk() {\n"
-         "  local word=${COMP_WORDS[COMP_CWORD]} before=${COMP_WORDS[COMP_CWORD - 1]} command='' words='' k\n"
-         "  for ((k = 1; k < COMP_CWORD; ++k)); do\n"
-         "    [[ ${COMP_WORDS[k]} == -* ]] || { command=${COMP_WORDS[k]}; break; }\n  done\n"
-         "  case $command in\n    '') words='" +
-         names + long_names(app) + "' ;;\n" + options +
-         "  esac\n  [[ -z $command || $word == -* ]] || words=''  # a file, then\n  case \"$command $before\" in\n" +
-         choices +
-         "  esac\n  mapfile -t COMPREPLY < <(compgen -W \"$words\" -- \"$word\")\n}\n"
-         "complete -o default -F _jaywalk jaywalk\n";
-}
-
 void add_manual_options(CLI::App& app) {
   app.add_flag_callback(
       "--man", [&app] { print(man_page(app)); }, "Print the manual page: jaywalk --man | man -l -");
   app.add_flag_callback(
       "--markdown", [&app] { print(markdown_page(app)); }, "Print the page docs/reference/command-line.md");
   app.add_option_function<std::string>(
-         "--completion",
-         [&app](const std::string& shell) {
-           if (shell != "bash")
-             throw StartupError("--completion: " + shown(shell) + " is not written for", "give bash");
-           print(bash_completion(app));
-         },
+         "--completion", [&app](const std::string& shell) { print(completion_for(app, shell)); },
          "Print what a shell needs to complete commands and options")
-      ->type_name("bash");
+      ->type_name("bash|zsh|fish");
 }
 
 }  // namespace jaywalk

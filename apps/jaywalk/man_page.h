@@ -13,7 +13,4 @@ void add_manual_options(CLI::App& app);
 /// The reference page of the command line. An option that several commands have stands in it once.
 [[nodiscard]] std::string markdown_page(const CLI::App& app);
 
-/// What bash offers to complete: commands, options, and the words of options that take one of a few.
-[[nodiscard]] std::string bash_completion(const CLI::App& app);
-
 }  // namespace jaywalk

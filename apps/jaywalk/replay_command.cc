@@ -25,6 +25,7 @@
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/robot_model_file.h"
+#include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 
@@ -134,11 +135,13 @@ sim::RecordedLog load_and_complain(const ReplayOptions& options, const std::stri
 }
 
 void suggest_mount(const Pose2& given, double missing_yaw) {
-  std::fprintf(
-      stderr,
+  char text[200];
+  std::snprintf(
+      text, sizeof text,
       "jaywalk: the scans slide aside of where the wheels drive: is the laser mounted turned? Try --laser-mount "
       "%.2f,%.2f,%.2f, and on until this line is gone\n",
       given.x, given.y, wrap_angle(given.heading + missing_yaw));
+  std::fputs(without_minus_zero(text).c_str(), stderr);
 }
 
 void tell(Progress& progress, const sim::LogReplay& log, Time now) {
@@ -163,7 +166,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const ControlSetup setup = setup_for(log, options);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   RunObserver observer(options.mcap);
-  LoopRunner runner(setup, log.hal(), options.out, false, observer);
+  LoopRunner runner(setup, log.hal(), options.out, true, observer);
   ReplayView view(options, runner);
   MountCheck mount;
   Progress progress;
@@ -191,7 +194,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
             .scenario = name},
            name + told);
   view.stay(interruption);
-  return whole ? 0 : 1;
+  return whole ? 0 : interruption.exit_code();
 }
 
 /// What only goes with a log: a recording has its own.
@@ -235,7 +238,8 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;
   const Interruption interruption;
-  while (!interruption.came() && run.step()) {
+  bool whole = false;
+  while (!interruption.came() && !(whole = !run.step())) {
     ++ticks;
     lost += run.lost_before();
     runner.step_at(recorded.now);
@@ -256,13 +260,14 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   std::fputs(run.remarks(0, "").c_str(), stderr);
   const bool same = different == 0 || run.begins_anew();
   conclude(options, runner,
-           {.outcome = "replayed",
-            .success = same,
+           {.outcome = whole ? "replayed" : "interrupted",
+            .success = same && whole,
             .scenario = options.logs[0].filename().string(),
             .title = "replay of " + file},
            file + ": " + std::to_string(ticks) + " ticks, " + std::to_string(different) + " commands differ, " +
                std::to_string(lost) + " ticks missing");
   view.stay(interruption);
+  if (!whole) return interruption.exit_code();
   return same ? 0 : 1;
 }
 

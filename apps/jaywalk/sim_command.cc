@@ -9,6 +9,7 @@
 
 #include "apps/jaywalk/interruption.h"
 #include "apps/jaywalk/progress.h"
+#include "apps/jaywalk/shipped_scenarios.h"
 #include "apps/report/run_observer.h"
 #include "apps/rivals/baseline.h"
 #include "apps/view/sim_view.h"
@@ -177,7 +178,8 @@ RunEnd end_of(const SimOptions& options, const sim::Scenario& scenario, std::uin
 
 }  // namespace
 
-int run_sim(const SimOptions& options) {
+int run_sim(SimOptions options) {
+  options.scenario = scenario_named(options.scenario);
   const sim::Scenario scenario = scenario_for(options);
   const std::uint64_t seed = options.seed.value_or(scenario.seed);
   sim::Simulation simulation(scenario, seed);
@@ -221,6 +223,7 @@ int run_sim(const SimOptions& options) {
   }
   std::fflush(stdout);
   if (view) view->stay(interruption);
+  if (ended == "interrupted") return interruption.exit_code();
   return ended == "reached" ? 0 : 1;
 }
 

@@ -30,8 +30,9 @@ struct SimOptions {
   std::optional<view::ViewAddress> view = {};  ///< serve the live page there
 };
 
-/// The whole controller on the simulated robot. Returns the process's exit code: 0 when the run succeeded by the strict
+/// The whole controller on the simulated robot; the scenario may be the name of one that comes with the program
+/// (shipped_scenarios.h). Returns the process's exit code: 0 when the run succeeded by the strict
 /// rule (goal reached, nobody touched, nobody made to turn), 1 when not. Throws StartupError for bad input.
-[[nodiscard]] int run_sim(const SimOptions& options);
+[[nodiscard]] int run_sim(SimOptions options);
 
 }  // namespace jaywalk

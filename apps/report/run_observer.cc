@@ -9,7 +9,7 @@ void RunObserver::begin(const std::filesystem::path& out, const std::filesystem:
   out_ = out;
   setup_ = setup;
   report_.emplace(out, tables);
-  if (wants_mcap_) exporter_.emplace(out / "run.mcap", setup.model);
+  if (wants_mcap_) exporter_.emplace(out / "run.mcap", setup);
 }
 
 void RunObserver::report(const RunSample& sample) {

@@ -11,6 +11,7 @@
 
 #include "apps/report/csv_rows.h"
 #include "firmware/recording/run_parts.h"
+#include "hal/shown_text.h"
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
@@ -54,7 +55,7 @@ constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latch
 std::string text_of(const char* format, double value) {
   char text[64];
   std::snprintf(text, sizeof text, format, value);
-  return text;
+  return without_minus_zero(text);
 }
 
 std::string often(int times) { return times == 1 ? "once" : std::to_string(times) + " times"; }

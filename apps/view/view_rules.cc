@@ -15,11 +15,16 @@ bool is_loopback_name(const std::string& host) {
   return name == "127.0.0.1" || name == "localhost";
 }
 
+/// A program on a desktop that is made as a page is, Foxglove's among them; a page in a frame of no site says "null",
+/// too.
+bool has_no_site(const std::string& origin) { return origin == "null" || origin.starts_with("file://"); }
+
 /// A browser names the site whose page opens a WebSocket (Origin). Only our own page and the named site may open one,
-/// since orders move the robot.
-bool may_order(const ViewRequest& request, const std::string& named) {
+/// since orders move the robot; what has no site may where it gave the token.
+bool may_order(const ViewRequest& request, const ViewRules& rules) {
+  if (has_no_site(request.origin)) return !rules.token.empty();
   const std::string scheme = request.is_encrypted ? "https://" : "http://";
-  return request.origin.empty() || request.origin == named || request.origin == scheme + request.host;
+  return request.origin.empty() || request.origin == rules.origin || request.origin == scheme + request.host;
 }
 
 /// The value of `name` in a query such as "a=1&token=2"; empty where it is not there.
@@ -55,7 +60,7 @@ ViewVerdict judge(const ViewRequest& request, const ViewRules& rules) {
   const std::string subprotocol = foxglove_subprotocol(request.subprotocols);
   if (path == "/" && !request.is_upgrade) return {.service = Service::kPage};
   if (path != "/ws" && subprotocol.empty()) return refused(404, "there are /, /ws and /stop");
-  if (!request.is_upgrade || !may_order(request, rules.origin))
+  if (!request.is_upgrade || !may_order(request, rules))
     return refused(403, "a WebSocket from this server's own page alone, or one named with --view-origin");
   return {.service = Service::kSocket, .status = 101, .subprotocol = subprotocol};
 }

@@ -32,8 +32,9 @@ struct ViewVerdict {
 };
 
 /// GET / is the page; its WebSocket is /ws, Foxglove's any path: both want the token where there is one, and to be
-/// asked for by our own page or that of the named site. POST /stop is a stop: from this machine it wants nothing, so
-/// that any page open in a browser here may stop the robot, and none may move it.
+/// asked for by our own page or that of the named site, or with the token by a desktop program (Origin "null" or
+/// file:). POST /stop is a stop: from this machine it wants nothing, so that any page open in a browser here may stop
+/// the robot, and none may move it.
 [[nodiscard]] ViewVerdict judge(const ViewRequest& request, const ViewRules& rules);
 
 }  // namespace jaywalk::view

@@ -5,6 +5,7 @@
 
 #include "apps/rivals/baseline.h"
 #include "firmware/recording/run_parts.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -25,7 +26,7 @@ std::string said_of(int part, const TickRecord& first) {
                 "begins with part %d of its run, at %.2f s: lived through as a new run from %.2f, %.2f, heading %.2f, "
                 "with nothing mapped, followed, planned or latched before",
                 part, to_seconds(first.now), at.x, at.y, at.heading);
-  return text;
+  return without_minus_zero(text);
 }
 
 }  // namespace

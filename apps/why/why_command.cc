@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/jaywalk/progress.h"
 #include "apps/report/picture/picture.h"
 #include "apps/report/picture/scene.h"
 #include "apps/why/relived_run.h"
@@ -46,12 +47,23 @@ struct Past {
   }
 };
 
+void tell(Progress& progress, Time first, Time now, double until_s) {
+  if (!progress.is_due()) return;
+  char words[64];
+  std::snprintf(words, sizeof words, "%.0f of %.0f s", to_seconds(now), until_s);
+  progress.show(to_seconds(now - first) / (until_s - to_seconds(first)), words);
+}
+
 /// Lives through it up to that time.
 Past relive(RelivedRun& run, double until_s) {
   Past past;
+  Progress progress;
   bool any = run.step();
   const Time first = run.last().now;
-  for (; any && to_seconds(run.last().now) < until_s - 1e-6; any = run.step()) past.add(run);
+  for (; any && to_seconds(run.last().now) < until_s - 1e-6; any = run.step()) {
+    past.add(run);
+    tell(progress, first, run.last().now, until_s);
+  }
   if (any && until_s < to_seconds(first) - 1e-6)
     while (run.step()) any = false;
   if (!any) refuse_time(run, first, run.last().now);

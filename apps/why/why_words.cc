@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "apps/why/why_decision.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -22,7 +23,7 @@ constexpr double kLookAhead_s = 5.0;
   va_start(arguments, format);
   std::vsnprintf(words, sizeof words, format, arguments);
   va_end(arguments);
-  return words;
+  return without_minus_zero(words);
 }
 
 std::string side(double rad) {

@@ -82,6 +82,8 @@ void WatchdogProof::close(Time now, const AxisReport& axis) noexcept {
 void WatchdogProof::withhold(Time now, const AxisReport& axis) noexcept {
   const bool expired = axis.expired != kNever && axis.expired >= since_;
   after_ = (expired ? axis.expired : now) - since_;
+  const bool expired_as_05 = !expired && axis.heard > since_ && (axis.errors & kWatchdogExpired05) != 0;
+  if (expired_as_05 && axis.state != kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kOldFirmware);
   if (!expired && after_ < limits_.watchdog_most) return;
   if (!expired) return finish(ProofResult::kUnproved, Verdict::kNothingSaid);
   if (axis.state == kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kHoldsOn);
@@ -116,6 +118,9 @@ std::string WatchdogProof::line() const {
       return "does not go to closed loop, errors " + in_hex(errors_) + ": NOT PROVED";
     case Verdict::kNothingSaid:
       return "watchdog: nothing said" + said + ": NOT PROVED";
+    case Verdict::kOldFirmware:
+      return "watchdog: expired" + said + " with error " + in_hex(errors_) +
+             ", as firmware 0.5 says it: its firmware is too old, 0.6 is wanted: NOT PROVED";
     case Verdict::kHoldsOn:
       return "watchdog: expired" + said + ", and holds on: NOT PROVED";
     case Verdict::kHasty:

@@ -45,6 +45,7 @@ class WatchdogProof {
     kTurns,
     kDoesNotClose,
     kNothingSaid,
+    kOldFirmware,
     kHoldsOn,
     kHasty,
     kLate

@@ -7,31 +7,18 @@
 #include <termios.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <memory>
 
+#include "drivers/wire/serial_settings.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::wire {
 
 namespace {
 
-struct Rate {
-  std::uint32_t baud;
-  speed_t code;
-};
-
-constexpr std::array<Rate, 9> kRates{{{9600, B9600},
-                                      {19200, B19200},
-                                      {38400, B38400},
-                                      {57600, B57600},
-                                      {115200, B115200},
-                                      {230400, B230400},
-                                      {460800, B460800},
-                                      {500000, B500000},
-                                      {921600, B921600}}};
+constexpr std::uint32_t kSlowestBaud = 50, kFastestBaud = 4'000'000;
 
 }  // namespace
 
@@ -64,24 +51,16 @@ FileDescriptor TcpEndpoint::open() const noexcept {
   return FileDescriptor();
 }
 
-SerialEndpoint::SerialEndpoint(std::string path, std::uint32_t baud) : path_(std::move(path)) {
-  const auto* const rate = std::find_if(kRates.begin(), kRates.end(), [&](const Rate& r) { return r.baud == baud; });
-  if (rate == kRates.end()) {
+SerialEndpoint::SerialEndpoint(std::string path, std::uint32_t baud) : path_(std::move(path)), baud_(baud) {
+  if (baud < kSlowestBaud || baud > kFastestBaud) {
     throw StartupError(path_ + ": no serial line runs at " + std::to_string(baud) + " baud",
                        "give the rate in the device's manual, for example 115200");
   }
-  speed_code_ = rate->code;
 }
 
 FileDescriptor SerialEndpoint::open() const noexcept {
   FileDescriptor line(::open(path_.c_str(), O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
-  termios settings{};
-  if (line.get() < 0 || ::tcgetattr(line.get(), &settings) != 0) return FileDescriptor();
-  ::cfmakeraw(&settings);
-  settings.c_cflag |= CLOCAL | CREAD;
-  settings.c_cflag &= ~static_cast<tcflag_t>(CSTOPB | CRTSCTS);
-  const bool rate_taken = ::cfsetispeed(&settings, speed_code_) == 0 && ::cfsetospeed(&settings, speed_code_) == 0;
-  if (!rate_taken || ::tcsetattr(line.get(), TCSANOW, &settings) != 0) return FileDescriptor();
+  if (line.get() < 0 || !set_raw(line.get(), baud_)) return FileDescriptor();
   static_cast<void>(::tcflush(line.get(), TCIFLUSH));
   return line;
 }

@@ -43,7 +43,7 @@ class SerialEndpoint final : public Endpoint {
 
  private:
   std::string path_;
-  std::uint32_t speed_code_ = 0;  ///< as termios names the rate
+  std::uint32_t baud_;
 };
 
 }  // namespace jaywalk::wire

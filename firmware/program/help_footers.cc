@@ -8,7 +8,7 @@ namespace {
 std::string text_of(const Footer& footer, const std::string& program) {
   const std::string one = footer.one == std::string("-") ? "" : std::string(", 1: ") + footer.one;
   return "Example:\n  " + program + " " + footer.example + "\nExit code: 0: " + footer.zero + one +
-         ", 2: bad input or set-up";
+         ", 2: bad input or set-up, 130: ended by Ctrl-C";
 }
 
 }  // namespace

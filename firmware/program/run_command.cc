@@ -189,6 +189,7 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
       socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
       order_priority(file.realtime));
   const std::unique_ptr<TickObserver> observer = make_observer(options, file, socket_for(options, file));
+  file.setup.unix_from_loop = std::chrono::system_clock::now().time_since_epoch() - clock.now().time_since_epoch();
   LoopRunner runner(
       file.setup, {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock}, options.out, true,
       *observer,

@@ -5,6 +5,7 @@
 #include <cstdio>
 
 #include "hal/maps/wall_map.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 #include "planner/localization/global_search.h"
 #include "planner/localization/scan_matcher.h"
@@ -56,7 +57,7 @@ void draw(const sim::Raster& raster, KnownMap& map) {
 std::string text_of(const Pose2& pose) {
   char text[80];
   std::snprintf(text, sizeof text, "[%.1f, %.1f, %.2f]", pose.x, pose.y, pose.heading);
-  return text;
+  return without_minus_zero(text);
 }
 
 }  // namespace

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kRamp_turns_per_s2 = 20.0;
 constexpr double kRollOut_turns_per_s2 = 2.0;  ///< without torque
-constexpr std::uint32_t kExpired = 0x01000000, kEstop = 0x02000000;
+constexpr std::uint32_t kEstop = 0x02000000;
 constexpr Duration kEstimatesPeriod = std::chrono::milliseconds(10);
 
 double towards(double from, double to, double most) noexcept {
@@ -66,11 +66,11 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
 
 void OdriveNode::watch(Time now) noexcept {
   const bool expired = watchdog_ > Duration{0} && fed_ != kNever && now - fed_ > watchdog_;
-  if (!expired || (errors_ & kExpired) != 0) return;
+  if (!expired || (errors_ & expired_) != 0) return;
   if (lies_) {
-    errors_ |= kExpired;
+    errors_ |= expired_;
   } else {
-    disarm(kExpired);
+    disarm(expired_);
   }
 }
 

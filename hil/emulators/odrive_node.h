@@ -18,6 +18,8 @@ class OdriveNode {
 
   /// Zero: the watchdog is off, as it comes from the factory.
   void set_watchdog(Duration timeout) noexcept { watchdog_ = timeout; }
+  /// It speaks as firmware 0.5: the same messages, other bits of errors.
+  void be_of_firmware_05() noexcept { expired_ = 0x800; }
   /// It says that its watchdog expired, and drives on.
   void lie_about_watchdog() noexcept { lies_ = true; }
   /// An error that clearing does not cure while it lasts; 0: it is mended.
@@ -60,6 +62,7 @@ class OdriveNode {
   Duration watchdog_{std::chrono::milliseconds(60)};
   static constexpr Duration kHeartbeatPeriod = std::chrono::milliseconds(10);
   bool lies_ = false, connected_ = true, estimates_ = true, stuck_ = false, deaf_ = false, muted_ = false;
+  std::uint32_t expired_ = 0x01000000;  ///< the error of its watchdog
   std::uint32_t lasting_error_ = 0;
   std::uint32_t errors_ = 0;
   std::uint8_t state_ = 1;

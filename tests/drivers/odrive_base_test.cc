@@ -40,6 +40,16 @@ TEST_CASE("an ODrive that says its watchdog expired and holds on is not armed") 
   CHECK_FALSE(bench.left.is_enabled());  // it was told to let go
 }
 
+TEST_CASE("an ODrive of firmware 0.5 is not armed, and told that its firmware is too old") {
+  tests::OdriveBench bench;
+  bench.left.be_of_firmware_05();
+  const std::string said = bench.armed();
+  CHECK(said.starts_with("ODrive node 3: watchdog: expired "));
+  CHECK(said.find("with error 00000800h, as firmware 0.5 says it: its firmware is too old, 0.6 is wanted") !=
+        std::string::npos);
+  CHECK_FALSE(bench.left.is_enabled());
+}
+
 TEST_CASE("an ODrive whose watchdog is slow or hasty is not armed") {
   tests::OdriveBench bench;
   bench.left.set_watchdog(150ms);

@@ -27,7 +27,3 @@ TEST_CASE("a serial line with a scanner that still sends what somebody else aske
   CHECK(bench.scan().beam_count == 1081);
   CHECK(bench.health().malformed == 0);
 }
-
-TEST_CASE("a rate that no serial line has is refused at start") {
-  CHECK_THROWS_AS(wire::SerialEndpoint("/dev/ttyUSB0", 230401), StartupError);
-}

@@ -5,6 +5,8 @@ Prints a line a topic; ends with 1 and a word of what is wrong otherwise.
 """
 import collections
 import csv
+import ctypes
+import ctypes.util
 import math
 import struct
 import sys
@@ -31,13 +33,46 @@ def text(data, at):
     return data[at + 4:at + 4 + size].decode(), at + 4 + size
 
 
+def unpacked(packed, size):
+    zstd = ctypes.CDLL(ctypes.util.find_library("zstd") or "libzstd.so.1")
+    zstd.ZSTD_decompress.restype = ctypes.c_size_t
+    out = ctypes.create_string_buffer(size)
+    got = zstd.ZSTD_decompress(out, ctypes.c_size_t(size), packed, ctypes.c_size_t(len(packed)))
+    return out.raw if got == size else b""
+
+
+def transforms(message):
+    """(parent, child, x, y, heading) each of a tf2_msgs/TFMessage in CDR; the encapsulation has 4 bytes."""
+    at, found = 8, []
+    for _ in range(struct.unpack_from("<I", message, 4)[0]):
+        names, at = [], (at + 3) // 4 * 4 + 8  # the stamp
+        for _ in range(2):
+            at = (at + 3) // 4 * 4
+            size = struct.unpack_from("<I", message, at)[0]
+            names.append(message[at + 4:at + 3 + size].decode())
+            at += 4 + size
+        at = (at - 4 + 7) // 8 * 8 + 4
+        x, y, _, _, _, z, w = struct.unpack_from("<7d", message, at)
+        at += 56
+        found.append((*names, x, y, 2.0 * math.atan2(z, w)))
+    return found
+
+
+def joined(a, b):
+    """Two poses in a row: x, y, heading."""
+    return (a[0] + math.cos(a[2]) * b[0] - math.sin(a[2]) * b[1],
+            a[1] + math.sin(a[2]) * b[0] + math.cos(a[2]) * b[1], a[2] + b[2])
+
+
 def read(data):
     """Topics by channel, messages by topic, chunk indexes, the statistics' counts."""
     topics, messages, indexes, counts = {}, collections.defaultdict(list), [], {}
     for op, at, body in records(data, len(MAGIC), len(data) - len(MAGIC)):
         if op == CHUNK:
             first, last, size, crc = struct.unpack_from("<QQQI", body)
-            chunk = body[28 + 4 + 8:]
+            method, begin = text(body, 28)
+            require(method == "zstd", f"the chunk at {at} is not packed with zstd")
+            chunk = unpacked(body[begin + 8:], size)
             require(len(chunk) == size and zlib.crc32(chunk) == crc, f"the chunk at {at} has another CRC or size")
             for inner, _, record in records(chunk, 0, len(chunk)):
                 if inner == CHANNEL:
@@ -68,8 +103,13 @@ def main():
     require(counts == {topic: len(found) for topic, found in messages.items()}, "other counts than the statistics say")
     rows = list(csv.DictReader(open(sys.argv[2])))
     require(len(rows) == len(messages["/odom"]), "other than one /odom a tick")
-    for row, (time, body) in zip(rows, messages["/odom"]):  # behind the head: stamp, "map", "base_link"
-        x, y = struct.unpack_from("<dd", body, 4 + 32)
+    require(all(body[12:21] == b"\x05\0\0\0odom\0" for _, body in messages["/odom"]), "/odom is not in odom")
+    static = [t[:2] for _, body in messages["/tf_static"] for t in transforms(body)]
+    require(static == [("base_link", "laser")], "/tf_static is not base_link to laser, once")
+    for row, (time, body) in zip(rows, messages["/tf"]):
+        (*first, mx, my, mh), (*second, ox, oy, oh) = transforms(body)
+        require((first, second) == (["map", "odom"], ["odom", "base_link"]), "/tf is not map to odom to base_link")
+        x, y, _ = joined((mx, my, mh), (ox, oy, oh))
         near = math.isclose(x, float(row["est_x_m"]), abs_tol=1e-3) and math.isclose(y, float(row["est_y_m"]), abs_tol=1e-3)
         require(near and math.isclose(time * 1e-9, float(row["t_s"]), abs_tol=1e-3), f"another pose at {row['t_s']} s")
     for topic, found in sorted(messages.items()):

@@ -88,6 +88,25 @@ struct HeardTopic {
   int messages = 0;
 };
 
+struct Place {
+  double x = 0.0, y = 0.0, heading = 0.0;
+};
+
+/// The transforms of a TFMessage one after the other: map to odom, odom to base_link.
+Place robot_in_map(Cdr& in) {
+  Place place;
+  for (std::uint32_t left = in.number<std::uint32_t>(); left > 0; --left) {
+    (void)in.header();
+    (void)in.text();
+    double v[7];
+    for (double& value : v) value = in.number<double>();
+    place = {place.x + std::cos(place.heading) * v[0] - std::sin(place.heading) * v[1],
+             place.y + std::sin(place.heading) * v[0] + std::cos(place.heading) * v[1],
+             place.heading + 2.0 * std::atan2(v[5], v[6])};
+  }
+  return place;
+}
+
 std::string goal_bytes(double x, double y) {
   std::string bytes("\0\1\0\0", 4);
   const auto put = [&bytes](const auto& value, std::size_t align) {
@@ -121,7 +140,7 @@ int main(int argc, char** argv) {
   if (participant == nullptr) return std::puts("no participant"), 1;
   Subscriber* subscriber = participant->create_subscriber(SUBSCRIBER_QOS_DEFAULT);
   HeardTopic topics[] = {{"rt/scan", "sensor_msgs::msg::dds_::LaserScan_", "laser"},
-                         {"rt/odom", "nav_msgs::msg::dds_::Odometry_", "map"},
+                         {"rt/odom", "nav_msgs::msg::dds_::Odometry_", "odom"},
                          {"rt/tf", "tf2_msgs::msg::dds_::TFMessage_", ""},
                          {"rt/map", "nav_msgs::msg::dds_::OccupancyGrid_", "map"},
                          {"rt/plan", "nav_msgs::msg::dds_::Path_", "map"},
@@ -161,9 +180,9 @@ int main(int argc, char** argv) {
           for (int k = 0; k < 7; ++k) (void)in.number<float>();
           if (in.number<std::uint32_t>() < 3) ++wrong;
         }
-        if (topic.name == "rt/odom" && in.text() == "base_link") {
-          const double x = in.number<double>(), y = in.number<double>();
-          arrived = all_came && std::hypot(x - goal_x, y - goal_y) < 0.4;
+        if (topic.name == "rt/tf") {
+          const Place robot = robot_in_map(in);
+          arrived = all_came && std::hypot(robot.x - goal_x, robot.y - goal_y) < 0.4;
         }
       }
       came += topic.messages > 0 ? 1 : 0;

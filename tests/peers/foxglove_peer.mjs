@@ -9,7 +9,7 @@ import { createInterface } from "node:readline";
 import WebSocket from "ws";
 
 const [jaywalk, scenario, out] = process.argv.slice(2);
-const topics = ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel"];
+const topics = ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static"];
 const fail = (what) => { console.log(`FAILED: ${what}`); process.exit(1); };
 const run = spawn(jaywalk, ["sim", scenario, "--view", "--out", out], { stdio: ["ignore", "pipe", "inherit"] });
 process.on("exit", () => run.kill("SIGKILL"));
@@ -46,9 +46,11 @@ const look = (protocol, next) => new Promise((done) => {
 const first = await look("foxglove.websocket.v1", ({ client, counts, done }) => { client.close(); done(counts); });
 let channel, goal;
 const second = await look("foxglove.sdk.v1", ({ client, counts, topic, message, done }) => {
-  if (topic === "/odom" && !goal) {
-    const { position, orientation } = message.pose.pose;
-    goal = { x: position.x + 1.5 * (1 - 2 * orientation.z ** 2), y: position.y + 3.0 * orientation.z * orientation.w };
+  if (topic === "/tf" && !goal) {  // 1.5 m ahead of base_link, by way of odom
+    const turn = ({ rotation: q }) => 2 * Math.atan2(q.z, q.w);
+    const [first, second] = message.transforms.map((t) => t.transform), a = turn(first), b = a + turn(second);
+    const { x, y } = second.translation;
+    goal = { x: first.translation.x + Math.cos(a) * x - Math.sin(a) * y + 1.5 * Math.cos(b), y: first.translation.y + Math.sin(a) * x + Math.cos(a) * y + 1.5 * Math.sin(b) };
     channel = client.advertise({ topic: "/goal_pose", encoding: "json", schemaName: "geometry_msgs/PoseStamped" });
     client.sendMessage(channel, new TextEncoder().encode(JSON.stringify({ header: { frame_id: "map" }, pose: { position: goal } })));
   }

@@ -4,6 +4,7 @@
 import { McapIndexedReader, McapStreamReader } from "@mcap/core";
 import { parse } from "@foxglove/rosmsg";
 import { MessageReader, MessageWriter } from "@foxglove/rosmsg2-serialization";
+import { decompress } from "fzstd";
 import { readFileSync } from "node:fs";
 import { crc32 } from "node:zlib";
 
@@ -14,7 +15,8 @@ const check = (holds, what) => {
   if (!holds && ++failures <= 10) console.log(`FAILED: ${what}`);
 };
 
-const stream = new McapStreamReader({ validateCrcs: true });
+const decompressHandlers = { zstd: (packed, size) => decompress(packed, new Uint8Array(Number(size))) };
+const stream = new McapStreamReader({ validateCrcs: true, decompressHandlers });
 stream.append(bytes);
 const schemas = new Map(), channels = new Map(), messages = new Map();
 for (let record; (record = stream.nextRecord()) != undefined; ) {
@@ -43,7 +45,7 @@ const readable = {
   size: async () => BigInt(bytes.length),
   read: async (offset, size) => new Uint8Array(bytes.subarray(Number(offset), Number(offset + size))),
 };
-const indexed = await McapIndexedReader.Initialize({ readable });
+const indexed = await McapIndexedReader.Initialize({ readable, decompressHandlers });
 const counts = new Map();
 let last = 0n;
 for await (const message of indexed.readMessages()) {
@@ -55,16 +57,22 @@ for await (const message of indexed.readMessages()) {
 check(indexed.header.profile === "ros2", "the profile is not ros2");
 check(indexed.statistics.messageCount === BigInt([...counts.values()].reduce((a, b) => a + b, 0)), "statistics");
 for (const [topic, list] of messages) check(list.length === (counts.get(topic) ?? 0), `${topic}: index and stream differ`);
-for (const topic of ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel"])
+for (const topic of ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static"])
   check((counts.get(topic) ?? 0) > 0, `${topic}: no message`);
 
 const [head, ...rows] = readFileSync(table, "utf8").trim().split("\n").map((line) => line.split(","));
 const column = (row, name) => Number(row[head.indexOf(name)]);
-const odom = messages.get("/odom"), speeds = messages.get("/cmd_vel");
+const odom = messages.get("/odom"), frames = messages.get("/tf"), speeds = messages.get("/cmd_vel");
 check(odom.length === rows.length, `/odom has ${odom.length} messages, robot.csv ${rows.length} rows`);
+// map to odom and odom to base_link, one after the other.
+const inMap = ([first, second]) => {
+  const { translation: t, rotation: q } = first.transform, p = second.transform.translation;
+  const heading = 2 * Math.atan2(q.z, q.w), c = Math.cos(heading), s = Math.sin(heading);
+  return { x: t.x + c * p.x - s * p.y, y: t.y + s * p.x + c * p.y };
+};
 rows.forEach((row, k) => {
   const near = (a, b) => Math.abs(a - b) < 1e-3;
-  const position = odom[k]?.message.pose.pose.position;
+  const position = inMap(frames[k]?.message.transforms);
   check(position && near(position.x, column(row, "est_x_m")) && near(position.y, column(row, "est_y_m")), `row ${k}: pose`);
   check(near(speeds[k]?.message.linear.x, column(row, "permitted_v_mps")), `row ${k}: speed`);
   check(near(Number(odom[k]?.time) * 1e-9, column(row, "t_s")), `row ${k}: time`);
@@ -74,7 +82,7 @@ for (const { message } of messages.get("/scan")) check(message.ranges.length > 2
 // A file that was cut: whole chunks before the cut are read, nothing else happens than an end or an error in words.
 for (let k = 0; k < 200; ++k) {
   const cut = Math.floor(((k * 2654435761) % 4294967296) / 4294967296 * bytes.length);
-  const reader = new McapStreamReader({ validateCrcs: true });
+  const reader = new McapStreamReader({ validateCrcs: true, decompressHandlers });
   reader.append(bytes.subarray(0, cut));
   try {
     while (reader.nextRecord() != undefined);

@@ -1,5 +1,6 @@
 #include "hal/nearest_word.h"
 
+#include "hal/shown_text.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -20,4 +21,10 @@ TEST_CASE("only what is near is thought to be meant") {
   CHECK(did_you_mean("campaign", known, "no") == "no");
   CHECK(did_you_mean("", known, "no") == "no");
   CHECK(did_you_mean("sim", {}, "no") == "no");
+}
+
+TEST_CASE("a negative nothing is shown as nothing, and every other number as it is") {
+  CHECK(without_minus_zero("at -0.00, -0.0, -0, -0.01 and -0.5, -10.00") == "at 0.00, 0.0, 0, -0.01 and -0.5, -10.00");
+  CHECK(without_minus_zero("-0.00,-0.000 1e-05 run-0 2026-01-02 -0.00rad") ==
+        "0.00,0.000 1e-05 run-0 2026-01-02 0.00rad");
 }

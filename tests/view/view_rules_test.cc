@@ -63,6 +63,16 @@ TEST_CASE("a page of another site opens no WebSocket, whatever name it gives thi
   CHECK(judge(socket("/ws", "https://tools.example"), {.origin = "https://tools.example"}).service == Service::kSocket);
 }
 
+TEST_CASE("a desktop program, whose pages are of no site, opens a WebSocket with the token and never without one") {
+  for (const char* origin : {"null", "file://", "file:///opt/Foxglove/index.html"}) {
+    CHECK(judge(socket("/ws?token=abc", origin), kRun).service == Service::kSocket);
+    CHECK(judge(socket("/ws", origin), kRun).status == 403);
+    CHECK(judge(socket("/ws?token=abd", origin), kRun).status == 403);
+    CHECK(judge(socket("/ws", origin), {}).status == 403);
+  }
+  CHECK(judge(socket("/ws?token=abc", "file.example"), kRun).status == 403);
+}
+
 TEST_CASE("another machine must come by TLS, with the token") {
   ViewRequest plain = request("GET", "/?token=abc", false);
   plain.is_encrypted = false;

@@ -10,6 +10,7 @@
 #include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/logs/scan_lines.h"
+#include "hal/shown_text.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::sim {
@@ -127,7 +128,7 @@ class CarmenReader {
     char at[80];
     std::snprintf(at, sizeof at, ": laser at %.3f,%.3f,%.4f, as the log's poses have it", mount_->x, mount_->y,
                   mount_->heading);
-    log_.add_remark(file + at);
+    log_.add_remark(file + without_minus_zero(at));
   }
   RecordedScan scan_of(const LineFile& file, std::size_t beams, std::size_t tail) const {
     RecordedScan scan;
