@@ -5,6 +5,8 @@
 namespace jaywalk::sim {
 namespace {
 
+constexpr Duration kLeap = std::chrono::seconds(1);  // a stamp so far ahead of a later one is the wrong one of the two
+
 struct Span {
   Time first, last;
 };
@@ -23,7 +25,7 @@ Span largest_group(std::span<const Time> stamps) {
 }
 
 /// The longest sequence of `stamps[of[...]]` that rises strictly, by patience sorting: places in `stamps`. Of several
-/// the one that ends earliest, and of those one that spans the least.
+/// one that ends within a second of the earliest end, recorded first, and spans the least.
 std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std::vector<std::size_t>& of) {
   std::vector<std::vector<std::size_t>> ends;  // what a longest sequence of each length ends with; stamps fall
   for (const std::size_t k : of) {
@@ -37,8 +39,8 @@ std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std:
   }
   std::vector<std::size_t> rising;
   for (auto end = ends.rbegin(); end != ends.rend(); ++end) {
-    const auto fits = [&](std::size_t k) { return stamps[k] < stamps[rising.back()]; };
-    rising.push_back(rising.empty() ? end->back() : *std::find_if(end->begin(), end->end(), fits));
+    const Time before = rising.empty() ? stamps[end->back()] + kLeap + Duration{1} : stamps[rising.back()];
+    rising.push_back(*std::find_if(end->begin(), end->end(), [&](std::size_t k) { return stamps[k] < before; }));
   }
   std::reverse(rising.begin(), rising.end());
   return rising;
