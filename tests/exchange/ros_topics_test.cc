@@ -1,0 +1,87 @@
+// A run's topics: frames by REP 105, stamps of the wall clock where there was one.
+#include "apps/formats/ros_topics.h"
+
+#include <cmath>
+#include <map>
+#include <memory>
+
+#include "apps/formats/ros_input.h"
+#include "tests/support/catch.h"
+
+namespace jaywalk::exchange {
+namespace {
+
+constexpr Duration kWall = std::chrono::seconds(1'700'000'000);
+
+struct Told {
+  std::map<std::size_t, std::vector<std::string>> messages;
+  std::vector<Time> stamps;
+  RosTopics topics{[this](std::size_t topic, Time stamp, std::string message) {
+                     messages[topic].push_back(std::move(message));
+                     stamps.push_back(stamp);
+                   },
+                   kWall};
+
+  void tick(TickRecord& t, const RobotModel& model) { topics.add(t, {}, t.path, model); }
+};
+
+/// A tick at `seconds`, the wheels having rolled straight on for `rolled_m`, the robot believed at `map_from_robot`.
+void set(TickRecord& t, double seconds, double rolled_m, const Pose2& map_from_robot, const DriveModel& drive) {
+  t.now = time_from_seconds(seconds);
+  t.wheels.stamp = t.now;
+  ++t.wheels.sequence;
+  t.wheels.left_rad = t.wheels.right_rad = rolled_m / drive.wheel_radius_m;
+  t.pose.map_from_robot = map_from_robot;
+}
+
+TEST_CASE("map, odom, base_link and laser stand in one another as REP 105 has it, the pose in the map among them") {
+  const RobotModel model = p3dx();
+  Told told;
+  auto t = std::make_unique<TickRecord>();
+  for (int k = 0; k < 50; ++k)
+    set(*t, 1.0 + 0.02 * k, 0.01 * k, {3.0, 4.0 + 0.01 * k, kPi / 2}, model.drive), told.tick(*t, model);
+  REQUIRE(told.messages[kTf].size() == 50);
+  const auto frames = read_transforms(told.messages[kTf].back(), Wire::kCdr);
+  REQUIRE((frames && frames->size() == 2));
+  CHECK((frames->at(0).parent == "map" && frames->at(0).child == "odom"));
+  CHECK((frames->at(1).parent == "odom" && frames->at(1).child == "base_link"));
+  const SpatialFrame map_from_robot = frames->at(0).parent_from_child * frames->at(1).parent_from_child;
+  CHECK(map_from_robot.translation().x() == Approx(3.0));
+  CHECK(map_from_robot.translation().y() == Approx(4.49));
+  CHECK(heading_of(map_from_robot) == Approx(kPi / 2));
+  const auto odometry = read_odometry(told.messages[kOdom].back(), Wire::kCdr);
+  REQUIRE(odometry);
+  CHECK(odometry->child_frame == "base_link");
+  CHECK(odometry->pose.x == Approx(0.49));
+  CHECK(odometry->pose.y == Approx(0.0).margin(1e-9));
+  REQUIRE(told.messages[kTfStatic].size() == 1);
+  const auto fixed = read_transforms(told.messages[kTfStatic].front(), Wire::kCdr);
+  REQUIRE((fixed && fixed->size() == 1));
+  CHECK((fixed->at(0).parent == "base_link" && fixed->at(0).child == "laser"));
+}
+
+TEST_CASE("all stamps are the wall clock's where it is known") {
+  const RobotModel model = p3dx();
+  Told told;
+  auto t = std::make_unique<TickRecord>();
+  set(*t, 2.0, 0.0, {}, model.drive);
+  told.tick(*t, model);
+  for (const Time stamp : told.stamps) CHECK(stamp == time_from_seconds(2.0) + kWall);
+  CHECK(read_odometry(told.messages[kOdom].front(), Wire::kCdr)->stamp == time_from_seconds(2.0) + kWall);
+}
+
+TEST_CASE("without wheels odom is the map") {
+  const RobotModel model = p3dx();
+  Told told;
+  auto t = std::make_unique<TickRecord>();
+  t->now = time_from_seconds(1.0);
+  t->pose.map_from_robot = {1.0, 2.0, 0.5};
+  told.tick(*t, model);
+  const auto frames = read_transforms(told.messages[kTf].front(), Wire::kCdr);
+  REQUIRE(frames);
+  CHECK(frames->at(0).parent_from_child.translation().norm() == 0.0);
+  CHECK(frames->at(1).parent_from_child.translation().x() == Approx(1.0));
+}
+
+}  // namespace
+}  // namespace jaywalk::exchange
