@@ -132,7 +132,7 @@ void locate_on_map(const std::filesystem::path& path, RobotFile& file, Clock& cl
   const Pose2& start = file.setup.start;
   char words[80];
   std::snprintf(words, sizeof words, "found on the map at %.2f, %.2f, heading %.2f", start.x, start.y, start.heading);
-  remark(words);
+  remark(without_minus_zero(words));
 }
 
 RobotFile load_robot(const RunOptions& options) {

@@ -1,5 +1,6 @@
 // A run's topics: frames by REP 105, stamps of the wall clock where there was one.
 #include "apps/formats/ros_topics.h"
+#include "firmware/control_setup.h"
 
 #include <cmath>
 #include <map>
@@ -68,6 +69,14 @@ TEST_CASE("all stamps are the wall clock's where it is known") {
   told.tick(*t, model);
   for (const Time stamp : told.stamps) CHECK(stamp == time_from_seconds(2.0) + kWall);
   CHECK(read_odometry(told.messages[kOdom].front(), Wire::kCdr)->stamp == time_from_seconds(2.0) + kWall);
+}
+
+TEST_CASE("a recording's head keeps the wall clock, and has none where there was none") {
+  ControlSetup setup;
+  setup.model = p3dx();
+  CHECK(to_text(setup).find("unix_from_loop") == std::string::npos);
+  setup.unix_from_loop = kWall + Duration{7};
+  CHECK(setup_from_text(to_text(setup), "here").unix_from_loop == kWall + Duration{7});
 }
 
 TEST_CASE("without wheels odom is the map") {

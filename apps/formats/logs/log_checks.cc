@@ -19,7 +19,7 @@ constexpr float kTurn = static_cast<float>(2.0 * kPi);
 constexpr double kFastest = 1000.0;                     // m/s, rad/s
 constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
 constexpr double kMostWithoutS = 1.0;                   // of the scans' time without odometry: no word of it
-constexpr double kGapS = 1.0, kGapPeriods = 5.0;
+constexpr double kGapS = 0.5, kGapPeriods = 5.0;
 
 /// Why a scan makes no fan; empty where it does.
 std::string fault_of(const RecordedScan& scan) {

@@ -42,7 +42,7 @@ void keep(std::vector<Item>& list, const std::vector<bool>& stays) {
 /// the ranges are over 100 m.
 void require_scans(const RecordedLog& log, const std::string& file, const std::string& expected);
 
-/// Gaps between scans, of over a second and five of their periods: the remark tells each.
+/// Gaps between scans, of over half a second and five of their periods: the remark tells each.
 void remark_gaps(RecordedLog& log, const std::string& file);
 
 /// `pose`, its heading wrapped. Nothing where it is NaN or lies beyond 1000 km.
