@@ -1,12 +1,12 @@
 // A run's topics: frames by REP 105, stamps of the wall clock where there was one.
 #include "apps/formats/ros_topics.h"
-#include "firmware/control_setup.h"
 
 #include <cmath>
 #include <map>
 #include <memory>
 
 #include "apps/formats/ros_input.h"
+#include "firmware/control_setup.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::exchange {
