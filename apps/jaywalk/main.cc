@@ -72,8 +72,7 @@ std::uint64_t seed_of(const std::string& word) {
 
 void add_sim(CLI::App& app, int& exit_code) {
   CLI::App* sim = app.add_subcommand("sim", "Run the whole controller on a simulated robot");
-  sim->add_option("scenario", sim_options.scenario,
-                  "Scenario file (docs/reference/scenarios.md) or shipped name")
+  sim->add_option("scenario", sim_options.scenario, "Scenario file (docs/reference/scenarios.md) or shipped name")
       ->required();
   sim->add_option_function<std::string>(
          "--seed", [](const std::string& word) { sim_options.seed = seed_of(word); },
