@@ -258,17 +258,16 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   }
   progress.make_way();
   std::fputs(run.remarks(0, "").c_str(), stderr);
-  const bool same = different == 0 || run.begins_anew();
+  const bool same = different == 0 || run.begins_anew(), success = same && whole;
   conclude(options, runner,
            {.outcome = whole ? "replayed" : "interrupted",
-            .success = same && whole,
+            .success = success,
             .scenario = options.logs[0].filename().string(),
             .title = "replay of " + file},
            file + ": " + std::to_string(ticks) + " ticks, " + std::to_string(different) + " commands differ, " +
                std::to_string(lost) + " ticks missing");
   view.stay(interruption);
-  if (!whole) return interruption.exit_code();
-  return same ? 0 : 1;
+  return whole ? (same ? 0 : 1) : interruption.exit_code();
 }
 
 }  // namespace

@@ -173,9 +173,9 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   RobotFile file = load_robot(options);
   const StderrRelay relay;
   SignalThread signals(order_priority(file.realtime));
-  const std::string not_commissioned = require_commissioned(options.robot, file, options.uncommissioned);
+  if (const std::string said = require_commissioned(options.robot, file, options.uncommissioned); !said.empty())
+    remark(said);
   if (file.panel) require_joystick(*file.panel);
-  if (!not_commissioned.empty()) remark(not_commissioned);
   std::optional<RunFolder> folder;
   choose_folder(options, folder);
   ServiceManager service = ServiceManager::from_environment();
@@ -185,9 +185,8 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   RobotDevices devices(file, clock);
   OperatorControls controls(file, devices.drive(), clock, [&] { return restart_link(file.drive.can); });
   OperatorDesk& desk = controls.desk();
-  const ControlSocket socket(
-      socket_for(options, file), [&](std::string_view line) { return desk.reply_to(line); },
-      order_priority(file.realtime));
+  const ControlSocket::Answer answer = [&](std::string_view line) { return desk.reply_to(line); };
+  const ControlSocket socket(socket_for(options, file), answer, order_priority(file.realtime));
   const std::unique_ptr<TickObserver> observer = make_observer(options, file, socket_for(options, file));
   file.setup.unix_from_loop = std::chrono::system_clock::now().time_since_epoch() - clock.now().time_since_epoch();
   LoopRunner runner(
