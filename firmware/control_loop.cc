@@ -69,7 +69,7 @@ void ControlLoop::ask(TickRecord& t) noexcept {
   motion_->observe(world, intent);
   t.wanted = motion_->command(world, intent);
   const motion::MotionStatus status = motion_->status();
-  t.plan_stamp = rested_on_ = status.rests_on;
+  t.plan_stamp = status.rests_on;
   t.wished = is_steered(t) ? status.stick_asks : Twist2{};
 }
 
@@ -114,20 +114,17 @@ motion::Intent ControlLoop::intent(const TickRecord& t) const noexcept {
 }
 
 motion::World ControlLoop::world(const TickRecord& t) const noexcept {
-  const Pose2& here = t.pose.map_from_robot;
   return {.now = t.now,
-          .map_from_robot = here,
+          .map_from_robot = t.pose.map_from_robot,
           .wanted = t.wanted,
           .driven = driven_,
-          .rested_on = rested_on_,
           .input = t.input,
           .scan = t.scan,
           .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
           .perceived = {.tracks = tracker().tracks(),
                         .moving = tracker().moving(),
                         .standing = tracker().standing(),
-                        .still = tracker().still(),
-                        .pedestrian_hidden = tracker().hides_pedestrian(here.position(), motion::kNearby_m)},
+                        .still = tracker().still()},
           .plan = *plan_,
           .unseen_walls = supervisor_.unseen_walls()};
 }

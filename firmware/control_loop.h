@@ -62,7 +62,6 @@ class ControlLoop {
   DiffDrive diff_drive_;
   const Plan* plan_;                                    ///< what collect() last answered, never null
   Time asked_ = kNever;                                 ///< when a plan was asked for last
-  Time rested_on_ = kNever;                             ///< stamp of what motion's last command rested on
   Twist2 driven_;                                       ///< what the wheels were last asked for
   WheelCommand sent_;                                   ///< and what that was for the drive
   std::uint32_t plan_noted_ = 0, plan_decided_on_ = 0;  ///< their sequences

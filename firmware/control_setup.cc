@@ -35,7 +35,6 @@ namespace {
 constexpr double kCell_m = 0.1;  // the paper's
 /// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
-const double kMoverMargin_m = PlannerConfig{}.mover_margin_m;
 
 /// Runs of equal cells: "12u3f1w".
 std::string runs_of(const std::vector<KnownCell>& cells) {
@@ -90,7 +89,7 @@ std::shared_ptr<const KnownMap> known_map_of(const nlohmann::json& json) {
 
 }  // namespace
 
-bool ControlSetup::guides_body() const {
+bool ControlSetup::has_long_body() const {
   const Footprint& body = model.footprint;
   return !keeps_speed() && body.circumscribed_radius_m() > body.inscribed_radius_m() + kMarginOverInscribed_m;
 }
@@ -105,10 +104,8 @@ PlannerConfig ControlSetup::planner() const {
   config.mode = mode;
   config.cell_m = kCell_m;
   config.side_cells = grid_side_for(start.position(), goal, kCell_m);
-  config.inscribed_m = model.footprint.inscribed_radius_m();
-  config.circumscribed_m = model.footprint.circumscribed_radius_m();
-  config.inflation_m = guides_body() ? model.footprint.inscribed_radius_m() : mover_radius_m();
-  config.mover_margin_m = kMoverMargin_m + mover_radius_m() - config.inflation_m;
+  config.body = model.footprint;
+  config.inflation_m = mover_radius_m();
   config.keep_out = keep_out();
   return config;
 }
@@ -116,14 +113,13 @@ PlannerConfig ControlSetup::planner() const {
 motion::MotionSetup ControlSetup::motion() const {
   return {.model = model,
           .to_goal = mode == PlanMode::kPaper ? motion::MotionKind::kPath
-                     : guides_body()          ? motion::MotionKind::kLongBody
+                     : has_long_body()        ? motion::MotionKind::kLongRollouts
                                               : motion::MotionKind::kRollouts,
           .constant_speed = keeps_speed(),
           .steering = steering,
           .comfort_distance_m = comfort_distance_m,
           .goal_tolerance_m = goal_tolerance_m,
           .tick_s = to_seconds(tick()),
-          .mover_radius_m = mover_radius_m(),
           .keep_out = keep_out()};
 }
 

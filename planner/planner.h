@@ -11,6 +11,7 @@
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
 #include "planner/cost_to_go/guide.h"
+#include "planner/cost_to_go/pose_guide.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/keep_out.h"
 #include "planner/tracking/standing_pedestrian.h"
@@ -48,6 +49,18 @@ struct MoverDisc {
 };
 inline constexpr double kOwnBody_m = 0.2;  ///< beyond its radius what is mapped may be its own: noise, legs, its way
 
+/// The time to go from poses; asked for where the body is not round, or the goal has a heading.
+struct PoseRequest {
+  bool is_asked = false;
+  PoseSpeeds speeds;
+  float arrives_m = 0.15F;  ///< of the goal: there
+  bool wants_heading = false;
+  float heading = 0.0F;
+  /// In the map: what is a wall most likely, where the laser does not look now. Read during submit only.
+  std::span<const Vec2> unseen_walls{};
+};
+inline constexpr std::size_t kMaxUnseenWalls = 1024;
+
 struct PlanRequest {
   Time stamp = kNever;  ///< of the scan that the request rests on
   Pose2 map_from_robot;
@@ -61,9 +74,7 @@ struct PlanRequest {
   /// Marks, potential and band are computed, and status and path are theirs: for what follows that path. Where false
   /// they are the time to go's, past walls alone, and an executor has nothing to do.
   bool wants_potential = true;
-  /// Of a robot that cannot turn anywhere and does not see behind itself: what lies near it, was never seen and is not
-  /// under it is no way while there is another. Null: what was never seen is free. Read during submit only.
-  const Footprint* body = nullptr;
+  PoseRequest poses{};
 };
 
 /// Where a mover is expected, and how it was marked.
@@ -83,7 +94,8 @@ struct Plan {
   std::int32_t cycles = 0;   ///< the potential's solver's work; 0 where it was not asked for
   double duration_ms = 0.0;  ///< measured; for reports only, no decision rests on it
   Path path;
-  Guide guide;  ///< to motion; whatever the status
+  Guide guide;      ///< to motion; whatever the status
+  PoseGuide poses;  ///< the same, where it was asked for
   FixedVector<Prediction, kMaxTracks> predictions;
 };
 
@@ -101,14 +113,14 @@ struct FieldView {
 struct PlannerConfig {
   PlanMode mode = PlanMode::kFull;
   double cell_m = 0.1;
-  std::int32_t side_cells = 256;       ///< side of the grid at start: 256, 512 or 1024
-  std::int32_t max_side_cells = 1024;  ///< memory is taken for this; the grid doubles up to it when the goal
-                                       ///< cannot be reached inside it
-  double inflation_m = 0.3;            ///< obstacle cells grow by this: the robot's radius and a margin
-  double inscribed_m = 0.2, circumscribed_m = 0.3;  ///< the body's, for the time to go
-  double mover_margin_m = 0.3;                      ///< the "safety distance" round a mover's predicted body
-  double horizon_cap_s = 5.0;                       ///< predictions go no further
-  std::shared_ptr<const KeepOutField> keep_out{};   ///< where the robot must not be; null: nowhere
+  std::int32_t side_cells = 256;        ///< side of the grid at start: 256, 512 or 1024
+  std::int32_t max_side_cells = 1024;   ///< memory is taken for this; the grid doubles up to it when the goal
+                                        ///< cannot be reached inside it
+  double inflation_m = 0.3;             ///< obstacle cells grow by this: the robot's radius and a margin
+  Footprint body{0.2236, 0.2236, 0.2};  ///< for the time to go
+  double mover_margin_m = 0.3;          ///< the "safety distance" round a mover's predicted body
+  double horizon_cap_s = 5.0;           ///< predictions go no further
+  std::shared_ptr<const KeepOutField> keep_out{};  ///< where the robot must not be; null: nowhere
 };
 
 /// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024.

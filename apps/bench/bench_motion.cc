@@ -52,8 +52,7 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
   const RobotModel model = p3dx();
   PlannerConfig config;
   config.side_cells = config.max_side_cells = map.cells.width;
-  config.inscribed_m = model.footprint.inscribed_radius_m();
-  config.circumscribed_m = model.footprint.circumscribed_radius_m();
+  config.body = model.footprint;
   const auto planner = make_cpu_planner(config);
   const EvidenceMap evidence = evidence_of(map, cell_m);
   const auto middle = [cell_m](CellIndex c) { return Vec2{(c.i + 0.5) * cell_m, (c.j + 0.5) * cell_m}; };

@@ -186,7 +186,7 @@ int run_sim(SimOptions options) {
   refuse_to_overwrite(files_of(scenario, options.scenario), options.out);
   remark_unreachable(scenario, simulation);
   const ControlSetup setup = setup_for(scenario, options);
-  if (setup.guides_body() && !options.rival.empty())
+  if (setup.has_long_body() && !options.rival.empty())
     throw StartupError(
         options.scenario.string() + ": --planner: the planners of others are for robots that are nearly round",
         "choose another model");

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/rivals/way_down.h"
+#include "planner/motion/trajectory.h"
 
 namespace jaywalk::baseline {
 namespace {
@@ -11,6 +12,7 @@ namespace {
 // As the roll-outs', as the limits below.
 constexpr Duration kHoldsFor = std::chrono::milliseconds(500), kGuideHoldsFor = std::chrono::seconds(1);
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F, kSlowing = 0.8F, kMostJerk = 0.75F;
+constexpr float kTurnGain = 2.0F;     // rad/s a radian off the heading wanted at the goal
 constexpr float kStopWithin = 0.66F;  // of the tolerance
 
 motion::MotionBounds bounds_of(const MotionLimits& limits) {
@@ -37,7 +39,7 @@ motion::RobotState state_of(const motion::World& world) noexcept {
 
 template <BaselineMotion::Decide deciding>
 std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {
-  return motion::turning_at_goal(setup, std::make_unique<BaselineMotion>(deciding, setup));
+  return std::make_unique<BaselineMotion>(deciding, setup);
 }
 
 }  // namespace
@@ -81,8 +83,11 @@ Twist2 BaselineMotion::command(const motion::World& world, const motion::Intent&
   const bool there = to_goal_m < static_cast<double>(kStopWithin * tolerance_m_);
   const bool rests = intent.kind != motion::Intent::Kind::kGoal || there || decided_at_ == kNever ||
                      world.now - decided_at_ > kHoldsFor;
+  const bool turns = there && world.input.wants_heading() && std::fabs(was.v) < motion::kRestsMps;
+  const double error = turns ? world.input.heading_error_rad(world.map_from_robot) : 0.0;
+  const motion::Command at_rest{0.0F, std::clamp(kTurnGain * static_cast<float>(error), -bounds_.turn, bounds_.turn)};
   const motion::RobotState next =
-      motion::moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, rests ? motion::Command{} : decided_, bounds_, tick_s_);
+      motion::moved({0.0F, 0.0F, 0.0F, was.v, was.w, accel_}, rests ? at_rest : decided_, bounds_, tick_s_);
   accel_ = next.accel;
   commanded_ = {next.v, next.w};
   return {static_cast<double>(next.v), static_cast<double>(next.w)};

@@ -75,7 +75,7 @@ Past relive(RelivedRun& run, double until_s) {
 void show_decision(const RelivedRun& run, PictureScene& scene) {
   const motion::GoalRollouts* motion = run.loop().motion().rollouts();
   if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
-  scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan().guide));
+  scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan()));
   if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
   scene.moment->band.clear();
   scene.moment->field = raster_of(run.planner().view_field());
@@ -126,7 +126,7 @@ int run_why(const WhyOptions& options) {
   const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
   const motion::GoalRollouts* motion = run.loop().motion().rollouts();
   if (motion != nullptr && motion->decision().at != kNever) {
-    write_alternatives(motion->alternatives(run.loop().plan().guide), (options.out / "why.csv").string());
+    write_alternatives(motion->alternatives(run.loop().plan()), (options.out / "why.csv").string());
   }
   std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);

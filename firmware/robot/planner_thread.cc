@@ -39,6 +39,11 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
   for (const MoverDisc& disc : request.masked) {
     if (!masked_.push_back(disc)) break;
   }
+  unseen_walls_.clear();
+  for (const Vec2 wall : request.poses.unseen_walls) {
+    if (!unseen_walls_.push_back(wall)) break;
+  }
+  request_.poses.unseen_walls = {unseen_walls_.begin(), unseen_walls_.size()};
   request_.masked = {masked_.begin(), masked_.size()};
   request_.still = &still_;
   request_.moving = {moving_.begin(), moving_.size()};

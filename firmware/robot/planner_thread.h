@@ -41,6 +41,7 @@ class PlannerThread final : public Planner {
   FixedVector<Track, kMaxTracks> moving_;
   FixedVector<StandingPedestrian, kMaxTracks> standing_;
   FixedVector<MoverDisc, kMaxTracks> masked_;
+  FixedVector<Vec2, kMaxUnseenWalls> unseen_walls_;
   Mailbox<Plan> plans_;
   std::atomic<bool> busy_{false}, ending_{false};
   std::atomic<std::uint32_t> asked_{0};

@@ -22,13 +22,15 @@ constexpr std::uint32_t kKeptBeyondRobot = 160U * kCostsPerCell;
 /// Cells that have changed, as a share of all, from which on all is settled anew.
 constexpr std::size_t kFewOf = 16;
 
-constexpr float kRoom_m = 1.0F;         ///< more than that between body's middle and surfaces is worth no detour
-constexpr float kRoomWeight = 2.5F;     ///< by trial: a prototype's, on two maps
-constexpr float kTightWeight = 30.0F;   ///< where a body's corners would touch if it turned
-constexpr float kTight_m = 0.03F;       ///< beyond the corners' circle
-constexpr float kBlocked_m = 0.01F;     ///< beyond the inscribed circle
-constexpr float kLastingWeight = 8.0F;  ///< where a body has stood for long: it may leave, a wall does not
-constexpr float kUnseenWeight = 8.0F;   ///< near the robot, what it has not seen yet
+constexpr float kRoom_m = 1.0F;             ///< more than that between body's middle and surfaces is worth no detour
+constexpr float kRoomWeight = 2.5F;         ///< by trial: a prototype's, on two maps
+constexpr float kTightWeight = 30.0F;       ///< where a body's corners would touch if it turned:
+constexpr float kTightWeightOfLong = 3.0F;  ///< a long one drives through lengthwise
+constexpr float kLong_m = 0.3F;             ///< from the inscribed circle to the corners'
+constexpr float kTight_m = 0.03F;           ///< beyond the corners' circle
+constexpr float kBlocked_m = 0.01F;         ///< beyond the inscribed circle
+constexpr float kLastingWeight = 8.0F;      ///< where a body has stood for long: it may leave, a wall does not
+constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet
 constexpr double kBesideLasting_m = 0.4;
 
 /// Then none counts: the robot may leave.
@@ -48,6 +50,7 @@ TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::in
                              std::shared_ptr<const KeepOutField> keep_out)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
+      tight_weight_(tight_m_ - blocked_m_ > kLong_m ? kTightWeightOfLong : kTightWeight),
       keep_out_field_(std::move(keep_out)),
       keep_out_(keep_out_field_ ? keep_out_field_->view() : KeepOut{}),
       surfaces_(max_side),
@@ -130,7 +133,7 @@ std::uint16_t TimeToGoField::rate_at(float d) const noexcept {
   if (d < blocked_m_) return 0;
   const float near = d < kRoom_m ? kRoom_m - d : 0.0F;
   const float tight = d < tight_m_ ? (tight_m_ - d) / (tight_m_ - blocked_m_) : 0.0F;
-  return static_cast<std::uint16_t>(kRates * (1.0F + kRoomWeight * near * near + kTightWeight * tight * tight));
+  return static_cast<std::uint16_t>(kRates * (1.0F + kRoomWeight * near * near + tight_weight_ * tight * tight));
 }
 
 /// Whether the shortest way from the robot, or from the nearest cell that has one, soon passes what was never seen.

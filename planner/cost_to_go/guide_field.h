@@ -70,7 +70,7 @@ class TimeToGoField {
                                           const std::uint8_t* unseen) const noexcept;
   [[nodiscard]] std::uint16_t rate_at(float distance_m) const noexcept;
 
-  float blocked_m_, tight_m_;
+  float blocked_m_, tight_m_, tight_weight_;
   std::shared_ptr<const KeepOutField> keep_out_field_;
   KeepOut keep_out_;
   NearestSurfaces surfaces_;

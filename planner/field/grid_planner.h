@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "planner/cost_to_go/guide_field.h"
+#include "planner/cost_to_go/pose_field.h"
 #include "planner/field/nearest_cell.h"
 #include "planner/field/pass.h"
 #include "planner/field/path.h"
@@ -26,7 +27,9 @@ class GridPlanner final : public Planner {
         pass_(*executor_, config.max_side_cells),
         flood_(Grid{config.max_side_cells}.cells()),
         window_({{0, 0}, config.side_cells, config.cell_m}, config.max_side_cells),
-        time_to_go_(config.inscribed_m, config.circumscribed_m, config.max_side_cells, config.keep_out),
+        time_to_go_(config.body.inscribed_radius_m(), config.body.circumscribed_radius_m(), config.max_side_cells,
+                    config.keep_out),
+        poses_(config.body),
         keep_out_(config.keep_out ? config.keep_out->view() : KeepOut{}) {
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>(config.max_side_cells);
@@ -46,6 +49,7 @@ class GridPlanner final : public Planner {
     plan.path.clear();
     plan.predictions.clear();
     plan.guide = {};
+    plan.poses = {};
     result.by_potential = request.wants_potential;
     plan.status = answer(request, result);
     if (plan.status != PlanStatus::kOk) plan.path.clear();
@@ -86,6 +90,7 @@ class GridPlanner final : public Planner {
     Plan plan;
     Window window;
     TimeToGoField::Memory time_to_go;
+    PoseField::Memory poses;
     float* psi = nullptr;
     bool by_potential = true;
 
@@ -127,14 +132,24 @@ class GridPlanner final : public Planner {
     result.window = window();
     if (!request.wants_potential) return plan_by_time_to_go(request, result);
     const PlanStatus status = plan_by_potential(request, result);
-    if (status != PlanStatus::kBackendFailed)
-      result.plan.guide = time_to_go_.settle(time_to_go_request(request, result), result.time_to_go);
+    if (status != PlanStatus::kBackendFailed) settle_time_to_go(request, time_to_go_request(request, result), result);
     return status;
+  }
+
+  void settle_time_to_go(const PlanRequest& request, const TimeToGoRequest& asked, Result& result) noexcept {
+    const Guide& guide = result.plan.guide = time_to_go_.settle(asked, result.time_to_go);
+    if (!request.poses.is_asked) return;
+    result.plan.poses = poses_.settle({.guide = guide,
+                                       .map_from_robot = request.map_from_robot,
+                                       .goal_in_map = request.goal_in_map,
+                                       .movers = request.masked,
+                                       .asked = request.poses},
+                                      result.poses);
   }
 
   PlanStatus plan_by_time_to_go(const PlanRequest& request, Result& result) noexcept {
     const TimeToGoRequest asked = time_to_go_request(request, result);
-    result.plan.guide = time_to_go_.settle(asked, result.time_to_go);
+    settle_time_to_go(request, asked, result);
     result.plan.certified = time_to_go_.is_certified();
     result.plan.reach = result.plan.certified ? 1.0F : 0.0F;
     const TimeToGoPath path(time_to_go_, asked);
@@ -148,14 +163,12 @@ class GridPlanner final : public Planner {
     std::fill_n(result.psi, window().grid().cells(), cell::kNotFree);
     const std::int32_t movers = fetch_movers(window(), request.moving, pass_.shown().movers, mover_ids_);
     Warping warping = warping_for(config_, window(), request);
-    const bool minds_unseen = request.body != nullptr && request.still != nullptr;
-    PlanStatus status = plan_among(request, warping, movers, minds_unseen, result);
-    if (status != PlanStatus::kOk && minds_unseen) status = plan_among(request, warping, movers, false, result);
+    PlanStatus status = plan_among(request, warping, movers, result);
     const bool may_leave = movers > 0 || !request.standing.empty();
     if (status == PlanStatus::kNoPath && may_leave && config_.mode == PlanMode::kFull) {
       // They may have left what they block by the time the robot comes there: beyond the horizon they do not count.
       warping.reach = warping.robot_speed * warping.cap_s;
-      status = plan_among(request, warping, movers, false, result);
+      status = plan_among(request, warping, movers, result);
     }
     if (status == PlanStatus::kNoPath) {
       consider_growing(request);
@@ -165,13 +178,12 @@ class GridPlanner final : public Planner {
     return status;
   }
 
-  PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers, bool minds_unseen,
+  PlanStatus plan_among(const PlanRequest& request, const Warping& warping, std::int32_t movers,
                         Result& result) noexcept {
     const Grid grid = window().grid();
     fetch_walls(window(), request.still, pass_.shown().occupants);
     fetch_keep_out(window(), keep_out_, request.map_from_robot.position(), pass_.shown().occupants);
     fetch_standing(window(), request, warping.reach, pass_.shown().occupants);
-    if (minds_unseen) fetch_unseen(window(), request, pass_.shown().occupants);
     if (!pass_.mark_and_clear(grid, warping, movers, inflation(), kWall | kMover)) return PlanStatus::kBackendFailed;
     report_predictions(movers, result.plan);
     const CellIndex robot = window().cell_at(request.map_from_robot.position());
@@ -286,6 +298,7 @@ class GridPlanner final : public Planner {
   Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
   std::int32_t solved_goal_ = kNoCell;
   TimeToGoField time_to_go_;
+  PoseField poses_;
   KeepOut keep_out_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};
   std::array<Answer, 2> answers_;  ///< collected, and being made

@@ -147,20 +147,4 @@ void fetch_standing(const Window& window, const PlanRequest& request, float reac
   }
 }
 
-void fetch_unseen(const Window& window, const PlanRequest& request, std::uint8_t* occupants) noexcept {
-  const Vec2 robot = request.map_from_robot.position();
-  const Vec2 reach{kUnseenRadius_m, kUnseenRadius_m};
-  const Transform2 robot_from_map(inverse(request.map_from_robot));
-  const CellIndex low = window.cell_at(robot - reach), high = window.cell_at(robot + reach);
-  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
-    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
-      const std::int8_t evidence = request.still->evidence({window.low.i + i, window.low.j + j});
-      const Vec2 centre = window.in_map({i + 0.5, j + 0.5});
-      const bool near = distance(centre, robot) <= kUnseenRadius_m;
-      const bool under = request.body->distance_to(robot_from_map * centre) < window.cell_m;
-      if (evidence == 0 && near && !under) occupants[window.grid().at(i, j)] |= kWall;
-    }
-  }
-}
-
 }  // namespace jaywalk::field

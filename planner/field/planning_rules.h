@@ -47,7 +47,4 @@ void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot_in
 /// Adds as movers all that is of those who stand within `reach` cells of the robot; of numbers within reason.
 void fetch_standing(const Window& window, const PlanRequest& request, float reach, std::uint8_t* occupants) noexcept;
 
-/// Adds as walls what was never seen within kUnseenRadius_m of the robot, but for what is under `body`.
-void fetch_unseen(const Window& window, const PlanRequest& request, std::uint8_t* occupants) noexcept;
-
 }  // namespace jaywalk::field

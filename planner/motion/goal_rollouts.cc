@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/types/rest.h"
+
 namespace jaywalk::motion {
 namespace {
 
@@ -11,7 +13,9 @@ constexpr int kRounds = 3, kPerturbed = 24;
 constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
 constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/explanation/decisions/motion-backward.md, 0083
 constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
+constexpr double kStandWithin = 0.9;                          ///< the same, where it has come to rest already
 constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
+constexpr float kTurnBlocked_s = 5.0F;                        ///< without progress, at the goal
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
 /// Hands every trajectory that a decision tries to `look`, which keeps the best of them in `best`.
@@ -46,12 +50,21 @@ void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
   if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
     body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
   const bool lost = setup_.constant_speed && world.plan.status != PlanStatus::kOk;  // it does not slow down by itself
+  stands_there_ = intent.kind == Intent::Kind::kGoal && is_there(world);
+  const bool near = distance(world.map_from_robot.position(), world.input.goal_in_map) < setup_.goal_tolerance_m;
+  status_.turns_at_goal = !setup_.constant_speed && world.input.wants_heading() && near && !stands_there_;
+  status_.turn_blocked = status_.turns_at_goal && stall_.for_s > kTurnBlocked_s;
   status_.rests_on = lost ? kNever : std::min(decision_.seen, world.plan.stamp);
 }
 
 bool GoalRollouts::is_there(const World& world) const noexcept {
-  return !setup_.constant_speed &&
-         distance(world.map_from_robot.position(), world.input.goal_in_map) < setup_.goal_tolerance_m * kStopWithin;
+  const double to_goal_m = distance(world.map_from_robot.position(), world.input.goal_in_map);
+  if (setup_.constant_speed) return false;
+  if (!world.input.wants_heading()) return to_goal_m < setup_.goal_tolerance_m * kStopWithin;
+  const double off_rad = std::fabs(world.input.heading_error_rad(world.map_from_robot));
+  // Once it stands there, a pose that sways within the tolerances moves nothing.
+  const double within = stands_there_ ? 1.0 : is_at_rest(world.driven) ? kStandWithin : kStopWithin;
+  return to_goal_m < setup_.goal_tolerance_m * within && off_rad < world.input.goal_heading_tolerance_rad * within;
 }
 
 bool GoalRollouts::is_to_decide(const World& world, const Intent& intent, const Guide& ground) noexcept {
@@ -63,8 +76,11 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   if (!(goal == decision_.goal)) stall_.least_to_go_s = 0.0F;  // that was the time to another goal
   decision_.goal = goal;
   decision_.turned = turned_;
-  decision_.stall = stall(decision_.start, guide, world.now);
-  const Situation situation = this->situation(guide);
+  decision_.wants_heading = !setup_.constant_speed && world.input.wants_heading();
+  decision_.goal_heading = decision_.wants_heading ? static_cast<float>(world.input.goal_heading_rad) : 0.0F;
+  const PoseGuide& poses = world.plan.poses;
+  decision_.stall = stall(decision_.start, guide, poses, world.now);
+  const Situation situation = this->situation(guide, poses);
   best_cost_ = {.time = 1e9F};
   float to_beat = 1e9F;
   decision_.went_on = holds(world.now);
@@ -79,7 +95,7 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   decision_.cost = trajectory_cost(situation, best_, 1e9F, decision_.driven.data());
 }
 
-Situation GoalRollouts::situation(const Guide& guide) const noexcept {
+Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) const noexcept {
   return {body_,
           guide,
           *futures_,
@@ -88,7 +104,12 @@ Situation GoalRollouts::situation(const Guide& guide) const noexcept {
           decision_.goal,
           decision_.turned,
           decision_.stall,
-          kArriveWithin * static_cast<float>(setup_.goal_tolerance_m)};
+          kArriveWithin * static_cast<float>(setup_.goal_tolerance_m),
+          nullptr,
+          is_long() ? &poses : nullptr,
+          decision_.goal_heading,
+          decision_.wants_heading,
+          is_long() ? conflict_price() : price::kConflict};
 }
 
 void GoalRollouts::search(const Situation& situation) noexcept {
@@ -98,8 +119,8 @@ void GoalRollouts::search(const Situation& situation) noexcept {
   });
 }
 
-std::vector<Alternative> GoalRollouts::alternatives(const Guide& guide) const {
-  const Situation situation = this->situation(guide);
+std::vector<Alternative> GoalRollouts::alternatives(const Plan& plan) const {
+  const Situation situation = this->situation(plan.guide, plan.poses);
   std::vector<Alternative> all;
   Trajectory best, trial;
   float least = 1e9F;
@@ -116,11 +137,26 @@ std::vector<Alternative> GoalRollouts::alternatives(const Guide& guide) const {
   return all;
 }
 
-StallState GoalRollouts::stall(const RobotState& here, const Guide& guide, Time now) noexcept {
+/// As many seconds as waiting would take to bring about a conflict: the busier the place, the less it gains.
+float GoalRollouts::conflict_price() const noexcept {
+  float walked_mps = 0.0F;
+  for (const MoverBelief& b : memory().beliefs()) {
+    const float dx = b.x - decision_.start.x, dy = b.y - decision_.start.y;
+    const bool walks = b.has_walked && b.stood_s < kLongPauseS;
+    if (walks && dx * dx + dy * dy < price::kAboutM * price::kAboutM) walked_mps += b.usual_mps;
+  }
+  walked_mps += 0.5F * static_cast<float>(memory().hidden().size()) / kFutures * memory().turning().usual_mps;
+  const float met_hz = walked_mps * price::kMetWidthM / (cell::kPiF * price::kAboutM * price::kAboutM);
+  return std::clamp(1.0F / std::max(met_hz, 1e-3F), price::kLeastConflict, price::kConflict);
+}
+
+StallState GoalRollouts::stall(const RobotState& here, const Guide& guide, const PoseGuide& poses, Time now) noexcept {
   const std::span<const MoverBelief> beliefs = memory().beliefs();
   const bool alone = memory().hidden().empty() &&
                      std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
-  const float to_go = alone ? guide.time_to_go(here.x, here.y) : 0.0F;
+  const float to_go = !alone        ? 0.0F
+                      : poses.known ? poses.time_to_go(guide, here.x, here.y, here.heading)
+                                    : guide.time_to_go(here.x, here.y);
   const bool was_alone = stall_.least_to_go_s > 0.0F;
   const bool gets_on = alone && was_alone ? to_go < stall_.least_to_go_s - kGetsOnS : !stall_.holds(here);
   if (stalled_since_ == kNever || now < stalled_since_ || gets_on) {
@@ -133,7 +169,7 @@ StallState GoalRollouts::stall(const RobotState& here, const Guide& guide, Time 
 }
 
 RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent, const RobotState& now) noexcept {
-  const bool has_goal = intent.kind == Intent::Kind::kGoal, rests = !has_goal || is_there(world);
+  const bool has_goal = intent.kind == Intent::Kind::kGoal, rests = !has_goal || stands_there_;
   Command to = rests ? Command{} : within(body_.bounds, command_at(world.now));
   if (setup_.constant_speed && has_goal) to.v = body_.bounds.speed;
   RobotState next = moved(now, to, body_.bounds, tick_s());

@@ -25,9 +25,9 @@ class GoalRollouts final : public RolloutMotion {
   void observe(const World& world, const Intent& intent) noexcept override;
   [[nodiscard]] const GoalRollouts* rollouts() const noexcept override { return this; }
 
-  /// Everything that the last decision tried, cheapest first. `guide`: the one that it was made with, still valid.
+  /// Everything that the last decision tried, cheapest first. `plan`: the one that it was made with, still valid.
   /// Allocates: for pictures, never in the loop.
-  [[nodiscard]] std::vector<Alternative> alternatives(const Guide& guide) const;
+  [[nodiscard]] std::vector<Alternative> alternatives(const Plan& plan) const;
 
  private:
   [[nodiscard]] const Guide& ground_before(const World& world) noexcept override { return world.plan.guide; }
@@ -36,15 +36,18 @@ class GoalRollouts final : public RolloutMotion {
   void choose(const World& world, const Guide& ground) noexcept override;
   [[nodiscard]] Next next(const World& world, const Intent& intent, const RobotState& now) noexcept override;
 
-  [[nodiscard]] Situation situation(const Guide& guide) const noexcept;
+  [[nodiscard]] bool is_long() const noexcept { return setup_.to_goal == MotionKind::kLongRollouts; }
+  [[nodiscard]] Situation situation(const Guide& guide, const PoseGuide& poses) const noexcept;
+  [[nodiscard]] float conflict_price() const noexcept;
   void search(const Situation& situation) noexcept;
-  [[nodiscard]] StallState stall(const RobotState& here, const Guide& guide, Time now) noexcept;
+  [[nodiscard]] StallState stall(const RobotState& here, const Guide& guide, const PoseGuide& poses, Time now) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;
 
   Trajectory trial_, best_;
   Cost best_cost_;
   StallState stall_;  ///< where it was when it last got on, or had nowhere to go
   Time stalled_since_ = kNever;
+  bool stands_there_ = false;    ///< at the goal, with the heading wanted
   float turned_ = 0.0F;          ///< the side that it turned to last
   float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since and what was forgotten at rest
 };

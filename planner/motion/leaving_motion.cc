@@ -10,7 +10,8 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr double kBeside_m = 0.07, kLeft_m = 0.10;            // takes over within the first, lets go beyond the second;
+constexpr double kNearby_m = 2.5;                   // of the axle: in the robot's way, or company of its rider
+constexpr double kBeside_m = 0.07, kLeft_m = 0.10;  // takes over within the first, lets go beyond the second;
 constexpr double kStuckBeside_m = 0.13, kStuckLeft_m = 0.15;  // where to_goal has not moved it for a while
 constexpr double kSwing_m = 0.01, kFloor_m = 0.02;            // StopZone's may_creep()
 constexpr double kLook_m = 1.0, kStep_m = 0.05;               // an arc's length, and from pose to pose

@@ -12,9 +12,9 @@ namespace jaywalk::motion {
 
 /// What kind of motion takes the robot to its goal.
 enum class MotionKind : std::uint8_t {
-  kRollouts,  ///< of a nearly round body
-  kLongBody,  ///< along the path, as a body's outline allows
-  kPath,      ///< along the path at constant speed, as in the paper
+  kRollouts,      ///< of a nearly round body
+  kLongRollouts,  ///< of a long one, by the time to go from poses
+  kPath,          ///< along the path at constant speed, as in the paper
 };
 
 struct MotionSetup {
@@ -25,7 +25,6 @@ struct MotionSetup {
   double comfort_distance_m = 1.0;  ///< a pedestrian's middle nearer than this to the body's discs costs
   double goal_tolerance_m = 0.3;
   double tick_s = 0.02;
-  double mover_radius_m = 0.3;                        ///< the robot's, of one that is nearly round
   std::shared_ptr<const KeepOutField> keep_out = {};  ///< null: no such zones
 
   [[nodiscard]] KeepOut keep_out_zones() const noexcept { return keep_out ? keep_out->view() : KeepOut{}; }
@@ -33,8 +32,6 @@ struct MotionSetup {
 
 /// Throws nothing but std::bad_alloc.
 [[nodiscard]] std::unique_ptr<Motion> make_motion(const MotionSetup& setup);
-/// `to_goal`, which at the goal turns to the heading wanted there, unless it keeps its speed.
-[[nodiscard]] std::unique_ptr<Motion> turning_at_goal(const MotionSetup& setup, std::unique_ptr<Motion> to_goal);
 /// Makes a motion; another than make_motion(), for comparisons.
 using MakeMotion = std::unique_ptr<Motion> (*)(const MotionSetup&);
 

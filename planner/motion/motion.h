@@ -13,11 +13,8 @@ namespace jaywalk::motion {
 struct Perceived {
   std::span<const Track> tracks{}, moving{};  ///< all of them; those that move
   std::span<const StandingPedestrian> standing{};
-  const EvidenceMap& still;        ///< what stands
-  bool pedestrian_hidden = false;  ///< one went out of sight within kNearby_m lately: nothing backs at once
+  const EvidenceMap& still;  ///< what stands
 };
-
-inline constexpr double kNearby_m = 2.5;  ///< of the axle: in the robot's way, or company of its rider
 
 /// What a tick knows, in the map. Valid within the tick.
 struct World {
@@ -25,7 +22,6 @@ struct World {
   bool new_scan = false, new_plan = false;  ///< since the tick before; a plan counts while there is a goal
   Pose2 map_from_robot{};
   Twist2 wanted{}, driven{};  ///< asked for last, and what the supervisor made of it
-  Time rested_on = kNever;    ///< MotionStatus::rests_on, one tick before
   const OperatorInput& input;
   const LaserScan& scan;   ///< the newest
   Pose2 map_from_laser{};  ///< at that scan
@@ -51,11 +47,6 @@ struct MotionStatus {
   Twist2 stick_asks{};         ///< of a stick that steers, before anything is avoided
 };
 
-/// The stamp of a path that leads to the goal; without one, what was driven by before.
-[[nodiscard]] inline Time stamp_of_path(const World& world) noexcept {
-  return world.plan.status == PlanStatus::kOk ? world.plan.stamp : world.rested_on;
-}
-
 class GoalRollouts;
 
 /// Decides how the robot moves. One object drives from start to end; make_motion() makes it. A new kind of motion
@@ -76,7 +67,7 @@ class Motion {
   [[nodiscard]] virtual PlanRequest request(const World& world) const noexcept = 0;
   /// At most one request in this time.
   [[nodiscard]] virtual Duration plan_every() const noexcept { return Duration{0}; }
-  /// For pictures: the decisions over sampled futures on the way to a goal; null where rules drive.
+  /// For pictures: the decisions over sampled futures on the way to a goal; null where nothing is rolled out.
   [[nodiscard]] virtual const GoalRollouts* rollouts() const noexcept { return nullptr; }
 };
 

@@ -32,22 +32,26 @@ float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBod
 }  // namespace
 
 void NearReturns::update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
-                         const RobotBody& body, std::span<const MoverDisc> movers) noexcept {
+                         const RobotBody& body, std::span<const MoverDisc> movers,
+                         std::span<const Vec2> unseen_walls) noexcept {
   const float reach_m = kStopZoneMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
   const cell::Heading along = cell::heading_at(robot.heading);
   const Transform2 map_from(map_from_laser);
   float nearest[kSectors];
   std::fill(nearest, nearest + kSectors, reach_m + body.rim_m);
   Vec2 hit[kSectors];
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-    if (!scan.is_hit(beam) || scan.range_m[beam] > 2.0F * (reach_m + body.rim_m)) continue;
-    const Vec2 p = map_from * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+  const auto take = [&](Vec2 p) {
     const float dx = static_cast<float>(p.x) - robot.x, dy = static_cast<float>(p.y) - robot.y;
     const float away = std::sqrt(dx * dx + dy * dy);
     const float turns = 0.5F + cell::angle_of(dx, dy) / (2.0F * cell::kPiF);
     const auto sector = std::min(static_cast<std::size_t>(turns * static_cast<float>(kSectors)), kSectors - 1);
     if (away < nearest[sector] && !is_of_a_mover(p, movers)) nearest[sector] = away, hit[sector] = p;
+  };
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    if (!scan.is_hit(beam) || scan.range_m[beam] > 2.0F * (reach_m + body.rim_m)) continue;
+    take(map_from * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam])));
   }
+  for (const Vec2 p : unseen_walls) take(p);
   count_ = 0, nearest_ = kBesideM;
   for (std::size_t k = 0; k < kSectors; ++k) {
     if (nearest[k] >= reach_m + body.rim_m) continue;

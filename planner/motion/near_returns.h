@@ -13,10 +13,10 @@ namespace jaywalk::motion {
 /// The map knows a surface as one place a cell, which lies up to 5 cm behind a wall's end.
 class NearReturns {
  public:
-  /// The nearest hit of each 3 degrees about the robot, of those within its reach in 1.5 s. What may be a body of
-  /// `movers` is left out: it will be elsewhere.
+  /// The nearest hit of each 3 degrees about the robot, of those within its reach in 1.5 s, and of `unseen_walls`, in
+  /// the map. What may be a body of `movers` is left out: it will be elsewhere.
   void update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot, const RobotBody& body,
-              std::span<const MoverDisc> movers) noexcept;
+              std::span<const MoverDisc> movers, std::span<const Vec2> unseen_walls) noexcept;
 
   /// Which share of the speed at `robot` the supervisor takes away, in [0, 1]: beside a point that is nearer than it
   /// was at the look, the outline's edge may go no faster than the stop zone's margin there allows; where something was

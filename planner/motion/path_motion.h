@@ -1,10 +1,11 @@
 #pragma once
-#include "planner/motion/follower.h"
 #include "planner/motion/make_motion.h"
+#include "planner/motion/twist_ramp.h"
 
 namespace jaywalk::motion {
 
-/// Follows the plan's path at constant speed, never stopping: the paper's experiment.
+/// Follows the plan's path at constant speed, never stopping: the paper's experiment. Pure pursuit, ramped within the
+/// comfort limits; without a path it goes straight on, without a goal it comes to rest.
 class PathMotion final : public Motion {
  public:
   explicit PathMotion(const MotionSetup& setup);
@@ -16,8 +17,11 @@ class PathMotion final : public Motion {
   [[nodiscard]] PlanRequest request(const World& world) const noexcept override;
 
  private:
-  double speed_mps_;
-  Follower follower_;
+  [[nodiscard]] Twist2 target(const World& world, const Intent& intent) const noexcept;
+
+  MotionLimits limits_;
+  double tick_s_;
+  TwistRamp ramp_;
   MotionStatus status_;
 };
 

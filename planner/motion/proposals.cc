@@ -6,6 +6,7 @@
 
 #include "planner/cell/draws.h"
 #include "planner/cell/exp_log.h"
+#include "planner/motion/way_pursuit.h"
 
 namespace jaywalk::motion {
 namespace {
@@ -26,8 +27,9 @@ constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) *
 constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
 constexpr int kStraights = 12;  ///< directions, all round
 
-constexpr int kSteerEvery = 3;  ///< steps
-constexpr float kLookM = 0.5F;  ///< the guide is asked this far off
+constexpr int kSteerEvery = 3;     ///< steps
+constexpr int kSteerWayEvery = 2;  ///< the same, of a long body
+constexpr float kLookM = 0.5F;     ///< the guide is asked this far off
 constexpr std::size_t kDirections = 16;
 constexpr float kSharpness = 8.0F;  ///< of the choice between directions side by side, 1/s
 constexpr float kGain = 1.8F;       ///< rad/s a radian off
@@ -160,8 +162,21 @@ void TrajectoryProposals::drive_out(RobotState& robot, int from, int to, Command
 }
 
 void TrajectoryProposals::follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept {
+  if (s_.goes_by_poses() && constant_ <= 0.0F) follow_way(robot, step, speed, out);
   for (; step < kSteps; step += kSteerEvery) {
-    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), permitted(pursuit(robot, speed)), out);
+    const Command command =
+        turns_at_goal(s_, robot) ? turn_to(s_.goal_heading, robot, s_.body.bounds) : pursuit(robot, speed);
+    drive_out(robot, step, std::min(step + kSteerEvery, kSteps), permitted(command), out);
+  }
+}
+
+/// As far as the way from poses leads; `robot` and `step` are then where that ends.
+void TrajectoryProposals::follow_way(RobotState& robot, int& step, float speed, Trajectory& out) const noexcept {
+  WayPursuit pursuit(s_, robot);
+  while (step < kSteps && pursuit.has_more(robot)) {
+    const int to = std::min(step + kSteerWayEvery, kSteps);
+    drive_out(robot, step, to, permitted(pursuit.command(robot, speed)), out);
+    step = to;
   }
 }
 

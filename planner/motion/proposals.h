@@ -20,6 +20,7 @@ class TrajectoryProposals {
 
  private:
   void follow_from(RobotState robot, int step, float speed, Trajectory& out) const noexcept;
+  void follow_way(RobotState& robot, int& step, float speed, Trajectory& out) const noexcept;
   void drive_out(RobotState& robot, int from, int to, Command command, Trajectory& out) const noexcept;
   void arc(int number, Trajectory& out) const noexcept;
   void arc_then_follow(int number, Trajectory& out) const noexcept;

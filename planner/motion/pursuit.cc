@@ -10,7 +10,6 @@ constexpr double kLookAhead_m = 0.35;          // at rest; half a robot's length
 constexpr double kLookAhead_s = 0.7;           // plus so much travel
 constexpr double kTurnInPlaceAbove_rad = 1.0;  // looking further away than this, turn before driving
 constexpr double kTurnGain_per_s = 2.0;        // turn in place at this rate a radian of error
-constexpr double kLateralAccel_mps2 = 0.5;     // comfort in curves, as ahead
 
 }  // namespace
 
@@ -46,11 +45,6 @@ Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noe
       inverse(map_from_robot) * look_ahead(path, map_from_robot.position(), kLookAhead_m + kLookAhead_s * v_mps);
   // The circle through here and the target that is tangent to the heading has curvature 2 y / d^2.
   return {atan2(target.y, target.x), 2.0 * target.y / std::max(dot(target, target), 1e-6)};
-}
-
-double curve_speed(double curvature_per_m, double most_turn_radps) noexcept {
-  const double bend = std::max(std::fabs(curvature_per_m), 1e-6);
-  return std::min(std::sqrt(kLateralAccel_mps2 / bend), most_turn_radps / bend);
 }
 
 }  // namespace jaywalk

@@ -24,7 +24,4 @@ struct Steering {
 };
 [[nodiscard]] Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept;
 
-/// Fastest in a curve (m/s): what is comfortable sideways, and what the robot can turn.
-[[nodiscard]] double curve_speed(double curvature_per_m, double most_turn_radps) noexcept;
-
 }  // namespace jaywalk

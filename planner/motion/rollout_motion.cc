@@ -6,6 +6,8 @@
 namespace jaywalk::motion {
 namespace {
 
+constexpr float kTurnOnSpot_radps = 0.6F;  // as a passenger likes it
+
 Seen seen_in(const World& world, const Guide& ground) noexcept {
   return {world.now,
           world.scan.stamp,
@@ -50,10 +52,22 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), ground, decision_.number);
   decision_.start = start_in(world, body_.bounds);
   decision_.start.accel = accel_;
-  returns_.update(world.scan, world.map_from_laser, decision_.start, body_, memory_.masked());
+  place_unseen_walls(world);
+  returns_.update(world.scan, world.map_from_laser, decision_.start, body_, memory_.masked(),
+                  {unseen_walls_.begin(), unseen_walls_.size()});
   choose(world, ground);
   decision_.at = world.now;
   decision_.seen = world.scan.stamp;
+}
+
+/// Of a long body, which backs and turns where no laser looks; a round one is led off what it stands beside first.
+void RolloutMotion::place_unseen_walls(const World& world) noexcept {
+  unseen_walls_.clear();
+  if (setup_.to_goal != MotionKind::kLongRollouts) return;
+  const Transform2 map_from_robot(world.map_from_robot);
+  for (const Vec2 wall : world.unseen_walls) {
+    if (!unseen_walls_.push_back(map_from_robot * wall)) return;
+  }
 }
 
 Command RolloutMotion::command_at(Time now) const noexcept {
@@ -79,7 +93,19 @@ PlanRequest RolloutMotion::request(const World& world) const noexcept {
           .speed_mps = setup_.model.limits.max_speed_mps,
           .still = &world.perceived.still,
           .masked = memory_.masked(),
-          .wants_potential = false};
+          .wants_potential = false,
+          .poses = poses_asked(world)};
+}
+
+PoseRequest RolloutMotion::poses_asked(const World& world) const noexcept {
+  const MotionBounds& b = body_.bounds;
+  const float spot = std::fabs(body_.blind.slowed({0.0F, std::min(b.turn, kTurnOnSpot_radps)}).w);
+  return {.is_asked = setup_.to_goal == MotionKind::kLongRollouts,
+          .speeds = {.forward = b.speed, .back = b.back, .turn = b.turn, .spot = spot},
+          .arrives_m = 0.5F * static_cast<float>(setup_.goal_tolerance_m),
+          .wants_heading = world.input.wants_heading(),
+          .heading = world.input.wants_heading() ? static_cast<float>(world.input.goal_heading_rad) : 0.0F,
+          .unseen_walls = {unseen_walls_.begin(), unseen_walls_.size()}};
 }
 
 }  // namespace jaywalk::motion

@@ -20,6 +20,8 @@ struct Decision {
   Place goal;
   float turned = 0.0F;
   StallState stall;
+  bool wants_heading = false;
+  float goal_heading = 0.0F;
   bool went_on = false;  ///< `last` was tried: what was left of the decision before
   Trajectory last;
 };
@@ -74,9 +76,13 @@ class RolloutMotion : public Motion {
   virtual void choose(const World& world, const Guide& ground) noexcept = 0;
   [[nodiscard]] virtual Next next(const World& world, const Intent& intent, const RobotState& now) noexcept = 0;
 
+  [[nodiscard]] PoseRequest poses_asked(const World& world) const noexcept;
+  void place_unseen_walls(const World& world) noexcept;
+
   MoverHistory memory_;
-  Command commanded_;   ///< last
-  float accel_ = 0.0F;  ///< of the ramp
+  FixedVector<Vec2, kMaxUnseenWalls> unseen_walls_;  ///< World's, in the map
+  Command commanded_;                                ///< last
+  float accel_ = 0.0F;                               ///< of the ramp
 };
 
 }  // namespace jaywalk::motion

@@ -1,4 +1,6 @@
 #pragma once
+#include "planner/cost_to_go/pose_guide.h"
+#include "planner/motion/cost/prices.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/stick_proposals.h"
@@ -19,6 +21,17 @@ struct Situation {
   StallState stall;                     ///< where it has been since it last made progress
   float arrives_within_m = 0.0F;        ///< of the goal: there
   const StickRollout* stick = nullptr;  ///< driven by the stick: nearness to this counts, and no goal
+  const PoseGuide* poses = nullptr;     ///< of a long body; null for one that is nearly round
+  float goal_heading = 0.0F;            ///< wanted at the goal, where `wants_heading`
+  bool wants_heading = false;
+  float conflict_price_s = price::kConflict;  ///< of being in a mover's way
+
+  [[nodiscard]] bool is_long() const noexcept { return poses != nullptr; }
+  /// Whether there is a way from poses near the robot.
+  [[nodiscard]] bool goes_by_poses() const noexcept { return poses != nullptr && poses->known; }
+  [[nodiscard]] float time_to_go(const RobotState& at) const noexcept {
+    return goes_by_poses() ? poses->time_to_go(guide, at.x, at.y, at.heading) : guide.time_to_go(at.x, at.y);
+  }
 };
 
 }  // namespace jaywalk::motion

@@ -58,18 +58,14 @@ TEST_CASE("text that is no setup is refused with its place") {
   CHECK(refusal.rfind("a.jwr: ", 0) == 0);
 }
 
-TEST_CASE("a nearly round robot plans with the circle that holds it, a long one with the one inside it and a guide") {
+TEST_CASE("a robot plans with the circle that holds it, if that is little wider than the one inside it") {
   ControlSetup setup;
   setup.model = p3dx();
   CHECK(setup.planner().inflation_m == Approx(0.2967).epsilon(1e-3));  // hypot(0.2275, 0.1905)
-  CHECK_FALSE(setup.guides_body());
+  CHECK_FALSE(setup.has_long_body());
   setup.model = wheelchair();
-  CHECK(setup.planner().inflation_m == 0.325);
-  CHECK(setup.guides_body());
-  // From movers it keeps as far as a circle 15 cm wider would: 0.3 + 0.15.
-  CHECK(setup.planner().mover_margin_m == Approx(0.45));
-  CHECK(setup.mover_radius_m() == Approx(0.475));
-  setup.constant_speed = true;  // it can neither stop nor back out
-  CHECK_FALSE(setup.guides_body());
-  CHECK(setup.planner().inflation_m == Approx(0.475));
+  CHECK(setup.has_long_body());
+  CHECK(setup.planner().inflation_m == Approx(0.475));  // 0.325 + 0.15
+  setup.constant_speed = true;                          // it can neither stop nor back out
+  CHECK_FALSE(setup.has_long_body());
 }

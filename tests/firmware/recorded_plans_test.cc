@@ -94,9 +94,7 @@ TEST_CASE("the plans of a recorded drive among walkers have the same bytes on ev
   constexpr int kFirst = 45, kCount = 25;  // at 15 scans a second
   const std::string file = (std::filesystem::temp_directory_path() / "jaywalk_plans.jwr").string();
   {
-    // Movers are marked in the plans of a long body.
-    SimulatedDrive drive(
-        "map1_16", 11, [](sim::Scenario& s) { s.model = wheelchair(); }, PlanMode::kFull, file);
+    SimulatedDrive drive("map1_16", 11, {}, PlanMode::kPaper, file);  // movers are marked in its plans
     drive.drive(5.0);
     REQUIRE(drive.recorder().close());
   }

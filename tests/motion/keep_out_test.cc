@@ -4,7 +4,6 @@
 
 #include "planner/cost_to_go/guide_field.h"
 #include "planner/motion/body_discs.h"
-#include "planner/motion/body_map.h"
 #include "planner/motion/speed_zones.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"
@@ -121,19 +120,6 @@ TEST_CASE("a guide whose zones are far away has the bytes of one without") {
     CHECK(with.time_to_go(x, 1.0F) == without.time_to_go(x, 1.0F));
     CHECK(with.room(x, 1.0F) == without.room(x, 1.0F));
   }
-}
-
-TEST_CASE("a long body's map has keep-out zones as surfaces unless its axle is in one") {
-  const MapZone zone = box({1.0, -1.0}, {2.0, 1.0});
-  const KeepOutField field(std::span(&zone, 1));
-  tests::Ground ground;
-  BodyMap map(wheelchair().footprint);
-  map.draw(ground.map(), {0.0, 0.0, 0.0}, {}, {}, field.view());
-  const double front = wheelchair().footprint.front_m;
-  CHECK(map.clearance({0.95 - front - 0.3, 0.0, 0.0}) == Approx(0.3).margin(0.01));
-  CHECK(map.clearance({0.95 - front + 0.2, 0.0, 0.0}) < 0.0);
-  map.draw(ground.map(), {1.5, 0.0, 0.0}, {}, {}, field.view());
-  CHECK(map.clearance({1.5, 0.0, 0.0}) == BodyMap::kFar_m);
 }
 
 TEST_CASE("a speed zone holds where the circle about the body touches it, and slows down before") {

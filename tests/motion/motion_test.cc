@@ -15,35 +15,29 @@ using namespace jaywalk::motion;
 namespace {
 
 MotionSetup setup_of(MotionKind kind, bool constant_speed = false, StickUse steering = StickUse::kNone) {
-  return {.model = kind == MotionKind::kLongBody ? wheelchair() : p3dx(),
+  return {.model = kind == MotionKind::kLongRollouts ? wheelchair() : p3dx(),
           .to_goal = kind,
           .constant_speed = constant_speed,
           .steering = steering};
 }
 
 /// What a command rests on in that moment.
-Time rests_on(Motion& motion, const tests::Moment& moment, Time rested_on) {
-  World world = moment.world();
-  world.rested_on = rested_on;
-  motion.observe(world, moment.intent());
+Time rests_on(Motion& motion, const tests::Moment& moment) {
+  motion.observe(moment.world(), moment.intent());
   return motion.status().rests_on;
 }
 
 }  // namespace
 
-TEST_CASE("a long body's commands rest on the last path, those at constant speed on none when a plan has none") {
+TEST_CASE("commands at constant speed rest on the path, and on nothing when a plan has none") {
   const tests::Ground ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
-  const Time planned = moment.plan.stamp, before = planned - std::chrono::milliseconds(100);
-  const auto long_body = make_motion(setup_of(MotionKind::kLongBody));
   const auto on_path = make_motion(setup_of(MotionKind::kPath, true));
   moment.plan.status = PlanStatus::kOk;
-  CHECK(rests_on(*long_body, moment, before) == planned);
-  CHECK(rests_on(*on_path, moment, before) == planned);
+  CHECK(rests_on(*on_path, moment) == moment.plan.stamp);
   moment.plan.status = PlanStatus::kNoPath;
-  CHECK(rests_on(*long_body, moment, before) == before);
-  CHECK(rests_on(*on_path, moment, before) == kNever);
+  CHECK(rests_on(*on_path, moment) == kNever);
 }
 
 TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a stick on the scan alone") {
@@ -52,12 +46,12 @@ TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
   const auto motion = make_motion(setup_of(MotionKind::kRollouts, false, StickUse::kShared));
-  CHECK(rests_on(*motion, moment, moment.now) == kNever);  // nothing is decided yet
+  CHECK(rests_on(*motion, moment) == kNever);  // nothing is decided yet
   moment.input.has_goal = false;
   moment.input.steers = true;
   moment.input.stick = {0.5, 0.0};
   moment.decide(*motion);
-  CHECK(rests_on(*motion, moment, kNever) == moment.scan.stamp);
+  CHECK(rests_on(*motion, moment) == moment.scan.stamp);
   CHECK(motion->status().stick_asks.v_mps == Approx(0.3).margin(1e-5));
   CHECK(motion->command(moment.world(), moment.intent()).v_mps > 0.0);
   moment.input.steers = false;
@@ -65,7 +59,8 @@ TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a
   CHECK(motion->status().stick_asks == Twist2{});
 }
 
-TEST_CASE("roll-outs ask for plans rarely and past pedestrians, rules with each scan and with them marked") {
+TEST_CASE(
+    "roll-outs ask for plans rarely and past pedestrians, a path's follower with each scan and with them marked") {
   const tests::Ground ground;
   tests::Moment moment(ground.map());
   Track walker;
@@ -75,18 +70,19 @@ TEST_CASE("roll-outs ask for plans rarely and past pedestrians, rules with each 
   moment.tracks = {walker};
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
-  for (const auto& [kind, long_body] : {std::pair{MotionKind::kRollouts, false}, {MotionKind::kLongBody, true}}) {
-    const auto motion = make_motion(setup_of(kind));
+  for (const MotionKind kind : {MotionKind::kRollouts, MotionKind::kLongRollouts, MotionKind::kPath}) {
+    const bool follows = kind == MotionKind::kPath;
+    const auto motion = make_motion(setup_of(kind, follows));
     moment.decide(*motion);
     const PlanRequest request = motion->request(moment.world());
     CHECK(request.stamp == moment.scan.stamp);
     CHECK(request.goal_in_map == Vec2{4.0, 0.0});
-    CHECK(request.moving.size() == (long_body ? 1 : 0));
-    CHECK(request.masked.size() == (long_body ? 0 : 1));
-    CHECK(request.wants_potential == long_body);
-    CHECK((request.body != nullptr) == long_body);
-    CHECK((motion->plan_every() > Duration{0}) != long_body);
-    CHECK((motion->rollouts() != nullptr) != long_body);
+    CHECK(request.moving.size() == (follows ? 1 : 0));
+    CHECK(request.masked.size() == (follows ? 0 : 1));
+    CHECK(request.wants_potential == follows);
+    CHECK(request.poses.is_asked == (kind == MotionKind::kLongRollouts));
+    CHECK((motion->plan_every() > Duration{0}) != follows);
+    CHECK((motion->rollouts() != nullptr) != follows);
   }
 }
 
@@ -94,7 +90,7 @@ TEST_CASE("at its goal a robot turns to the heading wanted there, whatever broug
   const tests::Ground ground;
   for (const auto& [kind, constant] : {std::pair{MotionKind::kRollouts, false},
                                        {MotionKind::kRollouts, true},
-                                       {MotionKind::kLongBody, false},
+                                       {MotionKind::kLongRollouts, false},
                                        {MotionKind::kPath, true}}) {
     tests::Moment moment(ground.map());
     moment.go_to({});

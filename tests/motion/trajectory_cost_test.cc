@@ -142,7 +142,7 @@ TEST_CASE(
   scan.range_m[1] = std::sqrt(ahead * ahead + left * left);
   scan.first_angle_rad = std::atan2(left, ahead) - scan.angle_step_rad;
   NearReturns returns;
-  returns.update(scan, {}, {}, body, {});
+  returns.update(scan, {}, {}, body, {}, {});
   const auto nobody = std::make_unique<Futures>();
   const auto braked_at = [&](float speed, const NearReturns& seen) {
     Trajectory held;

@@ -5,6 +5,7 @@
 
 #include "planner/cell/exp_log.h"
 #include "planner/motion/cost/interaction.h"
+#include "planner/motion/cost/met_movers.h"
 #include "planner/motion/situation.h"
 
 namespace jaywalk::motion {
@@ -23,19 +24,27 @@ class MoverCost {
       const MoverAt& at = s_.futures.at(at_step, m);
       const float radius = s_.futures.radius(m);
       const float most =
-          std::max(at.spread + radius + kZoneM + discs.radius + 0.1F, at.spread + s_.body.comfort_distance_m);
+          std::max(at.spread + radius + kZoneM + discs.radius + 0.1F,
+                   at.spread + s_.body.comfort_distance_m + (s_.is_long() ? price::kBeforeStandingM : 0.0F));
       for (int k = 0; k < discs.count; ++k) {
         const Place disc = disc_at(r, along, k);
         const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
         if (dx * dx + dy * dy >= most * most) continue;
-        add_disc(r, disc, {k, m}, at, all);
+        if (!s_.is_long()) {
+          add_disc(r, disc, {k, m}, at, all);
+          continue;
+        }
+        const std::uint32_t met = add_disc(r, disc, {k, m}, met_movers_.shown(at, m, t), all);
+        met_movers_.note(at, m, met, t);
       }
     }
     cost.nearness += (price::kNearMover * all.nearness + price::kTooFast * all.too_fast) /
                      static_cast<float>(kFutures * discs.count);
-    count_first(all.met, met_, 1.0F, t, cost);
-    count_first(all.stood, met_, price::kStandingWeight, t, cost);
-    count_first(all.touched, touched_, 1.0F, t, cost);
+    const float fades_s = s_.is_long() ? price::kTouchLongFadesS : price::kConflictFadesS;
+    const float later = cell::exp(-t / price::kConflictFadesS);
+    cost.conflict += s_.conflict_price_s * first_share(all.met, met_) * later;
+    cost.conflict += s_.conflict_price_s * price::kStandingWeight * first_share(all.stood, met_) * later;
+    cost.conflict += price::kConflict * first_share(all.touched, touched_) * cell::exp(-t / fades_s);
   }
 
  private:
@@ -51,11 +60,13 @@ class MoverCost {
     std::size_t mover;
   };
 
-  void add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
+  /// Returns the futures in which the disc is in the mover's way, and does not touch it.
+  std::uint32_t add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
     const BodyDiscs& discs = s_.body.to_movers;
-    const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
-                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, s_.body.comfort_distance_m);
     const bool has_stood = s_.futures.has_stood(of.mover);  // a surface until it sets out: standing()
+    const float comfort_m = s_.body.comfort_distance_m + (has_stood && s_.is_long() ? price::kBeforeStandingM : 0.0F);
+    const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
+                                         {disc.x, disc.y, discs.radius, std::fabs(r.v)}, comfort_m);
     (has_stood ? all.stood : all.met) |= with.met;
     if (with.touched != 0 && !has_stood && moves(r)) {
       const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
@@ -63,6 +74,7 @@ class MoverCost {
     }
     all.nearness += with.nearness;
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
+    return with.met & ~with.touched;
   }
 
   [[nodiscard]] bool moves(const RobotState& r) const noexcept {
@@ -74,19 +86,18 @@ class MoverCost {
     return {r.x + ahead * along.x, r.y + ahead * along.y};
   }
 
-  /// For the first time in these futures.
-  static void count_first(std::uint32_t met, std::uint32_t& before, float weight, float t, Cost& cost) noexcept {
+  /// The share of the futures in which it is so for the first time.
+  static float first_share(std::uint32_t met, std::uint32_t& before) noexcept {
     const std::uint32_t first = met & ~before;
     before |= met;
-    if (first == 0) return;
-    const float share = static_cast<float>(std::popcount(first)) / kFutures;
-    cost.conflict += price::kConflict * weight * share * cell::exp(-t / price::kConflictFadesS);
+    return static_cast<float>(std::popcount(first)) / kFutures;
   }
 
   const Situation& s_;
   std::uint32_t met_ = 0;  ///< futures in which a mover was met: a bit each
   /// Futures in which the moving robot touched a mover: a bit each. Priced apart from being in the mover's way.
   std::uint32_t touched_ = 0;
+  MetMovers met_movers_;
 };
 
 }  // namespace jaywalk::motion

@@ -11,13 +11,19 @@ namespace jaywalk::motion::price {
 /// 48 runs reached, 35 without the second). Half of it after lost time: 12 of 37 runs reached, not 15, and 17 forced a
 /// mover, not 8 (decision motion-prices).
 inline constexpr float kConflict = 200.0F;
-inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts less by a factor e: decided on again
+/// Of a long body: as many seconds as waiting would take to cause one, from kLeastConflict to kConflict. Movers are met
+/// at their speeds within kAboutM, over a strip of kMetWidthM.
+inline constexpr float kLeastConflict = 15.0F, kAboutM = 5.0F, kMetWidthM = 1.6F;
+inline constexpr float kMeetsForS = 1.0F;        ///< it stands so long when it was met, and is gone then
+inline constexpr float kTouchLongFadesS = 1.0F;  ///< a long body's touching, ahead by so much
+inline constexpr float kConflictFadesS = 4.0F;   ///< ahead by so much it counts less by a factor e: decided on again
 /// Of a conflict with a mover that has stood for long: should it set out, the robot sees that before it drives on
 /// (decision standing-pedestrians).
 inline constexpr float kStandingWeight = 0.1F;
 
 // Nearness to movers (mover_cost.h): each look, 0.2 s.
-inline constexpr float kNearMover = 0.15F;  ///< a square metre within the comfort distance
+inline constexpr float kBeforeStandingM = 0.5F;  ///< farther off, a long body waits until one that stands goes on
+inline constexpr float kNearMover = 0.15F;       ///< a square metre within the comfort distance
 /// A m/s faster beside a standing mover than the gap within a second, or than kPoliteMps (decision
 /// standing-pedestrians). At 1.6 the P3-DX went by at 0.6 m/s, 13 cm off (0069: passage.toml).
 inline constexpr float kTooFast = 4.0F;
@@ -36,10 +42,12 @@ inline constexpr float kBlindRim =
     10.0F;  ///< a m/s that the supervisor would take away, each step (decision motion-prices)
 
 // Ground that was never seen (unseen_cost.h).
-inline constexpr float kUnseen = 40.0F;        ///< a second, with all of the rim
-inline constexpr float kUnseenFadesM = 0.6F;   ///< after driving on so far it has been seen, most likely
-inline constexpr float kUnseenDared = 0.15F;   ///< a second, where the only way leads there,
-inline constexpr float kUnseenTurned = 10.0F;  ///< and for each rad/s
+inline constexpr float kUnseen = 40.0F;            ///< a second, with all of the rim
+inline constexpr float kUnseenFadesM = 0.6F;       ///< after driving on so far it has been seen, most likely
+inline constexpr float kUnseenDared = 0.15F;       ///< a second, where the only way leads there,
+inline constexpr float kUnseenTurned = 10.0F;      ///< and for each rad/s,
+inline constexpr float kUnseenTurnedLong = 30.0F;  ///< with a long body
+inline constexpr float kStoodOnM = 0.5F;           ///< about a long body's axle
 
 // Comfort (comfort_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (decision motion-prices).
 inline constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;     ///< a squared change of m/s, rad/s in a step
@@ -62,6 +70,8 @@ inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
 /// motion-prices).
 inline constexpr float kFacingM = 0.35F;
+inline constexpr float kFacesRad = 0.05F;  ///< off the heading wanted at the goal: there
+inline constexpr float kTurnAtGoalRadps = 0.6F;
 inline constexpr float kMostTimeToGoS = 500.0F;  ///< where no way is known
 
 }  // namespace jaywalk::motion::price

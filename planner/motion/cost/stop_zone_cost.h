@@ -1,4 +1,6 @@
 #pragma once
+#include <cmath>
+
 #include "planner/cell/exp_log.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
@@ -12,16 +14,25 @@ class StopZoneCost {
 
   /// `clearance_m`: to the nearest surface; `t`: seconds from now. Of the brakings near surfaces the dearest counts.
   void add(const RobotState& now, float clearance_m, float t, Cost& cost) noexcept {
-    if (clearance_m < price::kByWallM && t < NearReturns::kForS) {
-      const float price = price::kStopZone * cell::exp(-t) * s_.returns.braked_share(now, s_.body);
+    // Beside a long body there may be walls that the map does not have.
+    if (s_.is_long()) t = moved_s_ += moves(now) ? kStepS : 0.0F;  // or it would wait to go for ever
+    if ((clearance_m < price::kByWallM || s_.is_long()) && t < NearReturns::kForS) {
+      const float share = s_.returns.braked_share(now, s_.body);
+      // Squared for a long body: it passes near by nature.
+      const float price = price::kStopZone * cell::exp(-t) * share * (s_.is_long() ? share : 1.0F);
       if (price > paid_) cost.stop_zone += price - paid_, paid_ = price;
     }
     cost.stop_zone += price::kBlindRim * s_.body.blind.too_fast(now.v, now.w);
   }
 
  private:
+  [[nodiscard]] bool moves(const RobotState& now) const noexcept {
+    return std::fabs(now.v) + std::fabs(now.w) * s_.body.rim_m > kRestsMps;
+  }
+
   const Situation& s_;
   float paid_ = 0.0F;
+  float moved_s_ = 0.0F;  ///< of the trajectory so far
 };
 
 }  // namespace jaywalk::motion

@@ -12,7 +12,7 @@ namespace jaywalk::motion {
 /// about, backing off and returning counts as waiting, too (docs/explanation/decisions/motion-prices.md).
 class TimeCost {
  public:
-  explicit TimeCost(const Situation& s) : s_(s), waits_(s.guide.time_to_go(s.start.x, s.start.y) < Guide::kNoWay_s) {}
+  explicit TimeCost(const Situation& s) : s_(s), waits_(s.time_to_go(s.start) < Guide::kNoWay_s) {}
 
   void begin(Cost& cost) const noexcept { cost.time = price::kArrivedEarly; }
 
@@ -22,14 +22,15 @@ class TimeCost {
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
-    const float dx = now.x - s_.goal.x, dy = now.y - s_.goal.y;
-    return dx * dx + dy * dy < s_.arrives_within_m * s_.arrives_within_m;
+    return is_at_goal(now) && (!s_.wants_heading || off_heading(now) < price::kFacesRad);
   }
 
   /// Seconds from where a trajectory ends, and a second for facing across the way there, two for facing back.
   [[nodiscard]] float to_go(const RobotState& end) const noexcept {
-    const float there = s_.guide.time_to_go(end.x, end.y);
+    const float there = s_.time_to_go(end);
     if (there >= Guide::kNoWay_s) return price::kMostTimeToGoS;
+    if (s_.goes_by_poses()) return there;
+    if (s_.wants_heading && is_at_goal(end)) return off_heading(end) / price::kTurnAtGoalRadps;
     const cell::Heading along = cell::heading_at(end.heading);
     const float ahead = s_.guide.time_to_go(end.x + price::kFacingM * along.x, end.y + price::kFacingM * along.y);
     const float gained = there - (ahead < there + 1.0F ? ahead : there + 1.0F);
@@ -38,9 +39,17 @@ class TimeCost {
   }
 
  private:
+  [[nodiscard]] bool is_at_goal(const RobotState& now) const noexcept {
+    const float dx = now.x - s_.goal.x, dy = now.y - s_.goal.y;
+    return dx * dx + dy * dy < s_.arrives_within_m * s_.arrives_within_m;
+  }
+  [[nodiscard]] float off_heading(const RobotState& now) const noexcept {
+    return std::fabs(cell::wrapped(s_.goal_heading - now.heading));
+  }
+
   void wait(const RobotState& now, Cost& cost) noexcept {
     const float least = s_.stall.least_to_go_s;
-    waits_ = least > 0.0F ? s_.guide.time_to_go(now.x, now.y) > least - kGetsOnS : s_.stall.holds(now);
+    waits_ = least > 0.0F ? s_.time_to_go(now) > least - kGetsOnS : s_.stall.holds(now);
     const float most_s = least > 0.0F ? price::kMostAloneS : price::kMostStoodS;
     if (waits_) cost.time += kStepS * price::kImpatience * std::min(s_.stall.for_s, most_s);
   }

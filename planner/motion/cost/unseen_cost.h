@@ -17,15 +17,23 @@ class UnseenCost {
     int parts = 0;
     for (const Place& p : s_.body.rim) {
       const float x = r.x + p.x * along.x - p.y * along.y, y = r.y + p.x * along.y + p.y * along.x;
-      parts += s_.guide.is_unseen(x, y) ? 1 : 0;
+      parts += !(s_.is_long() && stood_on(x, y)) && s_.guide.is_unseen(x, y) ? 1 : 0;
     }
     if (parts == 0) return;
-    const float price = s_.guide.through_unseen ? price::kUnseenDared + price::kUnseenTurned * std::fabs(r.w)
-                                                : price::kUnseen * cell::exp(-driven_m_ / price::kUnseenFadesM);
+    const bool is_dared = s_.goes_by_poses() ? s_.poses->through_unseen : s_.guide.through_unseen;
+    const float turned = s_.is_long() ? price::kUnseenTurnedLong : price::kUnseenTurned;
+    const float price = is_dared ? price::kUnseenDared + turned * std::fabs(r.w)
+                                 : price::kUnseen * cell::exp(-driven_m_ / price::kUnseenFadesM);
     cost.unseen += price * kStepS * static_cast<float>(parts) * 0.125F;
   }
 
  private:
+  /// What a long body stands on and turns over now counts as seen.
+  [[nodiscard]] bool stood_on(float x, float y) const noexcept {
+    const float dx = x - s_.start.x, dy = y - s_.start.y;
+    return dx * dx + dy * dy < price::kStoodOnM * price::kStoodOnM;
+  }
+
   const Situation& s_;
   float driven_m_ = 0.0F;  ///< forward
 };

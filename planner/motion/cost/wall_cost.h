@@ -46,7 +46,7 @@ class WallCost {
 
   [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
     const float least = s_.body.to_walls.clearance(s_.guide, r.x, r.y, along);
-    const bool coarse = !is_steered() || least >= price::kByWallM;
+    const bool coarse = !(is_steered() || s_.is_long()) || least >= price::kByWallM;
     return std::min(coarse ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along),
                     clearance_to_standing(r, along));
   }

@@ -1,0 +1,33 @@
+#pragma once
+// Prices of the moves between poses.
+#include <algorithm>
+#include <cstdint>
+
+#include "planner/cost_to_go/pose_moves.h"
+
+namespace jaywalk::price {
+
+inline constexpr float kPoseLeast_m = 0.045F;                   ///< nearer than this to a surface there is no way
+inline constexpr float kPoseNear = 20.0F, kPoseNear_m = 0.15F;  ///< a second more at the edge, and how far that reaches
+inline constexpr float kPoseBy = 0.6F, kPoseBy_m = 0.28F;
+inline constexpr float kPoseStanding = 10.0F, kPoseCoat_m = 0.05F;  ///< so near a pedestrian that stands
+/// Beyond the lattice: facing across the way, and twice as much facing back; and so far ahead that is looked for.
+inline constexpr float kFacing_s = 1.3F, kFacing_m = 0.35F;
+
+inline constexpr std::uint32_t kRateOfOpen = 8;  ///< integers, of a second that costs a second
+inline constexpr std::uint32_t kLeastCost = 16;  ///< of a move: a bucket's width
+
+/// How much dearer a move into what was never seen is: a second ahead, back, and turning where the laser does not look.
+constexpr std::uint32_t unseen_weight(Gear gear, std::int32_t turn) {
+  return gear == Gear::kForward ? 1U : turn != 0 ? 30U : 2U;
+}
+
+/// Of a move between two poses.
+constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_t rate, std::uint32_t other_rate,
+                                std::uint32_t unseen_eighths, std::uint32_t unseen_weight) {
+  const std::uint32_t cost =
+      (in_open * (rate + other_rate)) / (2U * kRateOfOpen) + in_open * unseen_eighths * unseen_weight / 8U;
+  return std::max(cost, kLeastCost);
+}
+
+}  // namespace jaywalk::price

@@ -1,0 +1,159 @@
+#include "planner/cost_to_go/pose_room.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace jaywalk::field {
+namespace {
+
+constexpr double kSpacing_m = 0.08;  // of points along the outline
+constexpr float kNode_m = 0.025F;
+constexpr float kSeen_m = 0.5F;  // about the axle: where it stands and turns counts as seen
+constexpr std::int32_t kSide = PoseLattice::kSide;
+
+constexpr std::int32_t kWallNodes = 24;  // about a wall's point: a body's half width and where it is dear
+constexpr std::int32_t kMost = 60;       // nodes that a body reaches
+
+/// A place in a body's frame, turned to a heading and rounded to nodes.
+struct Offset {
+  std::int32_t x, y;
+};
+Offset turned(float x, float y, std::int32_t heading) {
+  const cell::Heading a = cell::heading_at(static_cast<float>(heading) * PoseLattice::kStep_rad);
+  const auto nodes = [](float m) {
+    return std::clamp(static_cast<std::int32_t>(std::lround(m / kNode_m)), -kMost, kMost);
+  };
+  return {nodes(x * a.x - y * a.y), nodes(x * a.y + y * a.x)};
+}
+
+}  // namespace
+
+PoseRoom::PoseRoom(const Footprint& body)
+    : nodes_(static_cast<std::size_t>(kNodes) * kNodes), unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
+  const auto front = static_cast<float>(body.front_m), rear = static_cast<float>(-body.rear_m),
+             half = static_cast<float>(body.half_width_m), middle = 0.5F * (front + rear);
+  rim_ = {{{front, half},
+           {front, 0.0F},
+           {front, -half},
+           {middle, half},
+           {middle, -half},
+           {rear, half},
+           {rear, 0.0F},
+           {rear, -half}}};
+  const std::array<Vec2, 5> corners{{{body.front_m, -body.half_width_m},
+                                     {body.front_m, body.half_width_m},
+                                     {-body.rear_m, body.half_width_m},
+                                     {-body.rear_m, -body.half_width_m},
+                                     {body.front_m, -body.half_width_m}}};
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k) {
+    const Vec2 side = corners[k + 1] - corners[k];
+    const double pieces = std::max(1.0, std::ceil(norm(side) / kSpacing_m - 1e-9));
+    for (double n = 0.0; n < pieces; n += 1.0) {
+      const Vec2 p = corners[k] + side * (n / pieces);
+      points_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 0});
+    }
+  }
+  const float radius = std::min(half, 0.5F * (front - rear)), between = front - rear - 2.0F * radius;
+  const float gaps = std::ceil(between / std::max(radius, 0.05F));
+  for (float k = 0.0F; k <= gaps; k += 1.0F) {
+    points_.push_back({rear + radius + between * k / std::max(gaps, 1.0F), 0.0F,
+                       static_cast<std::uint8_t>(std::min(radius / kUnit_m, 200.0F))});
+  }
+}
+
+/// Of 64 nodes, a cell apart, the first: that of cell 0 in row 0, moved by so many nodes.
+const std::uint8_t* PoseRoom::row(const std::vector<std::uint8_t>& nodes, std::int32_t x, std::int32_t y) const {
+  const std::int32_t i = x + kPerCell / 2 + kMargin, j = y + kPerCell / 2 + kMargin;
+  return &nodes[static_cast<std::size_t>((i % kPerCell * kNodes + j) * kColumns + i / kPerCell)];
+}
+
+void PoseRoom::take_nodes(const Guide& guide, Place low) noexcept {
+  for (std::int32_t phase = 0; phase < kPerCell; ++phase) {
+    for (std::int32_t j = 0; j < kNodes; ++j) {
+      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m;
+      std::uint8_t* out = &nodes_[static_cast<std::size_t>((phase * kNodes + j) * kColumns)];
+      for (std::int32_t k = 0; k < kColumns; ++k) {
+        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m;
+        out[k] = static_cast<std::uint8_t>(std::max(guide.room(x, y), 0.0F) / kUnit_m);
+      }
+    }
+  }
+}
+
+void PoseRoom::look_round(std::int32_t heading, std::int32_t shift) noexcept {
+  looked_.fill(255);
+  for (const Point& p : points_) {
+    const Offset at = turned(p.x, p.y + static_cast<float>(shift) * kShift_m, heading);
+    for (std::int32_t j = 0; j < kSide; ++j) {
+      const std::uint8_t* from = row(nodes_, at.x, at.y + j * kPerCell);
+      std::uint8_t* to = &looked_[static_cast<std::size_t>(j * kSide)];
+      for (std::int32_t i = 0; i < kSide; ++i) {
+        const std::uint8_t left = from[i] > p.radius ? static_cast<std::uint8_t>(from[i] - p.radius) : std::uint8_t{0};
+        to[i] = left < to[i] ? left : to[i];
+      }
+    }
+  }
+}
+
+/// `at`: from the square's low corner.
+void PoseRoom::add_wall(Place at) noexcept {
+  const auto ci = static_cast<std::int32_t>(std::lround(at.x / kNode_m)) + kMargin,
+             cj = static_cast<std::int32_t>(std::lround(at.y / kNode_m)) + kMargin;
+  for (std::int32_t j = std::max(cj - kWallNodes, 0); j <= std::min(cj + kWallNodes, kNodes - 1); ++j) {
+    for (std::int32_t i = std::max(ci - kWallNodes, 0); i <= std::min(ci + kWallNodes, kNodes - 1); ++i) {
+      const auto dx = static_cast<float>(i - ci), dy = static_cast<float>(j - cj);
+      const auto away = static_cast<std::uint8_t>(std::min(std::sqrt(dx * dx + dy * dy) * (kNode_m / kUnit_m), 250.0F));
+      std::uint8_t& node = nodes_[static_cast<std::size_t>((i % kPerCell * kNodes + j) * kColumns + i / kPerCell)];
+      node = std::min(node, away);
+    }
+  }
+}
+
+void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, std::uint8_t* room,
+                    std::int8_t* shift) noexcept {
+  take_nodes(guide, low);
+  for (const Vec2 wall : walls) add_wall({static_cast<float>(wall.x) - low.x, static_cast<float>(wall.y) - low.y});
+  for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+    for (const std::int8_t side : {std::int8_t{0}, std::int8_t{1}, std::int8_t{-1}}) {
+      look_round(heading, side);
+      for (std::int32_t j = 0; j < kSide; ++j) {
+        const std::uint8_t* from = &looked_[static_cast<std::size_t>(j * kSide)];
+        const std::int32_t first = PoseLattice::at(0, j, heading);
+        for (std::int32_t i = 0; i < kSide; ++i) {
+          const bool better = side == 0 || from[i] > room[first + i];
+          room[first + i] = better ? from[i] : room[first + i];
+          shift[first + i] = better ? side : shift[first + i];
+        }
+      }
+    }
+  }
+}
+
+bool PoseRoom::find_unseen(const Guide& guide, Place low, Place robot, std::uint8_t* unseen) noexcept {
+  std::uint8_t any = 0;
+  for (std::int32_t phase = 0; phase < kPerCell; ++phase) {
+    for (std::int32_t j = 0; j < kNodes; ++j) {
+      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m, dy = y - robot.y;
+      std::uint8_t* out = &unseen_[static_cast<std::size_t>((phase * kNodes + j) * kColumns)];
+      for (std::int32_t k = 0; k < kColumns; ++k) {
+        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m, dx = x - robot.x;
+        out[k] = dx * dx + dy * dy >= kSeen_m * kSeen_m && guide.is_unseen(x, y) ? 1 : 0;
+        any |= out[k];
+      }
+    }
+  }
+  if (any == 0) return false;
+  for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+    for (std::size_t k = 0; k < rim_.size(); ++k) {
+      const Offset at = turned(rim_[k].x, rim_[k].y, heading);
+      for (std::int32_t j = 0; j < kSide; ++j) {
+        const std::uint8_t* from = row(unseen_, at.x, at.y + j * kPerCell);
+        std::uint8_t* to = unseen + PoseLattice::at(0, j, heading);
+        for (std::int32_t i = 0; i < kSide; ++i) to[i] = static_cast<std::uint8_t>((k == 0 ? 0 : to[i]) + from[i]);
+      }
+    }
+  }
+  return true;
+}
+
+}  // namespace jaywalk::field
