@@ -10,7 +10,7 @@ LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
           .drive = setup.model.drive,
           .robot_from_laser = setup.model.laser.robot_from_laser,
-          .doubts = setup.judges_motion};
+          .doubts = setup.wired || setup.judges_motion};
 }
 
 PerceptionConfig perception_config(const ControlSetup& setup) {

@@ -20,7 +20,7 @@ std::string long_names(const CLI::App& app) {
   return words;
 }
 
-/// "full paper", the allowed words of an option whose value is one of a few; else empty.
+/// The words that an option takes, as "full paper"; empty where it takes any value.
 std::string words_of(const CLI::Option& option) {
   std::string words = option.get_type_name();
   if (words.find(":{") != std::string::npos) {  // the parser's own way to say it: "TEXT:{a,b}"

@@ -15,12 +15,11 @@ bool is_loopback_name(const std::string& host) {
   return name == "127.0.0.1" || name == "localhost";
 }
 
-/// A program on a desktop that is made as a page is, Foxglove's among them; a page in a frame of no site says "null",
-/// too.
+/// Desktop programs built on a browser (Foxglove) send "file://" or "null"; so does a page in a sandboxed frame.
 bool has_no_site(const std::string& origin) { return origin == "null" || origin.starts_with("file://"); }
 
-/// A browser names the site whose page opens a WebSocket (Origin). Only our own page and the named site may open one,
-/// since orders move the robot; what has no site may where it gave the token.
+/// Browsers send the site of the page that opens a WebSocket (Origin). Orders move the robot, so only our own page and
+/// the configured site may open one. A desktop program has no site: it must have given the token.
 bool may_order(const ViewRequest& request, const ViewRules& rules) {
   if (has_no_site(request.origin)) return !rules.token.empty();
   const std::string scheme = request.is_encrypted ? "https://" : "http://";

@@ -145,7 +145,7 @@ void CanopenDriveBase::begin_operation() noexcept {
   const bool heard_all = std::exchange(frames_lost_, bus_.health().frames_lost) == bus_.health().frames_lost;
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     const bool counts_on = axes_[k].begin(proofs_[k].heard(), began_ + setup_.settling, heard_all);
-    if (!counts_on) wheels_.sequence = 0;
+    counts_on_ = counts_on_ && counts_on;
   }
 }
 
@@ -190,11 +190,12 @@ bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept 
 void CanopenDriveBase::publish(Time stamp) noexcept {
   if (!axes_[0].is_complete() || !axes_[1].is_complete()) return;
   wheels_ = {.stamp = stamp,
-             .sequence = wheels_.sequence + 1,
+             .sequence = counts_on_ ? wheels_.sequence + 1 : 1,
              .left_rad = axes_[0].turned_rad(),
              .right_rad = axes_[1].turned_rad(),
              .left_radps = axes_[0].feedback().speed_radps,
              .right_radps = axes_[1].feedback().speed_radps};
+  counts_on_ = true;
   for (WheelAxis& axis : axes_) axis.used();
 }
 

@@ -95,6 +95,7 @@ class CanopenDriveBase final : public WiredDrive {
   Identifiers masters_;
   StopLadder ladder_;
   WheelState wheels_;
+  bool counts_on_ = true;          ///< both angles, since the last reading
   std::uint64_t frames_lost_ = 0;  ///< when its operation began last
   DriveTrouble trouble_ = DriveTrouble::kNone;
   std::optional<CanFrame> foreign_;

@@ -13,7 +13,8 @@ enum class AxisState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8
 /// Bits of Heartbeat::active_errors that arming looks at; any other bit is an error too.
 inline constexpr std::uint32_t kWatchdogExpired = 0x01000000, kEstopRequested = 0x02000000;
 
-/// The watchdog's error of firmware 0.5, whose messages are the same and whose errors are not (its AXIS_ERROR bits).
+/// The watchdog's error in firmware 0.5 (AXIS_ERROR). That firmware sends the same messages but numbers its errors
+/// otherwise.
 inline constexpr std::uint32_t kWatchdogExpired05 = 0x00000800;
 
 /// `node` is 0 to 62. A state: closed loop obeys speeds, idle lets go.

@@ -17,7 +17,7 @@ struct LocalizationConfig {
   DriveModel drive;
   Pose2 robot_from_laser;
   bool match_scans = true;
-  bool doubts = true;  ///< false where nobody could say where it is: of a log
+  bool doubts = true;  ///< PoseDoubt is told; false for a log, in which no person can say where the robot is
 };
 
 /// Pose and how sure we are of it, at `stamp`.

@@ -46,11 +46,6 @@ void OccludedTracks::update(const LineOfSight& sight, Time now, double step_s) n
   }
 }
 
-bool OccludedTracks::any_lost_near(Vec2 place, double within_m) const noexcept {
-  return std::any_of(tracks_.begin(), tracks_.end(),
-                     [&](const Occluded& o) { return distance(o.as_seen.position_in_map, place) < within_m; });
-}
-
 bool OccludedTracks::reidentify(Target& newcomer, Time now) noexcept {
   std::size_t best = tracks_.size();
   double nearest = kStrideM;  // simulated seeds 1 to 4: 0.5 m loses four identities, 0.75 m makes others of some

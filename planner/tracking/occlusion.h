@@ -31,9 +31,6 @@ class OccludedTracks {
   /// when there is none.
   bool reidentify(Target& newcomer, Time now) noexcept;
 
-  /// Whether one of them was within `within_m` of a place when it was seen last.
-  [[nodiscard]] bool any_lost_near(Vec2 place, double within_m) const noexcept;
-
   [[nodiscard]] std::size_t size() const { return tracks_.size(); }
 
  private:

@@ -224,20 +224,4 @@ std::span<const StandingPedestrian> Tracker::standing() const {
   return {state_->standing.data(), state_->standing.size()};
 }
 
-bool Tracker::hides_pedestrian(Vec2 place, double within_m) const noexcept {
-  const State& s = *state_;
-  const auto lost_near = [&](Vec2 seen_at, Time last_seen) {
-    const double unseen_s = to_seconds(s.now - last_seen);  // longer: it is in the map by now
-    return unseen_s > kLookedThroughForS && unseen_s < kRememberedS && distance(seen_at, place) < within_m;
-  };
-  return std::any_of(s.standing.begin(), s.standing.end(),
-                     [&](const StandingPedestrian& p) { return lost_near(p.position_in_map, p.last_seen); }) ||
-         std::any_of(s.targets.begin(), s.targets.end(),
-                     [&](const Target& target) {
-                       return target.existence.maybe_pedestrian &&
-                              lost_near(target.estimate.as_seen.position_in_map, target.estimate.as_seen.last_seen);
-                     }) ||
-         s.hidden.any_lost_near(place, within_m);
-}
-
 }  // namespace jaywalk

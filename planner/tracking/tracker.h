@@ -55,9 +55,6 @@ class Tracker {
   /// Standing pedestrians, for as long as something stands there: wider than the map has them. A track that walked, and
   /// everything on two legs, some furniture among it.
   [[nodiscard]] std::span<const StandingPedestrian> standing() const;
-  /// Whether a pedestrian went out of sight within `within_m` of a place (in the map), and has not been seen since, for
-  /// eight seconds: it may stand there, or have come nearer.
-  [[nodiscard]] bool hides_pedestrian(Vec2 place, double within_m) const noexcept;
 
  private:
   struct State;

@@ -27,17 +27,6 @@ struct Format {
   std::string name, bytes;
 };
 
-std::vector<MadeMessage> foxglove_drive() {
-  std::vector<MadeMessage> drive = made_drive(false);
-  drive.front() = {"/frames", "foxglove.FrameTransform", 1, foxglove_frame_bytes({"base_link", "laser", 0.2, 0.1})};
-  for (MadeMessage& message : drive) {
-    if (message.topic != "/scan") continue;
-    message.type = "foxglove.LaserScan";
-    message.bytes = foxglove_scan_bytes(message.ns, "laser", 3.0, {1.0, 2.0, 7.5, 4.0});
-  }
-  return drive;
-}
-
 std::vector<Format> formats(const Scratch& scratch) {
   write_sqlite(scratch.path("whole.db3"), made_drive(false), false);
   return {{"a.mcap", mcap_of(made_drive(false), "")},
@@ -48,7 +37,7 @@ std::vector<Format> formats(const Scratch& scratch) {
           {"c.bag", ros1_bag_of(made_drive(true), "lz4")},
           {"a.db3", scratch.read("whole.db3")},
           {"d.mcap", mcap_of(made_drive(false), "", true)},
-          {"e.mcap", mcap_of(foxglove_drive(), "zstd")},
+          {"e.mcap", mcap_of(made_foxglove_drive(), "zstd")},
           {"d.bag", ros1_bag_of(made_drive(true), "", ros1_index(9, 180) + std::string(50, '\x01'))}};
 }
 

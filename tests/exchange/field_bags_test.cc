@@ -83,14 +83,7 @@ TEST_CASE("a damaged part of several is left out and told, and so is the gap tha
 }
 
 TEST_CASE("Foxglove's LaserScan in protobuf is read, and its frames tell the mount") {
-  std::vector<MadeMessage> drive = made_drive(false);
-  drive.front() = {"/frames", "foxglove.FrameTransform", 1, foxglove_frame_bytes({"base_link", "laser", 0.2, 0.1})};
-  for (MadeMessage& message : drive) {
-    if (message.topic != "/scan") continue;
-    message.type = "foxglove.LaserScan";
-    message.bytes = foxglove_scan_bytes(message.ns, "laser", 3.0, {1.0, 2.0, 7.5, 4.0});
-  }
-  const sim::RecordedLog log = read(drive);
+  const sim::RecordedLog log = read(made_foxglove_drive());
   REQUIRE(log.scans.size() == 10);
   CHECK(log.scans[3].beams == 4);
   CHECK(log.scans[3].angle_step_rad == 1.0F);

@@ -255,4 +255,15 @@ void write_sqlite(const std::string& file, const std::vector<MadeMessage>& messa
   sqlite3_close(base);
 }
 
+std::vector<MadeMessage> made_foxglove_drive() {
+  std::vector<MadeMessage> drive = made_drive(false);
+  drive.front() = {"/frames", "foxglove.FrameTransform", 1, foxglove_frame_bytes({"base_link", "laser", 0.2, 0.1})};
+  for (MadeMessage& message : drive) {
+    if (message.topic != "/scan") continue;
+    message.type = "foxglove.LaserScan";
+    message.bytes = foxglove_scan_bytes(message.ns, "laser", 3.0, {1.0, 2.0, 7.5, 4.0});
+  }
+  return drive;
+}
+
 }  // namespace jaywalk::tests

@@ -38,6 +38,8 @@ struct MadeFrame {
 [[nodiscard]] std::string foxglove_scan_bytes(std::int64_t ns, const std::string& frame, double last_rad,
                                               const std::vector<double>& ranges);
 [[nodiscard]] std::string foxglove_frame_bytes(const MadeFrame& frame);
+/// made_drive() in Foxglove's messages, four beams a scan.
+[[nodiscard]] std::vector<MadeMessage> made_foxglove_drive();
 
 /// A type without "/" is Foxglove's, in protobuf. `pack_each`: messages packed one by one with zstd, as rosbag2's
 /// compression_mode "message" does.

@@ -55,7 +55,6 @@ TEST_CASE("who stands on two legs may be a pedestrian, as wide as people, for as
     CHECK(watch.tracker.standing()[0].radius_m == Approx(0.25).margin(0.01));
   }
   CHECK(watch.tracker.tracks().empty());  // the map has his legs by now, and no more of him
-  CHECK_FALSE(watch.tracker.hides_pedestrian({}, 5.0));
   watch.look_round();
   CHECK(watch.tracker.standing().empty());
 }
@@ -96,32 +95,8 @@ TEST_CASE("who walked, stops, and goes out of what the laser looks at stands the
   CHECK(watch.tracker.tracks().empty());
   REQUIRE(watch.tracker.standing().size() == 1);
   CHECK(distance(watch.tracker.standing()[0].position_in_map, {2.0, 1.0}) < 0.05);
-  CHECK(watch.tracker.hides_pedestrian({}, 2.5));
-  CHECK_FALSE(watch.tracker.hides_pedestrian({}, 2.0));
   for (int scan = 0; scan < 15 * 2; ++scan) watch.see(still_there, turned);
   CHECK(watch.tracker.standing().empty());
-  CHECK_FALSE(watch.tracker.hides_pedestrian({}, 2.5));
-}
-
-TEST_CASE(
-    "who walks on and goes out of sight near the robot is hidden there until he comes out or eight seconds pass") {
-  Watch watch;
-  watch.look_round();
-  const auto walker = [](int scan) { return with({{{-2.0 + 0.05 * scan, 1.5}, 0.27}}); };  // 0.75 m/s
-  for (int scan = 0; scan < 60; ++scan) watch.see(walker(scan));
-  REQUIRE(watch.tracker.moving().size() == 1);
-  CHECK_FALSE(watch.tracker.hides_pedestrian({}, 2.5));
-  const Pose2 turned{0.0, 0.0, -2.4};
-  for (int scan = 60; scan < 66; ++scan) watch.see(walker(60), turned);
-  CHECK(watch.tracker.hides_pedestrian({}, 2.5));
-  SECTION("he is out of sight for long") {
-    for (int scan = 0; scan < 15 * 8; ++scan) watch.see(walker(60), turned);
-    CHECK_FALSE(watch.tracker.hides_pedestrian({}, 2.5));
-  }
-  SECTION("he is seen again") {
-    for (int scan = 66; scan < 75; ++scan) watch.see(walker(scan));
-    CHECK_FALSE(watch.tracker.hides_pedestrian({}, 2.5));
-  }
 }
 
 TEST_CASE("one leg that stands where nothing stood may be a pedestrian's") {

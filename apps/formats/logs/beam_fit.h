@@ -1,5 +1,5 @@
 #pragma once
-// Scans whose number of beams changes, as spinning lasers' drivers publish.
+// Resamples scans to one number of beams. Drivers of spinning lasers publish a different number each turn.
 #include <string>
 
 #include "apps/formats/logs/recorded_log.h"

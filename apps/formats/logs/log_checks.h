@@ -12,8 +12,8 @@ namespace jaywalk::sim {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Scans in the order of recording. Those that make no fan are left out and counted at once, those whose time is not of
-/// one clock that runs (judge_times) at the end.
+/// Scans in the order of recording. add() leaves out and counts a scan whose beams make no fan; settle_times() leaves
+/// out and counts the scans with wrong stamps (judge_times).
 class LogScans {
  public:
   explicit LogScans(RecordedLog& log) : log_(log) {}
@@ -56,9 +56,9 @@ class LogOdometry {
 
   /// A pose as the recording says it. One that is none is left out and counted, so is one with a speed that is none.
   void add(const OdometryPose& said, const LogPlace& place);
-  /// Appends to the log's those whose times are of one clock that runs, within an hour of the scans; one that lies
-  /// farther than a robot drives begins anew there. Where no speed of any is one, poses alone count. Throws
-  /// StartupError where none is left, with why the first of them was left out.
+  /// Appends the poses to the log, without those that have wrong stamps (judge_times) or stamps over an hour from the
+  /// scans. A pose farther from the last than a robot drives begins the odometry anew there. Where no speed is a
+  /// number, poses alone count. Throws StartupError where no pose is left; it says why the first was left out.
   void settle(LogPlace place);
 
  private:

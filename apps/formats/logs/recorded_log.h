@@ -82,8 +82,8 @@ struct RecordedLog {
 /// place. Lasers of the first form are taken to spin (RecordedLog::spinning_sweep): a robot that turns sees the whole
 /// room bent otherwise. Those of the second form and of CARMEN turn too fast to matter.
 ///
-/// Lines of a wrong length, of no fan, pose or speed, and those whose time is not of one clock that runs (judge_times),
-/// are left out and counted. Scans of changing numbers of beams get one (fit_beams).
+/// The reader leaves out and counts lines of a wrong length, lines with values that are no scan, pose or speed, and
+/// lines with wrong stamps (judge_times). Scans of changing numbers of beams get one (fit_beams).
 /// Odometry none of which is of the scans' time is an error, and what it lacks of that is remarked upon from a second
 /// on. Odometry that jumps farther than a robot drives is taken to begin anew there, where the robot is. Throws
 /// StartupError "FILE:LINE: cause; remedy" for anything else that is wrong, and when no scan is left.
