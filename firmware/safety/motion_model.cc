@@ -97,11 +97,23 @@ bool MotionModel::rolled_at(Time stamp, Rolled& rolled) const noexcept {
   return false;
 }
 
+/// The mean twist since; none where the newest reading is no later.
+Twist2 MotionModel::felt_since(Time stamp, const Rolled& rolled) const noexcept {
+  constexpr double kLeast_s = 0.005;
+  const Reading& now = readings_[newest_];
+  const double seconds = to_seconds(now.stamp - stamp);
+  if (seconds < kLeast_s) return {};
+  const double left = (now.rolled.left_m - rolled.left_m) / seconds,
+               right = (now.rolled.right_m - rolled.right_m) / seconds;
+  return {0.5 * (left + right), (right - left) / drive_.track_width_m};
+}
+
 bool MotionModel::look(const LaserScan& scan) noexcept {
   Rolled rolled;
   if (!rolled_at(scan.stamp, rolled)) return false;
   note_repeats(scan, rolled);
   if (repeats_ > 0) return false;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
+  pair_.sweep(scan, felt_since(scan.stamp, rolled));
   const Rolled felt{rolled.left_m - kept_rolled_.left_m, rolled.right_m - kept_rolled_.right_m};
   const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
@@ -163,7 +175,7 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
       pair_.improve(scan, inside);
     }
     evidence_now_ = std::max(evidence_now_, 0.0);
-    const ScanPair::Errors standing = pair_.errors(scan, {}, true);
+    const ScanPair::Errors standing = pair_.shown_again(scan);
     blind_now_ = pair_.advantage(standing, pair_.errors(scan, by_wheels, true), noise, true);
     const Costs over_bound = pair_.advantage(standing, pair_.errors(scan, bound, true), noise, true);
     const Costs most = pair_.gain_of_standing(scan, by_wheels, noise);

@@ -53,6 +53,7 @@ class MotionModel {
 
   void note(const WheelState& wheels) noexcept;
   [[nodiscard]] bool rolled_at(Time stamp, Rolled& rolled) const noexcept;
+  [[nodiscard]] Twist2 felt_since(Time stamp, const Rolled& rolled) const noexcept;
   /// False where it tells nothing, as at rest.
   bool look(const LaserScan& scan) noexcept;
   void note_repeats(const LaserScan& scan, const Rolled& rolled) noexcept;

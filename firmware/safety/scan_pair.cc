@@ -61,12 +61,23 @@ bool ScanPair::is_flat(const LaserScan& scan, std::uint32_t beam) const noexcept
   return std::fabs(off) < kUneven_m * norm(along) * static_cast<double>(high - low - 1);
 }
 
+void ScanPair::sweep(const LaserScan& scan, const Twist2& felt) noexcept {
+  const double beam_s = to_seconds(scan.sweep) / static_cast<double>(scan.beam_count - 1);
+  per_beam_ = {felt.v_mps * beam_s, felt.w_radps * beam_s};
+}
+
+Pose2 ScanPair::moved_until(double beam) const noexcept {
+  const double turn = per_beam_.w_radps * beam;
+  const Vec2 way = direction(0.5 * turn) * (per_beam_.v_mps * beam);
+  return {way.x, way.y, turn};
+}
+
 void ScanPair::keep(const LaserScan& scan) noexcept {
   points_.clear();
   const Transform2 to_robot(robot_from_laser_);
   for (std::uint32_t beam = every(scan) / 2; beam < scan.beam_count; beam += every(scan)) {
     if (!scan.is_hit(beam)) continue;
-    const Vec2 hit = to_robot * (direction_[beam] * static_cast<double>(scan.range_m[beam]));
+    const Vec2 hit = moved_until(beam) * (to_robot * (direction_[beam] * static_cast<double>(scan.range_m[beam])));
     if (!points_.push_back({beam, scan.range_m[beam], is_flat(scan, beam) ? 1.0F : kRoundWeight, hit})) break;
   }
   few_walls_ = std::count_if(points_.begin(), points_.end(), [](const Point& p) { return p.weight == 1.0F; }) < 30;
@@ -87,6 +98,13 @@ ScanPair::Errors ScanPair::errors(const LaserScan& scan, const Pose2& kept_from_
   Errors errors{};
   for (std::size_t k = 0; k < points_.size(); ++k)
     errors[k] = static_cast<float>(residual(scan, to_laser * points_[k].in_robot, hidden_too).error_m);
+  return errors;
+}
+
+ScanPair::Errors ScanPair::shown_again(const LaserScan& scan) const noexcept {
+  Errors errors{};
+  for (std::size_t k = 0; k < points_.size(); ++k)
+    errors[k] = static_cast<float>(shown(scan, direction_[points_[k].beam] * points_[k].range_m, true).error_m);
   return errors;
 }
 
@@ -144,24 +162,35 @@ std::array<double, ScanPair::kSectors> ScanPair::advantage(const Errors& better,
 
 std::array<double, ScanPair::kSectors> ScanPair::gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
                                                                   double noise_m) const noexcept {
-  const Transform2 standing(inverse(robot_from_laser_)), moved(inverse(kept_from_now * robot_from_laser_));
+  const Transform2 moved(inverse(kept_from_now * robot_from_laser_));
   std::array<double, kSectors> sum{};
   for (const Point& point : points_) {
     if (point.weight < 1.0F) continue;
-    const Vec2 in_laser = standing * point.in_robot;
+    const Vec2 in_laser = laser_from_robot_ * point.in_robot;
     const double off = dot(residual(scan, in_laser, true).normal, moved * point.in_robot - in_laser) / noise_m;
     sum[point.beam * kSectors / beams_] += std::min(0.5 * off * off, kOutlier);
   }
   return sum;
 }
 
-/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge.
-ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
-  constexpr Residual kNone{kNan, {}};
-  const double step = scan.angle_step_rad, full = std::fabs(step);
+std::int64_t ScanPair::beam_towards(const LaserScan& scan, Vec2 in_laser) const noexcept {
+  const double step = scan.angle_step_rad;
   const double from_first = wrap_angle(atan2(in_laser.y, in_laser.x) - scan.first_angle_rad) / step;
-  const auto beam =
-      static_cast<std::int64_t>(std::floor((from_first < -0.5 ? from_first + 2.0 * kPi / full : from_first) + 0.5));
+  return static_cast<std::int64_t>(
+      std::floor((from_first < -0.5 ? from_first + 2.0 * kPi / std::fabs(step) : from_first) + 0.5));
+}
+
+ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
+  if (per_beam_ == Twist2{}) return shown(scan, in_laser, hidden_too);
+  const Pose2 moved = moved_until(static_cast<double>(beam_towards(scan, in_laser)));
+  return shown(scan, laser_from_robot_ * (inverse(moved) * (robot_from_laser_ * in_laser)), hidden_too);
+}
+
+/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge.
+ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
+  constexpr Residual kNone{kNan, {}};
+  const double full = std::fabs(scan.angle_step_rad);
+  const std::int64_t beam = beam_towards(scan, in_laser);
   if (beam < 0 || beam >= static_cast<std::int64_t>(scan.beam_count)) return kNone;
   const double range_m = scan.range_m[static_cast<std::size_t>(beam)];
   if (!scan.is_hit(static_cast<std::size_t>(beam))) return kNone;

@@ -29,10 +29,14 @@ class ScanPair {
     double explained = 0.0;                                 ///< share of them that are no outliers
   };
 
-  explicit ScanPair(const Pose2& robot_from_laser) : robot_from_laser_(robot_from_laser) {}
+  explicit ScanPair(const Pose2& robot_from_laser)
+      : robot_from_laser_(robot_from_laser), laser_from_robot_(inverse(robot_from_laser)) {}
 
   /// Whether the scan's beams have directions; where they are others than before, nothing is kept any more.
   [[nodiscard]] bool usable(const LaserScan& scan) noexcept;
+  /// The robot's twist during the scan's sweep: keep() and what compares the scan with the kept one put each beam where
+  /// the robot was when it was measured.
+  void sweep(const LaserScan& scan, const Twist2& felt) noexcept;
   void keep(const LaserScan& scan) noexcept;
   [[nodiscard]] bool is_kept() const noexcept { return !points_.empty(); }
   [[nodiscard]] double sector_rad() const noexcept {
@@ -44,6 +48,8 @@ class ScanPair {
   /// Points that something nearer hides are left out, but for `hidden_too`: what moves along takes its shadow with it.
   [[nodiscard]] Errors errors(const LaserScan& scan, const Pose2& kept_from_now,
                               bool hidden_too = false) const noexcept;
+  /// The same of a scanner that shows each point once more where it did, whatever the robot does.
+  [[nodiscard]] Errors shown_again(const LaserScan& scan) const noexcept;
   /// Gauss-Newton with outliers weighed down (Geman and McClure 1987).
   [[nodiscard]] Fit fit(const LaserScan& scan, const Pose2& start) const noexcept;
   /// One step of it: how good the fit is where it is, and there it is moved on.
@@ -69,11 +75,18 @@ class ScanPair {
     double error_m;
     Vec2 normal;  ///< of the surface, in the laser's frame
   };
+  /// `in_laser`: where the scan would show it, at the time of its first beam.
   [[nodiscard]] Residual residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept;
+  [[nodiscard]] Residual shown(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept;
+  [[nodiscard]] std::int64_t beam_towards(const LaserScan& scan, Vec2 in_laser) const noexcept;
+  /// Of the robot, from the first beam to that one.
+  [[nodiscard]] Pose2 moved_until(double beam) const noexcept;
   /// Whether the surface that a beam hits goes on straight to either side.
   [[nodiscard]] bool is_flat(const LaserScan& scan, std::uint32_t beam) const noexcept;
 
   Pose2 robot_from_laser_;
+  Transform2 laser_from_robot_;
+  Twist2 per_beam_{};                        ///< of the robot, m and rad from a beam to the next
   std::array<Vec2, kMaxBeams> direction_{};  ///< of the beams, in the laser's frame
   std::uint32_t beams_ = 0;                  ///< those directions are of
   float first_angle_rad_ = 0.0F, angle_step_rad_ = 0.0F;

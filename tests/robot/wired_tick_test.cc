@@ -1,6 +1,9 @@
+#include <cmath>
+
 // A tick of the whole controller over its wires.
 #include <sys/mman.h>
 
+#include <cmath>
 #include <iostream>
 #include <utility>
 #include <vector>
@@ -64,10 +67,14 @@ TEST_CASE("a heading that is asked for over the desk is turned to over the wires
   CHECK(bench.robot.desk().obey(place + "2.5") == "going\n");
   bench.tick(40);
   const std::string on_the_way = bench.robot.desk().obey("status");
+  INFO(on_the_way);
   CHECK(on_the_way.rfind("state: turning\n", 0) == 0);
-  // A pivot swings corners where the laser does not look.
-  CHECK(on_the_way.find(" 2.5\nreasons: unwatched\n") != std::string::npos);
+  // A pivot swings corners where the laser does not look: 0.3 m/s at most there, which the motion keeps by itself.
+  CHECK(on_the_way.find(" 2.5\nreasons: \n") != std::string::npos);
   CHECK(bench.speed_mps() > 0.1);
+  CHECK(std::fabs(bench.robot.far_end().truth().twist.w_radps) *
+            bench.robot.runner().setup().model.footprint.circumscribed_radius_m() <
+        0.3);
   bench.heap_calls = 0;
   bench.tick(250);
   CHECK(bench.heap_calls == 0);
