@@ -1,5 +1,3 @@
-#include <cmath>
-
 // A tick of the whole controller over its wires.
 #include <sys/mman.h>
 
