@@ -12,7 +12,6 @@ constexpr double kApart_m = 0.3;      // between two hits of a wall
 constexpr double kSeed_m = 0.10;      // so much of it tells its direction from noise
 constexpr double kShortest_m = 0.15;  // of what is seen of it: its direction is good to a few degrees
 constexpr double kLongest_m = 3.0;    // more says nothing about the piece beside the robot
-constexpr double kPerSeen = 3.0;      // it is continued by so many times what is seen of it: errors grow with that
 constexpr double kSpacing_m = 0.04;   // as the stop zone's steps
 constexpr int kRefitEvery = 8, kMissing = 3;
 
@@ -84,13 +83,20 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
     if (distance(hit, last) > kApart_m || distance(hit, first) > kLongest_m) break;
     line.add(last = hit);
   }
-  const double seen_m = distance(first, last);
-  if (!line.known() || seen_m < kShortest_m || cuts(line, footprint_)) return;
-  const Vec2 outward = line.along() * (dot(line.along(), first - last) > 0.0 ? 1.0 : -1.0), from = line.foot_of(first);
-  const double length_m =
-      std::min(kPerSeen * seen_m, norm(from) + footprint_.circumscribed_radius_m());  // past the body
+  if (last == Vec2{}) return;
+  const double past_body_m = norm(first) + footprint_.circumscribed_radius_m();
+  if (!line.known() || distance(first, last) < kShortest_m) {
+    const double out_of_sight = step * (first - robot_from_laser_ * Vec2{}).y;  // forward where it is above 0
+    add_line(gaps, first, {out_of_sight > 0.0 ? 1.0 : -1.0, 0.0}, past_body_m);
+  } else if (!cuts(line, footprint_)) {
+    const Vec2 outward = line.along() * (dot(line.along(), first - last) > 0.0 ? 1.0 : -1.0);
+    add_line(gaps, line.foot_of(first), outward, past_body_m);
+  }
+}
+
+void UnseenWalls::add_line(const BlindGaps& gaps, Vec2 from, Vec2 along, double length_m) noexcept {
   for (double gone = 0.0; gone < length_m; gone += kSpacing_m) {
-    const Vec2 place = from + outward * gone;
+    const Vec2 place = from + along * gone;
     if (ground_ == nullptr || !ground_->seen_free(place)) add(gaps, place);
   }
 }

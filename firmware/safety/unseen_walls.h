@@ -16,7 +16,8 @@ class KnownGround {
 };
 
 /// Walls where the laser does not look, as points for the stop zone: those that the loop knows from its map, and each
-/// wall that is straight up to the rim of sight, continued past the body.
+/// wall that is straight up to the rim of sight, continued past the body. Of what is seen too little to tell its
+/// direction, the guess is that it goes on along the body's side: so a wall begins that stands beside a start.
 ///
 /// A continued wall is a guess that only ever slows: it ends a body's length beyond the robot and is none where the map
 /// saw free ground, and a line that would cut the body is none. Thread: the loop's; never allocates, never throws.
@@ -33,6 +34,7 @@ class UnseenWalls {
  private:
   /// The wall whose hits begin at beam `rim` and go on inward, `step` (1 or -1) beams at a time.
   void continue_wall(const LaserScan& scan, const BlindGaps& gaps, std::size_t rim, int step) noexcept;
+  void add_line(const BlindGaps& gaps, Vec2 from, Vec2 along, double length_m) noexcept;
   void add(const BlindGaps& gaps, Vec2 point) noexcept;
 
   Footprint footprint_;

@@ -46,8 +46,9 @@ void SimulatedRobot::turn_wheels() {
   if (age(encoders_read_, world_.now()) < kEncoderPeriod) return;
   encoders_read_ = world_.now();
   const WheelState wheels = world_.plant().read_encoders(world_.now());
-  drives_[0]->measure(wheels.left_radps, wheels.left_rad);
-  drives_[1]->measure(wheels.right_radps, wheels.right_rad);
+  if (!senses_.counters_stand) counted_rad_ = {wheels.left_rad, wheels.right_rad};
+  drives_[0]->measure(wheels.left_radps, counted_rad_[0]);
+  drives_[1]->measure(wheels.right_radps, counted_rad_[1]);
 }
 
 double SimulatedRobot::rim_speed() const noexcept {
@@ -66,19 +67,25 @@ CanHealth SimulatedRobot::bus_health() const noexcept {
 
 /// As hal/sim's laser does it, beam by beam as the mirror turns.
 void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
-  const Pose2 map_from_laser = truth().map_from_robot * laser_.robot_from_laser;
   for (std::size_t k = 0; k < range_m.size(); ++k) {
-    const double looked = scanner_->shape().angle_rad(first_beam + k);
-    const double angle = world_.fault_active(sim::FaultKind::kScannerMirrored) ? -looked : looked;
-    const Vec2 beam = direction(map_from_laser.heading + angle);
-    double range = world_.walls().cast(map_from_laser.position(), beam, laser_.range_max_m);
-    for (const sim::Disc& body : world_.movers_seen())
-      range = std::min(range, hit_range(map_from_laser.position(), beam, body));
-    range += laser_.noise_m * noise_.normal();
+    const double range = range_along(first_beam + k) + laser_.noise_m * noise_.normal();
     range_m[k] = range < laser_.range_min_m   ? 0.0F
                  : range > laser_.range_max_m ? std::numeric_limits<float>::infinity()
                                               : static_cast<float>(range);
   }
+}
+
+double SimulatedRobot::range_along(std::size_t beam) {
+  const double looked = scanner_->shape().angle_rad(beam);
+  double& range = last_range_m_[std::min(beam, kMaxBeams - 1)];
+  if (looked > senses_.repeats.from_rad && looked < senses_.repeats.to_rad) return range;
+  const Pose2 map_from_laser = truth().map_from_robot * laser_.robot_from_laser;
+  const double angle = world_.fault_active(sim::FaultKind::kScannerMirrored) ? -looked : looked;
+  const Vec2 towards = direction(map_from_laser.heading + senses_.mount_turned_rad + angle);
+  range = world_.walls().cast(map_from_laser.position(), towards, laser_.range_max_m);
+  for (const sim::Disc& body : world_.movers_seen())
+    range = std::min(range, hit_range(map_from_laser.position(), towards, body));
+  return range;
 }
 
 }  // namespace jaywalk::rig

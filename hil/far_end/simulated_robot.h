@@ -11,6 +11,13 @@
 
 namespace jaywalk::rig {
 
+/// What scanner and encoders tell that is not so.
+struct FalseSenses {
+  BlankedSector repeats{0.0, 0.0};  ///< in the laser's frame: its ranges stay, but for noise and one beam that moves
+  double mount_turned_rad = 0.0;    ///< the scanner in its mount
+  bool counters_stand = false;      ///< both wheels' positions; their speeds go on
+};
+
 /// The simulated world as the far end of real wires: two drives turn its wheels, a scanner looks round in it. World
 /// time is the clock's time since construction.
 class SimulatedRobot {
@@ -28,6 +35,8 @@ class SimulatedRobot {
   [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
   [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
   [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return *scanner_; }
+  /// From now on.
+  void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
   /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
   /// out at both, and the controller hears it twice.
   void say_as_stranger(const CanFrame& frame) noexcept {
@@ -41,6 +50,7 @@ class SimulatedRobot {
  private:
   void look(std::size_t first_beam, std::span<float> range_m);
   void turn_wheels();
+  [[nodiscard]] double range_along(std::size_t beam);
 
   Time began_;
   sim::World world_;
@@ -51,6 +61,9 @@ class SimulatedRobot {
   std::array<std::unique_ptr<WheelDrive>, 2> drives_;
   std::unique_ptr<emulators::ScannerServer> scanner_;
   Time encoders_read_ = kNever;
+  FalseSenses senses_;
+  std::array<double, 2> counted_rad_{};           ///< left and right, as the encoders show it
+  std::array<double, kMaxBeams> last_range_m_{};  ///< of a beam, without its noise
 };
 
 }  // namespace jaywalk::rig

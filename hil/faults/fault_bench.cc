@@ -33,6 +33,10 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
     return planner;
   };
   sim::Scenario world = hall(file_.setup.model, folder);
+  if (fault.wheels_go != 1.0) {
+    world.truth.left_wheel_radius_m = fault.wheels_go * world.model.drive.wheel_radius_m;
+    world.truth.right_wheel_radius_m = world.truth.left_wheel_radius_m;
+  }
   if (fault.miswiring) world.faults = {{.at_s = 0.0, .for_s = 1e6, .kind = *fault.miswiring}};
   robot_ = std::make_unique<rig::InProcessRobot>(file_, world, 1, clock_, folder, straight);
   clock_.live = [this] {
@@ -92,7 +96,7 @@ bool FaultBench::reach_speed() {
 }
 
 FaultResult FaultBench::suffer() {
-  FaultResult result = fault_.miswiring ? wrong_from_start() : struck_at_speed();
+  FaultResult result = fault_.in_turn ? wrong_in_turn() : struck_at_speed();
   result.fault = &fault_;
   result.drive = kind_;
   result.speed_mps = speed_mps_;
@@ -138,7 +142,7 @@ FaultResult FaultBench::struck_at_speed() {
 // The goal lies 106 degrees to the left, so that the robot has to turn: a gentle arc at 0.3 m/s is too slow for the
 // scan-based check (docs/explanation/safety.md). The reaction time starts when the left wheel, whose wiring is wrong,
 // is commanded above 0.1 m/s: below that, drive lag and encoder steps hide the fault.
-FaultResult FaultBench::wrong_from_start() {
+FaultResult FaultBench::wrong_in_turn() {
   constexpr double kDriving_mps = 0.1;
   FaultResult result;
   wait(std::chrono::milliseconds(200));
@@ -149,6 +153,7 @@ FaultResult FaultBench::wrong_from_start() {
   begin_watch();  // what is told before that wheel turns so fast, by the other one, is told in time
   for (const Time end = due_ + std::chrono::seconds(3); due_ < end && asked_mps() < kDriving_mps && !latched_;) tick();
   begin_watch();
+  if (fault_.strike != nullptr) fault_.strike(*this);
   for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();
   result.reaction = clock_.now() - struck_;
   endure();
@@ -176,7 +181,7 @@ std::string FaultBench::complaint(const FaultResult& result) {
   if (fault_.outcome == Outcome::kLatched && !result.latched) return "not latched";
   const double v = speed_struck_;
   const double most_m = v * to_seconds(result.limit) + v * v / (2.0 * kBrake_mps2) + kBeyond_m;
-  if (rolls_out() || fault_.miswiring || result.stop_distance_m <= most_m) return "";
+  if (rolls_out() || fault_.in_turn || result.stop_distance_m <= most_m) return "";
   return in_words("%.2f m to rest, more than %.2f", result.stop_distance_m, most_m);
 }
 

@@ -27,7 +27,7 @@ enum class RollsOut {
 /// One row of the matrix but for drive and speed.
 struct FaultCase {
   const char* name;
-  void (*strike)(FaultBench&);      ///< once, at speed; null: the wiring is wrong from the start
+  void (*strike)(FaultBench&);      ///< once; null: something is wrong from the start
   void (*every_tick)(FaultBench&);  ///< and then again and again; may be null
   Reason reason;                    ///< one of these is to be named; kNone: none can be
   /// Of the loop's period: from the fault to the moment from which on the wheels only slow down.
@@ -38,6 +38,8 @@ struct FaultCase {
   bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
   std::optional<sim::FaultKind> miswiring = {};
   void (*at_rest)(FaultBench&) = nullptr;  ///< once the robot stands; may be null
+  bool in_turn = false;                    ///< it shows as the robot sets out with a turn; else at speed, straight on
+  double wheels_go = 1.0;                  ///< so many times as far as the file says
 };
 
 struct FaultResult {
@@ -84,8 +86,8 @@ class FaultBench {
   [[nodiscard]] bool named(Reason reason) const noexcept { return reason == Reason::kNone || has(seen_, reason); }
   /// At full speed, then the fault.
   [[nodiscard]] FaultResult struck_at_speed();
-  /// Sets out with wrong wiring, towards a goal for which it has to turn.
-  [[nodiscard]] FaultResult wrong_from_start();
+  /// Sets out towards a goal for which it has to turn: wrong from the start, or struck as it turns.
+  [[nodiscard]] FaultResult wrong_in_turn();
   void begin_watch();
   void endure();
   [[nodiscard]] Duration limit() const noexcept;

@@ -30,8 +30,12 @@ Duration network(Duration tick) noexcept { return 100ms + by_themselves(tick); }
 Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
 /// Two and a half periods of the loop.
 Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
-/// Half a second of driving.
-Duration miswired_for(Duration) noexcept { return 500ms; }
+/// Half a second of motion that shows it.
+Duration shows_for(Duration) noexcept { return 500ms; }
+/// The same, from the first scan that repeats.
+Duration repeats_for(Duration) noexcept { return 67ms + 500ms; }
+/// Wheels that go less far than they say look like slip for long (docs/explanation/safety.md).
+Duration slips_for(Duration) noexcept { return 4s; }
 
 /// What another master would tell the left drive.
 CanFrame foreign_setpoint(DriveKind kind) {
@@ -67,18 +71,33 @@ void reset_and_stop(FaultBench& bench) {
 
 void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
 
-/// Wrong wiring from the start, which the supervisor itself must tell.
-FaultCase miswired(const char* name, sim::FaultKind kind) {
+/// What the supervisor itself must tell: wheels and scanner that contradict each other or the command.
+FaultCase contradiction(const char* name, void (*strike)(FaultBench&) = nullptr,
+                        Duration (*limit)(Duration) noexcept = shows_for) {
   FaultCase fault{.name = name,
-                  .strike = nullptr,
+                  .strike = strike,
                   .every_tick = nullptr,
                   .reason = Reason::kNone,
-                  .limit = miswired_for,
+                  .limit = limit,
                   .outcome = Outcome::kLatched};
-  fault.reason = Reason::kWheelsDisobey | Reason::kMotionMismatch;
+  fault.reason = Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kScanFrozen;
+  fault.in_turn = true;
+  return fault;
+}
+
+FaultCase miswired(const char* name, sim::FaultKind kind) {
+  FaultCase fault = contradiction(name);
   fault.miswiring = kind;
   return fault;
 }
+
+FaultCase wheels_go(const char* name, double times, Duration (*limit)(Duration) noexcept) {
+  FaultCase fault = contradiction(name, nullptr, limit);
+  fault.wheels_go = times;
+  return fault;
+}
+
+void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
     FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
@@ -263,6 +282,20 @@ const std::array kCases{
     miswired("left_wheel_stuck", sim::FaultKind::kLeftWheelStuck),
     miswired("scanner_mirrored", sim::FaultKind::kScannerMirrored),
     miswired("no_grip", sim::FaultKind::kNoGrip),
+    wheels_go("wheels_go_twice", 2.0, shows_for),
+    wheels_go("wheels_go_half", 0.5, slips_for),
+    contradiction(
+        "scan_repeats",
+        [](FaultBench& b) {
+          deceive(b, {.repeats = {-4.0, 4.0}});
+        },
+        repeats_for),
+    contradiction("scan_repeats_ahead",
+                  [](FaultBench& b) {
+                    deceive(b, {.repeats = {-0.7, 0.7}});
+                  }),
+    contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
+    contradiction("counters_stand", [](FaultBench& b) { deceive(b, {.counters_stand = true}); }),
 };
 
 }  // namespace

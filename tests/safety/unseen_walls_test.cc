@@ -91,14 +91,21 @@ TEST_CASE("a wall that ends where sight does is continued, one that would cut th
   };
   const std::vector<Vec2> beside = points({wall_beside(model, 0.1)});
   REQUIRE(beside.size() > 5);
-  double rearmost = 0.0;
+  double rearmost = 0.0, rearmost_of_end = 0.0;
   for (const Vec2 p : beside) {
     CHECK(p.y == Approx(-0.2905).margin(0.002));
     CHECK(p.x < 0.001);
     rearmost = std::min(rearmost, p.x);
   }
   CHECK(rearmost < -model.footprint.rear_m - 0.1);
+  for (const Vec2 p : points({{.centre = {-1.485, -0.3405}, .half = {1.515, 0.05}}})) {  // 3 cm of it are seen
+    CHECK(p.y == Approx(-0.2905).margin(0.01));
+    rearmost_of_end = std::min(rearmost_of_end, p.x);
+  }
+  CHECK(rearmost_of_end < -model.footprint.rear_m - 0.1);
   CHECK(points({}).empty());
   CHECK(points({{.centre = {0.6, -1.0}, .half = {0.05, 0.8}}}).empty());  // ahead, aside, across: ends within sight
-  CHECK(points({{.centre = {0.0, -1.2}, .half = {0.05, 0.8}}}).empty());  // its face would go on through the body
+  for (const Vec2 p :
+       points({{.centre = {0.0, -1.2}, .half = {0.05, 0.8}}}))  // 5 cm of its end: along the body, no way
+    CHECK(p.y == Approx(-0.4).margin(0.01));                    // through it, as its face would go on
 }
