@@ -17,10 +17,11 @@ class KnownWalls final : public KnownGround {
   /// Points in the robot's frame, at most 3 cm apart along a wall; valid until the next call.
   [[nodiscard]] std::span<const Vec2> near(const EvidenceMap& still, const Pose2& map_from_robot) noexcept;
 
-  /// As of that call's map and pose.
+  /// Both as of that call's map and pose.
   [[nodiscard]] bool seen_free(Vec2 place) const noexcept override {
     return still_ != nullptr && still_->seen_free(still_->cell_at(map_from_robot_ * place));
   }
+  void suppose(Vec2 place) noexcept override;
 
  private:
   static constexpr double kBeyond_m = 0.4;  ///< what stopping takes from 0.3 m/s, and the stop zone's margin
@@ -29,6 +30,7 @@ class KnownWalls final : public KnownGround {
   const EvidenceMap* still_ = nullptr;
   Pose2 map_from_robot_;
   FixedVector<Vec2, 2048> points_;
+  FixedVector<Vec2, 256> supposed_;  ///< in the map
 };
 
 }  // namespace jaywalk

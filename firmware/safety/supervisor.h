@@ -43,7 +43,7 @@ struct SafetyInput {
   double most_speed_mps = std::numeric_limits<double>::infinity();  ///< where it is; a person's rule, not a danger
   WheelCommand sent{};                                              ///< what the drive was sent in the tick before
   std::span<const Vec2> known_walls{};                              ///< near the robot and in its frame, of its map
-  const KnownGround* known_ground = nullptr;                        ///< of the same map; null: there is none
+  KnownGround* known_ground = nullptr;                              ///< of the same map; null: there is none
   bool pose_doubtful = false;                                       ///< where it is was guessed for too long
 };
 

@@ -55,7 +55,7 @@ UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_las
     : footprint_(footprint), robot_from_laser_(robot_from_laser), laser_from_robot_(inverse(robot_from_laser)) {}
 
 void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
-                         const KnownGround* ground) noexcept {
+                         KnownGround* ground) noexcept {
   ground_ = ground;
   points_.clear();
   for (const Vec2 point : known) add(gaps, point);
@@ -87,7 +87,9 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
   const double past_body_m = norm(first) + footprint_.circumscribed_radius_m();
   if (!line.known() || distance(first, last) < kShortest_m) {
     const double out_of_sight = step * (first - robot_from_laser_ * Vec2{}).y;  // forward where it is above 0
+    const std::size_t before = points_.size();
     add_line(gaps, first, {out_of_sight > 0.0 ? 1.0 : -1.0, 0.0}, past_body_m);
+    for (std::size_t k = before; k < points_.size() && ground_ != nullptr; ++k) ground_->suppose(points_[k]);
   } else if (!cuts(line, footprint_)) {
     const Vec2 outward = line.along() * (dot(line.along(), first - last) > 0.0 ? 1.0 : -1.0);
     add_line(gaps, line.foot_of(first), outward, past_body_m);

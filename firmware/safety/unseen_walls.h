@@ -13,6 +13,9 @@ class KnownGround {
  public:
   virtual ~KnownGround() = default;
   [[nodiscard]] virtual bool seen_free(Vec2 place) const noexcept = 0;
+  /// A wall may stand there; that is forgotten once the robot is elsewhere. Of a wall's end little is seen, and soon
+  /// nothing.
+  virtual void suppose(Vec2 place) noexcept = 0;
 };
 
 /// Walls where the laser does not look, as points for the stop zone: those that the loop knows from its map, and each
@@ -27,7 +30,7 @@ class UnseenWalls {
 
   /// `known`: surfaces near the robot, in its frame. `ground`: null where there is no map.
   void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
-              const KnownGround* ground = nullptr) noexcept;
+              KnownGround* ground = nullptr) noexcept;
   /// In the robot's frame, 4 cm apart or less.
   [[nodiscard]] std::span<const Vec2> points() const noexcept { return {points_.data(), points_.size()}; }
 
@@ -38,7 +41,7 @@ class UnseenWalls {
   void add(const BlindGaps& gaps, Vec2 point) noexcept;
 
   Footprint footprint_;
-  const KnownGround* ground_ = nullptr;  ///< during update()
+  KnownGround* ground_ = nullptr;  ///< during update()
   Transform2 robot_from_laser_, laser_from_robot_;
   FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first
 };

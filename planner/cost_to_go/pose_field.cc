@@ -63,7 +63,7 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
                   .moves = &memory.moves};
   room_.find(request.guide, low, request.asked.unseen_walls, memory.room.data(), memory.shift.data());
   const Place here = place_of(robot.position());
-  if (room_.find_unseen(request.guide, low, here, memory.unseen.data())) guide.unseen = memory.unseen.data();
+  if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
   weigh(request, guide, memory);
   std::fill(memory.cost.begin(), memory.cost.end(), PoseGuide::kNoWay);
   entries_.clear();

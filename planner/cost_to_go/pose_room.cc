@@ -8,7 +8,6 @@ namespace {
 
 constexpr double kSpacing_m = 0.08;  // of points along the outline
 constexpr float kNode_m = 0.025F;
-constexpr float kSeen_m = 0.5F;  // about the axle: where it stands and turns counts as seen
 constexpr std::int32_t kSide = PoseLattice::kSide;
 
 constexpr std::int32_t kWallNodes = 24;  // about a wall's point: a body's half width and where it is dear
@@ -129,15 +128,15 @@ void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, 
   }
 }
 
-bool PoseRoom::find_unseen(const Guide& guide, Place low, Place robot, std::uint8_t* unseen) noexcept {
+bool PoseRoom::find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) noexcept {
   std::uint8_t any = 0;
   for (std::int32_t phase = 0; phase < kPerCell; ++phase) {
     for (std::int32_t j = 0; j < kNodes; ++j) {
-      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m, dy = y - robot.y;
+      const float y = low.y + static_cast<float>(j - kMargin) * kNode_m;
       std::uint8_t* out = &unseen_[static_cast<std::size_t>((phase * kNodes + j) * kColumns)];
       for (std::int32_t k = 0; k < kColumns; ++k) {
-        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m, dx = x - robot.x;
-        out[k] = dx * dx + dy * dy >= kSeen_m * kSeen_m && guide.is_unseen(x, y) ? 1 : 0;
+        const float x = low.x + static_cast<float>(k * kPerCell + phase - kMargin) * kNode_m;
+        out[k] = guide.is_unseen(x, y) ? 1 : 0;
         any |= out[k];
       }
     }

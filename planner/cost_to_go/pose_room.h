@@ -27,7 +27,7 @@ class PoseRoom {
             std::int8_t* shift) noexcept;
   /// By pose: how many of eight points of the outline lie where nothing was ever seen, but for those near the robot.
   /// Whether there are any.
-  [[nodiscard]] bool find_unseen(const Guide& guide, Place low, Place robot, std::uint8_t* unseen) noexcept;
+  [[nodiscard]] bool find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) noexcept;
 
  private:
   struct Point {
