@@ -47,7 +47,7 @@ TimeToGoField::Memory::Memory(std::int32_t max_side)
       to_go_s(static_cast<std::size_t>(Grid{max_side}.cells()), Guide::kNoWay_s) {}
 
 TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-                             std::shared_ptr<const KeepOutField> keep_out)
+                             std::shared_ptr<const KeepOutField> keep_out, CostSettler* settler)
     : blocked_m_(static_cast<float>(inscribed_m) + kBlocked_m),
       tight_m_(static_cast<float>(circumscribed_m) + kTight_m),
       tight_weight_(tight_m_ - blocked_m_ > kLong_m ? kTightWeightOfLong : kTightWeight),
@@ -62,7 +62,9 @@ TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::in
       middle_x_m_(row_round_.size()),
       evidence_(row_round_.size()),
       graph_(max_side),
-      repair_(StepGraph::size_for(max_side), 2 * StepGraph::size_for(max_side)) {
+      repair_(StepGraph::size_for(max_side), 2 * StepGraph::size_for(max_side)),
+      settler_(settler),
+      costs_(settler == nullptr ? 0 : rate_.size()) {
   changed_.resize(rate_.size());  // touched, not only reserved: no page is to be fetched later
   changed_.clear();
 }
@@ -296,8 +298,24 @@ void TimeToGoField::settle_anew(const TimeToGoRequest& request, const CellBox& b
   repair_.clear();
   if (goal_ != StepGraph::kNone) repair_.offer(graph_, goal_, 0);
   if (!request.window.holds(request.goal_in_map, 0)) seed_border(request, box);
-  certified_ = repair_.settle(graph_);  // room for two entries a cell has always done
+  // Room for two entries a cell has always done.
+  certified_ = settle_elsewhere(grid, graph_.cell_of(robot)) || repair_.settle(graph_);
   graph_.keep_end();
+}
+
+bool TimeToGoField::settle_elsewhere(Grid grid, CellIndex robot) noexcept {
+  if (settler_ == nullptr) return false;
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    for (std::int32_t i = 0; i < grid.side; ++i)
+      costs_[static_cast<std::size_t>(grid.at(i, j))] = graph_.cost(graph_.at(i, j));
+  }
+  if (!settler_->settle({grid.side, rate_.data(), grid.at(robot.i, robot.j), kKeptBeyondRobot, costs_.data()}))
+    return false;
+  for (std::int32_t j = 0; j < grid.side; ++j) {
+    for (std::int32_t i = 0; i < grid.side; ++i)
+      graph_.cost(graph_.at(i, j)) = costs_[static_cast<std::size_t>(grid.at(i, j))];
+  }
+  return true;
 }
 
 void TimeToGoField::write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/cost_to_go/guide_ways.h"
 #include "planner/cost_to_go/nearest_surfaces.h"
@@ -28,6 +29,7 @@ struct TimeToGoRequest {
 /// of cost[n] = min(cost[c] + step) over sixteen neighbours. Where few cells have changed since the last time, what
 /// depends on them is repaired, to the same bytes.
 ///
+/// What is settled anew `settler` is asked for first; where it fails, and without one, it is settled here.
 /// Memory for windows of up to `max_side` cells in the constructor. Thread: the planner's.
 class TimeToGoField {
  public:
@@ -41,7 +43,7 @@ class TimeToGoField {
   };
 
   TimeToGoField(double inscribed_m, double circumscribed_m, std::int32_t max_side,
-                std::shared_ptr<const KeepOutField> keep_out = nullptr);
+                std::shared_ptr<const KeepOutField> keep_out = nullptr, CostSettler* settler = nullptr);
 
   /// Fills `memory` and returns a view of it.
   Guide settle(const TimeToGoRequest& request, Memory& memory) noexcept;
@@ -63,6 +65,7 @@ class TimeToGoField {
   void settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept;
   [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
   void settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept;
+  [[nodiscard]] bool settle_elsewhere(Grid grid, CellIndex robot) noexcept;
   [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept;
   void seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept;
   void write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept;
@@ -88,6 +91,8 @@ class TimeToGoField {
   bool certified_ = false;
   StepGraph graph_;
   CostRepair repair_;
+  CostSettler* settler_;
+  std::vector<std::uint32_t> costs_;  ///< by cells, as a settler has them; empty without one
 };
 
 }  // namespace jaywalk::field

@@ -23,6 +23,7 @@ class StepGraph {
  public:
   static constexpr std::uint32_t kBucketShift = 9;  ///< 512 costs: less than any step
   static constexpr std::int32_t kNone = -1;
+  static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
 
   struct Neighbour {
     std::int32_t di, dj;
@@ -124,7 +125,6 @@ class StepGraph {
 
  private:
   static constexpr std::int32_t kRing = 2;
-  static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
 
   struct Node {
     std::uint32_t cost, rate;

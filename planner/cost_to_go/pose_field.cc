@@ -44,7 +44,8 @@ PoseField::Memory::Memory()
       unseen(Lattice::kPoses),
       shift(Lattice::kPoses) {}
 
-PoseField::PoseField(const Footprint& body) : body_(body), room_(body), entries_(kEntries), buckets_(kBuckets, -1) {
+PoseField::PoseField(const Footprint& body, CostSettler* settler)
+    : body_(body), settler_(settler), room_(body), entries_(kEntries), buckets_(kBuckets, -1) {
   entries_.clear();
 }
 
@@ -69,8 +70,9 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   entries_.clear();
   sow_goal(request, guide, memory);
   if (entries_.empty()) sow_rim(request, guide, memory);
-  spread(guide.pose_at(static_cast<float>(robot.x), static_cast<float>(robot.y), static_cast<float>(robot.heading)),
-         guide, memory);
+  settle_costs(
+      guide.pose_at(static_cast<float>(robot.x), static_cast<float>(robot.y), static_cast<float>(robot.heading)), guide,
+      memory);
   const auto heading = static_cast<float>(robot.heading);
   guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
   if (guide.known && guide.unseen != nullptr) {
@@ -102,8 +104,19 @@ void PoseField::offer(std::int32_t pose, std::uint32_t cost, std::uint16_t* cost
   first = static_cast<std::int32_t>(entries_.size()) - 1;
 }
 
-void PoseField::spread(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept {
+void PoseField::settle_costs(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept {
   std::uint16_t* costs = memory.cost.data();
+  std::uint32_t last = PoseGuide::kNoWay - 1U;
+  if (settler_ != nullptr && settler_->settle({guide.rate, guide.unseen, memory.moves, robot, kBeyond, costs})) {
+    std::fill(buckets_.begin(), buckets_.end(), -1);
+    if (robot >= 0) last = std::min(last, costs[robot] + kBeyond);
+  } else {
+    last = spread(robot, guide, costs);
+  }
+  for (std::uint16_t& cost : memory.cost) cost = cost > last ? PoseGuide::kNoWay : cost;
+}
+
+std::uint32_t PoseField::spread(std::int32_t robot, const PoseGuide& guide, std::uint16_t* costs) noexcept {
   std::uint32_t last = PoseGuide::kNoWay - 1U;
   for (std::size_t b = 0; b < kBuckets; ++b) {
     while (buckets_[b] >= 0) {
@@ -115,7 +128,7 @@ void PoseField::spread(std::int32_t robot, const PoseGuide& guide, Memory& memor
       relax(entry.pose, cost, guide, costs);
     }
   }
-  for (std::uint16_t& cost : memory.cost) cost = cost > last ? PoseGuide::kNoWay : cost;
+  return last;
 }
 
 void PoseField::relax(std::int32_t pose, std::uint32_t cost, const PoseGuide& guide, std::uint16_t* costs) noexcept {

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/cost_to_go/pose_room.h"
 #include "planner/planner.h"
@@ -37,7 +38,8 @@ class PoseField {
     Memory();
   };
 
-  explicit PoseField(const Footprint& body);
+  /// `settler`: asked first; where it fails, and without one, costs are settled here.
+  explicit PoseField(const Footprint& body, CostSettler* settler = nullptr);
 
   /// Fills `memory` and returns a view of it.
   PoseGuide settle(const PoseFieldRequest& request, Memory& memory) noexcept;
@@ -59,10 +61,13 @@ class PoseField {
   void sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;
   void offer(std::int32_t pose, std::uint32_t cost, std::uint16_t* costs) noexcept;
-  void spread(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept;
+  void settle_costs(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept;
+  /// Returns what costs are of concern.
+  [[nodiscard]] std::uint32_t spread(std::int32_t robot, const PoseGuide& guide, std::uint16_t* costs) noexcept;
   void relax(std::int32_t pose, std::uint32_t cost, const PoseGuide& guide, std::uint16_t* costs) noexcept;
 
   Footprint body_;
+  CostSettler* settler_;
   PoseRoom room_;
   std::array<std::array<BackMove, 2 * PoseMoves::kMost>, PoseLattice::kHeadings> back_{};
   std::array<std::int32_t, PoseLattice::kHeadings> back_count_{};

@@ -1,8 +1,8 @@
 #pragma once
 // Prices of the moves between poses.
-#include <algorithm>
 #include <cstdint>
 
+#include "planner/cell/cell.h"
 #include "planner/cost_to_go/pose_moves.h"
 
 namespace jaywalk::price {
@@ -18,16 +18,16 @@ inline constexpr std::uint32_t kRateOfOpen = 8;  ///< integers, of a second that
 inline constexpr std::uint32_t kLeastCost = 16;  ///< of a move: a bucket's width
 
 /// How much dearer a move into what was never seen is: a second ahead, back, and turning where the laser does not look.
-constexpr std::uint32_t unseen_weight(Gear gear, std::int32_t turn) {
+JAYWALK_CELL constexpr std::uint32_t unseen_weight(Gear gear, std::int32_t turn) {
   return gear == Gear::kForward ? 1U : turn != 0 ? 30U : 2U;
 }
 
 /// Of a move between two poses.
-constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_t rate, std::uint32_t other_rate,
-                                std::uint32_t unseen_eighths, std::uint32_t unseen_weight) {
+JAYWALK_CELL constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_t rate, std::uint32_t other_rate,
+                                             std::uint32_t unseen_eighths, std::uint32_t unseen_weight) {
   const std::uint32_t cost =
       (in_open * (rate + other_rate)) / (2U * kRateOfOpen) + in_open * unseen_eighths * unseen_weight / 8U;
-  return std::max(cost, kLeastCost);
+  return cost < kLeastCost ? kLeastCost : cost;
 }
 
 }  // namespace jaywalk::price

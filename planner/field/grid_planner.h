@@ -28,8 +28,8 @@ class GridPlanner final : public Planner {
         flood_(Grid{config.max_side_cells}.cells()),
         window_({{0, 0}, config.side_cells, config.cell_m}, config.max_side_cells),
         time_to_go_(config.body.inscribed_radius_m(), config.body.circumscribed_radius_m(), config.max_side_cells,
-                    config.keep_out),
-        poses_(config.body),
+                    config.keep_out, settler()),
+        poses_(config.body, settler()),
         keep_out_(config.keep_out ? config.keep_out->view() : KeepOut{}) {
     for (Answer& answer : answers_) {
       answer = std::make_unique<Result>(config.max_side_cells);
@@ -120,6 +120,10 @@ class GridPlanner final : public Planner {
                         [this](std::int32_t c) { return is_free(c); });
   }
 
+  [[nodiscard]] CostSettler* settler() noexcept {
+    if constexpr (requires { executor_->settler(); }) return executor_->settler();
+    return nullptr;
+  }
   [[nodiscard]] bool is_ready() noexcept {
     if constexpr (requires { executor_->is_ready(); }) return executor_->is_ready();
     return true;

@@ -10,7 +10,10 @@ namespace jaywalk::tests {
 
 /// A wheelchair's guides on some ground.
 struct Chair {
-  explicit Chair(const Ground& ground) : ground_(ground) {}
+  explicit Chair(const Ground& ground, field::CostSettler* settler = nullptr)
+      : ground_(ground),
+        places_(kBody.inscribed_radius_m(), kBody.circumscribed_radius_m(), 256, nullptr, settler),
+        field_(kBody, settler) {}
 
   const PoseGuide& from(const Pose2& robot, Vec2 goal, double heading = kAnyHeading) {
     const field::Window window{{-118, -118}, 256, 0.1};
@@ -50,9 +53,9 @@ struct Chair {
 
  private:
   const Ground& ground_;
-  field::TimeToGoField places_{kBody.inscribed_radius_m(), kBody.circumscribed_radius_m(), 256};
+  field::TimeToGoField places_;
   field::TimeToGoField::Memory place_memory_{256};
-  field::PoseField field_{kBody};
+  field::PoseField field_;
 };
 
 }  // namespace jaywalk::tests
