@@ -27,6 +27,7 @@ inline const jaywalk::emulated::Extent& blockDim = jaywalk::emulated::here.block
 inline const jaywalk::emulated::Extent& gridDim = jaywalk::emulated::here.grid_extent;
 
 inline void __syncthreads() { jaywalk::emulated::launch_under_way->meet_block(); }
+inline int __syncthreads_or(int vote) { return jaywalk::emulated::launch_under_way->any_of_block(vote != 0) ? 1 : 0; }
 inline void __syncwarp(unsigned = 0xffffffffU) { jaywalk::emulated::launch_under_way->meet_warp(); }
 inline void __threadfence() {}
 inline void __threadfence_block() {}

@@ -2,51 +2,45 @@
 
 #include <algorithm>
 #include <cstdio>
+#include <numeric>
 #include <utility>
+
+#include "cuda/emulated/poison.h"
 
 namespace jaywalk::emulated {
 
-void Launch::begin(const Shape& shape) {
-  shape_ = &shape;
-  threads_ = shape.block.count();
-  const std::size_t blocks = shape.grid.count();
+void Launch::begin(std::size_t blocks) {
   warps_.assign(blocks * warps_of_block(), {});
   for (std::size_t k = 0; k < warps_.size(); ++k) {
     const std::size_t first = k % warps_of_block() * kWarp;
     warps_[k].expected = threads_ - first < kWarp ? threads_ - first : kWarp;
   }
   blocks_.assign(blocks, {threads_, {}});
-  clusters_.assign(blocks / shape.cluster_blocks, {threads_ * shape.cluster_blocks, {}});
+  clusters_.assign(blocks / shape_->cluster_blocks, {threads_ * shape_->cluster_blocks, {}});
   // Blocks that were not launched to meet never do.
-  grid_ = {shape.cooperative ? threads_ * blocks : threads_ * blocks + 1, {}};
+  grid_ = {shape_->cooperative ? threads_ * blocks : threads_ * shape_->grid.count() + 1, {}};
   ready_.assign(blocks, {});
   for (std::size_t k = 0; k < blocks * threads_; ++k) ready_[k / threads_].push_back(static_cast<std::uint32_t>(k));
   lane_values_.assign(warps_.size() * kWarp, 0);
+  votes_.assign(blocks, false), found_.assign(blocks, false);
   ended_ = 0;
   special_ = 0;
-  here.block_extent = shape.block, here.grid_extent = shape.grid;
+  fibers_.make(
+      blocks * threads_, [](void* launch) { (*static_cast<Launch*>(launch)->kernel_)(); }, this);
 }
 
-Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, OrderRandom& random,
-                  std::int64_t most_barriers, Counts& counts) {
-  begin(shape);
-  kernel_ = &kernel, counts_ = &counts;
-  const std::size_t all = threads_ * shape.grid.count();
-  fibers_.make(
-      all, [](void* launch) { (*static_cast<Launch*>(launch)->kernel_)(); }, this);
-  shared_.begin(shape.grid.count(), shape.dynamic_bytes);
-  Launch* before = std::exchange(launch_under_way, this);
-  const std::int64_t limit = counts.grid + counts.cluster + counts.block + most_barriers;
+Ended Launch::run_blocks(std::size_t blocks, OrderRandom& random, std::int64_t limit) {
+  begin(blocks);
+  if (may_meet()) shared_.begin(blocks, shape_->dynamic_bytes);
+  if (!may_meet()) poison(block_memory, shape_->dynamic_bytes);
   Ended how = Ended::kWell;
-  while (ended_ < all && how == Ended::kWell) {
+  while (ended_ < blocks * threads_ && how == Ended::kWell) {
     choose(random);
     for (const std::uint32_t thread : chosen_) resume(thread);
     if (chosen_.empty()) how = Ended::kNever;
-    if (counts.grid + counts.cluster + counts.block > limit) how = Ended::kTooLong;
+    if (counts_->grid + counts_->cluster + counts_->block > limit) how = Ended::kTooLong;
   }
-  shared_.end();
-  launch_under_way = before;
-  ++counts.launches;
+  if (may_meet()) shared_.end();
   if (how == Ended::kNever) {
     std::size_t at_blocks = 0, at_clusters = 0;
     for (const Barrier& barrier : blocks_) at_blocks += barrier.waiting.size();
@@ -54,9 +48,29 @@ Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, Order
     std::fprintf(stderr,
                  "emulated CUDA: of %zu threads %zu have ended, %zu wait for their block, %zu for their cluster, %zu "
                  "for the grid\n",
-                 all, ended_, at_blocks, at_clusters, grid_.waiting.size());
+                 blocks * threads_, ended_, at_blocks, at_clusters, grid_.waiting.size());
   }
   return fibers_.are_stacks_whole() ? how : Ended::kOffStack;
+}
+
+Ended Launch::run(const Shape& shape, const std::function<void()>& kernel, OrderRandom& random,
+                  std::int64_t most_barriers, Counts& counts) {
+  shape_ = &shape, kernel_ = &kernel, counts_ = &counts;
+  threads_ = shape.block.count();
+  here.block_extent = shape.block, here.grid_extent = shape.grid;
+  Launch* before = std::exchange(launch_under_way, this);
+  const std::int64_t limit = counts.grid + counts.cluster + counts.block + most_barriers;
+  std::vector<std::size_t> order(may_meet() ? 1 : shape.grid.count());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  for (std::size_t k = order.size(); k > 1; --k) std::swap(order[k - 1], order[random.below(k)]);
+  Ended how = Ended::kWell;
+  for (const std::size_t block : order) {
+    first_ = block;
+    if (how == Ended::kWell) how = run_blocks(may_meet() ? shape.grid.count() : 1, random, limit);
+  }
+  launch_under_way = before;
+  ++counts.launches;
+  return how;
 }
 
 void Launch::choose(OrderRandom& random) {
@@ -98,7 +112,7 @@ void Launch::take(std::vector<std::uint32_t>& ready) {
 
 void Launch::resume(std::uint32_t thread) {
   running_ = thread;
-  shared_.enter(block());
+  if (may_meet()) shared_.enter(block());
   here.thread = shape_->block.place(this->thread());
   here.block = shape_->grid.place(block());
   if (!fibers_.resume(thread)) ++ended_;
@@ -114,13 +128,22 @@ void Launch::meet(Barrier& barrier, std::int64_t& count) {
   fibers_.give_way();
 }
 
+/// The last one to come counts: what it found stays until all have come again, and so have read it.
+bool Launch::any_of_block(bool vote) {
+  const std::size_t k = running_ / threads_;
+  votes_[k] = votes_[k] || vote;
+  if (blocks_[k].waiting.size() + 1 == blocks_[k].expected) found_[k] = votes_[k], votes_[k] = false;
+  meet_block();
+  return found_[k];
+}
+
 void Launch::meet_warp() { meet(warps_[warp()], counts_->warp); }
-void Launch::meet_block() { meet(blocks_[block()], counts_->block); }
-void Launch::meet_cluster() { meet(clusters_[block() / shape_->cluster_blocks], counts_->cluster); }
+void Launch::meet_block() { meet(blocks_[running_ / threads_], counts_->block); }
+void Launch::meet_cluster() { meet(clusters_[running_ / threads_ / shape_->cluster_blocks], counts_->cluster); }
 void Launch::meet_grid() { meet(grid_, counts_->grid); }
 
 void Launch::pause() {
-  ready_[block()].push_back(static_cast<std::uint32_t>(running_));
+  ready_[running_ / threads_].push_back(static_cast<std::uint32_t>(running_));
   fibers_.give_way();
 }
 

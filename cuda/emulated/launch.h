@@ -58,10 +58,12 @@ class Launch {
 
   // From inside a kernel, for the running thread.
   void meet_warp(), meet_block(), meet_cluster(), meet_grid();
+  /// Meets the block; whether any of its threads voted so.
+  [[nodiscard]] bool any_of_block(bool vote);
   /// Lets others go on.
   void pause();
   [[nodiscard]] const Shape& shape() const { return *shape_; }
-  [[nodiscard]] std::size_t block() const { return running_ / threads_; }
+  [[nodiscard]] std::size_t block() const { return first_ + running_ / threads_; }
   [[nodiscard]] std::size_t thread() const { return running_ % threads_; }
   /// A place that the running warp's lane `lane` writes and all of them read, between barriers of the warp.
   [[nodiscard]] std::uint64_t& lane_value(std::size_t lane) { return lane_values_[warp() * kWarp + lane]; }
@@ -74,9 +76,12 @@ class Launch {
     std::vector<std::uint32_t> waiting;
   };
 
-  void begin(const Shape& shape);
+  /// Blocks from the `first_` on, which may meet: all of the launch, or one after the other where they may not.
+  void begin(std::size_t blocks);
+  Ended run_blocks(std::size_t blocks, OrderRandom& random, std::int64_t limit);
+  [[nodiscard]] bool may_meet() const { return shape_->cooperative || shape_->cluster_blocks > 1; }
   [[nodiscard]] std::size_t warps_of_block() const { return (threads_ + kWarp - 1) / kWarp; }
-  [[nodiscard]] std::size_t warp() const { return block() * warps_of_block() + thread() / kWarp; }
+  [[nodiscard]] std::size_t warp() const { return running_ / threads_ * warps_of_block() + thread() / kWarp; }
   /// How threads get on for a while: one block is as far ahead of the others as barriers allow, or as far behind, or in
   /// each block one warp ahead of its others.
   enum class Habit : std::uint8_t { kMixed, kAhead, kBehind, kWarpAhead };
@@ -93,7 +98,8 @@ class Launch {
   const Shape* shape_ = nullptr;
   const std::function<void()>* kernel_ = nullptr;
   Counts* counts_ = nullptr;
-  std::size_t threads_ = 0, running_ = 0, ended_ = 0;
+  std::size_t threads_ = 0, first_ = 0, running_ = 0, ended_ = 0;
+  std::vector<bool> votes_, found_;  ///< by block: in the vote under way, and in the last one
   std::vector<Barrier> warps_, blocks_, clusters_;
   Barrier grid_;
   std::vector<std::vector<std::uint32_t>> ready_;  ///< by block

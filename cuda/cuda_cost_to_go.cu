@@ -1,0 +1,160 @@
+#include <cstring>
+
+#include "cuda/cuda_cost_to_go.h"
+#include "cuda/settle_tiles.h"
+#include "planner/cost_to_go/guide_ways.h"
+#include "planner/cost_to_go/pose_guide.h"
+#include "planner/cost_to_go/pose_price.h"
+
+namespace jaywalk {
+namespace {
+
+/// Costs up to so much more than `there`, or anything below `most` where there is none.
+template <class Value>
+__device__ std::uint32_t limit_beyond(const Value* there, std::uint32_t beyond, std::uint32_t most) {
+  const std::uint32_t cost = there == nullptr ? most : peek(there);
+  return cost < most - beyond ? cost + beyond : most;
+}
+
+/// Poses and the moves between them.
+struct PoseWays {
+  using Value = std::uint16_t;
+  static constexpr Value kNone = PoseGuide::kNoWay;
+  static constexpr int kTile = 8, kLayers = PoseLattice::kHeadings, kReach = PoseLattice::kReach, kThreads = 768;
+  std::int32_t cells;  ///< a side
+  const PoseMove* moves;
+  const std::int32_t* count;
+  const std::uint8_t *rate, *unseen;
+  const Value* robot;  ///< its cost; null: it is nowhere
+  std::uint32_t beyond;
+  Value* cost;
+
+  [[nodiscard]] JAYWALK_CELL int side() const { return cells; }
+  /// The lattice has a rim that no move leaves.
+  [[nodiscard]] __device__ static bool holds(int, int) { return true; }
+  [[nodiscard]] __device__ int at(int i, int j, int heading) const {
+    const int stride = cells + 2 * kReach;
+    return (heading * stride + j + kReach) * stride + i + kReach;
+  }
+  [[nodiscard]] __device__ std::uint32_t limit() const { return limit_beyond(robot, beyond, kNone - 1U); }
+
+  template <class Near>
+  [[nodiscard]] __device__ std::uint32_t least(int i, int j, int heading, std::uint32_t own, std::uint32_t limit,
+                                               const Near& near) const {
+    const std::uint32_t here = rate[at(i, j, heading)];
+    if (here == 0) return own;
+    for (int m = 0; m < count[heading]; ++m) {
+      const PoseMove move = moves[heading * PoseMoves::kMost + m];
+      const int turned = heading + move.turn, to = turned < 0 ? turned + kLayers : turned % kLayers;
+      const std::uint32_t there = near(move.di, move.dj, to);
+      if (there > limit || there + move.cost >= own) continue;  // no rate is lower than in the open
+      const int pose = at(i + move.di, j + move.dj, to);
+      if (rate[pose] == 0) continue;
+      const std::uint32_t through =
+          there + price::cost_of(move.cost, here, rate[pose], unseen == nullptr ? 0U : unseen[pose],
+                                 price::unseen_weight(move.gear, move.turn));
+      own = through < own ? through : own;
+    }
+    return own;
+  }
+};
+
+/// Cells and the steps to sixteen neighbours.
+struct CellWays {
+  using Value = std::uint32_t;
+  static constexpr Value kNone = field::kNoWay;
+  static constexpr int kTile = 32, kLayers = 1, kReach = 2, kThreads = 512;
+  static constexpr int kNeighbours = 16;
+  field::Grid grid;
+  const std::uint16_t* rate;
+  const Value* robot;
+  std::uint32_t beyond;
+  Value* cost;
+
+  [[nodiscard]] JAYWALK_CELL int side() const { return grid.side; }
+  [[nodiscard]] __device__ bool holds(int i, int j) const { return grid.holds(i, j); }
+  [[nodiscard]] __device__ int at(int i, int j, int) const { return grid.at(i, j); }
+  [[nodiscard]] __device__ std::uint32_t limit() const {
+    return limit_beyond(robot, beyond, field::StepGraph::kEverywhere);
+  }
+  [[nodiscard]] __device__ std::uint32_t rate_at(int i, int j) const { return holds(i, j) ? rate[at(i, j, 0)] : 0; }
+
+  /// The k-th neighbour: straight, diagonal, or a knight's move, which passes between two cells.
+  template <class Near>
+  [[nodiscard]] __device__ std::uint32_t through(int i, int j, std::uint32_t here, int k, std::uint32_t most,
+                                                 const Near& near) const {
+    const int a = (k & 1) != 0 ? 1 : -1, b = (k & 2) != 0 ? 1 : -1;
+    const int di = k < 4 ? (k < 2 ? a : 0) : (k < 8 ? a : (k < 12 ? 2 * a : a));
+    const int dj = k < 4 ? (k < 2 ? 0 : a) : (k < 8 ? b : (k < 12 ? b : 2 * b));
+    const std::uint32_t there = near(di, dj, 0), rate_there = rate_at(i + di, j + dj);
+    if (there > most || rate_there == 0) return kNone;
+    if (k >= 8 && (rate_at(i + di / 2, j + dj / 2) == 0 || rate_at(i + di - di / 2, j + dj - dj / 2) == 0))
+      return kNone;
+    return there + (here + rate_there) *
+                       (k < 4 ? field::kStraightLength : (k < 8 ? field::kDiagonalLength : field::kKnightLength));
+  }
+  template <class Near>
+  [[nodiscard]] __device__ std::uint32_t least(int i, int j, int, std::uint32_t own, std::uint32_t limit,
+                                               const Near& near) const {
+    const std::uint32_t here = rate_at(i, j);
+    for (int k = 0; here != 0 && k < kNeighbours; ++k) {
+      const std::uint32_t found = through(i, j, here, k, limit < own ? limit : own, near);
+      own = found < own ? found : own;
+    }
+    return own;
+  }
+};
+
+template <class T>
+void put_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
+  std::memcpy(to.host, from, n * sizeof(T));
+  device.copy_in(to, n);
+}
+
+}  // namespace
+
+CudaCostToGo::CudaCostToGo(CudaDevice& device, std::int32_t max_side)
+    : device_(device),
+      pose_rate_(device.share<std::uint8_t>(PoseLattice::kPoses)),
+      unseen_(device.share<std::uint8_t>(PoseLattice::kPoses)),
+      pose_cost_(device.share<std::uint16_t>(PoseLattice::kPoses)),
+      moves_(device.share<PoseMove>(static_cast<std::size_t>(PoseLattice::kHeadings * PoseMoves::kMost))),
+      move_count_(device.share<std::int32_t>(PoseLattice::kHeadings)),
+      cell_rate_(device.share<std::uint16_t>(static_cast<std::size_t>(field::Grid{max_side}.cells()))),
+      cell_cost_(device.share<std::uint32_t>(static_cast<std::size_t>(field::Grid{max_side}.cells()))),
+      waits_(device.share<std::int32_t>(static_cast<std::size_t>(field::Grid{max_side / 8}.cells()))) {}
+
+bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
+  constexpr std::size_t kPoses = PoseLattice::kPoses;
+  if (!device_.begin()) return false;
+  put_in(device_, pose_rate_, poses.rate, kPoses);
+  if (poses.unseen != nullptr) put_in(device_, unseen_, poses.unseen, kPoses);
+  put_in(device_, pose_cost_, poses.cost, kPoses);
+  put_in(device_, moves_, poses.moves.from[0].data(), poses.moves.from.size() * PoseMoves::kMost);
+  put_in(device_, move_count_, poses.moves.count.data(), poses.moves.count.size());
+  const PoseWays ways{PoseLattice::kSide,
+                      moves_.device,
+                      move_count_.device,
+                      pose_rate_.device,
+                      poses.unseen == nullptr ? nullptr : unseen_.device,
+                      poses.robot < 0 ? nullptr : pose_cost_.device + poses.robot,
+                      poses.beyond,
+                      pose_cost_.device};
+  if (!jaywalk::settle(device_, ways, waits_, pose_cost_, kPoses)) return false;
+  std::memcpy(poses.cost, pose_cost_.host, kPoses * sizeof *poses.cost);
+  return true;
+}
+
+bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
+  const field::Grid grid{cells.side};
+  const auto n = static_cast<std::size_t>(grid.cells());
+  if (!device_.begin()) return false;
+  put_in(device_, cell_rate_, cells.rate, n);
+  put_in(device_, cell_cost_, cells.cost, n);
+  const CellWays ways{grid, cell_rate_.device, cell_cost_.device + cells.robot, cells.beyond, cell_cost_.device};
+  if (!jaywalk::settle(device_, ways, waits_, cell_cost_, n)) return false;
+  std::memcpy(cells.cost, cell_cost_.host, n * sizeof *cells.cost);
+  return true;
+}
+
+}  // namespace jaywalk

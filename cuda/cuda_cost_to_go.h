@@ -1,0 +1,26 @@
+#pragma once
+#include "cuda/cuda_device.h"
+#include "planner/cost_to_go/cost_settler.h"
+
+namespace jaywalk {
+
+/// The time to go on a device: over the cells of windows of up to `max_side` cells, and over poses. Host and device
+/// give the same numbers.
+class CudaCostToGo final : public field::CostSettler {
+ public:
+  CudaCostToGo(CudaDevice& device, std::int32_t max_side);
+  [[nodiscard]] bool settle(const field::PoseCosts& poses) noexcept override;
+  [[nodiscard]] bool settle(const field::CellCosts& cells) noexcept override;
+
+ private:
+  CudaDevice& device_;
+  Shared<std::uint8_t> pose_rate_, unseen_;
+  Shared<std::uint16_t> pose_cost_;
+  Shared<PoseMove> moves_;
+  Shared<std::int32_t> move_count_;
+  Shared<std::uint16_t> cell_rate_;
+  Shared<std::uint32_t> cell_cost_;
+  Shared<std::int32_t> waits_;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,107 @@
+#pragma once
+// A CUDA device as the planner has it: one stream, memory that is taken at the start, launches one after another, and a
+// wait that ends. What host and kernels share lies twice, in pinned and in the device's memory, and is copied; on a
+// device that shares the host's memory it lies once, in managed memory, which both cache.
+#include <cuda_runtime.h>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace jaywalk {
+
+/// Why a device no longer serves.
+enum class DeviceFailure : std::uint8_t {
+  kNone,
+  kRefused,  ///< a launch was refused; the next may not be
+  kBroken,   ///< an error that stays as long as the process
+  kSilent,   ///< a kernel has not ended in time, and may still run
+};
+
+/// One array for both sides.
+template <class T>
+struct Shared {
+  T* host = nullptr;
+  T* device = nullptr;
+};
+
+class CudaDevice {
+ public:
+  /// The device of that number. What has not ended by `limit` has failed. Throws std::runtime_error with the driver's
+  /// own words.
+  CudaDevice(int device, std::chrono::milliseconds limit);
+  /// What a kernel may still be using is left behind: to free it would wait for the kernel.
+  ~CudaDevice();
+  CudaDevice(const CudaDevice&) = delete;
+  CudaDevice& operator=(const CudaDevice&) = delete;
+
+  /// Memory for kernels alone, zeroed. Throws as the constructor does.
+  template <class T>
+  T* take(std::size_t n) {
+    return static_cast<T*>(take_bytes(n * sizeof(T)));
+  }
+  template <class T>
+  Shared<T> share(std::size_t n) {
+    T* device = take<T>(n);
+    return {is_one_memory_ ? device : static_cast<T*>(pin_bytes(n * sizeof(T))), device};
+  }
+
+  /// On a Jetson: one memory, which the host must not touch while a kernel runs.
+  [[nodiscard]] bool is_one_memory() const noexcept { return is_one_memory_; }
+  /// Whether shared memory may be touched and kernels launched: nothing that was given up still runs, and the device
+  /// works.
+  [[nodiscard]] bool is_ready() noexcept {
+    return failure_ != DeviceFailure::kBroken && (failure_ != DeviceFailure::kSilent || is_back());
+  }
+
+  /// What is launched and copied from now on, up to the wait that ends it. False while an earlier kernel may still run.
+  [[nodiscard]] bool begin() noexcept;
+  template <class T>
+  void copy_in(const Shared<T>& a, std::size_t n) noexcept {
+    if (a.host != a.device) note(cudaMemcpyAsync(a.device, a.host, n * sizeof(T), cudaMemcpyHostToDevice, stream_));
+  }
+  template <class T>
+  void copy_out(const Shared<T>& a, std::size_t n) noexcept {
+    if (a.host != a.device) note(cudaMemcpyAsync(a.host, a.device, n * sizeof(T), cudaMemcpyDeviceToHost, stream_));
+  }
+  template <class... Parameters, class... Arguments>
+  void launch(void (*kernel)(Parameters...), int blocks, int threads, const Arguments&... arguments) noexcept {
+    cudaLaunchConfig_t config{};
+    config.gridDim = dim3(static_cast<unsigned>(blocks)), config.blockDim = dim3(static_cast<unsigned>(threads));
+    config.stream = stream_;
+    if (launched_ == cudaSuccess) note(cudaLaunchKernelEx(&config, kernel, arguments...));
+  }
+  /// Sleeps until all has ended since begin() or its time is up. False: it failed.
+  [[nodiscard]] bool wait() noexcept;
+
+  /// Why the last wait failed, in a few words; empty where it did not.
+  [[nodiscard]] const char* failure() const noexcept;
+  /// What all that was launched has taken on the device, by its own events.
+  [[nodiscard]] double took_ms() const noexcept { return took_ms_; }
+  /// Whether a kernel of this process may still run though all has been given up.
+  [[nodiscard]] static bool has_left_behind() noexcept { return left_behind_; }
+
+ private:
+  void* take_bytes(std::size_t bytes);
+  void* pin_bytes(std::size_t bytes);
+  void note(cudaError_t error) noexcept { launched_ = launched_ == cudaSuccess ? error : launched_; }
+  [[nodiscard]] DeviceFailure waited() noexcept;
+  [[nodiscard]] bool is_back() noexcept;
+
+  static inline std::atomic<bool> left_behind_{false};
+
+  int device_;
+  std::chrono::milliseconds limit_;
+  DeviceFailure failure_ = DeviceFailure::kNone;
+  cudaError_t launched_ = cudaSuccess;
+  bool is_one_memory_ = false;
+  cudaStream_t stream_ = nullptr;
+  cudaEvent_t begin_ = nullptr, end_ = nullptr;
+  std::vector<void*> taken_, pinned_;
+  double took_ms_ = 0.0;
+};
+
+}  // namespace jaywalk

@@ -1,0 +1,106 @@
+// The time to go over cells and over poses, on the emulated device: the processor's numbers, in whatever order blocks
+// and threads run.
+#include <string>
+
+#include "cuda/cuda_cost_to_go.h"
+#include "cuda/emulated/device.h"
+#include "planner/cost_to_go/guide_field.h"
+#include "tests/motion/chair.h"
+#include "tests/planner/same_bytes.h"
+#include "tests/planner/test_maps.h"
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+using namespace jaywalk::test;
+using emulated::device;
+using emulated::Fault;
+using tests::Chair;
+using tests::Ground;
+
+namespace {
+
+/// A settler, and a device newly switched on under it.
+struct Rig {
+  explicit Rig(const emulated::Properties& properties)
+      : powered((device().power_on(properties), true)), cuda(0, std::chrono::seconds(30)), settler(cuda, 256) {}
+  bool powered;
+  CudaDevice cuda;
+  CudaCostToGo settler;
+};
+
+/// Walls of a metre here and there, none of them about the origin.
+Ground scattered(std::uint64_t seed) {
+  Ground ground;
+  Random random(seed);
+  for (int k = 0; k < 14; ++k) {
+    const Vec2 from{6.0 * random.unit() - 3.0, 6.0 * random.unit() - 3.0};
+    if (norm(from) < 1.8) continue;
+    ground.wall(from, from + direction(6.3 * random.unit()));
+  }
+  return ground;
+}
+
+/// Both settle the same request. Whether there is a way.
+bool check_same(Chair& cpu, Chair& gpu, const Pose2& robot, Vec2 goal, double heading) {
+  const PoseGuide& a = cpu.from(robot, goal, heading);
+  const PoseGuide& b = gpu.from(robot, goal, heading);
+  CHECK(same(cpu.guide.to_go_s, gpu.guide.to_go_s, cpu.guide.side * cpu.guide.side));
+  CHECK(cpu.memory.cost == gpu.memory.cost);
+  CHECK(a.known == b.known);
+  CHECK(a.through_unseen == b.through_unseen);
+  return a.known;
+}
+
+}  // namespace
+
+TEST_CASE("emulated: times from cells and from poses are the processor's on random grounds, in every order") {
+  int known = 0;
+  for (std::uint64_t seed = 1; seed <= 6; ++seed) {
+    Rig rig({.integrated = seed % 3 == 0, .guarded = true, .seed = seed});
+    Ground ground = scattered(seed);
+    for (int j = -30; seed % 2 == 0 && j < 30; ++j) {
+      for (int i = 12; i < 40; ++i) ground.forget({i, j});
+    }
+    Chair cpu(ground), gpu(ground, &rig.settler);
+    if (seed == 3) cpu.movers.push_back({{0.9, 0.4}, 0.25, true}), gpu.movers = cpu.movers;
+    const Vec2 goal = direction(1.1 * static_cast<double>(seed)) * (seed % 2 == 0 ? 2.2 : 5.0);
+    known += check_same(cpu, gpu, {0.0, 0.0, 0.7 * static_cast<double>(seed)}, goal, seed % 2 == 0 ? 1.0 : kAnyHeading);
+    // The second is repaired from the first where the ground is the same.
+    known += check_same(cpu, gpu, {0.1, 0.1, 0.2}, goal, kAnyHeading);
+    CHECK(device().counts().launches > 8);
+  }
+  CHECK(known >= 9);
+}
+
+TEST_CASE("emulated: a robot nowhere on the lattice, and costs up to the largest, are settled as far as numbers go") {
+  Rig rig({.seed = 4});
+  PoseMoves moves;
+  moves.draw(Chair::kSpeeds);
+  std::vector<std::uint8_t> rate(PoseLattice::kPoses);
+  std::vector<std::uint16_t> cost(PoseLattice::kPoses, PoseGuide::kNoWay);
+  for (std::int32_t h = 0; h < PoseLattice::kHeadings; ++h) {
+    for (std::int32_t i = 0; i < PoseLattice::kSide; ++i)
+      rate[static_cast<std::size_t>(PoseLattice::at(i, 20, h))] = 255;  // a lane as dear as can be
+  }
+  cost[static_cast<std::size_t>(PoseLattice::at(0, 20, 0))] = 60000;
+  REQUIRE(rig.settler.settle(field::PoseCosts{rate.data(), nullptr, moves, -1, 1024, cost.data()}));
+  const auto near = static_cast<std::size_t>(PoseLattice::at(1, 20, 0)),
+             far = static_cast<std::size_t>(PoseLattice::at(60, 20, 0));
+  CHECK(cost[near] > 60000);
+  CHECK(cost[near] < PoseGuide::kNoWay);
+  CHECK(cost[far] == PoseGuide::kNoWay);
+}
+
+TEST_CASE("emulated: a settler whose device fails says so, has written nothing, and its field is the processor's") {
+  for (const Fault fault : {Fault::kRefused, Fault::kBroken}) {
+    for (const int launch : {0, 3, 20}) {
+      Rig rig({.guarded = true, .seed = 2});
+      const Ground ground = scattered(5);
+      Chair cpu(ground), gpu(ground, &rig.settler);
+      device().order(fault, launch);
+      check_same(cpu, gpu, {0.0, 0.0, 0.3}, {2.0, 1.0}, 0.5);
+      if (fault == Fault::kBroken) CHECK(std::string(rig.cuda.failure()) == "the device failed");
+    }
+  }
+  device().power_on();
+}
