@@ -124,6 +124,13 @@ CudaCostToGo::CudaCostToGo(CudaDevice& device, std::int32_t max_side)
       cell_cost_(device.share<std::uint32_t>(static_cast<std::size_t>(field::Grid{max_side}.cells()))),
       waits_(device.share<std::int32_t>(static_cast<std::size_t>(field::Grid{max_side / 8}.cells()))) {}
 
+template <class Ways>
+bool CudaCostToGo::read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept {
+  if (!settle_tiles(device_, ways, waits_)) return false;
+  device_.copy_out(cost, n);
+  return device_.wait();
+}
+
 bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
   constexpr std::size_t kPoses = PoseLattice::kPoses;
   if (!device_.begin()) return false;
@@ -140,7 +147,7 @@ bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
                       poses.robot < 0 ? nullptr : pose_cost_.device + poses.robot,
                       poses.beyond,
                       pose_cost_.device};
-  if (!jaywalk::settle(device_, ways, waits_, pose_cost_, kPoses)) return false;
+  if (!read_settled(ways, pose_cost_, kPoses)) return false;
   std::memcpy(poses.cost, pose_cost_.host, kPoses * sizeof *poses.cost);
   return true;
 }
@@ -152,7 +159,7 @@ bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
   put_in(device_, cell_rate_, cells.rate, n);
   put_in(device_, cell_cost_, cells.cost, n);
   const CellWays ways{grid, cell_rate_.device, cell_cost_.device + cells.robot, cells.beyond, cell_cost_.device};
-  if (!jaywalk::settle(device_, ways, waits_, cell_cost_, n)) return false;
+  if (!read_settled(ways, cell_cost_, n)) return false;
   std::memcpy(cells.cost, cell_cost_.host, n * sizeof *cells.cost);
   return true;
 }

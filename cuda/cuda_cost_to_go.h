@@ -13,6 +13,9 @@ class CudaCostToGo final : public field::CostSettler {
   [[nodiscard]] bool settle(const field::CellCosts& cells) noexcept override;
 
  private:
+  template <class Ways>
+  [[nodiscard]] bool read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept;
+
   CudaDevice& device_;
   Shared<std::uint8_t> pose_rate_, unseen_;
   Shared<std::uint16_t> pose_cost_;

@@ -55,6 +55,10 @@ void* CudaDevice::pin_bytes(std::size_t bytes) {
   return block;
 }
 
+void CudaDevice::fill_bytes(void* to, const void* from, std::size_t bytes) {
+  must(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
+}
+
 bool CudaDevice::begin() noexcept {
   if (!is_ready()) return false;
   (void)cudaSetDevice(device_);  // each thread of the host has its own, at first device 0
@@ -63,16 +67,18 @@ bool CudaDevice::begin() noexcept {
 }
 
 bool CudaDevice::wait() noexcept {
-  note(cudaEventRecord(end_, stream_));
+  if (has_failed()) return false;
+  (void)cudaEventRecord(end_, stream_);
   // What was launched before a refusal still runs: it is waited for as well.
-  const DeviceFailure waited = this->waited();
-  failure_ = waited == DeviceFailure::kNone && launched_ != cudaSuccess ? DeviceFailure::kRefused : waited;
+  failure_ = waited();
+  if (!has_failed() && launched_ != cudaSuccess) failure_ = DeviceFailure::kRefused;
   // Of errors that stay the second look still has one.
   if (cudaGetLastError() != cudaSuccess && cudaGetLastError() != cudaSuccess) failure_ = DeviceFailure::kBroken;
   float took_ms = 0.0F;
-  if (failure_ != DeviceFailure::kNone || cudaEventElapsedTime(&took_ms, begin_, end_) != cudaSuccess) return false;
-  took_ms_ += static_cast<double>(took_ms);
-  return true;
+  if (!has_failed() && cudaEventElapsedTime(&took_ms, begin_, end_) == cudaSuccess)
+    took_ms_ += static_cast<double>(took_ms);
+  if (has_failed()) launched_ = cudaErrorLaunchFailure;
+  return !has_failed();
 }
 
 DeviceFailure CudaDevice::waited() noexcept {

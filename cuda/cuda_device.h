@@ -43,10 +43,20 @@ class CudaDevice {
   T* take(std::size_t n) {
     return static_cast<T*>(take_bytes(n * sizeof(T)));
   }
+  /// The host's, zeroed, which the device copies from and to.
+  template <class T>
+  T* pin(std::size_t n) {
+    return static_cast<T*>(pin_bytes(n * sizeof(T)));
+  }
   template <class T>
   Shared<T> share(std::size_t n) {
     T* device = take<T>(n);
-    return {is_one_memory_ ? device : static_cast<T*>(pin_bytes(n * sizeof(T))), device};
+    return {is_one_memory_ ? device : pin<T>(n), device};
+  }
+  /// At the start.
+  template <class T>
+  void fill(T* to, const T* from, std::size_t n) {
+    fill_bytes(to, from, n * sizeof(T));
   }
 
   /// On a Jetson: one memory, which the host must not touch while a kernel runs.
@@ -54,27 +64,43 @@ class CudaDevice {
   /// Whether shared memory may be touched and kernels launched: nothing that was given up still runs, and the device
   /// works.
   [[nodiscard]] bool is_ready() noexcept {
-    return failure_ != DeviceFailure::kBroken && (failure_ != DeviceFailure::kSilent || is_back());
+    if (failure_ == DeviceFailure::kRefused || (failure_ == DeviceFailure::kSilent && is_back()))
+      failure_ = DeviceFailure::kNone;
+    return !has_failed();
   }
+  /// Since it was ready last.
+  [[nodiscard]] bool has_failed() const noexcept { return failure_ != DeviceFailure::kNone; }
 
   /// What is launched and copied from now on, up to the wait that ends it. False while an earlier kernel may still run.
   [[nodiscard]] bool begin() noexcept;
+  /// Between the two places of what is shared; left out where they are one.
+  template <class T>
+  void copy(T* to, const T* from, std::size_t n) noexcept {
+    if (to == from || launched_ != cudaSuccess) return;
+    launched_ = cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDefault, stream_);
+  }
+  /// Each byte of n values.
+  template <class T>
+  void set_bytes(T* to, int byte, std::size_t n) noexcept {
+    if (launched_ == cudaSuccess) launched_ = cudaMemsetAsync(to, byte, n * sizeof(T), stream_);
+  }
   template <class T>
   void copy_in(const Shared<T>& a, std::size_t n) noexcept {
-    if (a.host != a.device) note(cudaMemcpyAsync(a.device, a.host, n * sizeof(T), cudaMemcpyHostToDevice, stream_));
+    copy(a.device, a.host, n);
   }
   template <class T>
   void copy_out(const Shared<T>& a, std::size_t n) noexcept {
-    if (a.host != a.device) note(cudaMemcpyAsync(a.host, a.device, n * sizeof(T), cudaMemcpyDeviceToHost, stream_));
+    copy(a.host, a.device, n);
   }
   template <class... Parameters, class... Arguments>
   void launch(void (*kernel)(Parameters...), int blocks, int threads, const Arguments&... arguments) noexcept {
     cudaLaunchConfig_t config{};
     config.gridDim = dim3(static_cast<unsigned>(blocks)), config.blockDim = dim3(static_cast<unsigned>(threads));
     config.stream = stream_;
-    if (launched_ == cudaSuccess) note(cudaLaunchKernelEx(&config, kernel, arguments...));
+    if (launched_ == cudaSuccess) launched_ = cudaLaunchKernelEx(&config, kernel, arguments...);
   }
-  /// Sleeps until all has ended since begin() or its time is up. False: it failed.
+  /// Sleeps until all has ended since begin() or its time is up. False: that failed, or a wait since begin() has; until
+  /// the next begin() nothing more is launched then.
   [[nodiscard]] bool wait() noexcept;
 
   /// Why the last wait failed, in a few words; empty where it did not.
@@ -87,7 +113,7 @@ class CudaDevice {
  private:
   void* take_bytes(std::size_t bytes);
   void* pin_bytes(std::size_t bytes);
-  void note(cudaError_t error) noexcept { launched_ = launched_ == cudaSuccess ? error : launched_; }
+  void fill_bytes(void* to, const void* from, std::size_t bytes);
   [[nodiscard]] DeviceFailure waited() noexcept;
   [[nodiscard]] bool is_back() noexcept;
 

@@ -76,6 +76,7 @@ std::unique_ptr<Planner> make_planner_on(const PlannerConfig& config, int device
                                          std::string& why_not) {
   field::check(config);
   return on_device(device, why_not, limit, [&](std::unique_ptr<CudaExecutor> executor) {
+    executor->take_cost_to_go(config.max_side_cells);
     return std::make_unique<field::GridPlanner<CudaExecutor>>(config, std::move(executor));
   });
 }
@@ -89,8 +90,9 @@ bool passes_cuda_trial(int device, std::string& why_not) {
   return tried && plans_the_same(*tried, *make_cpu_planner(config), why_not);
 }
 
-std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not) {
-  return make_planner_on(config, device, kLongestKernel, why_not);
+std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not,
+                                           std::chrono::milliseconds limit) {
+  return make_planner_on(config, device, limit, why_not);
 }
 
 std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, int device, std::string& why_not) {
@@ -99,6 +101,6 @@ std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, int dev
   });
 }
 
-bool has_cuda_left_behind() { return CudaExecutor::has_left_behind(); }
+bool has_cuda_left_behind() { return CudaDevice::has_left_behind(); }
 
 }  // namespace jaywalk

@@ -10,15 +10,16 @@ namespace jaywalk {
 
 /// A plan on the processor takes 15 ms at 512 cells a side (docs/explanation/results.md#time): a device that takes
 /// longer than this is none to wait for. A plan is then still as old as two scans at 15 Hz at most.
-inline constexpr std::chrono::milliseconds kLongestKernel{50};
+inline constexpr std::chrono::milliseconds kLongestWait{50};
 
 /// A planner on the CUDA device of that number, from 0: the same stages in the same order as make_cpu_planner's, and
 /// the same bits. Null with one clear line in `why_not` where there is no such device or its driver or memory does not
 /// do. Throws StartupError for a configuration that makes no sense.
 ///
-/// submit() returns when the plan is made: it waits for the device, asleep. A kernel that takes longer than
-/// kLongestKernel is given up: PlanStatus::kBackendFailed, and failure() says why. Thread: the loop's.
-[[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not);
+/// submit() returns when the plan is made: it waits for the device, asleep. What takes longer than `limit` between two
+/// answers of the device is given up: PlanStatus::kBackendFailed, and failure() says why. Thread: the loop's.
+[[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not,
+                                                         std::chrono::milliseconds limit = kLongestWait);
 
 /// The same for a map alone.
 [[nodiscard]] std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, int device,

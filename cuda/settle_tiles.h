@@ -95,25 +95,21 @@ __global__ void __launch_bounds__(Ways::kThreads) settle_tile(const __grid_const
     atomicExch(waits + tj * tiles + ti, 1);
 }
 
-/// From given costs to the fixed point, which `cost.host` then has; all tiles wait at first. Launches go in rounds,
-/// between which the host looks whether any tile still waits. It follows what has been launched since device.begin().
-/// False: the device failed.
+/// From given costs to the fixed point; all tiles wait at first. Launches go in rounds, between which the host looks
+/// whether any tile still waits. It follows what has been launched since device.begin(), and more may follow it. False:
+/// the device failed.
 template <class Ways>
-[[nodiscard]] bool settle(CudaDevice& device, const Ways& ways, const Shared<std::int32_t>& waits,
-                          const Shared<typename Ways::Value>& cost, std::size_t costs) noexcept {
+[[nodiscard]] bool settle_tiles(CudaDevice& device, const Ways& ways, const Shared<std::int32_t>& waits) noexcept {
   constexpr int kRounds = 8;
   const int tiles = (ways.side() / Ways::kTile) * (ways.side() / Ways::kTile);
-  std::fill_n(waits.host, tiles, 1);
-  device.copy_in(waits, static_cast<std::size_t>(tiles));
+  device.set_bytes(waits.device, 1, static_cast<std::size_t>(tiles));
   for (;;) {
     for (int round = 0; round < kRounds; ++round)
       device.launch(settle_tile<Ways>, tiles, Ways::kThreads, ways, waits.device);
     device.copy_out(waits, static_cast<std::size_t>(tiles));
     if (!device.wait() || !device.begin()) return false;
-    if (std::all_of(waits.host, waits.host + tiles, [](std::int32_t w) { return w == 0; })) break;
+    if (std::all_of(waits.host, waits.host + tiles, [](std::int32_t w) { return w == 0; })) return true;
   }
-  device.copy_out(cost, costs);
-  return device.wait();
 }
 
 }  // namespace jaywalk

@@ -22,8 +22,6 @@ struct NearestInColumns {
   std::uint8_t wanted;  ///< the occupants that count
   std::int32_t* rows_away;
 
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return columns * grid.side; }
-
   JAYWALK_CELL void operator()(std::int32_t strip) const {
     const std::int32_t none = 2 * grid.side, last = grid.side - 1;
     for (std::int32_t j = 0; j <= last; ++j) {
@@ -51,8 +49,6 @@ struct OccupiedInColumn {
   const std::uint8_t* occupants;
   std::uint8_t wanted;
   std::uint32_t* columns;  ///< words, row of words by row
-
-  [[nodiscard]] JAYWALK_CELL static std::int32_t cells_of_visit() { return kRowsOfWord; }
 
   JAYWALK_CELL void operator()(std::int32_t i, std::int32_t word) const {
     std::uint32_t bits = 0;
@@ -116,8 +112,6 @@ struct ClearanceOfRow {
   std::int32_t* envelope;  ///< columns whose obstacle is the nearest of some stretch; in the end squared distances
   std::int32_t* stretch;   ///< room for a row: where each of those stretches begins
   float* clearance;
-
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
 
   JAYWALK_CELL void operator()(std::int32_t j) const {
     const std::int32_t row = grid.at(0, j);

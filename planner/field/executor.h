@@ -5,24 +5,26 @@
 //   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
 //                                it gave, where they share theirs; elsewhere other memory, and orders copy
 //   fill(to, from, n)            n values from the host into memory for stages
-//   most_blocks()                of a crew: blocks that it may have
 //   run(order)                   order(executor); false: it failed. What was shown may then be read
 //   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
 //                                (start_field.h), looking whether anything has changed (pass.h)
 //   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
 //   failure(), is_ready()        of executors that can fail: why the last order did; whether the host may touch shown
-//                                memory and run another order
+//   has_failed()                 memory and run another order; whether one has failed since
+//   settler()                    of those that settle costs of the time to go as well
 // and to orders (order.h), which know no more of it:
+//   copy(n, from, to)            n values from the host's memory to the stages' or back; left out where that is one
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
 //   for_each_row(h, steps...)    the steps one after the other, each as for_each_cell does; or, to the same bits, all
 //                                of them row by row, each a row behind the one before (RowStep says what that asks)
 //   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
 //   total(n, counted)            the sums of n pairs of numbers, for the order to choose by
-//   hand_out(n, stage)           stage(k) for every k in [0, n): copies for the host, which the order reads no more
 //   settle(grid, goal, arrays)   rate and cost of the start field, where the executor does not go by stages' sweeps
-//   Solver                       what takes the place of multigrid.h's cycles, if there is one
+//   in_one_block(order)          order(...) of steps that are too small to be shared out among a device's blocks
+//   kOneBlockSide                the largest board of blocks of cells that one block should take alone; 0: none
+//   kLowerLevels                 whether it is such a block's: of boards of blocks alone
 //   kColumns                     columns that one visit should take where a stage goes down columns; divides 64.
 //                                kOneCell: visits of one cell each, as many threads want them
 //   kCellsOfRow                  cells that one visit should take where a stage goes along rows; divides 64, or is
@@ -46,15 +48,13 @@
 
 #define JAYWALK_INLINED [[gnu::always_inline]] inline
 
-/// Of functions that are an order or part of one: they run where their executor visits. Those apart are code once, and
-/// called: put into each of its callers a device's code would grow beyond its caches. So it would by loops of steps
-/// that are unrolled: a device has other threads to do meanwhile.
+/// Of functions that are an order or part of one: they run where their executor visits, on the host or, in one block,
+/// on a device. Those apart are code once, and called: put into each of its callers a device's code would grow beyond
+/// its caches.
 #ifdef __CUDACC__
-#define JAYWALK_ROLLED _Pragma("unroll 1")
-#define JAYWALK_ORDER __device__
-#define JAYWALK_APART __device__ __noinline__
+#define JAYWALK_ORDER __host__ __device__
+#define JAYWALK_APART __host__ __device__ __noinline__
 #else
-#define JAYWALK_ROLLED
 #define JAYWALK_ORDER
 #define JAYWALK_APART [[gnu::noinline]]
 #endif
@@ -123,6 +123,8 @@ class SerialExecutor {
   static constexpr std::int32_t kColumns = 64;
   static constexpr std::int32_t kCellsOfRow = kWholeRow;
   static constexpr bool kInTurn = true;
+  static constexpr std::int32_t kOneBlockSide = 0;
+  static constexpr bool kLowerLevels = false;
 
   /// With so many lanes, or as many as there are.
   explicit SerialExecutor(Lanes lanes = most_lanes()) : lanes_(std::min(lanes, most_lanes())) {}
@@ -150,6 +152,11 @@ class SerialExecutor {
   bool run(const Order& order) noexcept {
     order(*this);
     return true;
+  }
+
+  template <class Order>
+  void in_one_block(const Order& order) noexcept {
+    order(*this);
   }
 
   [[nodiscard]] static double took_ms() noexcept { return 0.0; }

@@ -40,7 +40,6 @@ struct ShownArrays {
   float* clearance;
   std::uint8_t* index;
   cell::Point* points;
-  FieldQuality* quality;
 };
 
 /// What the stages read and write; all of it the executor's memory. A pointer an array,
@@ -56,14 +55,11 @@ struct FieldArrays {
   float *start_psi, *correction;
   std::uint16_t *table, *rate;
   std::uint32_t* cost;
-  StartTiles tiles;  ///< a crew's
   std::uint8_t* index;
   Counted *changed, *pits;  ///< by pieces of rows
-  Counted* found;           ///< one; what a single visit has to say
   cell::Point *points, *raw_points;
   std::int32_t* moved;         ///< in which step each of the band's points did last
   double *segments, *lengths;  ///< of the band; of the raw path and the band
-  FieldQuality* quality;
   ShownArrays shown;
 };
 
@@ -88,14 +84,11 @@ template <class Executor>
   take(a.start_psi, cells), take(a.correction, cells);
   take(a.table, table.size()), take(a.rate, cells), take(a.cost, cells);
   share(a.index, a.shown.index, cells);
-  const auto tiles = static_cast<std::size_t>(StartTiles::count({max_side}));
-  take(a.tiles.waits, tiles), take(a.tiles.pending, 1);
-  take(a.changed, pieces), take(a.pits, pieces), take(a.found, 1);
+  take(a.changed, pieces), take(a.pits, pieces);
   share(a.points, a.shown.points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.raw_points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.moved, static_cast<std::size_t>(kMaxBandPoints));
   take(a.segments, static_cast<std::size_t>(kMaxBandPoints)), take(a.lengths, 2);
-  share(a.quality, a.shown.quality, 1);
   executor.fill(a.table, table.data(), table.size());
   return a;
 }

@@ -124,13 +124,23 @@ class GridPlanner final : public Planner {
     if constexpr (requires { executor_->settler(); }) return executor_->settler();
     return nullptr;
   }
+  [[nodiscard]] bool has_failed() const noexcept {
+    if constexpr (requires { executor_->has_failed(); }) return executor_->has_failed();
+    return false;
+  }
   [[nodiscard]] bool is_ready() noexcept {
     if constexpr (requires { executor_->is_ready(); }) return executor_->is_ready();
     return true;
   }
 
+  /// What a device that failed has not settled is settled here; yet whoever asks is to know.
   PlanStatus answer(const PlanRequest& request, Result& result) noexcept {
-    if (request.wants_potential && !is_ready()) return PlanStatus::kBackendFailed;
+    if (!is_ready()) return PlanStatus::kBackendFailed;
+    const PlanStatus status = plan(request, result);
+    return has_failed() ? PlanStatus::kBackendFailed : status;
+  }
+
+  PlanStatus plan(const PlanRequest& request, Result& result) noexcept {
     if (!is_finite(request)) return PlanStatus::kBadRequest;
     window_.place(request.map_from_robot.position(), request.goal_in_map);
     result.window = window();

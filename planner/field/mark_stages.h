@@ -80,10 +80,11 @@ struct PredictEachMover {
   }
 };
 
-/// Cells of one row that movers occupy: at their marks in mode paper; otherwise where a mover now is,
+/// Cells of a piece of a row that movers occupy: at their marks in mode paper; otherwise where a mover now is,
 /// and where it will be at the cell's own time of arrival.
 struct MarkRow {
   Grid grid;
+  std::int32_t cells;  ///< of a piece; divides the side
   Warping warping;
   const float* warp;
   const Mover* movers;
@@ -91,30 +92,37 @@ struct MarkRow {
   std::int32_t mover_count;
   std::uint8_t* occupants;
 
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
-
-  JAYWALK_CELL void operator()(std::int32_t j) const {
+  JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     for (std::int32_t k = 0; k < mover_count; ++k) {
       const Mover& mover = movers[k];
       if (warping.ellipses) {
-        disc(marks[k].x, marks[k].y, marks[k].radius, j);
+        disc(marks[k].x, marks[k].y, marks[k].radius, piece, j);
       } else {
-        disc(mover.x.position, mover.y.position, mover.radius, j);
-        swept(mover, j);
+        disc(mover.x.position, mover.y.position, mover.radius, piece, j);
+        swept(mover, piece, j);
       }
     }
   }
 
  private:
+  /// The piece's columns between two places.
+  struct Columns {
+    std::int32_t first, last;
+  };
+  JAYWALK_CELL Columns columns(float low, float high, std::int32_t piece) const {
+    const std::int32_t a = column(low), b = column(high), first = piece * cells, last = first + cells - 1;
+    return {a > first ? a : first, b < last ? b : last};
+  }
   JAYWALK_CELL std::int32_t column(float x) const {
     const auto last = static_cast<float>(grid.side - 1);
     return static_cast<std::int32_t>(x < 0.0F ? 0.0F : (x > last ? last : x));
   }
 
-  JAYWALK_CELL void disc(float x, float y, float radius, std::int32_t j) const {
+  JAYWALK_CELL void disc(float x, float y, float radius, std::int32_t piece, std::int32_t j) const {
     const float dy = static_cast<float>(j) + 0.5F - y;
     if (dy > radius || dy < -radius) return;
-    for (std::int32_t i = column(x - radius); i <= column(x + radius); ++i) {
+    const Columns across = columns(x - radius, x + radius, piece);
+    for (std::int32_t i = across.first; i <= across.last; ++i) {
       if (cell::within(static_cast<float>(i) + 0.5F - x, dy, radius)) occupy(i, j);
     }
   }
@@ -124,7 +132,7 @@ struct MarkRow {
     if (warping.ellipses || warp[c] <= warping.reach) occupants[c] |= kMover;
   }
 
-  JAYWALK_CELL void swept(const Mover& mover, std::int32_t j) const {
+  JAYWALK_CELL void swept(const Mover& mover, std::int32_t piece, std::int32_t j) const {
     const Mark last = mark_at(mover, warping, warping.cap_s);
     const float centre_y = static_cast<float>(j) + 0.5F;
     const float low_y = mover.y.position < last.y ? mover.y.position : last.y;
@@ -132,7 +140,8 @@ struct MarkRow {
     if (centre_y < low_y - last.radius || centre_y > high_y + last.radius) return;
     const float low_x = mover.x.position < last.x ? mover.x.position : last.x;
     const float high_x = mover.x.position < last.x ? last.x : mover.x.position;
-    for (std::int32_t i = column(low_x - last.radius); i <= column(high_x + last.radius); ++i) {
+    const Columns across = columns(low_x - last.radius, high_x + last.radius, piece);
+    for (std::int32_t i = across.first; i <= across.last; ++i) {
       const Mark then = mark_at(mover, warping, cell::horizon(warp[grid.at(i, j)], warping.robot_speed, warping.cap_s));
       const float dx = static_cast<float>(i) + 0.5F - then.x;
       if (cell::within(dx, centre_y - then.y, then.radius)) occupy(i, j);

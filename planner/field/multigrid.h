@@ -1,8 +1,6 @@
 #pragma once
 // Solves the rebased potential by V-cycles over blocks of 2 x 2. Order only; no formula lives here.
 #include <cstddef>
-#include <iterator>
-#include <vector>
 
 #include "planner/field/coarse_stages.h"
 #include "planner/field/executor.h"
@@ -27,48 +25,25 @@ struct LevelArrays {
   float *psi, *diagonal, *source, *x;
   BlockRows rows;
   float* correction;  ///< by rows
-  float* handed[2];   ///< x, from a crew's block to its neighbours; in turn
 };
 
 struct MultigridArrays {
   LevelArrays levels[kMostLevels];  ///< finest first
   Counted* counted;                 ///< by pieces of the finest board's rows
-  const LevelArrays* of_blocks;     ///< a crew's, kMostLevels for each of its blocks: x and correction are its own
+  std::int32_t* used;               ///< levels that are of use on this map, where one block takes the lower ones
 };
 
 template <class Executor>
 [[nodiscard]] LevelArrays take_level(Executor& executor, std::int32_t side, bool finest) {
   const auto board = [&] { return executor.template take<float>(static_cast<std::size_t>(Board{side}.size())); };
   const auto rows = [&] { return take_rows<float>(executor, side); };
-  LevelArrays a{{board(), board(), board(), board()}, board(), nullptr, board(), board(), {}, nullptr, {}};
+  LevelArrays a{{board(), board(), board(), board()}, board(), nullptr, board(), board(), {}, nullptr};
   if (finest) return a;
   a.diagonal = board();
   a.rows = {{rows(), rows(), rows(), rows()},       rows(), rows(), rows(), rows(), rows(),
             take_rows<std::int32_t>(executor, side)};
   a.correction = rows();
   return a;
-}
-
-/// What a crew's blocks have of their own.
-template <class Executor>
-void take_for_blocks(Executor& executor, std::int32_t max_side, MultigridArrays& a) {
-  const std::int32_t blocks = executor.most_blocks();
-  std::vector<LevelArrays> tables;
-  for (std::int32_t depth = 0; max_side >> depth >= kCoarsestSide; ++depth) {
-    const auto n = static_cast<std::size_t>(Board{max_side >> depth}.size());
-    for (float*& handed : a.levels[depth].handed) handed = executor.template take<float>(n);
-  }
-  for (std::int32_t block = 0; block < blocks; ++block) {
-    tables.insert(tables.end(), std::begin(a.levels), std::end(a.levels));
-    for (std::int32_t depth = 0; max_side >> depth >= kCoarsestSide; ++depth) {
-      LevelArrays& own = tables[tables.size() - kMostLevels + static_cast<std::size_t>(depth)];
-      own.x = executor.template take<float>(static_cast<std::size_t>(Board{max_side >> depth}.size()));
-      if (depth > 0) own.correction = take_rows<float>(executor, max_side >> depth);
-    }
-  }
-  auto* of_blocks = executor.template take<LevelArrays>(tables.size());
-  executor.fill(of_blocks, tables.data(), tables.size());
-  a.of_blocks = of_blocks;
 }
 
 /// Memory for grids up to `max_side` cells, a power of two from kCoarsestSide on.
@@ -80,7 +55,7 @@ template <class Executor>
     a.levels[depth] = take_level(executor, side, depth == 0);
   }
   a.counted = executor.template take<Counted>(pieces_of_grid<Executor>(max_side));
-  if constexpr (requires { executor.most_blocks(); }) take_for_blocks(executor, max_side, a);
+  a.used = executor.template take<std::int32_t>(1);
   return a;
 }
 
@@ -115,22 +90,32 @@ struct CycleRules {
   }
 };
 
+/// The lower levels of a cycle, for a block of threads that takes them alone: what is to be done on them is too little
+/// for more, and its threads meet at once. (multigrid.h's order, on memory that stays near the block.)
+struct LowerLevels {
+  MultigridArrays arrays;
+  std::int32_t side, depth;  ///< of the uppermost
+  bool first, build;
+
+  template <class Executor>
+  JAYWALK_ORDER void operator()(Executor& executor) const noexcept;
+};
+
 /// The order of a solution's stages, for as long as one improvement takes.
 template <class Executor>
 class Multigrid {
  public:
-  JAYWALK_ORDER Multigrid(Executor& executor, const MultigridArrays& arrays)
-      : executor_(executor), levels_(arrays.levels), counted_(arrays.counted) {}
+  JAYWALK_ORDER Multigrid(Executor& executor, const MultigridArrays& arrays) : executor_(executor), arrays_(arrays) {}
 
   /// Improves the estimate that the step `first` leaves in psi (by rows; cell::kUnreachable and cell::kNotFree where
   /// that is so) by `least` cycles or more, until one has found hardly anything new, at most `most`; the steps `last`
   /// then visit the result. Returns how many. Blocks are weighted afresh each time: with the weights of the cycle
   /// before, the second makes things worse.
   template <class First, class... Last>
-  JAYWALK_ORDER std::int32_t improve(Grid grid, std::int32_t goal, float* psi, Cycles wanted, const First& first,
-                                     const Last&... last) noexcept {
+  std::int32_t improve(Grid grid, std::int32_t goal, float* psi, Cycles wanted, const First& first,
+                       const Last&... last) noexcept {
     const Board board{grid.side};
-    const LevelArrays& a = levels_[0];
+    const LevelArrays& a = arrays_.levels[0];
     goal_row_ = goal / board.side;
     set_up(board, goal, psi, first);
     std::int32_t cycles = 0;
@@ -144,124 +129,175 @@ class Multigrid {
     return cycles;
   }
 
+  /// From the uppermost of the lower levels down to the lowest of use, and back.
+  JAYWALK_ORDER void go_through(const LowerLevels& lower) noexcept {
+    used_ = lower.first && lower.build ? kMostLevels : *arrays_.used;
+    Board board{lower.side};
+    std::int32_t depth = lower.depth;
+    (void)descend(board, depth, lower.first, false, lower.build);
+    climb(board, depth, lower.depth);
+    executor_.for_each(1, Fill<std::int32_t>{arrays_.used, used_});
+  }
+
  private:
   using Rules = CycleRules;
 
   template <class First>
-  JAYWALK_ORDER void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
-    const LevelArrays& a = levels_[0];
+  void set_up(Board board, std::int32_t goal, const float* psi, const First& first) noexcept {
+    const LevelArrays& a = arrays_.levels[0];
     const Sources sources = sources_of(0, board);
     const std::int32_t half = board.half();
     executor_.for_each_row(board.side, first, RowStep{half, ToBoard{board, psi, a.psi}},
                            RowStep{half, CoupleAhead{board, 0, a.psi, a.couplings, sources, a.x}},
                            RowStep{half, CoupleAhead{board, 1, a.psi, a.couplings, sources, a.x}},
-                           RowStep{half, CoupleBack<>{board, 0, a.psi, a.couplings}},
-                           RowStep{half, CoupleBack<>{board, 1, a.psi, a.couplings}});
-    executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source, 0, board.side});
+                           RowStep{half, CoupleBack{board, 0, a.psi, a.couplings}},
+                           RowStep{half, CoupleBack{board, 1, a.psi, a.couplings}});
+    executor_.for_each(1, SettleGoal{board, goal, a.couplings, a.source});
   }
 
   /// Down and back. The first cycle finds out which levels are of use; the others carry over what the one before has
   /// found. On a large board blocks of 2 cells go down and back once more before the cells do, where blocks larger than
   /// 8 cells are of use: what is lacking there is smooth, and blocks are at hand where cells come from memory.
-  JAYWALK_ORDER void cycle(Board board, bool first) noexcept {
+  void cycle(Board board, bool first) noexcept {
     const bool is_large = board.side > kLargeSide;
     if (first) used_ = kMostLevels;
     std::int32_t depth = 0;
-    for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
-      const Board blocks{board.side / 2};
-      depth == 0 ? go_down<true>(board, depth, !first) : go_down<false>(board, depth, false);
-      if (first && depth >= Rules::kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
-      if (depth + 1 >= used_) break;
-    }
-    const std::int32_t lowest = depth;
+    const std::int32_t lowest = descend(board, depth, first, !first, true);
     if (is_large && lowest > Rules::kBulkyDepth) {
       climb(board, depth, 1);
-      for (; depth < lowest; ++depth, board.side /= 2) go_down<false>(board, depth, /*rebase=*/false, /*build=*/false);
+      (void)descend(board, depth, first, false, false);
     }
     climb(board, depth, 0);
   }
 
-  /// Relaxes the lowest level of use, and each above it, up to `top`, once it is corrected.
-  JAYWALK_ORDER void climb(Board& board, std::int32_t& depth, std::int32_t top) noexcept {
+  /// Down to the lowest level of use, which is relaxed, or to where one block has taken the rest. `build`: the levels'
+  /// equations, unless they are there. Returns the lowest level, or the first of that rest.
+  JAYWALK_ORDER std::int32_t descend(Board& board, std::int32_t& depth, bool first, bool rebase, bool build) noexcept {
+    for (; board.side > kCoarsestSide; ++depth, board.side /= 2) {
+      if (depth > 0 && board.side <= Executor::kOneBlockSide) {
+        executor_.in_one_block(LowerLevels{arrays_, board.side, depth, first, build});
+        return depth;
+      }
+      const Board blocks{board.side / 2};
+      go_down(board, depth, rebase, build);
+      if (first && build && depth >= Rules::kBulkyDepth && !speaks_for_most(blocks, depth + 1)) used_ = depth + 1;
+      if (depth + 1 >= used_) break;
+    }
     relax(board, depth, board.side > kCoarsestSide ? Rules::further_sweeps(depth) : Rules::kCoarsestSweeps);
+    return depth;
+  }
+
+  /// Each level above, up to `top`, is corrected and relaxed.
+  JAYWALK_ORDER void climb(Board& board, std::int32_t& depth, std::int32_t top) noexcept {
     while (depth > top) {
       --depth, board.side *= 2;
-      depth == 0 ? go_up<true>(board, depth) : go_up<false>(board, depth);
-      relax(board, depth, Rules::further_sweeps(depth));
+      relax(board, depth, go_up(board, depth) + Rules::further_sweeps(depth));
     }
   }
 
   /// Of cells, none but the goal and those beside it have a source.
   [[nodiscard]] JAYWALK_ORDER Sources sources_of(std::int32_t depth, Board board) const {
-    if (Executor::kInTurn && depth == 0) return {levels_[0].source, goal_row_ - 1, goal_row_ + 1};
-    return {levels_[depth].source, 0, board.side - 1};
+    if (Executor::kInTurn && depth == 0) return {arrays_.levels[0].source, goal_row_ - 1, goal_row_ + 1};
+    return {arrays_.levels[depth].source, 0, board.side - 1};
   }
 
   [[nodiscard]] JAYWALK_ORDER RowStep<RelaxColour> relaxed(Board board, std::int32_t depth, std::int32_t colour) const {
-    const LevelArrays& a = levels_[depth];
+    const LevelArrays& a = arrays_.levels[depth];
     return {board.half(), {board, colour, a.couplings, sources_of(depth, board), a.x}};
   }
 
   /// Two sweeps a round: what the first has fetched is at hand for the second.
   JAYWALK_ORDER void relax(Board board, std::int32_t depth, std::int32_t sweeps) noexcept {
-    executor_.repeat(sweeps / 2, board.side, relaxed(board, depth, 0), relaxed(board, depth, 1),
-                     relaxed(board, depth, 0), relaxed(board, depth, 1));
+    if constexpr (Executor::kLowerLevels) {
+      executor_.repeat(sweeps, board.side, relaxed(board, depth, 0), relaxed(board, depth, 1));
+    } else {
+      executor_.repeat(sweeps / 2, board.side, relaxed(board, depth, 0), relaxed(board, depth, 1),
+                       relaxed(board, depth, 0), relaxed(board, depth, 1));
+    }
   }
 
-  /// Builds the blocks (unless they are there), relaxes twice, and hands on what is lacking.
-  template <bool kFinest>
-  JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase, bool build = true) noexcept {
-    const LevelArrays& a = levels_[depth];
-    const LevelArrays& b = levels_[depth + 1];
+  JAYWALK_ORDER void go_down(Board board, std::int32_t depth, bool rebase, bool build) noexcept {
+    if constexpr (!Executor::kLowerLevels) {
+      const LevelArrays& a = arrays_.levels[0];
+      const Sources sources = sources_of(0, board);
+      const std::int32_t half = rebase ? board.half() : 0;
+      if (depth == 0)
+        return hand_on<true>(board, depth, build, RowStep{half, RebaseCouplings{board, 0, a.x, a.couplings, sources}},
+                             RowStep{half, RebaseCouplings{board, 1, a.x, a.couplings, sources}},
+                             RowStep{half, RebasePsi{board, 0, a.x, a.psi}},
+                             RowStep{half, RebasePsi{board, 1, a.x, a.psi}});
+    }
+    hand_on<false>(board, depth, build);
+  }
+
+  /// After the steps `before` builds the blocks (unless they are there), relaxes twice, and hands on what is lacking.
+  template <bool kFinest, class... Before>
+  JAYWALK_ORDER void hand_on(Board board, std::int32_t depth, bool build, const Before&... before) noexcept {
+    const LevelArrays& a = arrays_.levels[depth];
+    const LevelArrays& b = arrays_.levels[depth + 1];
     const Board blocks{board.side / 2};
     const Sources sources = sources_of(depth, board);
     const Level level{board, a.couplings, a.psi, a.diagonal};
-    const std::int32_t rebased = rebase ? board.half() : 0, built = build ? blocks.half() : 0;
-    executor_.for_each_row(
-        board.side, RowStep{rebased, RebaseCouplings{board, 0, a.x, a.couplings, sources}},
-        RowStep{rebased, RebaseCouplings{board, 1, a.x, a.couplings, sources}},
-        RowStep{rebased, RebasePsi{board, 0, a.x, a.psi}}, RowStep{rebased, RebasePsi{board, 1, a.x, a.psi}},
-        RowStep{2 * built, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
-        RowStep{built, BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2}, relaxed(board, depth, 0),
-        relaxed(board, depth, 1), relaxed(board, depth, 0), relaxed(board, depth, 1),
-        RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
-        RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
+    const std::int32_t built = build ? blocks.half() : 0;
+    executor_.for_each_row(board.side, before..., RowStep{2 * built, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
+                           RowStep{built, BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2},
+                           relaxed(board, depth, 0), relaxed(board, depth, 1), relaxed(board, depth, 0),
+                           relaxed(board, depth, 1),
+                           RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
+                           RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
   }
 
-  /// Adds what the blocks have found, and relaxes twice.
+  /// Adds what the blocks have found, and begins to relax. Returns how many of two sweeps are left.
+  JAYWALK_ORDER std::int32_t go_up(Board board, std::int32_t depth) noexcept {
+    if constexpr (!Executor::kLowerLevels) {
+      if (depth == 0) return take_back<true>(board, depth);
+    }
+    return take_back<false>(board, depth);
+  }
+
   template <bool kFinest>
-  JAYWALK_ORDER void go_up(Board board, std::int32_t depth) noexcept {
-    const LevelArrays& a = levels_[depth];
-    const LevelArrays& b = levels_[depth + 1];
+  JAYWALK_ORDER std::int32_t take_back(Board board, std::int32_t depth) noexcept {
+    const LevelArrays& a = arrays_.levels[depth];
+    const LevelArrays& b = arrays_.levels[depth + 1];
     const Board blocks{board.side / 2};
     const auto prolong = [&](std::int32_t colour) {
       return RowStep<ProlongToCell<kFinest>>{board.half(),
                                              {blocks.side, b.rows.ties, b.correction, board, colour, a.x}};
     };
     executor_.for_each_cell(blocks.half(), blocks.side, FromBoard{blocks, b.x, b.correction});
-    executor_.for_each_row(board.side, prolong(0), prolong(1), relaxed(board, depth, 0), relaxed(board, depth, 1),
-                           relaxed(board, depth, 0), relaxed(board, depth, 1));
+    if constexpr (Executor::kLowerLevels) {
+      executor_.for_each_row(board.side, prolong(0), prolong(1));
+      return 2;
+    } else {
+      executor_.for_each_row(board.side, prolong(0), prolong(1), relaxed(board, depth, 0), relaxed(board, depth, 1),
+                             relaxed(board, depth, 0), relaxed(board, depth, 1));
+      return 0;
+    }
   }
 
   /// Whether this level's blocks speak for enough of those below.
   JAYWALK_ORDER bool speaks_for_most(Board board, std::int32_t depth) noexcept {
     executor_.for_each_cell(
-        1, board.side, SpokenOfRow{board.side, levels_[depth - 1].rows.diagonal, levels_[depth].rows.ties, counted_});
-    return Rules::is_spoken_for(executor_.total(board.side, counted_));
+        1, board.side, SpokenOfRow{board.side, arrays_.levels[depth - 1].rows.diagonal, arrays_.levels[depth].rows.ties, arrays_.counted});
+    return Rules::is_spoken_for(executor_.total(board.side, arrays_.counted));
   }
 
   /// Whether the last cycle has found hardly anything new.
   JAYWALK_ORDER bool is_settled(Board board) noexcept {
     const std::int32_t cells = cells_of_row<Executor>(board.side), pieces = board.side / cells;
-    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, Rules::kTilt, levels_[0].x, counted_});
-    return Rules::is_settled(executor_.total(pieces * board.side, counted_));
+    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, Rules::kTilt, arrays_.levels[0].x, arrays_.counted});
+    return Rules::is_settled(executor_.total(pieces * board.side, arrays_.counted));
   }
 
   Executor& executor_;
-  const LevelArrays* levels_;  ///< finest first
-  Counted* counted_;
+  const MultigridArrays& arrays_;
   std::int32_t goal_row_ = 0;
   std::int32_t used_ = 0;  ///< levels that are of use on this map
 };
+
+template <class Executor>
+JAYWALK_ORDER void LowerLevels::operator()(Executor& executor) const noexcept {
+  Multigrid<Executor>(executor, arrays).go_through(*this);
+}
 
 }  // namespace jaywalk::field

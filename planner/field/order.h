@@ -1,7 +1,5 @@
 #pragma once
-// The order of stages, once for every executor: what is done to a window's arrays between two choices of the host. An
-// order is plain values and runs wherever its executor does, on a device too: it calls nothing of the host's, and
-// chooses by `total` alone. `visits` is what its largest step takes, for sharing steps out.
+// The order of stages, once for every executor: what is done to a window's arrays between two choices of the planner.
 #include "planner/field/clearance_stages.h"
 #include "planner/field/field_arrays.h"
 #include "planner/field/multigrid.h"
@@ -17,7 +15,7 @@ inline constexpr float kBandReach = 5.0F;
 /// From the start field. Up to 256 cells a side 99.9 % of cells or more then pick the exact field's best neighbour.
 /// (Six take longer than 100 plain sweeps where eight lanes are the most.) On larger windows fewer do, for the time
 /// they take: what is lacking the submissions that follow find, each from the last one's field.
-[[nodiscard]] constexpr JAYWALK_ORDER Cycles cold_cycles(Grid grid) {
+[[nodiscard]] constexpr Cycles cold_cycles(Grid grid) {
   if (grid.side > kLargeSide) return {2, 2};
   return grid.side > 256 ? Cycles{3, 4} : Cycles{3, 5};
 }
@@ -31,19 +29,8 @@ inline constexpr std::int32_t kLifts = 32, kLiftsAtOnce = 4;
 
 /// From the host's memory to the stages' or back, where these are two.
 template <class T, class Executor>
-JAYWALK_ORDER void copy(Executor& executor, std::int32_t n, const T* from, T* to) noexcept {
-  if (from != to) executor.for_each(n, Copy<T>{from, to});
-}
-
-/// What the host is to have and the order reads no more.
-template <class T, class Executor>
-JAYWALK_ORDER void show(Executor& executor, std::int32_t n, const T* from, T* to) noexcept {
-  if (from == to) return;
-  if constexpr (requires { executor.hand_out(n, Copy<T>{from, to}); }) {
-    executor.hand_out(n, Copy<T>{from, to});
-  } else {
-    executor.for_each(n, Copy<T>{from, to});
-  }
+void copy(Executor& executor, std::int32_t n, const T* from, T* to) noexcept {
+  if constexpr (requires { executor.copy(n, from, to); }) executor.copy(n, from, to);
 }
 
 /// Warps, predicts, marks. The host has written walls into `occupants`, and `movers`.
@@ -54,14 +41,16 @@ struct MarkOrder {
   std::int32_t movers;
 
   template <class Executor>
-  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+  void operator()(Executor& executor) const noexcept {
     copy(executor, grid.cells(), a.shown.occupants, a.occupants);
     copy(executor, movers, a.shown.movers, a.movers);
     executor.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, a.warp});
     executor.for_each(movers, PredictEachMover{grid, warping, a.warp, a.movers, a.marks});
-    executor.for_each(grid.side, MarkRow{grid, warping, a.warp, a.movers, a.marks, movers, a.occupants});
-    show(executor, grid.cells(), a.occupants, a.shown.occupants);
-    show(executor, movers, a.marks, a.shown.marks);
+    const std::int32_t cells = cells_of_row<Executor>(grid.side);
+    executor.for_each_cell(grid.side / cells, grid.side,
+                           MarkRow{grid, cells, warping, a.warp, a.movers, a.marks, movers, a.occupants});
+    copy(executor, grid.cells(), a.occupants, a.shown.occupants);
+    copy(executor, movers, a.marks, a.shown.marks);
   }
 };
 
@@ -73,17 +62,16 @@ struct ClearOrder {
   float inflation;
   std::uint8_t wanted;
 
-  [[nodiscard]] std::int32_t visits() const noexcept { return grid.cells(); }
 
   template <class Executor>
-  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+  void operator()(Executor& executor) const noexcept {
     copy(executor, grid.cells(), a.shown.occupants, a.occupants);
     clear(executor);
   }
 
   /// The same where the stages have the occupants already.
   template <class Executor>
-  JAYWALK_ORDER void clear(Executor& executor) const noexcept {
+  void clear(Executor& executor) const noexcept {
     constexpr std::int32_t kColumns = Executor::kColumns;
     const std::int32_t side = grid.side;
     if constexpr (kColumns == kOneCell) {
@@ -94,7 +82,7 @@ struct ClearOrder {
       executor.for_each(side / kColumns, NearestInColumns{grid, kColumns, a.occupants, wanted, a.rows_away});
       executor.for_each(side, rows(a.rows_away));
     }
-    show(executor, grid.cells(), a.clearance, a.shown.clearance);
+    copy(executor, grid.cells(), a.clearance, a.shown.clearance);
   }
 
   [[nodiscard]] JAYWALK_CELL ClearanceOfRow rows(const std::int32_t* rows_away) const {
@@ -106,10 +94,9 @@ struct MarkAndClearOrder {
   MarkOrder mark;
   ClearOrder clear;
 
-  [[nodiscard]] std::int32_t visits() const noexcept { return mark.grid.cells(); }
 
   template <class Executor>
-  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+  void operator()(Executor& executor) const noexcept {
     mark(executor);
     clear.clear(executor);
   }
@@ -122,7 +109,7 @@ struct StartOrder {
   std::int32_t goal;
 
   template <class Executor>
-  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+  void operator()(Executor& executor) const noexcept {
     if constexpr (requires { executor.settle(grid, goal, a); }) {
       executor.settle(grid, goal, a);
     } else {
@@ -136,18 +123,18 @@ struct StartOrder {
 
   /// Its first and its last step, for a host that settles costs otherwise.
   template <class Executor>
-  JAYWALK_ORDER void rate(Executor& executor) const noexcept {
+  void rate(Executor& executor) const noexcept {
     executor.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a.clearance, a.table, a.rate});
   }
   template <class Executor>
-  JAYWALK_ORDER void carry_over(Executor& executor) const noexcept {
+  void carry_over(Executor& executor) const noexcept {
     executor.for_each(grid.cells(), PsiOfCost{a.rate, a.cost, a.start_psi});
   }
 
  private:
   /// Whether nothing has changed.
   template <class Executor>
-  JAYWALK_ORDER bool sweep(Executor& executor) const noexcept {
+  bool sweep(Executor& executor) const noexcept {
     const std::int32_t side = grid.side, cells = cells_of_row<Executor>(side), pieces = side / cells;
     const Along directions[] = {{1, 0}, {0, 1}, {1, 1}, {-1, 1}};
     for (const Along along : directions) {
@@ -170,31 +157,19 @@ struct SolveOrder {
   From from;
   Disc robot;  ///< where the path is to begin
   float *psi, *shown_psi;
+  FieldQuality* found;
 
-  [[nodiscard]] std::int32_t visits() const noexcept { return begin.grid.cells(); }
-  /// Strips of fewer rows would mostly relax others'.
-  [[nodiscard]] std::int32_t most_blocks() const noexcept { return begin.grid.side / 8; }
 
   template <class Executor>
-  JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
+  void operator()(Executor& executor) const noexcept {
     if (!is_started) begin(executor);
-    const FieldArrays& a = begin.a;
     FieldQuality quality;
     quality.done = true;
     if (has_joined(executor)) solve(executor, quality);
-    executor.for_each(1, Fill<FieldQuality>{a.shown.quality, quality});
+    *found = quality;
   }
 
  private:
-  template <class Executor>
-  [[nodiscard]] JAYWALK_ORDER auto solver(Executor& executor) const noexcept {
-    if constexpr (requires { typename Executor::Solver; }) {
-      return typename Executor::Solver(executor, levels);
-    } else {
-      return Multigrid<Executor>(executor, levels);
-    }
-  }
-
   struct Attempt {
     From from;
     bool anew;  ///< from the start field, not from what the attempt before came to
@@ -204,7 +179,7 @@ struct SolveOrder {
 
   /// Whether the goal can be reached from near the robot.
   template <class Executor>
-  JAYWALK_ORDER bool has_joined(Executor& executor) const noexcept {
+  bool has_joined(Executor& executor) const noexcept {
     const std::int32_t first = robot.first_row(), last = robot.last_row(begin.grid);
     const std::int32_t rows = last < first ? 0 : last - first + 1;
     executor.for_each(rows, JoinedOfDisc{begin.grid, robot, begin.a.start_psi, begin.a.pits});
@@ -212,30 +187,29 @@ struct SolveOrder {
   }
 
   template <class Executor>
-  JAYWALK_ORDER void solve(Executor& executor, FieldQuality& quality) const noexcept {
+  void solve(Executor& executor, FieldQuality& quality) const noexcept {
     const FieldArrays& a = begin.a;
     const Cycles cold = cold_cycles(begin.grid);
     const Attempt attempts[] = {{From::kLast, false, kWarmCycles, kLifts},
                                 {From::kNothing, true, cold, kLifts},
                                 {From::kNothing, false, {cold.most, cold.most}, kLifts},
                                 {From::kStartOnly, true, {0, 0}, 2 * begin.grid.side}};
-    JAYWALK_ROLLED
     for (const Attempt& attempt : attempts) {
       if (attempt.from < from || quality.certified) continue;
       if (attempt.anew) executor.for_each(begin.grid.cells(), Fill<float>{a.correction, 0.0F});
       quality.cycles += improve(executor, attempt);
       lift(executor, attempt.lifts, quality);
     }
-    show(executor, begin.grid.cells(), a.index, a.shown.index);
-    show(executor, begin.grid.cells(), psi, shown_psi);
+    copy(executor, begin.grid.cells(), a.index, a.shown.index);
+    copy(executor, begin.grid.cells(), psi, shown_psi);
   }
 
   template <class Executor>
-  JAYWALK_ORDER std::int32_t improve(Executor& executor, const Attempt& attempt) const noexcept {
+  std::int32_t improve(Executor& executor, const Attempt& attempt) const noexcept {
     const FieldArrays& a = begin.a;
     const Grid grid = begin.grid;
     const std::int32_t cells = cells_of_row<Executor>(grid.side);
-    return solver(executor).improve(grid, begin.goal, psi, attempt.cycles,
+    return Multigrid<Executor>(executor, levels).improve(grid, begin.goal, psi, attempt.cycles,
                                     RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
                                     RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
                                     RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
@@ -244,7 +218,7 @@ struct SolveOrder {
 
   /// Reads the certificate; where there are pits, lifts them up to `most` times over, and keeps what that came to.
   template <class Executor>
-  JAYWALK_APART void lift(Executor& executor, std::int32_t most, FieldQuality& quality) const noexcept {
+  void lift(Executor& executor, std::int32_t most, FieldQuality& quality) const noexcept {
     read_certificate(executor, quality);
     if (quality.certified) return;
     const FieldArrays& a = begin.a;
@@ -263,31 +237,25 @@ struct SolveOrder {
   }
 
   template <class Executor>
-  JAYWALK_ORDER void read_certificate(Executor& executor, FieldQuality& quality) const noexcept {
+  void read_certificate(Executor& executor, FieldQuality& quality) const noexcept {
     const std::int32_t side = begin.grid.side, width = side / cells_of_row<Executor>(side);
-    Counted pits;
-    if constexpr (requires { executor.total_of_rows(side, width, begin.a.pits); }) {
-      pits = executor.total_of_rows(side, width, begin.a.pits);
-    } else {
-      pits = executor.total(side * width, begin.a.pits);
-    }
+    const Counted pits = executor.total(side * width, begin.a.pits);
     quality.pits = pits.cells, quality.joined = pits.joined, quality.certified = pits.cells == 0;
   }
 };
 
 /// Pulls the band's `count` points taut; those before `first` and the last stay. The band is no longer than the raw
 /// path: where what is near has made it so, tension alone draws it in, and where that takes too long, tension alone
-/// acts on the raw path. Tension never lengthens: a point goes towards the middle of its neighbours.
-struct PullOrder {
+/// acts on the raw path. Tension never lengthens: a point goes towards the middle of its neighbours. Steps are hundreds
+/// of points or fewer: work for one block of threads.
+struct PullInOneBlock {
   FieldArrays a;
   Grid grid;
   std::int32_t first, count;
 
-  [[nodiscard]] std::int32_t visits() const noexcept { return count; }
-
   template <class Executor>
   JAYWALK_ORDER void operator()(Executor& executor) const noexcept {
-    copy(executor, count, a.shown.points, a.raw_points);
+    executor.for_each(count, Copy<cell::Point>{a.points, a.raw_points});
     executor.for_each(count, BeginBand{a.raw_points, a.points, a.moved});
     measure(executor, a.lengths);
     std::int32_t step = 0;
@@ -301,13 +269,12 @@ struct PullOrder {
       executor.for_each(count, BeginBand{a.raw_points, a.points, a.moved});
       drag(executor, 0.0F, kBandRounds, step, step);
     }
-    show(executor, count, a.points, a.shown.points);
   }
 
  private:
   /// Some rounds, from `step` on, of a force that began to act at step `begun`.
   template <class Executor>
-  JAYWALK_ORDER void drag(Executor& executor, float reach, std::int32_t rounds, std::int32_t begun,
+  JAYWALK_APART void drag(Executor& executor, float reach, std::int32_t rounds, std::int32_t begun,
                           std::int32_t& step) const noexcept {
     for (const std::int32_t end = step + 3 * rounds; step < end; ++step) {
       const std::int32_t from = first + step % 3;
@@ -326,8 +293,18 @@ struct PullOrder {
   template <class Executor>
   JAYWALK_ORDER bool is_longer(Executor& executor) const noexcept {
     measure(executor, a.lengths + 1);
-    executor.for_each(1, IsLonger{a.lengths + 1, a.lengths, a.found});
-    return executor.total(1, a.found).cells != 0;
+    return a.lengths[1] > a.lengths[0];
+  }
+};
+
+struct PullOrder {
+  PullInOneBlock pull;
+
+  template <class Executor>
+  void operator()(Executor& executor) const noexcept {
+    copy(executor, pull.count, pull.a.shown.points, pull.a.points);
+    executor.in_one_block(pull);
+    copy(executor, pull.count, pull.a.points, pull.a.shown.points);
   }
 };
 

@@ -161,13 +161,14 @@ FieldQuality Pass<Executor>::solve(Grid grid, std::int32_t goal, From from, cons
   const bool is_started = started_ == goal;
   started_ = goal;
   float* solved = is_one_memory() ? psi : psi_;
-  if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi})) return {};
-  return *a_.shown.quality;
+  FieldQuality found;
+  if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi, &found})) return {};
+  return found;
 }
 
 template <class Executor>
 bool Pass<Executor>::pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
-  return executor_.run(PullOrder{a_, grid, first, count});
+  return executor_.run(PullOrder{{a_, grid, first, count}});
 }
 
 template <class Executor>

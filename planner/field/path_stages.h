@@ -209,12 +209,4 @@ struct LengthOfBand {
   }
 };
 
-/// One visit.
-struct IsLonger {
-  const double *length, *than;
-  Counted* answer;  ///< 1 or 0
-
-  JAYWALK_CELL void operator()(std::int32_t) const { answer->cells = *length > *than ? 1 : 0; }
-};
-
 }  // namespace jaywalk::field

@@ -73,9 +73,7 @@ struct CoupleAhead {
   }
 };
 
-/// The couplings west and south, from what those neighbours have east and north. `kSouthFromPsi`: the latter from psi,
-/// where the cell to the south may be another's to set.
-template <bool kSouthFromPsi = false>
+/// The couplings west and south, from what those neighbours have east and north.
 struct CoupleBack {
   Board board;
   std::int32_t colour;
@@ -87,31 +85,22 @@ struct CoupleBack {
     const Neighbours n = board.neighbours(colour, h, j);
     const bool has_west = h > 0 || Board::first_column(colour, j) > 0;
     couplings.west[c] = has_west ? cell::coupling_back(couplings.east[n.west]) : 0.0F;
-    couplings.south[c] = j > 0 ? cell::coupling_back(north_of(n.south, c)) : 0.0F;
-  }
-
- private:
-  /// What the cell `south` of `c` has to its north.
-  [[nodiscard]] JAYWALK_CELL float north_of(std::int32_t south, std::int32_t c) const {
-    if constexpr (kSouthFromPsi) return cell::coupling(psi[south], psi[c], true);
-    return couplings.north[south];
+    couplings.south[c] = j > 0 ? cell::coupling_back(couplings.north[n.south]) : 0.0F;
   }
 };
 
 /// Takes the goal out of the unknowns: what its neighbours take of it (v = 1) becomes their source, and it
-/// is uncoupled with source 1. One visit, which changes cells of the rows [low, high) alone.
+/// is uncoupled with source 1. One visit.
 struct SettleGoal {
   Board board;
   std::int32_t goal;  ///< numbered by rows
   CouplingArrays couplings;
   float* source;
-  std::int32_t low, high;
 
   JAYWALK_CELL void operator()(std::int32_t) const {
     const std::int32_t i = goal % board.side, j = goal / board.side;
-    if (j > low && j <= high) move(couplings.north, board.at(i, j - 1));
-    if (j + 1 >= low && j + 1 < high) move(couplings.south, board.at(i, j + 1));
-    if (j < low || j >= high) return;
+    if (j > 0) move(couplings.north, board.at(i, j - 1));
+    if (j < board.side - 1) move(couplings.south, board.at(i, j + 1));
     if (i > 0) move(couplings.east, board.at(i - 1, j));
     if (i < board.side - 1) move(couplings.west, board.at(i + 1, j));
     couplings.set(board.at(i, j), {0.0F, 0.0F, 0.0F, 0.0F});
@@ -168,8 +157,6 @@ struct TiltedOfRow {
   float tilt;
   const float* x;
   Counted* tilted;  ///< of each piece, row by row; joined: cells with an equation
-
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
 
   JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t tilts = 0, joins = 0;
@@ -248,8 +235,6 @@ struct LiftPitsOfRow {
   const Counted* pits;  ///< as the certificate counted them
   float* psi;           ///< may be read beyond the border (take_rows)
 
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return grid.side; }
-
   JAYWALK_CELL void operator()(std::int32_t, std::int32_t j) const {
     const std::int32_t low = j - lifts > 0 ? j - lifts : 0, high = j + lifts < grid.side ? j + lifts + 1 : grid.side;
     const std::int32_t pieces = grid.side / cells;
@@ -281,8 +266,6 @@ struct PitsOfRow {
   std::int32_t cells;  ///< of a piece; divides the side
   const float* psi;    ///< may be read beyond the border (take_rows)
   Counted* pits;       ///< of each piece, row by row; joined: its joined cells, the goal included
-
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
 
   JAYWALK_CELL void operator()(std::int32_t piece, std::int32_t j) const {
     std::int32_t pit_count = 0, joined_count = 0;

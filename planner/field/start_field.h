@@ -72,8 +72,6 @@ struct SweepPiece {
   std::uint32_t* cost;
   Counted* changed;  ///< a piece, line by line: whether it did since the last sweep of rows, that included
 
-  [[nodiscard]] JAYWALK_CELL std::int32_t cells_of_visit() const { return cells; }
-
   JAYWALK_CELL void operator()(std::int32_t line, std::int32_t pair) const {
     const std::int32_t piece = 2 * pair + odd, first = piece * cells, last = first + cells - 1;
     std::int32_t any = 0;
@@ -99,22 +97,6 @@ struct SweepPiece {
     if (through >= cost[to]) return 0;
     cost[to] = through;
     return 1;
-  }
-};
-
-/// Cells a side of the tiles that a crew's blocks settle by themselves (start_tiles.h).
-inline constexpr std::int32_t kStartTile = 64;
-
-/// What a crew's blocks tell one another of tiles.
-struct StartTiles {
-  std::int32_t* waits;    ///< of each tile, row by row: 1: a neighbour's border has changed
-  std::int32_t* pending;  ///< tiles that wait or are being looked at
-
-  [[nodiscard]] JAYWALK_CELL static std::int32_t count(Grid grid) {
-    return (grid.side / kStartTile) * (grid.side / kStartTile);
-  }
-  [[nodiscard]] JAYWALK_CELL static std::int32_t of_cell(Grid grid, std::int32_t c) {
-    return c / grid.side / kStartTile * (grid.side / kStartTile) + c % grid.side / kStartTile;
   }
 };
 

@@ -22,7 +22,7 @@ struct MarkRig {
     const Warping warping{ellipses, 10.5F, 32.5F, 1.0F, 0.0F, 6.0F, 5.0F, 2.0F, 4.0F, 0.0F, reach};
     executor.for_each_cell(64, 64, WarpOfEachCell{grid, warping, warp.data()});
     executor.for_each(1, PredictEachMover{grid, warping, warp.data(), &mover, &mark});
-    executor.for_each(64, MarkRow{grid, warping, warp.data(), &mover, &mark, 1, occupants.data()});
+    executor.for_each_cell(4, 64, MarkRow{grid, 16, warping, warp.data(), &mover, &mark, 1, occupants.data()});
   }
   [[nodiscard]] bool marked(std::int32_t i, std::int32_t j) const {
     return (occupants[static_cast<std::size_t>(grid.at(i, j))] & kMover) != 0;

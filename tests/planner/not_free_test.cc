@@ -26,11 +26,17 @@ class Visitor : public OneMemory {
  public:
   static constexpr std::int32_t kColumns = 1, kCellsOfRow = 16;
   static constexpr bool kInTurn = true;
+  static constexpr std::int32_t kOneBlockSide = 0;
+  static constexpr bool kLowerLevels = false;
 
   template <class Order>
   bool run(const Order& order) {
     order(*this);
     return true;
+  }
+  template <class Order>
+  void in_one_block(const Order& order) {
+    order(*this);
   }
   template <class Stage>
   void for_each(std::int32_t n, const Stage& stage) {

@@ -14,11 +14,17 @@ class ShuffledExecutor : public OneMemory {
   static constexpr std::int32_t kColumns = field::kOneCell;
   static constexpr std::int32_t kCellsOfRow = 16;
   static constexpr bool kInTurn = true;
+  static constexpr std::int32_t kOneBlockSide = 0;
+  static constexpr bool kLowerLevels = false;
 
   template <class Order>
   bool run(const Order& order) {
     order(*this);
     return true;
+  }
+  template <class Order>
+  void in_one_block(const Order& order) {
+    order(*this);
   }
 
   template <class Stage>
