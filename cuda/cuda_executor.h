@@ -23,7 +23,9 @@ class CudaExecutor {
 
   /// As CudaDevice.
   CudaExecutor(int device, std::chrono::milliseconds limit)
-      : device_(device, limit), waits_(device_.share<std::int32_t>(kMostTiles)), sum_(device_.share<field::Counted>(1)) {}
+      : device_(device, limit),
+        waits_(device_.share<std::int32_t>(kMostTiles)),
+        sum_(device_.share<field::Counted>(1)) {}
 
   template <class T>
   T* take(std::size_t n) {

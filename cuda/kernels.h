@@ -17,7 +17,8 @@
 namespace jaywalk {
 
 inline constexpr int kVisitThreads = 256;  ///< of a block: enough of them for any processor, few enough to spread
-inline constexpr int kBlockThreads = 512;  ///< of the one that takes an order alone: as many as a thread's registers allow
+inline constexpr int kBlockThreads =
+    512;  ///< of the one that takes an order alone: as many as a thread's registers allow
 
 /// Visit k of many, in rows of `width`, a power of two: a stage of cells is told column and row, another one k.
 template <class Stage>

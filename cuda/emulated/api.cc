@@ -44,67 +44,14 @@ cudaError_t allocate(void** block, std::size_t bytes, Where where) {
   });
 }
 
-cudaError_t launch(const cudaLaunchConfig_t& config, const void* function, std::function<void()> kernel) {
+cudaError_t launch(const cudaLaunchConfig_t& config, std::function<void()> kernel) {
   return call([&] {
-    const Properties& properties = device().properties();
     const auto extent = [](const dim3& d) { return Extent{d.x, d.y, d.z}; };
-    Shape shape{extent(config.gridDim), extent(config.blockDim), 1, false, config.dynamicSmemBytes};
-    for (unsigned k = 0; k < config.numAttrs; ++k) {
-      const cudaLaunchAttribute& attribute = config.attrs[k];
-      if (attribute.id == cudaLaunchAttributeCooperative) shape.cooperative = attribute.val.cooperative != 0;
-      if (attribute.id == cudaLaunchAttributeClusterDimension) shape.cluster_blocks = attribute.val.clusterDim.x;
-    }
+    const Shape shape{extent(config.gridDim), extent(config.blockDim)};
     if (stream_or_default(config.stream)->of_device != Device::current()) return cudaErrorInvalidResourceHandle;
-    const std::size_t blocks = shape.grid.count(), threads = shape.block.count();
-    if (blocks == 0 || threads == 0 || threads > 1024) return cudaErrorInvalidConfiguration;
-    if (shape.dynamic_bytes > device().functions[function].dynamic_bytes) return cudaErrorInvalidValue;
-    if (shape.cooperative && blocks > static_cast<std::size_t>(properties.processors))
-      return cudaErrorCooperativeLaunchTooLarge;
-    int clusters = 1;
-    if (shape.cluster_blocks > 1) (void)clusters_at_a_time(&clusters, function, config);
-    if (clusters == 0 || blocks % shape.cluster_blocks != 0) return cudaErrorInvalidConfiguration;
+    const std::size_t threads = shape.block.count();
+    if (shape.grid.count() == 0 || threads == 0 || threads > 1024) return cudaErrorInvalidConfiguration;
     return static_cast<cudaError_t>(device().launch(stream_or_default(config.stream), shape, std::move(kernel)));
-  });
-}
-
-cudaError_t attributes(cudaFuncAttributes* attributes) {
-  return call([&] {
-    const int version = device().properties().compute_capability;
-    *attributes = {version, version, 128, 1024, 0, 0};
-    return cudaSuccess;
-  });
-}
-
-cudaError_t set_attribute(const void* function, cudaFuncAttribute attribute, int value) {
-  return call([&] {
-    Device::Function& of = device().functions[function];
-    if (attribute == cudaFuncAttributeNonPortableClusterSizeAllowed) {
-      if (device().properties().compute_capability < 90) return cudaErrorNotSupported;
-      of.any_cluster = value != 0;
-      return cudaSuccess;
-    }
-    if (value < 0 || static_cast<std::size_t>(value) > kMostSharedBytes) return cudaErrorInvalidValue;
-    of.dynamic_bytes = static_cast<std::size_t>(value);
-    return cudaSuccess;
-  });
-}
-
-cudaError_t blocks_at_a_time(int* blocks, int threads, std::size_t dynamic_bytes) {
-  return call([&] {
-    *blocks = threads <= 1024 && dynamic_bytes <= kMostSharedBytes ? 1 : 0;
-    return cudaSuccess;
-  });
-}
-
-cudaError_t clusters_at_a_time(int* clusters, const void* function, const cudaLaunchConfig_t& config) {
-  return call([&] {
-    unsigned blocks = 1;
-    for (unsigned k = 0; k < config.numAttrs; ++k) {
-      if (config.attrs[k].id == cudaLaunchAttributeClusterDimension) blocks = config.attrs[k].val.clusterDim.x;
-    }
-    const bool is_large = blocks > 8 && !device().functions[function].any_cluster;
-    *clusters = !is_large && static_cast<int>(blocks) <= device().properties().cluster_blocks ? 1 : 0;
-    return is_large ? cudaErrorInvalidConfiguration : cudaSuccess;
   });
 }
 
@@ -138,10 +85,6 @@ const char* cudaGetErrorName(cudaError_t error) {
       return "cudaErrorLaunchTimeout";
     case cudaErrorLaunchFailure:
       return "cudaErrorLaunchFailure";
-    case cudaErrorCooperativeLaunchTooLarge:
-      return "cudaErrorCooperativeLaunchTooLarge";
-    case cudaErrorNotSupported:
-      return "cudaErrorNotSupported";
   }
   return "unrecognized error code";
 }
@@ -152,18 +95,11 @@ cudaError_t cudaGetLastError() {
   const int error = std::exchange(device().last_error, device().sticky());
   return static_cast<cudaError_t>(error);
 }
-cudaError_t cudaPeekAtLastError() { return static_cast<cudaError_t>(device().last_error); }
 
 cudaError_t cudaGetDeviceCount(int* count) {
   return call([&] {
     *count = device().properties().devices;
     return *count > 0 ? cudaSuccess : cudaErrorNoDevice;
-  });
-}
-cudaError_t cudaGetDevice(int* number) {
-  return call([&] {
-    *number = Device::current();
-    return device().properties().devices > 0 ? cudaSuccess : cudaErrorNoDevice;
   });
 }
 cudaError_t cudaSetDevice(int number) {
@@ -174,40 +110,7 @@ cudaError_t cudaSetDevice(int number) {
 }
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
   return call([&] {
-    const Properties& properties = device().properties();
-    switch (attribute) {
-      case cudaDevAttrMultiProcessorCount:
-        *value = properties.processors;
-        break;
-      case cudaDevAttrIntegrated:
-        *value = properties.integrated ? 1 : 0;
-        break;
-      case cudaDevAttrComputeCapabilityMajor:
-        *value = properties.compute_capability / 10;
-        break;
-      case cudaDevAttrComputeCapabilityMinor:
-        *value = properties.compute_capability % 10;
-        break;
-      case cudaDevAttrMaxSharedMemoryPerBlockOptin:
-        *value = static_cast<int>(jaywalk::kMostSharedBytes);
-        break;
-      case cudaDevAttrManagedMemory:
-      case cudaDevAttrCooperativeLaunch:
-        *value = 1;
-        break;
-    }
-    return cudaSuccess;
-  });
-}
-cudaError_t cudaGetDeviceProperties(cudaDeviceProp* of, int) {
-  return call([&] {
-    const Properties& properties = device().properties();
-    *of = {"emulated",
-           properties.compute_capability / 10,
-           properties.compute_capability % 10,
-           properties.integrated ? 1 : 0,
-           properties.processors,
-           properties.bytes};
+    *value = attribute == cudaDevAttrManagedMemory || device().properties().integrated ? 1 : 0;
     return cudaSuccess;
   });
 }
@@ -227,12 +130,6 @@ cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, i
 cudaError_t cudaStreamDestroy(cudaStream_t) { return answer(); }  // what it has in line still comes
 cudaError_t cudaStreamSynchronize(cudaStream_t stream) {
   return call([&] { return device().wait(stream_or_default(stream), "cudaStreamSynchronize"), cudaSuccess; });
-}
-cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned) {
-  return call([&] {
-    device().later(stream_or_default(stream), [event] { device().wait(event, "cudaStreamWaitEvent"); });
-    return cudaSuccess;
-  });
 }
 
 cudaError_t cudaEventCreate(cudaEvent_t* event) {

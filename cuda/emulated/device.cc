@@ -46,7 +46,7 @@ void Device::power_on(const Properties& properties) {
   poison_byte = properties.seed % 2 == 0 ? 0xff : 0xcd;
   memory_.set_busy(false);
   memory_.begin_anew(properties.guarded);
-  streams_.clear(), events_.clear(), functions.clear();
+  streams_.clear(), events_.clear();
   current() = 0;
   default_stream_ = make_stream(true);
   fault_ = Fault::kNone;

@@ -4,7 +4,6 @@
 #include <cstdint>
 #include <deque>
 #include <functional>
-#include <map>
 #include <memory>
 #include <mutex>
 
@@ -14,12 +13,9 @@
 namespace jaywalk::emulated {
 
 struct Properties {
-  int devices = 1;              ///< all alike; 0: none is there
-  int processors = 3;           ///< each holds one block at a time
-  int compute_capability = 90;  ///< 87: an AGX Orin, without clusters
-  int cluster_blocks = 16;      ///< of the largest cluster; 8: no larger than every such device has; 0: none
-  bool integrated = false;      ///< one memory, as on a Jetson
-  bool guarded = false;         ///< the host cannot touch what is not its own (memory.h)
+  int devices = 1;          ///< all alike; 0: none is there
+  bool integrated = false;  ///< one memory, as on a Jetson
+  bool guarded = false;     ///< the host cannot touch what is not its own (memory.h)
   std::size_t bytes = std::size_t{4} << 30;
   int not_ready = 0;                     ///< times that each event is said to be still ahead
   std::uint64_t seed = 1;                ///< of the order in which threads run
@@ -71,11 +67,6 @@ class Device {
 
   std::recursive_mutex mutex;  ///< of all calls
   int last_error = 0;
-  struct Function {
-    bool any_cluster = false;
-    std::size_t dynamic_bytes = 48 * 1024;
-  };
-  std::map<const void*, Function> functions;
 
  private:
   /// Runs what is first in line. False: it is stuck, or nothing is there.

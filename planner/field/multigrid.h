@@ -239,12 +239,12 @@ class Multigrid {
     const Sources sources = sources_of(depth, board);
     const Level level{board, a.couplings, a.psi, a.diagonal};
     const std::int32_t built = build ? blocks.half() : 0;
-    executor_.for_each_row(board.side, before..., RowStep{2 * built, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
-                           RowStep{built, BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2},
-                           relaxed(board, depth, 0), relaxed(board, depth, 1), relaxed(board, depth, 0),
-                           relaxed(board, depth, 1),
-                           RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
-                           RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
+    executor_.for_each_row(
+        board.side, before..., RowStep{2 * built, CoarsenBlock<kFinest>{level, blocks.side, b.rows}, 2},
+        RowStep{built, BlocksToBoard{blocks, b.rows, b.couplings, b.psi, b.diagonal}, 2}, relaxed(board, depth, 0),
+        relaxed(board, depth, 1), relaxed(board, depth, 0), relaxed(board, depth, 1),
+        RowStep{blocks.side, RestrictToBlock{level, sources, a.x, blocks.side, b.rows}, 2},
+        RowStep{blocks.half(), LackingToBoard{blocks, b.rows.lacking, b.source, b.x}, 2});
   }
 
   /// Adds what the blocks have found, and begins to relax. Returns how many of two sweeps are left.
@@ -277,15 +277,17 @@ class Multigrid {
 
   /// Whether this level's blocks speak for enough of those below.
   JAYWALK_ORDER bool speaks_for_most(Board board, std::int32_t depth) noexcept {
-    executor_.for_each_cell(
-        1, board.side, SpokenOfRow{board.side, arrays_.levels[depth - 1].rows.diagonal, arrays_.levels[depth].rows.ties, arrays_.counted});
+    executor_.for_each_cell(1, board.side,
+                            SpokenOfRow{board.side, arrays_.levels[depth - 1].rows.diagonal,
+                                        arrays_.levels[depth].rows.ties, arrays_.counted});
     return Rules::is_spoken_for(executor_.total(board.side, arrays_.counted));
   }
 
   /// Whether the last cycle has found hardly anything new.
   JAYWALK_ORDER bool is_settled(Board board) noexcept {
     const std::int32_t cells = cells_of_row<Executor>(board.side), pieces = board.side / cells;
-    executor_.for_each_cell(pieces, board.side, TiltedOfRow{board, cells, Rules::kTilt, arrays_.levels[0].x, arrays_.counted});
+    executor_.for_each_cell(pieces, board.side,
+                            TiltedOfRow{board, cells, Rules::kTilt, arrays_.levels[0].x, arrays_.counted});
     return Rules::is_settled(executor_.total(pieces * board.side, arrays_.counted));
   }
 

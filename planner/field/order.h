@@ -62,7 +62,6 @@ struct ClearOrder {
   float inflation;
   std::uint8_t wanted;
 
-
   template <class Executor>
   void operator()(Executor& executor) const noexcept {
     copy(executor, grid.cells(), a.shown.occupants, a.occupants);
@@ -93,7 +92,6 @@ struct ClearOrder {
 struct MarkAndClearOrder {
   MarkOrder mark;
   ClearOrder clear;
-
 
   template <class Executor>
   void operator()(Executor& executor) const noexcept {
@@ -159,7 +157,6 @@ struct SolveOrder {
   float *psi, *shown_psi;
   FieldQuality* found;
 
-
   template <class Executor>
   void operator()(Executor& executor) const noexcept {
     if (!is_started) begin(executor);
@@ -209,11 +206,12 @@ struct SolveOrder {
     const FieldArrays& a = begin.a;
     const Grid grid = begin.grid;
     const std::int32_t cells = cells_of_row<Executor>(grid.side);
-    return Multigrid<Executor>(executor, levels).improve(grid, begin.goal, psi, attempt.cycles,
-                                    RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
-                                    RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
-                                    RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
-                                    RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
+    return Multigrid<Executor>(executor, levels)
+        .improve(grid, begin.goal, psi, attempt.cycles,
+                 RowStep{grid.side, AddCorrection{grid, a.start_psi, a.correction, psi}},
+                 RowStep{grid.side / cells, PitsOfRow{grid, begin.goal, cells, psi, a.pits}},
+                 RowStep{grid.side, KeepCorrection{grid, a.start_psi, psi, a.correction}},
+                 RowStep{grid.side, IndexOfEachCell{grid, psi, a.index}});
   }
 
   /// Reads the certificate; where there are pits, lifts them up to `most` times over, and keeps what that came to.

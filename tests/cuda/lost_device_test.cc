@@ -16,7 +16,6 @@ using emulated::Fault;
 
 namespace {
 
-
 /// A robot in a room of 6.4 m that asks for a plan at 15 Hz.
 struct Drive {
   explicit Drive(const emulated::Properties& properties = {.guarded = true}) {
@@ -94,7 +93,8 @@ TEST_CASE("emulated: each way to fail, early, late and between, is answered by t
   }
 }
 
-TEST_CASE("emulated: a plan without a potential asks the device for the time to go, and where nothing changed for nothing") {
+TEST_CASE(
+    "emulated: a plan without a potential asks the device for the time to go, and where nothing changed for nothing") {
   Drive drive;
   drive.request.wants_potential = false;
   CHECK(drive.plan().status == PlanStatus::kOk);
@@ -174,7 +174,7 @@ TEST_CASE("emulated: a process with a kernel that never ends ends, with the code
 }
 
 TEST_CASE("emulated: the trial is passed by a device that serves") {
-  device().power_on(properties_of(Kind::kGrid, 3));
+  device().power_on(properties_of(3));
   std::string why;
   CHECK(passes_cuda_trial(0, why));
   CHECK(why.empty());

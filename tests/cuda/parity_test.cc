@@ -52,38 +52,37 @@ void check_crowd(const emulated::Properties& properties, int ticks) {
   }
 }
 
-/// A field of 100 cells a side, or of 128, on a device whose kind is the seed's.
+/// A field of 100 cells a side, or of 128.
 void check_seed(std::uint64_t seed) {
-  device().power_on(properties_of(kKinds[seed % 5], seed));
+  device().power_on(properties_of(seed));
   const field::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
   check_field(map, *cuda_field(map));
   CHECK_FALSE(device().is_stuck());
 }
 
-void check_shape(const field::CellMap& map, Kind kind) {
-  device().power_on(properties_of(kind, 7));
+void check_shape(const field::CellMap& map, std::uint64_t seed) {
+  device().power_on(properties_of(seed));
   check_field(map, *cuda_field(map));
 }
 
 }  // namespace
 
-TEST_CASE("emulated: fields of maps of every shape have the CPU's bytes, by turns in clusters and in grids") {
-  bool in_cluster = false;
-  for (const field::CellMap& map : shaped_maps())
-    check_shape(map, (in_cluster = !in_cluster) ? Kind::kLargeClusters : Kind::kGrid);
+TEST_CASE("emulated: fields of maps of every shape have the CPU's bytes") {
+  std::uint64_t seed = 6;
+  for (const field::CellMap& map : shaped_maps()) check_shape(map, ++seed);
 }
 
-TEST_CASE("emulated: fields have the CPU's bytes in random orders on devices of every kind") {
+TEST_CASE("emulated: fields have the CPU's bytes in random orders") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) check_seed(seed);
 }
 
 TEST_CASE("emulated: plans among movers have the CPU's bytes in both modes") {
-  for (std::uint64_t seed = 1; seed <= 2; ++seed) check_crowd(properties_of(kKinds[seed % 5], seed), 2);
+  for (std::uint64_t seed = 1; seed <= 2; ++seed) check_crowd(properties_of(seed), 2);
 }
 
 TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and two that the host keeps out of") {
-  for (const Kind kind : {Kind::kLargeClusters, Kind::kOneMemory}) {
-    emulated::Properties properties = properties_of(kind, 5);
+  for (std::uint64_t seed = 5; seed <= 6; ++seed) {
+    emulated::Properties properties = properties_of(seed);
     properties.guarded = true;
     device().power_on(properties);
     const auto cpu = make_cpu_planner(window(128)), gpu = cuda_planner(window(128));
@@ -92,7 +91,7 @@ TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and
 }
 
 TEST_CASE("emulated: plans round a keep-out zone, and out of one, have the CPU's bytes") {
-  device().power_on(properties_of(Kind::kSmallClusters, 8));
+  device().power_on(properties_of(8));
   const MapZone zone{ZoneKind::kKeepOut, {{2.0, 1.0}, {4.0, 1.0}, {4.0, 4.5}, {2.0, 4.5}}, 0.0};
   PlannerConfig config = small_window();
   config.keep_out = std::make_shared<const KeepOutField>(std::span(&zone, 1));
@@ -106,7 +105,7 @@ TEST_CASE("emulated: plans round a keep-out zone, and out of one, have the CPU's
 }
 
 TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: the host sees the mover's mark") {
-  device().power_on(properties_of(Kind::kSmallClusters, 6));
+  device().power_on(properties_of(6));
   const auto cpu = make_cpu_planner(small_window()), gpu = cuda_planner(small_window());
   const EvidenceMap map = evidence_of({"room", 64});
   PlanRequest request = across(map);
@@ -119,27 +118,27 @@ TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: 
   CHECK(check_plan(*cpu, *gpu, request));
 }
 
-TEST_CASE("emulated at length: fields in random orders from 20 seeds, and of every shape in the other way",
-          "[.large]") {
+TEST_CASE("emulated at length: fields in random orders from 20 seeds", "[.large]") {
   for (std::uint64_t seed = 6; seed <= 20; ++seed) check_seed(seed);
-  bool in_cluster = true;
-  for (const field::CellMap& map : shaped_maps())
-    check_shape(map, (in_cluster = !in_cluster) ? Kind::kLargeClusters : Kind::kGrid);
 }
 
 TEST_CASE("emulated at length: plans among movers in random orders from 20 seeds", "[.large]") {
-  for (std::uint64_t seed = 1; seed <= 20; ++seed) check_crowd(properties_of(kKinds[seed % 5], seed), 6);
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) check_crowd(properties_of(seed), 6);
 }
 
 TEST_CASE("emulated at length: fields and plans of 256 and 512 cells a side", "[.large]") {
-  for (const Kind kind : {Kind::kLargeClusters, Kind::kGrid}) {
-    device().power_on(properties_of(kind, 11));
+  for (std::uint64_t seed = 11; seed <= 12; ++seed) {
+    device().power_on(properties_of(seed));
     const auto cpu = make_cpu_planner(window(256)), gpu = cuda_planner(window(256));
     for (const TestMap& map : {open_room(), office(), serpentine(10), clutter(31)}) check_run(*cpu, *gpu, map, 3);
-    device().power_on(properties_of(kind, 12));
     check_field(cells_of(boxes(512, 9)), *cuda_field(cells_of(boxes(512, 9))));
   }
-  device().power_on(properties_of(Kind::kGrid, 13));
+  device().power_on(properties_of(13));
   const auto cpu = make_cpu_planner(window(512)), gpu = cuda_planner(window(512));
   check_run(*cpu, *gpu, boxes(512, 4), 2);
+}
+
+TEST_CASE("emulated at length: the field of 1100 cells a side, whose blocks go down twice in a cycle", "[.large]") {
+  device().power_on(properties_of(14));
+  check_field(large_map(), *cuda_field(large_map()));
 }

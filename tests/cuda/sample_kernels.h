@@ -1,6 +1,5 @@
 #pragma once
 // Kernels for tests of the emulated device: each needs one thing of it.
-#include <cooperative_groups.h>
 #include <cuda_runtime.h>
 
 #include <cstddef>
@@ -9,21 +8,13 @@ namespace jaywalk::test {
 
 struct Launched {
   unsigned blocks, threads;
-  unsigned cluster = 1;
-  bool cooperative = false;
-  std::size_t dynamic_bytes = 0;
 };
 
 template <class... Arguments>
 cudaError_t launch_sample(Launched how, cudaStream_t stream, void (*kernel)(Arguments...), Arguments... arguments) {
-  cudaLaunchAttribute attribute{};
-  attribute.id = how.cooperative ? cudaLaunchAttributeCooperative : cudaLaunchAttributeClusterDimension;
-  how.cooperative ? void(attribute.val.cooperative = 1) : void(attribute.val.clusterDim = {how.cluster, 1, 1});
   cudaLaunchConfig_t config{};
   config.gridDim = dim3(how.blocks), config.blockDim = dim3(how.threads);
   config.stream = stream;
-  config.dynamicSmemBytes = how.dynamic_bytes;
-  config.attrs = &attribute, config.numAttrs = 1;
   return cudaLaunchKernelEx(&config, kernel, arguments...);
 }
 
@@ -41,11 +32,10 @@ __global__ void sum_of_block(int* ints) {
   }
 }
 
-__global__ void pass_round_cluster(int* ints);
-__global__ void meet_grid(int* ints);
+/// Counts the threads that were told of one vote for yes, and of the next, where there is none.
+__global__ void vote_twice(int* ints);
 __global__ void meet_by_halves(int* ints);
 __global__ void meet_for_ever(int* ints);
-__global__ void reduce_warps(int* ints);
 __global__ void nans(int* ints, float nan);
 
 }  // namespace jaywalk::test

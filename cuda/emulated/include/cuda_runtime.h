@@ -19,18 +19,8 @@ enum cudaError_t {
   cudaErrorLaunchOutOfResources = 701,
   cudaErrorLaunchTimeout = 702,
   cudaErrorLaunchFailure = 719,
-  cudaErrorCooperativeLaunchTooLarge = 720,
-  cudaErrorNotSupported = 801,
 };
-enum cudaDeviceAttr {
-  cudaDevAttrMultiProcessorCount = 16,
-  cudaDevAttrIntegrated = 18,
-  cudaDevAttrComputeCapabilityMajor = 75,
-  cudaDevAttrComputeCapabilityMinor = 76,
-  cudaDevAttrManagedMemory = 83,
-  cudaDevAttrCooperativeLaunch = 95,
-  cudaDevAttrMaxSharedMemoryPerBlockOptin = 97,
-};
+enum cudaDeviceAttr { cudaDevAttrIntegrated = 18, cudaDevAttrManagedMemory = 83 };
 enum cudaMemcpyKind {
   cudaMemcpyHostToHost,
   cudaMemcpyHostToDevice,
@@ -38,60 +28,30 @@ enum cudaMemcpyKind {
   cudaMemcpyDeviceToDevice,
   cudaMemcpyDefault
 };
-enum cudaFuncAttribute {
-  cudaFuncAttributeMaxDynamicSharedMemorySize = 8,
-  cudaFuncAttributeNonPortableClusterSizeAllowed = 13
-};
-enum cudaLaunchAttributeID { cudaLaunchAttributeCooperative = 2, cudaLaunchAttributeClusterDimension = 4 };
 inline constexpr unsigned cudaStreamNonBlocking = 1, cudaEventBlockingSync = 1, cudaEventDisableTiming = 2;
 inline constexpr unsigned cudaHostAllocPortable = 1, cudaHostAllocMapped = 2, cudaMemAttachGlobal = 1;
 
 using cudaStream_t = jaywalk::emulated::Device::Stream*;
 using cudaEvent_t = jaywalk::emulated::Device::Event*;
 
-struct cudaLaunchAttributeValue {
-  struct {
-    unsigned x, y, z;
-  } clusterDim;
-  int cooperative;
-};
-struct cudaLaunchAttribute {
-  cudaLaunchAttributeID id;
-  cudaLaunchAttributeValue val;
-};
 struct cudaLaunchConfig_t {
   dim3 gridDim, blockDim;
   std::size_t dynamicSmemBytes;
   cudaStream_t stream;
-  cudaLaunchAttribute* attrs;
-  unsigned numAttrs;
-};
-struct cudaFuncAttributes {
-  int ptxVersion, binaryVersion, numRegs, maxThreadsPerBlock;
-  std::size_t localSizeBytes, sharedSizeBytes;
-};
-struct cudaDeviceProp {
-  char name[256];
-  int major, minor, integrated, multiProcessorCount;
-  std::size_t totalGlobalMem;
 };
 
 const char* cudaGetErrorString(cudaError_t error);
 const char* cudaGetErrorName(cudaError_t error);
 cudaError_t cudaGetLastError();
-cudaError_t cudaPeekAtLastError();
 cudaError_t cudaGetDeviceCount(int* count);
-cudaError_t cudaGetDevice(int* device);
 cudaError_t cudaSetDevice(int device);
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
-cudaError_t cudaGetDeviceProperties(cudaDeviceProp* properties, int device);
 cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest);
 cudaError_t cudaDeviceSynchronize();
 cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned flags);
 cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, int priority);
 cudaError_t cudaStreamDestroy(cudaStream_t stream);
 cudaError_t cudaStreamSynchronize(cudaStream_t stream);
-cudaError_t cudaStreamWaitEvent(cudaStream_t stream, cudaEvent_t event, unsigned flags = 0);
 cudaError_t cudaEventCreate(cudaEvent_t* event);
 cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned flags);
 cudaError_t cudaEventDestroy(cudaEvent_t event);
@@ -109,11 +69,7 @@ cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaM
 
 namespace jaywalk::emulated {
 cudaError_t allocate(void** block, std::size_t bytes, Where where);
-cudaError_t launch(const cudaLaunchConfig_t& config, const void* function, std::function<void()> kernel);
-cudaError_t attributes(cudaFuncAttributes* attributes);
-cudaError_t set_attribute(const void* function, cudaFuncAttribute attribute, int value);
-cudaError_t blocks_at_a_time(int* blocks, int threads, std::size_t dynamic_bytes);
-cudaError_t clusters_at_a_time(int* clusters, const void* function, const cudaLaunchConfig_t& config);
+cudaError_t launch(const cudaLaunchConfig_t& config, std::function<void()> kernel);
 }  // namespace jaywalk::emulated
 
 template <class T>
@@ -132,24 +88,5 @@ template <class... Parameters, class... Arguments>
 cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* config, void (*kernel)(Parameters...),
                                Arguments&&... arguments) {
   // As a launch does, this keeps copies of the arguments.
-  return jaywalk::emulated::launch(*config, reinterpret_cast<const void*>(kernel),
-                                   [kernel, ... kept = Parameters(arguments)] { kernel(kept...); });
-}
-template <class... Parameters>
-cudaError_t cudaFuncGetAttributes(cudaFuncAttributes* attributes, void (*)(Parameters...)) {
-  return jaywalk::emulated::attributes(attributes);
-}
-template <class... Parameters>
-cudaError_t cudaFuncSetAttribute(void (*kernel)(Parameters...), cudaFuncAttribute attribute, int value) {
-  return jaywalk::emulated::set_attribute(reinterpret_cast<const void*>(kernel), attribute, value);
-}
-template <class... Parameters>
-cudaError_t cudaOccupancyMaxActiveBlocksPerMultiprocessor(int* blocks, void (*)(Parameters...), int threads,
-                                                          std::size_t dynamic_bytes) {
-  return jaywalk::emulated::blocks_at_a_time(blocks, threads, dynamic_bytes);
-}
-template <class... Parameters>
-cudaError_t cudaOccupancyMaxActiveClusters(int* clusters, void (*kernel)(Parameters...),
-                                           const cudaLaunchConfig_t* config) {
-  return jaywalk::emulated::clusters_at_a_time(clusters, reinterpret_cast<const void*>(kernel), *config);
+  return jaywalk::emulated::launch(*config, [kernel, ... kept = Parameters(arguments)] { kernel(kept...); });
 }
