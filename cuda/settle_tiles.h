@@ -70,7 +70,7 @@ __global__ void __launch_bounds__(Ways::kThreads) settle_tile(const __grid_const
       const auto near = [&](int di, int dj, int at) -> std::uint32_t { return cost[place(i + di, j + dj, at)]; };
       next[e] = static_cast<Value>(ways.least(i0 + i, j0 + j, layer, cost[place(i, j, layer)], limit, near));
     }
-    __syncthreads();
+    __syncthreads();  // a cost that fell meanwhile would do no harm; a race it would be
     falls = false;
     for (int e = 0; e < kEach; ++e) {
       const int k = me + e * kThreads, at = place(k % kTile, k / kTile % kTile, k / (kTile * kTile));

@@ -143,6 +143,8 @@ class Planner {
   [[nodiscard]] virtual const char* backend() const noexcept = 0;
   /// Why the last submission came to kBackendFailed, in a few words.
   [[nodiscard]] virtual const char* failure() const noexcept { return ""; }
+  /// What a device has taken for all plans so far, by its own clock, without submission and waiting; 0 on the CPU.
+  [[nodiscard]] virtual double device_ms() const noexcept { return 0.0; }
 };
 
 /// A planner on the CPU. Throws StartupError for a configuration that makes no sense.

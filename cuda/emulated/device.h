@@ -39,6 +39,8 @@ class Device {
 
   /// From now on each event is said to be still ahead so often.
   void delay(int not_ready);
+  /// From now on there is no room for more memory.
+  void fill() { properties_.bytes = 0; }
 
   [[nodiscard]] const Properties& properties() const { return properties_; }
   [[nodiscard]] Counts counts() const { return counts_; }

@@ -81,6 +81,8 @@ class GridPlanner final : public Planner {
     return "";
   }
 
+  [[nodiscard]] double device_ms() const noexcept override { return executor_->took_ms(); }
+
   /// What the stages of the last submission left behind. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }
   [[nodiscard]] const Window& window() const noexcept { return window_.now(); }
@@ -133,7 +135,7 @@ class GridPlanner final : public Planner {
     return true;
   }
 
-  /// What a device that failed has not settled is settled here; yet whoever asks is to know.
+  /// What a device that failed has not settled is settled here; the failure is told all the same.
   PlanStatus answer(const PlanRequest& request, Result& result) noexcept {
     if (!is_ready()) return PlanStatus::kBackendFailed;
     const PlanStatus status = plan(request, result);
