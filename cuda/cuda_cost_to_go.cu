@@ -1,6 +1,7 @@
 #include <cstring>
 
 #include "cuda/cuda_cost_to_go.h"
+#include "cuda/kernels.h"
 #include "cuda/settle_tiles.h"
 #include "planner/cost_to_go/guide_ways.h"
 #include "planner/cost_to_go/pose_guide.h"
@@ -115,6 +116,11 @@ void put_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t 
 
 CudaCostToGo::CudaCostToGo(CudaDevice& device, std::int32_t max_side)
     : device_(device),
+      nodes_(device.share<std::uint8_t>(kNodes)),
+      radius_(device.share<std::uint8_t>(kMostPoints)),
+      places_(device.share<std::int32_t>(kLooks * kMostPoints)),
+      room_(device.share<std::uint8_t>(PoseLattice::kPoses)),
+      shift_(device.share<std::int8_t>(PoseLattice::kPoses)),
       pose_rate_(device.share<std::uint8_t>(PoseLattice::kPoses)),
       unseen_(device.share<std::uint8_t>(PoseLattice::kPoses)),
       pose_cost_(device.share<std::uint16_t>(PoseLattice::kPoses)),
@@ -129,6 +135,23 @@ bool CudaCostToGo::read_settled(const Ways& ways, const Shared<typename Ways::Va
   if (!settle_tiles(device_, ways, waits_)) return false;
   device_.copy_out(cost, n);
   return device_.wait();
+}
+
+bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
+  constexpr std::int32_t kVisits = PoseLattice::kHeadings * PoseLattice::kSide * PoseLattice::kSide;
+  const auto points = static_cast<std::size_t>(look.points);
+  if (points > kMostPoints || !device_.begin()) return false;
+  put_in(device_, nodes_, look.nodes, kNodes);
+  put_in(device_, places_, look.places, kLooks * points);
+  put_in(device_, radius_, look.radius, points);
+  const field::PoseLook on_device{nodes_.device, places_.device, radius_.device,
+                                  look.points,   room_.device,   shift_.device};
+  device_.launch(visit<field::PoseLook>, kVisits / kVisitThreads, kVisitThreads, on_device, kVisits, kVisits);
+  device_.copy_out(room_, PoseLattice::kPoses), device_.copy_out(shift_, PoseLattice::kPoses);
+  if (!device_.wait()) return false;
+  std::memcpy(look.room, room_.host, PoseLattice::kPoses);
+  std::memcpy(look.shift, shift_.host, PoseLattice::kPoses);
+  return true;
 }
 
 bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {

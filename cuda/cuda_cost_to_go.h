@@ -11,12 +11,20 @@ class CudaCostToGo final : public field::CostSettler {
   CudaCostToGo(CudaDevice& device, std::int32_t max_side);
   [[nodiscard]] bool settle(const field::PoseCosts& poses) noexcept override;
   [[nodiscard]] bool settle(const field::CellCosts& cells) noexcept override;
+  [[nodiscard]] bool find(const field::PoseLook& look) noexcept override;
 
  private:
   template <class Ways>
   [[nodiscard]] bool read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept;
 
   CudaDevice& device_;
+  static constexpr std::size_t kNodes = static_cast<std::size_t>(field::PoseLook::kNodes) * field::PoseLook::kNodes;
+  static constexpr std::size_t kMostPoints = 256, kLooks = PoseLattice::kHeadings * field::PoseLook::kSides;
+
+  Shared<std::uint8_t> nodes_, radius_;
+  Shared<std::int32_t> places_;
+  Shared<std::uint8_t> room_;
+  Shared<std::int8_t> shift_;
   Shared<std::uint8_t> pose_rate_, unseen_;
   Shared<std::uint16_t> pose_cost_;
   Shared<PoseMove> moves_;

@@ -37,20 +37,6 @@ __global__ void __launch_bounds__(kVisitThreads)
   if (k < n) visit_one(stage, k, width);
 }
 
-/// By one block: what stages have counted, in all.
-static __global__ void __launch_bounds__(kBlockThreads)
-    add_up(const field::Counted* counted, std::int32_t n, field::Counted* sum) {
-  __shared__ std::int32_t cells, joined;
-  if (threadIdx.x == 0) cells = joined = 0;
-  __syncthreads();
-  field::Counted mine;
-  for (auto k = static_cast<std::int32_t>(threadIdx.x); k < n; k += kBlockThreads)
-    mine.cells += counted[k].cells, mine.joined += counted[k].joined;
-  atomicAdd(&cells, mine.cells), atomicAdd(&joined, mine.joined);
-  __syncthreads();
-  if (threadIdx.x == 0) *sum = {cells, joined};
-}
-
 /// An executor inside a kernel: one block's threads share every step, and meet where it ends.
 struct BlockLoops {
   static constexpr bool kInTurn = false, kLowerLevels = true;

@@ -1,7 +1,8 @@
 #pragma once
-// The fixed points of costs, settled elsewhere than by the processor's queues: on a device.
+// The time to go's long work, done elsewhere than by the processor's loops and queues: on a device.
 #include <cstdint>
 
+#include "planner/cost_to_go/pose_look.h"
 #include "planner/cost_to_go/pose_moves.h"
 
 namespace jaywalk::field {
@@ -34,6 +35,8 @@ class CostSettler {
   /// False: it failed, and nothing has been written.
   [[nodiscard]] virtual bool settle(const PoseCosts& poses) noexcept = 0;
   [[nodiscard]] virtual bool settle(const CellCosts& cells) noexcept = 0;
+  /// The room and shift of all poses.
+  [[nodiscard]] virtual bool find(const PoseLook& look) noexcept = 0;
 };
 
 }  // namespace jaywalk::field

@@ -45,7 +45,7 @@ PoseField::Memory::Memory()
       shift(Lattice::kPoses) {}
 
 PoseField::PoseField(const Footprint& body, CostSettler* settler)
-    : body_(body), settler_(settler), room_(body), entries_(kEntries), buckets_(kBuckets, -1) {
+    : body_(body), settler_(settler), room_(body, settler), entries_(kEntries), buckets_(kBuckets, -1) {
   entries_.clear();
 }
 

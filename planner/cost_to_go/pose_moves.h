@@ -16,7 +16,7 @@ struct PoseLattice {
   static constexpr float kCell_m = 0.1F, kStep_rad = 2.0F * cell::kPiF / static_cast<float>(kHeadings);
 
   /// Numbers of cell and heading; the cell may lie in the rim.
-  static constexpr std::int32_t at(std::int32_t i, std::int32_t j, std::int32_t heading) {
+  JAYWALK_CELL static constexpr std::int32_t at(std::int32_t i, std::int32_t j, std::int32_t heading) {
     return heading * kPlane + (j + kReach) * kStride + i + kReach;
   }
   static constexpr std::int32_t heading_of(std::int32_t pose) { return pose / kPlane; }

@@ -25,10 +25,19 @@ Offset turned(float x, float y, std::int32_t heading) {
   return {nodes(x * a.x - y * a.y), nodes(x * a.y + y * a.x)};
 }
 
+/// Of 64 nodes, a cell apart, the first: that of cell 0 in row 0, moved by so many nodes.
+std::int32_t place_of_node(const Offset& at) {
+  const std::int32_t i = at.x + PoseLook::kPerCell / 2 + PoseLook::kMargin,
+                     j = at.y + PoseLook::kPerCell / 2 + PoseLook::kMargin;
+  return (i % PoseLook::kPerCell * PoseLook::kNodes + j) * PoseLook::kColumns + i / PoseLook::kPerCell;
+}
+
 }  // namespace
 
-PoseRoom::PoseRoom(const Footprint& body)
-    : nodes_(static_cast<std::size_t>(kNodes) * kNodes), unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
+PoseRoom::PoseRoom(const Footprint& body, CostSettler* settler)
+    : settler_(settler),
+      nodes_(static_cast<std::size_t>(kNodes) * kNodes),
+      unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
   const auto front = static_cast<float>(body.front_m), rear = static_cast<float>(-body.rear_m),
              half = static_cast<float>(body.half_width_m), middle = 0.5F * (front + rear);
   rim_ = {{{front, half},
@@ -49,21 +58,30 @@ PoseRoom::PoseRoom(const Footprint& body)
     const double pieces = std::max(1.0, std::ceil(norm(side) / kSpacing_m - 1e-9));
     for (double n = 0.0; n < pieces; n += 1.0) {
       const Vec2 p = corners[k] + side * (n / pieces);
-      points_.push_back({static_cast<float>(p.x), static_cast<float>(p.y), 0});
+      add_point(static_cast<float>(p.x), static_cast<float>(p.y), 0);
     }
   }
   const float radius = std::min(half, 0.5F * (front - rear)), between = front - rear - 2.0F * radius;
   const float gaps = std::ceil(between / std::max(radius, 0.05F));
   for (float k = 0.0F; k <= gaps; k += 1.0F) {
-    points_.push_back({rear + radius + between * k / std::max(gaps, 1.0F), 0.0F,
-                       static_cast<std::uint8_t>(std::min(radius / kUnit_m, 200.0F))});
+    add_point(rear + radius + between * k / std::max(gaps, 1.0F), 0.0F,
+              static_cast<std::uint8_t>(std::min(radius / kUnit_m, 200.0F)));
   }
+  place_points();
 }
 
-/// Of 64 nodes, a cell apart, the first: that of cell 0 in row 0, moved by so many nodes.
-const std::uint8_t* PoseRoom::row(const std::vector<std::uint8_t>& nodes, std::int32_t x, std::int32_t y) const {
-  const std::int32_t i = x + kPerCell / 2 + kMargin, j = y + kPerCell / 2 + kMargin;
-  return &nodes[static_cast<std::size_t>((i % kPerCell * kNodes + j) * kColumns + i / kPerCell)];
+void PoseRoom::add_point(float x, float y, std::uint8_t radius) {
+  points_.push_back({x, y});
+  radius_.push_back(radius);
+}
+
+void PoseRoom::place_points() {
+  for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+    for (std::int32_t side = 0; side < PoseLook::kSides; ++side) {
+      const float left = static_cast<float>(PoseLook::shift_of(side)) * kShift_m;
+      for (const Place& p : points_) places_.push_back(place_of_node(turned(p.x, p.y + left, heading)));
+    }
+  }
 }
 
 void PoseRoom::take_nodes(const Guide& guide, Place low) noexcept {
@@ -79,15 +97,16 @@ void PoseRoom::take_nodes(const Guide& guide, Place low) noexcept {
   }
 }
 
-void PoseRoom::look_round(std::int32_t heading, std::int32_t shift) noexcept {
+/// `places`: of a heading's and side's points.
+void PoseRoom::look_round(const std::int32_t* places) noexcept {
   looked_.fill(255);
-  for (const Point& p : points_) {
-    const Offset at = turned(p.x, p.y + static_cast<float>(shift) * kShift_m, heading);
+  for (std::size_t p = 0; p < radius_.size(); ++p) {
+    const std::uint8_t radius = radius_[p];
     for (std::int32_t j = 0; j < kSide; ++j) {
-      const std::uint8_t* from = row(nodes_, at.x, at.y + j * kPerCell);
+      const std::uint8_t* from = &nodes_[static_cast<std::size_t>(places[p] + j * kPerCell * kColumns)];
       std::uint8_t* to = &looked_[static_cast<std::size_t>(j * kSide)];
       for (std::int32_t i = 0; i < kSide; ++i) {
-        const std::uint8_t left = from[i] > p.radius ? static_cast<std::uint8_t>(from[i] - p.radius) : std::uint8_t{0};
+        const std::uint8_t left = PoseLook::left(from[i], radius);
         to[i] = left < to[i] ? left : to[i];
       }
     }
@@ -112,16 +131,19 @@ void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, 
                     std::int8_t* shift) noexcept {
   take_nodes(guide, low);
   for (const Vec2 wall : walls) add_wall({static_cast<float>(wall.x) - low.x, static_cast<float>(wall.y) - low.y});
+  const auto points = static_cast<std::int32_t>(radius_.size());
+  if (settler_ != nullptr && settler_->find({nodes_.data(), places_.data(), radius_.data(), points, room, shift}))
+    return;
   for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
-    for (const std::int8_t side : {std::int8_t{0}, std::int8_t{1}, std::int8_t{-1}}) {
-      look_round(heading, side);
+    for (std::int32_t side = 0; side < PoseLook::kSides; ++side) {
+      look_round(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * points)]);
       for (std::int32_t j = 0; j < kSide; ++j) {
         const std::uint8_t* from = &looked_[static_cast<std::size_t>(j * kSide)];
         const std::int32_t first = PoseLattice::at(0, j, heading);
         for (std::int32_t i = 0; i < kSide; ++i) {
           const bool better = side == 0 || from[i] > room[first + i];
           room[first + i] = better ? from[i] : room[first + i];
-          shift[first + i] = better ? side : shift[first + i];
+          shift[first + i] = better ? PoseLook::shift_of(side) : shift[first + i];
         }
       }
     }
@@ -144,9 +166,9 @@ bool PoseRoom::find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) 
   if (any == 0) return false;
   for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
     for (std::size_t k = 0; k < rim_.size(); ++k) {
-      const Offset at = turned(rim_[k].x, rim_[k].y, heading);
+      const std::int32_t place = place_of_node(turned(rim_[k].x, rim_[k].y, heading));
       for (std::int32_t j = 0; j < kSide; ++j) {
-        const std::uint8_t* from = row(unseen_, at.x, at.y + j * kPerCell);
+        const std::uint8_t* from = &unseen_[static_cast<std::size_t>(place + j * kPerCell * kColumns)];
         std::uint8_t* to = unseen + PoseLattice::at(0, j, heading);
         for (std::int32_t i = 0; i < kSide; ++i) to[i] = static_cast<std::uint8_t>((k == 0 ? 0 : to[i]) + from[i]);
       }

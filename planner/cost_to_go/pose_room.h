@@ -5,13 +5,15 @@
 #include <vector>
 
 #include "hal/types/robot_model.h"
+#include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/guide.h"
+#include "planner/cost_to_go/pose_look.h"
 #include "planner/cost_to_go/pose_moves.h"
 
 namespace jaywalk::field {
 
-/// How much room a body's outline has at every pose of the lattice: by points along it, on nodes 2.5 cm apart. A pose
-/// stands for the place in its cell, across its heading, at which the body has most room.
+/// How much room a body's outline has at every pose of the lattice: by points along it, on nodes 2.5 cm apart
+/// (pose_look.h). `settler` is asked first; where it fails, and without one, it is found here.
 ///
 /// Memory in the constructor. Thread: the planner's.
 class PoseRoom {
@@ -19,7 +21,7 @@ class PoseRoom {
   static constexpr float kUnit_m = 0.008F;   ///< of room
   static constexpr float kShift_m = 0.035F;  ///< to one side of a cell's middle or the other
 
-  explicit PoseRoom(const Footprint& body);
+  explicit PoseRoom(const Footprint& body, CostSettler* settler = nullptr);
 
   /// By pose: room, and the shift to the left in kShift_m; of the lattice whose low corner is there. `walls`: surfaces
   /// beside the guide's, in the map.
@@ -30,19 +32,19 @@ class PoseRoom {
   [[nodiscard]] bool find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) noexcept;
 
  private:
-  struct Point {
-    float x, y;
-    std::uint8_t radius;  ///< of a circle within the body, in kUnit_m; 0: of the outline
-  };
-  static constexpr std::int32_t kPerCell = 4, kMargin = 60;  ///< nodes; a body reaches 1.5 m from its axle at most
-  static constexpr std::int32_t kNodes = PoseLattice::kSide * kPerCell + 2 * kMargin, kColumns = kNodes / kPerCell;
+  static constexpr std::int32_t kPerCell = PoseLook::kPerCell, kMargin = PoseLook::kMargin;
+  static constexpr std::int32_t kNodes = PoseLook::kNodes, kColumns = PoseLook::kColumns;
 
-  [[nodiscard]] const std::uint8_t* row(const std::vector<std::uint8_t>& nodes, std::int32_t x, std::int32_t y) const;
+  void add_point(float x, float y, std::uint8_t radius);
+  void place_points();
   void take_nodes(const Guide& guide, Place low) noexcept;
   void add_wall(Place at) noexcept;
-  void look_round(std::int32_t heading, std::int32_t shift) noexcept;
+  void look_round(const std::int32_t* places) noexcept;
 
-  std::vector<Point> points_;                 ///< in the body's frame
+  CostSettler* settler_;
+  std::vector<Place> points_;                 ///< in the body's frame
+  std::vector<std::uint8_t> radius_;          ///< of each, in kUnit_m
+  std::vector<std::int32_t> places_;          ///< as PoseLook has them
   std::array<Place, 8> rim_;                  ///< corners and the sides' middles
   std::vector<std::uint8_t> nodes_, unseen_;  ///< every fourth of a row side by side
   std::array<std::uint8_t, PoseLattice::kSide * PoseLattice::kSide> looked_{};

@@ -45,6 +45,8 @@ bool check_same(Chair& cpu, Chair& gpu, const Pose2& robot, Vec2 goal, double he
   const PoseGuide& a = cpu.from(robot, goal, heading);
   const PoseGuide& b = gpu.from(robot, goal, heading);
   CHECK(same(cpu.guide.to_go_s, gpu.guide.to_go_s, cpu.guide.side * cpu.guide.side));
+  CHECK(cpu.memory.room == gpu.memory.room);
+  CHECK(cpu.memory.shift == gpu.memory.shift);
   CHECK(cpu.memory.cost == gpu.memory.cost);
   CHECK(a.known == b.known);
   CHECK(a.through_unseen == b.through_unseen);
