@@ -93,6 +93,31 @@ TEST_CASE("emulated: a robot nowhere on the lattice, and costs up to the largest
   CHECK(cost[far] == PoseGuide::kNoWay);
 }
 
+TEST_CASE(
+    "emulated: what has fallen beyond a tile's corner is stepped from, whichever of both tiles is looked at first") {
+  PoseMoves moves;
+  moves.draw(Chair::kSpeeds);
+  for (std::uint64_t seed = 1; seed <= 8; ++seed) {
+    Rig rig({.seed = seed});
+    std::vector<std::uint8_t> rate(PoseLattice::kPoses);
+    std::vector<std::uint16_t> cost(PoseLattice::kPoses, PoseGuide::kNoWay);
+    // Straight ahead at 45 degrees, twice: from the last cell of one tile of 8 x 8 into the one across its corner.
+    constexpr std::int32_t kHeading = PoseLattice::kHeadings / 8;
+    const PoseMove& move = moves.from[kHeading][0];
+    REQUIRE(move.turn == 0);
+    REQUIRE(move.di == move.dj);
+    std::int32_t poses[3];
+    for (std::int32_t k = 0; k < 3; ++k) {
+      poses[k] = PoseLattice::at(15 + k * move.di, 15 + k * move.dj, kHeading);
+      rate[static_cast<std::size_t>(poses[k])] = 8;
+    }
+    cost[static_cast<std::size_t>(poses[2])] = 0;
+    REQUIRE(rig.settler.settle(field::PoseCosts{rate.data(), nullptr, moves, -1, 1024, cost.data()}));
+    CHECK(cost[static_cast<std::size_t>(poses[0])] == 2 * cost[static_cast<std::size_t>(poses[1])]);
+    CHECK(cost[static_cast<std::size_t>(poses[1])] < 1000);
+  }
+}
+
 TEST_CASE("emulated: a settler whose device fails says so, has written nothing, and its field is the processor's") {
   for (const Fault fault : {Fault::kRefused, Fault::kBroken}) {
     for (const int launch : {0, 3, 12}) {  // of 8 or more over cells, and as many over poses
