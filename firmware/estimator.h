@@ -29,6 +29,7 @@ class Estimator {
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   /// Localizer's.
   [[nodiscard]] Pose2 map_from_robot_at_scan() const noexcept { return localizer_.map_from_robot_at_scan(); }
+  [[nodiscard]] Twist2 twist() const noexcept { return localizer_.twist(); }
 
  private:
   /// Tells a device's new reading from one seen before.

@@ -89,6 +89,7 @@ class ReplayView {
     });
     live_->begin({.title = options.logs[0].filename().string(),
                   .model = runner.setup().model,
+                  .known = runner.setup().known_map.get(),
                   .takes_goals = false,
                   .takes_pauses = false},
                  runner.setup().tick());

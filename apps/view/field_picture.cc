@@ -7,7 +7,8 @@ namespace jaywalk::view {
 namespace {
 
 constexpr std::uint8_t kNoWay = 254, kNotFree = 255;
-constexpr double kFarthest = 253.0;
+constexpr std::uint8_t kNeverSeen = 127;  // added
+constexpr double kFarthest = 126.0;
 
 std::uint8_t byte_of(float psi, double most) noexcept {
   if (std::isnan(psi)) return kNotFree;
@@ -17,7 +18,7 @@ std::uint8_t byte_of(float psi, double most) noexcept {
 
 }  // namespace
 
-void draw(FieldPicture& into, const FieldView& field) noexcept {
+void draw(FieldPicture& into, const FieldView& field, const EvidenceMap& seen) noexcept {
   double most = 1e-6;
   for (const float psi : field.psi)
     if (std::isfinite(psi)) most = std::max(most, static_cast<double>(psi));
@@ -30,8 +31,11 @@ void draw(FieldPicture& into, const FieldView& field) noexcept {
   into.cells.clear();
   for (std::int32_t y = 0; y < field.height; y += step) {
     const std::size_t row = static_cast<std::size_t>(y) * static_cast<std::size_t>(field.width);
-    for (std::int32_t x = 0; x < field.width; x += step)
-      static_cast<void>(into.cells.push_back(byte_of(field.psi[row + static_cast<std::size_t>(x)], most)));
+    for (std::int32_t x = 0; x < field.width; x += step) {
+      std::uint8_t byte = byte_of(field.psi[row + static_cast<std::size_t>(x)], most);
+      if (byte < kNoWay && seen.evidence({field.low.i + x, field.low.j + y}) == 0) byte += kNeverSeen;
+      static_cast<void>(into.cells.push_back(byte));
+    }
   }
 }
 

@@ -57,9 +57,9 @@ std::string FrameStore::past(std::size_t most) const {
   for (std::size_t k = 0; k < entries_.size(); k += step) {
     const StripTick& strip = entries_[k].strip;
     char row[96];
-    std::snprintf(row, sizeof row, "%s[%.2f,%.3f,%.3f,%d]", k == 0 ? "" : ",", strip.t_s, strip.wanted_mps,
-                  strip.permitted_mps, strip.is_held ? 1 : 0);
-    text += row;
+    std::snprintf(row, sizeof row, "%s[%.2f,%.3f,%.3f,%.3f,\"", k == 0 ? "" : ",", strip.t_s, strip.wanted_mps,
+                  strip.permitted_mps, strip.speed_mps);
+    text += row + to_string(strip.reasons) + "\"]";
   }
   return text + "]}";
 }

@@ -8,12 +8,14 @@
 #include <string_view>
 #include <vector>
 
+#include "firmware/safety/reasons.h"
+
 namespace jaywalk::view {
 
 /// What of a tick the page's strip shows.
 struct StripTick {
-  double t_s = 0.0, wanted_mps = 0.0, permitted_mps = 0.0;
-  bool is_held = false;  ///< the supervisor gave a reason
+  double t_s = 0.0, wanted_mps = 0.0, permitted_mps = 0.0, speed_mps = 0.0;
+  Reason reasons = Reason::kNone;
 };
 
 /// Keeps frames in order, ticks from 0. Where the disk or kMostBytes is full, later ticks are not kept. Any thread; not
@@ -31,7 +33,8 @@ class FrameStore {
 
   /// {"kind":"then","frame":...,"field":...}; empty where that tick is not kept. `field` null where there is none.
   [[nodiscard]] std::string then(std::uint64_t tick) const;
-  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, held], ...]}: every Nth tick kept, `most` at most.
+  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, speed, reasons], ...]}: every Nth tick kept, `most` at
+  /// most.
   [[nodiscard]] std::string past(std::size_t most) const;
 
  private:

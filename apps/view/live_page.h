@@ -3,7 +3,7 @@
 
 namespace jaywalk::view {
 
-/// The page of live_page.html, built into the program by embed.cmake.
+/// The page of page/, built into the program by embed.cmake.
 [[nodiscard]] std::string_view live_page() noexcept;
 
 }  // namespace jaywalk::view

@@ -58,7 +58,8 @@ void LiveView::begin(view::HelloScene hello, Duration tick) {
   zone_.emplace(model_, tick);
   hello.keeps_ticks = keeps_ticks_;
   hello.tick_s = to_seconds(tick);
-  server_->push(view::MessageKind::kHello, to_json(hello));
+  hello_ = to_json(hello);
+  server_->push(view::MessageKind::kHello, hello_);
 }
 
 void LiveView::follow(const LoopRunner& runner, const std::string& ended, bool at_once) {
@@ -74,7 +75,7 @@ void LiveView::show_field_of(const LoopRunner& runner) {
   if (runner.loop().plan().status != PlanStatus::kOk) return;
   field_shown_ = now;
   const auto picture = std::make_unique<view::FieldPicture>();
-  draw(*picture, runner.planner().view_field());
+  draw(*picture, runner.planner().view_field(), runner.loop().tracker().still());
   show(*picture);
 }
 
@@ -98,12 +99,14 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
     plan_shown_ = snapshot.plan.sequence;
     if (keeps_ticks_) store_.add_scene(scene_);
   }
-  const std::string head = view::frame_head({.tick = tick_++, .record = t, .zone = zone_->at(t), .ended = ended});
+  const std::string head = view::frame_head(
+      {.tick = tick_++, .record = t, .zone = zone_->at(t), .speed_mps = snapshot.twist.v_mps, .ended = ended});
   if (keeps_ticks_) {
     store_.add({.t_s = to_seconds(t.now),
                 .wanted_mps = t.wanted.v_mps,
                 .permitted_mps = t.verdict.permitted.v_mps,
-                .is_held = t.verdict.reasons != Reason::kNone},
+                .speed_mps = snapshot.twist.v_mps,
+                .reasons = t.verdict.reasons},
                head);
   }
   if (!is_due) return;
@@ -116,6 +119,7 @@ void LiveView::stay(bool until_told, const Interruption& interruption) const {
   if (!until_told && viewers() == 0) return;
   std::fprintf(stderr, "jaywalk: the run is over; its page stays until %sCtrl-C\n",
                until_told ? "" : "it is closed, or ");
+  server_->push(view::MessageKind::kHello, hello_.substr(0, hello_.size() - 1) + R"(,"over":true})");
   while (!interruption.came()) {
     std::this_thread::sleep_for(kLookEvery);
     const auto now = std::chrono::steady_clock::now();

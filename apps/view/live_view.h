@@ -31,6 +31,9 @@ class LiveView {
   /// After each tick of a runner that this thread drives. `at_once`: whatever was shown just now.
   void follow(const LoopRunner& runner, const std::string& ended, bool at_once = false);
 
+  /// From time to time while no tick comes because a person wants none: pages can tell that from a loop that hangs.
+  void tell_paused() { server_->push(view::MessageKind::kFrame, R"({"kind":"paused"})"); }
+
   /// The same in pieces, for a loop with a thread of its own.
   void show(const view::ViewSnapshot& snapshot, const std::string& ended, bool at_once = false);
   void show(const view::FieldPicture& field);
@@ -55,7 +58,7 @@ class LiveView {
   RobotModel model_;
   std::optional<view::ShownStopZone> zone_;
   view::ViewSnapshot snapshot_;
-  std::string scene_;
+  std::string hello_, scene_;
   std::uint32_t scan_shown_ = 0, plan_shown_ = 0;
   std::uint64_t tick_ = 0, field_ = 0;
   Time field_shown_ = kNever;

@@ -30,7 +30,8 @@ RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& co
       address_file_(control_socket, live_.url()) {
   boost::asio::post(stops_, view::be_in_background);
   boost::asio::post(goals_, view::be_in_background);
-  live_.begin({.title = title, .model = setup.model, .takes_pauses = false}, setup.tick());
+  live_.begin({.title = title, .model = setup.model, .known = setup.known_map.get(), .takes_pauses = false},
+              setup.tick());
 }
 
 void RunView::follow() {

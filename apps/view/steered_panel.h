@@ -13,6 +13,7 @@ class SteeredPanel final : public OperatorPanel {
   explicit SteeredPanel(OperatorPanel& inner) : inner_(inner) {}
   [[nodiscard]] OperatorInput latest() noexcept override {
     OperatorInput input = inner_.latest();
+    input.stop_orders += stops_;
     if (stopped_ || goal_) input.steers = false, input.stick = {};
     if (stopped_) input.has_goal = false;
     if (!goal_) return input;
@@ -24,13 +25,14 @@ class SteeredPanel final : public OperatorPanel {
   /// Between ticks.
   void obey(const ViewOrder& order) noexcept {
     if (order.goal) goal_ = order.goal, stopped_ = false;
-    if (order.stop) goal_.reset(), stopped_ = true;
+    if (order.stop) goal_.reset(), stopped_ = true, ++stops_;
   }
 
  private:
   OperatorPanel& inner_;
   std::optional<GoalOrder> goal_;
   bool stopped_ = false;
+  std::uint32_t stops_ = 0;
 };
 
 }  // namespace jaywalk::view

@@ -2,14 +2,19 @@
 
 #include <openssl/evp.h>
 
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
+#include <vector>
+
+#include "planner/scan/scan_points.h"
 
 namespace jaywalk::view {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
+constexpr std::int32_t kMostGroundSide = 1000;
 constexpr std::size_t kPathStep = 2;  ///< every second of points 0.05 to 0.2 m apart
 
 /// To the millimetre: the page shows no more.
@@ -20,23 +25,26 @@ Json place(Vec2 p) { return Json::array({mm(p.x), mm(p.y)}); }
 /// JSON has bytes of text from files in it: what is no UTF-8 is replaced.
 std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-Json hits_of(const TickRecord& t, const Pose2& robot_from_laser) {
-  const Transform2 map_from_laser(t.pose.map_from_robot * robot_from_laser);
+Json hits_of(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
+  ScanProjection projection;
+  ScanPoints points;
+  projection.project(snapshot.record.scan, robot_from_laser, snapshot.twist, points);
+  const Transform2 map_from_robot(snapshot.map_from_robot_at_scan);
   Json hits = Json::array();
-  for (std::size_t i = 0; i < t.scan.beam_count; ++i) {
-    if (!t.scan.is_hit(i)) continue;
-    const Vec2 p = map_from_laser * (direction(t.scan.angle_rad(i)) * static_cast<double>(t.scan.range_m[i]));
+  for (const ScanPoint& point : points) {
+    const Vec2 p = map_from_robot * point.in_robot;
     hits.push_back(mm(p.x));
     hits.push_back(mm(p.y));
   }
   return hits;
 }
 
-/// Position, radius, whether it moves.
+/// Position, radius, whether it moves, velocity, whether it ever walked.
 Json tracks_of(std::span<const Track> tracks) {
   Json out = Json::array();
   for (const Track& k : tracks)
-    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0});
+    out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0,
+                   mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.has_walked ? 1 : 0});
   return out;
 }
 
@@ -76,6 +84,32 @@ Json zone_of(const ShownStopZone::Outlines& zone) {
   return out;
 }
 
+std::string base64_of(std::span<const std::uint8_t> bytes) {
+  std::string base64(4 * ((bytes.size() + 2) / 3) + 1, '\0');
+  ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()), bytes.data(), static_cast<int>(bytes.size()));
+  base64.pop_back();  // a zero behind it
+  return base64;
+}
+
+/// A byte a cell, rows from the lowest y: 0 unknown, 1 free, 2 with a wall in it. Thinned: walls stay.
+Json ground_of(const KnownMap& known) {
+  std::int32_t step = 1;
+  while (std::max(known.width, known.height) > step * kMostGroundSide) ++step;
+  const std::int32_t width = (known.width + step - 1) / step, height = (known.height + step - 1) / step;
+  std::vector<std::uint8_t> cells(static_cast<std::size_t>(width) * static_cast<std::size_t>(height), 0);
+  for (std::int32_t j = 0; j < known.height; ++j) {
+    for (std::int32_t i = 0; i < known.width; ++i) {
+      auto& cell = cells[static_cast<std::size_t>(j / step * width + i / step)];
+      cell = std::max(cell, static_cast<std::uint8_t>(known.at({known.low.i + i, known.low.j + j})));
+    }
+  }
+  return {{"x", mm(known.low.i * known.cell_m)},
+          {"y", mm(known.low.j * known.cell_m)},
+          {"cell_m", step * known.cell_m},
+          {"width", width},
+          {"cells", base64_of(cells)}};
+}
+
 }  // namespace
 
 std::string to_json(const HelloScene& hello) {
@@ -92,7 +126,8 @@ std::string to_json(const HelloScene& hello) {
                  {"rear_m", body.rear_m},
                  {"half_width_m", body.half_width_m},
                  {"max_speed_mps", hello.model.limits.max_speed_mps},
-                 {"walls", walls}});
+                 {"walls", walls},
+                 {"ground", hello.known == nullptr ? Json(nullptr) : ground_of(*hello.known)}});
 }
 
 std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
@@ -100,7 +135,7 @@ std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser)
   for (const StandingPedestrian& s : snapshot.standing)
     standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
   const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
-  return dumped({{"hits", hits_of(snapshot.record, robot_from_laser)},
+  return dumped({{"hits", hits_of(snapshot, robot_from_laser)},
                  {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
                  {"standing", standing},
                  {"futures", futures_of(movers)},
@@ -117,6 +152,8 @@ std::string frame_head(const FrameScene& frame) {
            {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
            {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
            {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
+           {"speed", mm(frame.speed_mps)},
+           {"stops", t.input.stop_orders},
            {"gap_m", mm(t.verdict.gap_m)},
            {"reasons", to_string(t.verdict.reasons)},
            {"zone", zone_of(frame.zone)},
@@ -129,17 +166,13 @@ std::string frame_head(const FrameScene& frame) {
 }
 
 std::string to_json(const FieldPicture& field, std::uint64_t number) {
-  std::string base64(4 * ((field.cells.size() + 2) / 3) + 1, '\0');
-  ::EVP_EncodeBlock(reinterpret_cast<unsigned char*>(base64.data()), field.cells.data(),
-                    static_cast<int>(field.cells.size()));
-  base64.pop_back();  // a zero behind it
   return dumped({{"kind", "field"},
                  {"number", number},
                  {"x", mm(field.low_x_m)},
                  {"y", mm(field.low_y_m)},
                  {"cell_m", field.cell_m},
                  {"width", field.width},
-                 {"cells", base64}});
+                 {"cells", base64_of({field.cells.begin(), field.cells.size()})}});
 }
 
 }  // namespace jaywalk::view

@@ -9,6 +9,7 @@
 #include "apps/view/shown_stop_zone.h"
 #include "apps/view/view_snapshot.h"
 #include "hal/types/robot_model.h"
+#include "planner/mapping/known_map.h"
 
 namespace jaywalk::view {
 
@@ -21,6 +22,7 @@ struct HelloScene {
   std::string title;
   RobotModel model;
   std::span<const WallPiece> walls = {};  ///< the world's, where there is one
+  const KnownMap* known = nullptr;        ///< the robot's, where it was given one
   double tick_s = 0.02;
   bool takes_goals = true;   ///< and the Stop button
   bool takes_pauses = true;  ///< Pause and Step hold the program, not only the page
@@ -36,6 +38,7 @@ struct FrameScene {
   std::uint64_t tick = 0;  ///< from 0
   const TickRecord& record;
   ShownStopZone::Outlines zone;
+  double speed_mps = 0.0;    ///< as the wheels say, or the scans
   std::string_view ended{};  ///< the run's outcome, with its last frame
 };
 /// Ends in `"scene":`; the JSON of a snapshot and a closing brace follow.

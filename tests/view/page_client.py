@@ -22,8 +22,8 @@ def short_scenario(root, folder, timeout_s, name="short"):
 class Run:
     """A jaywalk command with --view; `url` is the address that it printed."""
 
-    def __init__(self, *command):
-        self.program = subprocess.Popen([*command, "--view"], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
+    def __init__(self, *command, port=None):
+        self.program = subprocess.Popen([*command, "--view", *([str(port)] if port else [])], stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True)
         line = self.program.stdout.readline()
         if not line.startswith("view: "):
             raise AssertionError(f"{command}: the first line is {line!r}")
@@ -39,8 +39,8 @@ class Run:
         return self.wait()
 
 
-def simulation(jaywalk, scenario, out, *options):
-    return Run(jaywalk, "sim", scenario, "--backend", "cpu", "--out", out, *options)
+def simulation(jaywalk, scenario, out, *options, port=None):
+    return Run(jaywalk, "sim", scenario, "--backend", "cpu", "--out", out, *options, port=port)
 
 
 def http(port, path="/", method="GET", **headers):

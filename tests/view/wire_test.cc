@@ -46,19 +46,47 @@ TEST_CASE("a stop takes back a goal that waits, and a goal a stop") {
   CHECK_FALSE(orders.take().stop);
 }
 
-TEST_CASE("the field's bytes are its potential in 253 steps, with codes for no way and not free") {
+TEST_CASE(
+    "the field's bytes are its potential in 126 steps, 127 more where nothing was seen, with codes for no way and not "
+    "free") {
   const float nan = std::nanf(""), inf = HUGE_VALF;
-  const float psi[] = {0.0F, 1.0F, nan, inf};  // the farthest is 1: byte 253
+  const float psi[] = {0.0F, 1.0F, nan, inf, 0.0F, 1.0F};  // the farthest is 1: byte 126
+  EvidenceMap seen(64, 0.1, {1.0, 2.0});
+  seen.add({10, 20}, -6);
+  seen.add({11, 20}, -6);
   FieldPicture picture;
-  draw(picture, {.low = {10, 20}, .width = 2, .height = 2, .cell_m = 0.1, .psi = psi});
+  draw(picture, {.low = {10, 20}, .width = 2, .height = 3, .cell_m = 0.1, .psi = psi}, seen);
   CHECK(to_json(picture, 3) ==
-        R"({"kind":"field","number":3,"x":1.0,"y":2.0,"cell_m":0.1,"width":2,"cells":"AP3//g=="})");
+        R"({"kind":"field","number":3,"x":1.0,"y":2.0,"cell_m":0.1,"width":2,"cells":"AH7//n/9"})");
+}
+
+TEST_CASE("the scan lies where the robot was when it was taken, not where it has driven since") {
+  const auto snapshot = std::make_unique<ViewSnapshot>();
+  LaserScan& scan = snapshot->record.scan;
+  scan.beam_count = 3;
+  scan.first_angle_rad = -0.5F;
+  scan.angle_step_rad = 0.5F;
+  scan.range_max_m = 10.0F;
+  scan.range_m[1] = 2.0F;  // straight ahead of a laser 0.25 m before the robot's middle; the others see nothing
+  snapshot->map_from_robot_at_scan = {1.0, 0.0, 0.0};
+  snapshot->record.pose.map_from_robot = {1.5, 0.0, 0.25};
+  CHECK(to_json(*snapshot, {0.25, 0.0, 0.0}).find(R"({"hits":[3.25,0.0],)") == 0);
+}
+
+TEST_CASE("a known map is thinned to 1,000 cells a side, and none of its walls gets lost") {
+  KnownMap known{0.1, {-20, 0}, 4000, 4, std::vector<KnownCell>(16'000, KnownCell::kFree)};
+  known.cells[known.index({-20 + 2003, 2})] = KnownCell::kWall;
+  known.cells[known.index({-20, 0})] = KnownCell::kUnknown;
+  const std::string hello = to_json(HelloScene{.title = "", .model = {}, .known = &known});
+  CHECK(hello.find(R"("ground":{"x":-2.0,"y":0.0,"cell_m":0.4,"width":1000,"cells":"AQEB)") != std::string::npos);
+  CHECK(hello.find("AQEC") != std::string::npos);  // 1 1 2: cell 500, which is the third of its three
+  CHECK(to_json(HelloScene{.title = "", .model = {}}).find(R"("ground":null)") != std::string::npos);
 }
 
 TEST_CASE("a field of 1,024 cells a side is thinned to 128") {
   const std::vector<float> psi(1024 * 1024, 1.0F);
   FieldPicture picture;
-  draw(picture, {.low = {}, .width = 1024, .height = 1024, .cell_m = 0.1, .psi = psi});
+  draw(picture, {.low = {}, .width = 1024, .height = 1024, .cell_m = 0.1, .psi = psi}, EvidenceMap(64, 0.1, {}));
   CHECK(picture.width == 128);
   CHECK(picture.cells.size() == 128 * 128);
   CHECK(picture.cell_m == 0.8);
@@ -68,14 +96,21 @@ TEST_CASE("any tick that was kept comes back with its scene and its field") {
   FrameStore store;
   CHECK(store.then(0).empty());
   store.add_scene("{\"a\":1}");
-  store.add({.t_s = 0.5, .wanted_mps = 0.25, .permitted_mps = 0.125, .is_held = true}, "{\"tick\":0,\"scene\":");
+  store.add({.t_s = 0.5,
+             .wanted_mps = 0.25,
+             .permitted_mps = 0.125,
+             .speed_mps = 0.5,
+             .reasons = Reason::kNoGoal | Reason::kStopZone},
+            "{\"tick\":0,\"scene\":");
   store.add_field("{\"f\":2}");
   store.add({.t_s = 1.0}, "{\"tick\":1,\"scene\":");
   CHECK(store.then(0) == R"({"kind":"then","frame":{"tick":0,"scene":{"a":1}},"field":null})");
   CHECK(store.then(1) == R"({"kind":"then","frame":{"tick":1,"scene":{"a":1}},"field":{"f":2}})");
   CHECK(store.then(2).empty());
-  CHECK(store.past(9) == R"({"kind":"past","step":1,"ticks":[[0.50,0.250,0.125,1],[1.00,0.000,0.000,0]]})");
-  CHECK(store.past(1) == R"({"kind":"past","step":2,"ticks":[[0.50,0.250,0.125,1]]})");
+  CHECK(
+      store.past(9) ==
+      R"({"kind":"past","step":1,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal"],[1.00,0.000,0.000,0.000,""]]})");
+  CHECK(store.past(1) == R"({"kind":"past","step":2,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal"]]})");
 }
 
 TEST_CASE("a PoseStamped in JSON is a goal where it turns in the plane of the map") {
