@@ -1,7 +1,9 @@
 #include "apps/why/why_decision.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
+#include <set>
 #include <utility>
 
 #include "apps/report/csv_file.h"
@@ -37,26 +39,6 @@ std::vector<Vec2> way_of(const motion::RobotState& start,
   return way;
 }
 
-}  // namespace
-
-DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
-  constexpr int kEvery = 5;  // steps: a second
-  const motion::Decision& decision = motion.decision();
-  DecisionScene scene;
-  for (const motion::Alternative& a : alternatives)
-    scene.ways.push_back({way_of(decision.start, a.driven), a.cost.total()});
-  scene.chosen = way_of(decision.start, decision.driven);
-  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
-    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
-      const motion::MoverAt& at = motion.futures().at(step, m);
-      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
-      for (int k = 0; k < motion::kFutures; ++k)
-        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
-    }
-  }
-  return scene;
-}
-
 /// The name of a proposal in why.csv, and its words in a sentence. With a switch the compiler reports a missing one.
 std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
   using motion::Proposal;
@@ -83,6 +65,32 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
       return {"go_straight", "turn and drive straight on"};
   }
   return {"unknown", "do something unknown"};
+}
+
+}  // namespace
+
+DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<motion::Alternative>& alternatives) {
+  constexpr int kEvery = 5;  // steps: a second
+  const motion::Decision& decision = motion.decision();
+  DecisionScene scene;
+  std::set<motion::Proposal> told{decision.trajectory.proposal};
+  for (const motion::Alternative& a : alternatives) {
+    const motion::Proposal kind = a.trajectory.proposal;
+    if (!told.insert(kind).second) continue;
+    std::string name = names_of(kind).first;
+    std::replace(name.begin(), name.end(), '_', ' ');
+    scene.ways.push_back({std::move(name), way_of(decision.start, a.driven), a.cost.total() - decision.cost.total()});
+  }
+  scene.chosen = way_of(decision.start, decision.driven);
+  for (std::size_t m = 0; m < motion.futures().movers(); ++m) {
+    for (int step = 0; step < motion::kFutureSteps; step += kEvery) {
+      const motion::MoverAt& at = motion.futures().at(step, m);
+      const double share = static_cast<double>(step) / (motion::kFutureSteps - 1);
+      for (int k = 0; k < motion::kFutures; ++k)
+        scene.futures.push_back({{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])}, share});
+    }
+  }
+  return scene;
 }
 
 const char* name_of(motion::Proposal proposal) { return names_of(proposal).second; }

@@ -46,8 +46,9 @@ struct PlanMoment {
 
 /// A way that was weighed.
 struct WeighedWay {
+  std::string name;  ///< "wait then go"
   std::vector<Vec2> places;
-  float cost_s = 0.0F;
+  float dearer_s = 0.0F;  ///< than the one chosen
 };
 
 /// Where a mover is in one of the futures that were drawn, and when: 0 now, 1 at the horizon.
@@ -58,7 +59,7 @@ struct FuturePlace {
 
 /// What one decision on motion rests on.
 struct DecisionScene {
-  std::vector<WeighedWay> ways;  ///< cheapest first
+  std::vector<WeighedWay> ways;  ///< the best of each kind, cheapest first
   std::vector<Vec2> chosen;
   std::vector<FuturePlace> futures;
 };

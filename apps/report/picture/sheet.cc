@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <functional>
 #include <string>
 
@@ -118,8 +119,11 @@ void add_decision_rows(std::vector<LegendRow>& rows, Canvas& canvas, const Pictu
     return [&canvas, colour, width](Vec2 at) { line_sample(canvas, at, {colour, width}); };
   };
   rows.push_back({line(ink::kBand, 3.6), "chosen, 6 s"});
-  const std::array<const char*, kCostColours.size()> kNames{"within 0.5 s of the cheapest", "within 3 s", "dearer"};
-  for (std::size_t k = 0; k < kNames.size(); ++k) rows.push_back({line(kCostColours[k].second, 2.4), kNames[k]});
+  for (std::size_t k = 0; k < std::min(scene.decision->ways.size(), kWayColours.size()); ++k) {
+    char dearer[32];
+    std::snprintf(dearer, sizeof dearer, "%+.1f s: ", static_cast<double>(scene.decision->ways[k].dearer_s));
+    rows.push_back({line(kWayColours[k], 2.4), dearer + scene.decision->ways[k].name});
+  }
   if (!scene.decision->futures.empty()) {
     rows.push_back({[&](Vec2 at) { canvas.fill_disc(at, 5.0, kFutureColour.faded(0.5)); }, "where bodies may be"});
   }
