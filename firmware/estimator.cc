@@ -18,7 +18,7 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
           .cell_m = setup.planner().cell_m,
           .map_centre = (setup.start.position() + setup.goal) * 0.5,
           .body = setup.model.footprint,
-          .known_map = setup.known_map.get()};
+          .known_map = setup.known_map};
 }
 
 }  // namespace

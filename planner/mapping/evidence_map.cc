@@ -101,14 +101,15 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) 
   note_change(k);
 }
 
-void EvidenceMap::tell(CellIndex cell, int evidence, Vec2 surface) noexcept {
+void EvidenceMap::tell(CellIndex cell, int evidence, Vec2 surface, Vec2 free_side) noexcept {
   if (!contains(cell)) return;
   const std::size_t k = slot(cell);
   const Vec2 offset = (surface - centre_of(cell)) * (128.0 / (0.5 * cell_m_));
   evidence_[k] = static_cast<std::int8_t>(std::clamp(evidence, kMin, kMax));
   seen_for_[k] = evidence > 0 ? static_cast<std::uint8_t>(kSeenUnitsPerS * kStandsAfterS) : std::uint8_t{0};
   surface_[k] = {moved_offset(0, offset.x, true), moved_offset(0, offset.y, true)};
-  to_laser_[k] = {kToldOnly, 0};
+  const auto sign = [](double v) { return v > 0.0 ? 1 : v < 0.0 ? -1 : 0; };
+  to_laser_[k] = {kToldOnly, static_cast<std::int8_t>(3 * sign(free_side.x) + sign(free_side.y))};
   note_change(k);
 }
 
@@ -119,7 +120,11 @@ Vec2 EvidenceMap::surface(CellIndex cell) const {
 
 Vec2 EvidenceMap::to_laser(CellIndex cell) const {
   const Offset& towards = to_laser_[slot(cell)];
-  if (towards.x == kToldOnly) return {};
+  if (towards.x == kToldOnly) {
+    const int x = towards.y > 1 ? 1 : towards.y < -1 ? -1 : 0;
+    const Vec2 side{x * 1.0, (towards.y - 3 * x) * 1.0};
+    return side * (1.0 / std::max(1.0, norm(side)));
+  }
   return {towards.x / kUnit, towards.y / kUnit};
 }
 

@@ -79,8 +79,9 @@ class EvidenceMap {
   /// most 0.25 s count: since the scan before. `to_laser` has length 1, or 0 where nobody knows.
   void add_hit(Vec2 p_in_map, int change, double seen_for_s = 0.0, Vec2 to_laser = {}) noexcept;
   /// A map from before says what is in the cell: evidence, and of a wall that it stands there for long, its surface at
-  /// `surface_in_map` in this cell until the first hit says where.
-  void tell(CellIndex cell, int evidence, Vec2 surface_in_map) noexcept;
+  /// `surface_in_map` in this cell until the first hit says where. `free_side`: the side that it is seen from, by the
+  /// signs of its coordinates; 0 where it may be any.
+  void tell(CellIndex cell, int evidence, Vec2 surface_in_map, Vec2 free_side = {}) noexcept;
   /// Where the surface in an occupied cell lies (m, in the map): the mean of its recent points. The cell's centre
   /// where nothing but add() was called. Meaningless for cells that are not occupied.
   [[nodiscard]] Vec2 surface(CellIndex cell) const;
@@ -119,7 +120,7 @@ class EvidenceMap {
   void note_change(std::size_t k) noexcept { changed_[k / kPiece] = ++changes_; }
 
   static constexpr std::size_t kPiece = 64;
-  static constexpr std::int8_t kToldOnly = -128;  ///< to_laser's x: no hit has been there
+  static constexpr std::int8_t kToldOnly = -128;  ///< to_laser's x: no hit has been there; y is the free side's code
   std::int32_t side_;
   double cell_m_;
   CellIndex low_;

@@ -31,14 +31,20 @@ bool is_inside(const KnownMap& known, CellIndex at) {
 
 }  // namespace
 
-void enter(const KnownMap& known, EvidenceMap& map) noexcept {
-  for (std::int32_t j = known.low.j; j < known.low.j + known.height; ++j) {
-    for (std::int32_t i = known.low.i; i < known.low.i + known.width; ++i) {
+void enter(const KnownMap& known, EvidenceMap& map, std::optional<CellIndex> before) noexcept {
+  const CellIndex low{std::max(known.low.i, map.low().i), std::max(known.low.j, map.low().j)};
+  const CellIndex end{std::min(known.low.i + known.width, map.low().i + map.side()),
+                      std::min(known.low.j + known.height, map.low().j + map.side())};
+  const auto was_inside = [&](std::int32_t at, std::int32_t first) { return at >= first && at < first + map.side(); };
+  for (std::int32_t j = low.j; j < end.j; ++j) {
+    for (std::int32_t i = low.i; i < end.i; ++i) {
+      if (before && was_inside(i, before->i) && was_inside(j, before->j)) continue;
       const KnownCell cell = known.at({i, j});
       const Vec2 middle = map.centre_of({i, j});
       if (cell == KnownCell::kFree) map.tell({i, j}, kFree, middle);
       if (cell != KnownCell::kWall || is_inside(known, {i, j})) continue;
-      map.tell({i, j}, kWall, middle + to_free_side(known, {i, j}) * (kHalf * known.cell_m));
+      const Vec2 free_side = to_free_side(known, {i, j});
+      map.tell({i, j}, kWall, middle + free_side * (kHalf * known.cell_m), free_side);
     }
   }
 }

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <vector>
 
 #include "planner/mapping/evidence_map.h"
@@ -39,8 +40,8 @@ struct KnownMap {
   }
 };
 
-/// Enters what `known` holds into a map that is new: believed, until a few scans say otherwise. Walls count as seen for
-/// long. What lies outside the map's window is left out.
-void enter(const KnownMap& known, EvidenceMap& map) noexcept;
+/// Enters what `known` holds into a map where it is new: believed, until a few scans say otherwise. Walls count as seen
+/// for long. What lies outside the map's window is left out, and what lay in it when its lowest cell was `before`.
+void enter(const KnownMap& known, EvidenceMap& map, std::optional<CellIndex> before) noexcept;
 
 }  // namespace jaywalk

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <limits>
+#include <optional>
 
 #include "planner/mapping/isolated_obstacles.h"
 #include "planner/mapping/map_entry.h"
@@ -32,11 +33,12 @@ struct Tracker::State {
   explicit State(const PerceptionConfig& c)
       : robot_from_laser(c.robot_from_laser),
         own_body(c.body),
+        known(c.known_map),
         still(c.map_side_cells, c.cell_m, c.map_centre),
         entry(still),
         loose(still),
         scene(c.robot_from_laser) {
-    if (c.known_map != nullptr) enter(*c.known_map, still);
+    if (known) enter(*known, still, std::nullopt);
   }
 
   void predict_all_to(Time stamp) noexcept;
@@ -52,6 +54,7 @@ struct Tracker::State {
 
   Pose2 robot_from_laser;
   Footprint own_body;
+  std::shared_ptr<const KnownMap> known;
   EvidenceMap still;
   MapEntry entry;
   IsolatedObstacles loose;
@@ -153,7 +156,9 @@ void Tracker::State::enter_still() noexcept {
   const Vec2 laser_in_map = scene.map_from_laser.position();
   const std::size_t count = scene.points.size();
   decide_entries(targets, scene.detections, {scene.in_map.position.data(), count}, still, now, entries);
+  const CellIndex low = still.low();
   still.roll_to(laser_in_map);
+  if (known && !(still.low() == low)) enter(*known, still, low);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
   const Pose2 map_from_robot = scene.map_from_laser * inverse(robot_from_laser);
   const Transform2 to_map(map_from_robot);

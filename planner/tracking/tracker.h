@@ -19,7 +19,7 @@ struct PerceptionConfig {
   std::int32_t map_side_cells = 1024;
   Vec2 map_centre;   ///< where the evidence map is centred at start
   Footprint body{};  ///< of the robot: where it stands nothing else does. Without size: nothing is said of that
-  const KnownMap* known_map = nullptr;  ///< what stands before the first scan; the constructor reads it
+  std::shared_ptr<const KnownMap> known_map{};  ///< what stands before the first scan; null: nothing is known
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.

@@ -108,6 +108,12 @@ TEST_CASE("what a map tells of a cell is believed; where its surface lies the fi
   CHECK(map.seen_free({1, 0}));
   CHECK(map.surface({0, 0}).x == Approx(0.09).margin(0.0005));  // to 1/128 of half a cell
   CHECK(map.to_laser({0, 0}) == Vec2{});
+  for (const Vec2 side : {Vec2{1.0, 0.0}, {0.0, -1.0}, {-1.0, 0.0}, {0.0, 1.0}}) {
+    map.tell({5, 5}, 40, {0.55, 0.55}, side);
+    CHECK(map.to_laser({5, 5}) == side);
+  }
+  map.tell({5, 5}, 40, {0.55, 0.55}, {-1.0, 2.0});
+  CHECK(map.to_laser({5, 5}).y == Approx(std::sqrt(0.5)));
   map.add_hit({0.02, 0.06}, 10, 0.05, {1.0, 0.0});
   CHECK(map.evidence({0, 0}) == 50);
   CHECK(map.surface({0, 0}).x == Approx(0.02).margin(0.0005));
