@@ -107,6 +107,7 @@ PlannerConfig ControlSetup::planner() const {
   config.body = model.footprint;
   config.inflation_m = mover_radius_m();
   config.keep_out = keep_out();
+  config.known_map = known_map;
   return config;
 }
 

@@ -14,6 +14,7 @@
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/keep_out.h"
+#include "planner/mapping/known_map.h"
 #include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
@@ -121,9 +122,11 @@ struct PlannerConfig {
   double mover_margin_m = 0.3;          ///< the "safety distance" round a mover's predicted body
   double horizon_cap_s = 5.0;           ///< predictions go no further
   std::shared_ptr<const KeepOutField> keep_out{};  ///< where the robot must not be; null: nowhere
+  std::shared_ptr<const KnownMap> known_map{};     ///< for ways beyond the window; null: what is seen on the way
 };
 
-/// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024.
+/// Side (cells) of a grid of `cell_m` cells that holds start and goal with room around them: 256, 512 or 1024; 512
+/// where none holds both, and a FarGuide leads on.
 [[nodiscard]] std::int32_t grid_side_for(Vec2 start_in_map, Vec2 goal_in_map, double cell_m);
 
 /// Plans on a window of the world. submit() hands over a request, collect() the newest finished

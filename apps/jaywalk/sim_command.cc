@@ -15,6 +15,7 @@
 #include "apps/view/sim_view.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
+#include "firmware/robot/known_map_file.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -81,6 +82,7 @@ std::vector<std::filesystem::path> files_of(const sim::Scenario& scenario, const
 }
 
 ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options) {
+  const double cell_m = ControlSetup{}.planner().cell_m;
   return {.model = scenario.model,
           .mode = options.mode,
           .constant_speed = options.constant_speed,
@@ -93,6 +95,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .start = scenario.start,
           .goal = scenario.goal,
           .goal_tolerance_m = scenario.goal_tolerance_m,
+          .known_map = scenario.map_is_known ? load_known_map(scenario.map_file, cell_m) : nullptr,
           .zones = scenario.zones,
           .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
 }

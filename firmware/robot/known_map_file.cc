@@ -35,19 +35,28 @@ Box box_of(const sim::Raster& raster) {
 }
 
 std::int32_t cell_of(double metres, double cell_m) { return static_cast<std::int32_t>(std::floor(metres / cell_m)); }
+/// The first that has nothing before `metres` in it: a map that ends at a cell's border needs no cell beyond.
+std::int32_t end_cell_of(double metres, double cell_m) {
+  return static_cast<std::int32_t>(std::ceil(metres / cell_m - 1e-6));
+}
 
 /// Marks the cells of the map under each part of a raster's cell: parts no larger than half a cell of the map.
 void draw(const sim::Raster& raster, KnownMap& map) {
   const int parts = std::max(1, static_cast<int>(std::ceil(2.0 * raster.cell_m / map.cell_m)));
   const Transform2 map_from_raster(raster.map_from_raster);
+  std::vector<Vec2> part_of(
+      static_cast<std::size_t>(parts * parts));  // from a cell's corner, turned, in the map's cells
+  for (int k = 0; k < parts * parts; ++k)
+    part_of[static_cast<std::size_t>(k)] =
+        map_from_raster.rotate(Vec2{(k % parts + 0.5) / parts, (k / parts + 0.5) / parts} * raster.cell_m) *
+        (1.0 / map.cell_m);
   for (std::int32_t row = 0; row < raster.height; ++row) {
     for (std::int32_t column = 0; column < raster.width; ++column) {
       const bool wall = raster.solid_cell(column, row);
       if (!wall && !raster.free_cell(column, row)) continue;
-      for (int k = 0; k < parts * parts; ++k) {
-        const Vec2 part{column + (k % parts + 0.5) / parts, row + (k / parts + 0.5) / parts};
-        const Vec2 p = map_from_raster * (part * raster.cell_m);
-        const CellIndex at{cell_of(p.x, map.cell_m), cell_of(p.y, map.cell_m)};
+      const Vec2 corner = map_from_raster * (Vec2{column * 1.0, row * 1.0} * raster.cell_m) * (1.0 / map.cell_m);
+      for (const Vec2& part : part_of) {
+        const CellIndex at{cell_of(corner.x + part.x, 1.0), cell_of(corner.y + part.y, 1.0)};
         if (map.holds(at)) map.mark(at, wall ? KnownCell::kWall : KnownCell::kFree);
       }
     }
@@ -63,13 +72,13 @@ std::string text_of(const Pose2& pose) {
 }  // namespace
 
 std::shared_ptr<const KnownMap> load_known_map(const std::filesystem::path& yaml, double cell_m) {
-  const sim::Raster raster = sim::load_raster_map(yaml).raster;
+  const sim::Raster raster = sim::load_raster(yaml);
   const Box box = box_of(raster);
   auto map = std::make_shared<KnownMap>();
   map->cell_m = cell_m;
   map->low = {cell_of(box.low.x, cell_m), cell_of(box.low.y, cell_m)};
-  map->width = cell_of(box.high.x, cell_m) - map->low.i + 1;
-  map->height = cell_of(box.high.y, cell_m) - map->low.j + 1;
+  map->width = end_cell_of(box.high.x, cell_m) - map->low.i;
+  map->height = end_cell_of(box.high.y, cell_m) - map->low.j;
   if (map->width > kMostKnownCells || map->height > kMostKnownCells) {
     char side[48];
     std::snprintf(side, sizeof side, ": more than %.0f m a side", kMostKnownCells * cell_m);

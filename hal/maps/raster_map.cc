@@ -160,11 +160,16 @@ std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_fi
   return read_settings(yaml_file).image;
 }
 
-WallMap load_raster_map(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
+Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
   const RasterSettings settings = read_settings(yaml_file);
+  Raster raster = read_raster(settings.image, settings.rule, settings.cell_m, most_cells);
+  raster.map_from_raster = settings.origin;
+  return raster;
+}
+
+WallMap load_raster_map(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
   WallMap map;
-  map.raster = read_raster(settings.image, settings.rule, settings.cell_m, most_cells);
-  map.raster.map_from_raster = settings.origin;
+  map.raster = load_raster(yaml_file, most_cells);
   map.segments = edges_of(map.raster);
   return map;
 }

@@ -52,6 +52,8 @@ inline constexpr std::int32_t kMostRasterCells = 10'000;
 /// `most_cells` is read in larger ones (occupancy.h).
 [[nodiscard]] WallMap load_raster_map(const std::filesystem::path& yaml_file,
                                       std::int32_t most_cells = kMostRasterCells);
+/// The same without the walls' edges.
+[[nodiscard]] Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cells = kMostRasterCells);
 /// The picture that such a file names.
 [[nodiscard]] std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file);
 /// MobileSim's text map in millimetres: its LINES are walls; when it has none, its DATA points are, as discs.

@@ -103,6 +103,7 @@ struct Scenario {
   double timeout_s = 180.0;
   MapKind map_kind = MapKind::kYaml;
   std::filesystem::path map_file;
+  bool map_is_known = false;  ///< to the robot, before it sees anything
   Pose2 start;
   Vec2 goal;
   std::string start_place, goal_place;  ///< "office.toml:12: ", for complaints; empty for a scenario from no file

@@ -18,7 +18,10 @@ void read_map(TomlTable table, Scenario& scenario) {
     scenario.map_file = table.existing_file(key);
     ++found;
   }
+  scenario.map_is_known = table.boolean("known");
   table.finish();
+  if (scenario.map_is_known && scenario.map_kind != MapKind::kYaml)
+    table.refuse("known", "only a map with yaml tells what is free", "leave it out, or give yaml");
   if (found != 1) table.refuse("yaml", "or aria or cylinders: one is needed", "name exactly one map");
 }
 

@@ -41,7 +41,8 @@ std::vector<SettingKey> world_keys() {
           {"", "faults", kTables, {}, "", "none", "what goes wrong"},
           {"map", "yaml", kFile, {}, "", "another kind", "ROS map_server file"},
           {"map", "aria", kFile, {}, "", "another kind", "MobileSim / ARIA map"},
-          {"map", "cylinders", kFile, {}, "", "another kind", "a line \"x y radius\" (m) each"}};
+          {"map", "cylinders", kFile, {}, "", "another kind", "a line \"x y radius\" (m) each"},
+          {"map", "known", kBoolean, {}, "", kScenario.map_is_known, "the robot has it"}};
 }
 
 std::vector<SettingKey> robot_keys() {

@@ -29,6 +29,7 @@ class GridPlanner final : public Planner {
         window_({{0, 0}, config.side_cells, config.cell_m}, config.max_side_cells),
         time_to_go_(config.body.inscribed_radius_m(), config.body.circumscribed_radius_m(), config.max_side_cells,
                     config.keep_out, settler()),
+        far_(config.cell_m, config.known_map),
         poses_(config.body, settler()),
         keep_out_(config.keep_out ? config.keep_out->view() : KeepOut{}) {
     for (Answer& answer : answers_) {
@@ -100,13 +101,17 @@ class GridPlanner final : public Planner {
   };
   using Answer = std::unique_ptr<Result>;
 
-  [[nodiscard]] static TimeToGoRequest time_to_go_request(const PlanRequest& request, const Result& result) noexcept {
+  [[nodiscard]] TimeToGoRequest time_to_go_request(const PlanRequest& request, const Result& result) noexcept {
+    const Vec2 robot = request.map_from_robot.position();
+    const bool is_far = !result.window.holds(request.goal_in_map, 0);
+    if (is_far) far_.settle(request.stamp, request.still, robot, request.goal_in_map);
     return {.window = result.window,
             .still = request.still,
             .movers = request.masked,
-            .robot_in_map = request.map_from_robot.position(),
+            .robot_in_map = robot,
             .goal_in_map = request.goal_in_map,
-            .speed_mps = request.speed_mps};
+            .speed_mps = request.speed_mps,
+            .far = is_far ? &far_ : nullptr};
   }
 
   [[nodiscard]] std::int32_t cells(double metres) const noexcept {
@@ -314,6 +319,7 @@ class GridPlanner final : public Planner {
   Window solved_window_;  ///< that the potential was last solved on, and for which goal cell
   std::int32_t solved_goal_ = kNoCell;
   TimeToGoField time_to_go_;
+  FarGuide far_;
   PoseField poses_;
   KeepOut keep_out_;
   std::array<std::uint32_t, kMaxTracks> mover_ids_{};

@@ -29,7 +29,7 @@ std::int32_t grid_side_for(Vec2 start, Vec2 goal, double cell_m) {
   const double box = std::fmax(std::fabs(goal.x - start.x), std::fabs(goal.y - start.y)) / cell_m;
   const double needed = box + 2.0 * field::kWindowMargin;
   if (needed <= 256.0) return 256;
-  return needed <= 512.0 ? 512 : 1024;
+  return needed <= 512.0 || needed > 1024.0 ? 512 : 1024;
 }
 
 std::unique_ptr<Planner> make_cpu_planner(const PlannerConfig& config) {

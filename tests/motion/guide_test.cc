@@ -101,3 +101,73 @@ TEST_CASE("the guide forgets what it was asked before") {
   CHECK(std::memcmp(one.to_go_s, two.to_go_s, cells * sizeof(float)) == 0);
   CHECK(std::memcmp(one.surface, two.surface, cells * sizeof(Place)) == 0);
 }
+
+namespace {
+
+/// 100 by 40 m, free but for a wall along y = 0 and one at x = 50 m that leaves 5 m open at the top.
+std::shared_ptr<const KnownMap> hall_with_a_wall() {
+  KnownMap hall{0.1, {0, 0}, 1000, 400, std::vector<KnownCell>(400'000, KnownCell::kFree)};
+  for (std::int32_t i = 0; i < 1000; ++i) hall.mark({i, 0}, KnownCell::kWall);
+  for (std::int32_t j = 0; j < 350; ++j) hall.mark({500, j}, KnownCell::kWall);
+  return std::make_shared<const KnownMap>(std::move(hall));
+}
+
+constexpr Time kFirst{std::chrono::seconds(1)};
+
+}  // namespace
+
+TEST_CASE("the way beyond the window goes round a wall of the known map") {
+  field::FarGuide far(0.1, hall_with_a_wall());
+  far.settle(kFirst, nullptr, {10.0, 5.0}, {90.0, 5.0});
+  const double straight_up = 30.0, along = 40.0;  // from (10, 5) by (50, 35) to (90, 5): 50 m and 50 m
+  CHECK(far.to_go_m({10.0, 5.0}) == Approx(2.0 * std::hypot(straight_up, along)).epsilon(0.06));
+  CHECK(far.to_go_m({45.0, 5.0}) > 60.0);
+  CHECK(std::isinf(far.to_go_m({50.05, 5.0})));  // in the wall
+  CHECK(far.has_way_near({50.05, 5.0}));
+}
+
+TEST_CASE("the way beyond the window remembers what has left the evidence map") {
+  field::FarGuide far(0.1, nullptr);
+  EvidenceMap still(128, 0.1, {10.0, 0.0});  // 12.8 m
+  for (std::int32_t j = -60; j < 60; ++j) still.add({100, j}, 20);
+  far.settle(kFirst, &still, {0.0, 0.0}, {60.0, 0.0});
+  const double seen = far.to_go_m({5.0, 0.0});
+  CHECK(seen > 1.02 * far.to_go_m({5.0, 12.0}));  // round the wall's end
+  still.roll_to({-40.0, 0.0});
+  far.settle(kFirst + std::chrono::seconds(2), &still, {0.0, 0.0}, {60.0, 0.0});
+  CHECK(far.to_go_m({5.0, 0.0}) == seen);
+  still.roll_to({10.0, 0.0});
+  for (std::int32_t j = -60; j < 60; ++j) still.add({100, j}, -20);  // it has gone
+  far.settle(kFirst + std::chrono::seconds(4), &still, {0.0, 0.0}, {60.0, 0.0});
+  CHECK(far.to_go_m({5.0, 0.0}) < seen);
+}
+
+TEST_CASE("where few cells have changed, the far way is what it is from nothing") {
+  field::FarGuide repaired(0.1, hall_with_a_wall()), anew(0.1, hall_with_a_wall());
+  EvidenceMap still(512, 0.1, {50.0, 20.0});
+  repaired.settle(kFirst, nullptr, {10.0, 5.0}, {90.0, 5.0});
+  for (std::int32_t j = 360; j < 390; ++j) still.add({500, j}, 20);
+  for (std::int32_t j = 100; j < 120; ++j)
+    for (std::int32_t i = 496; i < 504; ++i) still.add({i, j}, -20);
+  repaired.settle(kFirst + std::chrono::seconds(2), &still, {10.0, 5.0}, {90.0, 5.0});
+  anew.settle(kFirst, &still, {10.0, 5.0}, {90.0, 5.0});
+  for (double x = 1.0; x < 99.0; x += 3.7)
+    for (double y = 1.0; y < 39.0; y += 2.9) CHECK(repaired.to_go_m({x, y}) == anew.to_go_m({x, y}));
+}
+
+TEST_CASE("the known map enters where the evidence map rolls on, and leaves what was seen") {
+  const auto known = hall_with_a_wall();
+  EvidenceMap map(128, 0.1, {44.0, 10.0});
+  enter(*known, map, std::nullopt);
+  CHECK(map.occupied({500, 100}));
+  CHECK(map.seen_free({450, 100}));
+  CHECK_FALSE(map.seen_free({520, 100}));  // outside
+  map.add({450, 100}, EvidenceMap::kMax - EvidenceMap::kMin);
+  map.forget({500, 100});
+  const CellIndex before = map.low();
+  map.roll_to({48.5, 10.0});
+  enter(*known, map, before);
+  CHECK(map.seen_free({520, 100}));
+  CHECK(map.occupied({450, 100}));
+  CHECK(map.evidence({500, 100}) == 0);
+}

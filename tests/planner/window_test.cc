@@ -16,6 +16,7 @@ TEST_CASE("start and goal 22.5 m apart fit 256 cells, 23 m do not") {
   CHECK(grid_side_for({0.0, 0.0}, {23.0, 0.0}, 0.1) == 512);
   CHECK(grid_side_for({0.0, 0.0}, {-47.0, 3.0}, 0.1) == 512);
   CHECK(grid_side_for({0.0, 0.0}, {0.0, 90.0}, 0.1) == 1024);
+  CHECK(grid_side_for({0.0, 0.0}, {110.0, 0.0}, 0.1) == 512);  // none holds both: a far guide leads on
 }
 
 TEST_CASE("a window that fits lies round robot and goal, on whole blocks") {
