@@ -244,13 +244,18 @@ std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request, const Cell
 /// For a goal outside every cell of the border, with what is left beyond.
 void TimeToGoField::seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept {
   const Window& window = request.window;
+  const FarGuide* const far =
+      request.far != nullptr && request.far->has_way_near(request.robot_in_map) ? request.far : nullptr;
   const double through = distance(request.robot_in_map, request.goal_in_map);
   const auto add = [&](std::int32_t i, std::int32_t j) {
     const std::int32_t n = graph_.at(i, j);
     if (rate_[static_cast<std::size_t>(window.grid().at(i, j))] == 0 || graph_.cost(n) != kNoWay) return;
-    // Relative to the straight way, so that a goal far off costs no more than numbers hold.
-    const double more =
-        distance(window.in_map({i + 0.5, j + 0.5}), request.goal_in_map) - through + window.side * window.cell_m * 1.5;
+    const Vec2 here = window.in_map({i + 0.5, j + 0.5});
+    // Straight on, relative to the straight way, so that a goal far off costs no more than numbers hold.
+    const double more = far != nullptr
+                            ? far->to_go_m(here)
+                            : distance(here, request.goal_in_map) - through + window.side * window.cell_m * 1.5;
+    if (std::isinf(more)) return;
     repair_.offer(graph_, n, static_cast<std::uint32_t>(std::max(0.0, more) / window.cell_m * kCostsPerCell));
   };
   for (std::int32_t i = box.i0; i <= box.i1; ++i) add(i, box.j0), add(i, box.j1);

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "planner/cost_to_go/cost_settler.h"
+#include "planner/cost_to_go/far_guide.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/cost_to_go/guide_ways.h"
 #include "planner/cost_to_go/nearest_surfaces.h"
@@ -20,6 +21,7 @@ struct TimeToGoRequest {
   std::span<const MoverDisc> movers;
   Vec2 robot_in_map, goal_in_map;
   double speed_mps = 0.0;
+  const FarGuide* far = nullptr;  ///< settled for a goal outside the window; null: beyond it straight on
 };
 
 /// Nearest surfaces and the time to go to the goal, for a body of which `inscribed_m` is the narrowest half: nearer to
