@@ -6,12 +6,18 @@ namespace {
 
 constexpr const char* kHead = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>";
 constexpr const char* kStyle =
-    "</title>\n<style>\nbody{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;color:#222}\n"
+    "</title>\n<meta name=\"viewport\" content=\"width=device-width, "
+    "initial-scale=1\">\n<style>\n:root{color-scheme:light "
+    "dark}\nbody{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}\n"
     "table{border-collapse:collapse;margin:.5rem 0 1.5rem}\nth,td{padding:.2rem .7rem;border-bottom:1px solid "
-    "#ddd;text-align:right}\nth:first-child,td:first-child{text-align:left}\ncode{background:#f3f3f3;padding:.1rem "
+    "#8886;text-align:right;white-space:nowrap}\nth:first-child,td:first-child{text-align:left}\ncode{background:#8883;"
+    "padding:.1rem "
     ".3rem;overflow-wrap:anywhere}\nfigure{margin:1rem "
-    "0}\n.failures{display:grid;grid-template-columns:repeat(auto-fill,"
-    "minmax(22rem,1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid #ddd}\n</style>\n</head>\n<body>\n";
+    "0}\nfigure "
+    "svg{max-width:100%;height:auto;background:#fff}\n.wide{overflow-x:auto}\n.failures{display:grid;grid-template-"
+    "columns:repeat(auto-fill,"
+    "minmax(min(22rem,100%),1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid "
+    "#8886;background:#fff}\n</style>\n</head>\n<body>\n";
 
 std::string escaped(const std::string& text) {
   std::string out;
@@ -39,10 +45,36 @@ std::string cells(const std::vector<std::string>& row, const std::string& kind) 
   return out + "</tr>\n";
 }
 
+/// RFC 4180.
+std::string csv_of(const ReportTable& table) {
+  std::string out;
+  const auto add = [&out](const std::vector<std::string>& row) {
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      std::string cell = row[k];
+      for (std::size_t at = cell.find('"'); at != std::string::npos; at = cell.find('"', at + 2))
+        cell.insert(at, 1, '"');
+      out += (k == 0 ? "\"" : ",\"") + cell + "\"";
+    }
+    out += "\r\n";
+  };
+  add(table.head);
+  for (const auto& row : table.rows) add(row);
+  return out;
+}
+
 std::string table_of(const ReportTable& table) {
-  std::string out = "<h3>" + escaped(table.title) + "</h3>\n<table>\n" + cells(table.head, "th");
+  std::string out = "<h3>" + escaped(table.title) + "</h3>\n<div class=\"wide\"><table>\n" + cells(table.head, "th");
   for (const auto& row : table.rows) out += cells(row, "td");
-  return out + "</table>\n";
+  return out + "</table></div>\n<p><a download=\"" + escaped(table.title) + ".csv\" href=\"data:text/csv;base64," +
+         base64(csv_of(table)) + "\">CSV</a></p>\n";
+}
+
+std::string runs_of(const std::vector<ReportRun>& runs) {
+  std::string out = "<h2>All runs</h2>\n<details><summary>" + std::to_string(runs.size()) + " runs</summary>\n<ul>\n";
+  for (const ReportRun& run : runs)
+    out += "<li><a href=\"../" + escaped(run.folder) + "/\">" + escaped(run.folder) + "</a>: " + escaped(run.outcome) +
+           "</li>\n";
+  return out + "</ul></details>\n";
 }
 
 std::string section_of(const ReportSection& section) {
@@ -70,7 +102,7 @@ std::string html_of(const ReportPage& page) {
   std::string out = kHead + escaped(page.title) + kStyle + "<h1>" + escaped(page.title) + "</h1>\n<p>" +
                     escaped(page.text) + "</p>\n";
   for (const ReportSection& section : page.sections) out += section_of(section);
-  out += "<h2>Failures</h2>\n";
+  out += runs_of(page.runs) + "<h2>Failures</h2>\n";
   if (page.failures.empty()) return out + "<p>None.</p>\n</body>\n</html>\n";
   out += "<div class=\"failures\">\n";
   for (const ReportFailure& failure : page.failures) out += failure_of(failure);

@@ -126,6 +126,7 @@ ReportPage CampaignReport::page() const {
   for (const ReportedTables& tables : tables_) page.sections.push_back(section_of(tables));
   for (const ReportedTables& tables : tables_) {
     for (const ReportedRow& row : tables.rows) {
+      for (const ReportedRun& run : row.runs) page.runs.push_back({run.run->folder, run.result.outcome});
       for (const ReportedRun& run : row.runs)
         if (!run.result.success) page.failures.push_back(failure_of(run));
     }

@@ -33,14 +33,22 @@ struct ReportSection {
   std::vector<ReportChart> charts;
 };
 
+/// A run that is finished.
+struct ReportRun {
+  std::string folder;   ///< below the campaign's
+  std::string outcome;  ///< "reached"
+};
+
 struct ReportPage {
   std::string title;
   std::string text;
   std::vector<ReportSection> sections;
   std::vector<ReportFailure> failures;
+  std::vector<ReportRun> runs;
 };
 
-/// One file that needs no other: charts and pictures are in it.
+/// One file that needs no other: charts, pictures and tables to download are in it. Its links to the runs' folders hold
+/// where it lies in a folder of the campaign's.
 [[nodiscard]] std::string html_of(const ReportPage& page);
 /// Refers to charts beside it (charts/NAME.svg) and to pictures (failures/NUMBER.svg, from 1).
 [[nodiscard]] std::string markdown_of(const ReportPage& page);

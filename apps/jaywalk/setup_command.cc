@@ -40,6 +40,16 @@ void write_sound(const std::filesystem::path& out, const std::string& text) {
   }
 }
 
+/// Beside the robot's file, "robot_model.toml".
+std::filesystem::path write_model(RobotDraft& draft) {
+  const std::string name = out_path.stem().string() + "_model.toml";
+  const std::filesystem::path file = out_path.parent_path() / name;
+  require_new(file);
+  std::ofstream(file) << draft.model() << std::flush;
+  draft.set("", "model", literal(name), "as measured");
+  return file;
+}
+
 int set_up() {
   require_new(out_path);
   const bool asks = answers_path.empty();
@@ -49,8 +59,15 @@ int set_up() {
   SteadyClock clock;
   std::fputs("Looking for drives, scanners and joysticks; nothing moves.\n", stderr);
   const std::unique_ptr<Surroundings> machine = this_machine(clock);
-  write_sound(out_path, draft_robot(*machine, answers, clock).text());
-  std::printf("%s is written.\n", out_path.c_str());
+  RobotDraft draft = draft_robot(*machine, answers, clock);
+  const std::filesystem::path model = draft.model().empty() ? "" : write_model(draft);
+  try {
+    write_sound(out_path, draft.text());
+  } catch (const StartupError&) {
+    if (!model.empty()) std::filesystem::remove(model);
+    throw;
+  }
+  std::printf("%s is written%s.\n", out_path.c_str(), model.empty() ? "" : (", and " + model.string()).c_str());
   RunOptions options;
   options.robot = out_path;
   return check_robot(options);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "apps/report/csv_rows.h"
+#include "apps/report/waits_and_loops.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"
@@ -38,8 +39,9 @@ struct Cause {
   const char* reason;
   const char* words;
 };
+constexpr const char* kNoGoal = "it had no goal";
 constexpr std::array<Cause, 7> kCauses{{{"latched", "a fault waited for a reset"},
-                                        {"no_goal", "it had no goal"},
+                                        {"no_goal", kNoGoal},
                                         {"touched", "something touched it, or its scanner saw itself"},
                                         {"stop_zone", "something stood in its way"},
                                         {"turn_blocked", "no room to turn to the goal's heading"},
@@ -78,10 +80,13 @@ class Day {
     if (rows_ > 0) lived(row);
     if (rows_ == 0) begin_s_ = row.t_s;
     note_faults(row);
+    loops_.add(row.t_s, row.map_from_robot);
     before_ = row;
     ++rows_;
   }
   [[nodiscard]] double lasted_s() const { return before_.t_s - begin_s_; }
+  /// Its last row was added.
+  Waits& waits() { return end_stop(), waits_; }
   [[nodiscard]] std::string words() {
     end_stop();
     const double drove_s = before_.t_s - begin_s_ - stood_s_;
@@ -90,6 +95,7 @@ class Day {
     text += text_of("; stood %.1f s.\n", stood_s_);
     for (const auto& [cause, stops] : stops_)
       text += text_of("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
+    text += waits_.words() + loops_.words();
     if (faults_.empty()) return text + "Faults: none.\n";
     text += "Faults:\n";
     for (const auto& [fault, times] : faults_) text += "  " + fault + ", " + often(times) + "\n";
@@ -107,12 +113,17 @@ class Day {
     const double step_m = distance(row.map_from_robot.position(), before_.map_from_robot.position());
     if (std::isfinite(step_m)) way_m_ += step_m;
     if (!before_.stands) return;
+    if (in_stop_.empty()) stopped_ = before_;
     in_stop_[cause_of(before_)] += step_s;
     if (!row.stands) end_stop();
   }
   void end_stop() {
     double whole_s = 0.0;
     for (const auto& [cause, seconds] : in_stop_) whole_s += seconds;
+    const auto main = std::max_element(in_stop_.begin(), in_stop_.end(),
+                                       [](const auto& a, const auto& b) { return a.second < b.second; });
+    if (main != in_stop_.end() && main->first != kNoGoal)
+      waits_.add(stopped_.t_s, whole_s, stopped_.map_from_robot, main->first);
     if (whole_s >= kShortestStop_s) {
       stood_s_ += whole_s;
       for (const auto& [cause, seconds] : in_stop_) {
@@ -130,7 +141,9 @@ class Day {
   }
 
   std::size_t rows_ = 0;
-  RunRow before_;
+  RunRow before_, stopped_;
+  Waits waits_;
+  Loops loops_;
   double begin_s_ = 0.0, way_m_ = 0.0, stood_s_ = 0.0;
   std::map<std::string, double> in_stop_;  ///< seconds of the stop that goes on, by cause
   std::map<std::string, Stops> stops_;
@@ -170,6 +183,13 @@ std::string gone_of(int parts, const Day& day) {
          text_of(" %.1f s.\n", day.lasted_s());
 }
 
+void note_tracks(const std::filesystem::path& table, Waits& waits) {
+  CsvRows rows(table, {"t_s", "id", "x_m", "y_m", "vx_mps", "vy_mps"});
+  while (rows.next())
+    waits.note(rows.number(0), static_cast<unsigned>(rows.number(1)), {rows.number(2), rows.number(3)},
+               {rows.number(4), rows.number(5)});
+}
+
 }  // namespace
 
 std::string run_words(const std::filesystem::path& folder) {
@@ -181,6 +201,8 @@ std::string run_words(const std::filesystem::path& folder) {
                  {"t_s", "est_x_m", "est_y_m", "est_heading_rad", "left_radps", "right_radps", "reasons"});
     while (rows.next()) day.add(row_of(rows));
   }
+  for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts)
+    if (day.waits().any() && !has_nothing(place / "tracks.csv")) note_tracks(place / "tracks.csv", day.waits());
   const nlohmann::json summary = summary_of(folder);
   const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;
   return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() +

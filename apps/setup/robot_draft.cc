@@ -31,6 +31,11 @@ bool RobotDraft::has(const std::string& section, const std::string& key) const {
   return values_.count({section, key}) != 0;
 }
 
+std::string RobotDraft::value(const std::string& section, const std::string& key) const {
+  const auto found = values_.find({section, key});
+  return found == values_.end() ? "" : found->second.value;
+}
+
 void RobotDraft::add_table(const std::string& name, const std::vector<std::pair<std::string, std::string>>& keys) {
   std::string& block = tables_[name];
   block += "\n[[" + name + "]]\n";

@@ -15,6 +15,11 @@ class RobotDraft {
   /// `value` as TOML writes it; `note`: how it is known, "found" or "as answered", say. `section` without its ":kind".
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& note);
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
+  /// As set() wrote it; "" where it did not.
+  [[nodiscard]] std::string value(const std::string& section, const std::string& key) const;
+  /// A robot model file that is to lie beside it, under the name that its key `model` gives; empty: none.
+  void set_model(const std::string& text) { model_ = text; }
+  [[nodiscard]] const std::string& model() const { return model_; }
   /// One [[name]] more, whose keys are these.
   void add_table(const std::string& name, const std::vector<std::pair<std::string, std::string>>& keys);
   /// A line of the file's head.
@@ -30,6 +35,7 @@ class RobotDraft {
   std::map<std::pair<std::string, std::string>, Value> values_;
   std::map<std::string, std::string> tables_;  ///< whole blocks, by name
   std::vector<std::string> remarks_;
+  std::string model_;
 };
 
 /// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.

@@ -2,17 +2,21 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdio>
+#include <initializer_list>
 
 #include "apps/setup/drive_search.h"
 #include "apps/setup/scanner_search.h"
 #include "drivers/laser/scanner_setup.h"
+#include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
 constexpr const char* kFound = "found";
+constexpr const char* kMeasured = "measured";  ///< for the name of a model file: its measures are asked for
 
 /// In the order of DriveKind: its name, and the key that says how much a turn of a wheel is.
 struct DriveKindKeys {
@@ -43,7 +47,7 @@ class Setup {
   RobotDraft draft() {
     draft_.remark(
         "Written by jaywalk setup. Every key: jaywalk config --explain. Next: jaywalk check, commission, run.");
-    answers_.settle(draft_, "", "model");
+    draft_model();
     draft_drives();
     draft_scanner();
     draft_panel();
@@ -52,6 +56,34 @@ class Setup {
   }
 
  private:
+  /// One that is measured here lies in a file of its own, the rest of it as the P3-DX has it.
+  void draft_model() {
+    const bool may_measure = answers_.asks() && !answers_.given("", "model");
+    answers_.settle(draft_, "", "model", may_measure ? literal(kMeasured) : "");
+    if (!may_measure || draft_.value("", "model") != literal(kMeasured)) return;
+    const RobotModel like = p3dx();
+    std::string text = "# Measured by a person; what is not was taken from the P3-DX: see to it.\n";
+    const auto ask = [&](const char* section, std::initializer_list<const char*> keys) {
+      text += std::string("\n[") + section + "]\n";
+      for (const char* key : keys)
+        text += std::string(key) + " = " + answers_.said_of(robot_model_keys().find(section, key)) + "\n";
+    };
+    const auto take = [&text](const char* key, double value) {
+      text += std::string(key) + " = " + literal(value) + "\n";
+    };
+    ask("footprint", {"front_m", "rear_m", "half_width_m"});
+    ask("drive", {"wheel_radius_m", "track_width_m", "max_wheel_speed_radps"});
+    text += "\n[limits]\n";
+    take("max_speed_mps", like.limits.max_speed_mps), take("max_turn_radps", like.limits.max_turn_radps);
+    take("max_accel_mps2", like.limits.max_accel_mps2),
+        take("max_turn_accel_radps2", like.limits.max_turn_accel_radps2);
+    take("max_jerk_mps3", like.limits.max_jerk_mps3), take("brake_mps2", like.limits.brake_mps2);
+    text += "\n[laser]\n";  // robot.toml says better
+    take("fov_deg", std::floor(like.laser.fov_rad * 180.0 / kPi)), take("rate_hz", like.laser.rate_hz);
+    take("beams", like.laser.beams), take("range_m", like.laser.range_max_m);
+    text += "mount = [0.0, 0.0, 0.0]\n";
+    draft_.set_model(text);
+  }
   void draft_drives() {
     std::vector<BusFinding> findings;
     std::string seen;

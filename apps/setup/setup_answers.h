@@ -30,6 +30,8 @@ class SetupAnswers {
   /// Throws StartupError where none of the three knows it.
   void settle(RobotDraft& draft, const std::string& section, const std::string& key, const std::string& suggestion = "",
               const std::string& note = "");
+  /// What a person says of a key of any file, as TOML writes it.
+  [[nodiscard]] std::string said_of(const SettingKey& row) { return ask(row, ""); }
   /// The person's choice among several, from 0; without a person, or with one to choose from, the first.
   [[nodiscard]] std::size_t choose(const std::string& what, const std::vector<std::string>& among);
   [[nodiscard]] bool agrees(const std::string& question);

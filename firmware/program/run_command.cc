@@ -228,7 +228,8 @@ int check_robot(const RunOptions& options) {
       {"file", true, options.robot.string()},
       {"commissioned", record.state != Commissioned::kFailed, record.said, record.state != Commissioned::kPassed}};
   SteadyClock clock;
-  for (const CheckedPart& part : preflight(file, socket_for(options, file), clock)) parts.push_back(part);
+  const auto waits_for = [](const std::string& part) { remark("waits for " + printable(part)); };
+  for (const CheckedPart& part : preflight(file, socket_for(options, file), clock, waits_for)) parts.push_back(part);
   if (options.json) {
     print_json(parts);
   } else {

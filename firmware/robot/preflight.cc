@@ -110,7 +110,9 @@ std::string check_joystick(const PanelWiring& panel, Clock& clock) {
 /// Lists what each part says for itself.
 class Inspection {
  public:
+  explicit Inspection(const std::function<void(const std::string&)>& waits_for) : waits_for_(waits_for) {}
   void look(const std::string& part, const std::function<std::string()>& at) {
+    if (waits_for_) waits_for_(part);
     try {
       parts_.push_back({part, true, at()});
     } catch (const StartupError& error) {
@@ -121,6 +123,7 @@ class Inspection {
   [[nodiscard]] std::vector<CheckedPart> parts() && { return std::move(parts_); }
 
  private:
+  const std::function<void(const std::string&)>& waits_for_;
   std::vector<CheckedPart> parts_;
 };
 
@@ -144,8 +147,9 @@ void require_joystick(const PanelWiring& panel) {
   throw StartupError(path + ": " + lacks, has_others ? "press it and read its number: evtest " + path : remedy);
 }
 
-std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket, Clock& clock) {
-  Inspection inspection;
+std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket, Clock& clock,
+                                   const std::function<void(const std::string&)>& waits_for) {
+  Inspection inspection(waits_for);
   inspection.look("clock", check_clock);
   inspection.look("priority", [&] { return check_realtime(file.realtime); });
   inspection.look("memory", [&] { return check_memory(file.realtime); });

@@ -1,6 +1,7 @@
 #pragma once
 // What `jaywalk check` looks at before a robot is let run.
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -28,8 +29,9 @@ void require_joystick(const PanelWiring& panel);
 /// Looks at all that a run needs: clock, real-time rights, memory, planner (a trial
 /// of its GPU), control socket, CAN interface, both drives, scanner,
 /// joystick. Nothing moves, no setting of a device is changed but what makes a scanner send. Where a run has the robot
-/// already, that is said and its devices are left alone. Takes some seconds.
+/// already, that is said and its devices are left alone. Takes some seconds: `waits_for` is told of each part before.
 [[nodiscard]] std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem::path& control_socket,
-                                                 Clock& clock);
+                                                 Clock& clock,
+                                                 const std::function<void(const std::string&)>& waits_for = {});
 
 }  // namespace jaywalk

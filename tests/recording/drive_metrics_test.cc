@@ -5,6 +5,7 @@
 
 #include "apps/report/csv_file.h"
 #include "apps/report/trails.h"
+#include "apps/report/waits_and_loops.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 
@@ -132,3 +133,28 @@ TEST_CASE("trails are thinned to a point every 0.2 s and ordered by id") {
 
 }  // namespace
 }  // namespace jaywalk
+
+TEST_CASE("a wait is told with how long it was and the body that was nearest meanwhile") {
+  Waits waits;
+  waits.add(10.0, 2.9, {1.0, 0.0, 0.0}, "too short");
+  CHECK_FALSE(waits.any());
+  waits.add(20.0, 5.0, {1.0, 2.0, 0.0}, "something stood in its way");
+  waits.note(19.0, 3, {1.0, 2.1}, {0.0, 0.0});  // before
+  waits.note(21.0, 4, {1.0, 3.5}, {0.4, 0.0});
+  waits.note(24.0, 5, {2.0, 2.0}, {0.0, 0.1});
+  CHECK(waits.words() ==
+        "Its longest waits:\n  at 20.0 s, 1.0, 2.0 m, for 5.0 s: something stood in its way; body 5 was 1.0 m from its "
+        "middle and stood\n");
+}
+
+TEST_CASE("a full turn within 6 m of way is a loop, a wide circle is none") {
+  for (const auto& [radius_m, is_loop] : {std::pair{0.9, true}, {1.2, false}}) {  // 5.7 m and 7.5 m round
+    Loops loops;
+    for (int k = 0; k <= 130; ++k) {
+      const double turned = k * kPi / 60.0;  // more than once round
+      loops.add(0.1 * k, {radius_m * std::sin(turned), radius_m * (1.0 - std::cos(turned)), wrap_angle(turned)});
+    }
+    INFO(loops.words());
+    CHECK((loops.words().find("Loops, 1 in all:") == 0) == is_loop);
+  }
+}

@@ -8,6 +8,7 @@
 #include "apps/setup/drive_search.h"
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
+#include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
 #include "hil/far_end/living_clock.h"
@@ -238,6 +239,25 @@ TEST_CASE("at a terminal what cannot be seen is asked, what is nonsense again, a
   CHECK(says(text, "mount = [0.1, 0, 0] "));
   CHECK(says(text, "joystick = \"/dev/input/by-id/usb-Pad-event-joystick\""));
   CHECK(says(said.str(), "drive.motor_turns_per_wheel_turn: the gear (0.1 to 1000): not one of these"));
+}
+
+TEST_CASE("where no model is named at a terminal, the robot is measured, and a model file is written for it") {
+  EmulatedMachine machine("odrive_hokuyo");
+  std::istringstream person("\n0.3\n0.28\n0.25\n0.1\n0.45\n12\n\n4\n10\n\n\n[0.1, 0, 0]\nyes\n\n");
+  std::ostringstream said;
+  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.port) + "\n";
+  SetupAnswers known(machine.answers(port), &person, &said);
+  const RobotDraft draft = draft_robot(machine, known, machine.clock);
+  CAPTURE(draft.model(), said.str());
+  const std::filesystem::path file = std::filesystem::temp_directory_path() / "measured_model.toml";
+  std::ofstream(file) << draft.model();
+  const RobotModel model = load_robot_model(file);
+  std::filesystem::remove(file);
+  CHECK(model.footprint.rear_m == 0.28);
+  CHECK(model.drive.track_width_m == 0.45);
+  CHECK(model.drive.max_wheel_speed_radps == 12.0);
+  CHECK(model.limits.brake_mps2 == p3dx().limits.brake_mps2);
+  CHECK(model.laser.beams == p3dx().laser.beams);
 }
 
 TEST_CASE("what the answers say besides is taken over whole") {

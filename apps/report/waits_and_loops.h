@@ -1,0 +1,55 @@
+#pragma once
+// Where a run waited, how long and for whom, and where it drove in circles: in words.
+#include <deque>
+#include <string>
+#include <vector>
+
+#include "hal/types/geometry.h"
+
+namespace jaywalk {
+
+/// Stops of 3 s and more, with the body that came nearest meanwhile.
+class Waits {
+ public:
+  /// The robot stood there from then on for so long; shorter ones are left out. `cause` in words.
+  void add(double from_s, double for_s, const Pose2& map_from_robot, const std::string& cause);
+  /// A body as it was tracked; times in any order.
+  void note(double t_s, unsigned id, Vec2 position_in_map, Vec2 velocity_in_map);
+  /// A line a wait, the longest of them; empty: there was none.
+  [[nodiscard]] std::string words() const;
+  [[nodiscard]] bool any() const { return !waits_.empty(); }
+
+ private:
+  struct Wait {
+    double from_s, for_s;
+    Vec2 where;
+    std::string cause;
+    double nearest_m;
+    unsigned id = 0;
+    double speed_mps = 0.0;
+  };
+  std::vector<Wait> waits_;
+};
+
+/// Full turns of the heading within 6 m of way.
+class Loops {
+ public:
+  void add(double t_s, const Pose2& map_from_robot);
+  /// A line each; empty: there was none.
+  [[nodiscard]] std::string words() const;
+
+ private:
+  struct Passed {
+    double way_m, turned_rad;
+  };
+  struct Loop {
+    double at_s;
+    Vec2 where;
+  };
+  std::deque<Passed> passed_;  ///< the last 6 m, and for a robot that stands the last turn
+  Pose2 before_;
+  bool begun_ = false;
+  std::vector<Loop> loops_;
+};
+
+}  // namespace jaywalk
