@@ -80,7 +80,9 @@ class Setup {
     take("max_jerk_mps3", like.limits.max_jerk_mps3), take("brake_mps2", like.limits.brake_mps2);
     text += "\n[laser]\n";  // robot.toml says better
     take("fov_deg", std::floor(like.laser.fov_rad * 180.0 / kPi)), take("rate_hz", like.laser.rate_hz);
-    take("beams", like.laser.beams), take("range_m", like.laser.range_max_m);
+    take("beams", like.laser.beams), take("range_min_m", like.laser.range_min_m),
+        take("range_m", like.laser.range_max_m);
+    take("noise_m", like.laser.noise_m), take("drop_out", like.laser.drop_out);
     text += "mount = [0.0, 0.0, 0.0]\n";
     draft_.set_model(text);
   }

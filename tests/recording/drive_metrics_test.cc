@@ -132,7 +132,6 @@ TEST_CASE("trails are thinned to a point every 0.2 s and ordered by id") {
 }
 
 }  // namespace
-}  // namespace jaywalk
 
 TEST_CASE("a wait is told with how long it was and the body that was nearest meanwhile") {
   Waits waits;
@@ -158,3 +157,5 @@ TEST_CASE("a full turn within 6 m of way is a loop, a wide circle is none") {
     CHECK((loops.words().find("Loops, 1 in all:") == 0) == is_loop);
   }
 }
+
+}  // namespace jaywalk
