@@ -79,13 +79,14 @@ std::vector<std::string> success_row(const ReportedRow& row) {
           outcome("fault"),
           std::to_string(not_run),
           std::to_string(clear),
-          fixed(sum_of(values_of(runs, plain("forced_movers"))), 0)};
+          fixed(sum_of(values_of(runs, plain("forced_movers"))), 0),
+          std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("loops") > 0.0; }))};
 }
 
 ReportTable success_table(const ReportedTables& tables) {
   ReportTable table{"Success",
                     {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run",
-                     "contact-free", "movers made to turn"},
+                     "contact-free", "movers made to turn", "runs with a loop"},
                     {}};
   for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
   return table;

@@ -19,10 +19,11 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr std::array kFigures{"path_length_m",         "static_shortest_path_m", "duration_s",    "min_clearance_m",
-                              "min_mover_clearance_m", "forced_movers",          "contacts",      "contacts_caused",
-                              "max_turn_deg",          "accel_max_mps2",         "jerk_p99_mps3", "jerk_max_mps3",
-                              "granted_share"};
+constexpr std::array kFigures{"path_length_m",   "static_shortest_path_m", "duration_s",
+                              "min_clearance_m", "min_mover_clearance_m",  "forced_movers",
+                              "contacts",        "contacts_caused",        "max_turn_deg",
+                              "loops",           "accel_max_mps2",         "jerk_p99_mps3",
+                              "jerk_max_mps3",   "granted_share"};
 
 std::string text_in(const std::filesystem::path& file) {
   std::ifstream in(file, std::ios::binary);

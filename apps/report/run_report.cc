@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <system_error>
 
+#include "firmware/control_loop.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -97,11 +98,23 @@ void RunReport::add(const RunSample& sample) {
   tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
   if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
   const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
-  shape_.add(pose.position());
-  driven_.add(now, pose);
+  add_way(pose, sample);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   granted_.add(sample.record);
   add_tracks(sample);
+}
+
+void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
+  shape_.add(pose.position());
+  driven_.add(sample.record.now, pose);
+  if (sample.loop == nullptr || !sample.record.input.has_goal) return;
+  const Vec2 here = sample.record.pose.map_from_robot.position();
+  const Guide& guide = sample.loop->plan().guide;
+  const float to_go_s =
+      guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
+  if (!loops_) loops_.emplace();
+  loops_->add(pose, sample.record.input.goal_in_map,
+              to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) : std::numeric_limits<double>::infinity());
 }
 
 void RunReport::add_truth(const TrueState& truth, Time now) {
@@ -159,6 +172,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
+  j["loops"] = known(loops_.has_value(), loops_ ? loops_->loops() : 0U);
   j["accel_max_mps2"] = smoothness_.accel_max_mps2();
   j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
   j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);

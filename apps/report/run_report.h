@@ -10,6 +10,7 @@
 #include "apps/report/distribution.h"
 #include "apps/report/drive_metrics.h"
 #include "apps/report/granted_share.h"
+#include "apps/report/loop_count.h"
 #include "apps/report/run_tables.h"
 #include "apps/report/trails.h"
 #include "firmware/run_sample.h"
@@ -56,6 +57,7 @@ class RunReport {
   void turn_to_next_tables();
   void add_truth(const TrueState& truth, Time now);
   void add_tracks(const RunSample& sample);
+  void add_way(const Pose2& pose, const RunSample& sample);
   [[nodiscard]] std::string summary(const RunEnd& end) const;
 
   std::filesystem::path folder_;
@@ -69,6 +71,7 @@ class RunReport {
   DrivenWay driven_;
   TrailBook movers_, tracks_;
   GrantedShare granted_;
+  std::optional<LoopCount> loops_;  ///< where the loop's own thread reports
   std::uint64_t ticks_ = 0;
   Time first_ = kNever, last_ = kNever;
   bool has_truth_ = false;

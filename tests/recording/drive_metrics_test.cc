@@ -4,6 +4,7 @@
 #include <limits>
 
 #include "apps/report/csv_file.h"
+#include "apps/report/loop_count.h"
 #include "apps/report/trails.h"
 #include "apps/report/waits_and_loops.h"
 #include "tests/recording/scratch.h"
@@ -129,6 +130,39 @@ TEST_CASE("trails are thinned to a point every 0.2 s and ordered by id") {
   CHECK(trails[0].id == 3);
   CHECK(trails[1].points.size() == 6);  // at 0, 0.2, .. 1.0 s
   CHECK(trails[1].flagged);
+}
+
+/// Loops of a drive at a steady turn: `turned_rad` in all on circles of this radius, the goal nearer by so much a
+/// second.
+std::uint32_t loops_of(double radius_m, double turned_rad, double nearer) {
+  constexpr double kStep_rad = 0.02, kMps = 0.5;
+  LoopCount count;
+  for (int k = 0; k <= static_cast<int>(std::fabs(turned_rad) / kStep_rad); ++k) {
+    const double heading = std::copysign(kStep_rad, turned_rad) * k, way_m = kStep_rad * k * radius_m;
+    const Vec2 at{radius_m * std::sin(heading), std::copysign(radius_m, turned_rad) * (1.0 - std::cos(heading))};
+    count.add({at.x, at.y, wrap_angle(heading)}, {9, 9}, 20.0 - nearer * way_m / kMps);
+  }
+  return count.loops();
+}
+
+TEST_CASE("a loop is a full turn within 6 m of way that brought the robot no nearer to its goal") {
+  for (const double side : {1.0, -1.0}) {
+    CHECK(loops_of(0.5, side * 6.2, 0.0) == 0);
+    CHECK(loops_of(0.5, side * 6.4, 0.0) == 1);
+    CHECK(loops_of(0.5, side * 12.7, 0.0) == 2);
+    CHECK(loops_of(0.0, side * 6.4, 0.0) == 1);  // on the spot
+    CHECK(loops_of(0.9, side * 6.4, 0.0) == 1);
+    CHECK(loops_of(1.0, side * 20.0, 0.0) == 0);  // 6.3 m round
+    CHECK(loops_of(0.5, side * 6.4, 0.5) == 0);
+  }
+}
+
+TEST_CASE("what turns back is no loop, and a new goal begins anew") {
+  LoopCount rocks, has_two_goals;
+  for (int k = 0; k < 2000; ++k) rocks.add({0, 0, 3.1 * std::sin(0.01 * k)}, {9, 9}, 20.0);
+  CHECK(rocks.loops() == 0);
+  for (int k = 0; k < 60; ++k) has_two_goals.add({0, 0, wrap_angle(0.2 * k)}, {k < 30 ? 9.0 : 8.0, 9}, 20.0);
+  CHECK(has_two_goals.loops() == 0);
 }
 
 }  // namespace
