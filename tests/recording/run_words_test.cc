@@ -42,12 +42,15 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
   table += row(t++, x, 0.0, "no_goal");
   run.write("robot.csv", table);
   run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0})");
-  CHECK(run_words(run.folder()) == run.folder().string() +
-                                       ": fault after 10.0 s\n"
-                                       "Drove 4.0 m in 4.0 s (1.00 m/s on average); stood 5.0 s.\n"
-                                       "      2.0 s, once: a fault waited for a reset\n"
-                                       "      3.0 s, once: something stood in its way\n"
-                                       "Faults:\n  scan_stale, once\n");
+  CHECK(run_words(run.folder()) ==
+        run.folder().string() +
+            ": fault after 10.0 s\n"
+            "Drove 4.0 m in 4.0 s (1.00 m/s on average); stood 5.0 s.\n"
+            "      2.0 s, once: a fault waited for a reset\n"
+            "      3.0 s, once: something stood in its way\n"
+            "Its longest waits:\n"
+            "  at 4.0 s, 4.0, 0.0 m, for 5.0 s: something stood in its way; nobody was near\n"
+            "Faults:\n  scan_stale, once\n");
 }
 
 TEST_CASE("a run that was killed is told by its table up to the last whole row") {

@@ -55,7 +55,7 @@ class SettingsBench {
  private:
   [[nodiscard]] static std::string scenario(const std::string& map, const std::string& stick) {
     std::string text = kWholeScenario;
-    text.replace(text.find("MAP"), 3, map + " = \"posts.txt\"");
+    text.replace(text.find("MAP"), 3, map + " = \"posts.txt\"" + (map == "yaml" ? "\nknown = true" : ""));
     text.replace(text.find("STICK"), 5, stick);
     return text.replace(text.find("ROWS"), 4, "rows.csv");
   }

@@ -17,7 +17,7 @@ class UnseenCost {
     int parts = 0;
     for (const Place& p : s_.body.rim) {
       const float x = r.x + p.x * along.x - p.y * along.y, y = r.y + p.x * along.y + p.y * along.x;
-      parts += s_.guide.is_unseen(x, y) ? 1 : 0;
+      parts += !(s_.is_long() && stood_on(x, y)) && s_.guide.is_unseen(x, y) ? 1 : 0;
     }
     if (parts == 0) return;
     const bool is_dared = s_.goes_by_poses() ? s_.poses->through_unseen : s_.guide.through_unseen;
@@ -28,6 +28,12 @@ class UnseenCost {
   }
 
  private:
+  /// What a long body stands on and turns over now counts as seen.
+  [[nodiscard]] bool stood_on(float x, float y) const noexcept {
+    const float dx = x - s_.start.x, dy = y - s_.start.y;
+    return dx * dx + dy * dy < price::kStoodOnM * price::kStoodOnM;
+  }
+
   const Situation& s_;
   float driven_m_ = 0.0F;  ///< forward
 };
