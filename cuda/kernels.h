@@ -6,8 +6,7 @@
 
 #include "planner/field/executor.h"
 
-/// Of loops whose code would grow beyond a processor's caches if they were unrolled: it has other threads to do
-/// meanwhile.
+/// Before a loop: the compiler does not unroll it. Unrolled, the kernel's code would not fit the instruction cache.
 #ifdef __CUDACC__
 #define JAYWALK_ROLLED _Pragma("unroll 1")
 #else

@@ -1,5 +1,5 @@
 #pragma once
-// Where a run waited, how long and for whom, and where it drove in circles: in words.
+// Describes in words where a run waited, for how long and for which mover, and where it drove loops.
 #include <deque>
 #include <string>
 #include <vector>

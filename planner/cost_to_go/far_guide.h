@@ -54,7 +54,7 @@ class FarGuide {
   std::vector<KnownCell> kinds_;
   StepGraph graph_;
   CostRepair repair_;
-  std::vector<std::int32_t> changed_;  ///< nodes whose rate may be another
+  std::vector<std::int32_t> changed_;  ///< nodes whose rate has changed since the last repair
   std::int32_t goal_ = StepGraph::kNone;
 };
 

@@ -12,8 +12,8 @@ namespace jaywalk::sim {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Scans in the order of recording. add() leaves out and counts a scan whose beams make no fan; settle_times() leaves
-/// out and counts the scans with wrong stamps (judge_times).
+/// Collects a log's scans in the order of recording. Both functions skip and count bad scans: add() those whose beam
+/// angles are invalid, settle_times() those with wrong stamps (judge_times).
 class LogScans {
  public:
   explicit LogScans(RecordedLog& log) : log_(log) {}
