@@ -4,7 +4,7 @@
 
 namespace jaywalk {
 
-void LoopCount::add(const Pose2& pose, Vec2 goal, double to_go_s) {
+void LoopCount::add(double t_s, const Pose2& pose, Vec2 goal, double to_go_s) {
   if (begun_) {
     way_m_ += distance(last_.position(), pose.position());
     turned_rad_ += wrap_angle(pose.heading - last_.heading);
@@ -24,7 +24,7 @@ void LoopCount::add(const Pose2& pose, Vec2 goal, double to_go_s) {
     return std::max(turned_rad_ - piece.least_rad, piece.most_rad - turned_rad_) >= 2.0 * kPi;
   };
   if (std::none_of(pieces_.begin(), pieces_.end(), closes)) return;
-  ++loops_;
+  loops_at_s_.push_back(t_s);
   begin_at(way_m_);
 }
 

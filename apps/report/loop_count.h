@@ -1,8 +1,8 @@
 #pragma once
 // Loops: full turns on little way that brought the robot no nearer to its goal.
-#include <cstdint>
 #include <deque>
 #include <limits>
+#include <vector>
 
 #include "hal/types/geometry.h"
 
@@ -12,8 +12,9 @@ namespace jaywalk {
 class LoopCount {
  public:
   /// `to_go_s`: at the controller's plan, from here; infinite where no way is known.
-  void add(const Pose2& pose, Vec2 goal, double to_go_s);
-  [[nodiscard]] std::uint32_t loops() const { return loops_; }
+  void add(double t_s, const Pose2& pose, Vec2 goal, double to_go_s);
+  /// When each was complete, s.
+  [[nodiscard]] const std::vector<double>& loops_at_s() const { return loops_at_s_; }
 
  private:
   static constexpr double kWithin_m = 6.0, kPiece_m = 0.05;
@@ -31,7 +32,7 @@ class LoopCount {
   double way_m_ = 0.0, turned_rad_ = 0.0;
   double least_to_go_s_ = std::numeric_limits<double>::infinity();
   std::deque<Piece> pieces_;  ///< since the least time to go was reached, kWithin_m at most
-  std::uint32_t loops_ = 0;
+  std::vector<double> loops_at_s_;
 };
 
 }  // namespace jaywalk

@@ -113,7 +113,7 @@ void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
   const float to_go_s =
       guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
   if (!loops_) loops_.emplace();
-  loops_->add(pose, sample.record.input.goal_in_map,
+  loops_->add(to_seconds(sample.record.now - first_), pose, sample.record.input.goal_in_map,
               to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) : std::numeric_limits<double>::infinity());
 }
 
@@ -172,7 +172,8 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
-  j["loops"] = known(loops_.has_value(), loops_ ? loops_->loops() : 0U);
+  j["loops"] = known(loops_.has_value(), loops_ ? loops_->loops_at_s().size() : 0U);
+  j["loops_at_s"] = loops_ ? loops_->loops_at_s() : std::vector<double>{};
   j["accel_max_mps2"] = smoothness_.accel_max_mps2();
   j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
   j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "apps/report/csv_rows.h"
-#include "apps/report/waits_and_loops.h"
+#include "apps/report/waits.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"
@@ -80,7 +80,6 @@ class Day {
     if (rows_ > 0) lived(row);
     if (rows_ == 0) begin_s_ = row.t_s;
     note_faults(row);
-    loops_.add(row.t_s, row.map_from_robot);
     before_ = row;
     ++rows_;
   }
@@ -95,7 +94,7 @@ class Day {
     text += text_of("; stood %.1f s.\n", stood_s_);
     for (const auto& [cause, stops] : stops_)
       text += text_of("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
-    text += waits_.words() + loops_.words();
+    text += waits_.words();
     if (faults_.empty()) return text + "Faults: none.\n";
     text += "Faults:\n";
     for (const auto& [fault, times] : faults_) text += "  " + fault + ", " + often(times) + "\n";
@@ -143,7 +142,6 @@ class Day {
   std::size_t rows_ = 0;
   RunRow before_, stopped_;
   Waits waits_;
-  Loops loops_;
   double begin_s_ = 0.0, way_m_ = 0.0, stood_s_ = 0.0;
   std::map<std::string, double> in_stop_;  ///< seconds of the stop that goes on, by cause
   std::map<std::string, Stops> stops_;
@@ -176,6 +174,15 @@ std::string steering_of(const nlohmann::json& summary) {
          text_of("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
 }
 
+/// When it drove loops; nothing where it drove none.
+std::string loops_of(const nlohmann::json& summary) {
+  if (!summary.is_object() || !summary.contains("loops_at_s") || !summary["loops_at_s"].is_array()) return "";
+  std::string times;
+  for (const auto& at : summary["loops_at_s"])
+    if (at.is_number()) times += text_of(times.empty() ? "%.1f" : ", %.1f", at.get<double>());
+  return times.empty() ? "" : "Full turns within 6 m of way that brought it no nearer, at " + times + " s.\n";
+}
+
 /// What can no longer be told, where the oldest parts of a run are gone.
 std::string gone_of(int parts, const Day& day) {
   if (parts == 0) return "";
@@ -205,7 +212,7 @@ std::string run_words(const std::filesystem::path& folder) {
     if (day.waits().any() && !has_nothing(place / "tracks.csv")) note_tracks(place / "tracks.csv", day.waits());
   const nlohmann::json summary = summary_of(folder);
   const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;
-  return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() +
+  return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() + loops_of(summary) +
          (before > 0 && !steering_of(summary).empty() ? "Of the whole run: " : "") + steering_of(summary);
 }
 

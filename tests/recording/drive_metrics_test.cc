@@ -6,7 +6,7 @@
 #include "apps/report/csv_file.h"
 #include "apps/report/loop_count.h"
 #include "apps/report/trails.h"
-#include "apps/report/waits_and_loops.h"
+#include "apps/report/waits.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 
@@ -134,15 +134,15 @@ TEST_CASE("trails are thinned to a point every 0.2 s and ordered by id") {
 
 /// Loops of a drive at a steady turn: `turned_rad` in all on circles of this radius, the goal nearer by so much a
 /// second.
-std::uint32_t loops_of(double radius_m, double turned_rad, double nearer) {
+std::size_t loops_of(double radius_m, double turned_rad, double nearer) {
   constexpr double kStep_rad = 0.02, kMps = 0.5;
   LoopCount count;
   for (int k = 0; k <= static_cast<int>(std::fabs(turned_rad) / kStep_rad); ++k) {
     const double heading = std::copysign(kStep_rad, turned_rad) * k, way_m = kStep_rad * k * radius_m;
     const Vec2 at{radius_m * std::sin(heading), std::copysign(radius_m, turned_rad) * (1.0 - std::cos(heading))};
-    count.add({at.x, at.y, wrap_angle(heading)}, {9, 9}, 20.0 - nearer * way_m / kMps);
+    count.add(0.1 * k, {at.x, at.y, wrap_angle(heading)}, {9, 9}, 20.0 - nearer * way_m / kMps);
   }
-  return count.loops();
+  return count.loops_at_s().size();
 }
 
 TEST_CASE("a loop is a full turn within 6 m of way that brought the robot no nearer to its goal") {
@@ -159,10 +159,10 @@ TEST_CASE("a loop is a full turn within 6 m of way that brought the robot no nea
 
 TEST_CASE("what turns back is no loop, and a new goal begins anew") {
   LoopCount rocks, has_two_goals;
-  for (int k = 0; k < 2000; ++k) rocks.add({0, 0, 3.1 * std::sin(0.01 * k)}, {9, 9}, 20.0);
-  CHECK(rocks.loops() == 0);
-  for (int k = 0; k < 60; ++k) has_two_goals.add({0, 0, wrap_angle(0.2 * k)}, {k < 30 ? 9.0 : 8.0, 9}, 20.0);
-  CHECK(has_two_goals.loops() == 0);
+  for (int k = 0; k < 2000; ++k) rocks.add(0.1 * k, {0, 0, 3.1 * std::sin(0.01 * k)}, {9, 9}, 20.0);
+  CHECK(rocks.loops_at_s().empty());
+  for (int k = 0; k < 60; ++k) has_two_goals.add(0.1 * k, {0, 0, wrap_angle(0.2 * k)}, {k < 30 ? 9.0 : 8.0, 9}, 20.0);
+  CHECK(has_two_goals.loops_at_s().empty());
 }
 
 }  // namespace
@@ -178,18 +178,6 @@ TEST_CASE("a wait is told with how long it was and the body that was nearest mea
   CHECK(waits.words() ==
         "Its longest waits:\n  at 20.0 s, 1.0, 2.0 m, for 5.0 s: something stood in its way; body 5 was 1.0 m from its "
         "middle and stood\n");
-}
-
-TEST_CASE("a full turn within 6 m of way is a loop, a wide circle is none") {
-  for (const auto& [radius_m, is_loop] : {std::pair{0.9, true}, {1.2, false}}) {  // 5.7 m and 7.5 m round
-    Loops loops;
-    for (int k = 0; k <= 130; ++k) {
-      const double turned = k * kPi / 60.0;  // more than once round
-      loops.add(0.1 * k, {radius_m * std::sin(turned), radius_m * (1.0 - std::cos(turned)), wrap_angle(turned)});
-    }
-    INFO(loops.words());
-    CHECK((loops.words().find("Loops, 1 in all:") == 0) == is_loop);
-  }
 }
 
 }  // namespace jaywalk

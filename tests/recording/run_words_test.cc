@@ -41,7 +41,7 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
   table += row(t++, x, 0.0, "latched|no_goal");
   table += row(t++, x, 0.0, "no_goal");
   run.write("robot.csv", table);
-  run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0})");
+  run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0, "loops_at_s": [3.25, 7.0]})");
   CHECK(run_words(run.folder()) ==
         run.folder().string() +
             ": fault after 10.0 s\n"
@@ -50,7 +50,8 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
             "      3.0 s, once: something stood in its way\n"
             "Its longest waits:\n"
             "  at 4.0 s, 4.0, 0.0 m, for 5.0 s: something stood in its way; nobody was near\n"
-            "Faults:\n  scan_stale, once\n");
+            "Faults:\n  scan_stale, once\n"
+            "Full turns within 6 m of way that brought it no nearer, at 3.2, 7.0 s.\n");
 }
 
 TEST_CASE("a run that was killed is told by its table up to the last whole row") {

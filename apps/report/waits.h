@@ -1,6 +1,5 @@
 #pragma once
-// Describes in words where a run waited, for how long and for which mover, and where it drove loops.
-#include <deque>
+// Describes in words where a run waited, for how long and for which mover.
 #include <string>
 #include <vector>
 
@@ -29,27 +28,6 @@ class Waits {
     double speed_mps = 0.0;
   };
   std::vector<Wait> waits_;
-};
-
-/// Full turns of the heading within 6 m of way.
-class Loops {
- public:
-  void add(double t_s, const Pose2& map_from_robot);
-  /// A line each; empty: there was none.
-  [[nodiscard]] std::string words() const;
-
- private:
-  struct Passed {
-    double way_m, turned_rad;
-  };
-  struct Loop {
-    double at_s;
-    Vec2 where;
-  };
-  std::deque<Passed> passed_;  ///< the last 6 m, and for a robot that stands the last turn
-  Pose2 before_;
-  bool begun_ = false;
-  std::vector<Loop> loops_;
 };
 
 }  // namespace jaywalk

@@ -1,9 +1,7 @@
-#include "apps/report/waits_and_loops.h"
+#include "apps/report/waits.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstdio>
-#include <utility>
 
 #include "hal/shown_text.h"
 
@@ -13,8 +11,6 @@ namespace {
 constexpr double kLeastWait_s = 3.0;
 constexpr double kFor_m = 3.0;  ///< a body farther off is no reason to wait
 constexpr double kWalks_mps = 0.2;
-constexpr double kLoopWay_m = 6.0;
-constexpr double kStep_m = 0.01, kStep_rad = 0.02;  ///< smaller motions are gathered
 constexpr std::size_t kMostLines = 10;
 
 std::string place_of(double t_s, Vec2 where) {
@@ -51,32 +47,6 @@ std::string Waits::words() const {
     text += std::string(wait.id != 0 ? line : "; nobody was near") + "\n";
   }
   return text.empty() ? "" : "Its longest waits:\n" + text;
-}
-
-void Loops::add(double t_s, const Pose2& pose) {
-  if (!finite(pose)) return;
-  if (!std::exchange(begun_, true)) before_ = pose, passed_ = {{0.0, 0.0}};
-  Passed now = passed_.back();
-  const double way_m = distance(pose.position(), before_.position());
-  const double turned_rad = wrap_angle(pose.heading - before_.heading);
-  if (way_m < kStep_m && std::fabs(turned_rad) < kStep_rad) return;
-  now.way_m += way_m, now.turned_rad += turned_rad;
-  before_ = pose;
-  passed_.push_back(now);
-  while (now.way_m - passed_.front().way_m > kLoopWay_m) passed_.pop_front();
-  const auto is_turn_from = [&](const Passed& then) {
-    return std::fabs(now.turned_rad - then.turned_rad) >= 2.0 * kPi;
-  };
-  if (std::none_of(passed_.begin(), passed_.end(), is_turn_from)) return;
-  loops_.push_back({t_s, pose.position()});
-  passed_ = {now};
-}
-
-std::string Loops::words() const {
-  std::string text;
-  for (std::size_t k = 0; k < std::min(loops_.size(), kMostLines); ++k)
-    text += place_of(loops_[k].at_s, loops_[k].where) + ": a full turn within 6 m of way\n";
-  return text.empty() ? "" : "Loops, " + std::to_string(loops_.size()) + " in all:\n" + text;
 }
 
 }  // namespace jaywalk
