@@ -59,7 +59,7 @@ double StopZone::gap_m(const LaserScan& scan, const Twist2& twist, std::span<con
   const SweptPath path(twist, rim_speed, config_.look_ahead_m);
   const Transform2 robot_from_laser(config_.robot_from_laser);
   const double margin = margin_at(rim_speed);
-  const double reach_m = rim_radius_m_ + config_.margin_m + config_.look_ahead_m;
+  const double reach_m = this->reach_m();
   const auto meet = [&](Vec2 point) {
     if (norm(point) <= reach_m) gap = std::min(gap, way_to(point, path, margin, std::min(gap, config_.look_ahead_m)));
   };

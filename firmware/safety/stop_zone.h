@@ -34,6 +34,8 @@ class StopZone {
   /// there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the mean.
   [[nodiscard]] bool may_creep(const LaserScan& scan, const Twist2& twist, std::span<const Vec2> unseen,
                                double reaction_s) const noexcept;
+  /// From the axle: nothing farther off counts.
+  [[nodiscard]] double reach_m() const noexcept { return rim_radius_m_ + config_.margin_m + config_.look_ahead_m; }
   /// Whether a beam ends within the footprint: on a part of the robot itself, or on a person touching it. Such a
   /// point forbids every motion that does not leave it.
   [[nodiscard]] bool is_on_body(const LaserScan& scan, std::size_t beam) const noexcept;

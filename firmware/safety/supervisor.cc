@@ -33,6 +33,8 @@ double times_to_limits(const Twist2& twist, const MotionLimits& limits) {
                   limits.max_turn_radps / std::max(std::fabs(twist.w_radps), kLeast));
 }
 
+constexpr double kPlannersReach_m = 3.0;  // beyond the stop zone's: motion keeps off unseen walls early
+
 Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, twist.w_radps * share}; }
 
 }  // namespace
@@ -42,7 +44,8 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       stop_zone_(stop_zone_for(config.model, config.tick)),
       watch_(config.model.footprint, config.model.laser.robot_from_laser, StopZoneConfig{}.margin_m),
       gaps_(config.model.laser),
-      unseen_walls_(config.model.footprint, config.model.laser.robot_from_laser),
+      unseen_walls_(config.model.footprint, config.model.laser.robot_from_laser,
+                    stop_zone_.reach_m() + kPlannersReach_m),
       scan_timing_(config.model.laser.rate_hz),
       motion_model_(config.model),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}

@@ -51,8 +51,11 @@ bool cuts(const LineFit& line, const Footprint& body) noexcept {
 
 }  // namespace
 
-UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept
-    : footprint_(footprint), robot_from_laser_(robot_from_laser), laser_from_robot_(inverse(robot_from_laser)) {}
+UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser, double reach_m) noexcept
+    : footprint_(footprint),
+      reach_m_(reach_m),
+      robot_from_laser_(robot_from_laser),
+      laser_from_robot_(inverse(robot_from_laser)) {}
 
 void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
                          KnownGround* ground) noexcept {
@@ -99,7 +102,7 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
 void UnseenWalls::add_line(const BlindGaps& gaps, Vec2 from, Vec2 along, double length_m) noexcept {
   for (double gone = 0.0; gone < length_m; gone += kSpacing_m) {
     const Vec2 place = from + along * gone;
-    if (ground_ == nullptr || !ground_->seen_free(place)) add(gaps, place);
+    if (norm(place) < reach_m_ && (ground_ == nullptr || !ground_->seen_free(place))) add(gaps, place);
   }
 }
 

@@ -26,7 +26,8 @@ class KnownGround {
 /// saw free ground, and a line that would cut the body is none. Thread: the loop's; never allocates, never throws.
 class UnseenWalls {
  public:
-  UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser) noexcept;
+  /// `reach_m`: from the axle; what a wall is supposed to be farther off is left out.
+  UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser, double reach_m) noexcept;
 
   /// `known`: surfaces near the robot, in its frame. `ground`: null where there is no map.
   void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
@@ -41,6 +42,7 @@ class UnseenWalls {
   void add(const BlindGaps& gaps, Vec2 point) noexcept;
 
   Footprint footprint_;
+  double reach_m_;
   KnownGround* ground_ = nullptr;  ///< during update()
   Transform2 robot_from_laser_, laser_from_robot_;
   FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first

@@ -85,7 +85,7 @@ TEST_CASE("a wall that ends where sight does is continued, one that would cut th
     (void)robot.tick({});
     BlindGaps gaps(model.laser);
     gaps.update(robot.scan());
-    UnseenWalls walls(model.footprint, model.laser.robot_from_laser);
+    UnseenWalls walls(model.footprint, model.laser.robot_from_laser, 6.0);
     walls.update(robot.scan(), gaps, {});
     return std::vector<Vec2>(walls.points().begin(), walls.points().end());
   };
