@@ -27,10 +27,9 @@ std::string_view name(ScannerTrouble trouble) noexcept {
   return index < kNames.size() ? kNames[index] : "unknown trouble";
 }
 
-ScannerConnection::ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint,
-                                     std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
-                                     const ConnectionTiming& timing)
-    : link_(std::move(endpoint)),
+ScannerConnection::ScannerConnection(std::unique_ptr<wire::Link> link, std::unique_ptr<ScannerProtocol> protocol,
+                                     Clock& clock, const ConnectionTiming& timing)
+    : link_(std::move(link)),
       protocol_(std::move(protocol)),
       clock_(clock),
       timing_(timing),
@@ -51,14 +50,14 @@ bool ScannerConnection::start(int priority) {
 void ScannerConnection::run() noexcept {
   while (!stopping_) {
     step();
-    link_.wait(kLongestWait);
+    link_->wait(kLongestWait);
   }
 }
 
 void ScannerConnection::step() noexcept {
   const Time now = clock_.now();
   if (phase_ == Phase::kResting && now >= rest_until_) {
-    link_.open();
+    link_->open();
     opened_ = now;
     phase_ = Phase::kOpening;
   }
@@ -68,13 +67,13 @@ void ScannerConnection::step() noexcept {
 }
 
 void ScannerConnection::await_opening(Time now) noexcept {
-  switch (link_.state()) {
-    case wire::ByteLink::State::kClosed:
+  switch (link_->state()) {
+    case wire::Link::State::kClosed:
       return give_up(ScannerTrouble::kUnreachable, now);
-    case wire::ByteLink::State::kOpening:
+    case wire::Link::State::kOpening:
       if (age(opened_, now) > timing_.connect_limit) give_up(ScannerTrouble::kUnreachable, now);
       return;
-    case wire::ByteLink::State::kOpen:
+    case wire::Link::State::kOpen:
       protocol_->begin();
       progress_ = now;
       scan_late_ = false;
@@ -86,14 +85,14 @@ void ScannerConnection::await_opening(Time now) noexcept {
 
 void ScannerConnection::talk(Time now) noexcept {
   for (int k = 0; k < kMostReads && phase_ == Phase::kTalking; ++k) {
-    const wire::Bytes bytes = link_.read(room_);
+    const wire::Bytes bytes = link_->read(room_);
     if (bytes.empty()) break;
     protocol_->hear(bytes);
     take_messages(clock_.now());
   }
   if (phase_ != Phase::kTalking) return;
-  link_.write(protocol_->to_say(now));
-  if (link_.state() == wire::ByteLink::State::kClosed) return give_up(ScannerTrouble::kClosed, now);
+  link_->write(protocol_->to_say(now));
+  if (link_->state() == wire::Link::State::kClosed) return give_up(ScannerTrouble::kClosed, now);
   watch(now);
 }
 
@@ -154,7 +153,7 @@ void ScannerConnection::watch(Time now) noexcept {
 }
 
 void ScannerConnection::give_up(ScannerTrouble why, Time now) noexcept {
-  link_.close();
+  link_->close();
   suffer(why);
   phase_ = Phase::kResting;
   rest_until_ = now + rest_;

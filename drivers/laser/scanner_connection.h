@@ -61,8 +61,12 @@ struct ConnectionTiming {
 class ScannerConnection final : public LaserScanner {
  public:
   /// `clock` outlives it.
-  ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
+  ScannerConnection(std::unique_ptr<wire::Link> link, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
                     const ConnectionTiming& timing = {});
+  /// Over a socket or serial line.
+  ScannerConnection(std::unique_ptr<wire::Endpoint> endpoint, std::unique_ptr<ScannerProtocol> protocol, Clock& clock,
+                    const ConnectionTiming& timing = {})
+      : ScannerConnection(std::make_unique<wire::ByteLink>(std::move(endpoint)), std::move(protocol), clock, timing) {}
   ~ScannerConnection() override;
   ScannerConnection(const ScannerConnection&) = delete;
   ScannerConnection& operator=(const ScannerConnection&) = delete;
@@ -76,7 +80,7 @@ class ScannerConnection final : public LaserScanner {
   [[nodiscard]] const LaserScan& latest() noexcept override { return scans_.latest(); }
   [[nodiscard]] ScannerHealth health() noexcept { return healths_.latest(); }
   /// As a person would name the scanner's place.
-  [[nodiscard]] const std::string& name() const noexcept { return link_.endpoint().name(); }
+  [[nodiscard]] const std::string& name() const noexcept { return link_->name(); }
 
  private:
   enum class Phase : std::uint8_t { kResting, kOpening, kTalking };
@@ -91,7 +95,7 @@ class ScannerConnection final : public LaserScanner {
   void suffer(ScannerTrouble why) noexcept { health_.trouble = health_.last_trouble = why; }
   void tell_health() noexcept;
 
-  wire::ByteLink link_;
+  std::unique_ptr<wire::Link> link_;
   std::unique_ptr<ScannerProtocol> protocol_;
   Clock& clock_;
   ConnectionTiming timing_;

@@ -8,20 +8,24 @@
 #include "drivers/laser/rplidar_protocol.h"
 #include "drivers/laser/scip_protocol.h"
 #include "drivers/laser/sick_protocol.h"
+#include "drivers/ros/ring_link.h"
+#include "drivers/ros/ros_scan.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 
 namespace {
 
-constexpr std::array<ScannerMake, 6> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
+constexpr std::array<ScannerMake, 7> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
                                              {"sick-cola-b", ScannerKind::kSickColaB, 2112, 0},
                                              {"hokuyo", ScannerKind::kHokuyo, 10940, 115200},
                                              {"ld19", ScannerKind::kLdrobot, 0, 230400},
                                              {"lms200", ScannerKind::kLms200, 0, 9600},
-                                             {"rplidar", ScannerKind::kRplidar, 0, 115200}}};
+                                             {"rplidar", ScannerKind::kRplidar, 0, 115200},
+                                             {"dds", ScannerKind::kDds, 0, 0}}};
 
-std::unique_ptr<wire::Endpoint> endpoint_of(const ScannerSetup& setup, const ScannerMake& kind, std::uint32_t baud) {
+std::unique_ptr<wire::Link> link_of(const ScannerSetup& setup, const ScannerMake& kind, std::uint32_t baud) {
+  if (setup.kind == ScannerKind::kDds) return std::make_unique<ros::RingLink>(setup.device, setup.topic);
   const bool on_network = !setup.host.empty();
   if (on_network == !setup.device.empty()) {
     throw StartupError("scanner: " + std::string(on_network ? "both host and device" : "neither host nor device"),
@@ -33,8 +37,10 @@ std::unique_ptr<wire::Endpoint> endpoint_of(const ScannerSetup& setup, const Sca
   if (!on_network && kind.baud == 0) {
     throw StartupError(setup.device + ": " + std::string(kind.name) + " is not on a serial line", "give its host");
   }
-  if (!on_network) return std::make_unique<wire::SerialEndpoint>(setup.device, baud);
-  return std::make_unique<wire::TcpEndpoint>(setup.host, setup.port == 0 ? kind.port : setup.port);
+  std::unique_ptr<wire::Endpoint> endpoint;
+  if (on_network) endpoint = std::make_unique<wire::TcpEndpoint>(setup.host, setup.port == 0 ? kind.port : setup.port);
+  if (!on_network) endpoint = std::make_unique<wire::SerialEndpoint>(setup.device, baud);
+  return std::make_unique<wire::ByteLink>(std::move(endpoint));
 }
 
 std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uint32_t baud) {
@@ -52,6 +58,8 @@ std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uin
       return std::make_unique<lms200::Lms200Protocol>(baud);
     case ScannerKind::kRplidar:
       return std::make_unique<rplidar::RplidarProtocol>();
+    case ScannerKind::kDds:
+      return std::make_unique<ros::RosScanProtocol>(setup.infinity_is_free);
   }
   throw StartupError("scanner: of no known kind", "choose one of those in drivers/laser/scanner_setup.h");
 }
@@ -73,7 +81,7 @@ std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept {
 std::unique_ptr<ScannerConnection> make_scanner(const ScannerSetup& setup, Clock& clock) {
   const ScannerMake& kind = scanner_make(setup.kind);
   const std::uint32_t baud = setup.baud == 0 ? kind.baud : setup.baud;
-  return std::make_unique<ScannerConnection>(endpoint_of(setup, kind, baud), protocol_of(setup, baud), clock);
+  return std::make_unique<ScannerConnection>(link_of(setup, kind, baud), protocol_of(setup, baud), clock);
 }
 
 }  // namespace jaywalk

@@ -10,7 +10,7 @@
 
 namespace jaywalk {
 
-enum class ScannerKind : std::uint8_t { kSickColaA, kSickColaB, kHokuyo, kLdrobot, kLms200, kRplidar };
+enum class ScannerKind : std::uint8_t { kSickColaA, kSickColaB, kHokuyo, kLdrobot, kLms200, kRplidar, kDds };
 
 /// What a kind has by its maker.
 struct ScannerMake {
@@ -23,7 +23,8 @@ struct ScannerMake {
 [[nodiscard]] std::span<const ScannerMake> scanner_makes() noexcept;
 [[nodiscard]] const ScannerMake& scanner_make(ScannerKind kind) noexcept;
 
-/// "sick-cola-a", "sick-cola-b", "hokuyo", "ld19" (and LD06), "lms200", "rplidar"; nothing for other names.
+/// "sick-cola-a", "sick-cola-b", "hokuyo", "ld19" (and LD06), "lms200", "rplidar", "dds" (a ROS 2 topic, by
+/// jaywalk_dds); nothing for other names.
 [[nodiscard]] std::optional<ScannerKind> scanner_kind(std::string_view name) noexcept;
 
 /// Where a scanner is and what it does not say of itself.
@@ -35,6 +36,8 @@ struct ScannerSetup {
   std::uint32_t baud = 0;     ///< 0: the maker's own
   float range_min_m = 0.05F;  ///< SICK on a network; the others say theirs or have it by their kind
   float range_max_m = 10.0F;
+  std::string topic{};            ///< of a ROS 2 one, whose shared ring `device` is
+  bool infinity_is_free = false;  ///< of a ROS 2 one
 };
 
 /// The scanner, not started yet. Throws StartupError where the setup cannot be: neither host nor device, both, or one

@@ -1,3 +1,4 @@
+#include "firmware/robot/drive_wiring.h"
 #include "firmware/robot/robot_file_keys.h"
 
 namespace jaywalk {
@@ -20,7 +21,14 @@ void add_axes(std::vector<SettingKey>& keys, const std::string& kind, double lef
 std::vector<SettingKey> drive_keys() {
   // The choices are in the order of DriveKind.
   std::vector<SettingKey> keys{
-      {"drive", "kind", kChoice, {}, "", kNeeded, "what the motor controllers speak", {"cia402", "odrive", "vesc"}},
+      {"drive",
+       "kind",
+       kChoice,
+       {},
+       "",
+       kNeeded,
+       "what the motor controllers speak",
+       {"cia402", "odrive", "vesc", "dds"}},
       {"drive", "can", kText, {}, "", kNeeded, "the CAN interface, \"can0\" say"},
       {"drive", "left_reversed", kBoolean, {}, "", false, "the left motor looks the other way"},
       {"drive", "right_reversed", kBoolean, {}, "", false, "the right motor looks the other way"},
@@ -54,6 +62,17 @@ std::vector<SettingKey> drive_keys() {
                   "ms",
                   50.0,
                   "the drives' own heartbeat; missed for three of these, a drive counts as lost"});
+  const ros::BaseSetup base;
+  keys.push_back({"drive:dds", "odometry", kText, {}, "", "/odom", "topic of its nav_msgs/Odometry"});
+  keys.push_back({"drive:dds", "command", kText, {}, "", "/cmd_vel", "topic of the velocity that it obeys"});
+  keys.push_back({"drive:dds", "stamped", kBoolean, {}, "", base.stamped, "commands are a TwistStamped, not a Twist"});
+  keys.push_back({"drive:dds",
+                  "reliable",
+                  kBoolean,
+                  {},
+                  "",
+                  base.reliable,
+                  "lost odometry is sent again; only from a reliable publisher"});
   return keys;
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "firmware/robot/distinct_keys.h"
+#include "firmware/robot/topic_key.h"
 
 namespace jaywalk {
 namespace {
@@ -99,6 +100,23 @@ void read_axes(TomlTable& table, const std::string& key, const DriveModel& model
   base.stop = stop;
 }
 
+ros::BaseSetup read_ros(TomlTable& table, Duration tick, const StopLimits& stop) {
+  return {.odometry = read_topic(table, "odometry"),
+          .command = read_topic(table, "command"),
+          .stamped = table.boolean("stamped"),
+          .reliable = table.boolean("reliable"),
+          .stop = stop,
+          .allow_unproved = table.boolean("allow_unproved"),
+          .tick = tick};
+}
+
+std::string read_interface(TomlTable& table) {
+  std::string can = table.text("can");
+  if (can.empty() || can.size() >= kMostLetters || can.find_first_of("/ ") != std::string::npos)
+    table.refuse("can", "is no interface's name", "give the one that ip link shows, at most 15 letters");
+  return can;
+}
+
 }  // namespace
 
 std::array<double, 4> axes_of(const DriveWiring& drive) {
@@ -112,6 +130,8 @@ std::array<double, 4> axes_of(const DriveWiring& drive) {
     case DriveKind::kVesc:
       return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
               static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
+    case DriveKind::kDds:
+      return {0.0, 1.0, 0.0, 1.0};  // it has no axes
     case DriveKind::kCia402:
       break;
   }
@@ -123,11 +143,11 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   DriveWiring wiring;
   const StopLimits stop = stop_limits_of(model, tick);
   wiring.kind = static_cast<DriveKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
-  wiring.can = table.text("can");
-  if (wiring.can.empty() || wiring.can.size() >= kMostLetters || wiring.can.find_first_of("/ ") != std::string::npos)
-    table.refuse("can", "is no interface's name", "give the one that ip link shows, at most 15 letters");
   model.drive.track_width_m = table.number("track_width_m", model.drive.track_width_m);
-  wiring.wheel_radii_m = read_radii(table, model.drive);
+  const bool has_wheels = wiring.kind != DriveKind::kDds;  // of its own; a ROS 2 base has those of the model
+  if (has_wheels) wiring.can = read_interface(table);
+  wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};
+  if (has_wheels) wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
     case DriveKind::kCia402:
       wiring.cia402 = read_cia402(table, model, tick, stop);
@@ -141,6 +161,10 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
       require_two_ticks_within(table, tick, wiring.vesc.timeout_most, "a timeout");
       wiring.vesc.timeout_least = std::max(wiring.vesc.timeout_least, 2 * tick);
       read_axes(table, "electrical_turns_per_wheel_turn", model.drive, stop, wiring.vesc);
+      break;
+    case DriveKind::kDds:
+      wiring.ros = read_ros(table, tick, stop);
+      wiring.can = wiring.ros.command;
       break;
   }
   table.finish();

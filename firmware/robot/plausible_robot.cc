@@ -105,6 +105,8 @@ void check_gear(const Check& check, const RobotFile& robot, const DriveModel& no
       return check.require(fastest_rpm <= kFastestField_rpm, "drive.electrical_turns_per_wheel_turn",
                            text("its field would turn %.0f times a minute at max_speed_mps", fastest_rpm),
                            "give the gear times the motor's pole pairs");
+    case DriveKind::kDds:
+      return;
   }
 }
 

@@ -129,8 +129,8 @@ class Inspection {
 
 std::string check_drive(const DriveWiring& wiring, std::size_t side, Clock& clock) {
   const BusLock lock(wiring.can);
-  SocketCan bus(open_can(wiring.can, filters_for(wiring)), clock);
-  return make_drive(wiring, bus, clock)->inspect(side);
+  const std::unique_ptr<CanBus> bus = make_bus(wiring, clock);
+  return make_drive(wiring, *bus, clock)->inspect(side);
 }
 
 }  // namespace
@@ -156,8 +156,9 @@ std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem:
   inspection.look("control socket", [&] { return check_socket(control_socket); });
   if (!inspection.last_is_well() && a_run_listens(control_socket)) return std::move(inspection).parts();
   inspection.look("planner", [&] { return tried_backend(file.setup.backend, file.setup.device); });
-  inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
-  if (inspection.last_is_well()) {
+  const bool is_on_can = file.drive.kind != DriveKind::kDds;
+  if (is_on_can) inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
+  if (!is_on_can || inspection.last_is_well()) {
     inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });
     inspection.look("right drive", [&] { return check_drive(file.drive, 1, clock); });
   }

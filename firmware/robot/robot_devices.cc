@@ -1,9 +1,11 @@
 #include "firmware/robot/robot_devices.h"
 
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "drivers/laser/scanner_setup.h"
+#include "firmware/robot/armed_mark.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -18,13 +20,24 @@ std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bu
       return std::make_unique<odrive::Stopper>(bus, std::array{odrives[0].node, odrives[1].node});
     case DriveKind::kVesc:
       return std::make_unique<vesc::Stopper>(bus, std::array{vescs[0].controller, vescs[1].controller});
+    case DriveKind::kDds:
     case DriveKind::kCia402:
       break;
   }
   return std::make_unique<canopen::QuickStopper>(bus, std::array{axes[0].node, axes[1].node});
 }
 
+std::unique_ptr<ros::RosBus> make_ros_bus(const ros::BaseSetup& base, Clock& clock) {
+  return std::make_unique<ros::RosBus>(ros::RosBus::Rings{ring_path(base.odometry), ring_path(base.command)}, clock);
+}
+
 }  // namespace
+
+std::filesystem::path ring_path(const std::string& topic) {
+  std::string name = "jaywalk-dds" + topic;
+  std::replace(name.begin(), name.end(), '/', '-');
+  return own_runtime_folder() / name;
+}
 
 std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock) {
   const LaserWiring& wiring = file.laser;
@@ -32,14 +45,22 @@ std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& cloc
   return make_scanner({.kind = wiring.kind,
                        .host = wiring.host,
                        .port = wiring.port,
-                       .device = wiring.device,
+                       .device = wiring.kind == ScannerKind::kDds ? ring_path(wiring.topic).string() : wiring.device,
                        .baud = wiring.baud,
                        .range_min_m = static_cast<float>(model.range_min_m),
-                       .range_max_m = static_cast<float>(model.range_max_m)},
+                       .range_max_m = static_cast<float>(model.range_max_m),
+                       .topic = wiring.topic,
+                       .infinity_is_free = wiring.infinity_is_free},
                       clock);
 }
 
+std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock) {
+  if (wiring.kind == DriveKind::kDds) return make_ros_bus(wiring.ros, clock);
+  return std::make_unique<SocketCan>(open_can(wiring.can, filters_for(wiring)), clock);
+}
+
 std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
+  if (wiring.kind == DriveKind::kDds) return std::make_unique<ros::RosBase>(bus, clock, wiring.ros);
   if (wiring.kind == DriveKind::kOdrive) return std::make_unique<odrive::OdriveBase>(bus, clock, wiring.odrive);
   if (wiring.kind == DriveKind::kVesc) return std::make_unique<vesc::VescBase>(bus, clock, wiring.vesc);
   return std::make_unique<canopen::CanopenDriveBase>(bus, clock, wiring.cia402);
@@ -66,15 +87,18 @@ RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
       lock_(file.drive.can),
-      bus_(open_can(file.drive.can, {}), clock),
-      brake_bus_(bus_.second(), clock),
+      can_(file.drive.kind != DriveKind::kDds ? std::make_unique<SocketCan>(open_can(file.drive.can, {}), clock)
+                                              : nullptr),
+      brake_can_(can_ ? std::make_unique<SocketCan>(can_->second(), clock) : nullptr),
+      ros_(can_ ? nullptr : make_ros_bus(file.drive.ros, clock)),
+      bus_(can_ ? static_cast<CanBus&>(*can_) : *ros_),
       laser_(make_laser(file, clock)),
       drive_(make_drive(file.drive, bus_, clock)),
-      brake_(make_brake(file.drive, brake_bus_)) {}
+      brake_(can_ ? make_brake(file.drive, *brake_can_) : std::make_unique<ros::Stopper>(*ros_)) {}
 
 void RobotDevices::start() {
   await_first_scan(*laser_, file_, clock_);
-  bus_.listen(filters_for(file_.drive));
+  if (can_) can_->listen(filters_for(file_.drive));
 }
 
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock) {

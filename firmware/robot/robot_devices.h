@@ -1,5 +1,6 @@
 #pragma once
 // The devices of a ROBOT.toml, opened.
+#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -32,8 +33,10 @@ class RobotDevices {
   const RobotFile& file_;
   Clock& clock_;
   BusLock lock_;
-  SocketCan bus_;
-  SocketCan brake_bus_;  ///< the same kernel socket: what the guard sends is not another master's
+  std::unique_ptr<SocketCan> can_,
+      brake_can_;                     ///< the same kernel socket: what the guard sends is not another master's
+  std::unique_ptr<ros::RosBus> ros_;  ///< in their place
+  CanBus& bus_;
   std::unique_ptr<ScannerConnection> laser_;
   std::unique_ptr<WiredDrive> drive_;
   std::unique_ptr<EmergencyBrake> brake_;
@@ -41,11 +44,15 @@ class RobotDevices {
 
 /// Not started yet, not armed yet. `bus` and `clock` outlive them. Throw StartupError.
 [[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock);
+[[nodiscard]] std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock);
 [[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
 
 /// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or
 /// where it is not the scanner that the file describes.
 void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock);
+
+/// The ring in this user's runtime folder through which jaywalk_dds and this program share a ROS 2 topic.
+[[nodiscard]] std::filesystem::path ring_path(const std::string& topic);
 
 /// The frames that the drives send, and those that another master would. Of CiA 402 drives no others.
 [[nodiscard]] std::vector<CanFilter> filters_for(const DriveWiring& wiring);

@@ -7,6 +7,7 @@
 #include "firmware/robot/known_map_file.h"
 #include "firmware/robot/plausible_robot.h"
 #include "firmware/robot/robot_file_keys.h"
+#include "firmware/robot/topic_key.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
@@ -16,9 +17,16 @@ namespace jaywalk {
 namespace {
 
 LaserWiring read_wiring(TomlTable& table) {
-  const ScannerMake& choice = scanner_makes()[table.choice("kind")];
+  const ScannerMake& choice = scanner_makes()[table.choose_keys("kind")];
   LaserWiring wiring;
   wiring.kind = choice.kind;
+  wiring.first_scan_limit = duration_from_seconds(table.number("first_scan_limit_s"));
+  if (wiring.kind == ScannerKind::kDds) {
+    wiring.topic = read_topic(table, "topic");
+    wiring.reliable = table.boolean("reliable");
+    wiring.infinity_is_free = table.boolean("infinity_is_free");
+    return wiring;
+  }
   const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
   if (serial) {
     if (table.has("host") && !table.has("device"))
@@ -31,7 +39,6 @@ LaserWiring read_wiring(TomlTable& table) {
     wiring.host = table.text("host");
     wiring.port = static_cast<std::uint16_t>(table.integer("port", choice.port));
   }
-  wiring.first_scan_limit = duration_from_seconds(table.number("first_scan_limit_s"));
   return wiring;
 }
 

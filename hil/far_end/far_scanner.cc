@@ -2,6 +2,7 @@
 
 #include <utility>
 
+#include "hal/types/errors.h"
 #include "hil/emulators/ld_server.h"
 #include "hil/emulators/lms200_server.h"
 #include "hil/emulators/rplidar_server.h"
@@ -35,6 +36,8 @@ ScipModel scip_model(const LaserModel& laser) {
 }  // namespace
 
 std::unique_ptr<ByteServer> make_far_wire(const LaserWiring& wiring) {
+  if (wiring.kind == ScannerKind::kDds)
+    throw StartupError("laser.kind \"dds\" has no emulator", "play the robot with a program on DDS");
   if (wiring.host.empty()) return std::make_unique<PtyServer>(wiring.device);
   return std::make_unique<TcpServer>(wiring.port);
 }
@@ -54,6 +57,8 @@ std::unique_ptr<ScannerServer> make_far_scanner(const LaserWiring& wiring, const
       return std::make_unique<RplidarServer>(std::move(wire), std::move(world));
     case ScannerKind::kLms200:
       return std::make_unique<Lms200Server>(std::move(wire), wiring.baud, std::move(world));
+    case ScannerKind::kDds:
+      break;
   }
   return nullptr;
 }

@@ -73,6 +73,7 @@ std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::siz
     }
     case DriveKind::kVesc:
       return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
+    case DriveKind::kDds:
     case DriveKind::kCia402:
       break;
   }

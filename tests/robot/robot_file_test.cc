@@ -154,6 +154,32 @@ TEST_CASE("every kind of scanner and drive has its own keys") {
   CHECK(refusal(with("cia402", "odrive")).rfind("10: drive.motor_turns_per_wheel_turn is missing; ", 0) == 0);
 }
 
+TEST_CASE("a robot on ROS 2 is named by its topics, which stand for the bus") {
+  const std::string drive = "cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600\nright_reversed = true";
+  const auto ros = [&](const std::string& keys) { return with(drive, "dds\"\n" + keys); };
+  const RobotFile robot = load(ros("command = \"/base/cmd_vel\"\nstamped = true"));
+  CHECK(robot.drive.kind == DriveKind::kDds);
+  CHECK(robot.drive.can == "/base/cmd_vel");
+  CHECK(robot.drive.ros.odometry == "/odom");
+  CHECK(robot.drive.ros.stamped);
+  CHECK_FALSE(robot.drive.ros.allow_unproved);
+  CHECK(robot.drive.ros.stop.brake_radps2 == Approx(10.2564));
+  CHECK(robot.drive.wheel_radii_m[0] == robot.setup.model.drive.wheel_radius_m);
+  CHECK(load(ros("")).drive.ros.command == "/cmd_vel");
+  for (const char* topic : {"cmd_vel", "/", "/cmd_vel/", "/a//b", "/../etc", "/cmd vel", ""})
+    CHECK(refusal(ros("command = \"" + std::string(topic) + "\"")).find("is no topic's whole name") !=
+          std::string::npos);
+  CHECK(refusal(ros("can = \"can0\"")) != "loaded");
+  CHECK(refusal(ros("left_reversed = true")) != "loaded");
+  const RobotFile laser = load(with("\"sick-cola-b\"\nhost = \"10.0.0.2\"", "\"dds\"\ntopic = \"/front/scan\""));
+  CHECK(laser.laser.kind == ScannerKind::kDds);
+  CHECK(laser.laser.topic == "/front/scan");
+  CHECK_FALSE(laser.laser.infinity_is_free);
+  CHECK(refusal(with("sick-cola-b", "dds")).find("host") != std::string::npos);
+  CHECK(refusal(with("host = \"10.0.0.2\"", "host = \"10.0.0.2\"\ntopic = \"/scan\"")).find("topic") !=
+        std::string::npos);
+}
+
 TEST_CASE("every drive's timeout outlasts two of the loop's periods") {
   const auto at = [](const std::string& rate_hz, const std::string& timeout_ms) {
     std::string text = with("[laser]", "rate_hz = " + rate_hz + "\n[laser]");

@@ -93,7 +93,7 @@ TEST_CASE("a text of several lines is refused with its line") {
 }
 
 TEST_CASE("the example robots load") {
-  for (const char* name : {"pioneer-p3dx", "cia402-base", "wheelchair"}) {
+  for (const char* name : {"pioneer-p3dx", "cia402-base", "wheelchair", "turtlebot4", "jackal", "ros2-control-base"}) {
     CAPTURE(name);
     const RobotFile robot = load_robot_file(std::string(JAYWALK_EXAMPLES) + "/" + name + ".toml");
     CHECK(robot.setup.model.limits.max_speed_mps <= 0.6);

@@ -123,6 +123,20 @@ can = "can0"
 left_node = 1
 right_node = 2
 electrical_turns_per_wheel_turn = 160.0
+)",
+    R"(model = "p3dx"
+[laser]
+kind = "dds"
+topic = "/front/scan"
+reliable = false
+infinity_is_free = true
+[drive]
+kind = "dds"
+odometry = "/odom"
+command = "/cmd_vel"
+stamped = true
+reliable = false
+allow_unproved = true
 )"};
 
 /// MAP is to be replaced by a whole [map] line, STICK by lines that say a kind of stick, ROWS by a file of recorded

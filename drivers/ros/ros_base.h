@@ -1,0 +1,69 @@
+#pragma once
+#include <array>
+#include <string>
+
+#include "drivers/motor/motor_pair.h"
+#include "drivers/ros/ros_bus.h"
+
+namespace jaywalk::ros {
+
+struct BaseSetup {
+  std::string odometry = "/odom", command = "/cmd_vel";  ///< topics
+  bool stamped = false;                                  ///< the command is a TwistStamped
+  bool reliable = false;                                 ///< odometry is asked for again where it is lost
+  StopLimits stop;                                       ///< braking and tolerance must be given
+  bool allow_unproved = false;
+  Duration tick = std::chrono::milliseconds(20);
+};
+
+/// A base that obeys cmd_vel and publishes its odometry on ROS 2, as two motors behind jaywalk_dds.
+///
+/// Arming proof, before the first command and after every return: some node listens to the commands; odometry comes at
+/// least as often as the loop ticks; no other node commands the base; and commanded zero it stands. That the base
+/// stops by itself when no commands come (its cmd_vel timeout) would show only while it drives: never proved, so
+/// that arming needs allow_unproved. jaywalk_dds commands zero 100 ms after the loop's last command; the base's timeout
+/// is for the death of both. A base has no second way to stop but silence.
+class RosBase final : public MotorPair {
+ public:
+  /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
+  RosBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
+  [[nodiscard]] std::string inspect(std::size_t side) override;
+
+ private:
+  /// What a wheel showed in its proof.
+  struct Shown {
+    int readings = 0;
+    double fastest_radps = 0.0;
+    int listeners = 0;
+    Time began = kNever;
+  };
+
+  void take(const ReceivedFrame& received) noexcept override;
+  void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
+  void send_reset(std::size_t) noexcept override {}
+  void begin_proof(std::size_t index) noexcept override;
+  ProofResult continue_proof(std::size_t index) noexcept override;
+  [[nodiscard]] double least_readings() const noexcept;
+  [[nodiscard]] std::string proof_line(std::size_t index) const override;
+  [[nodiscard]] std::string proof_remedy() const override;
+  [[nodiscard]] StartupError absence(std::size_t index) const override;
+
+  BaseSetup setup_;
+  std::array<Shown, 2> shown_;
+  std::array<std::uint32_t, 2> angles_{};
+  std::array<bool, 2> torque_on_{};
+  int listeners_ = 0;
+  Time zero_sent_ = kNever;
+};
+
+/// Has jaywalk_dds stop the base.
+class Stopper final : public EmergencyBrake {
+ public:
+  explicit Stopper(RosBus& bus) noexcept : bus_(bus) {}
+  void brake() noexcept override { bus_.brake(); }
+
+ private:
+  RosBus& bus_;
+};
+
+}  // namespace jaywalk::ros

@@ -1,0 +1,183 @@
+#include "drivers/ros/shared_ring.h"
+
+#include <fcntl.h>
+#include <linux/futex.h>
+#include <sys/mman.h>
+#include <sys/stat.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
+
+#include "drivers/wire/file_descriptor.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::ros {
+
+namespace {
+
+constexpr std::uint64_t kMagic = 0x31676E6972776A0AU;  // "\njwring1"
+constexpr std::size_t kWord = sizeof(std::uint64_t);
+
+std::uint64_t load(std::uint64_t& word, std::memory_order order = std::memory_order_relaxed) noexcept {
+  return std::atomic_ref(word).load(order);
+}
+
+/// A file of this user's alone, under one name.
+std::optional<struct stat> own_file(int file) noexcept {
+  struct stat is {};
+  const bool is_own = ::fstat(file, &is) == 0 && S_ISREG(is.st_mode) && is.st_uid == ::geteuid() && is.st_nlink == 1 &&
+                      (is.st_mode & (S_IRWXG | S_IRWXO)) == 0;
+  return is_own ? std::optional(is) : std::nullopt;
+}
+
+}  // namespace
+
+struct SharedRing::Header {
+  std::uint64_t magic, message_bytes, slots;
+  alignas(64) std::atomic<std::uint64_t> written;
+  std::atomic<std::uint64_t> alarms;
+  std::atomic<std::uint32_t> bell;  ///< a futex
+};
+
+struct SharedRing::Mapping {
+  Mapping(std::filesystem::path where, const struct stat& file) noexcept : path(std::move(where)), is(file) {}
+  ~Mapping() {
+    if (memory != MAP_FAILED) ::munmap(memory, bytes);
+    if (is_maker && is_current()) ::unlink(path.c_str());
+  }
+  Mapping(const Mapping&) = delete;
+  Mapping& operator=(const Mapping&) = delete;
+
+  static std::size_t bytes_of(const Shape& shape) noexcept {
+    return sizeof(Header) + shape.slots * (kWord + shape.message_bytes);
+  }
+  [[nodiscard]] bool map(int file, const Shape& shape) noexcept {
+    bytes = bytes_of(shape);
+    memory = ::mmap(nullptr, bytes, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_POPULATE, file, 0);
+    return memory != MAP_FAILED;
+  }
+  [[nodiscard]] bool is_current() const noexcept {
+    struct stat there {};
+    return ::lstat(path.c_str(), &there) == 0 && there.st_ino == is.st_ino && there.st_dev == is.st_dev;
+  }
+
+  std::filesystem::path path;
+  struct stat is;
+  void* memory = MAP_FAILED;
+  std::size_t bytes = 0;
+  bool is_maker = false;
+};
+
+std::unique_ptr<SharedRing> SharedRing::make(const std::filesystem::path& path, const Shape& shape) {
+  const auto refuse = [&](const std::string& cause) {
+    throw StartupError(path.string() + ": " + cause, "take away what lies there, and see to its folder's rights");
+  };
+  if (const wire::FileDescriptor old(::open(path.c_str(), O_RDONLY | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+      old.get() >= 0 || errno != ENOENT) {
+    std::uint64_t magic = 0;
+    const bool is_ring = old.get() >= 0 && own_file(old.get()) &&
+                         ::pread(old.get(), &magic, sizeof magic, 0) == sizeof magic && magic == kMagic;
+    if (!is_ring) refuse("is there, and is no file of jaywalk's");
+    ::unlink(path.c_str());
+  }
+  const wire::FileDescriptor file(
+      ::open(path.c_str(), O_RDWR | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, S_IRUSR | S_IWUSR));
+  if (file.get() < 0) refuse(std::string("cannot be made: ") + std::strerror(errno));
+  if (const int failure = ::posix_fallocate(file.get(), 0, static_cast<off_t>(Mapping::bytes_of(shape))); failure != 0)
+    refuse(std::string("has no room: ") + std::strerror(failure));
+  const auto is = own_file(file.get());
+  auto mapping = std::make_unique<Mapping>(path, is.value_or(std::remove_cv_t<struct stat>{}));
+  mapping->is_maker = true;
+  if (!is || !mapping->map(file.get(), shape)) refuse(std::string("cannot be mapped: ") + std::strerror(errno));
+  auto& header = *static_cast<Header*>(mapping->memory);
+  header.message_bytes = shape.message_bytes;
+  header.slots = shape.slots;
+  std::atomic_ref(header.magic).store(kMagic, std::memory_order_release);
+  return std::unique_ptr<SharedRing>(new SharedRing(std::move(mapping), shape));
+}
+
+std::unique_ptr<SharedRing> SharedRing::find(const std::filesystem::path& path, const Shape& shape) {
+  const wire::FileDescriptor file(::open(path.c_str(), O_RDWR | O_NOFOLLOW | O_NONBLOCK | O_CLOEXEC));
+  const auto is = file.get() < 0 ? std::nullopt : own_file(file.get());
+  if (!is || is->st_size != static_cast<off_t>(Mapping::bytes_of(shape))) return nullptr;
+  auto mapping = std::make_unique<Mapping>(path, *is);
+  if (!mapping->map(file.get(), shape)) return nullptr;
+  auto& header = *static_cast<Header*>(mapping->memory);
+  if (load(header.magic, std::memory_order_acquire) != kMagic || load(header.message_bytes) != shape.message_bytes ||
+      load(header.slots) != shape.slots)
+    return nullptr;
+  return std::unique_ptr<SharedRing>(new SharedRing(std::move(mapping), shape));
+}
+
+SharedRing::SharedRing(std::unique_ptr<Mapping> mapping, const Shape& shape) noexcept
+    : mapping_(std::move(mapping)), shape_(shape), written_(header().written.load()), next_(written_ + 1) {}
+
+SharedRing::~SharedRing() = default;
+
+SharedRing::Header& SharedRing::header() const noexcept { return *static_cast<Header*>(mapping_->memory); }
+
+std::uint64_t* SharedRing::slot_of(std::uint64_t number) const noexcept {
+  auto* const slots = static_cast<std::byte*>(mapping_->memory) + sizeof(Header);
+  return reinterpret_cast<std::uint64_t*>(slots + number % shape_.slots * (kWord + shape_.message_bytes));
+}
+
+bool SharedRing::is_current() const noexcept { return mapping_->is_current(); }
+
+void SharedRing::write(std::span<const std::byte> message) noexcept {
+  std::uint64_t* const slot = slot_of(++written_);
+  std::atomic_ref(slot[0]).store(0, std::memory_order_relaxed);
+  std::atomic_thread_fence(std::memory_order_release);
+  for (std::size_t k = 0; k < shape_.message_bytes / kWord; ++k) {
+    std::uint64_t word = 0;
+    std::memcpy(&word, message.data() + k * kWord, kWord);
+    std::atomic_ref(slot[1 + k]).store(word, std::memory_order_relaxed);
+  }
+  std::atomic_ref(slot[0]).store(written_, std::memory_order_release);
+  header().written.store(written_, std::memory_order_release);
+  ring_bell();
+}
+
+SharedRing::Took SharedRing::read(std::span<std::byte> message) noexcept {
+  const std::uint64_t newest = header().written.load(std::memory_order_acquire);
+  if (newest == next_ - 1) return Took::kNothing;
+  if (const std::uint64_t behind = newest - next_; behind >= shape_.slots) {  // overwritten, or set back
+    lost_ += newest > next_ ? behind : 0;
+    next_ = newest;
+  }
+  std::uint64_t* const slot = slot_of(next_);
+  const bool was_whole = load(slot[0], std::memory_order_acquire) == next_;
+  for (std::size_t k = 0; k < shape_.message_bytes / kWord; ++k) {
+    const std::uint64_t word = load(slot[1 + k]);
+    std::memcpy(message.data() + k * kWord, &word, kWord);
+  }
+  std::atomic_thread_fence(std::memory_order_acquire);
+  const bool is_whole = was_whole && load(slot[0]) == next_;
+  ++next_;
+  return is_whole ? Took::kMessage : Took::kTorn;
+}
+
+void SharedRing::skip() noexcept { next_ = header().written.load(std::memory_order_acquire) + 1; }
+
+void SharedRing::wait(Duration most) const noexcept {
+  const std::uint32_t heard = header().bell.load(std::memory_order_acquire);
+  if (header().written.load(std::memory_order_acquire) != next_ - 1) return;
+  const timespec span{.tv_sec = most / std::chrono::seconds(1), .tv_nsec = (most % std::chrono::seconds(1)).count()};
+  ::syscall(SYS_futex, &header().bell, FUTEX_WAIT, heard, &span, nullptr, 0);
+}
+
+void SharedRing::ring_bell() noexcept {
+  header().bell.fetch_add(1, std::memory_order_release);
+  ::syscall(SYS_futex, &header().bell, FUTEX_WAKE, INT32_MAX, nullptr, nullptr, 0);
+}
+
+void SharedRing::raise_alarm() noexcept {
+  header().alarms.fetch_add(1, std::memory_order_release);
+  ring_bell();
+}
+
+std::uint64_t SharedRing::alarms() const noexcept { return header().alarms.load(std::memory_order_acquire); }
+
+}  // namespace jaywalk::ros
