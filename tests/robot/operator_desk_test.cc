@@ -173,6 +173,22 @@ TEST_CASE("a latched fault drops the goal, refuses others, and a reset does not 
   CHECK_FALSE(bench.desk.latest().has_goal);
 }
 
+TEST_CASE("a second latch after a reset is told by its reasons, and takes the goal, as the first") {
+  Bench bench;
+  bench.latch();
+  CHECK(bench.status.latched_by == Reason::kDrive);
+  for (const Reason fault : {Reason::kScanStale, Reason::kDrive}) {
+    bench.unlatch();
+    CHECK(bench.status.latched_by == Reason::kNone);
+    CHECK(bench.desk.obey("goto 1 2") == "going\n");
+    CHECK(bench.desk.latest().has_goal);
+    bench.tell([&](RunStatus& s) { s.reasons = fault; });  // a tick before it latches
+    bench.tell([&](RunStatus& s) { s.latched = true, s.reasons = Reason::kLatched | fault; });
+    CHECK(bench.status.latched_by == fault);
+    CHECK_FALSE(bench.desk.latest().has_goal);
+  }
+}
+
 TEST_CASE("there is no reset on the move, and none where nothing is latched") {
   Bench bench;
   CHECK(bench.desk.obey("reset") == "nothing to reset\n");
