@@ -7,9 +7,7 @@
 #include <array>
 #include <memory>
 
-#include "apps/formats/cdr_writer.h"
 #include "apps/formats/ros_topics.h"
-#include "hal/types/errors.h"
 
 namespace jaywalk::dds {
 namespace {
@@ -30,45 +28,19 @@ const std::array<PassedOn, 7> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds_
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::int32_t kDepth = 10;
 
-/// Negative codes are DDS's errors.
-dds_entity_t checked(dds_entity_t entity, const std::string& what) {
-  if (entity >= 0) return entity;
-  throw StartupError("DDS: " + what + ": " + dds_strretcode(-entity),
-                     "set CYCLONEDDS_URI to a network interface that is up");
-}
-
-std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos_of(bool kept) {
-  std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)> qos(dds_create_qos(), &dds_delete_qos);
-  dds_qset_reliability(qos.get(), DDS_RELIABILITY_RELIABLE, DDS_MSECS(0));  // a reader that hangs holds nothing up
-  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, kept ? 1 : kDepth);
-  dds_qset_durability(qos.get(), kept ? DDS_DURABILITY_TRANSIENT_LOCAL : DDS_DURABILITY_VOLATILE);
+Qos qos_of(bool kept) {
+  Qos qos = qos_keeping(kept ? 1 : kDepth, true);
+  if (kept) dds_qset_durability(qos.get(), DDS_DURABILITY_TRANSIENT_LOCAL);
   return qos;
-}
-
-std::string in_cdr(const geometry_msgs_msg_dds__PoseStamped_& goal) {
-  exchange::CdrWriter out;
-  const auto& at = goal.pose_.position_;
-  const auto& turned = goal.pose_.orientation_;
-  out.i32(goal.header_.stamp_.sec_).u32(goal.header_.stamp_.nanosec_).text(goal.header_.frame_id_);
-  out.f64(at.x_).f64(at.y_).f64(at.z_).f64(turned.x_).f64(turned.y_).f64(turned.z_).f64(turned.w_);
-  return out.message();
 }
 
 }  // namespace
 
-DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals)
+DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& space)
     : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")) {
-  for (const PassedOn& one : kPassedOn) {
-    const auto qos = qos_of(one.kept);
-    const std::string name = "rt" + std::string(one.topic());
-    const dds_entity_t topic = checked(dds_create_topic(participant_, one.type, name.c_str(), nullptr, nullptr), name);
-    writers_[one.topic()] = checked(dds_create_writer(participant_, topic, qos.get(), nullptr), name);
-  }
-  if (!takes_goals) return;
-  const dds_entity_t topic = checked(
-      dds_create_topic(participant_, &geometry_msgs_msg_dds__PoseStamped__desc, "rt/goal_pose", nullptr, nullptr),
-      "rt/goal_pose");
-  goals_ = checked(dds_create_reader(participant_, topic, qos_of(false).get(), nullptr), "rt/goal_pose");
+  for (const PassedOn& one : kPassedOn)
+    writers_[one.topic()] = make_writer(participant_, *one.type, space + one.topic(), qos_of(one.kept));
+  if (takes_goals) goals_.emplace(participant_);
 }
 
 DdsTopics::~DdsTopics() { dds_delete(participant_); }
@@ -97,16 +69,6 @@ bool DdsTopics::publish(const std::string& topic, std::string message) {
   return dds_write(writers_.at(topic), sample.get()) == DDS_RETCODE_OK;
 }
 
-std::optional<std::string> DdsTopics::take_goal() {
-  std::optional<std::string> newest;
-  void* sample = nullptr;
-  dds_sample_info_t about;
-  while (goals_ && dds_take(*goals_, &sample, &about, 1, 1) > 0) {
-    if (about.valid_data) newest = in_cdr(*static_cast<const geometry_msgs_msg_dds__PoseStamped_*>(sample));
-    dds_return_loan(*goals_, &sample, 1);
-    sample = nullptr;
-  }
-  return newest;
-}
+std::optional<std::string> DdsTopics::take_goal() { return goals_ ? goals_->take() : std::nullopt; }
 
 }  // namespace jaywalk::dds

@@ -1,12 +1,11 @@
 #pragma once
 // ROS 2's topics on DDS, by Cyclone DDS.
-#include <dds/dds.h>
-
 #include <map>
 #include <optional>
 #include <set>
 #include <string>
-#include <string_view>
+
+#include "apps/dds/dds_entities.h"
 
 namespace jaywalk::dds {
 
@@ -14,8 +13,9 @@ namespace jaywalk::dds {
 /// takes goals, a reader of rt/goal_pose. Reliable, the last ten; /map is kept for newcomers. Thread: one.
 class DdsTopics {
  public:
-  /// Throws StartupError where DDS finds no network it can use.
-  DdsTopics(std::uint32_t domain, bool takes_goals);
+  /// `space` goes before every topic that is written, "/jaywalk" say. Throws StartupError where DDS finds no network it
+  /// can use.
+  DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& space = "");
   ~DdsTopics();
   DdsTopics(const DdsTopics&) = delete;
   DdsTopics& operator=(const DdsTopics&) = delete;
@@ -28,7 +28,7 @@ class DdsTopics {
 
  private:
   dds_entity_t participant_;
-  std::optional<dds_entity_t> goals_;
+  std::optional<GoalReader> goals_;
   std::map<std::string, dds_entity_t> writers_;
 };
 

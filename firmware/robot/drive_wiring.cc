@@ -101,8 +101,8 @@ void read_axes(TomlTable& table, const std::string& key, const DriveModel& model
 }
 
 ros::BaseSetup read_ros(TomlTable& table, Duration tick, const StopLimits& stop) {
-  return {.odometry = read_topic(table, "odometry"),
-          .command = read_topic(table, "command"),
+  return {.odometry = read_topic(table, "odometry", ros::BaseSetup{}.odometry),
+          .command = read_topic(table, "command", ros::BaseSetup{}.command),
           .stamped = table.boolean("stamped"),
           .reliable = table.boolean("reliable"),
           .stop = stop,

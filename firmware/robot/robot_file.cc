@@ -22,7 +22,7 @@ LaserWiring read_wiring(TomlTable& table) {
   wiring.kind = choice.kind;
   wiring.first_scan_limit = duration_from_seconds(table.number("first_scan_limit_s"));
   if (wiring.kind == ScannerKind::kDds) {
-    wiring.topic = read_topic(table, "topic");
+    wiring.topic = read_topic(table, "topic", "/scan");
     wiring.reliable = table.boolean("reliable");
     wiring.infinity_is_free = table.boolean("infinity_is_free");
     return wiring;

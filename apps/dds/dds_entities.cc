@@ -1,0 +1,63 @@
+#include "apps/dds/dds_entities.h"
+
+#include <ros_topics.h>  // idlc writes it
+
+#include "apps/formats/cdr_writer.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::dds {
+namespace {
+
+constexpr std::int32_t kGoalDepth = 10;
+
+dds_entity_t make_topic(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic) {
+  return checked(dds_create_topic(participant, &type, ("rt" + topic).c_str(), nullptr, nullptr), topic);
+}
+
+std::string in_cdr(const geometry_msgs_msg_dds__PoseStamped_& goal) {
+  exchange::CdrWriter out;
+  const auto& at = goal.pose_.position_;
+  const auto& turned = goal.pose_.orientation_;
+  out.i32(goal.header_.stamp_.sec_).u32(goal.header_.stamp_.nanosec_).text(goal.header_.frame_id_);
+  out.f64(at.x_).f64(at.y_).f64(at.z_).f64(turned.x_).f64(turned.y_).f64(turned.z_).f64(turned.w_);
+  return out.message();
+}
+
+}  // namespace
+
+dds_entity_t checked(dds_entity_t entity, const std::string& what) {
+  if (entity >= 0) return entity;
+  throw StartupError("DDS: " + what + ": " + dds_strretcode(-entity),
+                     "set CYCLONEDDS_URI to a network interface that is up");
+}
+
+Qos qos_keeping(std::int32_t depth, bool reliable) {
+  Qos qos(dds_create_qos(), &dds_delete_qos);
+  // A reader that hangs holds nothing up.
+  dds_qset_reliability(qos.get(), reliable ? DDS_RELIABILITY_RELIABLE : DDS_RELIABILITY_BEST_EFFORT, DDS_MSECS(0));
+  dds_qset_history(qos.get(), DDS_HISTORY_KEEP_LAST, depth);
+  dds_qset_durability(qos.get(), DDS_DURABILITY_VOLATILE);
+  return qos;
+}
+
+dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,
+                         const Qos& qos) {
+  return checked(dds_create_writer(participant, make_topic(participant, type, topic), qos.get(), nullptr), topic);
+}
+
+dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type, const std::string& topic,
+                         const Qos& qos) {
+  return checked(dds_create_reader(participant, make_topic(participant, type, topic), qos.get(), nullptr), topic);
+}
+
+GoalReader::GoalReader(dds_entity_t participant)
+    : reader_(make_reader(participant, geometry_msgs_msg_dds__PoseStamped__desc, "/goal_pose",
+                          qos_keeping(kGoalDepth, true))) {}
+
+std::optional<std::string> GoalReader::take() {
+  std::optional<std::string> newest;
+  take_all<geometry_msgs_msg_dds__PoseStamped_>(reader_, [&](const auto& goal) { newest = in_cdr(goal); });
+  return newest;
+}
+
+}  // namespace jaywalk::dds

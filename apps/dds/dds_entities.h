@@ -1,0 +1,48 @@
+#pragma once
+// What both jobs of jaywalk_dds make of Cyclone DDS.
+#include <dds/dds.h>
+
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace jaywalk::dds {
+
+/// Of what DDS returns: throws StartupError for its errors, which are negative.
+dds_entity_t checked(dds_entity_t entity, const std::string& what);
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+/// Keeps the last `depth`; volatile.
+[[nodiscard]] Qos qos_keeping(std::int32_t depth, bool reliable);
+
+/// `topic` as ROS 2 shows it, "/scan"; on DDS it is rt/scan. Throw StartupError.
+[[nodiscard]] dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       const std::string& topic, const Qos& qos);
+[[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       const std::string& topic, const Qos& qos);
+
+/// `use(sample)` for each that waits at a reader of the type T.
+template <class T, class Use>
+void take_all(dds_entity_t reader, Use use) {
+  void* sample = nullptr;
+  dds_sample_info_t about;
+  while (dds_take(reader, &sample, &about, 1, 1) > 0) {
+    if (about.valid_data) use(*static_cast<const T*>(sample));
+    dds_return_loan(reader, &sample, 1);
+    sample = nullptr;
+  }
+}
+
+/// Reads /goal_pose.
+class GoalReader {
+ public:
+  explicit GoalReader(dds_entity_t participant);
+  /// The newest that came, as a PoseStamped in CDR.
+  [[nodiscard]] std::optional<std::string> take();
+
+ private:
+  dds_entity_t reader_;
+};
+
+}  // namespace jaywalk::dds
