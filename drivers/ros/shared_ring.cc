@@ -128,12 +128,11 @@ bool SharedRing::is_current() const noexcept { return mapping_->is_current(); }
 
 void SharedRing::write(std::span<const std::byte> message) noexcept {
   std::uint64_t* const slot = slot_of(++written_);
-  std::atomic_ref(slot[0]).store(0, std::memory_order_relaxed);
-  std::atomic_thread_fence(std::memory_order_release);
+  std::atomic_ref(slot[0]).store(0, std::memory_order_relaxed);  // no word below is seen before this
   for (std::size_t k = 0; k < shape_.message_bytes / kWord; ++k) {
     std::uint64_t word = 0;
     std::memcpy(&word, message.data() + k * kWord, kWord);
-    std::atomic_ref(slot[1 + k]).store(word, std::memory_order_relaxed);
+    std::atomic_ref(slot[1 + k]).store(word, std::memory_order_release);
   }
   std::atomic_ref(slot[0]).store(written_, std::memory_order_release);
   header().written.store(written_, std::memory_order_release);
@@ -150,10 +149,9 @@ SharedRing::Took SharedRing::read(std::span<std::byte> message) noexcept {
   std::uint64_t* const slot = slot_of(next_);
   const bool was_whole = load(slot[0], std::memory_order_acquire) == next_;
   for (std::size_t k = 0; k < shape_.message_bytes / kWord; ++k) {
-    const std::uint64_t word = load(slot[1 + k]);
+    const std::uint64_t word = load(slot[1 + k], std::memory_order_acquire);
     std::memcpy(message.data() + k * kWord, &word, kWord);
   }
-  std::atomic_thread_fence(std::memory_order_acquire);
   const bool is_whole = was_whole && load(slot[0]) == next_;
   ++next_;
   return is_whole ? Took::kMessage : Took::kTorn;

@@ -63,16 +63,10 @@ std::vector<SettingKey> drive_keys() {
                   50.0,
                   "the drives' own heartbeat; missed for three of these, a drive counts as lost"});
   const ros::BaseSetup base;
-  keys.push_back({"drive:dds", "odometry", kText, {}, "", "/odom", "topic of its nav_msgs/Odometry"});
-  keys.push_back({"drive:dds", "command", kText, {}, "", "/cmd_vel", "topic of the velocity that it obeys"});
-  keys.push_back({"drive:dds", "stamped", kBoolean, {}, "", base.stamped, "commands are a TwistStamped, not a Twist"});
-  keys.push_back({"drive:dds",
-                  "reliable",
-                  kBoolean,
-                  {},
-                  "",
-                  base.reliable,
-                  "lost odometry is sent again; only from a reliable publisher"});
+  keys.push_back({"drive:dds", "odometry", kText, {}, "", "/odom", "its nav_msgs/Odometry"});
+  keys.push_back({"drive:dds", "command", kText, {}, "", "/cmd_vel", "where it takes commands"});
+  keys.push_back({"drive:dds", "stamped", kBoolean, {}, "", base.stamped, "as TwistStamped"});
+  keys.push_back({"drive:dds", "reliable", kBoolean, {}, "", base.reliable, "lost odometry is sent again"});
   return keys;
 }
 

@@ -11,6 +11,8 @@
 namespace jaywalk {
 namespace {
 
+constexpr const char* kStartNodes = "start the robot's ROS 2 nodes, and jaywalk_dds with this file and their domain";
+
 std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bus) {
   const auto& odrives = wiring.odrive.axes;
   const auto& vescs = wiring.vesc.axes;
@@ -106,8 +108,10 @@ void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& cl
   const Time limit = clock.now() + file.laser.first_scan_limit;
   while (laser.latest().sequence == 0) {
     if (clock.now() > limit) {
-      throw StartupError(laser.name() + ": no scan: " + std::string(name(laser.health().trouble)),
-                         "see that the scanner has power and this address, and that nobody else uses it");
+      const bool is_topic = file.laser.kind == ScannerKind::kDds;
+      throw StartupError(
+          laser.name() + ": no scan: " + std::string(name(laser.health().trouble)),
+          is_topic ? kStartNodes : "see that the scanner has power and this address, and that nobody else uses it");
     }
     clock.sleep_until(clock.now() + std::chrono::milliseconds(5));
   }

@@ -10,6 +10,7 @@
 #include "drivers/laser/rplidar_protocol.h"
 #include "drivers/laser/scip_protocol.h"
 #include "drivers/laser/sick_protocol.h"
+#include "drivers/ros/ros_scan.h"
 
 namespace jaywalk::tests {
 
@@ -119,6 +120,19 @@ void fuzz_lms200(wire::Bytes bytes) {
   stream.forget();
   stream.append(bytes);
   while (const auto body = stream.next()) check_scan(lms200::decode_scan(*body, 38400, kArrival, scan), scan);
+}
+
+/// The beginning of a message from a shared ring; the lowest bit of the first byte: infinity is free.
+void fuzz_ros(wire::Bytes bytes) {
+  static std::array<std::uint8_t, ros::kScanRing.message_bytes> message;
+  LaserScan& scan = reused_scan();
+  const bool infinity_is_free = (take_choice(bytes) & 1U) != 0;
+  message.fill(0);
+  std::copy_n(bytes.begin(), std::min(bytes.size(), message.size()), message.begin());
+  for (const wire::Bytes each : {wire::Bytes(message), bytes}) {
+    const bool is_scan = ros::decode_scan(each, kArrival, infinity_is_free, scan) == Heard::kScan;
+    if (is_scan) check_scan(Decoding::kScan, scan);
+  }
 }
 
 void fuzz_scanner_protocol(wire::Bytes bytes) {

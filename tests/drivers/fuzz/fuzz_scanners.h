@@ -17,6 +17,7 @@ void fuzz_sick(wire::Bytes bytes);
 void fuzz_scip(wire::Bytes bytes);
 void fuzz_ldrobot(wire::Bytes bytes);
 void fuzz_lms200(wire::Bytes bytes);
+void fuzz_ros(wire::Bytes bytes);
 void fuzz_scanner_protocol(wire::Bytes bytes);
 
 }  // namespace jaywalk::tests

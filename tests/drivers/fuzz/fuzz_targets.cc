@@ -151,6 +151,7 @@ constexpr std::array<FuzzTarget, kFuzzTargets> kTargets{{{"kernel_frame", fuzz_k
                                                          {"scip", fuzz_scip},
                                                          {"ldrobot", fuzz_ldrobot},
                                                          {"lms200", fuzz_lms200},
+                                                         {"ros", fuzz_ros},
                                                          {"scanner_protocol", fuzz_scanner_protocol}}};
 
 }  // namespace
