@@ -103,7 +103,8 @@ int main(int argc, char** argv) {
   app.add_option("--fingerprint", options.fingerprint,
                  "Of the certificate behind an https:// address, as the run prints it: AB:CD:...");
   app.add_option("--namespace", options.space,
-                 "Before a run's topics, \"/jaywalk\": where the robot has topics of these names itself");
+                 "Before a run's topics, /jaywalk say: where the robot has topics of these names itself")
+      ->check([](const std::string& space) { return space.front() == '/' ? "" : "begins with a /"; });
   app.add_option("--socket", options.control_socket, "Of the run that goals go to, with ROBOT.toml");
   app.add_option("--domain", options.domain, "DDS domain; ROS 2's ROS_DOMAIN_ID")
       ->envname("ROS_DOMAIN_ID")

@@ -47,6 +47,10 @@ class Setup {
   RobotDraft draft() {
     draft_.remark(
         "Written by jaywalk setup. Every key: jaywalk config --explain. Next: jaywalk check, commission, run.");
+    for (const char* table : {"laser", "drive"})
+      if (answers_.given_text(table, "kind") == "dds")
+        throw StartupError("setup: looks for devices on wires, not for the topics of a ROS 2 robot",
+                           "begin with deploy/config/ros2-control-base.toml");
     draft_model();
     draft_drives();
     draft_scanner();

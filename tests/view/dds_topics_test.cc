@@ -51,6 +51,26 @@ std::optional<std::string> goal_taken(bool takes_goals) {
 
 }  // namespace
 
+TEST_CASE("a run's topics lie below the namespace that they are given") {
+  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
+  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
+  const dds::DdsTopics topics(domain, false, "/jaywalk");
+  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
+  const auto publishers_of = [&](const char* topic) {
+    const dds_entity_t reader =
+        dds::make_reader(far_end, sensor_msgs_msg_dds__LaserScan__desc, topic, dds::qos_keeping(1, false));
+    dds_subscription_matched_status_t matched{};
+    for (int looks = 0; looks < 100 && matched.current_count == 0; ++looks) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(20));
+      dds_get_subscription_matched_status(reader, &matched);
+    }
+    return matched.current_count;
+  };
+  CHECK(publishers_of("/jaywalk/scan") == 1);
+  CHECK(publishers_of("/scan") == 0);
+  dds_delete(far_end);
+}
+
 TEST_CASE("a goal on DDS is taken where goals were asked for, and nowhere else") {
   CHECK(goal_taken(true));
   CHECK_FALSE(goal_taken(false));
