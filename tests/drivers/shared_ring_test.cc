@@ -103,6 +103,23 @@ TEST_CASE("any bytes in the file are no message, and the next one written is rea
   }
 }
 
+TEST_CASE("a slot that holds another message than its turn's is torn") {
+  const RingPath path;
+  const auto reader = SharedRing::make(path, kShape);
+  const auto writer = SharedRing::find(path, kShape);
+  write(*writer, 1);
+  {
+    std::fstream file(path.path(), std::ios::in | std::ios::out | std::ios::binary);
+    constexpr std::size_t kSlot = 8 + kShape.message_bytes;
+    file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path.path()) - 3 * kSlot));
+    file.put(5);  // in place of 1, in the second slot of four
+  }
+  Message message{};
+  CHECK(read(*reader, message) == SharedRing::Took::kTorn);
+  write(*writer, 2);
+  CHECK(next_of(*reader) == 2);
+}
+
 TEST_CASE("two threads: what is read is whole and never older than before") {
   const RingPath path;
   const auto reader = SharedRing::make(path, kShape);
