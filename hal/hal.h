@@ -8,6 +8,7 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/outside_fix.h"
+#include "hal/types/scanners.h"
 #include "hal/types/time.h"
 #include "hal/types/wheels.h"
 
@@ -56,6 +57,7 @@ struct Hal {
   OperatorPanel& panel;
   PoseSource& pose_source;
   Clock& clock;
+  OfOthers<LaserScanner*> other_lasers{};  ///< beside `laser`, in the order of the robot's model
 };
 
 }  // namespace jaywalk

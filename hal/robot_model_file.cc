@@ -80,6 +80,26 @@ void read_laser(TomlTable& table, LaserModel& laser) {
   if (!(laser.range_min_m < laser.range_max_m)) table.refuse("range_min_m", "is not below range_m", "lower it");
 }
 
+void read_lasers(std::vector<TomlTable> tables, RobotModel& model,
+                 const std::function<void(TomlTable&, LaserModel&)>& read_more) {
+  const std::size_t of_model = model.lasers().size();
+  if (tables.size() < of_model)
+    tables.back().refuse("mount", "is the last one's, and the model has " + std::to_string(of_model) + " scanners",
+                         "write [[laser]] for each, in the model's order");
+  for (std::size_t k = 0; k < tables.size(); ++k) {
+    TomlTable& table = tables[k];
+    if (k >= of_model && !table.has("mount"))
+      table.refuse("mount", "is missing, of a scanner that the model lacks", "give [x, y, yaw] on the robot");
+    if (k >= of_model && !model.other_lasers.push_back(model.laser))
+      table.refuse("mount", "is one scanner's more than " + std::to_string(kMostScanners), "leave it out");
+    LaserModel& laser = k == 0 ? model.laser : model.other_lasers[k - 1];
+    if (k >= of_model) laser.blanked.clear();
+    read_more(table, laser);
+    read_laser(table, laser);
+    table.finish();
+  }
+}
+
 Comfort read_comfort(TomlTable& table) {
   return table.has("comfort") ? static_cast<Comfort>(table.choice("comfort")) : Comfort::kNormal;
 }
@@ -92,9 +112,7 @@ RobotModel load_robot_model(const std::filesystem::path& path) {
   model.footprint = read_footprint(root.table("footprint"));
   model.drive = read_drive(root.table("drive"));
   model.limits = read_limits(root.table("limits"));
-  TomlTable laser = root.table("laser");
-  read_laser(laser, model.laser);
-  laser.finish();
+  read_lasers(root.table_or_tables("laser"), model, [](TomlTable&, LaserModel&) {});
   root.finish();
   return model;
 }

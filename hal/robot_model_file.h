@@ -1,5 +1,6 @@
 #pragma once
 #include <filesystem>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -30,6 +31,12 @@ namespace jaywalk {
 
 /// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.
 [[nodiscard]] BlankedSector read_sector(TomlTable& table);
+
+/// Reads `tables`, written as [laser] or [[laser]], each over the model's scanner in its place; one that the model
+/// lacks is like its first and says its mount itself. Throws where there are more than kMostScanners, or fewer than the
+/// model's. `read_more` reads the other keys of a table that belong to the scanner.
+void read_lasers(std::vector<TomlTable> tables, RobotModel& model,
+                 const std::function<void(TomlTable&, LaserModel&)>& read_more);
 
 /// Lays the laser table's keys (fov_deg, beams, rate_hz, range_min_m, range_m, noise_m, drop_out, mount, blanked) over
 /// `laser`; keys that are absent leave it as it is.

@@ -273,6 +273,13 @@ TomlTable TomlTable::table(const std::string& key) {
   return {*file_, *keys_, found, title(key)};
 }
 
+std::vector<TomlTable> TomlTable::table_or_tables(const std::string& key) {
+  if (!need(key).is_array()) return {table(key)};
+  std::vector<TomlTable> found = tables(key);
+  if (found.empty()) refuse(key, "is an empty list", "write [" + title(key) + "] and its keys below");
+  return found;
+}
+
 std::vector<TomlTable> TomlTable::tables(const std::string& key) {
   std::vector<TomlTable> found;
   const toml::value* node = find(key);

@@ -65,6 +65,8 @@ class TomlTable {
   [[nodiscard]] std::vector<Vec2> points_in_map(const std::string& key, std::size_t least, std::size_t most);
   /// A table that must be there.
   [[nodiscard]] TomlTable table(const std::string& key);
+  /// One table that must be there, or several of them written as [[key]].
+  [[nodiscard]] std::vector<TomlTable> table_or_tables(const std::string& key);
   /// The tables written as [[key]]; none when the key is absent.
   [[nodiscard]] std::vector<TomlTable> tables(const std::string& key);
 

@@ -5,13 +5,13 @@
 
 namespace jaywalk::sim {
 
-LaserSim::LaserSim(const LaserModel& model, std::uint64_t seed)
+LaserSim::LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t index)
     : model_(model),
       in_laser_(model.beams),
       in_map_(model.beams),
       range_(model.beams),
-      noise_(seed, Purpose::kRange),
-      loss_(seed, Purpose::kDropOut) {
+      noise_(seed, Purpose::kRange, index),
+      loss_(seed, Purpose::kDropOut, index) {
   const double step = model.fov_rad / (model.beams - 1);
   for (std::size_t k = 0; k < in_laser_.size(); ++k) {
     in_laser_[k] = direction(-0.5 * model.fov_rad + static_cast<double>(k) * step);

@@ -15,7 +15,8 @@ namespace jaywalk::sim {
 /// construction.
 class LaserSim {
  public:
-  LaserSim(const LaserModel& model, std::uint64_t seed);
+  /// `index` tells apart the noise of several.
+  LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t index = 0);
 
   /// Writes the sweep from where the robot stands; `movers` are round. Keeps scan.sequence.
   void sweep(const Walls& walls, std::span<const Disc> movers, const Pose2& map_from_robot, Time now,

@@ -59,7 +59,11 @@ struct FaultSpec {
   double for_s = 0.0;
   FaultKind kind = FaultKind::kScanStale;
   BlankedSector lost{-kPi / 3.0, kPi / 3.0};  ///< of kBeamsLost, in the laser's frame: 120 degrees ahead
+  int scanner = 0;                            ///< of the scanner's faults: which one's, from 1; 0: all
 
+  [[nodiscard]] bool is_of(std::size_t which) const noexcept {
+    return scanner == 0 || scanner == static_cast<int>(which) + 1;
+  }
   [[nodiscard]] bool active(double now_s) const noexcept { return now_s >= at_s && now_s < at_s + for_s; }
 };
 
@@ -112,7 +116,6 @@ struct Scenario {
   double goal_heading_tolerance_rad = 0.1;
   RobotModel model;  ///< with the scenario's own speed, comfort and laser already in it
   Comfort comfort = Comfort::kNormal;
-  bool laser_turns = false;  ///< its beams are measured one after another; else all at once
   SlipSpec slip;
   TrueRobot truth;
   PoseSourceSpec pose_source;

@@ -61,16 +61,13 @@ TrueRobot read_truth(TomlTable table) {
   return truth;
 }
 
-RobotModel read_model(TomlTable& table, bool& laser_turns) {
+RobotModel read_model(TomlTable& table) {
   RobotModel model = table.has("model") ? read_model_choice(table, "model") : p3dx();
   const double fastest = model.drive.max_wheel_speed_radps * model.drive.wheel_radius_m;
   model.limits.max_speed_mps = table.number("max_speed_mps", model.limits.max_speed_mps, fastest);
-  if (table.has("laser")) {
-    TomlTable laser = table.table("laser");
-    read_laser(laser, model.laser);
-    laser_turns = laser.boolean("turns", laser_turns);
-    laser.finish();
-  }
+  if (table.has("laser"))
+    read_lasers(table.table_or_tables("laser"), model,
+                [](TomlTable& laser, LaserModel& of) { of.turns = laser.boolean("turns", of.turns); });
   return model;
 }
 
@@ -84,7 +81,7 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.goal_place = table.place_of("goal");
   scenario.goal_tolerance_m = table.number("goal_tolerance_m");
   scenario.goal_heading_tolerance_rad = table.number("goal_heading_tolerance_rad");
-  scenario.model = read_model(table, scenario.laser_turns);
+  scenario.model = read_model(table);
   scenario.comfort = read_comfort(table);
   scenario.model.limits = limits_for(scenario.comfort, scenario.model);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
@@ -147,6 +144,7 @@ FaultSpec read_fault(TomlTable& table) {
   spec.kind = static_cast<FaultKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
   spec.at_s = table.number("at_s");
   spec.for_s = table.number("for_s");
+  if (table.has("scanner")) spec.scanner = static_cast<int>(table.integer("scanner"));
   if (spec.kind == FaultKind::kBeamsLost && (table.has("from_deg") || table.has("to_deg")))
     spec.lost = read_sector(table);
   table.finish();
@@ -169,7 +167,11 @@ Scenario load_scenario(const std::filesystem::path& path, const std::vector<std:
                        scenario.goal_place);
   if (root.has("stick")) scenario.stick = read_stick(root.table("stick"));
   for (TomlTable& table : root.tables("movers")) read_movers(table, scenario);
-  for (TomlTable& table : root.tables("faults")) scenario.faults.push_back(read_fault(table));
+  for (TomlTable& table : root.tables("faults")) {
+    scenario.faults.push_back(read_fault(table));
+    if (scenario.faults.back().scanner > static_cast<int>(scenario.model.lasers().size()))
+      table.refuse("scanner", "is none of this robot's", "count its [[robot.laser]] from 1, or leave it out");
+  }
   root.finish();
   return scenario;
 }

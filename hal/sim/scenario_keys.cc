@@ -72,7 +72,7 @@ std::vector<SettingKey> robot_keys() {
        "the model's",
        "cruising speed; at most what the wheels can do"},
       comfort_key("robot"),
-      {"robot", "laser", kTable, {}, "", "the model's", "over the model's own"},
+      {"robot", "laser", kTable, {}, "", "the model's", "over the model's own; [[robot.laser]] for each of several"},
       {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
       {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},
       {"robot", "pose_source", kTable, {}, "", "none", "a localisation system outside the robot, as the paper has"}};
@@ -85,7 +85,7 @@ std::vector<SettingKey> robot_table_keys() {
            kBoolean,
            {},
            "",
-           kScenario.laser_turns,
+           LaserModel{}.turns,
            "beams are measured one after another, as the scanner turns"},
           {"robot.slip",
            "mean",
@@ -104,7 +104,13 @@ std::vector<SettingKey> robot_table_keys() {
           {"robot.truth", "left_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the left wheel"},
           {"robot.truth", "right_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the right wheel"},
           {"robot.truth", "track_width_m", kNumber, kTrack, "m", kModels, "between the wheels' contact points"},
-          {"robot.truth", "laser_mount", kNumbers, {}, "m, m, rad", kModels, "[x, y, yaw] of the laser on the robot"}};
+          {"robot.truth",
+           "laser_mount",
+           kNumbers,
+           {},
+           "m, m, rad",
+           kModels,
+           "[x, y, yaw] of the first laser on the robot"}};
 }
 
 std::vector<SettingKey> pose_source_keys() {
@@ -210,6 +216,13 @@ std::vector<SettingKey> fault_keys() {
             "wheels_swapped", "left_wheel_stuck", "scanner_mirrored"}},
           {"faults", "at_s", kNumber, kSeconds, "s", kNeeded, "when it begins"},
           {"faults", "for_s", kNumber, kSeconds, "s", kNeeded, "how long it lasts"},
+          {"faults",
+           "scanner",
+           kInteger,
+           {1.0, static_cast<double>(kMostScanners)},
+           "",
+           "all",
+           "of several scanners: which one has the fault, of a fault that is a scanner's"},
           {"faults:beams_lost", "from_deg", kNumber, kDegrees, "degrees", "-60",
            "where the sector begins, in the laser's frame; needed with to_deg"},
           {"faults:beams_lost", "to_deg", kNumber, kDegrees, "degrees", "60",

@@ -14,9 +14,9 @@ void lose(const BlankedSector& sector, LaserScan& scan) noexcept {
   }
 }
 
-LaserModel true_laser(const Scenario& scenario) {
-  LaserModel laser = scenario.model.laser;
-  laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
+LaserModel true_laser(const Scenario& scenario, std::size_t scanner) {
+  LaserModel laser = scenario.model.lasers()[scanner];
+  if (scanner == 0) laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
   return laser;
 }
 
@@ -30,59 +30,69 @@ bool Metronome::due(Time now) noexcept {
 
 Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
     : pose_source_(scenario.pose_source),
-      laser_beat_(scenario.model.laser.rate_hz),
       encoder_beat_(1.0 / to_seconds(kEncoderPeriod)),
       fix_beat_(scenario.pose_source.rate_hz),
-      laser_(true_laser(scenario), seed),
-      laser_turns_(scenario.laser_turns),
-      fix_noise_(seed, Purpose::kFix) {}
+      fix_noise_(seed, Purpose::kFix) {
+  const std::size_t count = scenario.model.lasers().size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const LaserModel laser = true_laser(scenario, k);
+    const double phase = static_cast<double>(k) / static_cast<double>(count);  // no clock of theirs is another's
+    scanners_.push_back({k, Metronome(laser.rate_hz, phase), LaserSim(laser, seed, k), laser.turns});
+  }
+}
 
 void Sensors::sense(World& world) noexcept {
   const Time now = world.now();
-  const bool silent = world.fault_active(FaultKind::kScanStale);
-  turning_ = turning_ && !silent;
-  if (turning_) turn(world);
-  if (laser_beat_.due(now) && !silent) look(world);
+  for (Scanner& scanner : scanners_) sense(scanner, world);
   if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) {
     wheels_ = world.plant().read_encoders(now);
   }
   if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
 }
 
-void Sensors::look(const World& world) noexcept {
-  const Truth& truth = world.truth();
-  if (world.fault_active(FaultKind::kScanFrozen)) {
-    ++scan_.sequence;
-    scan_.stamp = truth.now;
-    return;
-  }
-  if (laser_turns_) {
-    laser_.begin_turn(truth.now);
-    turning_ = true;
-    turn(world);
-    return;
-  }
-  ++scan_.sequence;
-  laser_.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_);
-  spoil(world);
+void Sensors::sense(Scanner& scanner, const World& world) noexcept {
+  const bool silent = world.fault_active(FaultKind::kScanStale, scanner.index);
+  scanner.turning = scanner.turning && !silent;
+  if (scanner.turning) turn(scanner, world);
+  if (scanner.beat.due(world.now()) && !silent) look(scanner, world);
 }
 
-void Sensors::turn(const World& world) noexcept {
+void Sensors::look(Scanner& scanner, const World& world) noexcept {
   const Truth& truth = world.truth();
-  if (!laser_.turn(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scan_)) return;
-  turning_ = false;
-  ++scan_.sequence;
-  spoil(world);
+  if (world.fault_active(FaultKind::kScanFrozen, scanner.index)) {
+    ++scanner.scan.sequence;
+    scanner.scan.stamp = truth.now;
+    return;
+  }
+  if (scanner.turns) {
+    scanner.laser.begin_turn(truth.now);
+    scanner.turning = true;
+    turn(scanner, world);
+    return;
+  }
+  ++scanner.scan.sequence;
+  scanner.laser.sweep(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scanner.scan);
+  spoil(scanner, world);
 }
 
-void Sensors::spoil(const World& world) noexcept {
-  if (world.fault_active(FaultKind::kScanNan)) scan_.range_m.fill(std::numeric_limits<float>::quiet_NaN());
-  if (world.fault_active(FaultKind::kScanShort)) scan_.beam_count /= 2;
+void Sensors::turn(Scanner& scanner, const World& world) noexcept {
+  const Truth& truth = world.truth();
+  if (!scanner.laser.turn(world.walls(), world.movers_seen(), truth.map_from_robot, truth.now, scanner.scan)) return;
+  scanner.turning = false;
+  ++scanner.scan.sequence;
+  spoil(scanner, world);
+}
+
+void Sensors::spoil(Scanner& scanner, const World& world) noexcept {
+  LaserScan& scan = scanner.scan;
+  const auto has = [&](FaultKind kind) { return world.fault_active(kind, scanner.index); };
+  if (has(FaultKind::kScanNan)) scan.range_m.fill(std::numeric_limits<float>::quiet_NaN());
+  if (has(FaultKind::kScanShort)) scan.beam_count /= 2;
   for (const FaultSpec& fault : world.faults()) {
-    if (fault.kind == FaultKind::kBeamsLost && fault.active(to_seconds(world.now()))) lose(fault.lost, scan_);
+    const bool active = fault.is_of(scanner.index) && fault.active(to_seconds(world.now()));
+    if (fault.kind == FaultKind::kBeamsLost && active) lose(fault.lost, scan);
   }
-  if (world.fault_active(FaultKind::kScannerMirrored))
-    std::reverse(scan_.range_m.begin(), scan_.range_m.begin() + scan_.beam_count);
+  if (has(FaultKind::kScannerMirrored)) std::reverse(scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
 }
 
 void Sensors::locate(const Truth& truth) noexcept {

@@ -1,5 +1,7 @@
 #pragma once
 // What the controller gets to see of the world, each device at its own rate, faults included.
+#include <vector>
+
 #include "hal/hal.h"
 #include "hal/sim/laser_sim.h"
 #include "hal/sim/world.h"
@@ -9,15 +11,15 @@ namespace jaywalk::sim {
 /// Encoders are read this often.
 inline constexpr Duration kEncoderPeriod{10'000'000};
 
-/// True at the first call at or after each multiple of a period.
+/// True at the first call at or after each multiple of a period, put off by a share `phase` of it.
 class Metronome {
  public:
-  explicit Metronome(double rate_hz) : rate_hz_(rate_hz) {}
+  explicit Metronome(double rate_hz, double phase = 0.0) : rate_hz_(rate_hz), beats_(phase) {}
   [[nodiscard]] bool due(Time now) noexcept;
 
  private:
   double rate_hz_;
-  double beats_ = 0.0;
+  double beats_;
 };
 
 class Sensors {
@@ -27,22 +29,29 @@ class Sensors {
   /// Call after every step of the world, and once before the first.
   void sense(World& world) noexcept;
 
-  [[nodiscard]] const LaserScan& scan() const noexcept { return scan_; }
+  [[nodiscard]] const LaserScan& scan(std::size_t scanner) const noexcept { return scanners_[scanner].scan; }
   [[nodiscard]] const WheelState& wheels() const noexcept { return wheels_; }
   [[nodiscard]] const OutsideFix& fix() const noexcept { return fix_; }
 
  private:
-  void look(const World& world) noexcept;
-  void turn(const World& world) noexcept;
-  void spoil(const World& world) noexcept;
+  /// One of the robot's lasers, with a rate and a clock of its own.
+  struct Scanner {
+    std::size_t index;
+    Metronome beat;
+    LaserSim laser;
+    bool turns, turning = false;
+    LaserScan scan{};
+  };
+  static void sense(Scanner& scanner, const World& world) noexcept;
+  static void look(Scanner& scanner, const World& world) noexcept;
+  static void turn(Scanner& scanner, const World& world) noexcept;
+  static void spoil(Scanner& scanner, const World& world) noexcept;
   void locate(const Truth& truth) noexcept;
 
   PoseSourceSpec pose_source_;
-  Metronome laser_beat_, encoder_beat_, fix_beat_;
-  LaserSim laser_;
-  bool laser_turns_, turning_ = false;
+  std::vector<Scanner> scanners_;
+  Metronome encoder_beat_, fix_beat_;
   Random fix_noise_;
-  LaserScan scan_;
   WheelState wheels_;
   OutsideFix fix_;
 };

@@ -1,6 +1,7 @@
 #include "hal/sim/simulation.h"
 
 #include <optional>
+#include <vector>
 
 #include "hal/sim/sensors.h"
 #include "hal/sim/stick.h"
@@ -11,14 +12,16 @@ namespace {
 
 class SimLaser final : public LaserScanner {
  public:
-  explicit SimLaser(const Sensors& sensors) : sensors_(sensors) {}
+  SimLaser(const Sensors& sensors, std::size_t index) : sensors_(sensors), index_(index) {}
   const LaserScan& latest() noexcept override {
-    if (given_.sequence != sensors_.scan().sequence) given_ = sensors_.scan();
+    const LaserScan& scan = sensors_.scan(index_);
+    if (given_.sequence != scan.sequence) given_ = scan;
     return given_;
   }
 
  private:
   const Sensors& sensors_;
+  std::size_t index_;
   LaserScan given_;  ///< stays as it is while the world moves on
 };
 
@@ -103,7 +106,7 @@ std::vector<WallSegment> drawn(const Walls& walls) {
 struct Simulation::State {
   World world;
   Sensors sensors;
-  SimLaser laser{sensors};
+  std::vector<SimLaser> lasers;
   SimDrive drive{world, sensors};
   SimPanel panel;
   SimPoseSource pose_source{sensors};
@@ -115,6 +118,7 @@ struct Simulation::State {
         sensors(scenario, seed),
         panel(world, scenario, seed),
         drawn_walls(drawn(world.walls())) {
+    for (std::size_t k = 0; k < scenario.model.lasers().size(); ++k) lasers.emplace_back(sensors, k);
     sensors.sense(world);
   }
 };
@@ -124,7 +128,10 @@ Simulation::Simulation(const Scenario& scenario, std::uint64_t seed)
 Simulation::~Simulation() = default;
 
 Hal Simulation::hal() noexcept {
-  return {state_->laser, state_->drive, state_->panel, state_->pose_source, state_->clock};
+  State& s = *state_;
+  Hal hal{s.lasers.front(), s.drive, s.panel, s.pose_source, s.clock};
+  for (std::size_t k = 1; k < s.lasers.size(); ++k) (void)hal.other_lasers.push_back(&s.lasers[k]);
+  return hal;
 }
 
 const Truth& Simulation::truth() const noexcept { return state_->world.truth(); }

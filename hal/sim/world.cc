@@ -64,6 +64,12 @@ bool World::fault_active(FaultKind kind) const noexcept {
                      [&](const FaultSpec& fault) { return fault.kind == kind && fault.active(now_s); });
 }
 
+bool World::fault_active(FaultKind kind, std::size_t scanner) const noexcept {
+  return std::any_of(faults_.begin(), faults_.end(), [&](const FaultSpec& fault) {
+    return fault.kind == kind && fault.is_of(scanner) && fault.active(to_seconds(truth_.now));
+  });
+}
+
 double World::gap_to(std::span<const MoverTruth> movers) const noexcept {
   double nearest = std::numeric_limits<double>::infinity();
   const RobotBody robot = body();

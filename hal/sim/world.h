@@ -36,6 +36,8 @@ class World {
   [[nodiscard]] const Truth& truth() const noexcept { return truth_; }
   [[nodiscard]] std::span<const FaultSpec> faults() const noexcept { return faults_; }
   [[nodiscard]] bool fault_active(FaultKind kind) const noexcept;
+  /// The same of a scanner, counted from 0.
+  [[nodiscard]] bool fault_active(FaultKind kind, std::size_t scanner) const noexcept;
 
  private:
   [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }

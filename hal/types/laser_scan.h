@@ -41,6 +41,7 @@ struct LaserScan {
   Duration sweep{0};   ///< from the first beam to the last; 0: taken all at once
   Duration period{0};  ///< nominal time from one scan to the next
   std::array<float, kMaxBeams> range_m{};
+  std::uint8_t scanner = 0;  ///< which of the robot's it is from, in the order of its file; the loop says so
 
   [[nodiscard]] bool is_hit(std::size_t beam) const {
     const float r = range_m[beam];

@@ -15,6 +15,30 @@ double Footprint::distance_to(Vec2 p) const {
   return norm({beyond_x, beyond_y});
 }
 
+namespace {
+
+/// Of a corner: by its end of the body.
+const char* side_of(const Footprint& body, Vec2 mount) {
+  const double half_length_m = 0.5 * (body.front_m + body.rear_m);
+  const double ahead = (mount.x - (body.front_m - half_length_m)) / half_length_m;
+  const double left = mount.y / body.half_width_m;
+  if (std::fabs(ahead) < 0.5 * std::fabs(left)) return left > 0.0 ? "left" : "right";
+  return ahead < 0.0 ? "rear" : "front";
+}
+
+}  // namespace
+
+std::string scanner_name(const RobotModel& model, std::size_t scanner) {
+  if (model.other_lasers.empty()) return "";
+  const auto side = [&](std::size_t k) {
+    return std::string(side_of(model.footprint, model.lasers()[k].robot_from_laser.position()));
+  };
+  const std::string name = side(scanner);
+  int number = 1;
+  for (std::size_t k = 0; k < scanner; ++k) number += side(k) == name ? 1 : 0;
+  return number == 1 ? name : name + std::to_string(number);
+}
+
 RobotModel p3dx() {
   return {.name = "p3dx",
           .footprint = {.front_m = 0.2275, .rear_m = 0.2275, .half_width_m = 0.1905},

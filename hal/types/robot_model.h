@@ -1,10 +1,11 @@
 #pragma once
-// The robot's body, drive and laser: facts about a machine, shared by controller and simulator.
+// The robot's body, drive and lasers: facts about a machine, shared by controller and simulator.
 #include <cstdint>
 #include <string>
 
 #include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
+#include "hal/types/scanners.h"
 
 namespace jaywalk {
 
@@ -47,6 +48,7 @@ struct LaserModel {
   double noise_m = 0.0;   ///< standard deviation of a range
   double drop_out = 0.0;  ///< share of beams that return nothing, in [0, 1]
   Blanking blanked{};     ///< where it sees the robot itself
+  bool turns = false;     ///< simulated: its beams are measured one after another; else all at once
 };
 
 struct RobotModel {
@@ -54,8 +56,15 @@ struct RobotModel {
   Footprint footprint;
   DriveModel drive;
   MotionLimits limits;
-  LaserModel laser;
+  LaserModel laser;                     ///< the first
+  OfOthers<LaserModel> other_lasers{};  ///< each as a scanner of its own: other mount, rate and clock
+
+  [[nodiscard]] OfEach<LaserModel> lasers() const noexcept { return {laser, other_lasers}; }
 };
+
+/// "front", "rear", "left" or "right" by where it is mounted, with a number where an earlier one has the name: what
+/// messages and topics call a scanner. "" where there is one alone.
+[[nodiscard]] std::string scanner_name(const RobotModel& model, std::size_t scanner);
 
 /// Pioneer P3-DX: 0.455 m x 0.381 m, wheels 0.195 m across and 0.33 m apart, 1.2 m/s, 300 deg/s
 /// (maker's data sheet), with a 270 degree scanner.
