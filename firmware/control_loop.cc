@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "hal/types/errors.h"
+
 namespace jaywalk {
 namespace {
 
@@ -29,7 +31,13 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       known_walls_(setup.model.footprint),
       supervisor_(supervisor_config(setup)),
       diff_drive_(setup.model.drive),
-      plan_(&planner.collect()) {}
+      plan_(&planner.collect()) {
+  const std::size_t there = 1 + hal.other_lasers.size(), wanted = setup.model.lasers().size();
+  if (there != wanted)
+    throw StartupError(
+        "the robot has " + std::to_string(wanted) + " scanners, and " + std::to_string(there) + " can be read here",
+        "give what was recorded or wired with as many");
+}
 
 const TickRecord& ControlLoop::tick(Time now) noexcept {
   TickRecord& t = recorder_.begin(now);        // preallocated; all that crosses the HAL this tick
@@ -50,6 +58,12 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 void ControlLoop::read_devices(TickRecord& t) noexcept {
   t.scan = hal_.laser.latest();
   blank(setup_.model.laser.blanked, t.scan);
+  t.other_scans.clear();
+  for (std::size_t k = 0; k < hal_.other_lasers.size(); ++k) {
+    (void)t.other_scans.push_back(hal_.other_lasers[k]->latest());
+    t.other_scans[k].scanner = static_cast<std::uint8_t>(k + 1);
+    blank(setup_.model.other_lasers[k].blanked, t.other_scans[k]);
+  }
   t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
@@ -77,8 +91,9 @@ void ControlLoop::permit(TickRecord& t) noexcept {
   const motion::MotionStatus status = motion_->status();
   t.latency = latency_.measured();
   t.verdict = supervisor_.judge(
-      t.wanted, {t.scan, t.wheels, t.input, t.plan_stamp, t.now, t.latency, status.turns_at_goal, zone_speed_.here_mps,
-                 sent_, known_walls_.near(tracker().still(), t.pose.map_from_robot), &known_walls_, t.pose.doubtful});
+      t.wanted,
+      {t.scans(), t.wheels, t.input, t.plan_stamp, t.now, t.latency, status.turns_at_goal, zone_speed_.here_mps, sent_,
+       known_walls_.near(tracker().still(), t.pose.map_from_robot), &known_walls_, t.pose.doubtful});
   if (status.turn_blocked) t.verdict.reasons |= Reason::kTurnBlocked;
   if (recorder_.is_losing()) t.verdict.reasons |= Reason::kNotRecorded;
   driven_ = setup_.applies_verdict() ? t.verdict.permitted : t.wanted;
@@ -114,19 +129,29 @@ motion::Intent ControlLoop::intent(const TickRecord& t) const noexcept {
 }
 
 motion::World ControlLoop::world(const TickRecord& t) const noexcept {
+  const LaserScan& newest = t.newest_scan();
+  OfOthers<SeenFrom> others;
+  for (const LaserScan& scan : t.scans())
+    if (&scan != &newest && scan.sequence != 0) (void)others.push_back({&scan, map_from_laser(scan)});
   return {.now = t.now,
           .map_from_robot = t.pose.map_from_robot,
           .wanted = t.wanted,
           .driven = driven_,
           .input = t.input,
-          .scan = t.scan,
-          .map_from_laser = estimator_.map_from_robot_at_scan() * setup_.model.laser.robot_from_laser,
+          .scan = newest,
+          .map_from_laser = map_from_laser(newest),
           .perceived = {.tracks = tracker().tracks(),
                         .moving = tracker().moving(),
                         .standing = tracker().standing(),
                         .still = tracker().still()},
           .plan = *plan_,
-          .unseen_walls = supervisor_.unseen_walls()};
+          .unseen_walls = supervisor_.unseen_walls(),
+          .other_scans = others};
+}
+
+Pose2 ControlLoop::map_from_laser(const LaserScan& scan) const noexcept {
+  const Pose2& mount = setup_.model.lasers()[scan.scanner].robot_from_laser;
+  return estimator_.map_from_robot_at_scan(scan.scanner) * mount;
 }
 
 }  // namespace jaywalk

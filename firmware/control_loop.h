@@ -48,6 +48,8 @@ class ControlLoop {
   [[nodiscard]] bool is_steered(const TickRecord& t) const noexcept;
   [[nodiscard]] motion::Intent intent(const TickRecord& t) const noexcept;
   [[nodiscard]] motion::World world(const TickRecord& t) const noexcept;
+  /// At that scan, its scanner's newest.
+  [[nodiscard]] Pose2 map_from_laser(const LaserScan& scan) const noexcept;
 
   ControlSetup setup_;
   Hal hal_;

@@ -36,6 +36,32 @@ constexpr double kCell_m = 0.1;  // the paper's
 /// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
 
+nlohmann::json json_of(const Blanking& blanked) {
+  nlohmann::json sectors = nlohmann::json::array();
+  for (const BlankedSector& sector : blanked) sectors.push_back({sector.from_rad, sector.to_rad});
+  return sectors;
+}
+
+/// Those of `json` where it has any.
+Blanking blanked_of(const nlohmann::json& json) {
+  Blanking blanked;
+  for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
+    (void)blanked.push_back({from, to});  // no more than were written
+  return blanked;
+}
+
+nlohmann::json json_of(const LaserModel& laser) {
+  nlohmann::json json(laser);
+  json["blanked"] = json_of(laser.blanked);
+  return json;
+}
+
+LaserModel laser_of(const nlohmann::json& json) {
+  auto laser = json.get<LaserModel>();
+  laser.blanked = blanked_of(json);
+  return laser;
+}
+
 /// Runs of equal cells: "12u3f1w".
 std::string runs_of(const std::vector<KnownCell>& cells) {
   std::string text;
@@ -134,8 +160,8 @@ const char* name_of(PlanMode mode) { return mode == PlanMode::kPaper ? "paper" :
 
 std::string to_text(const ControlSetup& setup) {
   nlohmann::json json(setup);
-  for (const BlankedSector& sector : setup.model.laser.blanked)
-    json["blanked"].push_back({sector.from_rad, sector.to_rad});
+  if (!setup.model.laser.blanked.empty()) json["blanked"] = json_of(setup.model.laser.blanked);
+  for (const LaserModel& laser : setup.model.other_lasers) json["other_lasers"].push_back(json_of(laser));
   json["judges_motion"] = setup.judges_motion;
   if (!setup.rival.empty()) json["planner"] = setup.rival;
   if (setup.given_movers) json["given_movers"] = true;
@@ -152,8 +178,9 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
   try {
     const nlohmann::json json = nlohmann::json::parse(text);
     ControlSetup setup = json.get<ControlSetup>();
-    for (const auto& [from, to] : json.value("blanked", std::vector<std::array<double, 2>>{}))
-      (void)setup.model.laser.blanked.push_back({from, to});  // no more than were written
+    setup.model.laser.blanked = blanked_of(json);
+    for (const nlohmann::json& laser : json.value("other_lasers", nlohmann::json::array()))
+      if (!setup.model.other_lasers.push_back(laser_of(laser))) throw std::invalid_argument("too many lasers");
     setup.judges_motion = json.at("judges_motion").get<bool>();
     setup.rival = json.value("planner", setup.rival);
     setup.given_movers = json.value("given_movers", false);

@@ -1,16 +1,25 @@
 #include "firmware/estimator.h"
 
+#include <utility>
+
 namespace jaywalk {
 namespace {
 
 constexpr LaserScan kNoScan{};
 constexpr Duration kNoWayFor = std::chrono::seconds(10);  // time for a person in the way to walk on
 
+OfOthers<Pose2> other_mounts(const RobotModel& model) {
+  OfOthers<Pose2> mounts;
+  for (const LaserModel& laser : model.other_lasers) (void)mounts.push_back(laser.robot_from_laser);
+  return mounts;
+}
+
 LocalizationConfig localization_config(const ControlSetup& setup) {
   return {.map_from_robot_at_start = setup.start,
           .drive = setup.model.drive,
           .robot_from_laser = setup.model.laser.robot_from_laser,
-          .doubts = setup.wired || setup.judges_motion};
+          .doubts = setup.wired || setup.judges_motion,
+          .robot_from_others = other_mounts(setup.model)};
 }
 
 PerceptionConfig perception_config(const ControlSetup& setup) {
@@ -18,7 +27,8 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
           .cell_m = setup.planner().cell_m,
           .map_centre = (setup.start.position() + setup.goal) * 0.5,
           .body = setup.model.footprint,
-          .known_map = setup.known_map};
+          .known_map = setup.known_map,
+          .robot_from_others = other_mounts(setup.model)};
 }
 
 }  // namespace
@@ -29,12 +39,25 @@ Estimator::Estimator(const ControlSetup& setup)
       tracker_(perception_config(setup)) {}
 
 bool Estimator::update(const TickRecord& t) noexcept {
-  const bool new_scan = scans_.is_new(t.scan.sequence) && !scan_frozen_;
-  const LaserScan& seen = scan_frozen_ ? kNoScan : t.scan;  // a frozen one shows what was
+  FixedVector<const LaserScan*, kMostScanners> scans;
+  for (const LaserScan& scan : t.scans()) {
+    (void)scans.push_back(&scan);
+    for (std::size_t k = scans.size() - 1; k > 0 && scans[k]->stamp < scans[k - 1]->stamp; --k)
+      std::swap(scans[k], scans[k - 1]);
+  }
+  bool new_scan = false;
+  for (const LaserScan* scan : scans) new_scan = take(t, *scan) || new_scan;
+  return new_scan;
+}
+
+bool Estimator::take(const TickRecord& t, const LaserScan& scan) noexcept {
+  const bool frozen = frozen_[scan.scanner];
+  const bool new_scan = scans_[scan.scanner].is_new(scan.sequence) && !frozen;
+  const LaserScan& seen = frozen ? kNoScan : scan;  // a frozen one shows what was
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
   if (sees_given_movers_ && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
   if (!new_scan || pose_.doubtful) return false;
-  tracker_.update(t.scan, localizer_.map_from_robot_at_scan(), localizer_.twist(), t.now);
+  tracker_.update(scan, localizer_.map_from_robot_at_scan(scan.scanner), localizer_.twist(), t.now);
   return true;
 }
 
@@ -47,7 +70,8 @@ void Estimator::forget_where_stuck(const TickRecord& t) noexcept {
 }
 
 void Estimator::end_tick(const TickRecord& t) noexcept {
-  scan_frozen_ = has(t.verdict.reasons, Reason::kScanFrozen);
+  for (std::size_t k = 0; k < t.scans().size(); ++k)
+    frozen_[k] = has(t.verdict.reasons, Reason::kScanFrozen) && (t.other_scans.empty() || t.verdict.is_faulty(k));
   stood_ = t.command.left_radps == 0.0 && t.command.right_radps == 0.0;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 // The tick's step "Estimate": where the robot is, what stands around it and what moves.
+#include <array>
 #include <utility>
 
 #include "firmware/control_setup.h"
@@ -16,8 +17,8 @@ class Estimator {
  public:
   explicit Estimator(const ControlSetup& setup);
 
-  /// From what the devices said in this tick. True with a new scan, which the tracks then rest on; not where the pose
-  /// is in doubt.
+  /// From what the devices said in this tick, scan after scan in the order of their stamps. True with a new one, which
+  /// the tracks then rest on; not where the pose is in doubt.
   [[nodiscard]] bool update(const TickRecord& t) noexcept;
   /// Where it has stood for ten seconds with a goal and no path to it: what is mapped out of sight may have gone. Looks
   /// at the tick's input and at what became of its plan.
@@ -28,7 +29,9 @@ class Estimator {
   [[nodiscard]] const PoseEstimate& pose() const noexcept { return pose_; }
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   /// Localizer's.
-  [[nodiscard]] Pose2 map_from_robot_at_scan() const noexcept { return localizer_.map_from_robot_at_scan(); }
+  [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept {
+    return localizer_.map_from_robot_at_scan(scanner);
+  }
   [[nodiscard]] Twist2 twist() const noexcept { return localizer_.twist(); }
 
  private:
@@ -41,14 +44,18 @@ class Estimator {
     std::uint32_t last_ = 0;
   };
 
+  /// Of one scanner.
+  [[nodiscard]] bool take(const TickRecord& t, const LaserScan& scan) noexcept;
+
   bool sees_given_movers_;  ///< they come with the fix
   Localizer localizer_;
   Tracker tracker_;
   PoseEstimate pose_;
-  Fresh scans_, fixes_;
-  bool scan_frozen_ = false;  ///< the supervisor said so of the tick before
-  bool stood_ = true;         ///< the wheels were commanded nothing in the tick before
-  Time had_way_ = kNever;     ///< or moved, had no goal, or looked anew for one, last
+  std::array<Fresh, kMostScanners> scans_;
+  Fresh fixes_;
+  std::array<bool, kMostScanners> frozen_{};  ///< the supervisor said so of the tick before
+  bool stood_ = true;                         ///< the wheels were commanded nothing in the tick before
+  Time had_way_ = kNever;                     ///< or moved, had no goal, or looked anew for one, last
 };
 
 }  // namespace jaywalk

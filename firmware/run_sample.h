@@ -48,9 +48,9 @@ struct RunSample {
   Duration tick_took{0};               ///< measured
   std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
   Time now = record.now;  ///< as tables are to say it, here and below: a recording may have a clock of its own
-  Time scanned = record.scan.stamp;   ///< the scan's
-  const ControlLoop* loop = nullptr;  ///< where the loop's own thread reports, else null
-  const Planner* planner = nullptr;   ///< the same
+  Time scanned = record.newest_scan().stamp;  ///< the scan's
+  const ControlLoop* loop = nullptr;          ///< where the loop's own thread reports, else null
+  const Planner* planner = nullptr;           ///< the same
 };
 
 /// How it ended and under which conditions: what summary.json says, a field a key, so more of them than elsewhere.

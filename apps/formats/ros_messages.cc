@@ -16,7 +16,7 @@ void stamp(CdrWriter& out, Time time) {
   const std::int64_t ns = std::max<std::int64_t>(time.time_since_epoch().count(), 0);
   out.i32(ns / kBillion).u32(static_cast<std::size_t>(ns % kBillion));
 }
-void header(CdrWriter& out, Time time, const char* frame) {
+void header(CdrWriter& out, Time time, const std::string& frame) {
   stamp(out, time);
   out.text(frame);
 }
@@ -35,7 +35,7 @@ void twist(CdrWriter& out, const Twist2& t) {
   vector(out, t.v_mps, 0.0, 0.0);
   vector(out, 0.0, 0.0, t.w_radps);
 }
-void transform(CdrWriter& out, Time time, const char* from, const char* to, const Pose2& p) {
+void transform(CdrWriter& out, Time time, const std::string& from, const std::string& to, const Pose2& p) {
   header(out, time, from);
   out.text(to);
   vector(out, p.x, p.y, 0.0);
@@ -66,9 +66,9 @@ void value(CdrWriter& out, const char* key, const std::string& said) { out.text(
 
 }  // namespace
 
-std::string laser_scan(const LaserScan& scan, Time time) {
+std::string laser_scan(const LaserScan& scan, Time time, const std::string& frame) {
   CdrWriter out;
-  header(out, time, "laser");
+  header(out, time, frame);
   const double step = static_cast<double>(scan.angle_step_rad), beams = std::max(1.0, scan.beam_count - 1.0);
   out.f32(scan.angle_rad(0)).f32(scan.angle_rad(scan.beam_count - 1U)).f32(step);
   out.f32(to_seconds(scan.sweep) / beams).f32(to_seconds(scan.period));
@@ -78,7 +78,7 @@ std::string laser_scan(const LaserScan& scan, Time time) {
   return out.message();
 }
 
-std::string points(const LaserScan& scan, Time time) {
+std::string points(const LaserScan& scan, Time time, const std::string& frame) {
   constexpr unsigned kFloat32 = 7;
   constexpr std::size_t kPointBytes = 12;
   CdrWriter data;  // for its numbers alone
@@ -90,7 +90,7 @@ std::string points(const LaserScan& scan, Time time) {
     ++hits;
   }
   CdrWriter out;
-  header(out, time, "laser");
+  header(out, time, frame);
   out.u32(1).u32(hits).u32(3);
   std::size_t offset = 0;
   for (const char* axis : {"x", "y", "z"}) {
@@ -121,11 +121,18 @@ std::string transforms(const RobotFrames& frames, Time time) {
   return out.message();
 }
 
-std::string static_transforms(const Pose2& robot_from_laser, Time time) {
+std::string static_transforms(const RobotModel& model, Time time) {
   CdrWriter out;
-  out.u32(1);
-  transform(out, time, "base_link", "laser", robot_from_laser);
+  const OfEach<LaserModel> lasers = model.lasers();
+  out.u32(static_cast<std::uint32_t>(lasers.size()));
+  for (std::size_t k = 0; k < lasers.size(); ++k)
+    transform(out, time, "base_link", of_scanner("laser", model, k), lasers[k].robot_from_laser);
   return out.message();
+}
+
+std::string of_scanner(const std::string& word, const RobotModel& model, std::size_t scanner) {
+  const std::string name = scanner_name(model, scanner);
+  return name.empty() ? word : word + "_" + name;
 }
 
 std::string command(const TickRecord& tick) {
@@ -164,7 +171,7 @@ std::string tracks(std::span<const Track> tracks, Time stamp) {
 
 std::string diagnostics(const TickRecord& tick, Time time) {
   constexpr unsigned kOk = 0, kWarn = 1, kError = 2;
-  const std::string reasons = to_string(tick.verdict.reasons);
+  const std::string reasons = to_string(tick.verdict.reasons, tick.verdict.faulty_scanners);
   char gap[32];
   std::snprintf(gap, sizeof gap, "%.3f", tick.verdict.gap_m);
   CdrWriter out;

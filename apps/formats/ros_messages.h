@@ -1,10 +1,12 @@
 #pragma once
-// A tick as ROS 2's messages, in CDR. Frames by REP 105: "map", "odom", "base_link" (the drive axle's middle), "laser".
+// A tick as ROS 2's messages, in CDR. Frames by REP 105: "map", "odom", "base_link" (the drive axle's middle), "laser";
+// of several lasers "laser_front" and so on.
 // Each message's stamp is given.
 #include <span>
 #include <string>
 
 #include "firmware/recording/tick_record.h"
+#include "hal/types/robot_model.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/tracking/track.h"
 
@@ -16,16 +18,18 @@ struct RobotFrames {
 };
 
 /// sensor_msgs/LaserScan. A beam that measured and found nothing is +inf, one that knows nothing NaN (REP 117).
-[[nodiscard]] std::string laser_scan(const LaserScan& scan, Time stamp);
+[[nodiscard]] std::string laser_scan(const LaserScan& scan, Time stamp, const std::string& frame = "laser");
 /// sensor_msgs/PointCloud2 of the hits, in the laser's frame.
-[[nodiscard]] std::string points(const LaserScan& scan, Time stamp);
+[[nodiscard]] std::string points(const LaserScan& scan, Time stamp, const std::string& frame = "laser");
 /// nav_msgs/Odometry: the wheels' pose in odom, and their speed.
 [[nodiscard]] std::string odometry(const RobotFrames& frames, const WheelState& wheels, const DriveModel& drive,
                                    Time stamp);
 /// tf2_msgs/TFMessage: map to odom, odom to base_link.
 [[nodiscard]] std::string transforms(const RobotFrames& frames, Time stamp);
-/// tf2_msgs/TFMessage: base_link to laser.
-[[nodiscard]] std::string static_transforms(const Pose2& robot_from_laser, Time stamp);
+/// tf2_msgs/TFMessage: base_link to each laser.
+[[nodiscard]] std::string static_transforms(const RobotModel& model, Time stamp);
+/// `word`, or `word`_front and so on of one of several scanners.
+[[nodiscard]] std::string of_scanner(const std::string& word, const RobotModel& model, std::size_t scanner);
 /// geometry_msgs/Twist: what the supervisor permitted.
 [[nodiscard]] std::string command(const TickRecord& tick);
 /// geometry_msgs/PoseStamped.

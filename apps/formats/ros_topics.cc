@@ -41,12 +41,12 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
   const auto wants = [wanted](RosTopicNumber topic) { return (wanted & bit(topic)) != 0; };
   const Time now = wall(t.now);
   const RobotFrames frames = frames_at(t, model);
-  if (wants(kTfStatic) && !std::exchange(told_static_, true))
-    push_(kTfStatic, now, static_transforms(model.laser.robot_from_laser, now));
+  if (wants(kTfStatic) && !std::exchange(told_static_, true)) push_(kTfStatic, now, static_transforms(model, now));
   if (wants(kTf)) push_(kTf, now, transforms(frames, now));
   if (wants(kOdom)) push_(kOdom, now, odometry(frames, t.wheels, model.drive, now));
   if (wants(kCmdVel)) push_(kCmdVel, now, command(t));
-  if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, tracks, wanted);
+  if (t.scan.sequence != scan_seen_ && t.scan.beam_count > 0) add_scan(t, tracks, model, wanted);
+  add_other_scans(t, model, wanted);
   if (wants(kPlan) && !path.points.empty() && path.stamp != plan_seen_) {
     push_(kPlan, now, exchange::path(path, wall(path.stamp)));
     plan_seen_ = path.stamp;
@@ -55,12 +55,23 @@ void RosTopics::add(const TickRecord& t, std::span<const Track> tracks, const Pl
   if (wants(kDiagnostics)) add_diagnostics(t);
 }
 
-void RosTopics::add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted) {
+void RosTopics::add_scan(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model,
+                         std::uint32_t wanted) {
+  const std::string frame = of_scanner("laser", model, 0);
   scan_seen_ = t.scan.sequence;
   const Time now = wall(t.now), taken = wall(t.scan.stamp);
-  if ((wanted & bit(kScan)) != 0) push_(kScan, now, laser_scan(t.scan, taken));
-  if ((wanted & bit(kPoints)) != 0) push_(kPoints, now, points(t.scan, taken));
+  if ((wanted & bit(kScan)) != 0) push_(kScan, now, laser_scan(t.scan, taken, frame));
+  if ((wanted & bit(kPoints)) != 0) push_(kPoints, now, points(t.scan, taken, frame));
   if ((wanted & bit(kTracks)) != 0) push_(kTracks, now, exchange::tracks(tracks, now));
+}
+
+void RosTopics::add_other_scans(const TickRecord& t, const RobotModel& model, std::uint32_t wanted) {
+  for (std::size_t k = 0; k < t.other_scans.size(); ++k) {
+    const LaserScan& scan = t.other_scans[k];
+    const bool is_new = std::exchange(others_seen_[k], scan.sequence) != scan.sequence && scan.beam_count > 0;
+    if (is_new && (wanted & (1U << (kOtherScans + k))) != 0)
+      push_(kOtherScans + k, wall(t.now), laser_scan(scan, wall(scan.stamp), of_scanner("laser", model, k + 1)));
+  }
 }
 
 void RosTopics::add_goal(const TickRecord& t, std::uint32_t wanted) {

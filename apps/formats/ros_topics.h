@@ -50,6 +50,8 @@ inline constexpr std::array<RosTopic, 11> kRosTopics{{{"/scan", "sensor_msgs/msg
                                                       {"/cmd_vel", "geometry_msgs/msg/Twist"},
                                                       {"/tf_static", "tf2_msgs/msg/TFMessage", true}}};
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
+/// From this number on come the scans of a robot's other scanners, which kAllTopics does not ask for.
+inline constexpr std::size_t kOtherScans = kRosTopics.size();
 
 /// A run's ticks as ROS 2's messages (docs/reference/outputs.md says when there is one of which topic). Each message is
 /// made only where its topic is wanted. Thread: one.
@@ -74,7 +76,8 @@ class RosTopics {
   void forget(std::uint32_t topics);
   [[nodiscard]] Time wall(Time loop) const { return loop + unix_from_loop_; }
   [[nodiscard]] RobotFrames frames_at(const TickRecord& t, const RobotModel& model);
-  void add_scan(const TickRecord& t, std::span<const Track> tracks, std::uint32_t wanted);
+  void add_scan(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model, std::uint32_t wanted);
+  void add_other_scans(const TickRecord& t, const RobotModel& model, std::uint32_t wanted);
   void add_goal(const TickRecord& t, std::uint32_t wanted);
   void add_diagnostics(const TickRecord& t);
 
@@ -84,6 +87,7 @@ class RosTopics {
   bool told_static_ = false;
   std::uint32_t wanted_ = 0;  ///< last time
   std::uint32_t scan_seen_ = 0;
+  std::array<std::uint32_t, kMostScanners - 1> others_seen_{};  ///< scans
   OperatorInput goal_seen_;
   Reason reasons_ = Reason::kNone;
   Time plan_seen_ = kNever, mapped_ = kNever, told_ = kNever;

@@ -57,14 +57,18 @@ RunExporter::RunExporter(const std::filesystem::path& file, const ControlSetup& 
       topics_([this](std::size_t topic, Time stamp,
                      const std::string& message) { file_.write(channels_[topic], stamp, message); },
               setup.unix_from_loop) {
-  for (std::size_t k = 0; k < channels_.size(); ++k) {
-    const exchange::RosTopic& topic = exchange::kRosTopics[k];
-    channels_[k] = file_.add_channel(topic.name, topic.type, exchange::ros_schema(topic.type), qos_of(topic.name));
-  }
+  const auto add = [this](const std::string& name, const std::string& type) {
+    channels_.push_back(file_.add_channel(name, type, exchange::ros_schema(type), qos_of(name)));
+  };
+  const auto scans_of = [this](std::size_t scanner) { return exchange::of_scanner("/scan", model_, scanner); };
+  for (std::size_t k = 0; k < exchange::kRosTopics.size(); ++k)
+    add(k == exchange::kScan ? scans_of(0) : exchange::kRosTopics[k].name, exchange::kRosTopics[k].type);
+  for (std::size_t k = 1; k < model_.lasers().size(); ++k) add(scans_of(k), exchange::kRosTopics[exchange::kScan].type);
 }
 
 void RunExporter::add(const TickRecord& t, const Tracker& tracker) {
-  topics_.add(t, tracker.tracks(), t.path, model_);
+  const std::uint32_t every = (1U << channels_.size()) - 1U;
+  topics_.add(t, tracker.tracks(), t.path, model_, every);
   if (t.scan.beam_count > 0 && topics_.is_map_due(t.now)) topics_.add_map(tracker.still(), t.now);
 }
 

@@ -28,7 +28,7 @@ class RunExporter {
   std::filesystem::path path_;
   exchange::McapWriter file_;
   RobotModel model_;
-  std::array<std::uint16_t, exchange::kRosTopics.size()> channels_{};  ///< the file's number for each topic
+  std::vector<std::uint16_t> channels_;  ///< the file's number for each topic, those of other scanners at the end
   exchange::RosTopics topics_;
 };
 

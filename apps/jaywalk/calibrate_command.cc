@@ -26,7 +26,16 @@ struct Drive {
   std::array<double, 2> radii_m;
 };
 
+/// What is found is the mount of one laser.
+void require_one_scanner(const RobotModel& model) {
+  if (!model.other_lasers.empty())
+    throw StartupError(
+        "the robot has " + std::to_string(model.lasers().size()) + " scanners, and calibrating knows one",
+        "calibrate with a robot file of one [laser] at a time");
+}
+
 Drive drive_robot() {
+  require_one_scanner(load_robot_file(session_options.robot).setup.model);
   ArmedSession session(
       session_options, "calibrate",
       "The robot will drive 1.5 m ahead and back, and a circle to each side, for about a minute. Are 2 m "
@@ -56,6 +65,7 @@ std::array<double, 2> radii_beside(const std::filesystem::path& folder, const Ro
 Drive read_recording(const std::filesystem::path& run) {
   RecordedRun recorded(run);
   const RobotModel& model = recorded.setup().model;
+  require_one_scanner(model);
   CalibrationLog log(model.drive);
   while (recorded.step()) log.take(recorded.last().wheels, recorded.last().scan);
   return {std::move(log), model, radii_beside(recorded.folder(), model)};

@@ -118,7 +118,7 @@ std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup&
 
 Hal hal_for(sim::Simulation& simulation, SimView* view) {
   const Hal hal = simulation.hal();
-  return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock};
+  return view == nullptr ? hal : Hal{hal.laser, hal.drive, view->panel(), hal.pose_source, hal.clock, hal.other_lasers};
 }
 
 /// A steering person has the goal in mind.

@@ -23,8 +23,8 @@ RunTables::RunTables(const std::filesystem::path& folder)
 void RunTables::add(const RunSample& sample) {
   add_robot(sample);
   if (sample.truth != nullptr) add_movers(sample);
-  if (sample.record.scan.sequence != scan_sequence_) add_tracks(sample);
-  scan_sequence_ = sample.record.scan.sequence;
+  if (sample.record.scan_count() != scan_count_) add_tracks(sample);
+  scan_count_ = sample.record.scan_count();
   if (age(written_at_, sample.record.now) < kLongestWait) return;
   for (CsvFile* const table : {&robot_, &movers_, &tracks_}) table->write_out();
   written_at_ = sample.record.now;
@@ -55,7 +55,7 @@ void RunTables::add_robot(const RunSample& sample) {
   add_pose(robot_, r.pose.map_from_robot);
   robot_.number(r.wanted.v_mps).number(r.verdict.permitted.v_mps);
   robot_.number(r.command.left_radps).number(r.command.right_radps);
-  robot_.text(to_string(r.verdict.reasons)).end_row();
+  robot_.text(to_string(r.verdict.reasons, r.verdict.faulty_scanners)).end_row();
 }
 
 void RunTables::add_movers(const RunSample& sample) {

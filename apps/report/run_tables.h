@@ -19,7 +19,7 @@ class RunTables {
   void add(const RunSample& sample);
   void close();
   /// Goes on after `before`, which has the tracks of the last scan.
-  void follow(const RunTables& before) noexcept { scan_sequence_ = before.scan_sequence_; }
+  void follow(const RunTables& before) noexcept { scan_count_ = before.scan_count_; }
   /// Of all three, with what is not on the disk yet.
   [[nodiscard]] std::uintmax_t bytes() const noexcept { return robot_.bytes() + movers_.bytes() + tracks_.bytes(); }
   [[nodiscard]] bool is_losing() const noexcept;
@@ -33,7 +33,7 @@ class RunTables {
 
   CsvFile robot_, movers_, tracks_;
   Time written_at_ = kNever;
-  std::uint32_t scan_sequence_ = 0;
+  std::uint32_t scan_count_ = 0;
 };
 
 }  // namespace jaywalk

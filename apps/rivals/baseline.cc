@@ -61,8 +61,15 @@ void BaselineMotion::observe(const motion::World& world, const motion::Intent&) 
 void BaselineMotion::decide(const motion::World& world, const motion::Intent& intent) noexcept {
   if (!world.new_scan || !finite(world.map_from_robot)) return;
   const Guide& guide = world.plan.guide;
-  memory_.update({world.now, world.scan.stamp, world.map_from_robot, world.perceived.tracks, world.perceived.standing,
-                  world.perceived.still, world.scan, world.map_from_laser, guide});
+  const SeenFrom newest = world.newest();
+  memory_.update({world.now,
+                  world.scan.stamp,
+                  world.map_from_robot,
+                  world.perceived.tracks,
+                  world.perceived.standing,
+                  world.perceived.still,
+                  {newest, world.other_scans},
+                  guide});
   const bool has_goal = intent.kind == motion::Intent::Kind::kGoal;
   if (!has_goal || age(world.plan.stamp, world.now) >= kGuideHoldsFor || !guide.known()) return;
   const Vec2 goal = world.input.goal_in_map;

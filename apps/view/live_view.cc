@@ -92,10 +92,10 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
   const auto now = std::chrono::steady_clock::now();
   const bool is_due = server_->has_pages() && (at_once || !ended.empty() || now - pushed_ >= kPushEvery);
   if (!keeps_ticks_ && !is_due) return static_cast<void>(++tick_);
-  const bool changed = t.scan.sequence != scan_shown_ || snapshot.plan.sequence != plan_shown_ || scene_.empty();
+  const bool changed = t.scan_count() != scans_shown_ || snapshot.plan.sequence != plan_shown_ || scene_.empty();
   if (changed) {
-    scene_ = to_json(snapshot, model_.laser.robot_from_laser);
-    scan_shown_ = t.scan.sequence;
+    scene_ = to_json(snapshot, model_.lasers());
+    scans_shown_ = t.scan_count();
     plan_shown_ = snapshot.plan.sequence;
     if (keeps_ticks_) store_.add_scene(scene_);
   }

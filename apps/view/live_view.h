@@ -59,7 +59,7 @@ class LiveView {
   std::optional<view::ShownStopZone> zone_;
   view::ViewSnapshot snapshot_;
   std::string hello_, scene_;
-  std::uint32_t scan_shown_ = 0, plan_shown_ = 0;
+  std::uint32_t scans_shown_ = 0, plan_shown_ = 0;  ///< TickRecord::scan_count(); the plan's sequence
   std::uint64_t tick_ = 0, field_ = 0;
   Time field_shown_ = kNever;
   std::chrono::steady_clock::time_point pushed_{};

@@ -25,16 +25,18 @@ Json place(Vec2 p) { return Json::array({mm(p.x), mm(p.y)}); }
 /// JSON has bytes of text from files in it: what is no UTF-8 is replaced.
 std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-Json hits_of(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
+Json hits_of(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
   ScanProjection projection;
   ScanPoints points;
-  projection.project(snapshot.record.scan, robot_from_laser, snapshot.twist, points);
-  const Transform2 map_from_robot(snapshot.map_from_robot_at_scan);
   Json hits = Json::array();
-  for (const ScanPoint& point : points) {
-    const Vec2 p = map_from_robot * point.in_robot;
-    hits.push_back(mm(p.x));
-    hits.push_back(mm(p.y));
+  for (const LaserScan& scan : snapshot.record.scans()) {
+    projection.project(scan, lasers[scan.scanner].robot_from_laser, snapshot.twist, points);
+    const Transform2 map_from_robot(snapshot.map_from_robot_at_scan[scan.scanner]);
+    for (const ScanPoint& point : points) {
+      const Vec2 p = map_from_robot * point.in_robot;
+      hits.push_back(mm(p.x));
+      hits.push_back(mm(p.y));
+    }
   }
   return hits;
 }
@@ -130,12 +132,12 @@ std::string to_json(const HelloScene& hello) {
                  {"ground", hello.known == nullptr ? Json(nullptr) : ground_of(*hello.known)}});
 }
 
-std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser) {
+std::string to_json(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
   Json standing = Json::array();
   for (const StandingPedestrian& s : snapshot.standing)
     standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
   const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
-  return dumped({{"hits", hits_of(snapshot, robot_from_laser)},
+  return dumped({{"hits", hits_of(snapshot, lasers)},
                  {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
                  {"standing", standing},
                  {"futures", futures_of(movers)},
@@ -155,7 +157,7 @@ std::string frame_head(const FrameScene& frame) {
            {"speed", mm(frame.speed_mps)},
            {"stops", t.input.stop_orders},
            {"gap_m", mm(t.verdict.gap_m)},
-           {"reasons", to_string(t.verdict.reasons)},
+           {"reasons", to_string(t.verdict.reasons, t.verdict.faulty_scanners)},
            {"zone", zone_of(frame.zone)},
            {"ended", frame.ended}};
   if (t.input.has_goal)

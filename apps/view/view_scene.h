@@ -31,7 +31,7 @@ struct HelloScene {
 [[nodiscard]] std::string to_json(const HelloScene& hello);
 
 /// What changes with a scan or a plan: hits, tracks, futures, path. Part of many frames.
-[[nodiscard]] std::string to_json(const ViewSnapshot& snapshot, const Pose2& robot_from_laser);
+[[nodiscard]] std::string to_json(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers);
 
 /// One tick.
 struct FrameScene {

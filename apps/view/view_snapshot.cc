@@ -28,7 +28,8 @@ ShownMover shown(const motion::Futures& futures, std::size_t mover) noexcept {
 
 void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop) noexcept {
   into.record = record;
-  into.map_from_robot_at_scan = loop.estimator().map_from_robot_at_scan();
+  for (std::size_t k = 0; k < record.scans().size(); ++k)
+    into.map_from_robot_at_scan[k] = loop.estimator().map_from_robot_at_scan(k);
   into.twist = loop.estimator().twist();
   copy(into.tracks, std::span<const Track>(loop.tracker().tracks()));
   copy(into.standing, std::span<const StandingPedestrian>(loop.tracker().standing()));

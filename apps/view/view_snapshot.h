@@ -25,8 +25,9 @@ struct ShownMover {
 /// Memory of a fixed size. `plan.guide` points into the planner: not to be followed.
 struct ViewSnapshot {
   TickRecord record;
-  Pose2 map_from_robot_at_scan;  ///< where the record's scan was taken from; by record.pose the robot has driven on
-  Twist2 twist;                  ///< as the wheels say, or the scans
+  /// Where the record's scans were taken from; by record.pose the robot has driven on.
+  std::array<Pose2, kMostScanners> map_from_robot_at_scan;
+  Twist2 twist;  ///< as the wheels say, or the scans
   FixedVector<Track, kMaxTracks> tracks;
   FixedVector<StandingPedestrian, kMaxTracks> standing;
   FixedVector<ShownMover, motion::kMostMovers> movers;  ///< that walk or may; none without motion over futures

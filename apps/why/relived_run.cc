@@ -15,7 +15,7 @@ RelivedRun::RelivedRun(RecordedRun& run)
     : run_(run),
       devices_(run.last()),
       planner_(planner_for(run.setup()), run.last()),
-      loop_(run.setup(), devices_.hal(), planner_, recorder_) {}
+      loop_(run.setup(), devices_.hal(run.setup().model.lasers().size()), planner_, recorder_) {}
 
 bool RelivedRun::step() {
   if (!run_.step()) return false;

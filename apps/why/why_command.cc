@@ -91,7 +91,7 @@ PictureScene scene_of(const RelivedRun& run, const Past& past) {
   moment.consider(loop.plan(), run.planner(), {tracks.begin(), tracks.size()}, t.pose.map_from_robot);
   PictureScene scene;
   scene.title = title;
-  const std::string reasons = to_string(t.verdict.reasons);
+  const std::string reasons = to_string(t.verdict.reasons, t.verdict.faulty_scanners);
   scene.facts = {{"reasons", reasons.empty() ? "none" : reasons}};
   scene.driven = past.driven.poses();
   scene.tracks = past.trails(run);

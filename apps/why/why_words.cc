@@ -54,17 +54,23 @@ std::string doing(const TickRecord& t, const DriveModel& drive) {
               p.x, p.y, p.heading * kDegPerRad, v);
 }
 
-std::string saw(const TickRecord& t, std::span<const Track> tracks) {
+std::string saw(const LaserScan& scan) {
   std::size_t hits = 0, nearest = 0;
-  for (std::size_t k = 0; k < t.scan.beam_count; ++k) {
-    if (!t.scan.is_hit(k)) continue;
-    if (hits++ == 0 || t.scan.range_m[k] < t.scan.range_m[nearest]) nearest = k;
+  for (std::size_t k = 0; k < scan.beam_count; ++k) {
+    if (!scan.is_hit(k)) continue;
+    if (hits++ == 0 || scan.range_m[k] < scan.range_m[nearest]) nearest = k;
   }
-  const auto moving = std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.moving; });
-  std::string words = text("It saw: %zu of %u beams hit something", hits, t.scan.beam_count);
+  std::string words = text("%zu of %u beams hit something", hits, scan.beam_count);
   if (hits > 0)
-    words += text(", the nearest %.2f m off, %s of the laser", static_cast<double>(t.scan.range_m[nearest]),
-                  side(t.scan.angle_rad(nearest)).c_str());
+    words += text(", the nearest %.2f m off, %s of the laser", static_cast<double>(scan.range_m[nearest]),
+                  side(scan.angle_rad(nearest)).c_str());
+  return words;
+}
+
+std::string saw(const TickRecord& t, std::span<const Track> tracks) {
+  const auto moving = std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.moving; });
+  std::string words = "It saw: " + saw(t.scan);
+  for (const LaserScan& scan : t.other_scans) words += text("; by scanner %d ", scan.scanner + 1) + saw(scan);
   return words + text("; it followed %zu bodies, %d of them moving.\n", tracks.size(), static_cast<int>(moving));
 }
 

@@ -50,7 +50,7 @@ Innovations innovations_of(const std::filesystem::path& recording) {
   RecordedHal devices(recorded);
   NoPlanner planner;
   Recorder recorder({});
-  ControlLoop loop(setup, devices.hal(), planner, recorder);
+  ControlLoop loop(setup, devices.hal(setup.model.lasers().size()), planner, recorder);
   Innovations innovations;
   std::uint32_t last = 0;
   while (reader.next(recorded)) {

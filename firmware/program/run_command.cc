@@ -62,7 +62,8 @@ class LoopReport {
     if (now.latched && (!last_.latched || now.latched_by != last_.latched_by)) {
       std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
       if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
-      remark("stopped by " + to_string(now.latched_by) + drive + "; see to it, then jaywalk reset");
+      remark("stopped by " + to_string(now.latched_by, now.faulty_scanners) + drive +
+             "; see to it, then jaywalk reset");
     }
     if (!now.latched && last_.latched) remark("reset; say anew where to go");
     if (now.goal_reached && !last_.goal_reached) remark("goal reached");
@@ -190,14 +191,15 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   const std::unique_ptr<TickObserver> observer = make_observer(options, file, socket_for(options, file));
   file.setup.unix_from_loop = std::chrono::system_clock::now().time_since_epoch() - clock.now().time_since_epoch();
   LoopRunner runner(
-      file.setup, {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock}, options.out, true,
-      *observer,
+      file.setup,
+      {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock, devices.other_lasers()},
+      options.out, true, *observer,
       [&](std::unique_ptr<Planner> planner) {
         return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
       },
       options.parts);
   StallGuard guard(devices.brake(), clock, kLongestStall);
-  RobotLoop loop(runner, {devices.drive(), devices.laser(), devices.bus(), controls.resets()}, desk, clock, guard,
+  RobotLoop loop(runner, {devices.drive(), devices.lasers(), devices.bus(), controls.resets()}, desk, clock, guard,
                  *observer);
   const std::vector<std::string> not_permitted = entered_realtime(file.realtime, loop);
   controls.start(order_priority(file.realtime));

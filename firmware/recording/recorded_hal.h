@@ -1,5 +1,7 @@
 #pragma once
 // Our own recording behind the HAL: each tick the devices say what they said then.
+#include <array>
+
 #include "firmware/recording/tick_record.h"
 #include "hal/hal.h"
 
@@ -10,9 +12,18 @@ namespace jaywalk {
 class RecordedHal {
  public:
   explicit RecordedHal(const TickRecord& record)
-      : scanner_(record), wheels_(record), panel_(record), fixes_(record), clock_(record) {}
+      : scanners_{Scanner(record, 0), Scanner(record, 1), Scanner(record, 2), Scanner(record, 3)},
+        wheels_(record),
+        panel_(record),
+        fixes_(record),
+        clock_(record) {}
 
-  [[nodiscard]] Hal hal() noexcept { return {scanner_, wheels_, panel_, fixes_, clock_}; }
+  /// `scanners`: how many the recorded robot has.
+  [[nodiscard]] Hal hal(std::size_t scanners = 1) noexcept {
+    Hal hal{scanners_[0], wheels_, panel_, fixes_, clock_};
+    for (std::size_t k = 1; k < scanners; ++k) (void)hal.other_lasers.push_back(&scanners_[k]);
+    return hal;
+  }
   [[nodiscard]] const WheelCommand& commanded() const noexcept { return wheels_.commanded; }
 
  private:
@@ -23,8 +34,12 @@ class RecordedHal {
     const TickRecord& record;
   };
   struct Scanner : Recorded<LaserScanner> {
-    using Recorded::Recorded;
-    [[nodiscard]] const LaserScan& latest() noexcept override { return record.scan; }
+    Scanner(const TickRecord& r, std::size_t k) : Recorded(r), index(k) {}
+    std::size_t index;
+    LaserScan none{};  ///< of a record that has none of it
+    [[nodiscard]] const LaserScan& latest() noexcept override {
+      return index < record.scans().size() ? record.scans()[index] : none;
+    }
   };
   struct Wheels : Recorded<DriveBase> {
     using Recorded::Recorded;
@@ -47,7 +62,7 @@ class RecordedHal {
     void sleep_until(Time) noexcept override {}
   };
 
-  Scanner scanner_;
+  std::array<Scanner, kMostScanners> scanners_;
   Wheels wheels_;
   Panel panel_;
   Fixes fixes_;

@@ -15,7 +15,7 @@ namespace jaywalk {
 struct RecorderConfig {
   std::string file;            ///< recording.jwr; empty: records live in the ring and go nowhere
   std::string setup;           ///< what it takes to build the same controller again
-  std::size_t capacity = 128;  ///< ticks that the ring holds: 2.6 s at 50 Hz, about 43 kB each
+  std::size_t capacity = 128;  ///< ticks that the ring holds: 2.6 s at 50 Hz, about 68 kB each
 };
 
 /// All memory is taken and the file opened in the constructor.

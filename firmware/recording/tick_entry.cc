@@ -216,6 +216,36 @@ void get_fix(Get& get, OutsideFix& fix) {
   }
 }
 
+/// Those of the other scanners; `written`: which of each stands before this in the recording.
+void put_others(Put& put, const TickRecord& record, std::span<std::uint32_t> written, bool first) {
+  if (record.other_scans.empty()) return;
+  put(record.verdict.faulty_scanners);
+  put.count(record.other_scans.size());
+  for (std::size_t k = 0; k < record.other_scans.size(); ++k) {
+    const LaserScan& scan = record.other_scans[k];
+    const bool is_new = first || scan.sequence != written[k];
+    put(is_new);
+    if (is_new) put_scan(put, scan);
+    written[k] = scan.sequence;
+  }
+}
+
+void get_others(Get& get, Verdict& verdict, OfOthers<LaserScan>& scans) {
+  verdict.faulty_scanners = 0;
+  if (get.source.left() == 0) return scans.clear();
+  get(verdict.faulty_scanners);
+  const std::uint32_t count = get.count(scans.capacity());
+  if (count == 0) get.source.refuse();
+  while (scans.size() < count) (void)scans.push_back({});
+  scans.truncate(count);
+  for (std::size_t k = 0; k < count; ++k) {
+    bool is_new = false;
+    get(is_new);
+    if (is_new) get_scan(get, scans[k]);
+    scans[k].scanner = static_cast<std::uint8_t>(k + 1);
+  }
+}
+
 }  // namespace
 
 std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_before,
@@ -230,6 +260,7 @@ std::size_t TickEncoder::encode(const TickRecord& record, std::uint64_t lost_bef
   put_path(put, record.path);
   if (new_scan) put_scan(put, record.scan);
   if (new_fix) put_fix(put, record.fix);
+  put_others(put, record, others_, first_);
   first_ = false;
   scan_sequence_ = record.scan.sequence;
   fix_sequence_ = record.fix.sequence;
@@ -247,7 +278,9 @@ bool TickDecoder::decode(std::span<const unsigned char> in, TickRecord& record, 
   get_path(get, record.path);
   if (new_scan) get_scan(get, scan_);
   if (new_fix) get_fix(get, fix_);
+  get_others(get, record.verdict, others_);
   record.scan = scan_;
+  record.other_scans = others_;
   record.fix = fix_;
   return get.source.ok() && get.source.left() == 0;
 }

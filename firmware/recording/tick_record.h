@@ -9,6 +9,7 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/outside_fix.h"
+#include "hal/types/scanners.h"
 #include "hal/types/wheels.h"
 #include "planner/localization/localizer.h"
 #include "planner/planner.h"
@@ -19,7 +20,8 @@ namespace jaywalk {
 struct TickRecord {
   Time now = kNever;
   // In: what the devices said.
-  LaserScan scan;
+  LaserScan scan;  ///< the first scanner's newest
+  OfOthers<LaserScan> other_scans;
   WheelState wheels;
   OperatorInput input;
   OutsideFix fix;
@@ -37,6 +39,20 @@ struct TickRecord {
   Verdict verdict;
   // Out.
   WheelCommand command;
+
+  [[nodiscard]] OfEach<LaserScan> scans() const noexcept { return {scan, other_scans}; }
+  /// The scan that was taken last.
+  [[nodiscard]] const LaserScan& newest_scan() const noexcept {
+    const LaserScan* newest = &scan;
+    for (const LaserScan& other : other_scans) newest = other.stamp > newest->stamp ? &other : newest;
+    return *newest;
+  }
+  /// How many there were, of all scanners: another number where one of them has a new one.
+  [[nodiscard]] std::uint32_t scan_count() const noexcept {
+    std::uint32_t count = 0;
+    for (const LaserScan& of : scans()) count += of.sequence;
+    return count;
+  }
 };
 
 }  // namespace jaywalk

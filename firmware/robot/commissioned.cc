@@ -9,6 +9,7 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <vector>
 
 #include "hal/types/errors.h"
 
@@ -57,13 +58,23 @@ std::filesystem::path commissioned_path(const std::filesystem::path& robot) {
 
 std::string wiring_digest(const RobotFile& file) {
   const RobotModel& model = file.setup.model;
-  const Pose2& mount = model.laser.robot_from_laser;
   const auto axes = axes_of(file.drive);
+  std::vector<double> facts{static_cast<double>(file.drive.kind),
+                            axes[0],
+                            axes[1],
+                            axes[2],
+                            axes[3],
+                            model.drive.wheel_radius_m,
+                            model.drive.track_width_m};
+  for (std::size_t k = 0; k < file.lasers().size(); ++k) {
+    const LaserModel& laser = model.lasers()[k];
+    const Pose2& mount = laser.robot_from_laser;
+    for (const double fact : {static_cast<double>(file.lasers()[k].kind), mount.x, mount.y, mount.heading,
+                              laser.fov_rad, static_cast<double>(laser.beams)})
+      facts.push_back(fact);
+  }
   std::uint64_t digest = 14695981039346656037ULL;
-  for (const double fact :
-       {static_cast<double>(file.drive.kind), axes[0], axes[1], axes[2], axes[3], model.drive.wheel_radius_m,
-        model.drive.track_width_m, static_cast<double>(file.laser.kind), mount.x, mount.y, mount.heading,
-        model.laser.fov_rad, static_cast<double>(model.laser.beams)}) {
+  for (const double fact : facts) {
     char text[32];
     std::snprintf(text, sizeof text, "%.9g;", fact);
     for (const char* c = text; *c != '\0'; ++c) digest = (digest ^ static_cast<std::uint8_t>(*c)) * 1099511628211ULL;

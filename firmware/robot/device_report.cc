@@ -15,6 +15,17 @@ void write(const std::filesystem::path& path, const std::string& text) {
   if (!file) throw StartupError(path.string() + ": cannot be written", "free some space");
 }
 
+nlohmann::ordered_json json_of(const ScannerHealth& laser) {
+  return {{"trouble", name(laser.trouble)},
+          {"scans", laser.scans},
+          {"lost", laser.protocol.lost},
+          {"malformed", laser.malformed},
+          {"late", laser.late},
+          {"skipped_bytes", laser.protocol.skipped_bytes},
+          {"warned", laser.protocol.warned},
+          {"connections", laser.connections}};
+}
+
 }  // namespace
 
 void write_arming(const std::filesystem::path& folder, const std::vector<std::string>& proof) {
@@ -38,14 +49,8 @@ void write_devices(const std::filesystem::path& folder, const DriveWiring& drive
                  {"malformed", last.bus.malformed},
                  {"error_frames", last.bus.error_frames},
                  {"bus_offs", last.bus.bus_off_count}};
-  json["laser"] = {{"trouble", name(last.laser.trouble)},
-                   {"scans", last.laser.scans},
-                   {"lost", last.laser.protocol.lost},
-                   {"malformed", last.laser.malformed},
-                   {"late", last.laser.late},
-                   {"skipped_bytes", last.laser.protocol.skipped_bytes},
-                   {"warned", last.laser.protocol.warned},
-                   {"connections", last.laser.connections}};
+  json["laser"] = json_of(last.laser);
+  for (const ScannerHealth& laser : last.other_lasers) json["other_lasers"].push_back(json_of(laser));
   json["drive"] = name(last.drive);
   json["latched_by"] = to_string(last.latched_by);
   json["ticks"] = last.ticks;

@@ -6,6 +6,8 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
+#include <span>
+#include <vector>
 
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
@@ -122,20 +124,25 @@ std::unique_ptr<LaserScan> free_scan(const LaserModel& laser) {
   return scan;
 }
 
-/// Of the ground that the body drives over straight ahead until it stands from its fastest, the share that the laser
-/// never looks at.
+/// Of the ground that the body drives over straight ahead until it stands from its fastest, the share that no laser
+/// ever looks at.
 double unwatched_ahead(const RobotFile& robot) {
   constexpr double kStep_m = 0.04;
   const RobotModel& model = robot.setup.model;
-  const auto gaps = std::make_unique<BlindGaps>(model.laser);
-  gaps->update(*free_scan(model.laser));
-  const Transform2 laser_from_robot(inverse(model.laser.robot_from_laser));
+  std::vector<BlindGaps> gaps;
+  std::vector<Pose2> mounts;
+  for (const LaserModel& laser : model.lasers()) {
+    mounts.push_back(laser.robot_from_laser);
+    gaps.emplace_back(laser).update(*free_scan(laser));
+  }
+  const Lookout lookout{OfEach<Pose2>(std::span<const Pose2>(mounts))};
+  const OfEach<BlindGaps> seen{std::span<const BlindGaps>(gaps)};
   const double from_m = model.footprint.front_m + StopZoneConfig{}.margin_m;
   const double to_m = from_m + std::max(longest_stop_m(model, robot.setup.tick()), 0.5);
   double unwatched = 0.0, all = 0.0;
   for (double x = from_m; x <= to_m; x += kStep_m) {
     for (double y = -model.footprint.half_width_m; y <= model.footprint.half_width_m; y += kStep_m) {
-      unwatched += gaps->at(laser_from_robot * Vec2{x, y}) == Sight::kUnwatched ? 1.0 : 0.0;
+      unwatched += lookout.at(seen, {x, y}) == Sight::kUnwatched ? 1.0 : 0.0;
       all += 1.0;
     }
   }
@@ -144,9 +151,11 @@ double unwatched_ahead(const RobotFile& robot) {
 
 void check_laser(const Check& check, const RobotFile& robot) {
   const RobotModel& model = robot.setup.model;
-  const double off_m = model.footprint.distance_to(model.laser.robot_from_laser.position());
-  check.require(off_m <= kOffBody_m, "laser.mount", text("the laser stands %.2g m off the body", off_m),
-                "give x and y from the drive axle's middle, in metres, or correct the footprint");
+  for (const LaserModel& laser : model.lasers()) {
+    const double off_m = model.footprint.distance_to(laser.robot_from_laser.position());
+    check.require(off_m <= kOffBody_m, "laser.mount", text("the laser stands %.2g m off the body", off_m),
+                  "give x and y from the drive axle's middle, in metres, or correct the footprint");
+  }
   const double unwatched = unwatched_ahead(robot);
   const bool slow = model.limits.max_speed_mps <= kUnwatched_mps;
   check.require(unwatched <= (slow ? kMostUnwatchedSlow : kMostUnwatched), "laser.mount, fov_deg, blanked",

@@ -162,7 +162,10 @@ std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem:
     inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });
     inspection.look("right drive", [&] { return check_drive(file.drive, 1, clock); });
   }
-  inspection.look("scanner", [&] { return check_scanner(file, clock); });
+  for (std::size_t k = 0; k < file.lasers().size(); ++k) {
+    const std::string name = scanner_name(file.setup.model, k);
+    inspection.look(name.empty() ? "scanner" : name + " scanner", [&] { return check_scanner(file, clock, k); });
+  }
   if (file.panel) inspection.look("joystick", [&] { return check_joystick(*file.panel, clock); });
   return std::move(inspection).parts();
 }

@@ -41,9 +41,9 @@ std::filesystem::path ring_path(const std::string& topic) {
   return own_runtime_folder() / name;
 }
 
-std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock) {
-  const LaserWiring& wiring = file.laser;
-  const LaserModel& model = file.setup.model.laser;
+std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock, std::size_t scanner) {
+  const LaserWiring& wiring = file.lasers()[scanner];
+  const LaserModel& model = file.setup.model.lasers()[scanner];
   return make_scanner({.kind = wiring.kind,
                        .host = wiring.host,
                        .port = wiring.port,
@@ -94,18 +94,25 @@ RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
       brake_can_(can_ ? std::make_unique<SocketCan>(can_->second(), clock) : nullptr),
       ros_(can_ ? nullptr : make_ros_bus(file.drive.ros, clock)),
       bus_(can_ ? static_cast<CanBus&>(*can_) : *ros_),
-      laser_(make_laser(file, clock)),
       drive_(make_drive(file.drive, bus_, clock)),
-      brake_(can_ ? make_brake(file.drive, *brake_can_) : std::make_unique<ros::Stopper>(*ros_)) {}
+      brake_(can_ ? make_brake(file.drive, *brake_can_) : std::make_unique<ros::Stopper>(*ros_)) {
+  for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers_.push_back(make_laser(file, clock, k));
+}
+
+OfOthers<LaserScanner*> RobotDevices::other_lasers() noexcept {
+  OfOthers<LaserScanner*> others;
+  for (std::size_t k = 1; k < lasers_.size(); ++k) (void)others.push_back(lasers_[k].get());
+  return others;
+}
 
 void RobotDevices::start() {
-  await_first_scan(*laser_, file_, clock_);
+  for (std::size_t k = 0; k < lasers_.size(); ++k) await_first_scan(*lasers_[k], file_, clock_, k);
   if (can_) can_->listen(filters_for(file_.drive));
 }
 
-void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock) {
+void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock, std::size_t scanner) {
   laser.start(laser_priority(file.realtime));  // the loop's thread tells what is not permitted
-  const Time limit = clock.now() + file.laser.first_scan_limit;
+  const Time limit = clock.now() + file.lasers()[scanner].first_scan_limit;
   while (laser.latest().sequence == 0) {
     if (clock.now() > limit) {
       const bool is_topic = file.laser.kind == ScannerKind::kDds;
@@ -116,7 +123,7 @@ void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& cl
     clock.sleep_until(clock.now() + std::chrono::milliseconds(5));
   }
   const LaserScan& scan = laser.latest();
-  const LaserModel& model = file.setup.model.laser;
+  const LaserModel& model = file.setup.model.lasers()[scanner];
   const double step_rad = std::fabs(static_cast<double>(scan.angle_step_rad));
   const double swept_rad = step_rad * (scan.beam_count - 1.0);
   if (scan.beam_count != model.beams || std::fabs(swept_rad - model.fov_rad) > 2.0 * step_rad) {

@@ -2,6 +2,7 @@
 // The devices of a ROBOT.toml, opened.
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -19,12 +20,15 @@ class RobotDevices {
   /// `clock` outlives it. Throws StartupError; also where another process has the bus.
   RobotDevices(const RobotFile& file, Clock& clock);
 
-  [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
+  [[nodiscard]] ScannerConnection& laser() noexcept { return *lasers_.front(); }
+  [[nodiscard]] OfOthers<LaserScanner*> other_lasers() noexcept;
+  /// Of each scanner.
+  [[nodiscard]] std::span<const std::unique_ptr<ScannerConnection>> lasers() const noexcept { return lasers_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
   [[nodiscard]] EmergencyBrake& brake() noexcept { return *brake_; }
   [[nodiscard]] const CanBus& bus() const noexcept { return bus_; }
 
-  /// Start-up only, when all else is ready: starts the scanner and waits for its first scan, then listens to the
+  /// Start-up only, when all else is ready: starts each scanner and waits for its first scan, then listens to the
   /// drives, which are to be armed at once: some speak without being asked, and nobody would fetch it. Throws
   /// StartupError where no scan comes in time, or where it is not the scanner that the file describes.
   void start();
@@ -37,19 +41,20 @@ class RobotDevices {
       brake_can_;                     ///< the same kernel socket: what the guard sends is not another master's
   std::unique_ptr<ros::RosBus> ros_;  ///< in their place
   CanBus& bus_;
-  std::unique_ptr<ScannerConnection> laser_;
+  std::vector<std::unique_ptr<ScannerConnection>> lasers_;
   std::unique_ptr<WiredDrive> drive_;
   std::unique_ptr<EmergencyBrake> brake_;
 };
 
 /// Not started yet, not armed yet. `bus` and `clock` outlive them. Throw StartupError.
-[[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock);
+[[nodiscard]] std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& clock,
+                                                            std::size_t scanner = 0);
 [[nodiscard]] std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock);
 [[nodiscard]] std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock);
 
 /// Start-up only: starts the scanner and waits for its first scan. Throws StartupError where none comes in time, or
 /// where it is not the scanner that the file describes.
-void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock);
+void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& clock, std::size_t scanner = 0);
 
 /// The ring in this user's runtime folder through which jaywalk_dds and this program share a ROS 2 topic.
 [[nodiscard]] std::filesystem::path ring_path(const std::string& topic);

@@ -125,10 +125,11 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   setup.goal_tolerance_m = root.number("goal_tolerance_m");
   robot.goal_heading_tolerance_rad = root.number("goal_heading_tolerance_rad");
   setup.rate_hz = root.number("rate_hz");
-  TomlTable laser = root.table("laser");
-  robot.laser = read_wiring(laser);
-  read_laser(laser, setup.model.laser);
-  laser.finish();
+  std::vector<LaserWiring> wirings;
+  read_lasers(root.table_or_tables("laser"), setup.model,
+              [&](TomlTable& laser, LaserModel&) { wirings.push_back(read_wiring(laser)); });
+  robot.laser = wirings.front();
+  robot.other_lasers.assign(wirings.begin() + 1, wirings.end());
   const DriveModel nominal = setup.model.drive;
   robot.drive = read_drive(root.table("drive"), setup.model, setup.tick());
   if (root.has("realtime")) robot.realtime = read_realtime(root.table("realtime"));

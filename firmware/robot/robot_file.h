@@ -38,11 +38,14 @@ struct RobotFile {
   bool knows_start = false;  ///< the file says where; with a map and without it the first scan is looked for on the map
   double goal_heading_tolerance_rad = OperatorInput{}.goal_heading_tolerance_rad;
   LaserWiring laser;
+  std::vector<LaserWiring> other_lasers;  ///< as many as the model has beside the first
   DriveWiring drive;
   RealtimeWishes realtime;
   std::optional<PanelWiring> panel;
   std::vector<NamedPlace> places;        ///< where `goto NAME` leads
   std::filesystem::path control_socket;  ///< empty: the default
+
+  [[nodiscard]] OfEach<LaserWiring> lasers() const noexcept { return {laser, other_lasers}; }
 };
 
 /// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.

@@ -130,10 +130,13 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.goal_heading_rad = t.input.goal_heading_rad;
   status_.turns_at_goal = runner_.loop().turns_at_goal();
   status_.reasons = t.verdict.reasons;
+  status_.faulty_scanners = t.verdict.faulty_scanners;
   status_.plan = t.plan_status;
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
   status_.drive = t.wheels.trouble;
-  status_.laser = devices_.laser.health();
+  status_.laser = devices_.lasers.front()->health();
+  status_.other_lasers.clear();
+  for (const auto& laser : devices_.lasers.subspan(1)) (void)status_.other_lasers.push_back(laser->health());
   status_.bus = devices_.bus.health();
   status_.ticks = ticks_.fetch_add(1, std::memory_order_relaxed) + 1;
   status_.stalls = guard_.stalls();

@@ -1,7 +1,9 @@
 #pragma once
 // The loop's thread on a robot: wakes at fixed times, lives through ticks, tells how it goes.
 #include <atomic>
+#include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <thread>
 #include <vector>
@@ -31,7 +33,7 @@ struct TickTrace {
 /// What the loop asks of its devices beyond the HAL.
 struct LoopDevices {
   WiredDrive& drive;
-  ScannerConnection& laser;
+  std::span<const std::unique_ptr<ScannerConnection>> lasers;
   const CanBus& bus;
   ResetGate& resets;
 };

@@ -30,12 +30,14 @@ struct RunStatus {
   double goal_heading_rad = kAnyHeading;   ///< wanted at the goal; NaN: any
   double heading_error_rad = kAnyHeading;  ///< from the robot's heading to that, the short way; NaN where any will do
   Reason reasons = Reason::kNone;
+  std::uint8_t faulty_scanners = 0;     ///< Verdict's
   PlanStatus plan = PlanStatus::kNone;  ///< how the last plan that came went
   std::uint32_t revoked = 0;            ///< how often goals and resets were revoked by a stop, a fault or a latch
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
   DriveTrouble drive = DriveTrouble::kNone;
   ScannerHealth laser;
+  OfOthers<ScannerHealth> other_lasers;
   CanHealth bus;
   std::uint64_t ticks = 0;
   std::uint64_t missed_ticks = 0;

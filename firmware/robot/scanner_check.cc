@@ -39,8 +39,8 @@ std::string sectors_on_body(const StopZone& zone, const LaserScan& scan) {
   return sectors;
 }
 
-void require_free_body(const std::string& said, const LaserScan& scan, const RobotModel& model) {
-  const StopZone zone({.footprint = model.footprint, .robot_from_laser = model.laser.robot_from_laser});
+void require_free_body(const std::string& said, const LaserScan& scan, const Footprint& body, const Pose2& mount) {
+  const StopZone zone({.footprint = body, .robot_from_laser = mount});
   const std::size_t on_body = zone.beams_on_body(scan);
   if (on_body == 0) return;
   throw StartupError(said + ", " + std::to_string(on_body) + " of the beams end within the robot's own outline",
@@ -50,8 +50,8 @@ void require_free_body(const std::string& said, const LaserScan& scan, const Rob
 }
 
 /// Throws where the loop would take the sight for lost by and by.
-void require_sight(const std::string& said, const LaserScan& scan, const RobotModel& model) {
-  BlindGaps gaps(model.laser);
+void require_sight(const std::string& said, const LaserScan& scan, const LaserModel& laser) {
+  BlindGaps gaps(laser);
   gaps.update(scan);
   const BeamCounts& counts = gaps.counts();
   SightLoss sight;
@@ -64,21 +64,22 @@ void require_sight(const std::string& said, const LaserScan& scan, const RobotMo
 
 }  // namespace
 
-std::string check_scanner(const RobotFile& file, Clock& clock) {
-  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock);
-  await_first_scan(*laser, file, clock);
+std::string check_scanner(const RobotFile& file, Clock& clock, std::size_t scanner) {
+  const std::unique_ptr<ScannerConnection> laser = make_laser(file, clock, scanner);
+  const LaserModel& model = file.setup.model.lasers()[scanner];
+  await_first_scan(*laser, file, clock, scanner);
   const std::uint32_t before = laser->latest().sequence;
   clock.sleep_until(clock.now() + kRateSpan);
   LaserScan scan = laser->latest();
-  blank(file.setup.model.laser.blanked, scan);
+  blank(model.blanked, scan);
   const double rate_hz = (scan.sequence - before) / to_seconds(kRateSpan);
   char figures[100];
   std::snprintf(figures, sizeof figures, ": %u beams, %.0f scans a second", static_cast<unsigned>(scan.beam_count),
                 rate_hz);
   const std::string said = laser->name() + figures;
-  require_free_body(said, scan, file.setup.model);
-  require_sight(said, scan, file.setup.model);
-  require_rate(said, rate_hz, file.setup.model.laser.rate_hz);
+  require_free_body(said, scan, file.setup.model.footprint, model.robot_from_laser);
+  require_sight(said, scan, model);
+  require_rate(said, rate_hz, model.rate_hz);
   return said;
 }
 

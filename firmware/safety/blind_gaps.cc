@@ -110,4 +110,15 @@ Sight BlindGaps::at(Vec2 place) const noexcept {
   return dot(place, place) < gap.near_m * gap.near_m ? Sight::kProven : gap.sight;
 }
 
+Lookout::Lookout(const OfEach<Pose2>& robot_from_lasers) {
+  for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
+}
+
+Sight Lookout::at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept {
+  Sight best = Sight::kUnwatched;
+  for (std::size_t k = 0; k < laser_from_robot_.size() && best != Sight::kProven; ++k)
+    best = std::min(best, gaps[k].at(laser_from_robot_[k] * place));  // in the enumeration's order
+  return best;
+}
+
 }  // namespace jaywalk

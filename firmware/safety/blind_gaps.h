@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <vector>
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
@@ -71,6 +72,19 @@ class BlindGaps {
   std::array<Gap, kMaxBeams> gap_{};  ///< between a beam and the next
   BeamCounts counts_;
   double nearest_lost_m_ = 0.0;
+};
+
+/// What the scans of all scanners say of places in the robot's frame: what one of them proves is proven, and what one
+/// should look at and does not is lost, unless another proves it. Thread: the loop's; allocates in the constructor
+/// alone.
+class Lookout {
+ public:
+  explicit Lookout(const OfEach<Pose2>& robot_from_lasers);
+  /// `gaps`: of each scanner.
+  [[nodiscard]] Sight at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
+
+ private:
+  std::vector<Transform2> laser_from_robot_;
 };
 
 }  // namespace jaywalk

@@ -50,10 +50,10 @@ double without_greatest(std::array<double, ScanPair::kSectors> costs) {
 
 }  // namespace
 
-MotionModel::MotionModel(const RobotModel& model)
+MotionModel::MotionModel(const RobotModel& model, std::size_t scanner)
     : drive_(model.drive),
       felt_motion_(model.drive, model.limits.brake_mps2),
-      pair_(model.laser.robot_from_laser),
+      pair_(model.lasers()[scanner].robot_from_laser),
       gain_var_(kFile * kFile) {}
 
 Reason MotionModel::judge(const LaserScan& scan, const WheelState& wheels, const WheelCommand& sent,

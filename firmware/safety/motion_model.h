@@ -25,7 +25,8 @@ namespace jaywalk {
 /// loop's. Memory is fixed.
 class MotionModel {
  public:
-  explicit MotionModel(const RobotModel& model);
+  /// `scanner`: the one whose scans it is shown.
+  explicit MotionModel(const RobotModel& model, std::size_t scanner = 0);
 
   /// Once a tick, with the newest scan and reading, and what the drive was sent in the tick before: kScanFrozen while
   /// the scanner repeats what it saw to the last bit, kMotionMismatch from a contradiction on for kHolds,

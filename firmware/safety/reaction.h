@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "hal/types/laser_scan.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/scanners.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
@@ -47,10 +49,13 @@ inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSw
   return scan.stamp == kNever ? usual_s : std::max(usual_s, to_seconds(now - scan.stamp));
 }
 
-/// SAFETY 7's t_scan + t_control + t_drive (s), as the stop zone reckons with them now.
-[[nodiscard]] inline double reaction_s(const LaserScan& scan, Time now, double rate_hz, Duration tick,
-                                       const MeasuredLatency& measured) noexcept {
-  return reckoned_age_s(scan, now, rate_hz) + control_and_drive_s(tick, measured);
+/// SAFETY 7's t_scan + t_control + t_drive (s), as the stop zone reckons with them now; of the scanner that is longest.
+[[nodiscard]] inline double reaction_s(const OfEach<LaserScan>& scans, const OfEach<LaserModel>& lasers, Time now,
+                                       Duration tick, const MeasuredLatency& measured) noexcept {
+  double oldest_s = 0.0;
+  for (std::size_t k = 0; k < lasers.size(); ++k)
+    oldest_s = std::max(oldest_s, reckoned_age_s(scans[k], now, lasers[k].rate_hz));
+  return oldest_s + control_and_drive_s(tick, measured);
 }
 
 }  // namespace jaywalk

@@ -41,4 +41,12 @@ std::string to_string(Reason reasons) {
   return words;
 }
 
+std::string to_string(Reason reasons, std::uint8_t faulty_scanners) {
+  std::string words = to_string(reasons);
+  for (int number = 1, left = faulty_scanners; left != 0; ++number, left >>= 1) {
+    if ((left & 1) != 0) words += (words.empty() ? "scanner_" : "|scanner_") + std::to_string(number);
+  }
+  return words;
+}
+
 }  // namespace jaywalk

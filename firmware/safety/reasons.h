@@ -54,5 +54,7 @@ inline constexpr Reason kNoFaults = Reason::kStopZone | Reason::kPlanStale | Rea
 
 /// "stop_zone|plan_stale"; empty for none. For reports, never in the loop.
 [[nodiscard]] std::string to_string(Reason reasons);
+/// And which of several scanners have a fault of theirs, by Verdict::faulty_scanners: "scan_stale|scanner_2".
+[[nodiscard]] std::string to_string(Reason reasons, std::uint8_t faulty_scanners);
 
 }  // namespace jaywalk

@@ -52,38 +52,48 @@ double StopZone::speed_to_stop_within(double gap_m, double reaction_s) const noe
   return std::sqrt(bt * bt + 2.0 * config_.brake_mps2 * gap_m) - bt;
 }
 
-double StopZone::gap_m(const LaserScan& scan, const Twist2& twist, std::span<const Vec2> unseen) const noexcept {
+const Pose2& StopZone::mount_of(const LaserScan& scan) const noexcept {
+  return scan.scanner == 0 ? config_.robot_from_laser : config_.robot_from_others[scan.scanner - 1U];
+}
+
+double StopZone::gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
+                       std::span<const Vec2> unseen) const noexcept {
   const double rim_speed = rim_speed_mps(twist);
   double gap = std::numeric_limits<double>::infinity();
   if (rim_speed < 1e-9) return gap;
   const SweptPath path(twist, rim_speed, config_.look_ahead_m);
-  const Transform2 robot_from_laser(config_.robot_from_laser);
   const double margin = margin_at(rim_speed);
   const double reach_m = this->reach_m();
   const auto meet = [&](Vec2 point) {
     if (norm(point) <= reach_m) gap = std::min(gap, way_to(point, path, margin, std::min(gap, config_.look_ahead_m)));
   };
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
-    if (scan.is_hit(beam)) meet(robot_from_laser * end_of(scan, beam));
+  for (const LaserScan& scan : scans) {
+    const Transform2 robot_from_laser(mount_of(scan));
+    for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
+      if (scan.is_hit(beam)) meet(robot_from_laser * end_of(scan, beam));
+  }
   for (const Vec2 point : unseen) meet(point);
   return gap;
 }
 
-bool StopZone::may_creep(const LaserScan& scan, const Twist2& twist, std::span<const Vec2> unseen,
+bool StopZone::may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, std::span<const Vec2> unseen,
                          double reaction_s) const noexcept {
   const double look_m = stopping_distance_m(kCreep_mps, reaction_s) + kStep_m;
-  const Transform2 robot_from_laser(config_.robot_from_laser);
   FixedVector<Vec2, 2 * kMaxBeams> near;
   double nearest = kBeside_m;
+  bool holds_all = true;
   const auto look = [&](Vec2 point) {
     const double away = config_.footprint.distance_to(point);
-    if (away < kBeside_m + look_m) (void)near.push_back(point);
+    if (away < kBeside_m + look_m) holds_all = near.push_back(point) && holds_all;
     nearest = std::min(nearest, away);
   };
   for (const Vec2 point : unseen) look(point);
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
-    if (scan.is_hit(beam)) look(robot_from_laser * surface_at(scan, beam));
-  if (nearest >= kBeside_m) return false;
+  for (const LaserScan& scan : scans) {
+    const Transform2 robot_from_laser(mount_of(scan));
+    for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
+      if (scan.is_hit(beam)) look(robot_from_laser * surface_at(scan, beam));
+  }
+  if (nearest >= kBeside_m || !holds_all) return false;
   const SweptPath path(twist, rim_speed_mps(twist), look_m);
   const double margin = std::clamp(nearest - kSwing_m, std::min(nearest, kLeast_m), config_.creep_margin_m);
   return std::all_of(near.begin(), near.end(),
@@ -91,7 +101,7 @@ bool StopZone::may_creep(const LaserScan& scan, const Twist2& twist, std::span<c
 }
 
 bool StopZone::is_on_body(const LaserScan& scan, std::size_t beam) const noexcept {
-  return scan.is_hit(beam) && config_.footprint.distance_to(config_.robot_from_laser * end_of(scan, beam)) == 0.0;
+  return scan.is_hit(beam) && config_.footprint.distance_to(mount_of(scan) * end_of(scan, beam)) == 0.0;
 }
 
 std::size_t StopZone::beams_on_body(const LaserScan& scan) const noexcept {

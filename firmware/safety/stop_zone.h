@@ -5,6 +5,7 @@
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/scanners.h"
 
 namespace jaywalk {
 
@@ -15,10 +16,12 @@ struct StopZoneConfig {
   double creep_margin_m = 0.04;  ///< the same at rest; in between in proportion: it passes a door closely, but slowly
   double brake_mps2 = 1.0;       ///< what the drive was proved to do
   double look_ahead_m = 2.0;     ///< how far the rim goes, at its fastest, until the robot stands
+  OfOthers<Pose2> robot_from_others{};  ///< the other lasers' mounts
 };
 
 /// How far the robot can go along a constant twist before its footprint, grown by the margin, meets a point of the raw
-/// scan. "Far" is measured along the fastest-moving part of the footprint (m), so that turning in place counts too.
+/// scan, or of those of several scanners. "Far" is measured along the fastest-moving part of the footprint (m), so that
+/// turning in place counts too.
 ///
 /// Points that the motion takes the robot away from do not count, or it could never leave what it faces.
 class StopZone {
@@ -27,12 +30,12 @@ class StopZone {
 
   /// +infinity when nothing is met within the look-ahead. `unseen`: what stands where the laser does not look, in the
   /// robot's frame. Cost: a few steps of 4 cm for each beam and point within reach.
-  [[nodiscard]] double gap_m(const LaserScan& scan, const Twist2& twist,
+  [[nodiscard]] double gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
                              std::span<const Vec2> unseen = {}) const noexcept;
   /// Whether it may creep on (kCreep_mps of its rim) beside what is within kBeside_m already: no part of the way that
   /// it looks along comes nearer than that by more than kSwing_m, nor nearer than kLeast_m. For noise would keep it
   /// there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the mean.
-  [[nodiscard]] bool may_creep(const LaserScan& scan, const Twist2& twist, std::span<const Vec2> unseen,
+  [[nodiscard]] bool may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, std::span<const Vec2> unseen,
                                double reaction_s) const noexcept;
   /// From the axle: nothing farther off counts.
   [[nodiscard]] double reach_m() const noexcept { return rim_radius_m_ + config_.margin_m + config_.look_ahead_m; }
@@ -43,6 +46,7 @@ class StopZone {
   [[nodiscard]] std::size_t beams_on_body(const LaserScan& scan) const noexcept;
   /// What is kept free round the footprint (m) at this speed of its rim.
   [[nodiscard]] double margin_at(double rim_mps) const noexcept;
+  [[nodiscard]] OfEach<Pose2> mounts() const noexcept { return {config_.robot_from_laser, config_.robot_from_others}; }
   /// Speed of the fastest-moving part of the footprint, m/s.
   [[nodiscard]] double rim_speed_mps(const Twist2& twist) const noexcept;
   /// How far the rim goes from this speed until the robot stands: v t + v^2 / (2 b), t the reaction time.
@@ -54,6 +58,7 @@ class StopZone {
   static constexpr double kBeside_m = 0.07, kCreep_mps = 0.1, kSwing_m = 0.01, kLeast_m = 0.02;
 
  private:
+  [[nodiscard]] const Pose2& mount_of(const LaserScan& scan) const noexcept;
   /// How far the rim goes before the footprint meets `point` (in the robot's frame); +infinity beyond `most_m`.
   [[nodiscard]] double way_to(Vec2 point, const SweptPath& path, double margin_m, double most_m) const noexcept;
 

@@ -42,13 +42,14 @@ Twist2 scaled(const Twist2& twist, double share) { return {twist.v_mps * share, 
 Supervisor::Supervisor(const SupervisorConfig& config)
     : config_(config),
       stop_zone_(stop_zone_for(config.model, config.tick)),
-      watch_(config.model.footprint, config.model.laser.robot_from_laser, StopZoneConfig{}.margin_m),
-      gaps_(config.model.laser),
-      unseen_walls_(config.model.footprint, config.model.laser.robot_from_laser,
-                    stop_zone_.reach_m() + kPlannersReach_m),
-      scan_timing_(config.model.laser.rate_hz),
-      motion_model_(config.model),
-      mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {}
+      watch_(config.model.footprint, stop_zone_.mounts(), StopZoneConfig{}.margin_m),
+      unseen_walls_(config.model.footprint, stop_zone_.mounts(), stop_zone_.reach_m() + kPlannersReach_m),
+      mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {
+  for (const LaserModel& laser : config.model.lasers()) {
+    scanners_.push_back({laser, ScanTiming(laser.rate_hz), {}, MotionModel(config.model, scanners_.size())});
+    gaps_.emplace_back(laser);
+  }
+}
 
 bool Supervisor::takes_wishes() const noexcept {
   return mode_ != Mode::kOff && mode_ != Mode::kStandby && mode_ != Mode::kLatched;
@@ -58,6 +59,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
   Verdict verdict;
   verdict.gap_m = std::numeric_limits<double>::infinity();
   verdict.reasons = faults(wanted, input);
+  verdict.faulty_scanners = faulty_;
   update_mode(verdict.reasons, wanted, input);
   if (mode_ == Mode::kLatched) verdict.reasons |= Reason::kLatched;
   const bool stop = verdict.reasons != Reason::kNone || !takes_wishes();
@@ -70,7 +72,6 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
   Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
-  reasons |= motion_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
   if (input.pose_doubtful) reasons |= Reason::kPoseDoubtful;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
@@ -79,12 +80,26 @@ Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexce
 }
 
 Reason Supervisor::scan_faults(const SafetyInput& input) noexcept {
+  constexpr Reason kOfScanner = Reason::kScanStale | Reason::kScanInvalid | Reason::kScanFrozen | Reason::kSightLost;
   Reason reasons = Reason::kNone;
-  if (scan_timing_.is_stale(input.scan, input.now)) reasons |= Reason::kScanStale;
-  if (input.scan.sequence > 0 && !is_trustworthy(input.scan, config_.model.laser)) reasons |= Reason::kScanInvalid;
-  gaps_.update(input.scan);
-  unseen_walls_.update(input.scan, gaps_, input.known_walls, input.known_ground);
-  if (sight_loss_.is_lost(gaps_.counts(), input.now)) reasons |= Reason::kSightLost;
+  faulty_ = 0;
+  for (std::size_t k = 0; k < scanners_.size(); ++k) {
+    const Reason own = scan_faults(k, input) | motion_faults(k, input);
+    if (scanners_.size() > 1 && has(own, kOfScanner)) faulty_ = static_cast<std::uint8_t>(faulty_ | (1U << k));
+    reasons |= own;
+  }
+  unseen_walls_.update(input.scans, gaps(), input.known_walls, input.known_ground);
+  return reasons;
+}
+
+Reason Supervisor::scan_faults(std::size_t scanner, const SafetyInput& input) noexcept {
+  Scanner& judged = scanners_[scanner];
+  const LaserScan& scan = input.scans[scanner];
+  Reason reasons = Reason::kNone;
+  if (judged.timing.is_stale(scan, input.now)) reasons |= Reason::kScanStale;
+  if (scan.sequence > 0 && !is_trustworthy(scan, judged.laser)) reasons |= Reason::kScanInvalid;
+  gaps_[scanner].update(scan);
+  if (judged.sight_loss.is_lost(gaps_[scanner].counts(), input.now)) reasons |= Reason::kSightLost;
   return reasons;
 }
 
@@ -97,8 +112,8 @@ Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexce
   return reasons;
 }
 
-Reason Supervisor::motion_faults(const SafetyInput& input) noexcept {
-  const Reason reasons = motion_model_.judge(input.scan, input.wheels, input.sent, input.now);
+Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) noexcept {
+  const Reason reasons = scanners_[scanner].motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
   constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
 }
@@ -117,7 +132,8 @@ void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyIn
                              Reason::kMotionMismatch | Reason::kPoseDoubtful;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
-  const bool seen_all = input.scan.sequence > 0 && input.wheels.sequence > 0;
+  bool seen_all = input.wheels.sequence > 0;
+  for (const LaserScan& scan : input.scans) seen_all = seen_all && scan.sequence > 0;
   mode_ =
       next_mode(mode_, {.fault = faults != Reason::kNone,
                         .latches = has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone),
@@ -145,14 +161,14 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   const double fresh = plan_share(input.plan_stamp, input.now);  // of the limits: shares of what is wanted add up
   if (fresh < 1.0) verdict.reasons |= Reason::kPlanStale;
   at_most(share_within(twist, limits, fresh), Reason::kPlanStale);
-  verdict.gap_m = stop_zone_.gap_m(input.scan, twist, unseen_walls_.points());
+  verdict.gap_m = stop_zone_.gap_m(input.scans, twist, unseen_walls_.points());
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
   double stops_from_mps = stop_zone_.speed_to_stop_within(verdict.gap_m, reaction);
   const double creep_mps = std::min(rim_speed, StopZone::kCreep_mps);
-  if (stops_from_mps < creep_mps && stop_zone_.may_creep(input.scan, twist, unseen_walls_.points(), reaction))
+  if (stops_from_mps < creep_mps && stop_zone_.may_creep(input.scans, twist, unseen_walls_.points(), reaction))
     stops_from_mps = creep_mps;
   if (rim_speed > 0.0) at_most(stops_from_mps / rim_speed, Reason::kStopZone);
-  if (verdict.gap_m == 0.0 && stop_zone_.beams_on_body(input.scan) > 0) verdict.reasons |= Reason::kTouched;
+  if (verdict.gap_m == 0.0 && touched(input.scans)) verdict.reasons |= Reason::kTouched;
   return twist;
 }
 
@@ -163,16 +179,22 @@ double Supervisor::plan_share(Time plan_stamp, Time now) const noexcept {
   return to_seconds(config_.max_plan_age - old) / to_seconds(config_.max_plan_age - config_.slow_plan_age);
 }
 
-double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return jaywalk::reaction_s(input.scan, input.now, config_.model.laser.rate_hz, config_.tick, input.latency);
+bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
+  std::size_t beams = 0;
+  for (const LaserScan& scan : scans) beams += stop_zone_.beams_on_body(scan);
+  return beams > 0;
 }
 
-/// Slowly where the laser never looks: each part of the body that goes there.
+double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
+  return jaywalk::reaction_s(input.scans, config_.model.lasers(), input.now, config_.tick, input.latency);
+}
+
+/// Slowly where no laser ever looks: each part of the body that goes there.
 double Supervisor::watched_share(const Twist2& twist, double reaction_s) const noexcept {
   const double rim_mps = stop_zone_.rim_speed_mps(twist);
   if (rim_mps <= config_.unwatched_speed_mps) return 1.0;
-  const SweptPath path(twist, rim_mps, gaps_.has_blanked() ? stop_zone_.stopping_distance_m(rim_mps, reaction_s) : 0.0);
-  return config_.unwatched_speed_mps / std::max(watch_.unwatched_mps(gaps_, twist, path), config_.unwatched_speed_mps);
+  const SweptPath path(twist, rim_mps, has_blanked() ? stop_zone_.stopping_distance_m(rim_mps, reaction_s) : 0.0);
+  return config_.unwatched_speed_mps / std::max(watch_.unwatched_mps(gaps(), twist, path), config_.unwatched_speed_mps);
 }
 
 /// Slowly where the way that it takes to stop enters what lost beams could hide, and so that it stops before that. Once
@@ -182,7 +204,7 @@ double Supervisor::proven_share(const Twist2& twist, double reaction_s) noexcept
   if (rim_mps < 1e-9) return 1.0;
   const double judged_mps = lost_ahead_ ? rim_mps * times_to_limits(twist, config_.model.limits) : rim_mps;
   const SweptPath path(twist, rim_mps, stop_zone_.stopping_distance_m(judged_mps, reaction_s));
-  const double way_m = watch_.way_to_lost_m(gaps_, twist, path, stop_zone_.margin_at(rim_mps));
+  const double way_m = watch_.way_to_lost_m(gaps(), twist, path, stop_zone_.margin_at(rim_mps));
   lost_ahead_ = std::isfinite(way_m);
   if (!lost_ahead_) return 1.0;
   return std::min(config_.unwatched_speed_mps, stop_zone_.speed_to_stop_within(way_m, reaction_s)) / rim_mps;

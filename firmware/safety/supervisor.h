@@ -1,6 +1,8 @@
 #pragma once
+#include <algorithm>
 #include <limits>
 #include <span>
+#include <vector>
 
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/modes.h"
@@ -33,7 +35,7 @@ struct SupervisorConfig {
 
 /// What the supervisor looks at; nothing of it comes from the planner but a stamp.
 struct SafetyInput {
-  const LaserScan& scan;
+  OfEach<LaserScan> scans;  ///< of each scanner the newest
   const WheelState& wheels;
   const OperatorInput& input;
   Time plan_stamp = kNever;
@@ -47,8 +49,11 @@ struct SafetyInput {
   bool pose_doubtful = false;                                       ///< where it is was guessed for too long
 };
 
-/// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scan, the wanted
+/// The last to speak before the wheels: the follower asks, the supervisor permits. It judges the raw scans, the wanted
 /// twist and the ages of things, so that it does not depend on planner or tracker being right.
+///
+/// Each scanner is judged by itself, and one of several that is lost, late or blinded is a fault as the only one is.
+/// Free ground is what they prove together.
 ///
 /// A limit holds while its cause does. A fault stops; those of emergency stop, bus, drive and missed ticks, and on
 /// wires all, are latched as well: motion resumes only after a rising edge of reset, seen with the button released and
@@ -66,13 +71,19 @@ class Supervisor {
  private:
   [[nodiscard]] Reason faults(const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
+  [[nodiscard]] Reason scan_faults(std::size_t scanner, const SafetyInput& input) noexcept;
+  [[nodiscard]] OfEach<BlindGaps> gaps() const noexcept { return OfEach<BlindGaps>(std::span(gaps_)); }
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
-  [[nodiscard]] Reason motion_faults(const SafetyInput& input) noexcept;
+  [[nodiscard]] Reason motion_faults(std::size_t scanner, const SafetyInput& input) noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
   [[nodiscard]] Twist2 limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) noexcept;
   [[nodiscard]] double plan_share(Time plan_stamp, Time now) const noexcept;
+  [[nodiscard]] bool touched(const OfEach<LaserScan>& scans) const noexcept;
+  [[nodiscard]] bool has_blanked() const noexcept {
+    return std::any_of(gaps_.begin(), gaps_.end(), [](const BlindGaps& gaps) { return gaps.has_blanked(); });
+  }
   [[nodiscard]] double reaction_s(const SafetyInput& input) const noexcept;
   [[nodiscard]] double watched_share(const Twist2& twist, double reaction_s) const noexcept;
   [[nodiscard]] double proven_share(const Twist2& twist, double reaction_s) noexcept;
@@ -81,14 +92,20 @@ class Supervisor {
   SupervisorConfig config_;
   StopZone stop_zone_;
   Watch watch_;
-  BlindGaps gaps_;
   UnseenWalls unseen_walls_;
-  ScanTiming scan_timing_;
-  SightLoss sight_loss_;
-  MotionModel motion_model_;
-  Twist2 permitted_;         ///< last tick's
-  bool lost_ahead_ = false;  ///< what lost beams could hide held it up, last tick
+  /// What is judged of one scanner by itself.
+  struct Scanner {
+    LaserModel laser;
+    ScanTiming timing;
+    SightLoss sight_loss;
+    MotionModel motion;
+  };
+  std::vector<Scanner> scanners_;
+  std::vector<BlindGaps> gaps_;  ///< of each
+  Twist2 permitted_;             ///< last tick's
+  bool lost_ahead_ = false;      ///< what lost beams could hide held it up, last tick
   int missed_ = 0;
+  std::uint8_t faulty_ = 0;  ///< Verdict::faulty_scanners
   Time judged_ = kNever;
   Mode mode_;
   bool reset_before_ = false;

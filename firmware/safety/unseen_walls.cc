@@ -51,34 +51,38 @@ bool cuts(const LineFit& line, const Footprint& body) noexcept {
 
 }  // namespace
 
-UnseenWalls::UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser, double reach_m) noexcept
-    : footprint_(footprint),
-      reach_m_(reach_m),
-      robot_from_laser_(robot_from_laser),
-      laser_from_robot_(inverse(robot_from_laser)) {}
+UnseenWalls::UnseenWalls(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double reach_m)
+    : footprint_(footprint), reach_m_(reach_m), lookout_(robot_from_lasers) {
+  for (const Pose2& mount : robot_from_lasers) robot_from_laser_.emplace_back(mount);
+}
 
-void UnseenWalls::update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
+void UnseenWalls::update(const OfEach<LaserScan>& scans, const OfEach<BlindGaps>& gaps, std::span<const Vec2> known,
                          KnownGround* ground) noexcept {
   ground_ = ground;
   points_.clear();
   for (const Vec2 point : known) add(gaps, point);
-  for (std::size_t beam = 0; beam < gaps.beams(); ++beam) {
-    for (const int step : {1, -1})
-      if (gaps.looks(beam) && !gaps.looks(gaps.beside(beam, -step))) continue_wall(scan, gaps, beam, step);
+  for (std::size_t k = 0; k < scans.size(); ++k) {
+    for (std::size_t beam = 0; beam < gaps[k].beams(); ++beam) {
+      for (const int step : {1, -1})
+        if (gaps[k].looks(beam) && !gaps[k].looks(gaps[k].beside(beam, -step)))
+          continue_wall(scans[k], gaps, {k, beam, step});
+    }
   }
 }
 
-void UnseenWalls::add(const BlindGaps& gaps, Vec2 point) noexcept {
-  const bool counts = footprint_.distance_to(point) > 0.0 && gaps.at(laser_from_robot_ * point) == Sight::kUnwatched;
+void UnseenWalls::add(const OfEach<BlindGaps>& gaps, Vec2 point) noexcept {
+  const bool counts = footprint_.distance_to(point) > 0.0 && lookout_.at(gaps, point) == Sight::kUnwatched;
   if (counts) (void)points_.push_back(point);
 }
 
-void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, std::size_t rim, int step) noexcept {
+void UnseenWalls::continue_wall(const LaserScan& scan, const OfEach<BlindGaps>& gaps, const Rim& rim) noexcept {
+  const BlindGaps& own = gaps[rim.scanner];
+  const Transform2& robot_from_laser = robot_from_laser_[rim.scanner];
   LineFit line;
   Vec2 first{}, last{};
   int missing = 0;
-  for (std::size_t beam = rim; gaps.looks(beam) && missing <= kMissing; beam = gaps.beside(beam, step)) {
-    const Vec2 hit = robot_from_laser_ * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
+  for (std::size_t beam = rim.beam; own.looks(beam) && missing <= kMissing; beam = own.beside(beam, rim.inward)) {
+    const Vec2 hit = robot_from_laser * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam]));
     const bool belongs = scan.is_hit(beam) && (distance(first, last) < kSeed_m || std::fabs(line.off_m(hit)) < kOff_m);
     missing = belongs ? 0 : missing + 1;
     if (!belongs) continue;
@@ -89,7 +93,7 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
   if (last == Vec2{}) return;
   const double past_body_m = norm(first) + footprint_.circumscribed_radius_m();
   if (!line.known() || distance(first, last) < kShortest_m) {
-    const double out_of_sight = step * (first - robot_from_laser_ * Vec2{}).y;  // forward where it is above 0
+    const double out_of_sight = rim.inward * (first - robot_from_laser * Vec2{}).y;  // forward where it is above 0
     const std::size_t before = points_.size();
     add_line(gaps, first, {out_of_sight > 0.0 ? 1.0 : -1.0, 0.0}, past_body_m);
     for (std::size_t k = before; k < points_.size() && ground_ != nullptr; ++k) ground_->suppose(points_[k]);
@@ -99,7 +103,7 @@ void UnseenWalls::continue_wall(const LaserScan& scan, const BlindGaps& gaps, st
   }
 }
 
-void UnseenWalls::add_line(const BlindGaps& gaps, Vec2 from, Vec2 along, double length_m) noexcept {
+void UnseenWalls::add_line(const OfEach<BlindGaps>& gaps, Vec2 from, Vec2 along, double length_m) noexcept {
   for (double gone = 0.0; gone < length_m; gone += kSpacing_m) {
     const Vec2 place = from + along * gone;
     if (norm(place) < reach_m_ && (ground_ == nullptr || !ground_->seen_free(place))) add(gaps, place);

@@ -1,5 +1,6 @@
 #pragma once
 #include <span>
+#include <vector>
 
 #include "firmware/safety/blind_gaps.h"
 #include "hal/types/fixed_vector.h"
@@ -18,7 +19,7 @@ class KnownGround {
   virtual void suppose(Vec2 place) noexcept = 0;
 };
 
-/// Walls where the laser does not look, as points for the stop zone: those that the loop knows from its map, and each
+/// Walls where no laser looks, as points for the stop zone: those that the loop knows from its map, and each
 /// wall that is straight up to the rim of sight, continued past the body. Of what is seen too little to tell its
 /// direction, the guess is that it goes on along the body's side: so a wall begins that stands beside a start.
 ///
@@ -27,24 +28,30 @@ class KnownGround {
 class UnseenWalls {
  public:
   /// `reach_m`: from the axle; what a wall is supposed to be farther off is left out.
-  UnseenWalls(const Footprint& footprint, const Pose2& robot_from_laser, double reach_m) noexcept;
+  UnseenWalls(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double reach_m);
 
   /// `known`: surfaces near the robot, in its frame. `ground`: null where there is no map.
-  void update(const LaserScan& scan, const BlindGaps& gaps, std::span<const Vec2> known,
+  void update(const OfEach<LaserScan>& scans, const OfEach<BlindGaps>& gaps, std::span<const Vec2> known,
               KnownGround* ground = nullptr) noexcept;
   /// In the robot's frame, 4 cm apart or less.
   [[nodiscard]] std::span<const Vec2> points() const noexcept { return {points_.data(), points_.size()}; }
 
  private:
-  /// The wall whose hits begin at beam `rim` and go on inward, `step` (1 or -1) beams at a time.
-  void continue_wall(const LaserScan& scan, const BlindGaps& gaps, std::size_t rim, int step) noexcept;
-  void add_line(const BlindGaps& gaps, Vec2 from, Vec2 along, double length_m) noexcept;
-  void add(const BlindGaps& gaps, Vec2 point) noexcept;
+  /// A scanner's, which looks no farther than beam `rim`.
+  struct Rim {
+    std::size_t scanner, beam;
+    int inward;  ///< 1 or -1: to the next beam that looks
+  };
+  /// The wall whose hits begin at the rim and go on inward.
+  void continue_wall(const LaserScan& scan, const OfEach<BlindGaps>& gaps, const Rim& rim) noexcept;
+  void add_line(const OfEach<BlindGaps>& gaps, Vec2 from, Vec2 along, double length_m) noexcept;
+  void add(const OfEach<BlindGaps>& gaps, Vec2 point) noexcept;
 
   Footprint footprint_;
   double reach_m_;
   KnownGround* ground_ = nullptr;  ///< during update()
-  Transform2 robot_from_laser_, laser_from_robot_;
+  std::vector<Transform2> robot_from_laser_;
+  Lookout lookout_;
   FixedVector<Vec2, 1024> points_;  ///< what does not fit is left out: the nearest of a wall come first
 };
 

@@ -1,4 +1,6 @@
 #pragma once
+#include <cstdint>
+
 #include "firmware/safety/reasons.h"
 #include "hal/types/geometry.h"
 
@@ -8,7 +10,10 @@ namespace jaywalk {
 struct Verdict {
   Twist2 permitted;
   Reason reasons = Reason::kNone;
-  double gap_m = 0.0;  ///< free way ahead in the direction of travel, +inf when nothing is in it
+  double gap_m = 0.0;                ///< free way ahead in the direction of travel, +inf when nothing is in it
+  std::uint8_t faulty_scanners = 0;  ///< of several, bit k: a fault of scans is scanner k's
+
+  [[nodiscard]] bool is_faulty(std::size_t scanner) const noexcept { return ((faulty_scanners >> scanner) & 1U) != 0; }
 };
 
 }  // namespace jaywalk

@@ -13,9 +13,8 @@ constexpr std::size_t kEveryStep = 4;   // 16 cm: what a laser never sees does n
 
 }  // namespace
 
-Watch::Watch(const Footprint& footprint, const Pose2& robot_from_laser, double margin_m)
-    : footprint_(footprint), laser_from_robot_(inverse(robot_from_laser)), margin_m_(margin_m) {
-  laser_axis_ = direction(laser_from_robot_.heading);
+Watch::Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double margin_m)
+    : footprint_(footprint), lookout_(robot_from_lasers), margin_m_(margin_m) {
   const double front = footprint.front_m, rear = -footprint.rear_m, half = footprint.half_width_m;
   const auto along = [this](Vec2 from, Vec2 to, Vec2 outward) {
     const int pieces = static_cast<int>(distance(from, to) / kSpacing_m) + 1;
@@ -39,13 +38,7 @@ bool Watch::held_free(Vec2 place) const noexcept {
          std::fabs(place.y) <= footprint_.half_width_m + margin_m_;
 }
 
-Sight Watch::sight(const BlindGaps& gaps, Vec2 place) const noexcept {
-  const Vec2 turned{laser_axis_.x * place.x - laser_axis_.y * place.y,
-                    laser_axis_.y * place.x + laser_axis_.x * place.y};
-  return gaps.at(laser_from_robot_.position() + turned);
-}
-
-double Watch::unwatched_mps(const BlindGaps& gaps, const Twist2& twist, const SweptPath& path) const noexcept {
+double Watch::unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist, const SweptPath& path) const noexcept {
   double fastest = 0.0;
   for (const RimPoint& rim : rim_) {
     const Vec2 moves = velocity(twist, rim.on_body);
@@ -54,23 +47,25 @@ double Watch::unwatched_mps(const BlindGaps& gaps, const Twist2& twist, const Sw
     const Vec2 beyond = rim.on_body + rim.outward * margin_m_;
     bool unwatched = false;
     for (std::size_t k = 0; k <= path.steps() && !unwatched; k += kEveryStep)
-      unwatched = sight(gaps, path.place_of(k, beyond)) == Sight::kUnwatched;
+      unwatched = lookout_.at(gaps, path.place_of(k, beyond)) == Sight::kUnwatched;
     if (unwatched) fastest = speed;
   }
   return fastest;
 }
 
-double Watch::way_to_lost_m(const BlindGaps& gaps, const Twist2& twist, const SweptPath& path,
+double Watch::way_to_lost_m(const OfEach<BlindGaps>& gaps, const Twist2& twist, const SweptPath& path,
                             double margin_m) const noexcept {
   constexpr double kNever_m = std::numeric_limits<double>::infinity();
-  if (gaps.nearest_lost_m() == kNever_m) return kNever_m;
+  double nearest_m = kNever_m;
+  for (const BlindGaps& of : gaps) nearest_m = std::min(nearest_m, of.nearest_lost_m());
+  if (nearest_m == kNever_m) return kNever_m;
   std::size_t first = path.steps() + 1;
   for (const RimPoint& rim : rim_) {
     if (outward_mps(rim, velocity(twist, rim.on_body)) <= 0.0) continue;
     const Vec2 grown = rim.on_body + rim.outward * margin_m;
     for (std::size_t k = 1; k < first; ++k) {
       const Vec2 place = path.place_of(k, grown);
-      if (!held_free(place) && sight(gaps, place) == Sight::kLost) first = k;
+      if (!held_free(place) && lookout_.at(gaps, place) == Sight::kLost) first = k;
     }
   }
   return first > path.steps() ? kNever_m : static_cast<double>(first - 1) * SweptPath::kStep_m;

@@ -13,16 +13,17 @@ namespace jaywalk {
 class Watch {
  public:
   /// `margin_m`: the most that is kept free round the footprint.
-  Watch(const Footprint& footprint, const Pose2& robot_from_laser, double margin_m);
+  Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers, double margin_m);
 
-  /// Speed (m/s) of the fastest point of the body that moves, by more than half of that speed, outward to where the
-  /// laser never looks; 0 where none does.
-  [[nodiscard]] double unwatched_mps(const BlindGaps& gaps, const Twist2& twist, const SweptPath& path) const noexcept;
+  /// Speed (m/s) of the fastest point of the body that moves, by more than half of that speed, outward to where no
+  /// laser ever looks; 0 where none does.
+  [[nodiscard]] double unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist,
+                                     const SweptPath& path) const noexcept;
 
   /// How far the fastest-moving part of the body goes along the path until its outline, grown by `margin_m`, enters
   /// what lost beams could hide; +infinity where it does not. What lies within the margin at the start does not count:
   /// the robot came there while it was proven.
-  [[nodiscard]] double way_to_lost_m(const BlindGaps& gaps, const Twist2& twist, const SweptPath& path,
+  [[nodiscard]] double way_to_lost_m(const OfEach<BlindGaps>& gaps, const Twist2& twist, const SweptPath& path,
                                      double margin_m) const noexcept;
 
  private:
@@ -36,11 +37,9 @@ class Watch {
   /// The share of a point's velocity that pushes outward, m/s; a corner's is the greater of its two sides'.
   [[nodiscard]] static double outward_mps(const RimPoint& rim, Vec2 moves) noexcept;
   [[nodiscard]] bool held_free(Vec2 place) const noexcept;
-  [[nodiscard]] Sight sight(const BlindGaps& gaps, Vec2 place) const noexcept;
 
   Footprint footprint_;
-  Pose2 laser_from_robot_;
-  Vec2 laser_axis_;
+  Lookout lookout_;
   double margin_m_;
   std::vector<RimPoint> rim_;
 };

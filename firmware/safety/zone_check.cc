@@ -16,9 +16,8 @@ constexpr const char* kRemedy =
     "lower limits.max_speed_mps, raise limits.brake_mps2 (what the drives are proved to do), or take ";
 
 /// From the laser to the farthest corner of the footprint.
-double farthest_corner_m(const RobotModel& model) {
-  const Footprint& body = model.footprint;
-  const Vec2 laser = model.laser.robot_from_laser.position();
+double farthest_corner_m(const Footprint& body, const LaserModel& of) {
+  const Vec2 laser = of.robot_from_laser.position();
   double farthest = 0.0;
   for (const double x : {body.front_m, -body.rear_m}) {
     for (const double y : {body.half_width_m, -body.half_width_m})
@@ -35,20 +34,26 @@ double fastest_rim_mps(const RobotModel& model) noexcept {
 
 double longest_stop_m(const RobotModel& model, Duration tick) noexcept {
   const double v = fastest_rim_mps(model);
-  return v * worst_reaction_s(model.laser.rate_hz, tick) + v * v / (2.0 * model.limits.brake_mps2);
+  double slowest_hz = model.laser.rate_hz;
+  for (const LaserModel& laser : model.other_lasers) slowest_hz = std::min(slowest_hz, laser.rate_hz);
+  return v * worst_reaction_s(slowest_hz, tick) + v * v / (2.0 * model.limits.brake_mps2);
 }
 
 StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
+  OfOthers<Pose2> others;
+  for (const LaserModel& laser : model.other_lasers) (void)others.push_back(laser.robot_from_laser);
   return {.footprint = model.footprint,
           .robot_from_laser = model.laser.robot_from_laser,
           .brake_mps2 = model.limits.brake_mps2,
-          .look_ahead_m = std::min(longest_stop_m(model, tick), SweptPath::kLongest_m)};
+          .look_ahead_m = std::min(longest_stop_m(model, tick), SweptPath::kLongest_m),
+          .robot_from_others = others};
 }
 
-void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {
-  const double stop_m = longest_stop_m(model, tick);
-  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model);
-  const double step_rad = model.laser.fov_rad / (model.laser.beams - 1);
+namespace {
+
+void require_in_reach(const Footprint& body, const LaserModel& laser, double stop_m, const std::string& place) {
+  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(body, laser);
+  const double step_rad = laser.fov_rad / (laser.beams - 1);
   const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
   std::array<char, 200> text{};
   const auto refuse_beyond = [&](double limit_m, const char* why, const char* otherwise) {
@@ -57,9 +62,16 @@ void require_zone_in_reach(const RobotModel& model, Duration tick, const std::st
                   stop_m, reach_m, why, limit_m);
     throw StartupError(place + text.data(), std::string(kRemedy) + otherwise);
   };
-  refuse_beyond(model.laser.range_max_m, "its range is", "a laser that sees farther");
+  refuse_beyond(laser.range_max_m, "its range is", "a laser that sees farther");
   refuse_beyond(seen_m, "a post of 70 mm fits between two of its beams from", "a laser with more beams");
   refuse_beyond(SweptPath::kLongest_m, "the stop zone ends at", "a slower robot");
+}
+
+}  // namespace
+
+void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {
+  const double stop_m = longest_stop_m(model, tick);
+  for (const LaserModel& laser : model.lasers()) require_in_reach(model.footprint, laser, stop_m, place);
 }
 
 }  // namespace jaywalk

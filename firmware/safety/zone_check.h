@@ -18,7 +18,7 @@ namespace jaywalk {
 [[nodiscard]] StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept;
 
 /// No robot outruns its stop zone (SAFETY 8 and 19): before the loop. Throws StartupError, which begins with `place`,
-/// where its longest stop does not fit into the laser's range, or so far out a cylinder of 70 mm fits between two
+/// where its longest stop does not fit into a laser's range, or so far out a cylinder of 70 mm fits between two of its
 /// beams.
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place);
 

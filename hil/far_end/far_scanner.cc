@@ -42,6 +42,15 @@ std::unique_ptr<ByteServer> make_far_wire(const LaserWiring& wiring) {
   return std::make_unique<TcpServer>(wiring.port);
 }
 
+FarWires make_far_wires(const RobotFile& wiring, bool any_port) {
+  FarWires wires;
+  for (LaserWiring laser : wiring.lasers()) {
+    if (any_port) laser.port = 0;
+    wires.push_back(make_far_wire(laser));
+  }
+  return wires;
+}
+
 std::unique_ptr<ScannerServer> make_far_scanner(const LaserWiring& wiring, const LaserModel& model,
                                                 std::unique_ptr<ByteServer> wire, ScannerServer::World world) {
   switch (wiring.kind) {

@@ -7,39 +7,49 @@ namespace {
 
 constexpr std::size_t kMostMessages = 100'000;
 
-/// The file with the port that the scanner's wire really has.
-RobotFile with_port(RobotFile file, const emulators::ByteServer& wire) {
-  if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(&wire)) file.laser.port = network->port();
+/// The file with the ports that the scanners' wires really have.
+RobotFile with_ports(RobotFile file, const FarWires& wires) {
+  for (std::size_t k = 0; k < wires.size(); ++k) {
+    LaserWiring& laser = k == 0 ? file.laser : file.other_lasers[k - 1];
+    if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wires[k].get()))
+      laser.port = network->port();
+  }
   return file;
 }
 
-std::unique_ptr<emulators::ByteServer> wire_for(LaserWiring wiring) {
-  wiring.port = 0;  // any that is free
-  return make_far_wire(wiring);
+std::vector<std::unique_ptr<ScannerConnection>> make_lasers(const RobotFile& file, Clock& clock) {
+  std::vector<std::unique_ptr<ScannerConnection>> lasers;
+  for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers.push_back(make_laser(file, clock, k));
+  return lasers;
 }
 
 }  // namespace
 
 InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
                                const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer)
-    : InProcessRobot(file, scenario, seed, clock, out, wrap, observer, wire_for(file.laser)) {}
+    : InProcessRobot(file, scenario, seed, clock, out, wrap, observer, make_far_wires(file, true)) {}
 
 InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
                                const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer,
-                               std::unique_ptr<emulators::ByteServer> wire)
+                               FarWires wires)
     : clock_(clock),
-      file_(with_port(std::move(file), *wire)),
+      file_(with_ports(std::move(file), wires)),
       wires_(clock, seed),
       bus_(wires_.port(0), clock),
-      far_end_(scenario, seed, file_, {&wires_.port(1), &wires_.port(2)}, std::move(wire), clock.now()),
-      laser_(make_laser(file_, clock)),
+      far_end_(scenario, seed, file_, {&wires_.port(1), &wires_.port(2)}, std::move(wires), clock.now()),
+      lasers_(make_lasers(file_, clock)),
       drive_(make_drive(file_.drive, bus_, clock)),
       controls_(file_, *drive_, clock, [] { return std::string(); }),
-      runner_(file_.setup, {*laser_, *drive_, controls_.panel(), controls_.desk().told_place(), clock}, out, true,
-              observer, wrap),
+      runner_(file_.setup, hal(), out, true, observer, wrap),
       guard_(no_brake_, clock, std::chrono::seconds(1)),
-      loop_(runner_, {*drive_, *laser_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer) {
+      loop_(runner_, {*drive_, lasers_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer) {
   messages_.reserve(kMostMessages);
+}
+
+Hal InProcessRobot::hal() {
+  Hal hal{*lasers_.front(), *drive_, controls_.panel(), controls_.desk().told_place(), clock_};
+  for (std::size_t k = 1; k < lasers_.size(); ++k) (void)hal.other_lasers.push_back(lasers_[k].get());
+  return hal;
 }
 
 TickObserver& InProcessRobot::nobody() {

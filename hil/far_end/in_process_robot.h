@@ -2,6 +2,7 @@
 // Both ends of the wires in one process: for measuring and for tests that move time on by hand.
 #include <filesystem>
 #include <memory>
+#include <span>
 #include <string>
 #include <utility>
 #include <vector>
@@ -44,11 +45,12 @@ class InProcessRobot {
                  const std::filesystem::path& out, const LoopRunner::Wrap& wrap = {},
                  TickObserver& observer = nobody());
 
-  /// Moves the far end on to now; notes when the scanner's newest message was complete.
+  /// Moves the far end on to now; notes when the first scanner's newest message was complete.
   void step_far_end();
 
   [[nodiscard]] SimulatedRobot& far_end() noexcept { return far_end_; }
-  [[nodiscard]] ScannerConnection& laser() noexcept { return *laser_; }
+  [[nodiscard]] ScannerConnection& laser() noexcept { return *lasers_.front(); }
+  [[nodiscard]] std::span<const std::unique_ptr<ScannerConnection>> lasers() const noexcept { return lasers_; }
   [[nodiscard]] WiredDrive& drive() noexcept { return *drive_; }
   [[nodiscard]] OperatorDesk& desk() noexcept { return controls_.desk(); }
   [[nodiscard]] LoopRunner& runner() noexcept { return runner_; }
@@ -67,7 +69,8 @@ class InProcessRobot {
 
   InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
                  const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer,
-                 std::unique_ptr<emulators::ByteServer> wire);
+                 FarWires wires);
+  [[nodiscard]] Hal hal();
   [[nodiscard]] static TickObserver& nobody();
 
   Clock& clock_;
@@ -75,7 +78,7 @@ class InProcessRobot {
   InProcessBus wires_;
   WatchedBus bus_;
   SimulatedRobot far_end_;
-  std::unique_ptr<ScannerConnection> laser_;
+  std::vector<std::unique_ptr<ScannerConnection>> lasers_;
   std::unique_ptr<WiredDrive> drive_;
   OperatorControls controls_;
   LoopRunner runner_;

@@ -11,9 +11,9 @@ namespace {
 constexpr Duration kEncoderPeriod = std::chrono::milliseconds(10);
 
 /// Shaped as the controller believes, and mounted so where the scenario has no truth about it; as noisy as that says.
-LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring) {
-  LaserModel laser = wiring.setup.model.laser;
-  laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
+LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring, std::size_t index) {
+  LaserModel laser = wiring.setup.model.lasers()[index];
+  if (index == 0) laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
   laser.noise_m = scenario.model.laser.noise_m;
   return laser;
 }
@@ -21,16 +21,21 @@ LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring) {
 }  // namespace
 
 SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const RobotFile& wiring,
-                               const Buses& buses, std::unique_ptr<emulators::ByteServer> wire, Time now)
+                               const Buses& buses, FarWires wires, Time now)
     : began_(now),
       world_(scenario, seed),
-      laser_(laser_of(scenario, wiring)),
       wheel_radius_m_(scenario.model.drive.wheel_radius_m),
-      noise_(seed, sim::Purpose::kRange),
       buses_(buses),
-      drives_{make_wheel_drive(wiring.drive, 0, *buses[0]), make_wheel_drive(wiring.drive, 1, *buses[1])},
-      scanner_(make_far_scanner(wiring.laser, laser_, std::move(wire),
-                                [this](std::size_t first, std::span<float> range_m) { look(first, range_m); })) {}
+      drives_{make_wheel_drive(wiring.drive, 0, *buses[0]), make_wheel_drive(wiring.drive, 1, *buses[1])} {
+  for (std::size_t k = 0; k < wires.size(); ++k) {
+    const LaserModel laser = laser_of(scenario, wiring, k);
+    eyes_.push_back(std::make_unique<Eye>(Eye{k, laser, sim::Random(seed, sim::Purpose::kRange, k)}));
+    Eye& eye = *eyes_.back();
+    eye.scanner =
+        make_far_scanner(wiring.lasers()[k], laser, std::move(wires[k]),
+                         [this, &eye](std::size_t first, std::span<float> range_m) { look(eye, first, range_m); });
+  }
+}
 
 void SimulatedRobot::step(Time now) {
   for (const auto& drive : drives_) drive->step(now);
@@ -38,7 +43,7 @@ void SimulatedRobot::step(Time now) {
     turn_wheels();
     world_.step();
   }
-  scanner_->step(now);
+  for (const auto& eye : eyes_) eye->scanner->step(now);
 }
 
 void SimulatedRobot::turn_wheels() {
@@ -66,23 +71,24 @@ CanHealth SimulatedRobot::bus_health() const noexcept {
 }
 
 /// As hal/sim's laser does it, beam by beam as the mirror turns.
-void SimulatedRobot::look(std::size_t first_beam, std::span<float> range_m) {
+void SimulatedRobot::look(Eye& eye, std::size_t first_beam, std::span<float> range_m) {
   for (std::size_t k = 0; k < range_m.size(); ++k) {
-    const double range = range_along(first_beam + k) + laser_.noise_m * noise_.normal();
-    range_m[k] = range < laser_.range_min_m   ? 0.0F
-                 : range > laser_.range_max_m ? std::numeric_limits<float>::infinity()
-                                              : static_cast<float>(range);
+    const double range = range_along(eye, first_beam + k) + eye.laser.noise_m * eye.noise.normal();
+    range_m[k] = range < eye.laser.range_min_m   ? 0.0F
+                 : range > eye.laser.range_max_m ? std::numeric_limits<float>::infinity()
+                                                 : static_cast<float>(range);
   }
 }
 
-double SimulatedRobot::range_along(std::size_t beam) {
-  const double looked = scanner_->shape().angle_rad(beam);
-  double& range = last_range_m_[std::min(beam, kMaxBeams - 1)];
-  if (looked > senses_.repeats.from_rad && looked < senses_.repeats.to_rad) return range;
-  const Pose2 map_from_laser = truth().map_from_robot * laser_.robot_from_laser;
-  const double angle = world_.fault_active(sim::FaultKind::kScannerMirrored) ? -looked : looked;
-  const Vec2 towards = direction(map_from_laser.heading + senses_.mount_turned_rad + angle);
-  range = world_.walls().cast(map_from_laser.position(), towards, laser_.range_max_m);
+double SimulatedRobot::range_along(Eye& eye, std::size_t beam) {
+  const FalseSenses senses = eye.index == senses_.scanner ? senses_ : FalseSenses{};
+  const double looked = eye.scanner->shape().angle_rad(beam);
+  double& range = eye.last_range_m[std::min(beam, kMaxBeams - 1)];
+  if (looked > senses.repeats.from_rad && looked < senses.repeats.to_rad) return range;
+  const Pose2 map_from_laser = truth().map_from_robot * eye.laser.robot_from_laser;
+  const double angle = world_.fault_active(sim::FaultKind::kScannerMirrored, eye.index) ? -looked : looked;
+  const Vec2 towards = direction(map_from_laser.heading + senses.mount_turned_rad + angle);
+  range = world_.walls().cast(map_from_laser.position(), towards, eye.laser.range_max_m);
   for (const sim::Disc& body : world_.movers_seen())
     range = std::min(range, hit_range(map_from_laser.position(), towards, body));
   return range;

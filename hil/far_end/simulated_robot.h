@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <vector>
 
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/world.h"
@@ -16,6 +17,7 @@ struct FalseSenses {
   BlankedSector repeats{0.0, 0.0};  ///< in the laser's frame: its ranges stay, but for noise and one beam that moves
   double mount_turned_rad = 0.0;    ///< the scanner in its mount
   bool counters_stand = false;      ///< both wheels' positions; their speeds go on
+  std::size_t scanner = 0;          ///< whose senses these are
 };
 
 /// The simulated world as the far end of real wires: two drives turn its wheels, a scanner looks round in it. World
@@ -25,16 +27,16 @@ class SimulatedRobot {
   using Buses = std::array<CanBus*, 2>;
 
   /// `wiring` is the controller's side of the same wires; `buses`, a place on the bus for each drive, left and right,
-  /// outlive it; `wire` is the scanner's. Throws StartupError.
+  /// outlive it; `wires` are the scanners'. Throws StartupError.
   SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed, const RobotFile& wiring, const Buses& buses,
-                 std::unique_ptr<emulators::ByteServer> wire, Time now);
+                 FarWires wires, Time now);
 
   /// Moves drives, world and scanner on to now, by the clock.
   void step(Time now);
 
   [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
   [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
-  [[nodiscard]] emulators::ScannerServer& scanner() noexcept { return *scanner_; }
+  [[nodiscard]] emulators::ScannerServer& scanner(std::size_t index = 0) noexcept { return *eyes_[index]->scanner; }
   /// From now on.
   void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
   /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
@@ -48,22 +50,27 @@ class SimulatedRobot {
   [[nodiscard]] CanHealth bus_health() const noexcept;
 
  private:
-  void look(std::size_t first_beam, std::span<float> range_m);
+  /// A scanner and what it sees.
+  struct Eye {
+    std::size_t index;
+    LaserModel laser;
+    sim::Random noise;
+    std::array<double, kMaxBeams> last_range_m{};  ///< of a beam, without its noise
+    std::unique_ptr<emulators::ScannerServer> scanner{};
+  };
+  void look(Eye& eye, std::size_t first_beam, std::span<float> range_m);
   void turn_wheels();
-  [[nodiscard]] double range_along(std::size_t beam);
+  [[nodiscard]] double range_along(Eye& eye, std::size_t beam);
 
   Time began_;
   sim::World world_;
-  LaserModel laser_;
   double wheel_radius_m_;
-  sim::Random noise_;
   Buses buses_;
   std::array<std::unique_ptr<WheelDrive>, 2> drives_;
-  std::unique_ptr<emulators::ScannerServer> scanner_;
+  std::vector<std::unique_ptr<Eye>> eyes_;
   Time encoders_read_ = kNever;
   FalseSenses senses_;
-  std::array<double, 2> counted_rad_{};           ///< left and right, as the encoders show it
-  std::array<double, kMaxBeams> last_range_m_{};  ///< of a beam, without its noise
+  std::array<double, 2> counted_rad_{};  ///< left and right, as the encoders show it
 };
 
 }  // namespace jaywalk::rig

@@ -26,7 +26,10 @@ std::string in_words(const char* format, double a, double b) {
 
 FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps, double rate_hz,
                        const std::filesystem::path& folder)
-    : fault_(fault), kind_(kind), speed_mps_(speed_mps), file_(robot_file(kind, speed_mps, rate_hz, folder)) {
+    : fault_(fault),
+      kind_(kind),
+      speed_mps_(speed_mps),
+      file_(robot_file(kind, speed_mps, rate_hz, folder, fault.second_scanner)) {
   const auto straight = [this](std::unique_ptr<Planner>) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();
@@ -41,10 +44,11 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
   robot_ = std::make_unique<rig::InProcessRobot>(file_, world, 1, clock_, folder, straight);
   clock_.live = [this] {
     robot_->step_far_end();
-    robot_->laser().step();
+    for (const auto& laser : robot_->lasers()) laser->step();
     watch();
   };
-  while (robot_->laser().latest().sequence == 0 && clock_.now() < Time{std::chrono::seconds(10)})
+  const auto is_silent = [](const auto& laser) { return laser->latest().sequence == 0; };
+  while (std::ranges::any_of(robot_->lasers(), is_silent) && clock_.now() < Time{std::chrono::seconds(10)})
     clock_.sleep_until(clock_.now() + std::chrono::milliseconds(1));
   static_cast<void>(robot_->drive().arm());
   due_ = clock_.now();

@@ -40,6 +40,7 @@ struct FaultCase {
   void (*at_rest)(FaultBench&) = nullptr;  ///< once the robot stands; may be null
   bool in_turn = false;                    ///< it shows as the robot sets out with a turn; else at speed, straight on
   double wheels_go = 1.0;                  ///< so many times as far as the file says
+  bool second_scanner = false;             ///< the robot has one at its rear besides
 };
 
 struct FaultResult {

@@ -69,6 +69,12 @@ void reset_and_stop(FaultBench& bench) {
   bench.wait(6s);
 }
 
+/// Of a robot with two scanners.
+FaultCase with_second_scanner(FaultCase fault) {
+  fault.second_scanner = true;
+  return fault;
+}
+
 void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
 
 /// What the supervisor itself must tell: wheels and scanner that contradict each other or the command.
@@ -121,6 +127,9 @@ const std::array kCases{
               scans, Outcome::kLatched},
     FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
               scans, Outcome::kLatched},
+    with_second_scanner({"second_scanner_gone",
+                         [](FaultBench& b) { b.robot().far_end().scanner(1).order(ScannerFault::kGone, 60s); }, nullptr,
+                         Reason::kScanStale, scans, Outcome::kLatched}),
     FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
               plans, Outcome::kStopped},
     FaultCase{"drive_unplugged_left",
@@ -290,6 +299,12 @@ const std::array kCases{
           deceive(b, {.repeats = {-4.0, 4.0}});
         },
         repeats_for),
+    with_second_scanner(contradiction(
+        "second_scan_repeats",
+        [](FaultBench& b) {
+          deceive(b, {.repeats = {-4.0, 4.0}, .scanner = 1});
+        },
+        repeats_for)),
     contradiction("scan_repeats_ahead",
                   [](FaultBench& b) {
                     deceive(b, {.repeats = {-0.7, 0.7}});

@@ -42,12 +42,13 @@ const char* name_of(DriveKind kind) noexcept {
   return kind == DriveKind::kVesc ? "vesc" : "cia402";
 }
 
-RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder) {
+RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder,
+                     bool second_scanner) {
+  const std::string scanner = "[[laser]]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n";
   write(folder / "model.toml", model_text(speed_mps));
   write(folder / "robot.toml",
-        std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
-            "\n"
-            "[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n[drive]\nkind = \"" +
+        std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) + "\n" +
+            scanner + (second_scanner ? scanner + "mount = [-0.2, 0.0, 3.14159]\n" : "") + "[drive]\nkind = \"" +
             name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;

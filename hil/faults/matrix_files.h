@@ -7,9 +7,10 @@
 namespace jaywalk::faults {
 
 /// The robot file of the matrix for one kind of drive, written into `folder` and read back like a user's: a P3-DX
-/// with maximum speed `speed_mps`, a SICK scanner on a network and a loop at `rate_hz`. Throws StartupError.
+/// with maximum speed `speed_mps`, a SICK scanner on a network and a loop at `rate_hz`; where asked for a second
+/// scanner, looking back. Throws StartupError.
 [[nodiscard]] RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz,
-                                   const std::filesystem::path& folder);
+                                   const std::filesystem::path& folder, bool second_scanner = false);
 
 /// The world: a hall of 44 m x 5 m, the robot at one end, looking along it. Its map is written into `folder`.
 [[nodiscard]] sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder);

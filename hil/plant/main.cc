@@ -90,7 +90,7 @@ int run(int argc, char** argv) {
   const RobotFile wiring = load_robot_file(options.robot);
   SocketCan left = place_on_bus(options, wiring.drive, clock), right = place_on_bus(options, wiring.drive, clock);
   rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, wiring, {&left, &right},
-                            rig::make_far_wire(wiring.laser), clock.now());
+                            rig::make_far_wires(wiring), clock.now());
   for (const std::string& order : options.orders) {
     if (const std::string complaint = obey(order, robot); !complaint.empty())
       throw StartupError(complaint, "see --help");

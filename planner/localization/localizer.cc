@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <vector>
 
 #include "planner/localization/coasting.h"
 #include "planner/localization/fix_update.h"
@@ -11,6 +12,7 @@
 #include "planner/localization/slip_detector.h"
 #include "planner/localization/submap.h"
 #include "planner/localization/track_mask.h"
+#include "planner/scan/scan_order.h"
 
 namespace jaywalk {
 namespace {
@@ -49,6 +51,15 @@ Eigen::Matrix3d unknown_way(const ArcStep& step) {
   return diagonal(height_m * height_m, height_m * height_m, 0.0);
 }
 
+/// What is remembered of one scanner.
+struct Eye {
+  Pose2 robot_from_laser;
+  ScanProjection projection{};
+  SlipDetector matcher{};
+  std::uint32_t seen = 0;
+  Pose2 odom_from_robot{};  ///< at its newest scan
+};
+
 }  // namespace
 
 struct Localizer::State {
@@ -60,6 +71,7 @@ struct Localizer::State {
         since_last_match(covariance),
         if_wheels_slipped(covariance),
         at_last_wheels(covariance) {
+    for (const Pose2& mount : OfEach<Pose2>(c.robot_from_laser, c.robot_from_others)) eyes.push_back({mount});
     publish();
   }
 
@@ -94,16 +106,17 @@ struct Localizer::State {
 
   OdometryNoiseEstimator odometry_noise;
   WheelRadiusBias radius_bias;
-  SlipDetector matcher;
   Submap submap;
   ScanMatcher submap_matcher;
   double map_fit = 1.0;  ///< running mean
   bool map_explains = true;
   MatchSample sample;
-  ScanProjection projection;
   ScanPoints points;
-  std::uint32_t wheels_seen = 0, scan_seen = 0, fix_seen = 0;
-  Pose2 odom_from_robot_at_scan;
+  std::uint32_t wheels_seen = 0, fix_seen = 0;
+  std::vector<Eye> eyes;
+  ScanOrder order;
+  std::size_t scanner = 0;        ///< of the scan that was taken last
+  Pose2 odom_from_robot_at_scan;  ///< at it
   Time scan_stamp = kNever;
 
   Coasting coasting;               ///< while wheels say nothing
@@ -199,14 +212,15 @@ PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
 
 bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept {
   if (!config.match_scans || doubt.is_doubtful()) return false;
-  projection.project(scan, config.robot_from_laser, twist, points);
+  Eye& eye = eyes[scan.scanner];
+  eye.projection.project(scan, eye.robot_from_laser, twist, points);
   const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
   const auto seen = static_cast<double>(points.size());
   mask_moving_tracks(moving, predicted, scan.stamp, points);
   const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
   const bool learnt = odometry.by_wheels() && !odometry_noise.nothing_known();
   const MatchResult found =
-      matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
+      eye.matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
   if (found.matched || found.contradicted) judge_map(found, predicted);
   if (among_walkers && odometry.by_wheels() && !found.known_for_long) return false;
   if (!map_explains && match_submap(predicted)) return true;
@@ -217,17 +231,24 @@ bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, st
 
 void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& still,
                                   std::span<const Track> moving) noexcept {
-  if (odometry.wheels_silent(scan.stamp)) coast_to(scan.stamp);
+  const bool late = order.behind_s(scan) < 0.0;
+  const Pose2 odom_from_robot_at_newest = odom_from_robot_at_scan;
+  if (!late && odometry.wheels_silent(scan.stamp)) coast_to(scan.stamp);
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   const bool matched = match(scan, still, moving);
+  eyes[scan.scanner].odom_from_robot = odom_from_robot_at_scan;
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
   if (!doubt.is_doubtful()) {
     sample_of(points, sample);
     submap.add(sample, there);
   }
+  if (matched) doubt.matched(), odometry.placed();
+  if (late) {  // how it goes on is told by the newest
+    odom_from_robot_at_scan = odom_from_robot_at_newest;
+    return;
+  }
+  scanner = scan.scanner;
   if (matched) {
-    doubt.matched();
-    odometry.placed();
     coasting.placed(there, scan.stamp);
   } else {
     coasting.not_placed(there, scan.stamp);
@@ -270,16 +291,20 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
                                       const EvidenceMap& still, std::span<const Track> moving) noexcept {
   State& s = *state_;
   if (wheels.sequence != s.wheels_seen) s.move_by_wheels(wheels);
-  if (scan.sequence != 0 && scan.sequence != s.scan_seen) s.place_scan(scan, still, moving);
+  std::uint32_t& seen = s.eyes[scan.scanner].seen;
+  if (scan.sequence != 0 && scan.sequence != seen) s.place_scan(scan, still, moving);
   if (fix.sequence != s.fix_seen && fix.has_pose) s.blend(fix);
   s.wheels_seen = wheels.sequence;
-  if (scan.sequence != 0) s.scan_seen = scan.sequence;
+  if (scan.sequence != 0) seen = scan.sequence;
   s.fix_seen = fix.sequence;
   s.publish();
   return s.estimate;
 }
 
-const Pose2& Localizer::map_from_robot_at_scan() const noexcept { return state_->map_from_robot_at_scan; }
+Pose2 Localizer::map_from_robot_at_scan(std::size_t scanner) const noexcept {
+  const State& s = *state_;
+  return scanner == s.scanner ? s.map_from_robot_at_scan : s.map_from_odom * s.eyes[scanner].odom_from_robot;
+}
 const Twist2& Localizer::twist() const noexcept { return state_->twist; }
 
 }  // namespace jaywalk

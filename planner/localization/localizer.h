@@ -6,6 +6,7 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/scanners.h"
 #include "hal/types/wheels.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/tracking/track.h"
@@ -18,6 +19,7 @@ struct LocalizationConfig {
   Pose2 robot_from_laser;
   bool match_scans = true;
   bool doubts = true;  ///< PoseDoubt is told; false for a log, in which no person can say where the robot is
+  OfOthers<Pose2> robot_from_others{};  ///< the other lasers' mounts
 };
 
 /// Pose and how sure we are of it, at `stamp`.
@@ -35,7 +37,8 @@ class Localizer {
   explicit Localizer(const LocalizationConfig& config);
   ~Localizer();
 
-  /// Moves the estimate on by the wheels' newest reading; a scan with a new sequence number is matched against `still`
+  /// Once for each scanner's newest scan, in the order of their stamps. Moves the estimate on by the wheels' newest
+  /// reading; a scan with a new sequence number is matched against `still`
   /// (when it holds enough, which among walkers must have stood for a second), but for what lies on tracks that
   /// were `moving` when the scan before was seen; a fix with a new one is blended by variance, if its stamp is
   /// no older than the poses that are remembered, nor yet to come, and it is no mistake (FixGate). Without wheels
@@ -43,8 +46,8 @@ class Localizer {
   [[nodiscard]] const PoseEstimate& update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,
                                            const EvidenceMap& still, std::span<const Track> moving) noexcept;
 
-  /// The pose at the newest scan's stamp: what the tracker wants.
-  [[nodiscard]] const Pose2& map_from_robot_at_scan() const noexcept;
+  /// The pose at the stamp of a scanner's newest scan: what the tracker wants.
+  [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept;
   /// Speed as the wheels (or, without them, the scans) say.
   [[nodiscard]] const Twist2& twist() const noexcept;
 

@@ -55,9 +55,9 @@ bool IsolatedObstacles::gather(const EvidenceMap& map, CellIndex first) noexcept
   return loose;
 }
 
-void IsolatedObstacles::forget_unseen(EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept {
-  std::fill(marks_.begin(), marks_.end(), kNew);
-  note_in_view(map, in_map, count);
+void IsolatedObstacles::begin() noexcept { std::fill(marks_.begin(), marks_.end(), kNew); }
+
+void IsolatedObstacles::forget_unseen(EvidenceMap& map) noexcept {
   const CellIndex low = map.low();
   for (std::int32_t j = low.j; j < low.j + map.side(); ++j) {
     for (std::int32_t i = low.i; i < low.i + map.side(); ++i) {

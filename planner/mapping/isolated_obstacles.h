@@ -17,14 +17,17 @@ class IsolatedObstacles {
  public:
   explicit IsolatedObstacles(const EvidenceMap& map);
 
-  /// Makes each of them unknown, as if it had never been seen, on which none of the newest scan's `count` points lies.
-  /// `map` is as large as the constructor's. Looks at all of its cells: 1 to 2 ms for 1024 a side.
-  void forget_unseen(EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
+  /// Nothing is in view. `map`, here and below, is as large as the constructor's.
+  void begin() noexcept;
+  /// Where one of a scan's `count` points lies something is.
+  void note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
+  /// Makes each of them unknown, as if it had never been seen, that is not in view. Looks at all cells: 1 to 2 ms for
+  /// 1024 a side.
+  void forget_unseen(EvidenceMap& map) noexcept;
 
  private:
   enum Mark : std::uint8_t { kNew, kInView, kGathered, kStays };
 
-  void note_in_view(const EvidenceMap& map, const PointsInMap& in_map, std::size_t count) noexcept;
   [[nodiscard]] bool gather(const EvidenceMap& map, CellIndex first) noexcept;
   [[nodiscard]] bool take(const EvidenceMap& map, CellIndex cell) noexcept;
 

@@ -18,14 +18,21 @@ bool is_watched(const LaserModel& laser, Vec2 in_robot) {
          std::fabs(std::atan2(p.y, p.x)) < 0.5 * laser.fov_rad - kFieldEdge_rad;
 }
 
+bool is_watched(const OfEach<LaserModel>& lasers, Vec2 in_robot) {
+  for (const LaserModel& laser : lasers) {
+    if (is_watched(laser, in_robot)) return true;
+  }
+  return false;
+}
+
 }  // namespace
 
-BlindRim::BlindRim(const Footprint& footprint, const LaserModel& laser) {
+BlindRim::BlindRim(const Footprint& footprint, const OfEach<LaserModel>& lasers) {
   const double front = footprint.front_m, rear = -footprint.rear_m, half = footprint.half_width_m;
   const Vec2 corners[4] = {{front, half}, {rear, half}, {rear, -half}, {front, -half}};
   const Vec2 normals[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}};  // of the side that begins there
   const auto add = [&](Vec2 p, Vec2 out) {
-    if (is_watched(laser, p + out * static_cast<double>(kStopZoneMarginM))) return;
+    if (is_watched(lasers, p + out * static_cast<double>(kStopZoneMarginM))) return;
     points_.push_back(
         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(out.x), static_cast<float>(out.y)});
     reach_m_ = std::max(reach_m_, static_cast<float>(norm(p)));

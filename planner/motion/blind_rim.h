@@ -9,7 +9,7 @@ namespace jaywalk::motion {
 /// What the supervisor keeps free round the outline at speed, m (StopZoneConfig's margin_m).
 inline constexpr float kStopZoneMarginM = 0.08F;
 
-/// The parts of the body's outline beside which the laser never looks. The supervisor lets such a part move outward at
+/// The parts of the body's outline beside which no laser ever looks. The supervisor lets such a part move outward at
 /// 0.3 m/s at most (firmware/safety/watch.cc); a roll-out that counts on more would be braked.
 ///
 /// Memory in the constructor. Thread: any.
@@ -17,7 +17,7 @@ class BlindRim {
  public:
   BlindRim() = default;
   /// Beside points every 5 cm. Blanked sectors are left to the supervisor.
-  BlindRim(const Footprint& footprint, const LaserModel& laser);
+  BlindRim(const Footprint& footprint, const OfEach<LaserModel>& lasers);
 
   /// By how much (m/s) the fastest of them is too fast when the robot drives at `v` m/s and turns at `w` rad/s; 0 when
   /// none is.
@@ -27,7 +27,7 @@ class BlindRim {
   /// The same speed, with the turn as near to `w` as is permitted: while a ramped speed still falls, the turn waits for
   /// it, or the supervisor would brake both. `w` as it is where `v` alone is too fast.
   [[nodiscard]] float turn_at(float v, float w) const noexcept;
-  /// Whether the laser does not look at all that lies straight behind the robot.
+  /// Whether no laser looks at all that lies straight behind the robot.
   [[nodiscard]] bool is_behind() const noexcept { return too_fast(-1.0F, 0.0F) > 0.0F; }
   [[nodiscard]] std::size_t points() const noexcept { return points_.size(); }
 

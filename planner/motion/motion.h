@@ -5,7 +5,9 @@
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
+#include "hal/types/scanners.h"
 #include "planner/planner.h"
+#include "planner/scan/seen_from.h"
 
 namespace jaywalk::motion {
 
@@ -28,7 +30,10 @@ struct World {
   Perceived perceived;
   const Plan& plan;  ///< the newest
   std::span<const Vec2>
-      unseen_walls{};  ///< what the supervisor reckons with where no laser looks; in the robot's frame
+      unseen_walls{};                ///< what the supervisor reckons with where no laser looks; in the robot's frame
+  OfOthers<SeenFrom> other_scans{};  ///< the newest of each other scanner
+
+  [[nodiscard]] SeenFrom newest() const { return {&scan, map_from_laser}; }
 };
 
 /// What is to be done in this tick.

@@ -31,12 +31,10 @@ float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBod
 
 }  // namespace
 
-void NearReturns::update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot,
-                         const RobotBody& body, std::span<const MoverDisc> movers,
-                         std::span<const Vec2> unseen_walls) noexcept {
+void NearReturns::update(const OfEach<SeenFrom>& scans, const RobotState& robot, const RobotBody& body,
+                         std::span<const MoverDisc> movers, std::span<const Vec2> unseen_walls) noexcept {
   const float reach_m = kStopZoneMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
   const cell::Heading along = cell::heading_at(robot.heading);
-  const Transform2 map_from(map_from_laser);
   float nearest[kSectors];
   std::fill(nearest, nearest + kSectors, reach_m + body.rim_m);
   Vec2 hit[kSectors];
@@ -47,9 +45,13 @@ void NearReturns::update(const LaserScan& scan, const Pose2& map_from_laser, con
     const auto sector = std::min(static_cast<std::size_t>(turns * static_cast<float>(kSectors)), kSectors - 1);
     if (away < nearest[sector] && !is_of_a_mover(p, movers)) nearest[sector] = away, hit[sector] = p;
   };
-  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
-    if (!scan.is_hit(beam) || scan.range_m[beam] > 2.0F * (reach_m + body.rim_m)) continue;
-    take(map_from * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam])));
+  for (const SeenFrom& seen : scans) {
+    const LaserScan& scan = *seen.scan;
+    const Transform2 map_from(seen.map_from_laser);
+    for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+      if (!scan.is_hit(beam) || scan.range_m[beam] > 2.0F * (reach_m + body.rim_m)) continue;
+      take(map_from * (direction(scan.angle_rad(beam)) * static_cast<double>(scan.range_m[beam])));
+    }
   }
   for (const Vec2 p : unseen_walls) take(p);
   count_ = 0, nearest_ = kBesideM;

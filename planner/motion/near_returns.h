@@ -3,19 +3,20 @@
 #include <span>
 
 #include "hal/types/geometry.h"
-#include "hal/types/laser_scan.h"
+#include "hal/types/scanners.h"
 #include "planner/motion/robot_body.h"
 #include "planner/planner.h"
+#include "planner/scan/seen_from.h"
 
 namespace jaywalk::motion {
 
-/// What the last scan hits close to the robot: the points that the supervisor's stop zone will look at, place by place.
-/// The map knows a surface as one place a cell, which lies up to 5 cm behind a wall's end.
+/// What the last scan, of each scanner, hits close to the robot: the points that the supervisor's stop zone will look
+/// at, place by place. The map knows a surface as one place a cell, which lies up to 5 cm behind a wall's end.
 class NearReturns {
  public:
   /// The nearest hit of each 3 degrees about the robot, of those within its reach in 1.5 s, and of `unseen_walls`, in
   /// the map. What may be a body of `movers` is left out: it will be elsewhere.
-  void update(const LaserScan& scan, const Pose2& map_from_laser, const RobotState& robot, const RobotBody& body,
+  void update(const OfEach<SeenFrom>& scans, const RobotState& robot, const RobotBody& body,
               std::span<const MoverDisc> movers, std::span<const Vec2> unseen_walls) noexcept;
 
   /// Which share of the speed at `robot` the supervisor takes away, in [0, 1]: beside a point that is nearer than it

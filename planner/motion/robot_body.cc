@@ -15,7 +15,8 @@ constexpr double kOverSides_m = 0.02, kOverSidesAmongMovers_m = 0.06;
 
 }  // namespace
 
-RobotBody robot_body(const Footprint& f, const MotionLimits& l, const LaserModel& laser, double comfort_distance_m) {
+RobotBody robot_body(const Footprint& f, const MotionLimits& l, const OfEach<LaserModel>& lasers,
+                     double comfort_distance_m) {
   const double outer = f.circumscribed_radius_m();
   RobotBody body;
   body.outline = BodyOutline::of(f);
@@ -28,7 +29,7 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const LaserModel
   }
   body.rim_m = static_cast<float>(outer);
   body.comfort_distance_m = static_cast<float>(comfort_distance_m);
-  body.blind = BlindRim(f, laser);
+  body.blind = BlindRim(f, lasers);
   const auto front = static_cast<float>(f.front_m), rear = static_cast<float>(-f.rear_m),
              side = static_cast<float>(f.half_width_m), middle = 0.5F * (front + rear);
   body.rim = {{{front, side},

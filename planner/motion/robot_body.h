@@ -30,8 +30,8 @@ struct RobotBody {
 };
 
 /// `comfort_distance_m`: a mover's middle nearer than this to the body's discs costs. Thread: any.
-[[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits, const LaserModel& laser,
-                                   double comfort_distance_m);
+[[nodiscard]] RobotBody robot_body(const Footprint& footprint, const MotionLimits& limits,
+                                   const OfEach<LaserModel>& lasers, double comfort_distance_m);
 
 /// No faster than `most_mps` either way, nor than robot_body() has it.
 void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept;

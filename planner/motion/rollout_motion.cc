@@ -8,15 +8,14 @@ namespace {
 
 constexpr float kTurnOnSpot_radps = 0.6F;  // as a passenger likes it
 
-Seen seen_in(const World& world, const Guide& ground) noexcept {
+Seen seen_in(const World& world, const OfEach<SeenFrom>& scans, const Guide& ground) noexcept {
   return {world.now,
           world.scan.stamp,
           world.map_from_robot,
           world.perceived.tracks,
           world.perceived.standing,
           world.perceived.still,
-          world.scan,
-          world.map_from_laser,
+          scans,
           ground};
 }
 
@@ -36,7 +35,7 @@ RobotState start_in(const World& world, const MotionBounds& bounds) noexcept {
 
 RolloutMotion::RolloutMotion(const MotionSetup& setup)
     : setup_(setup),
-      body_(robot_body(setup.model.footprint, setup.model.limits, setup.model.laser, setup.comfort_distance_m)),
+      body_(robot_body(setup.model.footprint, setup.model.limits, setup.model.lasers(), setup.comfort_distance_m)),
       futures_(std::make_unique<Futures>()) {}
 
 void RolloutMotion::observe(const World&, const Intent& intent) noexcept {
@@ -45,7 +44,9 @@ void RolloutMotion::observe(const World&, const Intent& intent) noexcept {
 
 void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   if (!world.new_scan || !finite(world.map_from_robot)) return;
-  memory_.update(seen_in(world, ground_before(world)));
+  const SeenFrom newest = world.newest();
+  const OfEach<SeenFrom> scans(newest, world.other_scans);
+  memory_.update(seen_in(world, scans, ground_before(world)));
   const Guide& ground = this->ground(world);
   if (!is_to_decide(world, intent, ground)) return;
   ++decision_.number;
@@ -53,8 +54,7 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   decision_.start = start_in(world, body_.bounds);
   decision_.start.accel = accel_;
   place_unseen_walls(world);
-  returns_.update(world.scan, world.map_from_laser, decision_.start, body_, memory_.masked(),
-                  {unseen_walls_.begin(), unseen_walls_.size()});
+  returns_.update(scans, decision_.start, body_, memory_.masked(), {unseen_walls_.begin(), unseen_walls_.size()});
   choose(world, ground);
   decision_.at = world.now;
   decision_.seen = world.scan.stamp;

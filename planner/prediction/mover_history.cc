@@ -48,7 +48,7 @@ void MoverHistory::update(const Seen& seen) noexcept {
     learn(m, seen);
   }
   forget_gone(seen);
-  occluded_.update(static_cast<float>(dt), seen.scan, seen.map_from_laser, turning_, seen.guide);
+  occluded_.update(static_cast<float>(dt), seen.scans, turning_, seen.guide);
   believe(seen);
 }
 

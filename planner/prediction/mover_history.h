@@ -3,11 +3,12 @@
 #include <vector>
 
 #include "hal/types/fixed_vector.h"
-#include "hal/types/laser_scan.h"
+#include "hal/types/scanners.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/planner.h"
 #include "planner/prediction/occluded_movers.h"
 #include "planner/prediction/pedestrian_model.h"
+#include "planner/scan/seen_from.h"
 #include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/track.h"
 
@@ -21,8 +22,7 @@ struct Seen {
   std::span<const Track> tracks;
   std::span<const StandingPedestrian> standing;
   const EvidenceMap& still;
-  const LaserScan& scan;
-  Pose2 map_from_laser{};  ///< at the scan
+  OfEach<SeenFrom> scans;  ///< the newest of each scanner
   const Guide& guide;
 };
 

@@ -13,7 +13,10 @@ constexpr float kBeyondM = 0.2F;       ///< a beam must go on behind a place to 
 constexpr float kReturnsWithinM = 0.8F;
 
 /// Whether five beams side by side pass over a place.
-bool sees_through(const LaserScan& scan, const Pose2& laser, float heading_rad, float x, float y) {
+bool sees_through(const SeenFrom& seen, float x, float y) {
+  const LaserScan& scan = *seen.scan;
+  const Pose2& laser = seen.map_from_laser;
+  const auto heading_rad = static_cast<float>(laser.heading);
   const float dx = x - static_cast<float>(laser.x), dy = y - static_cast<float>(laser.y);
   const float away = std::sqrt(dx * dx + dy * dy);
   const float bearing = cell::wrapped(cell::angle_of(dx, dy) - heading_rad);
@@ -25,6 +28,13 @@ bool sees_through(const LaserScan& scan, const Pose2& laser, float heading_rad, 
     if (!passes) return false;
   }
   return true;
+}
+
+bool sees_through(const OfEach<SeenFrom>& scans, float x, float y) {
+  for (const SeenFrom& seen : scans) {
+    if (sees_through(seen, x, y)) return true;
+  }
+  return false;
 }
 
 }  // namespace
@@ -63,16 +73,15 @@ bool OccludedMovers::take(Vec2 place, double& usual_mps) noexcept {
   return true;
 }
 
-void OccludedMovers::update(float dt, const LaserScan& scan, const Pose2& map_from_laser, const TurningModel& turning,
+void OccludedMovers::update(float dt, const OfEach<SeenFrom>& scans, const TurningModel& turning,
                             const Guide& guide) noexcept {
-  const auto heading = static_cast<float>(map_from_laser.heading);
   for (std::size_t k = movers_.size(); k-- > 0;) {
     PedestrianSample* walkers = of(k);
     int kept = 0;
     for (int f = 0; f < kFutures; ++f) {
       PedestrianSample w = walkers[f];
       w.step(guide, turning, false, dt);
-      const bool gone = sees_through(scan, map_from_laser, heading, w.x, w.y) || guide.distance(w.x, w.y) < 0.1F;
+      const bool gone = sees_through(scans, w.x, w.y) || guide.distance(w.x, w.y) < 0.1F;
       if (!gone) walkers[kept++] = w;
     }
     movers_[k].age_s += dt;

@@ -4,9 +4,10 @@
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"
-#include "hal/types/laser_scan.h"
+#include "hal/types/scanners.h"
 #include "planner/prediction/futures.h"
 #include "planner/prediction/pedestrian_model.h"
+#include "planner/scan/seen_from.h"
 
 namespace jaywalk::motion {
 
@@ -23,9 +24,8 @@ class OccludedMovers {
   void remove(std::uint32_t id) noexcept;
   /// Whether one of them may have come out at a place; it is no longer occluded then, and `usual_mps` is its.
   bool take(Vec2 place, double& usual_mps) noexcept;
-  /// `dt` seconds later, with what the scan passes through.
-  void update(float dt, const LaserScan& scan, const Pose2& map_from_laser, const TurningModel& turning,
-              const Guide& guide) noexcept;
+  /// `dt` seconds later, with what the scans pass through.
+  void update(float dt, const OfEach<SeenFrom>& scans, const TurningModel& turning, const Guide& guide) noexcept;
 
   /// kFutures of each, one mover after the other.
   [[nodiscard]] std::span<const PedestrianSample> walkers() const {

@@ -122,9 +122,10 @@ bool far_from_anchor(const MotionEvidence& e, const StraightFit& fit) {
 }
 
 /// Fixed to the robot: masts, cables, a rider's feet that no turn has told from walls yet.
-bool rides_along(const MotionEvidence& e, const Pose2& map_from_laser) {
-  const Vec2 in_laser = inverse(map_from_laser) * e.position();
-  return norm(in_laser) < kRidesWithinM && distance(in_laser, e.onset.anchor_in_laser) < kRidesShare * norm(e.way());
+bool rides_along(const MotionEvidence& e, const Surroundings& around) {
+  const double away_m = norm(inverse(around.map_from_laser) * e.position());
+  const Vec2 in_first = inverse(around.map_from_first) * e.position();
+  return away_m < kRidesWithinM && distance(in_first, e.onset.anchor_in_laser) < kRidesShare * norm(e.way());
 }
 
 bool at_a_walk(const StraightFit& fit) {
@@ -186,7 +187,7 @@ void judge_moving(Target& target, const Surroundings& around, Time now) {
   if (slow_since == kNever) slow_since = now;
   if (now - slow_since < kSlowFor) return;
   target.estimate.track.moving = false;
-  anchor_target(target, around.map_from_laser, now);
+  anchor_target(target, around.map_from_first, now);
   target.onset.anchored = std::exchange(slow_since, kNever);  // it has stood here for as long as it was slow
 }
 
@@ -210,7 +211,7 @@ void judge_standing(Target& target, const Surroundings& around, Time now) {
   if (target.onset.onsets >= kOnsetScans) return begin_moving(target);
   const Duration stood = now - target.onset.anchored;
   if (stood > kSettleAfter && norm(target.motion().way()) < kStandsWithinM) target.existence.settled = true;
-  if (stood > kMayGoOnWithin) anchor_target(target, around.map_from_laser, now);  // creeping is not walking
+  if (stood > kMayGoOnWithin) anchor_target(target, around.map_from_first, now);  // creeping is not walking
 }
 
 /// Not called moving, and no wall: a pedestrian that goes along beside the robot.
@@ -235,7 +236,7 @@ bool may_be_pedestrian(const Target& target) {
 MotionOnset motion_onset(const Target& target, const Surroundings& around) noexcept {
   const MotionEvidence e = target.motion();
   if (target.existence.seen_share <= kMostlySeen) return MotionOnset::kNone;
-  if (rides_along(e, around.map_from_laser)) return MotionOnset::kNone;
+  if (rides_along(e, around)) return MotionOnset::kNone;
   if (starts(e, around)) return MotionOnset::kCertain;  // what is taken for a wall must have stood
   return target.appearance.on_wall ? MotionOnset::kNone : by_all_positions(e, around);
 }

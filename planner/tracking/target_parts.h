@@ -61,7 +61,7 @@ struct OnsetHistory {
   Outline anchor_outline;         ///< points of it that were seen there, in the map
   bool anchor_low_seen = false;   ///< nothing hid its first beams' side there
   bool anchor_high_seen = false;  ///< nor its last beams'
-  Vec2 anchor_in_laser;           ///< the anchor, seen from where the laser was then
+  Vec2 anchor_in_laser;           ///< the anchor, seen from where the robot's first laser was then
   Time slow_since = kNever;       ///< since when a moving track has been below kStoppedMps; kNever: it is not
   std::uint32_t onsets = 0;       ///< scans in a row that saw it start moving
 
@@ -78,7 +78,9 @@ struct Existence {
   Time born = kNever;
   double seen_share = 1.0;        ///< running mean: share of the scans that saw it
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
-  std::uint32_t misses = 0;       ///< scans in a row that did not see it
+  std::uint32_t misses = 0;       ///< scans in a row that did not see it, from the first of its finder's on
+  std::size_t finder = 0;         ///< the scanner that saw it last
+  bool told = true;               ///< the newest scan saw it or missed it: another scanner's says nothing of it
   bool maybe_pedestrian = false;  ///< it moved, or stood on two legs: it may be a pedestrian from then on
   bool settled = false;           ///< stands for good: its points may become walls
 

@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <limits>
 #include <optional>
+#include <vector>
 
 #include "planner/mapping/isolated_obstacles.h"
 #include "planner/mapping/map_entry.h"
 #include "planner/scan/first_scans.h"
+#include "planner/scan/scan_order.h"
 #include "planner/tracking/association.h"
 #include "planner/tracking/entries.h"
 #include "planner/tracking/given_movers.h"
@@ -31,16 +33,18 @@ void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
 /// Its parts, one a step of the update: more fields than a struct has elsewhere.
 struct Tracker::State {
   explicit State(const PerceptionConfig& c)
-      : robot_from_laser(c.robot_from_laser),
+      : mounts{c.robot_from_laser},
         own_body(c.body),
         known(c.known_map),
         still(c.map_side_cells, c.cell_m, c.map_centre),
         entry(still),
-        loose(still),
-        scene(c.robot_from_laser) {
+        loose(still) {
+    mounts.insert(mounts.end(), c.robot_from_others.begin(), c.robot_from_others.end());
+    for (const Pose2& mount : mounts) scenes.emplace_back(mount);
     if (known) enter(*known, still, std::nullopt);
   }
 
+  void begin(const LaserScan& scan, const Pose2& map_from_robot) noexcept;
   void predict_all_to(Time stamp) noexcept;
   void forget_targets() noexcept;
   void associate_and_correct() noexcept;
@@ -52,13 +56,13 @@ struct Tracker::State {
   void note_history(Estimate& estimate) const noexcept;
   void publish() noexcept;
 
-  Pose2 robot_from_laser;
+  std::vector<Pose2> mounts;  ///< robot_from_laser, of each scanner
   Footprint own_body;
   std::shared_ptr<const KnownMap> known;
   EvidenceMap still;
   MapEntry entry;
   IsolatedObstacles loose;
-  Scene scene;
+  std::vector<Scene> scenes;  ///< of each scanner's newest scan
   Entries entries{};
 
   FirstScans first_scans;
@@ -67,7 +71,14 @@ struct Tracker::State {
   std::uint32_t last_id = 0;
   double unreported_s = std::numeric_limits<double>::infinity();  ///< since an outside system last told of movers
   Time now = kNever, told = kNever;                               ///< the scan's stamp; the loop's time
+  ScanOrder order;
+  std::size_t scanner = 0;  ///< of the scan at hand
+  Pose2 map_from_first;     ///< at that scan, of the first laser
+  double behind_s = 0.0;    ///< 0 or less: so much before `now` it was taken
+  /// What it adds to how long things are seen: no more in a second than a second, however many look at them.
   double step_s = 0.0;
+
+  [[nodiscard]] Scene& scene() noexcept { return scenes[scanner]; }
 
   FixedVector<Track, kMaxTracks> tracks, moving;
   StandingPedestrians standing;
@@ -79,34 +90,45 @@ void Tracker::State::forget_targets() noexcept {
   first_scans = {};
 }
 
+void Tracker::State::begin(const LaserScan& scan, const Pose2& map_from_robot) noexcept {
+  scanner = scan.scanner;
+  map_from_first = map_from_robot * mounts[0];
+  behind_s = order.behind_s(scan);
+  step_s = step_seconds(order.before(), scan.stamp) / static_cast<double>(scenes.size());
+  unreported_s += step_s;
+  if (behind_s == 0.0) predict_all_to(scan.stamp);
+}
+
 void Tracker::State::predict_all_to(Time stamp) noexcept {
   if (now != kNever && to_seconds(now) - to_seconds(stamp) > kForeseenS) forget_targets();
-  step_s = step_seconds(now, stamp);
-  unreported_s += step_s;
   now = stamp;
   for (Target& target : targets) predict_to(target.estimate, target.existence.given, stamp);
 }
 
 void Tracker::State::associate_and_correct() noexcept {
-  associate(targets, scene.detections);
+  associate(targets, scene().detections);
   for (Target& target : targets) {
     Observation seen;
-    const bool found = observe(target.estimate.track, target.appearance, scene.detections, seen);
-    target.existence.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - target.existence.seen_share);
+    Existence& existence = target.existence;
+    const bool found = observe(target.estimate.track, target.appearance, scene().detections, seen);
+    existence.told = found || existence.finder == scanner || existence.misses > 0;
+    if (!existence.told) continue;
+    existence.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - existence.seen_share);
     if (found) {
-      update_with(target, seen, scene.map_from_laser, now);
+      existence.finder = scanner;
+      update_with(target, seen, map_from_first, now);
     } else {
-      target.existence.misses += 1;
+      existence.misses += 1;
     }
   }
 }
 
 void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexcept {
   const bool unreliable = first_scans.are_unreliable(twist, now);
-  const Surroundings around{sight, still, scene.map_from_laser};
+  const Surroundings around{sight, still, scene().map_from_laser, map_from_first};
   for (Target& target : targets) {
-    if (unreliable && !target.existence.given) forget_walk(target, scene.map_from_laser, now);
-    judge_motion(target, around, now);
+    if (unreliable && !target.existence.given) forget_walk(target, map_from_first, now);
+    if (target.existence.told) judge_motion(target, around, now);
   }
 }
 
@@ -136,7 +158,7 @@ void Tracker::State::drop_unseen(const LineOfSight& sight) noexcept {
 
 void Tracker::State::birth() noexcept {
   if (unreported_s < kForeseenS) return;  // it knows them all; where it falls silent the laser has to do
-  Detections& detections = scene.detections;
+  Detections& detections = scene().detections;
   for (std::size_t k = 0; k < detections.size(); ++k) {
     if (detections[k].track_id != 0) continue;
     Observation seen;
@@ -144,23 +166,25 @@ void Tracker::State::birth() noexcept {
     last_id += 1;
     Target target = born_at(seen.position_in_map, seen.std_m, seen.radius_m, now, last_id);
     note_seen(target.estimate, target.appearance, seen);
+    target.existence.finder = scanner;
     target.onset.free_share = seen.in_free_space ? 1.0 : 0.0;
     target.appearance.legs_share = seen.two_legs ? 1.0 : 0.0;
-    anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, scene.map_from_laser, now);
+    anchor_here(target.onset, target.estimate.track.position_in_map, target.appearance, map_from_first, now);
     if (hidden.reidentify(target, now)) rename(detections, last_id, target.estimate.track.id);
-    admit(targets, target, scene.map_from_laser.position());
+    admit(targets, target, map_from_first.position());
   }
 }
 
 void Tracker::State::enter_still() noexcept {
+  const Scene& scene = this->scene();
   const Vec2 laser_in_map = scene.map_from_laser.position();
   const std::size_t count = scene.points.size();
   decide_entries(targets, scene.detections, {scene.in_map.position.data(), count}, still, now, entries);
   const CellIndex low = still.low();
-  still.roll_to(laser_in_map);
+  still.roll_to(map_from_first.position());
   if (known && !(still.low() == low)) enter(*known, still, low);
   entry.enter(still, laser_in_map, scene.in_map.position, entries, count, step_s);
-  const Pose2 map_from_robot = scene.map_from_laser * inverse(robot_from_laser);
+  const Pose2 map_from_robot = scene.map_from_laser * inverse(mounts[scanner]);
   const Transform2 to_map(map_from_robot);
   for (const ScanPoint& end : scene.empty) MapEntry::mark_observed(still, laser_in_map, to_map * end.in_robot);
   free_under(still, map_from_robot, own_body);
@@ -198,10 +222,11 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   State& s = *state_;
   if (scan.stamp == kNever || !finite(map_from_robot)) return;
   s.told = told == kNever ? scan.stamp : told;
-  s.predict_all_to(scan.stamp);
-  s.scene.update(scan, map_from_robot, twist, s.still, s.targets);
+  s.begin(scan, map_from_robot);
+  s.scene().update(scan, map_from_robot, twist, s.still, s.targets);
+  for (Detection& seen : s.scene().detections) seen.late_s += s.behind_s;
   s.associate_and_correct();
-  const LineOfSight sight(scan, map_from_robot, s.robot_from_laser, twist);
+  const LineOfSight sight(scan, map_from_robot, s.mounts[s.scanner], twist);
   s.judge(sight, twist);
   s.drop_unseen(sight);
   s.birth();
@@ -213,13 +238,15 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
 void Tracker::update_given(const OutsideFix& fix) noexcept {
   State& s = *state_;
   s.unreported_s = 0.0;
-  take_given(fix, s.scene.map_from_laser.position(), s.targets, s.last_id);
+  take_given(fix, s.map_from_first.position(), s.targets, s.last_id);
   s.publish();
 }
 
 void Tracker::forget_unseen() noexcept {
   State& s = *state_;
-  s.loose.forget_unseen(s.still, s.scene.in_map, s.scene.points.size());
+  s.loose.begin();
+  for (const Scene& scene : s.scenes) s.loose.note_in_view(s.still, scene.in_map, scene.points.size());
+  s.loose.forget_unseen(s.still);
 }
 
 const EvidenceMap& Tracker::still() const { return state_->still; }

@@ -6,6 +6,7 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/scanners.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/known_map.h"
 #include "planner/tracking/standing_pedestrian.h"
@@ -20,6 +21,7 @@ struct PerceptionConfig {
   Vec2 map_centre;   ///< where the evidence map is centred at start
   Footprint body{};  ///< of the robot: where it stands nothing else does. Without size: nothing is said of that
   std::shared_ptr<const KnownMap> known_map{};  ///< what stands before the first scan; null: nothing is known
+  OfOthers<Pose2> robot_from_others{};          ///< the other lasers' mounts
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.
@@ -28,7 +30,8 @@ class Tracker {
   explicit Tracker(const PerceptionConfig& config);
   ~Tracker();
 
-  /// Takes one new scan (the caller calls once a sweep) seen from `map_from_robot`, the robot's
+  /// Takes one new scan (the caller calls once a sweep, of each scanner; what one found is missed by that one alone
+  /// until it does) seen from `map_from_robot`, the robot's
   /// pose at the scan's stamp. Ranges that are no returns change nothing; nor does a pose that is not
   /// finite. `twist` puts right a sweep that takes time while the robot moves. A moving track is dated to the scan's
   /// stamp, whenever in its sweep it was met. A stamp more than a second before the last one's is a clock's that was

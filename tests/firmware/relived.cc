@@ -24,7 +24,7 @@ Relived relive(const std::string& file) {
   RecordedHal devices(recorded);
   const ChosenPlanner planner = make_planner(setup.planner(), setup.backend);
   Recorder nowhere({});
-  ControlLoop loop(setup, devices.hal(), *planner.planner, nowhere);
+  ControlLoop loop(setup, devices.hal(setup.model.lasers().size()), *planner.planner, nowhere);
   Relived relived;
   for (; reader.next(recorded); ++relived.ticks) {
     loop.tick(recorded.now);

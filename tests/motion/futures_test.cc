@@ -136,8 +136,7 @@ TEST_CASE("one scan that drops a walker's velocity to nothing is not believed") 
                    .tracks = {&t, 1},
                    .standing = {},
                    .still = g.map(),
-                   .scan = scan,
-                   .map_from_laser = {0.0, -3.0, 0.0},
+                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
                    .guide = g.guide()});
   }
   REQUIRE(memory.beliefs().size() == 1);
@@ -158,8 +157,7 @@ TEST_CASE("a walker out of sight lives on, until his places are seen to be empty
                    .tracks = tracks,
                    .standing = {},
                    .still = g.map(),
-                   .scan = scan,
-                   .map_from_laser = {0.0, -3.0, 0.0},
+                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
                    .guide = g.guide()});
   };
   scan.range_m.fill(1.0F);  // nothing farther off is seen
@@ -197,8 +195,7 @@ MoverHistory among_posts(bool leaves) {
                    .tracks = posts,
                    .standing = {},
                    .still = g.map(),
-                   .scan = scan,
-                   .map_from_laser = {0.0, -3.0, 0.0},
+                   .scans = SeenFrom{&scan, {0.0, -3.0, 0.0}},
                    .guide = g.guide()});
   }
   return memory;

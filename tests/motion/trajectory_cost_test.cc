@@ -16,7 +16,7 @@ const NearReturns kNothing;
 RobotBody body_of(float full_speed) {
   const Footprint f = p3dx().footprint;
   RobotBody body;
-  body.rim = robot_body(f, {}, {}, 1.0).rim;
+  body.rim = robot_body(f, {}, LaserModel{}, 1.0).rim;
   body.to_walls = body.to_movers = BodyDiscs::covering(f, 0.02);
   body.bounds = {.speed = full_speed,
                  .back = 0.3F,
@@ -142,7 +142,7 @@ TEST_CASE(
   scan.range_m[1] = std::sqrt(ahead * ahead + left * left);
   scan.first_angle_rad = std::atan2(left, ahead) - scan.angle_step_rad;
   NearReturns returns;
-  returns.update(scan, {}, {}, body, {}, {});
+  returns.update(SeenFrom{&scan, {}}, {}, body, {}, {});
   const auto nobody = std::make_unique<Futures>();
   const auto braked_at = [&](float speed, const NearReturns& seen) {
     Trajectory held;

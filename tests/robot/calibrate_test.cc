@@ -42,7 +42,7 @@ TEST_CASE("wheel radii, track width and mount come out, whatever the file says")
       smaller{0.0930, 0.0934, 0.318, Pose2{-0.03, -0.04, -0.08}};
   for (const auto& [truth, turns] : {std::pair{larger, true}, std::pair{smaller, false}}) {
     sim::Scenario scenario = hall(truth);
-    scenario.laser_turns = turns;
+    scenario.model.laser.turns = turns;
     const Calibration result = calibrate(guided(scenario, 1), believed_of(scenario.model));
     const RobotGeometry &found = result.found, &within = result.within;
     const Pose2 &mount = found.robot_from_laser, &is = *truth.robot_from_laser;

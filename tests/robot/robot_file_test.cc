@@ -319,6 +319,33 @@ TEST_CASE("wheels, track and gear that no such robot has are refused") {
   CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn = 15")) == "loaded");
 }
 
+TEST_CASE("[[laser]] once is [laser], and each further one is a scanner with a wire and a mount of its own") {
+  CHECK(load(with("[laser]", "[[laser]]")).lasers().size() == 1);
+  const std::string rear =
+      "[[laser]]\nkind = \"ldrobot\"\ndevice = \"/dev/ttyUSB1\"\nmount = [-0.2, 0.0, 3.14]\nbeams = 720\n";
+  const RobotFile robot = load(with("[laser]", "[[laser]]") + rear);
+  REQUIRE(robot.lasers().size() == 2);
+  CHECK(robot.lasers()[0].host == "10.0.0.2");
+  CHECK(robot.lasers()[1].device == "/dev/ttyUSB1");
+  REQUIRE(robot.setup.model.lasers().size() == 2);
+  CHECK(robot.setup.model.lasers()[1].beams == 720);
+  CHECK(robot.setup.model.lasers()[1].range_max_m == 10.0);  // like the first
+  CHECK(refusal(with("[laser]", "[[laser]]") + "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n")
+            .find("laser.mount is missing") != std::string::npos);
+}
+
+TEST_CASE("two scanners are judged by what they see together, and each by where it stands") {
+  const auto looking = [](const std::string& first, const std::string& second) {
+    const std::string more = "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n";
+    return refusal(with("[laser]", "[[laser]]\n" + first) + more + second);
+  };
+  const std::string back = "mount = [-0.2, 0.0, 3.14]\nfov_deg = 180\n", ahead = "mount = [0.2, 0.0, 0.0]\n";
+  CHECK(refusal(with("[laser]", "[laser]\n" + back)).find("does not look at") != std::string::npos);
+  CHECK(looking(back, ahead) == "loaded");
+  CHECK(looking(ahead, back) == "loaded");
+  CHECK(looking(ahead, "mount = [-0.9, 0.0, 3.14]\n").find("off the body") != std::string::npos);
+}
+
 TEST_CASE("a model whose wheels cannot do what it promises is refused") {
   const auto of_model = [](const std::string& radius, const std::string& turns) {
     const File model("[footprint]\nfront_m = 0.3\nrear_m = 0.3\nhalf_width_m = 0.25\n[drive]\nwheel_radius_m = " +

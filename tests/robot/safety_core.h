@@ -110,7 +110,7 @@ class SafetyCore {
     if (button_.held) note_stop();
     const Time now = clock_.now();
     const Verdict verdict = supervisor_.judge(
-        wish(input), {.scan = scan_, .wheels = wheels_, .input = input, .plan_stamp = now, .now = now});
+        wish(input), {.scans = scan_, .wheels = wheels_, .input = input, .plan_stamp = now, .now = now});
     permitted_ = verdict.permitted;
     base_.command(diff_drive_.wheel_speeds(permitted_, now));
     const bool latches = supervisor_.mode() == Mode::kLatched && before_ != Mode::kLatched && asks_as_it_latches_;

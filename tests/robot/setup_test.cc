@@ -32,8 +32,11 @@ class EmulatedMachine final : public Surroundings {
     any_port.port = 0;
     auto wire = rig::make_far_wire(any_port);
     if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get())) port = network->port();
-    robot = std::make_unique<rig::SimulatedRobot>(
-        hall(), 3, truth_, rig::SimulatedRobot::Buses{&wires.port(1), &wires.port(2)}, std::move(wire), clock.now());
+    rig::FarWires far_wires;
+    far_wires.push_back(std::move(wire));
+    robot = std::make_unique<rig::SimulatedRobot>(hall(), 3, truth_,
+                                                  rig::SimulatedRobot::Buses{&wires.port(1), &wires.port(2)},
+                                                  std::move(far_wires), clock.now());
     clock.live = [this] { robot->step(clock.now()); };
   }
   ~EmulatedMachine() override { std::filesystem::remove_all(folder); }

@@ -84,7 +84,7 @@ class DrivenRobot {
     if (scan_.sequence == 0 || to_seconds(now_ - scan_.stamp) > 1.0 / model_.laser.rate_hz - 1e-6) sweep();
     wheels_.stamp = now_;
     ++wheels_.sequence;
-    const Verdict verdict = supervisor_.judge(wanted, {.scan = scan_,
+    const Verdict verdict = supervisor_.judge(wanted, {.scans = scan_,
                                                        .wheels = wheels_,
                                                        .input = input_,
                                                        .plan_stamp = now_,

@@ -38,7 +38,7 @@ LaserScan beside_wall(float gap_m, float from_x = -9.0F) {
 float braked(const LaserScan& scan, float v, float w, std::span<const MoverDisc> movers = {}) {
   NearReturns returns;
   RobotState robot{.v = v, .w = w};
-  returns.update(scan, {}, robot, kBody, movers, {});
+  returns.update(SeenFrom{&scan, {}}, robot, kBody, movers, {});
   float most = 0.0F;
   for (int step = 0; step < 5; ++step) {
     robot = moved(robot, {v, w}, kBody.bounds, 0.1F);

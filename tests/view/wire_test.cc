@@ -68,9 +68,9 @@ TEST_CASE("the scan lies where the robot was when it was taken, not where it has
   scan.angle_step_rad = 0.5F;
   scan.range_max_m = 10.0F;
   scan.range_m[1] = 2.0F;  // straight ahead of a laser 0.25 m before the robot's middle; the others see nothing
-  snapshot->map_from_robot_at_scan = {1.0, 0.0, 0.0};
+  snapshot->map_from_robot_at_scan[0] = {1.0, 0.0, 0.0};
   snapshot->record.pose.map_from_robot = {1.5, 0.0, 0.25};
-  CHECK(to_json(*snapshot, {0.25, 0.0, 0.0}).find(R"({"hits":[3.25,0.0],)") == 0);
+  CHECK(to_json(*snapshot, LaserModel{.robot_from_laser = {0.25, 0.0, 0.0}}).find(R"({"hits":[3.25,0.0],)") == 0);
 }
 
 TEST_CASE("a known map is thinned to 1,000 cells a side, and none of its walls gets lost") {
