@@ -322,7 +322,7 @@ TEST_CASE("wheels, track and gear that no such robot has are refused") {
 TEST_CASE("[[laser]] once is [laser], and each further one is a scanner with a wire and a mount of its own") {
   CHECK(load(with("[laser]", "[[laser]]")).lasers().size() == 1);
   const std::string rear =
-      "[[laser]]\nkind = \"ldrobot\"\ndevice = \"/dev/ttyUSB1\"\nmount = [-0.2, 0.0, 3.14]\nbeams = 720\n";
+      "[[laser]]\nkind = \"ld19\"\ndevice = \"/dev/ttyUSB1\"\nmount = [-0.2, 0.0, 3.14]\nbeams = 720\n";
   const RobotFile robot = load(with("[laser]", "[[laser]]") + rear);
   REQUIRE(robot.lasers().size() == 2);
   CHECK(robot.lasers()[0].host == "10.0.0.2");

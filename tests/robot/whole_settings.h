@@ -207,6 +207,7 @@ legs = true
 kind = "beams_lost"
 at_s = 5.0
 for_s = 1.0
+scanner = 1
 from_deg = -20.0
 to_deg = 20.0
 [[zones]]
