@@ -76,7 +76,7 @@ FileKeys make_robot_model_keys() {
                {"", "footprint", kTable, {}, "", kNeeded, "the body: a rectangle about the drive axle's middle"},
                {"", "drive", kTable, {}, "", kNeeded, "wheels and motors"},
                {"", "limits", kTable, {}, "", kNeeded, "how fast it may move"},
-               {"", "laser", kTable, {}, "", kNeeded, "the scanner; [[laser]] for each of several, 4 at most"}};
+               {"", "laser", kTable, {}, "", kNeeded, "the scanner, or [[laser]] for each"}};
   add_drive_and_body(file.keys);
   add_limits(file.keys);
   for (const SettingKey& key : laser_keys_with("laser", kNeeded, 0.0)) file.keys.push_back(key);

@@ -41,7 +41,7 @@ std::vector<SettingKey> top_keys() {
           {"map", "yaml", kFile, {}, "", kNeeded, "ROS map_server file"},
           {"", "rate_hz", kNumber, {20.0, 200.0}, "1/s", robot.setup.rate_hz, "of the control loop"},
           {"", "control_socket", kText, {}, "", "the usual one", "where goto, stop, reset and status reach the run"},
-          {"", "laser", kTable, {}, "", kNeeded, "the scanner; [[laser]] for each of several, 4 at most"},
+          {"", "laser", kTable, {}, "", kNeeded, "the scanner, or [[laser]] for each"},
           {"", "drive", kTable, {}, "", kNeeded, "the motor controllers"},
           {"", "panel", kTable, {}, "", "none", "a joystick or a box of buttons behind evdev"},
           {"", "places", kTables, {}, "", "none", "where jaywalk goto NAME leads"},

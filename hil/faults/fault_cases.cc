@@ -127,7 +127,7 @@ const std::array kCases{
               scans, Outcome::kLatched},
     FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
               scans, Outcome::kLatched},
-    with_second_scanner({"second_scanner_gone",
+    with_second_scanner({"rear_gone",
                          [](FaultBench& b) { b.robot().far_end().scanner(1).order(ScannerFault::kGone, 60s); }, nullptr,
                          Reason::kScanStale, scans, Outcome::kLatched}),
     FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
@@ -300,7 +300,7 @@ const std::array kCases{
         },
         repeats_for),
     with_second_scanner(contradiction(
-        "second_scan_repeats",
+        "rear_repeats",
         [](FaultBench& b) {
           deceive(b, {.repeats = {-4.0, 4.0}, .scanner = 1});
         },
