@@ -46,10 +46,11 @@ RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std
                      bool second_scanner) {
   const std::string scanner = "[[laser]]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n";
   write(folder / "model.toml", model_text(speed_mps));
-  write(folder / "robot.toml",
-        std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) + "\n" +
-            scanner + (second_scanner ? scanner + "mount = [-0.2, 0.0, 3.14159]\n" : "") + "[drive]\nkind = \"" +
-            name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
+  write(folder / "robot.toml", std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") +
+                                   std::to_string(rate_hz) + "\n" + scanner +
+                                   (second_scanner ? scanner + "mount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
+                                   "[drive]\nkind = \"" + name_of(kind) +
+                                   "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;
