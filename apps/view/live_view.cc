@@ -56,6 +56,8 @@ void LiveView::answer(std::string_view text, const view::Reply& reply) {
 void LiveView::begin(view::HelloScene hello, Duration tick) {
   model_ = hello.model;
   zone_.emplace(model_, tick);
+  if (!model_.other_lasers.empty())
+    std::fputs("jaywalk: the page draws every scanner; of the topics there, /scan is the first one's alone\n", stderr);
   hello.keeps_ticks = keeps_ticks_;
   hello.tick_s = to_seconds(tick);
   hello_ = to_json(hello);

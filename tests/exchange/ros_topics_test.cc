@@ -79,6 +79,35 @@ TEST_CASE("a recording's head keeps the wall clock, and has none where there was
   CHECK(setup_from_text(to_text(setup), "here").unix_from_loop == kWall + Duration{7});
 }
 
+TEST_CASE("each of two scanners has a topic and a frame of its own, and one alone the plain ones") {
+  RobotModel model = p3dx();
+  CHECK(of_scanner("/scan", model, 0) == "/scan");
+  LaserModel rear = model.laser;
+  rear.robot_from_laser = {-0.2, 0.0, kPi};
+  model.laser.robot_from_laser = {0.2, 0.0, 0.0};
+  REQUIRE(model.other_lasers.push_back(rear));
+  CHECK(of_scanner("/scan", model, 0) == "/scan_front");
+  CHECK(of_scanner("/scan", model, 1) == "/scan_rear");
+  Told told;
+  auto t = std::make_unique<TickRecord>();
+  t->scan.sequence = 1, t->scan.beam_count = 3, t->scan.range_max_m = 9.0F;
+  REQUIRE(t->other_scans.push_back(t->scan));
+  constexpr std::uint32_t kAll = kAllTopics | (1U << kOtherScans);
+  for (const std::uint32_t sequence : {1U, 1U, 2U}) {
+    set(*t, 1.0, 0.0, {}, model.drive);
+    t->other_scans[0].sequence = sequence;
+    told.topics.add(*t, {}, t->path, model, kAll);
+  }
+  CHECK(told.messages[kScan].size() == 1);
+  CHECK(told.messages[kOtherScans].size() == 2);  // each as it is new
+  CHECK(told.messages[kScan].front().find("laser_front") != std::string::npos);
+  CHECK(told.messages[kOtherScans].front().find("laser_rear") != std::string::npos);
+  const auto fixed = read_transforms(told.messages[kTfStatic].front(), Wire::kCdr);
+  REQUIRE((fixed && fixed->size() == 2));
+  CHECK(fixed->at(1).child == "laser_rear");
+  CHECK(fixed->at(1).parent_from_child.translation().x() == Approx(-0.2));
+}
+
 TEST_CASE("without wheels odom is the map") {
   const RobotModel model = p3dx();
   Told told;

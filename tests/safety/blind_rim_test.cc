@@ -54,6 +54,21 @@ TEST_CASE("a laser that looks all round leaves no blind rim") {
   CHECK(rim.too_fast(-0.6F, 1.0F) == 0.0F);
 }
 
+TEST_CASE("what one of two lasers looks at is watched, and what neither does is not") {
+  RobotModel robot = p3dx();
+  LaserModel rear = robot.laser;
+  robot.laser.robot_from_laser = {0.2, 0.0, 0.0};  // its 270 degrees end 6 cm behind the middle of the sides
+  rear.robot_from_laser = {-0.2, 0.0, kPi};
+  CHECK(motion::BlindRim(robot.footprint, robot.laser).is_behind());
+  REQUIRE(robot.other_lasers.push_back(rear));
+  const motion::BlindRim both(robot.footprint, robot.lasers());
+  CHECK_FALSE(both.is_behind());
+  CHECK(both.points() == 0);
+  robot.laser.fov_rad = robot.other_lasers[0].fov_rad = 0.5 * kPi;  // neither looks aside
+  const motion::BlindRim aside(robot.footprint, robot.lasers());
+  CHECK(aside.too_fast(0.0F, 1.0F) > 0.0F);
+}
+
 TEST_CASE("backing off as fast as is permitted, it turns only as the speed falls") {
   const motion::BlindRim blind(p3dx().footprint, p3dx().laser);
   REQUIRE(blind.too_fast(-0.28F, 0.0F) == 0.0F);

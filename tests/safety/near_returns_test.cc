@@ -57,6 +57,22 @@ TEST_CASE("along a wall it is braked to the speed whose margin the gap leaves") 
   CHECK(braked(beside_wall(0.1F), 0.6F, 0.0F) == 0.0F);
 }
 
+TEST_CASE("what either of two scanners hits brakes it") {
+  LaserScan open = beside_wall(0.07F);
+  open.range_m.fill(INFINITY);
+  const LaserScan wall = beside_wall(0.07F);
+  const SeenFrom nothing{&open, {}}, hit{&wall, {}};
+  const RobotState robot{.v = 0.6F};
+  const auto taken = [&](const SeenFrom& newest, const SeenFrom& other) {
+    NearReturns returns;
+    returns.update({newest, {&other, 1}}, robot, kBody, {}, {});
+    return returns.braked_share(moved(robot, {0.6F, 0.0F}, kBody.bounds, 0.3F), kBody);
+  };
+  CHECK(taken(nothing, nothing) == 0.0F);
+  CHECK(taken(hit, nothing) > 0.5F);
+  CHECK(taken(nothing, hit) == taken(hit, nothing));
+}
+
 TEST_CASE("it may leave what it stands beside: a wall's end behind its front, the wall by turning off") {
   CHECK(braked(beside_wall(0.05F, 0.15F), 0.3F, 0.0F) == Approx(1.0F - 0.1F / 0.3F).margin(0.02));  // to a creep
   CHECK(braked(beside_wall(0.05F, 0.15F), -0.3F, 0.0F) == 0.0F);
