@@ -4,6 +4,7 @@
 
 #include "hal/toml_file.h"
 #include "hal/types/errors.h"
+#include "planner/motion/blind_rim.h"
 #include "tests/robot/settings_bench.h"
 #include "tests/support/catch.h"
 
@@ -92,8 +93,18 @@ TEST_CASE("a text of several lines is refused with its line") {
   }
 }
 
+TEST_CASE("the example with two scanners at its corners looks all round") {
+  const RobotModel model = load_robot_file(std::string(JAYWALK_EXAMPLES) + "/two-scanners.toml").setup.model;
+  CHECK(model.lasers().size() == 2);
+  CHECK(scanner_name(model, 0) == "front");
+  CHECK(scanner_name(model, 1) == "rear");
+  CHECK(motion::BlindRim(model.footprint, model.lasers()).points() == 0);
+  CHECK(motion::BlindRim(model.footprint, model.laser).points() > 0);
+}
+
 TEST_CASE("the example robots load") {
-  for (const char* name : {"pioneer-p3dx", "cia402-base", "wheelchair", "turtlebot4", "jackal", "ros2-control-base"}) {
+  for (const char* name :
+       {"pioneer-p3dx", "cia402-base", "wheelchair", "two-scanners", "turtlebot4", "jackal", "ros2-control-base"}) {
     CAPTURE(name);
     const RobotFile robot = load_robot_file(std::string(JAYWALK_EXAMPLES) + "/" + name + ".toml");
     CHECK(robot.setup.model.limits.max_speed_mps <= 0.6);
