@@ -126,8 +126,11 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   robot.goal_heading_tolerance_rad = root.number("goal_heading_tolerance_rad");
   setup.rate_hz = root.number("rate_hz");
   std::vector<LaserWiring> wirings;
-  read_lasers(root.table_or_tables("laser"), setup.model,
-              [&](TomlTable& laser, LaserModel&) { wirings.push_back(read_wiring(laser)); });
+  read_lasers(root.table_or_tables("laser"), setup.model, [&](TomlTable& laser, LaserModel&) {
+    wirings.push_back(read_wiring(laser));
+    if (wirings.size() > 1 && wirings.back().kind == ScannerKind::kDds)
+      laser.refuse("kind", "brings the first scanner alone", "write that [[laser]] first, and wire the others");
+  });
   robot.laser = wirings.front();
   robot.other_lasers.assign(wirings.begin() + 1, wirings.end());
   const DriveModel nominal = setup.model.drive;

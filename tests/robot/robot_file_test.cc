@@ -334,6 +334,13 @@ TEST_CASE("[[laser]] once is [laser], and each further one is a scanner with a w
             .find("laser.mount is missing") != std::string::npos);
 }
 
+TEST_CASE("of several scanners the first alone may come from ROS 2") {
+  const std::string front = with("[laser]\nkind = \"sick-cola-b\"\nhost = \"10.0.0.2\"", "[[laser]]\nkind = \"dds\"");
+  const std::string rear = "[[laser]]\nkind = \"dds\"\ntopic = \"/scan_rear\"\nmount = [-0.2, 0.0, 3.14]\n";
+  CHECK(load(front).lasers()[0].kind == ScannerKind::kDds);
+  CHECK(refusal(front + rear).find("brings the first scanner alone") != std::string::npos);
+}
+
 TEST_CASE("two scanners are judged by what they see together, and each by where it stands") {
   const auto looking = [](const std::string& first, const std::string& second) {
     const std::string more = "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n";
