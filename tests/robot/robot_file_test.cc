@@ -1,70 +1,9 @@
-#include "firmware/robot/robot_file.h"
-
-#include <unistd.h>
-
 #include <cmath>
-#include <fstream>
-#include <string>
 
-#include "hal/types/errors.h"
-#include "tests/support/catch.h"
+#include "tests/robot/robot_file_text.h"
 
 using namespace jaywalk;
-
-namespace {
-
-constexpr const char* kGood = R"(model = "p3dx"
-start = [1.0, 2.0, 0.5]
-max_speed_mps = 0.5
-
-[laser]
-kind = "sick-cola-b"
-host = "10.0.0.2"
-range_m = 10.0
-
-[drive]
-kind = "cia402"
-can = "can0"
-counts_per_wheel_turn = 76600
-right_reversed = true
-)";
-
-class File {
- public:
-  explicit File(const std::string& text, const std::string& name = "robot")
-      : path_(std::filesystem::temp_directory_path() / (name + std::to_string(::getpid()) + ".toml")) {
-    std::ofstream(path_) << text;
-  }
-  ~File() { std::filesystem::remove(path_); }
-  [[nodiscard]] const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
-
-RobotFile load(const std::string& text) {
-  const File file(text);
-  return load_robot_file(file.path());
-}
-
-/// kGood with the first `from` replaced.
-std::string with(const std::string& from, const std::string& to) {
-  std::string text = kGood;
-  return text.replace(text.find(from), from.size(), to);
-}
-
-/// What is said about the file, from its line on.
-std::string refusal(const std::string& text) {
-  try {
-    static_cast<void>(load(text));
-  } catch (const StartupError& error) {
-    const std::string said = error.what();
-    return said.substr(said.find(".toml:") + 6);  // the stop zone's refusal has no line
-  }
-  return "loaded";
-}
-
-}  // namespace
+using namespace jaywalk::tests;
 
 TEST_CASE("places have names of their own, with a heading or without") {
   const std::string two = std::string(kGood) + "[[places]]\nname = \"kitchen\"\nat = [4.0, 1.5, 1.57]\n" +
@@ -265,35 +204,6 @@ TEST_CASE("what is wrong in a robot file is refused with its line") {
             .rfind("13: drive.controller_timeout_ms is 1000; ", 0) == 0);
 }
 
-TEST_CASE("a file that blinds the robot ahead is refused, a gap that is as wide as a post is not") {
-  const auto laser = [](const std::string& keys) { return with("range_m = 10.0", "range_m = 10.0\n" + keys); };
-  const auto blanked = [&](double from_deg, double to_deg) {
-    return std::string(kGood) + "\n[[laser.blanked]]\nfrom_deg = " + std::to_string(from_deg) +
-           "\nto_deg = " + std::to_string(to_deg) + "\n";
-  };
-  CHECK(refusal(blanked(-100.0, 100.0)).find("laser.mount, fov_deg, blanked: the laser does not look at") !=
-        std::string::npos);
-  CHECK(refusal(blanked(-30.0, 30.0)).find("of the way ahead") != std::string::npos);
-  CHECK(refusal(blanked(10.0, 14.0)) == "loaded");
-  CHECK(refusal(blanked(100.0, 130.0)) == "loaded");
-  CHECK(refusal(laser("mount = [0.0, 0.0, 3.14159]")).find("100 % of the way ahead") != std::string::npos);
-  CHECK(refusal(laser("mount = [0.1, 0.0, 2.5]")).find("of the way ahead") != std::string::npos);
-  CHECK(refusal(laser("mount = [0.1, 0.0, 0.3]")) == "loaded");
-  CHECK(refusal(laser("fov_deg = 30.0\nbeams = 200\nmount = [0.2, 0.0, 0.0]")).find("max_speed_mps = 0.3") !=
-        std::string::npos);
-  CHECK(refusal(laser("mount = [5.0, 0.0, 0.0]")).find("laser.mount: the laser stands 4.8 m off the body; ") !=
-        std::string::npos);
-  CHECK(refusal(laser("mount = [0.3, 0.1, 0.0]")) == "loaded");
-}
-
-TEST_CASE("half of the way may be out of sight of a robot that does not go faster than 0.3 m/s") {
-  const std::string gap = "\n[[laser.blanked]]\nfrom_deg = 0\nto_deg = 40\n";
-  CHECK(refusal(kGood + gap).find("for up to half of the way, set max_speed_mps = 0.3") != std::string::npos);
-  CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 0.3") + gap) == "loaded");
-  CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 0.3") +
-                "\n[[laser.blanked]]\nfrom_deg = -60\nto_deg = 60\n") != "loaded");
-}
-
 TEST_CASE("wheels, track and gear that no such robot has are refused") {
   const auto drive = [](const std::string& keys) { return with("can = \"can0\"", "can = \"can0\"\n" + keys); };
   const auto both = [&](const std::string& radius) {
@@ -317,40 +227,6 @@ TEST_CASE("wheels, track and gear that no such robot has are refused") {
   CHECK(refusal(motors("odrive", "motor_turns_per_wheel_turn = 900")).find("times a minute") != std::string::npos);
   CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn = 9000")).find("times a minute") != std::string::npos);
   CHECK(refusal(motors("vesc", "electrical_turns_per_wheel_turn = 15")) == "loaded");
-}
-
-TEST_CASE("[[laser]] once is [laser], and each further one is a scanner with a wire and a mount of its own") {
-  CHECK(load(with("[laser]", "[[laser]]")).lasers().size() == 1);
-  const std::string rear =
-      "[[laser]]\nkind = \"ld19\"\ndevice = \"/dev/ttyUSB1\"\nmount = [-0.2, 0.0, 3.14]\nbeams = 720\n";
-  const RobotFile robot = load(with("[laser]", "[[laser]]") + rear);
-  REQUIRE(robot.lasers().size() == 2);
-  CHECK(robot.lasers()[0].host == "10.0.0.2");
-  CHECK(robot.lasers()[1].device == "/dev/ttyUSB1");
-  REQUIRE(robot.setup.model.lasers().size() == 2);
-  CHECK(robot.setup.model.lasers()[1].beams == 720);
-  CHECK(robot.setup.model.lasers()[1].range_max_m == 10.0);  // like the first
-  CHECK(refusal(with("[laser]", "[[laser]]") + "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n")
-            .find("laser.mount is missing") != std::string::npos);
-}
-
-TEST_CASE("of several scanners the first alone may come from ROS 2") {
-  const std::string front = with("[laser]\nkind = \"sick-cola-b\"\nhost = \"10.0.0.2\"", "[[laser]]\nkind = \"dds\"");
-  const std::string rear = "[[laser]]\nkind = \"dds\"\ntopic = \"/scan_rear\"\nmount = [-0.2, 0.0, 3.14]\n";
-  CHECK(load(front).lasers()[0].kind == ScannerKind::kDds);
-  CHECK(refusal(front + rear).find("brings the first scanner alone") != std::string::npos);
-}
-
-TEST_CASE("two scanners are judged by what they see together, and each by where it stands") {
-  const auto looking = [](const std::string& first, const std::string& second) {
-    const std::string more = "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n";
-    return refusal(with("[laser]", "[[laser]]\n" + first) + more + second);
-  };
-  const std::string back = "mount = [-0.2, 0.0, 3.14]\nfov_deg = 180\n", ahead = "mount = [0.2, 0.0, 0.0]\n";
-  CHECK(refusal(with("[laser]", "[laser]\n" + back)).find("does not look at") != std::string::npos);
-  CHECK(looking(back, ahead) == "loaded");
-  CHECK(looking(ahead, back) == "loaded");
-  CHECK(looking(ahead, "mount = [-0.9, 0.0, 3.14]\n").find("off the body") != std::string::npos);
 }
 
 TEST_CASE("a model whose wheels cannot do what it promises is refused") {
