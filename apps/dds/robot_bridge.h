@@ -58,7 +58,7 @@ class RobotBridge {
   exchange::OdometryFeed odometry_feed_;
   std::optional<RingHolder> scan_ring_, state_ring_, order_ring_;
   std::map<std::string, std::uint64_t> complaints_;
-  std::optional<float> left_radps_;  ///< of an order whose right wheel is to come
+  std::optional<float> left_radps_;  ///< left half of an order, until the right half comes
   Time ordered_ = kNever, zero_sent_ = kNever;
   std::uint64_t alarms_ = 0;
 };

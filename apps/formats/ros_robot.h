@@ -10,8 +10,9 @@
 
 namespace jaywalk::exchange {
 
-/// When a message was sent, by our clock: its arrival less what it was longer under way than the fastest, as its own
-/// stamps tell. Stamps that stand still or go back (a clock was set, or nobody sets them) tell nothing: its arrival.
+/// When a message was sent, by our clock: its arrival minus its extra delay. The message's own stamps give the delay
+/// beyond that of the fastest message. Where stamps do not increase (the sender's clock was set back, or never set)
+/// the time of arrival is used.
 class SentTimes {
  public:
   [[nodiscard]] Time sent(Time stamp, Time arrival) noexcept;

@@ -36,8 +36,8 @@ struct ScannerSetup {
   std::uint32_t baud = 0;     ///< 0: the maker's own
   float range_min_m = 0.05F;  ///< SICK on a network; the others say theirs or have it by their kind
   float range_max_m = 10.0F;
-  std::string topic{};            ///< of a ROS 2 one, whose shared ring `device` is
-  bool infinity_is_free = false;  ///< of a ROS 2 one
+  std::string topic{};            ///< ROS 2 only; `device` is then the path of its shared ring
+  bool infinity_is_free = false;  ///< ROS 2 only: infinity means free room, not a failed measurement
 };
 
 /// The scanner, not started yet. Throws StartupError where the setup cannot be: neither host nor device, both, or one

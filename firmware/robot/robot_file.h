@@ -22,8 +22,8 @@ struct LaserWiring {
   std::uint16_t port = 0;
   std::string device;
   std::uint32_t baud = 0;
-  std::string topic;                                     ///< of a ROS 2 one
-  bool reliable = false;                                 ///< its scans are asked for again where they are lost
+  std::string topic;                                     ///< ROS 2 only
+  bool reliable = false;                                 ///< ROS 2 only: lost scans are sent again
   bool infinity_is_free = false;                         ///< of a ROS 2 one
   Duration first_scan_limit = std::chrono::seconds(10);  ///< at start; a scanner may still be waking up
 };

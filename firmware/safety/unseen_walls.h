@@ -42,7 +42,7 @@ class UnseenWalls {
     std::size_t scanner, beam;
     int inward;  ///< 1 or -1: to the next beam that looks
   };
-  /// The wall whose hits begin at the rim and go on inward.
+  /// Fits a line to the hits from the rim of sight inward, and continues it out of sight.
   void continue_wall(const LaserScan& scan, const OfEach<BlindGaps>& gaps, const Rim& rim) noexcept;
   void add_line(const OfEach<BlindGaps>& gaps, Vec2 from, Vec2 along, double length_m) noexcept;
   void add(const OfEach<BlindGaps>& gaps, Vec2 point) noexcept;

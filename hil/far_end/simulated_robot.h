@@ -17,7 +17,7 @@ struct FalseSenses {
   BlankedSector repeats{0.0, 0.0};  ///< in the laser's frame: its ranges stay, but for noise and one beam that moves
   double mount_turned_rad = 0.0;    ///< the scanner in its mount
   bool counters_stand = false;      ///< both wheels' positions; their speeds go on
-  std::size_t scanner = 0;          ///< whose senses these are
+  std::size_t scanner = 0;          ///< index of the scanner that these faults apply to
 };
 
 /// The simulated world as the far end of real wires: two drives turn its wheels, a scanner looks round in it. World

@@ -36,6 +36,12 @@ SharedRing::Took read(SharedRing& ring, Message& message) {
   return ring.read(std::as_writable_bytes(std::span(message)));
 }
 
+void overwrite(const RingPath& path, std::size_t at, char byte) {
+  std::fstream file(path.path(), std::ios::in | std::ios::out | std::ios::binary);
+  file.seekp(static_cast<std::streamoff>(at));
+  file.put(byte);
+}
+
 /// The next whole message's number; 0 where none waits.
 std::uint64_t next_of(SharedRing& ring) {
   Message message{};
@@ -85,13 +91,10 @@ TEST_CASE("any bytes in the file are no message, and the next one written is rea
   const auto writer = SharedRing::find(path, kShape);
   tests::RandomBytes random(61);
   for (std::uint64_t round = 1; round <= 2000; ++round) {
-    {
-      std::fstream file(path.path(), std::ios::in | std::ios::out | std::ios::binary);
-      const auto size = static_cast<std::size_t>(std::filesystem::file_size(path.path()));
-      for (int k = 0; k < 40; ++k) {
-        file.seekp(static_cast<std::streamoff>(random.below(size)));
-        file.put(static_cast<char>(random.below(256)));
-      }
+    const auto size = static_cast<std::size_t>(std::filesystem::file_size(path.path()));
+    for (int k = 0; k < 40; ++k) {
+      const std::size_t at = random.below(size);
+      overwrite(path, at, static_cast<char>(random.below(256)));
     }
     Message message{};
     for (int k = 0; k < 8; ++k) static_cast<void>(read(*reader, message));
@@ -108,12 +111,8 @@ TEST_CASE("a slot that holds another message than its turn's is torn") {
   const auto reader = SharedRing::make(path, kShape);
   const auto writer = SharedRing::find(path, kShape);
   write(*writer, 1);
-  {
-    std::fstream file(path.path(), std::ios::in | std::ios::out | std::ios::binary);
-    constexpr std::size_t kSlot = 8 + kShape.message_bytes;
-    file.seekp(static_cast<std::streamoff>(std::filesystem::file_size(path.path()) - 3 * kSlot));
-    file.put(5);  // in place of 1, in the second slot of four
-  }
+  constexpr std::size_t kSlot = 8 + kShape.message_bytes;
+  overwrite(path, std::filesystem::file_size(path.path()) - 3 * kSlot, 5);  // in place of 1, in the second slot of four
   Message message{};
   CHECK(read(*reader, message) == SharedRing::Took::kTorn);
   write(*writer, 2);

@@ -160,7 +160,7 @@ class CarmenReader {
     if (!log_.odometry.empty() && stamp <= log_.odometry.back().stamp) return log_.refuse(place, kOdomStands);
     log_.odometry.push_back(event.pose);
   }
-  /// Drops all ODOM lines, and no longer reports those whose time does not grow.
+  /// Uses the scans' own poses as odometry in place of all ODOM lines, and takes back their refusals for wrong times.
   void leave_out_odometry(const std::string& file) {
     log_.odometry = std::move(poses_.poses);
     std::erase_if(log_.refused, [](const RefusedLines& r) { return r.cause == kOdomStands; });

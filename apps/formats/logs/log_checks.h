@@ -12,8 +12,8 @@ namespace jaywalk::sim {
 
 inline constexpr double kNoLimit = std::numeric_limits<double>::infinity();
 
-/// Collects a log's scans in the order of recording. Both functions skip and count bad scans: add() those whose beam
-/// angles are invalid, settle_times() those with wrong stamps (judge_times).
+/// The scans of a log, in the order of recording. add() skips and counts scans with invalid beam angles;
+/// settle_times() skips and counts scans with wrong stamps (judge_times).
 class LogScans {
  public:
   explicit LogScans(RecordedLog& log) : log_(log) {}
