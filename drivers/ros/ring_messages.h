@@ -49,6 +49,13 @@ struct WheelFrame {
 };
 inline constexpr double kAngle_rad = 1e-4;  ///< 10 um of way
 
+/// Whether a stamp found in a ring can be a time of this run: not in the future, and at most ten seconds old.
+[[nodiscard]] inline bool is_recent(std::int64_t stamp_ns, Time now) noexcept {
+  constexpr Duration kOldest = std::chrono::seconds(10);
+  const std::int64_t now_ns = now.time_since_epoch().count();
+  return stamp_ns <= now_ns && stamp_ns >= now_ns - kOldest.count();
+}
+
 [[nodiscard]] inline CanFrame to_frame(std::uint32_t id, const WheelFrame& wheel) noexcept {
   return {.id = id, .size = 8, .bytes = std::bit_cast<std::array<std::uint8_t, 8>>(wheel)};
 }

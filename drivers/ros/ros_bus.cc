@@ -4,13 +4,10 @@ namespace jaywalk::ros {
 
 namespace {
 
-constexpr Duration kOldest = std::chrono::seconds(10);  // in a ring: what is older is no time of ours
-
 bool is_sound(const BaseMessage& message, Time now) noexcept {
   const bool is_known = message.id >= kWheel && message.id <= kOtherMaster;
   const bool has_size = message.size <= message.bytes.size();
-  const std::int64_t now_ns = now.time_since_epoch().count();
-  return is_known && has_size && message.stamp_ns <= now_ns && message.stamp_ns >= now_ns - kOldest.count();
+  return is_known && has_size && is_recent(message.stamp_ns, now);
 }
 
 }  // namespace

@@ -8,7 +8,6 @@ namespace {
 
 constexpr float kTurn_rad = 6.2832F, kHalfStep_rad = 0.01F, kFarthest_m = 1000.0F;
 constexpr Duration kLongestPeriod = std::chrono::seconds(2);
-constexpr Duration kOldest = std::chrono::seconds(10);  // in a ring: what is older is no time of ours
 
 // Written so that what is no number is refused.
 bool makes_a_fan(const ScanMessage& m) noexcept {
@@ -23,9 +22,8 @@ bool has_limits(const ScanMessage& m) noexcept {
 
 bool has_times(const ScanMessage& m, Time arrival) noexcept {
   const auto within = [](std::int64_t ns, Duration most) { return ns >= 0 && ns <= most.count(); };
-  const std::int64_t now_ns = arrival.time_since_epoch().count();
   return within(m.period_ns, kLongestPeriod) && m.period_ns > 0 && within(m.sweep_ns, Duration(m.period_ns)) &&
-         m.stamp_ns <= now_ns && m.stamp_ns >= now_ns - kOldest.count();
+         is_recent(m.stamp_ns, arrival);
 }
 
 float range_of(float range_m, float range_max_m, bool infinity_is_free) noexcept {

@@ -51,8 +51,8 @@ Eigen::Matrix3d unknown_way(const ArcStep& step) {
   return diagonal(height_m * height_m, height_m * height_m, 0.0);
 }
 
-/// What is remembered of one scanner.
-struct Eye {
+/// What is kept for one scanner.
+struct ScannerState {
   Pose2 robot_from_laser;
   ScanProjection projection{};
   SlipDetector matcher{};
@@ -71,7 +71,7 @@ struct Localizer::State {
         since_last_match(covariance),
         if_wheels_slipped(covariance),
         at_last_wheels(covariance) {
-    for (const Pose2& mount : OfEach<Pose2>(c.robot_from_laser, c.robot_from_others)) eyes.push_back({mount});
+    for (const Pose2& mount : OfEach<Pose2>(c.robot_from_laser, c.robot_from_others)) scanners.push_back({mount});
     publish();
   }
 
@@ -113,7 +113,7 @@ struct Localizer::State {
   MatchSample sample;
   ScanPoints points;
   std::uint32_t wheels_seen = 0, fix_seen = 0;
-  std::vector<Eye> eyes;
+  std::vector<ScannerState> scanners;
   ScanOrder order;
   std::size_t scanner = 0;        ///< of the scan that was taken last
   Pose2 odom_from_robot_at_scan;  ///< at it
@@ -212,15 +212,15 @@ PoseBelief Localizer::State::coasted(Time stamp) const noexcept {
 
 bool Localizer::State::match(const LaserScan& scan, const EvidenceMap& still, std::span<const Track> moving) noexcept {
   if (!config.match_scans || doubt.is_doubtful()) return false;
-  Eye& eye = eyes[scan.scanner];
-  eye.projection.project(scan, eye.robot_from_laser, twist, points);
+  ScannerState& own = scanners[scan.scanner];
+  own.projection.project(scan, own.robot_from_laser, twist, points);
   const Pose2 predicted = map_from_odom * odom_from_robot_at_scan;
   const auto seen = static_cast<double>(points.size());
   mask_moving_tracks(moving, predicted, scan.stamp, points);
   const bool among_walkers = static_cast<double>(points.size()) < (1.0 - kAmongWalkers) * seen;
   const bool learnt = odometry.by_wheels() && !odometry_noise.nothing_known();
   const MatchResult found =
-      eye.matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
+      own.matcher.match(points, still, {predicted, covariance, if_wheels_slipped, learnt, coasted(scan.stamp)});
   if (found.matched || found.contradicted) judge_map(found, predicted);
   if (among_walkers && odometry.by_wheels() && !found.known_for_long) return false;
   if (!map_explains && match_submap(predicted)) return true;
@@ -236,7 +236,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   if (!late && odometry.wheels_silent(scan.stamp)) coast_to(scan.stamp);
   odom_from_robot_at_scan = odometry.at(scan.stamp);
   const bool matched = match(scan, still, moving);
-  eyes[scan.scanner].odom_from_robot = odom_from_robot_at_scan;
+  scanners[scan.scanner].odom_from_robot = odom_from_robot_at_scan;
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
   if (!doubt.is_doubtful()) {
     sample_of(points, sample);
@@ -291,7 +291,7 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
                                       const EvidenceMap& still, std::span<const Track> moving) noexcept {
   State& s = *state_;
   if (wheels.sequence != s.wheels_seen) s.move_by_wheels(wheels);
-  std::uint32_t& seen = s.eyes[scan.scanner].seen;
+  std::uint32_t& seen = s.scanners[scan.scanner].seen;
   if (scan.sequence != 0 && scan.sequence != seen) s.place_scan(scan, still, moving);
   if (fix.sequence != s.fix_seen && fix.has_pose) s.blend(fix);
   s.wheels_seen = wheels.sequence;
@@ -303,7 +303,7 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
 
 Pose2 Localizer::map_from_robot_at_scan(std::size_t scanner) const noexcept {
   const State& s = *state_;
-  return scanner == s.scanner ? s.map_from_robot_at_scan : s.map_from_odom * s.eyes[scanner].odom_from_robot;
+  return scanner == s.scanner ? s.map_from_robot_at_scan : s.map_from_odom * s.scanners[scanner].odom_from_robot;
 }
 const Twist2& Localizer::twist() const noexcept { return state_->twist; }
 

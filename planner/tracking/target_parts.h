@@ -80,7 +80,7 @@ struct Existence {
   double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
   std::uint32_t misses = 0;       ///< scans in a row that did not see it, from the first of its finder's on
   std::size_t finder = 0;         ///< the scanner that saw it last
-  bool told = true;               ///< the newest scan saw it or missed it: another scanner's says nothing of it
+  bool scan_counts = true;        ///< the newest scan is a hit or a miss of it; that of another scanner may be neither
   bool maybe_pedestrian = false;  ///< it moved, or stood on two legs: it may be a pedestrian from then on
   bool settled = false;           ///< stands for good: its points may become walls
 

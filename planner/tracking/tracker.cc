@@ -111,8 +111,8 @@ void Tracker::State::associate_and_correct() noexcept {
     Observation seen;
     Existence& existence = target.existence;
     const bool found = observe(target.estimate.track, target.appearance, scene().detections, seen);
-    existence.told = found || existence.finder == scanner || existence.misses > 0;
-    if (!existence.told) continue;
+    existence.scan_counts = found || existence.finder == scanner || existence.misses > 0;
+    if (!existence.scan_counts) continue;
     existence.seen_share += kMeanGain * ((found ? 1.0 : 0.0) - existence.seen_share);
     if (found) {
       existence.finder = scanner;
@@ -128,7 +128,7 @@ void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexce
   const Surroundings around{sight, still, scene().map_from_laser, map_from_first};
   for (Target& target : targets) {
     if (unreliable && !target.existence.given) forget_walk(target, map_from_first, now);
-    if (target.existence.told) judge_motion(target, around, now);
+    if (target.existence.scan_counts) judge_motion(target, around, now);
   }
 }
 
