@@ -139,9 +139,7 @@ PlannerConfig ControlSetup::planner() const {
 
 motion::MotionSetup ControlSetup::motion() const {
   return {.model = model,
-          .to_goal = mode == PlanMode::kPaper ? motion::MotionKind::kPath
-                     : has_long_body()        ? motion::MotionKind::kLongRollouts
-                                              : motion::MotionKind::kRollouts,
+          .to_goal = mode == PlanMode::kPaper ? motion::MotionKind::kPath : motion::MotionKind::kRollouts,
           .constant_speed = keeps_speed(),
           .steering = steering,
           .comfort_distance_m = comfort_distance_m,

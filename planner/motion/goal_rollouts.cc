@@ -106,10 +106,10 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           decision_.stall,
           kArriveWithin * static_cast<float>(setup_.goal_tolerance_m),
           nullptr,
-          is_long() ? &poses : nullptr,
+          setup_.constant_speed ? nullptr : &poses,
           decision_.goal_heading,
           decision_.wants_heading,
-          is_long() ? conflict_price() : price::kConflict};
+          body_.is_long && !setup_.constant_speed ? conflict_price() : price::kConflict};
 }
 
 void GoalRollouts::search(const Situation& situation) noexcept {

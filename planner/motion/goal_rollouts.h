@@ -36,7 +36,6 @@ class GoalRollouts final : public RolloutMotion {
   void choose(const World& world, const Guide& ground) noexcept override;
   [[nodiscard]] Next next(const World& world, const Intent& intent, const RobotState& now) noexcept override;
 
-  [[nodiscard]] bool is_long() const noexcept { return setup_.to_goal == MotionKind::kLongRollouts; }
   [[nodiscard]] Situation situation(const Guide& guide, const PoseGuide& poses) const noexcept;
   [[nodiscard]] float conflict_price() const noexcept;
   void search(const Situation& situation) noexcept;

@@ -3,7 +3,6 @@
 #include <utility>
 
 #include "planner/motion/goal_rollouts.h"
-#include "planner/motion/leaving_motion.h"
 #include "planner/motion/path_motion.h"
 #include "planner/motion/steered_motion.h"
 
@@ -19,8 +18,6 @@ std::unique_ptr<Motion> make_motion_to_goal(const MotionSetup& setup) {
 
 std::unique_ptr<Motion> make_motion(const MotionSetup& setup) {
   std::unique_ptr<Motion> to_goal = make_motion_to_goal(setup);
-  if (setup.to_goal == MotionKind::kRollouts && !setup.constant_speed)
-    to_goal = std::make_unique<LeavingMotion>(setup, std::move(to_goal));
   if (setup.steering == StickUse::kNone) return to_goal;
   return std::make_unique<SteeredMotion>(setup, std::move(to_goal));
 }

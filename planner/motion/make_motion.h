@@ -12,9 +12,8 @@ namespace jaywalk::motion {
 
 /// What kind of motion takes the robot to its goal.
 enum class MotionKind : std::uint8_t {
-  kRollouts,      ///< of a nearly round body
-  kLongRollouts,  ///< of a long one, by the time to go from poses
-  kPath,          ///< along the path at constant speed, as in the paper
+  kRollouts,
+  kPath,  ///< along the path at constant speed, as in the paper
 };
 
 struct MotionSetup {

@@ -28,7 +28,7 @@ constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
 constexpr int kStraights = 12;  ///< directions, all round
 
 constexpr int kSteerEvery = 3;     ///< steps
-constexpr int kSteerWayEvery = 2;  ///< the same, of a long body
+constexpr int kSteerWayEvery = 2;  ///< the same, along a way of poses
 constexpr float kLookM = 0.5F;     ///< the guide is asked this far off
 constexpr std::size_t kDirections = 16;
 constexpr float kSharpness = 8.0F;  ///< of the choice between directions side by side, 1/s

@@ -22,7 +22,8 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const OfEach<Las
   body.outline = BodyOutline::of(f);
   body.to_walls = BodyDiscs::covering(f, kOverSides_m);
   body.to_movers = BodyDiscs::covering(f, kOverSidesAmongMovers_m);
-  if (outer < f.inscribed_radius_m() + kNearlyRound_m) {
+  body.is_long = outer > f.inscribed_radius_m() + kNearlyRound_m;
+  if (!body.is_long) {
     body.to_movers = {};
     body.to_movers.count = 1;
     body.to_movers.radius = static_cast<float>(outer);

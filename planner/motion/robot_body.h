@@ -16,6 +16,7 @@ struct RobotBody {
   BodyOutline outline;              ///< to walls, where a person steers: discs reach beyond a long body's ends
   std::array<Place, 8> rim{};       ///< corners and the sides' middles, in the robot's frame
   float rim_m = 0.0F;               ///< farthest point from the axle
+  bool is_long = false;             ///< not nearly round
   float comfort_distance_m = 1.0F;  ///< from a disc's middle to a mover's: nearer costs
   BlindRim blind;                   ///< where the supervisor lets it go slowly
   MotionBounds bounds;

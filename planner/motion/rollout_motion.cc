@@ -7,6 +7,7 @@ namespace jaywalk::motion {
 namespace {
 
 constexpr float kTurnOnSpot_radps = 0.6F;  // as a passenger likes it
+constexpr float kRoomToTurn = 2.5F;        // beyond the corners' circle, in what they reach out of the sides'
 
 Seen seen_in(const World& world, const OfEach<SeenFrom>& scans, const Guide& ground) noexcept {
   return {world.now,
@@ -60,10 +61,9 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   decision_.seen = world.scan.stamp;
 }
 
-/// Of a long body, which backs and turns where no laser looks; a round one is led off what it stands beside first.
+/// For it backs and turns where no laser looks.
 void RolloutMotion::place_unseen_walls(const World& world) noexcept {
   unseen_walls_.clear();
-  if (setup_.to_goal != MotionKind::kLongRollouts) return;
   const Transform2 map_from_robot(world.map_from_robot);
   for (const Vec2 wall : world.unseen_walls) {
     if (!unseen_walls_.push_back(map_from_robot * wall)) return;
@@ -97,10 +97,20 @@ PlanRequest RolloutMotion::request(const World& world) const noexcept {
           .poses = poses_asked(world)};
 }
 
+/// Near what its corners would swing into: about a long body that is everything in sight. Elsewhere a robot that turns
+/// on the spot goes by the time to go from places.
+bool RolloutMotion::heading_counts(const World& world) const noexcept {
+  const Guide& guide = world.plan.guide;
+  const Vec2 here = world.map_from_robot.position();
+  const float corners_m = body_.rim_m - static_cast<float>(setup_.model.footprint.inscribed_radius_m());
+  const float turns_in_m = body_.rim_m + kRoomToTurn * corners_m;
+  return !guide.known() || guide.room(static_cast<float>(here.x), static_cast<float>(here.y)) < turns_in_m;
+}
+
 PoseRequest RolloutMotion::poses_asked(const World& world) const noexcept {
   const MotionBounds& b = body_.bounds;
   const float spot = std::fabs(body_.blind.slowed({0.0F, std::min(b.turn, kTurnOnSpot_radps)}).w);
-  return {.is_asked = setup_.to_goal == MotionKind::kLongRollouts,
+  return {.is_asked = !setup_.constant_speed && heading_counts(world),
           .speeds = {.forward = b.speed, .back = b.back, .turn = b.turn, .spot = spot},
           .arrives_m = 0.5F * static_cast<float>(setup_.goal_tolerance_m),
           .wants_heading = world.input.wants_heading(),

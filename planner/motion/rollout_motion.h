@@ -76,6 +76,7 @@ class RolloutMotion : public Motion {
   virtual void choose(const World& world, const Guide& ground) noexcept = 0;
   [[nodiscard]] virtual Next next(const World& world, const Intent& intent, const RobotState& now) noexcept = 0;
 
+  [[nodiscard]] bool heading_counts(const World& world) const noexcept;
   [[nodiscard]] PoseRequest poses_asked(const World& world) const noexcept;
   void place_unseen_walls(const World& world) noexcept;
 

@@ -21,12 +21,12 @@ struct Situation {
   StallState stall;                     ///< where it has been since it last made progress
   float arrives_within_m = 0.0F;        ///< of the goal: there
   const StickRollout* stick = nullptr;  ///< driven by the stick: nearness to this counts, and no goal
-  const PoseGuide* poses = nullptr;     ///< of a long body; null for one that is nearly round
+  const PoseGuide* poses = nullptr;     ///< null: the heading counts nowhere
   float goal_heading = 0.0F;            ///< wanted at the goal, where `wants_heading`
   bool wants_heading = false;
   float conflict_price_s = price::kConflict;  ///< of being in a mover's way
 
-  [[nodiscard]] bool is_long() const noexcept { return poses != nullptr; }
+  [[nodiscard]] bool is_long() const noexcept { return body.is_long && poses != nullptr; }
   /// Whether there is a way from poses near the robot.
   [[nodiscard]] bool goes_by_poses() const noexcept { return poses != nullptr && poses->known; }
   [[nodiscard]] float time_to_go(const RobotState& at) const noexcept {

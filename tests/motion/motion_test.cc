@@ -6,6 +6,7 @@
 #include "apps/rivals/baseline.h"
 #include "planner/motion/make_motion.h"
 #include "tests/motion/ground.h"
+#include "tests/motion/guided.h"
 #include "tests/motion/moment.h"
 #include "tests/support/catch.h"
 
@@ -15,10 +16,7 @@ using namespace jaywalk::motion;
 namespace {
 
 MotionSetup setup_of(MotionKind kind, bool constant_speed = false, StickUse steering = StickUse::kNone) {
-  return {.model = kind == MotionKind::kLongRollouts ? wheelchair() : p3dx(),
-          .to_goal = kind,
-          .constant_speed = constant_speed,
-          .steering = steering};
+  return {.model = p3dx(), .to_goal = kind, .constant_speed = constant_speed, .steering = steering};
 }
 
 /// What a command rests on in that moment.
@@ -70,7 +68,7 @@ TEST_CASE(
   moment.tracks = {walker};
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
-  for (const MotionKind kind : {MotionKind::kRollouts, MotionKind::kLongRollouts, MotionKind::kPath}) {
+  for (const MotionKind kind : {MotionKind::kRollouts, MotionKind::kPath}) {
     const bool follows = kind == MotionKind::kPath;
     const auto motion = make_motion(setup_of(kind, follows));
     moment.decide(*motion);
@@ -80,18 +78,34 @@ TEST_CASE(
     CHECK(request.moving.size() == (follows ? 1 : 0));
     CHECK(request.masked.size() == (follows ? 0 : 1));
     CHECK(request.wants_potential == follows);
-    CHECK(request.poses.is_asked == (kind == MotionKind::kLongRollouts));
     CHECK((motion->plan_every() > Duration{0}) != follows);
     CHECK((motion->rollouts() != nullptr) != follows);
   }
 }
 
+TEST_CASE("the time from poses is asked for where corners may swing into something, never at constant speed") {
+  test::Guided ground;
+  ground.wall({-4.0, 1.0}, {4.0, 1.0});
+  const auto asks = [&](const RobotModel& model, Vec2 at, Vec2 goal, bool constant = false) {
+    tests::Moment moment(ground.map());
+    moment.pose = {at.x, at.y, 0.0};
+    moment.go_to(goal);
+    moment.plan.guide = ground.towards(at, goal);
+    MotionSetup setup = setup_of(MotionKind::kRollouts, constant);
+    setup.model = model;
+    return make_motion(setup)->request(moment.world()).poses.is_asked;
+  };
+  const Vec2 open{0.0, -1.0}, beside{0.0, 0.6}, goal{0.0, -3.5};
+  CHECK_FALSE(asks(p3dx(), open, goal));
+  CHECK(asks(p3dx(), beside, goal));
+  CHECK(asks(wheelchair(), open, goal));
+  CHECK_FALSE(asks(p3dx(), beside, goal, true));
+}
+
 TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it; at constant speed it cannot") {
   const tests::Ground ground;
-  for (const auto& [kind, constant] : {std::pair{MotionKind::kRollouts, false},
-                                       {MotionKind::kRollouts, true},
-                                       {MotionKind::kLongRollouts, false},
-                                       {MotionKind::kPath, true}}) {
+  for (const auto& [kind, constant] :
+       {std::pair{MotionKind::kRollouts, false}, {MotionKind::kRollouts, true}, {MotionKind::kPath, true}}) {
     tests::Moment moment(ground.map());
     moment.go_to({});
     moment.input.goal_heading_rad = 1.0;
