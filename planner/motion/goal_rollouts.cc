@@ -73,14 +73,15 @@ bool GoalRollouts::is_to_decide(const World& world, const Intent& intent, const 
 
 void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   const Place goal = {static_cast<float>(world.input.goal_in_map.x), static_cast<float>(world.input.goal_in_map.y)};
-  if (!(goal == decision_.goal)) stall_.least_to_go_s = 0.0F;  // that was the time to another goal
+  if (!(goal == decision_.goal)) stalled_since_ = kNever;  // that was the time to another goal
   decision_.goal = goal;
   decision_.turned = turned_;
   decision_.wants_heading = !setup_.constant_speed && world.input.wants_heading();
   decision_.goal_heading = decision_.wants_heading ? static_cast<float>(world.input.goal_heading_rad) : 0.0F;
   const PoseGuide& poses = world.plan.poses;
-  decision_.stall = stall(decision_.start, guide, poses, world.now);
-  const Situation situation = this->situation(guide, poses);
+  Situation situation = this->situation(guide, poses);
+  note_progress(situation, world.now);
+  situation.stall = decision_.stall = stall_;
   best_cost_ = {.time = 1e9F};
   float to_beat = 1e9F;
   decision_.went_on = holds(world.now);
@@ -150,22 +151,16 @@ float GoalRollouts::conflict_price() const noexcept {
   return std::clamp(1.0F / std::max(met_hz, 1e-3F), price::kLeastConflict, price::kConflict);
 }
 
-StallState GoalRollouts::stall(const RobotState& here, const Guide& guide, const PoseGuide& poses, Time now) noexcept {
-  const std::span<const MoverBelief> beliefs = memory().beliefs();
-  const bool alone = memory().hidden().empty() &&
-                     std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
-  const float to_go = !alone        ? 0.0F
-                      : poses.known ? poses.time_to_go(guide, here.x, here.y, here.heading)
-                                    : guide.time_to_go(here.x, here.y);
-  const bool was_alone = stall_.least_to_go_s > 0.0F;
-  const bool gets_on = alone && was_alone ? to_go < stall_.least_to_go_s - kGetsOnS : !stall_.holds(here);
-  if (stalled_since_ == kNever || now < stalled_since_ || gets_on) {
-    stall_ = {here.x, here.y, here.heading, 0.0F, to_go};
+void GoalRollouts::note_progress(const Situation& situation, Time now) noexcept {
+  const float to_go_s = situation.time_to_go(decision_.start);
+  if (stalled_since_ == kNever || now < stalled_since_ || stall_.gets_on(to_go_s)) {
+    stall_.least_to_go_s = to_go_s;
     stalled_since_ = now;
   }
-  if (alone != was_alone) stall_.least_to_go_s = to_go;
+  const std::span<const MoverBelief> beliefs = memory().beliefs();
+  stall_.is_alone = memory().hidden().empty() &&
+                    std::all_of(beliefs.begin(), beliefs.end(), [](const MoverBelief& b) { return b.newcomer; });
   stall_.for_s = static_cast<float>(to_seconds(now - stalled_since_));
-  return stall_;
 }
 
 RolloutMotion::Next GoalRollouts::next(const World& world, const Intent& intent, const RobotState& now) noexcept {

@@ -39,12 +39,12 @@ class GoalRollouts final : public RolloutMotion {
   [[nodiscard]] Situation situation(const Guide& guide, const PoseGuide& poses) const noexcept;
   [[nodiscard]] float conflict_price() const noexcept;
   void search(const Situation& situation) noexcept;
-  [[nodiscard]] StallState stall(const RobotState& here, const Guide& guide, const PoseGuide& poses, Time now) noexcept;
+  void note_progress(const Situation& situation, Time now) noexcept;
   [[nodiscard]] bool is_there(const World& world) const noexcept;
 
   Trajectory trial_, best_;
   Cost best_cost_;
-  StallState stall_;  ///< where it was when it last got on, or had nowhere to go
+  StallState stall_;
   Time stalled_since_ = kNever;
   bool stands_there_ = false;    ///< at the goal, with the heading wanted
   float turned_ = 0.0F;          ///< the side that it turned to last

@@ -39,19 +39,15 @@ JAYWALK_CELL float turned_side(float w, float last) {
   return w > kLeast ? 1.0F : w < -kLeast ? -1.0F : last;
 }
 
-inline constexpr float kGetsOnS = 0.5F;  ///< fall of the time to the goal that counts as progress
-
-/// Where the robot has been for a while: it has not come farther from it than a passenger would call getting on.
+/// How long the robot has not got on: since the time to the goal fell below the least that it had been so far.
 struct StallState {
-  float x = 0.0F, y = 0.0F, heading = 0.0F;
   float for_s = 0.0F;
-  /// The least time to the goal reached so far, s, while no pedestrian is about; 0 while one may be.
   float least_to_go_s = 0.0F;
+  bool is_alone = false;  ///< no pedestrian is about
 
-  [[nodiscard]] JAYWALK_CELL bool holds(const RobotState& s) const {
-    constexpr float kNear_m = 0.25F, kNear_rad = 0.8F;
-    const float dx = s.x - x, dy = s.y - y;
-    return dx * dx + dy * dy < kNear_m * kNear_m && std::fabs(cell::wrapped(s.heading - heading)) < kNear_rad;
+  [[nodiscard]] JAYWALK_CELL bool gets_on(float to_go_s) const {
+    constexpr float kFallsByS = 0.5F;
+    return to_go_s < least_to_go_s - kFallsByS;
   }
 };
 

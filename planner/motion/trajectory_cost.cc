@@ -30,7 +30,7 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
       return step + 1;
     }
   }
-  cost.time += s.stick != nullptr ? seconds_off(*s.stick, states, s.body.bounds) : time.to_go(robot);
+  cost.time += s.stick != nullptr ? seconds_off(*s.stick, states, s.body.bounds) : time.price_to_go(robot);
   return last;
 }
 

@@ -30,7 +30,7 @@ RobotBody body_of(float full_speed) {
 
 /// What a robot at (0, 0) in the open, its goal 4 m ahead, would pay for one command held all the time.
 Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool walled_in = false,
-             float full_speed = 0.6F, float least_to_go_s = 0.0F) {
+             float full_speed = 0.6F, bool alone = false) {
   test::Guided ground;
   if (walled_in)
     ground.wall({2.0, -4.0}, {2.0, 6.0})
@@ -49,33 +49,33 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
                           RobotState{},
                           {4.0F, 0.0F},
                           turned,
-                          {0.0F, 0.0F, 0.0F, stood_s, least_to_go_s},
+                          {stood_s, guide.time_to_go(0.0F, 0.0F), alone},
                           0.24F},
                          held, 1e9F);
 }
 
 }  // namespace
 
-TEST_CASE("to stand on is the dearer the longer the robot has stood, up to four seconds; to set out is not") {
-  const float at_once = cost_of({}, 0.0F).total();
-  CHECK(cost_of({}, 2.0F).total() == Approx(at_once + 3.0F).margin(0.01));  // 6 s at half a second each
-  CHECK(cost_of({}, 4.0F).total() == Approx(at_once + 6.0F).margin(0.01));
-  CHECK(cost_of({}, 60.0F).total() == cost_of({}, 4.0F).total());
-  const float on_the_way = cost_of({0.6F, 0.0F}, 4.0F).total() - cost_of({0.6F, 0.0F}, 0.0F).total();
-  CHECK(on_the_way == Approx(1.2F).margin(0.11));                // as long as it takes to get 0.25 m on, at 0.75 m/s3
-  CHECK(cost_of({0.0F, 0.05F}, 4.0F).total() > at_once + 5.0F);  // to sway is no getting on
+TEST_CASE("beside movers a second is the dearer the longer the time to go has not fallen, however it is spent") {
+  for (const Command& command : {Command{}, {0.6F, 0.0F}, {0.0F, 0.5F}, {-0.3F, 0.0F}}) {
+    const float at_once = cost_of(command, 0.0F).time;
+    const float seconds = at_once - price::kArrivedEarly;
+    CHECK(cost_of(command, 2.0F).time == Approx(at_once + 0.5F * seconds).margin(0.01));
+    CHECK(cost_of(command, 4.0F).time == Approx(at_once + seconds).margin(0.01));
+    CHECK(cost_of(command, 60.0F).time == cost_of(command, 4.0F).time);
+  }
 }
 
-TEST_CASE("with no pedestrian about, only a shorter time to the goal ends the price of waiting; backing off does not") {
-  const float least_s = 4.0F / 0.6F;  // where it is
-  const auto dearer = [&](const Command& command, float least_to_go_s) {
-    return cost_of(command, 20.0F, 0.0F, false, 0.6F, least_to_go_s).total() -
-           cost_of(command, 0.0F, 0.0F, false, 0.6F, least_to_go_s).total();
+TEST_CASE("with no pedestrian about seconds are dearer until the time to go falls, the more so for twelve seconds") {
+  const auto dearer = [](const Command& command, float stood_s) {
+    return cost_of(command, stood_s, 0.0F, false, 0.6F, true).time -
+           cost_of(command, 0.0F, 0.0F, false, 0.6F, true).time;
   };
-  CHECK(dearer({-0.3F, 0.0F}, 0.0F) < 3.0F);  // a pedestrian may be about: 0.25 m away ends it
-  CHECK(dearer({-0.3F, 0.0F}, least_s) == Approx(18.0F).margin(0.01));  // 6 s at three seconds each, no more
-  CHECK(dearer({}, least_s) == Approx(18.0F).margin(0.01));
-  CHECK(dearer({0.6F, 0.0F}, least_s) < 5.0F);
+  CHECK(dearer({}, 4.0F) == Approx(6.0F).margin(0.01));  // 6 s at a second each
+  CHECK(dearer({}, 60.0F) == Approx(18.0F).margin(0.01));
+  CHECK(dearer({0.2F, 1.0F}, 60.0F) == Approx(18.0F).margin(0.01));   // circling is no getting on,
+  CHECK(dearer({-0.3F, 0.0F}, 60.0F) == Approx(18.0F).margin(0.01));  // nor is backing off
+  CHECK(dearer({0.6F, 0.0F}, 4.0F) == Approx(1.3F).margin(0.2F));     // until it is 0.3 m on, at 0.75 m/s3
 }
 
 TEST_CASE("where no way is known it may stand for ever") {

@@ -22,7 +22,7 @@ inline constexpr float kConflictFadesS = 4.0F;   ///< ahead by so much it counts
 inline constexpr float kStandingWeight = 0.1F;
 
 // Nearness to movers (mover_cost.h): each look, 0.2 s.
-inline constexpr float kBeforeStandingM = 0.5F;  ///< farther off, a long body waits until one that stands goes on
+inline constexpr float kBeforeStandingM = 0.6F;  ///< farther off, a long body waits until one that stands goes on
 inline constexpr float kNearMover = 0.15F;       ///< a square metre within the comfort distance
 /// A m/s faster beside a standing mover than the gap within a second, or than kPoliteMps (decision
 /// standing-pedestrians). At 1.6 the P3-DX went by at 0.6 m/s, 13 cm off (0069: passage.toml).
@@ -63,7 +63,7 @@ inline constexpr float kPricedAtMps = 0.6F;
 
 // Time (time_cost.h).
 inline constexpr float kImpatience =
-    0.25F;  ///< a second before it sets out, for each that it has stood (decision motion-prices)
+    0.25F;  ///< a second until it gets on, for each that it has not (decision motion-prices)
 inline constexpr float kMostStoodS =
     4.0F;  ///< at most so many. Fewer beside movers: 37 of 100 runs, not 46 (decision motion-prices)
 inline constexpr float kMostAloneS =

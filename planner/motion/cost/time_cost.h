@@ -7,24 +7,36 @@
 
 namespace jaywalk::motion {
 
-/// The time that a trajectory takes, and from its end to the goal; and what it costs to stand on. Waiting for a while
-/// may look best again and again: the longer the robot has made no progress, the dearer waiting is. With no pedestrian
-/// about, backing off and returning counts as waiting, too (docs/explanation/decisions/motion-prices.md).
+/// The time that a trajectory takes, and from its end to the goal; and what it costs not to get on. Waiting for a while
+/// may look best again and again: the longer the time to go has not fallen below the least so far, the dearer are all
+/// seconds beside movers, standing, circling and backing off alike; with no pedestrian about, those until it falls
+/// (docs/explanation/decisions/motion-prices.md).
 class TimeCost {
  public:
-  explicit TimeCost(const Situation& s) : s_(s), waits_(s.time_to_go(s.start) < Guide::kNoWay_s) {}
+  explicit TimeCost(const Situation& s) : s_(s), waits_(s.stall.is_alone && has_way()) {
+    const float stood_s = std::min(s.stall.for_s, waits_ ? price::kMostAloneS : price::kMostStoodS);
+    extra_ = has_way() ? price::kImpatience * stood_s : 0.0F;
+  }
 
   void begin(Cost& cost) const noexcept { cost.time = price::kArrivedEarly; }
 
   void add(const RobotState& now, Cost& cost) noexcept {
-    if (waits_) wait(now, cost);
-    cost.time += kStepS;
+    waits_ = waits_ && !s_.stall.gets_on(s_.time_to_go(now));
+    const bool is_dearer = waits_ || !s_.stall.is_alone;
+    cost.time += is_dearer ? kStepS * (1.0F + extra_) : kStepS;
+  }
+
+  /// What the way from where a trajectory ends costs.
+  [[nodiscard]] float price_to_go(const RobotState& end) const noexcept {
+    return s_.stall.is_alone ? to_go(end) : (1.0F + extra_) * to_go(end);
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
     return is_at_goal(now) && (!s_.wants_heading || off_heading(now) < price::kFacesRad);
   }
 
+ private:
+  [[nodiscard]] bool has_way() const noexcept { return s_.time_to_go(s_.start) < Guide::kNoWay_s; }
   /// Seconds from where a trajectory ends, and a second for facing across the way there, two for facing back.
   [[nodiscard]] float to_go(const RobotState& end) const noexcept {
     const float there = s_.time_to_go(end);
@@ -37,8 +49,6 @@ class TimeCost {
     const float facing = gained * s_.body.bounds.speed / price::kFacingM;
     return there + (1.0F - facing);
   }
-
- private:
   [[nodiscard]] bool is_at_goal(const RobotState& now) const noexcept {
     const float dx = now.x - s_.goal.x, dy = now.y - s_.goal.y;
     return dx * dx + dy * dy < s_.arrives_within_m * s_.arrives_within_m;
@@ -47,15 +57,9 @@ class TimeCost {
     return std::fabs(cell::wrapped(s_.goal_heading - now.heading));
   }
 
-  void wait(const RobotState& now, Cost& cost) noexcept {
-    const float least = s_.stall.least_to_go_s;
-    waits_ = least > 0.0F ? s_.time_to_go(now) > least - kGetsOnS : s_.stall.holds(now);
-    const float most_s = least > 0.0F ? price::kMostAloneS : price::kMostStoodS;
-    if (waits_) cost.time += kStepS * price::kImpatience * std::min(s_.stall.for_s, most_s);
-  }
-
   const Situation& s_;
-  bool waits_;  ///< it has made no progress yet, though there is a way
+  bool waits_;          ///< alone, it has not got on yet
+  float extra_ = 0.0F;  ///< for a second
 };
 
 }  // namespace jaywalk::motion
