@@ -1,4 +1,7 @@
 #pragma once
+#include <cmath>
+
+#include "hal/types/trig.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/near_returns.h"
@@ -29,8 +32,29 @@ struct Situation {
   [[nodiscard]] bool is_long() const noexcept { return body.is_long && poses != nullptr; }
   /// Whether there is a way from poses near the robot.
   [[nodiscard]] bool goes_by_poses() const noexcept { return poses != nullptr && poses->known; }
+  [[nodiscard]] bool is_at_goal(const RobotState& at) const noexcept {
+    const float dx = goal.x - at.x, dy = goal.y - at.y;
+    return dx * dx + dy * dy < arrives_within_m * arrives_within_m;
+  }
+  /// From the heading wanted at the goal, rad.
+  [[nodiscard]] float off_heading(float heading) const noexcept {
+    return std::fabs(cell::wrapped(goal_heading - heading));
+  }
+  /// Seconds; Guide::kNoWay_s or more: there is no way.
   [[nodiscard]] float time_to_go(const RobotState& at) const noexcept {
-    return goes_by_poses() ? poses->time_to_go(guide, at.x, at.y, at.heading) : guide.time_to_go(at.x, at.y);
+    const float there =
+        goes_by_poses() ? poses->time_to_go(guide, at.x, at.y, at.heading) : guide.time_to_go(at.x, at.y);
+    const bool turns = wants_heading && there < Guide::kNoWay_s && !(goes_by_poses() && poses->covers(goal.x, goal.y));
+    return turns ? there + turn_there_s(at) : there;
+  }
+
+ private:
+  /// The turn at the goal, from the direction in which it comes there: without it a trajectory that arrives later would
+  /// cost no more, as it turns after its end.
+  [[nodiscard]] float turn_there_s(const RobotState& at) const noexcept {
+    const auto to_goal =
+        static_cast<float>(atan2(static_cast<double>(goal.y - at.y), static_cast<double>(goal.x - at.x)));
+    return off_heading(is_at_goal(at) ? at.heading : to_goal) / price::kTurnAtGoalRadps;
   }
 };
 

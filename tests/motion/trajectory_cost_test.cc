@@ -1,5 +1,6 @@
 #include "planner/motion/trajectory_cost.h"
 
+#include <algorithm>
 #include <cmath>
 #include <memory>
 
@@ -107,6 +108,25 @@ TEST_CASE("a trajectory is given up only where its whole cost is above the bound
   REQUIRE(whole < 4.0F);  // it arrives
   CHECK(trajectory_cost(arrives, ahead, whole + 0.01F).total() == whole);
   CHECK(trajectory_cost(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
+}
+
+TEST_CASE("with a heading wanted at the goal, to set out later costs, though it turns after the trajectory's end") {
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {2.7, 0.0});
+  const RobotBody body = body_of(0.6F);
+  const auto nobody = std::make_unique<Futures>();
+  Situation turns{body, guide, *nobody, kNothing, RobotState{}, {2.7F, 0.0F}, 0.0F, {}, 0.24F};
+  turns.goal_heading = -1.9F;
+  turns.wants_heading = true;
+  const auto cost_after = [&](int steps) {
+    Trajectory ahead;
+    std::fill(ahead.commands.begin() + steps, ahead.commands.end(), Command{0.6F, 0.0F});
+    const int there = std::min(45 + steps, kSteps);  // within 0.24 m of it
+    std::fill(ahead.commands.begin() + there, ahead.commands.end(), Command{0.0F, -0.6F});
+    return trajectory_cost(turns, ahead, 1e9F).time;
+  };
+  CHECK(cost_after(10) > cost_after(0) + 0.7F);
+  CHECK(cost_after(30) > cost_after(0) + 2.0F);
 }
 
 TEST_CASE("who has stood for long is a surface as wide as a person, though the map holds nothing of him") {

@@ -32,7 +32,7 @@ class TimeCost {
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
-    return is_at_goal(now) && (!s_.wants_heading || off_heading(now) < price::kFacesRad);
+    return s_.is_at_goal(now) && (!s_.wants_heading || s_.off_heading(now.heading) < price::kFacesRad);
   }
 
  private:
@@ -41,20 +41,13 @@ class TimeCost {
   [[nodiscard]] float to_go(const RobotState& end) const noexcept {
     const float there = s_.time_to_go(end);
     if (there >= Guide::kNoWay_s) return price::kMostTimeToGoS;
-    if (s_.goes_by_poses()) return there;
-    if (s_.wants_heading && is_at_goal(end)) return off_heading(end) / price::kTurnAtGoalRadps;
+    if (s_.goes_by_poses() || (s_.wants_heading && s_.is_at_goal(end))) return there;
     const cell::Heading along = cell::heading_at(end.heading);
     const float ahead = s_.guide.time_to_go(end.x + price::kFacingM * along.x, end.y + price::kFacingM * along.y);
-    const float gained = there - (ahead < there + 1.0F ? ahead : there + 1.0F);
+    const float here = s_.guide.time_to_go(end.x, end.y);
+    const float gained = here - (ahead < here + 1.0F ? ahead : here + 1.0F);
     const float facing = gained * s_.body.bounds.speed / price::kFacingM;
     return there + (1.0F - facing);
-  }
-  [[nodiscard]] bool is_at_goal(const RobotState& now) const noexcept {
-    const float dx = now.x - s_.goal.x, dy = now.y - s_.goal.y;
-    return dx * dx + dy * dy < s_.arrives_within_m * s_.arrives_within_m;
-  }
-  [[nodiscard]] float off_heading(const RobotState& now) const noexcept {
-    return std::fabs(cell::wrapped(s_.goal_heading - now.heading));
   }
 
   const Situation& s_;
