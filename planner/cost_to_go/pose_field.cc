@@ -137,6 +137,7 @@ void PoseField::relax(std::int32_t pose, std::uint32_t cost, const PoseGuide& gu
   for (std::int32_t k = 0; k < back_count_[to]; ++k) {
     const BackMove& move = back_[to][static_cast<std::size_t>(k)];
     const std::int32_t from = pose + move.offset;
+    if (costs[from] <= cost + move.cost) continue;  // nowhere is less dear than the open
     const std::uint32_t other = guide.rate[from];
     if (other == 0) continue;
     offer(from, cost + price::cost_of(move.cost, rate, other, eighths, move.unseen_weight), costs);

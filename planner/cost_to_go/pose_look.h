@@ -25,7 +25,7 @@ struct PoseLook {
     return static_cast<std::int8_t>(side == 2 ? -1 : side);
   }
   JAYWALK_CELL static std::uint8_t left(std::uint8_t node, std::uint8_t radius) {
-    return node > radius ? static_cast<std::uint8_t>(node - radius) : std::uint8_t{0};
+    return static_cast<std::uint8_t>((node > radius ? node : radius) - radius);
   }
 
   /// Visits a pose: cells run fastest.
