@@ -1,5 +1,7 @@
 #pragma once
 #include <algorithm>
+#include <cstdarg>
+#include <cstdio>
 #include <string>
 #include <string_view>
 
@@ -33,6 +35,16 @@ namespace jaywalk {
     if (!more && (at == 0 || !is_of_word(text[at - 1]))) text.erase(at, 1);
   }
   return text;
+}
+
+/// As std::printf writes it, without_minus_zero; cut after 255 characters.
+[[nodiscard, gnu::format(printf, 1, 2)]] inline std::string formatted(const char* format, ...) {
+  char text[256];
+  va_list arguments;
+  va_start(arguments, format);
+  std::vsnprintf(text, sizeof text, format, arguments);
+  va_end(arguments);
+  return without_minus_zero(text);
 }
 
 }  // namespace jaywalk

@@ -1,6 +1,7 @@
 #pragma once
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <string>
 
 #include "hal/types/errors.h"
@@ -22,6 +23,25 @@ inline void require_readable(const std::filesystem::path& path, const std::strin
 inline void drop_byte_order_mark(std::string& first_line) {
   constexpr const char* kMark = "\xEF\xBB\xBF";
   if (first_line.rfind(kMark, 0) == 0) first_line.erase(0, 3);
+}
+
+/// All of it; empty where it cannot be read.
+inline std::string text_in(const std::filesystem::path& file) {
+  std::ifstream in(file, std::ios::binary);
+  return {std::istreambuf_iterator<char>(in), {}};
+}
+
+/// Throws StartupError where `file` does not take all of it.
+inline void write_text(const std::filesystem::path& file, const std::string& text, const std::string& remedy) {
+  std::ofstream out(file, std::ios::binary);
+  out << text;
+  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", remedy);
+}
+
+/// Throws StartupError about a line, counted from 1, of a table that `rows` tells how to write; 0: about the whole.
+[[noreturn]] inline void refuse_line(const std::filesystem::path& file, int line, const std::string& cause,
+                                     const std::string& rows) {
+  throw StartupError(file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + cause, rows);
 }
 
 }  // namespace jaywalk

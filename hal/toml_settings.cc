@@ -18,7 +18,7 @@ std::string table_of(const SettingKey& key) { return key.section.substr(0, key.s
 
 std::string path_of(const SettingKey& key) { return table_of(key).empty() ? key.key : table_of(key) + "." + key.key; }
 
-bool is_number(const std::string& word) {
+bool spells_number(const std::string& word) {
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
   return error == std::errc() && end == word.data() + word.size() && std::isfinite(value);
@@ -44,9 +44,9 @@ std::vector<std::string> parts_of(const std::string& text, char between) {
 
 std::string in_toml(const SettingKey& key, const std::string& value) {
   if (value == "true" || value == "false") return value;
-  if (is_number(value)) return number_in_toml(value);
+  if (spells_number(value)) return number_in_toml(value);
   const std::vector<std::string> parts = parts_of(value, ',');
-  if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(), is_number)) {
+  if (parts.size() > 1 && std::all_of(parts.begin(), parts.end(), spells_number)) {
     std::string list;
     for (const std::string& part : parts) list += (list.empty() ? "[" : ", ") + number_in_toml(part);
     return list + "]";

@@ -22,8 +22,6 @@
 namespace jaywalk {
 namespace {
 
-/// The exact field of 256 x 256 cells takes less.
-constexpr double kMostMultiplications = 4e9;
 constexpr double kCell_m = 0.1;
 constexpr int kDecisions = 101;
 constexpr std::int32_t kTickCells = 256;  // what a loop sees around it
@@ -154,7 +152,7 @@ class Bench {
 
  private:
   static std::string best_neighbours(const field::MapField& field, CellIndex goal) {
-    const std::optional<double> best = field.best_neighbours(goal, kMostMultiplications);
+    const std::optional<double> best = field.best_neighbours(goal, field::kMostMultiplications);
     return best ? std::to_string(100.0 * *best) + " %" : "not counted (too many cells)";
   }
 

@@ -12,7 +12,7 @@ namespace {
 
 constexpr double kScan_s = 1.0 / 15.0;
 constexpr double kWithin_m = 8.0;
-constexpr int kBefore = 15;  // decisions: by then every mover is known to walk
+constexpr int kDecisionsBefore = 15;  // decisions: by then every mover is known to walk
 
 EvidenceMap evidence_of(const BenchMap& map, double cell_m) {
   const std::int32_t side = map.cells.width;
@@ -87,7 +87,7 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
                     .plan = *plan},
                    {motion::Intent::Kind::kGoal});
   };
-  for (int k = 0; k < kBefore; ++k) decide();
+  for (int k = 0; k < kDecisionsBefore; ++k) decide();
   return time(("decision, " + std::to_string(movers)).c_str(), repeats, "cpu", decide);
 }
 

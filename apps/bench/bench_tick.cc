@@ -11,7 +11,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr int kBefore = 50;  // ticks: by then walkers are confirmed
+constexpr int kTicksBefore = 50;  // ticks: by then walkers are confirmed
 
 sim::Walls walls_of(const BenchMap& map, double cell_m) {
   sim::WallMap walls;
@@ -54,7 +54,7 @@ std::vector<LaserScan> scans_of(const BenchMap& map, double cell_m, std::span<co
 
 Timing time_tick(const BenchMap& map, double cell_m, std::span<const Track> walkers, Backend backend, int repeats) {
   const ControlSetup setup = setup_at(map, cell_m);
-  const std::vector<LaserScan> scans = scans_of(map, cell_m, walkers, setup, kBefore + repeats);
+  const std::vector<LaserScan> scans = scans_of(map, cell_m, walkers, setup, kTicksBefore + repeats);
   const auto devices = std::make_unique<TickRecord>();
   devices->input.has_goal = true;
   devices->input.goal_in_map = setup.goal;
@@ -69,7 +69,7 @@ Timing time_tick(const BenchMap& map, double cell_m, std::span<const Track> walk
     ++devices->wheels.sequence;
     (void)loop.tick(devices->now);
   };
-  for (int k = 0; k < kBefore; ++k) tick();
+  for (int k = 0; k < kTicksBefore; ++k) tick();
   return time("tick, 8 movers", repeats, chosen.planner->backend(), tick);
 }
 

@@ -8,20 +8,14 @@
 #include <array>
 #include <cerrno>
 #include <fstream>
-#include <iterator>
 #include <vector>
 
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk::campaign {
 namespace {
 
 constexpr std::array kKeptOfAll{"run.json", "summary.json", "run.svg"};
-
-std::string text_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The file lock that a process has until it ends, however it ends.
 int hold(const std::filesystem::path& file, const std::string& share) {

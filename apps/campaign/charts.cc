@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "apps/campaign/statistics.h"
+#include "apps/report/markup.h"
 
 namespace jaywalk::campaign {
 namespace {
@@ -19,14 +20,8 @@ std::string opened(double width, double height) {
          "\" height=\"" + fixed(height, 0) + "\" fill=\"#fff\"/>\n";
 }
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += c == '<' ? std::string("&lt;") : c == '&' ? std::string("&amp;") : std::string(1, c);
-  return out;
-}
-
 std::string text_at(double x, double y, const std::string& text, const char* anchor = "middle") {
-  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" + escaped(text) +
+  return "<text x=\"" + fixed(x, 1) + "\" y=\"" + fixed(y, 1) + "\" text-anchor=\"" + anchor + "\">" + as_markup(text) +
          "</text>\n";
 }
 

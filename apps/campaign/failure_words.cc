@@ -1,7 +1,6 @@
 #include "apps/campaign/failure_words.h"
 
 #include <cmath>
-#include <cstdio>
 #include <limits>
 #include <set>
 #include <vector>
@@ -36,15 +35,8 @@ const RobotRow& row_at(const std::vector<RobotRow>& rows, double t_s) {
   return *found;
 }
 
-template <class... Numbers>
-std::string text_of(const char* format, Numbers... numbers) {
-  char text[160];
-  std::snprintf(text, sizeof text, format, numbers...);
-  return without_minus_zero(text);
-}
-
 std::string where(const RobotRow& row) {
-  return text_of("the robot, at %.2f m/s at (%.1f, %.1f)", row.v_mps, row.position.x, row.position.y);
+  return formatted("the robot, at %.2f m/s at (%.1f, %.1f)", row.v_mps, row.position.x, row.position.y);
 }
 
 /// The first mover that the robot made to turn.
@@ -58,7 +50,7 @@ FailureWords forced_words(const std::filesystem::path& folder, const std::vector
       words.at_s = rows.number(0);
       const RobotRow& then = row_at(robot, words.at_s);
       const double apart_m = distance(then.position, {rows.number(2), rows.number(3)});
-      words.reason = "mover " + rows.text(1) + " had to turn for " + where(then) + text_of(", %.2f m apart", apart_m);
+      words.reason = "mover " + rows.text(1) + " had to turn for " + where(then) + formatted(", %.2f m apart", apart_m);
     }
     forced.insert(rows.text(1));
   }
@@ -76,7 +68,7 @@ std::string nearest_mover(const std::filesystem::path& folder, const RobotRow& e
     const double apart_m = distance(end.position, {rows.number(2), rows.number(3)});
     if (apart_m < least_m) least_m = apart_m, nearest = rows.text(1);
   }
-  return nearest.empty() ? "nobody about" : text_of("mover %s nearest, %.2f m off", nearest.c_str(), least_m);
+  return nearest.empty() ? "nobody about" : formatted("mover %s nearest, %.2f m off", nearest.c_str(), least_m);
 }
 
 FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& robot) {
@@ -85,8 +77,8 @@ FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& r
   for (const RobotRow& row : robot) {
     if (std::fabs(row.v_mps) > kStands_mps) moved_s = row.t_s;
   }
-  std::string reason = "time was over " + text_of("%.1f m from the goal", distance(end.position, run.goal)) + " for " +
-                       where(end) + text_of(", which had stood for %.1f s", end.t_s - moved_s);
+  std::string reason = "time was over " + formatted("%.1f m from the goal", distance(end.position, run.goal)) +
+                       " for " + where(end) + formatted(", which had stood for %.1f s", end.t_s - moved_s);
   if (!end.reasons.empty()) reason += " (" + end.reasons + ")";
   return {moved_s, reason};
 }

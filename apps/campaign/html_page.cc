@@ -19,12 +19,6 @@ constexpr const char* kStyle =
     "minmax(min(22rem,100%),1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid "
     "#8886;background:#fff}\n</style>\n</head>\n<body>\n";
 
-std::string escaped(const std::string& text) {
-  std::string out;
-  for (const char c : text) out += as_markup(c);
-  return out;
-}
-
 /// RFC 4648.
 std::string base64(const std::string& bytes) {
   constexpr const char* kLetters = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
@@ -41,7 +35,7 @@ std::string base64(const std::string& bytes) {
 
 std::string cells(const std::vector<std::string>& row, const std::string& kind) {
   std::string out = "<tr>";
-  for (const std::string& cell : row) out += "<" + kind + ">" + escaped(cell) + "</" + kind + ">";
+  for (const std::string& cell : row) out += "<" + kind + ">" + as_markup(cell) + "</" + kind + ">";
   return out + "</tr>\n";
 }
 
@@ -63,44 +57,44 @@ std::string csv_of(const ReportTable& table) {
 }
 
 std::string table_of(const ReportTable& table) {
-  std::string out = "<h3>" + escaped(table.title) + "</h3>\n<div class=\"wide\"><table>\n" + cells(table.head, "th");
+  std::string out = "<h3>" + as_markup(table.title) + "</h3>\n<div class=\"wide\"><table>\n" + cells(table.head, "th");
   for (const auto& row : table.rows) out += cells(row, "td");
-  return out + "</table></div>\n<p><a download=\"" + escaped(table.title) + ".csv\" href=\"data:text/csv;base64," +
+  return out + "</table></div>\n<p><a download=\"" + as_markup(table.title) + ".csv\" href=\"data:text/csv;base64," +
          base64(csv_of(table)) + "\">CSV</a></p>\n";
 }
 
 std::string runs_of(const std::vector<ReportRun>& runs) {
   std::string out = "<h2>All runs</h2>\n<details><summary>" + std::to_string(runs.size()) + " runs</summary>\n<ul>\n";
   for (const ReportRun& run : runs)
-    out += "<li><a href=\"../" + escaped(run.folder) + "/\">" + escaped(run.folder) + "</a>: " + escaped(run.outcome) +
-           "</li>\n";
+    out += "<li><a href=\"../" + as_markup(run.folder) + "/\">" + as_markup(run.folder) +
+           "</a>: " + as_markup(run.outcome) + "</li>\n";
   return out + "</ul></details>\n";
 }
 
 std::string section_of(const ReportSection& section) {
-  std::string out = "<h2>" + escaped(section.title) + "</h2>\n";
-  if (!section.text.empty()) out += "<p>" + escaped(section.text) + "</p>\n";
+  std::string out = "<h2>" + as_markup(section.title) + "</h2>\n";
+  if (!section.text.empty()) out += "<p>" + as_markup(section.text) + "</p>\n";
   for (const ReportChart& chart : section.charts)
-    out += "<figure>\n" + chart.svg + "<figcaption>" + escaped(chart.title) + "</figcaption>\n</figure>\n";
+    out += "<figure>\n" + chart.svg + "<figcaption>" + as_markup(chart.title) + "</figcaption>\n</figure>\n";
   for (const ReportTable& table : section.tables) out += table_of(table);
   return out;
 }
 
 std::string failure_of(const ReportFailure& failure) {
-  std::string out = "<article>\n<h3>" + escaped(failure.run) + "</h3>\n<p>" + escaped(failure.what) + "</p>\n";
+  std::string out = "<article>\n<h3>" + as_markup(failure.run) + "</h3>\n<p>" + as_markup(failure.what) + "</p>\n";
   if (!failure.svg.empty())
     out += "<img loading=\"lazy\" alt=\"the run, moving\" src=\"data:image/svg+xml;base64," + base64(failure.svg) +
            "\">\n";
-  out += "<p><code>" + escaped(failure.repeat) + "</code></p>\n";
-  if (!failure.why.empty()) out += "<p><code>" + escaped(failure.why) + "</code></p>\n";
+  out += "<p><code>" + as_markup(failure.repeat) + "</code></p>\n";
+  if (!failure.why.empty()) out += "<p><code>" + as_markup(failure.why) + "</code></p>\n";
   return out + "</article>\n";
 }
 
 }  // namespace
 
 std::string html_of(const ReportPage& page) {
-  std::string out = kHead + escaped(page.title) + kStyle + "<h1>" + escaped(page.title) + "</h1>\n<p>" +
-                    escaped(page.text) + "</p>\n";
+  std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
+                    as_markup(page.text) + "</p>\n";
   for (const ReportSection& section : page.sections) out += section_of(section);
   out += runs_of(page.runs) + "<h2>Failures</h2>\n";
   if (page.failures.empty()) return out + "<p>None.</p>\n</body>\n</html>\n";

@@ -16,7 +16,7 @@ std::string cells(const std::vector<std::string>& row) {
   return out + "\n";
 }
 
-std::string table_of(const ReportTable& table) {
+std::string table_in_markdown(const ReportTable& table) {
   std::string out = "**" + table.title + "**\n\n" + cells(table.head) + "|";
   for (std::size_t k = 0; k < table.head.size(); ++k) out += k == 0 ? "---|" : "---:|";
   out += "\n";
@@ -24,11 +24,11 @@ std::string table_of(const ReportTable& table) {
   return out + "\n";
 }
 
-std::string section_of(const ReportSection& section) {
+std::string section_in_markdown(const ReportSection& section) {
   std::string out = "## " + section.title + "\n\n";
   if (!section.text.empty()) out += section.text + "\n\n";
   for (const ReportChart& chart : section.charts) out += "![" + chart.title + "](charts/" + chart.name + ".svg)\n\n";
-  for (const ReportTable& table : section.tables) out += table_of(table);
+  for (const ReportTable& table : section.tables) out += table_in_markdown(table);
   return out;
 }
 
@@ -44,7 +44,7 @@ std::string failure_of(const ReportFailure& failure, std::size_t number) {
 
 std::string markdown_of(const ReportPage& page) {
   std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
-  for (const ReportSection& section : page.sections) out += section_of(section);
+  for (const ReportSection& section : page.sections) out += section_in_markdown(section);
   out += "## Failures\n\n";
   if (page.failures.empty()) return out + "None.\n";
   std::size_t number = 0;

@@ -2,23 +2,16 @@
 
 #include <algorithm>
 #include <cmath>
-#include <fstream>
-#include <iterator>
 
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/charts.h"
 #include "apps/campaign/digest.h"
 #include "apps/campaign/statistics.h"
 #include "apps/campaign/success.h"
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk::campaign {
 namespace {
-
-std::string text_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 std::vector<TurnBars> turn_bars(const ReportedTables& tables) {
   std::vector<TurnBars> all;

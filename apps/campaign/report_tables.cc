@@ -2,7 +2,6 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
@@ -11,7 +10,6 @@ namespace jaywalk::campaign {
 namespace {
 
 constexpr std::size_t kMostColumns = 12;  // of tables by scenario: drawn worlds are more, and have none
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 using Figure = std::function<double(const ReportedRun&)>;
 
 std::size_t count_if(const std::vector<ReportedRun>& runs, const std::function<bool(const RunResult&)>& holds) {

@@ -3,32 +3,24 @@
 #include <sys/wait.h>
 
 #include <cmath>
-#include <fstream>
-#include <iterator>
-#include <limits>
 #include <nlohmann/json.hpp>
 
 #include "apps/campaign/digest.h"
 #include "apps/campaign/failure_words.h"
 #include "apps/campaign/ride.h"
+#include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk::campaign {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 constexpr std::array kFigures{"path_length_m",   "static_shortest_path_m", "duration_s",
                               "min_clearance_m", "min_mover_clearance_m",  "forced_movers",
                               "contacts",        "contacts_caused",        "max_turn_deg",
                               "loops",           "accel_max_mps2",         "jerk_p99_mps3",
                               "jerk_max_mps3",   "granted_share"};
-
-std::string text_in(const std::filesystem::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  return {std::istreambuf_iterator<char>(in), {}};
-}
 
 /// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {

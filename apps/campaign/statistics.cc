@@ -3,12 +3,9 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <limits>
 
 namespace jaywalk::campaign {
 namespace {
-
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<double> sorted(std::vector<double> values) {
   std::erase_if(values, [](double value) { return std::isnan(value); });

@@ -1,9 +1,12 @@
 #pragma once
 #include <cstddef>
+#include <limits>
 #include <string>
 #include <vector>
 
 namespace jaywalk::campaign {
+
+inline constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();  ///< a figure of which nothing is known
 
 struct Interval {
   double low = 0.0, high = 1.0;

@@ -12,7 +12,7 @@ namespace jaywalk::exchange {
 namespace {
 
 constexpr std::uint64_t kRecordHead = 9;  // what it is, and how long
-constexpr const char* kRemedy = "take an undamaged copy of it, or what 'mcap recover' makes of this one";
+constexpr const char* kMcapRemedy = "take an undamaged copy of it, or what 'mcap recover' makes of this one";
 
 struct Channel {
   std::string topic, type;
@@ -35,7 +35,7 @@ std::string ros1_name(std::string_view type) {
 /// The records of a file from its begin to the end of its data.
 class McapFile {
  public:
-  explicit McapFile(const std::filesystem::path& path) : file_(path, kRemedy) {
+  explicit McapFile(const std::filesystem::path& path) : file_(path, kMcapRemedy) {
     const std::uint64_t ends = kMcapMagic.size();
     if (file_.read(0, ends) != kMcapMagic) file_.refuse(0, "no MCAP file");
     if (file_.size() < 2 * ends || file_.read(file_.size() - ends, ends) != kMcapMagic)

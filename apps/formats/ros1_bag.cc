@@ -20,7 +20,7 @@ constexpr std::string_view kMagic = "#ROSBAG V2.0\n";
 constexpr std::uint64_t kLongestHead = 1U << 16U;  // bytes of a record's fields: topics and callers have names
 constexpr std::uint64_t kIndexEntry = 12;          // bytes: time and offset
 constexpr std::uint64_t kSearched = 1U << 20U;     // bytes at a time
-constexpr const char* kRemedy = "take an undamaged copy of it, or what 'rosbag reindex' makes of this one";
+constexpr const char* kRosRemedy = "take an undamaged copy of it, or what 'rosbag reindex' makes of this one";
 
 enum Op : std::uint8_t { kMessageData = 2, kBagHeader = 3, kIndexData = 4, kChunk = 5, kConnection = 7 };
 
@@ -40,7 +40,7 @@ std::map<std::string, std::string, std::less<>> fields_of(std::string_view bytes
 
 class Ros1Bag {
  public:
-  Ros1Bag(const std::filesystem::path& path, const BagSink& sink) : file_(path, kRemedy), sink_(sink) {
+  Ros1Bag(const std::filesystem::path& path, const BagSink& sink) : file_(path, kRosRemedy), sink_(sink) {
     if (file_.size() >= kMagic.size() && file_.read(0, kMagic.size()) == kMagic) return;
     const std::string first = file_.read(0, std::min<std::uint64_t>(32, file_.size()));
     throw StartupError(

@@ -12,7 +12,7 @@
 namespace jaywalk::exchange {
 namespace {
 
-constexpr const char* kRemedy = "take an undamaged copy of it, or what 'sqlite3 FILE .recover' makes of this one";
+constexpr const char* kSqliteRemedy = "take an undamaged copy of it, or what 'sqlite3 FILE .recover' makes of this one";
 
 struct Closes {
   void operator()(sqlite3* database) const { sqlite3_close(database); }
@@ -57,7 +57,7 @@ class Database {
   };
 
   [[noreturn]] void refuse(const std::string& cause) const {
-    throw StartupError(file_.string() + ": " + cause, kRemedy);
+    throw StartupError(file_.string() + ": " + cause, kSqliteRemedy);
   }
   [[noreturn]] void refuse() const { refuse(std::string("SQLite says: ") + sqlite3_errmsg(database_.get())); }
 

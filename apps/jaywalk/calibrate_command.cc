@@ -17,7 +17,7 @@ namespace jaywalk {
 namespace {
 
 SessionOptions session_options;
-std::filesystem::path out = "out/calibrate";
+std::filesystem::path plot_folder = "out/calibrate";
 
 /// A drive, and by which radii its drives' scales counted: to the loop both wheels have the model's.
 struct Drive {
@@ -88,7 +88,7 @@ void print(const Drive& drive, const RobotGeometry& believed, const Calibration&
   print_line("laser y", "m", was.y, mount.y, off.y);
   print_line("laser yaw", "rad", was.heading, mount.heading, off.heading);
   std::printf("%zu motions, and %zu that fit nothing; residuals: %s\n\n", calibration.after.size(),
-              calibration.left_out, (out / "calibration.svg").c_str());
+              calibration.left_out, (plot_folder / "calibration.svg").c_str());
   std::printf(
       "# for ROBOT.toml; then jaywalk commission again\n[drive]\nleft_wheel_radius_m = %.5f\n"
       "right_wheel_radius_m = %.5f\ntrack_width_m = %.5f\n[laser]\nmount = [%.4f, %.4f, %.5f]\n",
@@ -105,8 +105,8 @@ bool is_sharp(const Calibration& calibration) {
 }
 
 void write_plot(const Calibration& calibration) {
-  std::filesystem::create_directories(out);
-  const std::filesystem::path file = out / "calibration.svg";
+  std::filesystem::create_directories(plot_folder);
+  const std::filesystem::path file = plot_folder / "calibration.svg";
   std::ofstream stream(file);
   stream << svg_of(calibration) << std::flush;
   if (!stream)
@@ -135,7 +135,7 @@ void add_calibrate(CLI::App& app, int& exit_code) {
   command
       ->add_option("robot", session_options.robot, "Robot file, which is driven; or a run's folder, or recording.jwr")
       ->required();
-  command->add_option("--out", out, "Folder for calibration.svg, the residuals")->capture_default_str();
+  command->add_option("--out", plot_folder, "Folder for calibration.svg, the residuals")->capture_default_str();
   command->add_option("--socket", session_options.control_socket, "Control socket (default: the file's)");
   command->add_flag("--yes", session_options.yes, "The robot may drive: do not ask");
   command->add_flag("--allow-no-realtime", session_options.allow_no_realtime,

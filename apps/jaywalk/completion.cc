@@ -9,10 +9,6 @@
 namespace jaywalk {
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
 std::string long_names(const CLI::App& app) {
   std::string words;
   for (const CLI::Option* option : app.get_options())
@@ -21,7 +17,7 @@ std::string long_names(const CLI::App& app) {
 }
 
 /// The words that an option takes, as "full paper"; empty where it takes any value.
-std::string words_of(const CLI::Option& option) {
+std::string value_words(const CLI::Option& option) {
   std::string words = option.get_type_name();
   if (words.find(":{") != std::string::npos) {  // the parser's own way to say it: "TEXT:{a,b}"
     words = words.substr(words.find('{') + 1, words.rfind('}') - words.find('{') - 1);
@@ -36,7 +32,7 @@ std::string words_of(const CLI::Option& option) {
 std::string bash_choices_of(const CLI::App& command) {
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
-    const std::string words = words_of(*option);
+    const std::string words = value_words(*option);
     if (words.empty() || option->get_lnames().empty()) continue;
     text += "    '" + command.get_name() + " --" + option->get_lnames().front() + "') words='" + words + "' ;;\n";
   }
@@ -81,7 +77,7 @@ std::string zsh_options_of(const CLI::App& command, const std::string& indent) {
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) {
-      const std::string words = words_of(*option);
+      const std::string words = value_words(*option);
       text += indent + "'--" + name + "[" + quoted(option->get_description(), "[]\\:", "'\\''") + "]";
       if (option->get_items_expected_max() > 0)
         text += ":" + name + ":" + (words.empty() ? "_files" : "(" + words + ")");
@@ -109,7 +105,7 @@ std::string fish_options_of(const CLI::App& command, const std::string& conditio
   std::string text;
   for (const CLI::Option* option : command.get_options()) {
     for (const std::string& name : option->get_lnames()) {
-      const std::string words = words_of(*option);
+      const std::string words = value_words(*option);
       text += "complete -c jaywalk -n '" + condition + "' -l " + name;
       if (!words.empty())
         text += " -x -a '" + words + "'";

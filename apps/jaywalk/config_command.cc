@@ -22,7 +22,7 @@ struct ConfigOptions {
   bool explain = false, markdown = false;
   std::string key;
 };
-ConfigOptions options;
+ConfigOptions config_options;
 
 /// "drive.can", "timeout_s"; of a section "drive:vesc" as "drive.left_node".
 std::string path_of(const SettingKey& key) {
@@ -54,7 +54,7 @@ std::string as_text(const SettingKey& key) {
 std::string as_lines(const FileKeys& file) {
   std::string lines;
   for (const SettingKey& key : file.keys)
-    if (names(options.key, key)) lines += as_text(key);
+    if (names(config_options.key, key)) lines += as_text(key);
   return lines;
 }
 
@@ -160,12 +160,12 @@ class MarkdownTable {
 std::string as_table(const FileKeys& file, std::set<std::string>& shown_before) {
   MarkdownTable table;
   for (const SettingKey& key : file.keys)
-    if (names(options.key, key)) table.add(key, shown_before);
+    if (names(config_options.key, key)) table.add(key, shown_before);
   shown_before.merge(table.shown);
   return table.text();
 }
 
-constexpr const char* kHead = R"(# Settings files
+constexpr const char* kSettingsHead = R"(# Settings files
 
 Generated: `jaywalk config --explain --markdown >docs/reference/configuration.md`; a test compares the two.
 `jaywalk config --explain KEY` prints a key's lines. An unknown key is refused with file and line. A key or table without a default
@@ -175,18 +175,18 @@ is needed where its table is. Brackets behind a key name the `kind` that has it.
 int explain() {
   const std::array<const FileKeys*, 4> files{&robot_file_keys(), &robot_model_keys(), &sim::scenario_keys(),
                                              &campaign::campaign_keys()};
-  std::string page = options.markdown ? kHead : "";
+  std::string page = config_options.markdown ? kSettingsHead : "";
   std::set<std::string> shown_before;
   bool found = false;
   for (const FileKeys* file : files) {
-    const std::string lines = options.markdown ? as_table(*file, shown_before) : as_lines(*file);
+    const std::string lines = config_options.markdown ? as_table(*file, shown_before) : as_lines(*file);
     if (lines.empty()) continue;
     found = true;
-    page += options.markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
+    page += config_options.markdown ? "\n## " + std::string(file->title) + "\n\n" : std::string(file->title) + "\n";
     page += lines;
   }
   if (!found)
-    throw StartupError("--explain " + shown(options.key) + ": no file has such a key",
+    throw StartupError("--explain " + shown(config_options.key) + ": no file has such a key",
                        "see all of them with jaywalk config --explain");
   std::fputs(page.c_str(), stdout);
   return 0;
@@ -196,9 +196,10 @@ int explain() {
 
 void add_config(CLI::App& app, int& exit_code) {
   CLI::App* config = app.add_subcommand("config", "Explain the keys of robot, model, scenario and campaign files");
-  config->add_flag("--explain", options.explain, "Print keys with meaning, range, unit and default")->required();
-  config->add_option("key", options.key, "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
-  config->add_flag("--markdown", options.markdown, "As the tables of docs/reference/configuration.md");
+  config->add_flag("--explain", config_options.explain, "Print keys with meaning, range, unit and default")->required();
+  config->add_option("key", config_options.key,
+                     "One key, or the end of its path: rate_hz, laser.rate_hz (default: all)");
+  config->add_flag("--markdown", config_options.markdown, "As the tables of docs/reference/configuration.md");
   config->callback([&exit_code] { exit_code = explain(); });
 }
 

@@ -3,13 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdio>
-#include <fstream>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 #include "hil/faults/fault_matrix.h"
 #include "hil/faults/matrix_files.h"
 
@@ -58,7 +57,7 @@ std::string figures_of(Rows rows) {
   return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
 }
 
-constexpr const char* kHead = R"(# Fault matrix
+constexpr const char* kMatrixHead = R"(# Fault matrix
 
 Generated: `jaywalk faults` leaves this page as `faults.md`, and a test compares the two. A simulated robot drives down a
 hall with emulated drives and an emulated SICK, in the world's own time. *Reaction*: the slowest of all drives and speeds,
@@ -82,15 +81,9 @@ std::string markdown(const std::vector<FaultResult>& rows) {
     else
       same->first += ", " + name;
   }
-  std::string text = kHead;
+  std::string text = kMatrixHead;
   for (const auto& [names, figures] : lines) text += names + figures;
   return text;
-}
-
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) throw StartupError(path.string() + ": cannot be written", "choose another --out, or free some space");
 }
 
 }  // namespace
@@ -102,14 +95,14 @@ int run_faults(const FaultsOptions& options) {
   std::string csv = "fault,drive,speed_mps,reaction_ms,limit_ms,stop_distance_m,latched,ok\n";
   std::vector<FaultResult> rows;
   const std::filesystem::path table = options.out / "faults.csv";
-  write(table, csv);
+  write_text(table, csv, faults::kOtherOut);
   const int bad = faults::run_matrix(options.rate_hz, scratch, [&](const FaultResult& row) {
     csv += csv_row(row);
     print(row);
     rows.push_back(row);
   });
-  write(table, csv);
-  write(options.out / "faults.md", markdown(rows));
+  write_text(table, csv, faults::kOtherOut);
+  write_text(options.out / "faults.md", markdown(rows), faults::kOtherOut);
   const int count = static_cast<int>(rows.size());
   std::printf("%d of %d rows ok; %s\n", count - bad, count, table.string().c_str());
   return bad == 0 ? 0 : 1;

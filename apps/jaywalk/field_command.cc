@@ -23,9 +23,6 @@ using field::MapQuality;
 constexpr double kGoalRadius_m = 0.5;
 constexpr int kRepeats = 9;
 
-/// The exact field is worth about four seconds.
-constexpr double kMostMultiplications = 4e9;
-
 std::int32_t cell_number(double metres, double cell_m) {
   return static_cast<std::int32_t>(std::floor(std::clamp(metres / cell_m, -1e6, 1e6)));
 }
@@ -85,7 +82,7 @@ void write_json(const std::filesystem::path& file, const nlohmann::ordered_json&
 }
 
 /// For a person: the share of cells that pick the exact field's best neighbour.
-std::string in_words(const std::optional<double>& best) {
+std::string best_in_words(const std::optional<double>& best) {
   if (!best) return "best neighbours not counted (too many cells)";
   char text[64];
   std::snprintf(text, sizeof text, "%.3f %% pick the best neighbour", 100.0 * *best);
@@ -109,7 +106,7 @@ int run_field(const FieldOptions& options) {
   const Timing warm_time = time("warm", kRepeats, solver.backend(), [&] { warm = solver.solve_warm(goal); });
   cold = solve();
   const float reach = solver.reach(goal);
-  const std::optional<double> best = solver.best_neighbours(goal, kMostMultiplications);
+  const std::optional<double> best = solver.best_neighbours(goal, field::kMostMultiplications);
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
   write_npy(options.out / "field.npy", map, solver);
@@ -126,8 +123,8 @@ int run_field(const FieldOptions& options) {
   write_json(options.out / "field.json", json);
   std::printf("%s: %d x %d cells, %s, reach %.4f, %s, cold %.2f ms, warm %.2f ms on %s; see %s\n", options.map.c_str(),
               map.cells.width, map.cells.height, cold.certified ? "certified" : "not certified",
-              static_cast<double>(reach), in_words(best).c_str(), cold_time.p50_ms, warm_time.p50_ms, solver.backend(),
-              (options.out / "field.npy").c_str());
+              static_cast<double>(reach), best_in_words(best).c_str(), cold_time.p50_ms, warm_time.p50_ms,
+              solver.backend(), (options.out / "field.npy").c_str());
   return cold.certified ? 0 : 1;
 }
 

@@ -11,10 +11,6 @@
 namespace jaywalk {
 namespace {
 
-std::vector<const CLI::App*> commands_of(const CLI::App& app) {
-  return app.get_subcommands([](const CLI::App*) { return true; });
-}
-
 /// roff takes a backslash, a hyphen, and a line's first point or quotation mark for its own.
 std::string roff(const std::string& text) {
   std::string out;
@@ -33,7 +29,7 @@ std::string roff(const std::string& text) {
 }
 
 /// "--mode full|paper", "--help, -h", "scenario".
-std::string name_of(const CLI::Option& option) {
+std::string option_name(const CLI::Option& option) {
   std::string names;
   for (const std::string& name : option.get_lnames()) names += (names.empty() ? "--" : ", --") + name;
   for (const std::string& name : option.get_snames()) names += (names.empty() ? "-" : ", -") + name;
@@ -43,7 +39,7 @@ std::string name_of(const CLI::Option& option) {
 
 std::string entry_of(const CLI::Option& option) {
   const std::string usual = option.get_default_str();
-  return ".TP\n.B " + roff(name_of(option)) + "\n" + roff(option.get_description()) +
+  return ".TP\n.B " + roff(option_name(option)) + "\n" + roff(option.get_description()) +
          (usual.empty() ? "" : " (default: " + roff(usual) + ")") + "\n";
 }
 

@@ -19,4 +19,10 @@ inline std::string as_markup(char c) {
   }
 }
 
+inline std::string as_markup(const std::string& text) {
+  std::string out;
+  for (const char c : text) out += as_markup(c);
+  return out;
+}
+
 }  // namespace jaywalk

@@ -1,20 +1,13 @@
 #include "apps/report/run_picture.h"
 
-#include <cstdio>
-
 #include "apps/report/picture/picture.h"
 #include "apps/report/picture/run_svg.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
 
 constexpr double kSeenAround_m = 15.0;  // cells shown beyond the driven way
-
-std::string text_of(const char* format, double value) {
-  char text[32];
-  std::snprintf(text, sizeof text, format, value);
-  return text;
-}
 
 }  // namespace
 
@@ -31,8 +24,8 @@ std::filesystem::path RunPicture::save(const std::filesystem::path& folder, cons
   const ControlSetup& setup = run.setup;
   PictureScene scene;
   scene.title = title;
-  scene.facts = {{"path", text_of("%.1f m", run.figures.path_length_m())},
-                 {"duration", text_of("%.1f s", run.figures.duration_s())},
+  scene.facts = {{"path", formatted("%.1f m", run.figures.path_length_m())},
+                 {"duration", formatted("%.1f s", run.figures.duration_s())},
                  {"mode", name_of(setup.mode)},
                  {"planner", run.planner}};
   scene.walls.assign(run.walls.begin(), run.walls.end());

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <fstream>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -54,12 +53,6 @@ constexpr double kShortestStop_s = 0.5;
 constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",      "unwatched",
                                "no_goal",   "touched",    "turn_blocked", "not_recorded", "speed_zone"};
 
-std::string text_of(const char* format, double value) {
-  char text[64];
-  std::snprintf(text, sizeof text, format, value);
-  return without_minus_zero(text);
-}
-
 std::string often(int times) { return times == 1 ? "once" : std::to_string(times) + " times"; }
 
 bool holds(const RunRow& row, const char* reason) {
@@ -89,11 +82,11 @@ class Day {
   [[nodiscard]] std::string words() {
     end_stop();
     const double drove_s = before_.t_s - begin_s_ - stood_s_;
-    std::string text = text_of("Drove %.1f m", way_m_) + text_of(" in %.1f s", std::max(drove_s, 0.0));
-    if (drove_s > 0.0) text += text_of(" (%.2f m/s on average)", way_m_ / drove_s);
-    text += text_of("; stood %.1f s.\n", stood_s_);
+    std::string text = formatted("Drove %.1f m", way_m_) + formatted(" in %.1f s", std::max(drove_s, 0.0));
+    if (drove_s > 0.0) text += formatted(" (%.2f m/s on average)", way_m_ / drove_s);
+    text += formatted("; stood %.1f s.\n", stood_s_);
     for (const auto& [cause, stops] : stops_)
-      text += text_of("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
+      text += formatted("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
     text += waits_.words();
     if (faults_.empty()) return text + "Faults: none.\n";
     text += "Faults:\n";
@@ -160,7 +153,7 @@ std::string outcome_of(const nlohmann::json& summary) {
     return "it left no summary: it was killed, or still runs";
   const std::string outcome = summary["outcome"].get<std::string>();
   if (!summary.contains("duration_s") || !summary["duration_s"].is_number()) return outcome;
-  return outcome + text_of(" after %.1f s", summary["duration_s"].get<double>());
+  return outcome + formatted(" after %.1f s", summary["duration_s"].get<double>());
 }
 
 /// How long a person drove by the stick, and how much of the wish was granted; nothing where nobody did.
@@ -170,8 +163,9 @@ std::string steering_of(const nlohmann::json& summary) {
   };
   const double steered_s = number("steered_s");
   if (steered_s <= 0.0) return "";
-  return text_of("By the stick %.1f s", steered_s) + text_of(", by itself %.1f s", number("duration_s") - steered_s) +
-         text_of("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
+  return formatted("By the stick %.1f s", steered_s) +
+         formatted(", by itself %.1f s", number("duration_s") - steered_s) +
+         formatted("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
 }
 
 /// When it drove loops; nothing where it drove none.
@@ -179,7 +173,7 @@ std::string loops_of(const nlohmann::json& summary) {
   if (!summary.is_object() || !summary.contains("loops_at_s") || !summary["loops_at_s"].is_array()) return "";
   std::string times;
   for (const auto& at : summary["loops_at_s"])
-    if (at.is_number()) times += text_of(times.empty() ? "%.1f" : ", %.1f", at.get<double>());
+    if (at.is_number()) times += formatted(times.empty() ? "%.1f" : ", %.1f", at.get<double>());
   return times.empty() ? "" : "Full turns within 6 m of way that brought it no nearer, at " + times + " s.\n";
 }
 
@@ -187,7 +181,7 @@ std::string loops_of(const nlohmann::json& summary) {
 std::string gone_of(int parts, const Day& day) {
   if (parts == 0) return "";
   return "Its first " + (parts == 1 ? "part is" : std::to_string(parts) + " parts are") + " gone; told are the last" +
-         text_of(" %.1f s.\n", day.lasted_s());
+         formatted(" %.1f s.\n", day.lasted_s());
 }
 
 void note_tracks(const std::filesystem::path& table, Waits& waits) {

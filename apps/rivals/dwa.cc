@@ -7,9 +7,9 @@
 namespace jaywalk::baseline {
 namespace {
 
-constexpr float kWindow_s = 0.25F;                  ///< velocities that are reached within
-constexpr float kStep_s = 0.1F, kHorizon_s = 3.0F;  ///< of an arc
-constexpr int kSpeeds = 11, kTurns = 21;            ///< of the window
+constexpr float kWindow_s = 0.25F;                    ///< velocities that are reached within
+constexpr float kStep_s = 0.1F, kHorizon_s = 3.0F;    ///< of an arc
+constexpr int kWindowSpeeds = 11, kWindowTurns = 21;  ///< of the window
 constexpr float kProgress = 0.6F, kHeading = 0.2F, kClearance = 0.1F, kVelocity = 0.1F;  ///< weights, of 1 in all
 constexpr float kFar_m = 1.5F;                                                           ///< clearance that is enough
 
@@ -57,10 +57,10 @@ motion::Command dwa(const Scene& scene) noexcept {
   const motion::Command turn = driven_along(scene, way_down(scene), 0.0F);
   motion::Command best{0.0F, turn.w};  // where nothing is admissible: turn to the way
   float most = -1e9F;
-  for (int i = 0; i < kSpeeds; ++i) {
-    for (int j = 0; j < kTurns; ++j) {
-      const motion::Command to{low_v + (high_v - low_v) * static_cast<float>(i) / (kSpeeds - 1),
-                               low_w + (high_w - low_w) * static_cast<float>(j) / (kTurns - 1)};
+  for (int i = 0; i < kWindowSpeeds; ++i) {
+    for (int j = 0; j < kWindowTurns; ++j) {
+      const motion::Command to{low_v + (high_v - low_v) * static_cast<float>(i) / (kWindowSpeeds - 1),
+                               low_w + (high_w - low_w) * static_cast<float>(j) / (kWindowTurns - 1)};
       const Arc arc = arc_of(scene, to);
       if (to.v > 0.0F && to.v * to.v > b.slowing * arc.free_m) continue;  // half the braking: the ramp takes the rest
       const float gained_s = here_s - scene.guide.time_to_go(arc.end.x, arc.end.y);

@@ -8,9 +8,9 @@
 namespace jaywalk::baseline {
 namespace {
 
-constexpr float kHorizon_s = 2.5F;      ///< tau, of movers
+constexpr float kTau_s = 2.5F;          ///< tau, of movers
 constexpr float kWallHorizon_s = 1.0F;  ///< of walls
-constexpr float kStep_s = 0.07F;        ///< within which an overlap is to end: a scan's period
+constexpr float kPartWithin_s = 0.07F;  ///< within which an overlap is to end: a scan's period
 constexpr int kWalls = 16;
 constexpr float kTolerance = 1e-4F;
 
@@ -47,7 +47,7 @@ struct Constraints {
 HalfPlane plane_of(Velocity apart, Velocity relative, float radius, Velocity own) noexcept {
   const float distance = length(apart);
   const bool overlaps = distance < radius;
-  const float horizon = overlaps ? kStep_s : kHorizon_s;
+  const float horizon = overlaps ? kPartWithin_s : kTau_s;
   const Velocity from_centre = relative - (1.0F / horizon) * apart;  // of the cut-off disc
   const float along = dot(from_centre, apart), size = length(from_centre);
   Velocity outward, change;

@@ -26,7 +26,7 @@ constexpr double kPoint_m = 0.01, kMatch_m = 0.0015, kMatch_rad = 0.0004;
 /// Of a wheel's way: a metre of it scatters by so much (m). Its square grows with the way.
 constexpr double kSlip_m = 0.0035;
 /// A match leaves more, or its walls look one way: it is none.
-constexpr double kMostLeft_m = 0.06, kLeastAcross = 0.02;
+constexpr double kMostResidual_m = 0.06;
 /// Chi-squared of three: its median, and beyond what share of it a motion is left out (4.5 sigma, 1 in 10,000).
 constexpr double kMedian3 = 2.366, kMost3 = 21.0;
 /// What is believed beforehand of each, standard deviations: radii and track as shares, m, m, rad. Weak: it keeps
@@ -115,7 +115,7 @@ std::vector<Motion> match_all(const CalibrationLog& log, const RobotGeometry& g)
                   .information = Eigen::Matrix3d::Identity()};
     if (motion.way.empty() || before.size() < kLeastSurfels || after.size() < kLeastSurfels) continue;
     const SurfelFit fit = fit_surfels(laser_motion(motion.way, g), before, after, 0.0);
-    if (fit.used < 0.5 * static_cast<double>(after.size()) || fit.left_m > kMostLeft_m || fit.across < kLeastAcross)
+    if (fit.used < 0.5 * static_cast<double>(after.size()) || fit.left_m > kMostResidual_m || fit.across < kLeastAcross)
       continue;
     motion.seen = fit.before_from_after;
     motion.information = information_of(fit, motion.way, g);

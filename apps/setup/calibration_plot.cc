@@ -10,7 +10,7 @@ namespace {
 
 constexpr double kSide = 360.0, kMargin = 50.0;
 constexpr const char* kBelieved = "#b0b0b0";
-constexpr const char* kFound = "#1f5fbf";
+constexpr const char* kFoundColour = "#1f5fbf";
 
 /// A square panel, `most` of its unit from its middle to its edge.
 class Panel {
@@ -62,7 +62,7 @@ std::string svg_of(const Calibration& calibration) {
                 3.0 * kMargin + 2.0 * kSide, 2.0 * kMargin + kSide);
   std::string svg = head + ways.frame("wheels less scans: x, y (mm)") + turns.frame("turn (mrad), by motion");
   for (const auto& [residuals, colour] :
-       {std::pair{&calibration.before, kBelieved}, std::pair{&calibration.after, kFound}}) {
+       {std::pair{&calibration.before, kBelieved}, std::pair{&calibration.after, kFoundColour}}) {
     for (std::size_t k = 0; k < residuals->size(); ++k) {
       const MotionResidual& r = (*residuals)[k];
       const double along = 2.0 * static_cast<double>(k + 1) / static_cast<double>(residuals->size() + 1) - 1.0;

@@ -12,9 +12,6 @@ namespace {
 constexpr double kWidest_rad = 1.2, kStep_rad = 0.1;
 /// A nudge is short, whatever the mount: it weighs as two points at rest, and half a metre is a wrong match.
 constexpr double kRestPoints = 2.0, kMost_m = 0.5;
-/// Of the points' normals, the mean square across the direction that is seen least: two points in a hundred on a wall
-/// across.
-constexpr double kLeastAcross = 0.02;
 constexpr double kMostLeft_m = 0.05;
 
 }  // namespace

@@ -10,7 +10,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr int kIterations = 25;
+constexpr int kFitIterations = 25;
 constexpr double kFirstFar_m = 0.4, kLastFar_m = 0.06;
 constexpr double kAlike = 0.8;  ///< cosine between the normals of what may be one surface
 constexpr std::size_t kMostPoints = 400;
@@ -60,7 +60,7 @@ SurfelFit fit_surfels(const Pose2& guess, const std::vector<Surfel>& before, con
                       double rest_points) {
   SurfelFit fit;
   Pose2 pose = guess;
-  for (int k = 0; k < kIterations; ++k) {
+  for (int k = 0; k < kFitIterations; ++k) {
     const double far_m = std::max(kLastFar_m, kFirstFar_m * (1.0 - 0.06 * k));
     Eigen::Matrix3d points = diagonal(rest_points, rest_points, 1e-6);
     Eigen::Vector3d gradient(-rest_points * pose.x, -rest_points * pose.y, 0.0);

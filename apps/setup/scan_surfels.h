@@ -13,6 +13,9 @@ namespace jaywalk {
 
 /// Fewer than these are no scan to be matched.
 inline constexpr std::size_t kLeastSurfels = 40;
+/// Of the points' normals, the mean square across the direction that is seen least: two points in a hundred on a wall
+/// across.
+inline constexpr double kLeastAcross = 0.02;
 
 /// A point of a surface and the surface's normal there, m, in the laser's frame.
 struct Surfel {

@@ -11,7 +11,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr Duration kPatience = std::chrono::seconds(3), kStep = std::chrono::milliseconds(1);
+constexpr Duration kPatience = std::chrono::seconds(3), kReplyStep = std::chrono::milliseconds(1);
 constexpr std::size_t kPeriodsForRate = 10;
 
 /// One conversation, and the times between its scans.
@@ -78,7 +78,7 @@ std::unique_ptr<Trial> try_kind(const ScannerPlace& place, std::size_t round, Cl
 void listen(std::vector<std::unique_ptr<Trial>>& trials, Clock& clock) {
   const auto is_settled = [](const std::unique_ptr<Trial>& trial) { return !trial || trial->is_known(); };
   for (const Time until = clock.now() + kPatience; clock.now() < until;) {
-    clock.sleep_until(clock.now() + kStep);
+    clock.sleep_until(clock.now() + kReplyStep);
     for (const auto& trial : trials)
       if (trial) trial->look();
     if (std::all_of(trials.begin(), trials.end(), is_settled)) return;

@@ -135,13 +135,13 @@ CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_
 
 /// The scanner's heading on the robot that explains the scans best, beside what the file says.
 CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model) {
-  constexpr double kStep_rad = 5.0 * kPi / 180.0;
+  constexpr double kBetween_rad = 5.0 * kPi / 180.0;
   constexpr int kSteps = 9;  // to 45 degrees either way
   double at_file_m = 0.0, least_m = std::numeric_limits<double>::infinity();
   int best = 0;
   for (int k = -kSteps; k <= kSteps; ++k) {
     Pose2 mount = model.laser.robot_from_laser;
-    mount.heading = wrap_angle(mount.heading + k * kStep_rad);
+    mount.heading = wrap_angle(mount.heading + k * kBetween_rad);
     double sum_m = 0.0;
     for (const Nudge& nudge : nudges) {
       const double felt = felt_m(nudge, model.drive);

@@ -15,18 +15,17 @@ namespace jaywalk::view {
 namespace {
 
 namespace ssl = boost::asio::ssl;
-using Path = std::filesystem::path;
 template <class T, class End>
 using Owned = std::unique_ptr<T, End*>;
 
 constexpr long kValid_s = 10L * 365 * 24 * 3600;  ///< it is known by its fingerprint: the years say nothing
 constexpr const char* kRemedy = "give a PEM file with certificate and key by --view-certificate";
 
-Path state_folder() {
+std::filesystem::path state_folder() {
   const char* const state = std::getenv("XDG_STATE_HOME");
   const char* const home = std::getenv("HOME");
-  if (state != nullptr && *state == '/') return Path(state) / "jaywalk";
-  if (home != nullptr && *home == '/') return Path(home) / ".local/state/jaywalk";
+  if (state != nullptr && *state == '/') return std::filesystem::path(state) / "jaywalk";
+  if (home != nullptr && *home == '/') return std::filesystem::path(home) / ".local/state/jaywalk";
   throw StartupError("no folder for the live page's certificate: neither HOME nor XDG_STATE_HOME is set", kRemedy);
 }
 
@@ -50,7 +49,7 @@ bool write_pem(std::FILE* file) {
 }
 
 /// Whole or not at all; where another start was quicker, its file stays.
-void make(const Path& path) {
+void make(const std::filesystem::path& path) {
   std::error_code error;
   std::filesystem::create_directories(path.parent_path(), error);
   ::chmod(path.parent_path().c_str(), S_IRWXU);
@@ -64,8 +63,8 @@ void make(const Path& path) {
 
 }  // namespace
 
-std::shared_ptr<ssl::context> tls_context(const Path& given) {
-  const Path path = given.empty() ? state_folder() / "view.pem" : given;
+std::shared_ptr<ssl::context> tls_context(const std::filesystem::path& given) {
+  const std::filesystem::path path = given.empty() ? state_folder() / "view.pem" : given;
   if (given.empty() && !std::filesystem::exists(std::filesystem::symlink_status(path))) make(path);
   auto context = std::make_shared<ssl::context>(ssl::context::tls_server);
   try {

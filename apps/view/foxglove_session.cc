@@ -30,7 +30,7 @@ std::string little_endian(std::uint64_t number, std::size_t count) {
 }
 
 /// A whole number that fits; nothing otherwise.
-std::optional<std::uint32_t> number_in(const Json& json, const char* key) {
+std::optional<std::uint32_t> id_in(const Json& json, const char* key) {
   const auto found = json.is_object() ? json.find(key) : json.end();
   if (!json.is_object() || found == json.end() || !found->is_number_unsigned()) return std::nullopt;
   const auto number = found->get<std::uint64_t>();
@@ -88,7 +88,7 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
   const std::string op = text_in(json, "op");
   if (op == "subscribe") {
     for (const Json& wish : list_in(json, "subscriptions")) {
-      const auto id = number_in(wish, "id"), channel = number_in(wish, "channelId");
+      const auto id = id_in(wish, "id"), channel = id_in(wish, "channelId");
       if (!id || !channel || *channel >= channels_) {
         outcome.status = warning("a subscription names no channel");
       } else if (!subscriptions_.emplace(*channel, *id).second) {
@@ -102,7 +102,7 @@ FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
       std::erase_if(subscriptions_, [&id](const auto& one) { return id.is_number_unsigned() && id == one.second; });
   } else if (op == "advertise") {
     for (const Json& channel : list_in(json, "channels")) {
-      const auto id = number_in(channel, "id");
+      const auto id = id_in(channel, "id");
       if (!id || published_.size() >= kMostNumbers) continue;
       published_[*id] = {text_in(channel, "topic"), text_in(channel, "encoding")};
     }

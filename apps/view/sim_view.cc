@@ -6,7 +6,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr auto kLookEvery = std::chrono::milliseconds(5);  // at the page's orders while paused
+constexpr auto kPausedLook = std::chrono::milliseconds(5);  // at the page's orders while paused
 constexpr int kLooksUntilTold = 20;
 
 }  // namespace
@@ -37,7 +37,7 @@ void SimView::keep_pace(Duration tick) {
 }
 
 void SimView::obey_while_paused(const Interruption& interruption) {
-  for (int looks = 0; !interruption.came(); ++looks, std::this_thread::sleep_for(kLookEvery)) {
+  for (int looks = 0; !interruption.came(); ++looks, std::this_thread::sleep_for(kPausedLook)) {
     const view::ViewOrder order = orders_.take();
     if (order.pause) paused_ = *order.pause;
     if (takes_goals_) panel_.obey(order);

@@ -12,23 +12,25 @@
 namespace jaywalk::view {
 namespace {
 
-using Json = nlohmann::ordered_json;
+using Ordered = nlohmann::ordered_json;
 
 constexpr std::int32_t kMostGroundSide = 1000;
 constexpr std::size_t kPathStep = 2;  ///< every second of points 0.05 to 0.2 m apart
 
 /// To the millimetre: the page shows no more.
-Json mm(double value) { return std::isfinite(value) ? Json(std::round(value * 1000.0) / 1000.0) : Json(nullptr); }
-Json cm(float value) { return Json(std::round(static_cast<double>(value) * 100.0) / 100.0); }
-Json place(Vec2 p) { return Json::array({mm(p.x), mm(p.y)}); }
+Ordered mm(double value) {
+  return std::isfinite(value) ? Ordered(std::round(value * 1000.0) / 1000.0) : Ordered(nullptr);
+}
+Ordered cm(float value) { return Ordered(std::round(static_cast<double>(value) * 100.0) / 100.0); }
+Ordered place(Vec2 p) { return Ordered::array({mm(p.x), mm(p.y)}); }
 
 /// JSON has bytes of text from files in it: what is no UTF-8 is replaced.
-std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
+std::string scene_text(const Ordered& json) { return json.dump(-1, ' ', true, Ordered::error_handler_t::replace); }
 
-Json hits_of(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
+Ordered hits_of(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
   ScanProjection projection;
   ScanPoints points;
-  Json hits = Json::array();
+  Ordered hits = Ordered::array();
   for (const LaserScan& scan : snapshot.record.scans()) {
     projection.project(scan, lasers[scan.scanner].robot_from_laser, snapshot.twist, points);
     const Transform2 map_from_robot(snapshot.map_from_robot_at_scan[scan.scanner]);
@@ -42,8 +44,8 @@ Json hits_of(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
 }
 
 /// Position, radius, whether it moves, velocity, whether it ever walked.
-Json tracks_of(std::span<const Track> tracks) {
-  Json out = Json::array();
+Ordered tracks_of(std::span<const Track> tracks) {
+  Ordered out = Ordered::array();
   for (const Track& k : tracks)
     out.push_back({k.id, mm(k.position_in_map.x), mm(k.position_in_map.y), mm(k.radius_m), k.moving ? 1 : 0,
                    mm(k.velocity_in_map.x), mm(k.velocity_in_map.y), k.has_walked ? 1 : 0});
@@ -51,10 +53,10 @@ Json tracks_of(std::span<const Track> tracks) {
 }
 
 /// A row a mover: its radius, then x and y of the first future at each time, of the second, and so on.
-Json futures_of(std::span<const ShownMover> movers) {
-  Json out = Json::array();
+Ordered futures_of(std::span<const ShownMover> movers) {
+  Ordered out = Ordered::array();
   for (const ShownMover& mover : movers) {
-    Json row = Json::array({cm(mover.radius_m)});
+    Ordered row = Ordered::array({cm(mover.radius_m)});
     for (const auto& future : mover.at)
       for (const Place& p : future) row.push_back(cm(p.x)), row.push_back(cm(p.y));
     out.push_back(std::move(row));
@@ -63,23 +65,23 @@ Json futures_of(std::span<const ShownMover> movers) {
 }
 
 /// Where the plan of a robot without sampled futures expects movers.
-Json expected_of(const Plan& plan) {
-  Json out = Json::array();
+Ordered expected_of(const Plan& plan) {
+  Ordered out = Ordered::array();
   for (const Prediction& p : plan.predictions)
     out.push_back({mm(p.position_in_map.x), mm(p.position_in_map.y), mm(p.mark_radius_m)});
   return out;
 }
 
-Json path_of(const Path& path) {
-  Json out = Json::array();
+Ordered path_of(const Path& path) {
+  Ordered out = Ordered::array();
   for (std::size_t i = 0; i < path.size(); i += kPathStep) out.push_back(place(path[i]));
   return out;
 }
 
-Json zone_of(const ShownStopZone::Outlines& zone) {
-  Json out = Json::array();
+Ordered zone_of(const ShownStopZone::Outlines& zone) {
+  Ordered out = Ordered::array();
   for (const Corners& corners : zone) {
-    Json outline = Json::array();
+    Ordered outline = Ordered::array();
     for (const Vec2& corner : corners) outline.push_back(place(corner));
     out.push_back(std::move(outline));
   }
@@ -94,7 +96,7 @@ std::string base64_of(std::span<const std::uint8_t> bytes) {
 }
 
 /// A byte a cell, rows from the lowest y: 0 unknown, 1 free, 2 with a wall in it. Thinned: walls stay.
-Json ground_of(const KnownMap& known) {
+Ordered ground_of(const KnownMap& known) {
   std::int32_t step = 1;
   while (std::max(known.width, known.height) > step * kMostGroundSide) ++step;
   const std::int32_t width = (known.width + step - 1) / step, height = (known.height + step - 1) / step;
@@ -115,66 +117,66 @@ Json ground_of(const KnownMap& known) {
 }  // namespace
 
 std::string to_json(const HelloScene& hello) {
-  Json walls = Json::array();
+  Ordered walls = Ordered::array();
   for (const WallPiece& w : hello.walls) walls.push_back({mm(w.from.x), mm(w.from.y), mm(w.to.x), mm(w.to.y)});
   const Footprint& body = hello.model.footprint;
-  return dumped({{"kind", "hello"},
-                 {"title", hello.title},
-                 {"tick_s", hello.tick_s},
-                 {"takes_goals", hello.takes_goals},
-                 {"takes_pauses", hello.takes_pauses},
-                 {"keeps_ticks", hello.keeps_ticks},
-                 {"front_m", body.front_m},
-                 {"rear_m", body.rear_m},
-                 {"half_width_m", body.half_width_m},
-                 {"max_speed_mps", hello.model.limits.max_speed_mps},
-                 {"walls", walls},
-                 {"ground", hello.known == nullptr ? Json(nullptr) : ground_of(*hello.known)}});
+  return scene_text({{"kind", "hello"},
+                     {"title", hello.title},
+                     {"tick_s", hello.tick_s},
+                     {"takes_goals", hello.takes_goals},
+                     {"takes_pauses", hello.takes_pauses},
+                     {"keeps_ticks", hello.keeps_ticks},
+                     {"front_m", body.front_m},
+                     {"rear_m", body.rear_m},
+                     {"half_width_m", body.half_width_m},
+                     {"max_speed_mps", hello.model.limits.max_speed_mps},
+                     {"walls", walls},
+                     {"ground", hello.known == nullptr ? Ordered(nullptr) : ground_of(*hello.known)}});
 }
 
 std::string to_json(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lasers) {
-  Json standing = Json::array();
+  Ordered standing = Ordered::array();
   for (const StandingPedestrian& s : snapshot.standing)
     standing.push_back({mm(s.position_in_map.x), mm(s.position_in_map.y), mm(s.radius_m)});
   const std::span<const ShownMover> movers{snapshot.movers.begin(), snapshot.movers.size()};
-  return dumped({{"hits", hits_of(snapshot, lasers)},
-                 {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
-                 {"standing", standing},
-                 {"futures", futures_of(movers)},
-                 {"expected", movers.empty() ? expected_of(snapshot.plan) : Json::array()},
-                 {"path", path_of(snapshot.plan.path)}});
+  return scene_text({{"hits", hits_of(snapshot, lasers)},
+                     {"tracks", tracks_of({snapshot.tracks.begin(), snapshot.tracks.size()})},
+                     {"standing", standing},
+                     {"futures", futures_of(movers)},
+                     {"expected", movers.empty() ? expected_of(snapshot.plan) : Ordered::array()},
+                     {"path", path_of(snapshot.plan.path)}});
 }
 
 std::string frame_head(const FrameScene& frame) {
   const TickRecord& t = frame.record;
   const Pose2& pose = t.pose.map_from_robot;
-  Json out{{"kind", "frame"},
-           {"tick", frame.tick},
-           {"t", mm(to_seconds(t.now))},
-           {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
-           {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
-           {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
-           {"speed", mm(frame.speed_mps)},
-           {"stops", t.input.stop_orders},
-           {"gap_m", mm(t.verdict.gap_m)},
-           {"reasons", to_string(t.verdict.reasons, t.verdict.faulty_scanners)},
-           {"zone", zone_of(frame.zone)},
-           {"ended", frame.ended}};
+  Ordered out{{"kind", "frame"},
+              {"tick", frame.tick},
+              {"t", mm(to_seconds(t.now))},
+              {"pose", {mm(pose.x), mm(pose.y), mm(pose.heading)}},
+              {"wanted", {mm(t.wanted.v_mps), mm(t.wanted.w_radps)}},
+              {"permitted", {mm(t.verdict.permitted.v_mps), mm(t.verdict.permitted.w_radps)}},
+              {"speed", mm(frame.speed_mps)},
+              {"stops", t.input.stop_orders},
+              {"gap_m", mm(t.verdict.gap_m)},
+              {"reasons", to_string(t.verdict.reasons, t.verdict.faulty_scanners)},
+              {"zone", zone_of(frame.zone)},
+              {"ended", frame.ended}};
   if (t.input.has_goal)
     out["goal"] = {mm(t.input.goal_in_map.x), mm(t.input.goal_in_map.y), mm(t.input.goal_heading_rad)};
-  std::string text = dumped(out);
+  std::string text = scene_text(out);
   text.back() = ',';  // for the closing brace
   return text.append("\"scene\":");
 }
 
 std::string to_json(const FieldPicture& field, std::uint64_t number) {
-  return dumped({{"kind", "field"},
-                 {"number", number},
-                 {"x", mm(field.low_x_m)},
-                 {"y", mm(field.low_y_m)},
-                 {"cell_m", field.cell_m},
-                 {"width", field.width},
-                 {"cells", base64_of({field.cells.begin(), field.cells.size()})}});
+  return scene_text({{"kind", "field"},
+                     {"number", number},
+                     {"x", mm(field.low_x_m)},
+                     {"y", mm(field.low_y_m)},
+                     {"cell_m", field.cell_m},
+                     {"width", field.width},
+                     {"cells", base64_of({field.cells.begin(), field.cells.size()})}});
 }
 
 }  // namespace jaywalk::view

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdarg>
-#include <cstdio>
 #include <utility>
 #include <vector>
 
@@ -17,18 +15,9 @@ namespace {
 constexpr double kDegPerRad = 180.0 / kPi;
 constexpr double kLookAhead_s = 5.0;
 
-[[gnu::format(printf, 1, 2)]] std::string text(const char* format, ...) {
-  char words[256];
-  va_list arguments;
-  va_start(arguments, format);
-  std::vsnprintf(words, sizeof words, format, arguments);
-  va_end(arguments);
-  return without_minus_zero(words);
-}
-
 std::string side(double rad) {
   const double degrees = std::fabs(rad) * kDegPerRad;
-  return degrees < 5.0 ? "straight ahead" : text("%.0f degrees to the %s", degrees, rad > 0.0 ? "left" : "right");
+  return degrees < 5.0 ? "straight ahead" : formatted("%.0f degrees to the %s", degrees, rad > 0.0 ? "left" : "right");
 }
 
 /// Where a track is nearest to the robot's middle if both go on as they do: a robot on a bend is stepped along it.
@@ -50,8 +39,8 @@ Meeting nearest(const Track& track, const Pose2& from, const Twist2& twist) {
 std::string doing(const TickRecord& t, const DriveModel& drive) {
   const Pose2& p = t.pose.map_from_robot;
   const double v = 0.5 * drive.wheel_radius_m * (t.wheels.left_radps + t.wheels.right_radps);
-  return text("At %.2f s the robot is at %.2f, %.2f m, heading %.0f degrees, and drives %.2f m/s.\n", to_seconds(t.now),
-              p.x, p.y, p.heading * kDegPerRad, v);
+  return formatted("At %.2f s the robot is at %.2f, %.2f m, heading %.0f degrees, and drives %.2f m/s.\n",
+                   to_seconds(t.now), p.x, p.y, p.heading * kDegPerRad, v);
 }
 
 std::string saw(const LaserScan& scan) {
@@ -60,18 +49,18 @@ std::string saw(const LaserScan& scan) {
     if (!scan.is_hit(k)) continue;
     if (hits++ == 0 || scan.range_m[k] < scan.range_m[nearest]) nearest = k;
   }
-  std::string words = text("%zu of %u beams hit something", hits, scan.beam_count);
+  std::string words = formatted("%zu of %u beams hit something", hits, scan.beam_count);
   if (hits > 0)
-    words += text(", the nearest %.2f m off, %s of the laser", static_cast<double>(scan.range_m[nearest]),
-                  side(scan.angle_rad(nearest)).c_str());
+    words += formatted(", the nearest %.2f m off, %s of the laser", static_cast<double>(scan.range_m[nearest]),
+                       side(scan.angle_rad(nearest)).c_str());
   return words;
 }
 
 std::string saw(const TickRecord& t, std::span<const Track> tracks) {
   const auto moving = std::count_if(tracks.begin(), tracks.end(), [](const Track& track) { return track.moving; });
   std::string words = "It saw: " + saw(t.scan);
-  for (const LaserScan& scan : t.other_scans) words += text("; by scanner %d ", scan.scanner + 1) + saw(scan);
-  return words + text("; it followed %zu bodies, %d of them moving.\n", tracks.size(), static_cast<int>(moving));
+  for (const LaserScan& scan : t.other_scans) words += formatted("; by scanner %d ", scan.scanner + 1) + saw(scan);
+  return words + formatted("; it followed %zu bodies, %d of them moving.\n", tracks.size(), static_cast<int>(moving));
 }
 
 /// The mover that comes nearest if everybody goes on at these speeds.
@@ -90,7 +79,7 @@ std::string expected(const TickRecord& t, std::span<const Track> tracks) {
   if (met == nullptr) return "It expected: nobody who walks.\n";
   const Meeting meeting = nearest(*met, here, t.verdict.permitted);
   const Vec2 off = met->position_in_map - here.position();
-  return text(
+  return formatted(
       "It expected: body %u, %.1f m off, %s, walks %.2f m/s; as both go now it comes to %.2f m of the robot's middle "
       "in %.1f s.\n",
       met->id, norm(off), side(wrap_angle(std::atan2(off.y, off.x) - here.heading)).c_str(), norm(met->velocity_in_map),
@@ -98,7 +87,7 @@ std::string expected(const TickRecord& t, std::span<const Track> tracks) {
 }
 
 std::string wanted(const TickRecord& t, const ControlLoop& loop) {
-  std::string words = text("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
+  std::string words = formatted("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
   if (!t.input.has_goal) return words + "; it has no goal.\n";
   if (const motion::GoalRollouts* motion = loop.motion().rollouts(); motion && motion->decision().at != kNever) {
     const motion::Decision& decision = motion->decision();
@@ -110,21 +99,21 @@ std::string wanted(const TickRecord& t, const ControlLoop& loop) {
 std::string permitted(const TickRecord& t) {
   const Twist2& p = t.verdict.permitted;
   if (t.verdict.reasons == Reason::kNone) return "It was permitted: all of that.\n";
-  return text("It was permitted: %.2f m/s and %.2f rad/s, because ", p.v_mps, p.w_radps) + in_words(t.verdict.reasons) +
-         ".\n";
+  return formatted("It was permitted: %.2f m/s and %.2f rad/s, because ", p.v_mps, p.w_radps) +
+         in_words(t.verdict.reasons) + ".\n";
 }
 
 std::string otherwise(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model) {
   const double braking_m = t.wanted.v_mps * t.wanted.v_mps / (2.0 * model.limits.brake_mps2);
   if (has(t.verdict.reasons, Reason::kStopZone) && std::isfinite(t.verdict.gap_m))
-    return text("Otherwise: at %.2f m/s it needs %.2f m to brake, and %.2f m are free.\n", std::fabs(t.wanted.v_mps),
-                braking_m, t.verdict.gap_m);
+    return formatted("Otherwise: at %.2f m/s it needs %.2f m to brake, and %.2f m are free.\n",
+                     std::fabs(t.wanted.v_mps), braking_m, t.verdict.gap_m);
   const Twist2 on{model.limits.max_speed_mps, 0.0};
   const Track* met = first_met(tracks, t.pose.map_from_robot, on);
   if (met == nullptr) return "Otherwise: nobody would have been met.\n";
   const Meeting meeting = nearest(*met, t.pose.map_from_robot, on);
-  return text("Otherwise: straight on at %.2f m/s body %u would have come to %.2f m of its middle in %.1f s.\n",
-              on.v_mps, met->id, meeting.gap_m, meeting.at_s);
+  return formatted("Otherwise: straight on at %.2f m/s body %u would have come to %.2f m of its middle in %.1f s.\n",
+                   on.v_mps, met->id, meeting.gap_m, meeting.at_s);
 }
 
 }  // namespace

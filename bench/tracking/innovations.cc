@@ -9,8 +9,6 @@
 namespace jaywalk::bench {
 namespace {
 
-constexpr double kWithin95 = 5.991;  // chi-squared, two degrees of freedom: -2 ln 0.05
-
 /// Asked for plans, it has none.
 class NoPlanner final : public Planner {
  public:

@@ -9,6 +9,8 @@
 
 namespace jaywalk::bench {
 
+inline constexpr double kWithin95 = 5.991;  ///< chi-squared, two degrees of freedom: -2 ln 0.05
+
 /// Innovations of tracks that move, each squared and divided by the covariance that the filter gave it: chi-squared
 /// with two degrees of freedom where the filter is honest, mean 2, 95 in 100 below 5.99. Less: it doubts too much.
 class Innovations {

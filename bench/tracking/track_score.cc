@@ -4,14 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "bench/tracking/innovations.h"
+
 namespace jaywalk::bench {
 namespace {
 
 constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 constexpr double kAwayS = 1.0;  // whoever is out of view this long comes into view again
 constexpr double kRoundOffS = 1e-6;
-constexpr double kKeepsMps = 0.02;   // recorded velocities are rounded, and movers turn gently
-constexpr double kWithin95 = 5.991;  // chi-squared, two degrees of freedom: -2 ln 0.05
+constexpr double kKeepsMps = 0.02;  // recorded velocities are rounded, and movers turn gently
 
 double share(std::size_t part, std::size_t whole) {
   return whole == 0 ? kNone : static_cast<double>(part) / static_cast<double>(whole);

@@ -20,7 +20,7 @@ namespace jaywalk {
 namespace {
 
 /// Error frames that one call of receive passes over: a storm of them must not hold up a tick.
-constexpr int kMostAtOnce = 64;
+constexpr int kMostErrorFrames = 64;
 
 [[noreturn]] void refuse(const std::string& interface, const std::string& doing, int error) {
   throw StartupError(interface + ": " + doing + ": " + std::strerror(error),
@@ -133,7 +133,7 @@ SendResult SocketCan::send(const CanFrame& frame) noexcept {
 }
 
 bool SocketCan::receive(ReceivedFrame& received) noexcept {
-  for (int attempt = 0; attempt < kMostAtOnce; ++attempt) {
+  for (int attempt = 0; attempt < kMostErrorFrames; ++attempt) {
     can_frame raw{};
     alignas(cmsghdr) std::array<char, 256> control{};
     iovec part{.iov_base = &raw, .iov_len = sizeof raw};

@@ -10,8 +10,6 @@ namespace jaywalk::canopen {
 
 namespace {
 
-/// Frames that one tick takes in: a bus at 1 Mbit/s brings some 9000 a second.
-constexpr int kMostAtOnce = 512;
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
 
 WheelAxis checked_axis(const DriveBaseSetup& setup, std::size_t side) {
@@ -151,7 +149,7 @@ void CanopenDriveBase::begin_operation() noexcept {
 
 WheelState CanopenDriveBase::latest() noexcept {
   ReceivedFrame received;
-  for (int taken = 0; taken < kMostAtOnce && bus_.receive(received); ++taken) take(received);
+  for (int taken = 0; taken < kMostFramesATick && bus_.receive(received); ++taken) take(received);
   if (is_proving()) follow_proof();
   watch();
   wheels_.trouble = trouble_;

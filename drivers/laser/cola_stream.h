@@ -10,6 +10,10 @@
 
 namespace jaywalk::sick {
 
+[[nodiscard]] inline std::string_view text_of(wire::Bytes bytes) noexcept {
+  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
+}
+
 enum class Cola : std::uint8_t { kA, kB };
 
 /// Cuts a stream into telegrams; after garbage it goes on at the next beginning that holds.

@@ -18,10 +18,6 @@ constexpr std::array<std::string_view, 4> kInBinary{
 /// More telegrams than this do not go missing on a connection that lives: the scanner began to count anew.
 constexpr std::uint16_t kMostLost = 1000;
 
-std::string_view text_of(wire::Bytes bytes) noexcept {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 }  // namespace
 
 SickProtocol::SickProtocol(Cola dialect, const ScannerModel& model) noexcept

@@ -12,10 +12,6 @@ namespace jaywalk::sick {
 
 namespace {
 
-std::string_view text_of(wire::Bytes bytes) noexcept {
-  return {reinterpret_cast<const char*>(bytes.data()), bytes.size()};
-}
-
 /// The fields of a CoLa B body: big-endian numbers of fixed size.
 class BinaryFields {
  public:

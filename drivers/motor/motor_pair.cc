@@ -7,9 +7,6 @@ namespace jaywalk {
 
 namespace {
 
-/// Frames that one tick takes in: a bus at 1 Mbit/s brings some 9000 a second.
-constexpr int kMostAtOnce = 512;
-
 /// A position that differs by more from what the speed explains, held or braked to rest since, is that of a counter
 /// that began anew.
 constexpr double kJump_rad = 0.5;
@@ -33,7 +30,7 @@ WheelState MotorPair::latest() noexcept {
 
 void MotorPair::receive() noexcept {
   ReceivedFrame received;
-  for (int taken = 0; taken < kMostAtOnce && bus_.receive(received); ++taken) {
+  for (int taken = 0; taken < kMostFramesATick && bus_.receive(received); ++taken) {
     take(received);
     publish(received.stamp);
   }

@@ -9,6 +9,9 @@
 namespace jaywalk::odrive {
 
 enum class AxisState : std::uint8_t { kUndefined = 0, kIdle = 1, kClosedLoop = 8 };
+/// As a heartbeat says it.
+inline constexpr std::uint8_t kIdle = static_cast<std::uint8_t>(AxisState::kIdle);
+inline constexpr std::uint8_t kClosedLoop = static_cast<std::uint8_t>(AxisState::kClosedLoop);
 
 /// Bits of Heartbeat::active_errors that arming looks at; any other bit is an error too.
 inline constexpr std::uint32_t kWatchdogExpired = 0x01000000, kEstopRequested = 0x02000000;

@@ -6,12 +6,7 @@
 
 namespace jaywalk::odrive {
 
-namespace {
-
-constexpr std::uint8_t kIdle = static_cast<std::uint8_t>(AxisState::kIdle);
-constexpr std::uint8_t kClosedLoop = static_cast<std::uint8_t>(AxisState::kClosedLoop);
-
-}  // namespace
+namespace {}  // namespace
 
 OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,

@@ -7,8 +7,6 @@ namespace jaywalk::odrive {
 
 namespace {
 
-constexpr std::uint8_t kIdle = static_cast<std::uint8_t>(AxisState::kIdle);
-constexpr std::uint8_t kClosedLoop = static_cast<std::uint8_t>(AxisState::kClosedLoop);
 constexpr Duration kAnswerLimit = std::chrono::seconds(1);
 constexpr Duration kFeeding = std::chrono::milliseconds(10);  ///< well within any watchdog that passes
 constexpr double kStill_radps = 0.05;                         ///< noise of an encoder at rest

@@ -33,7 +33,7 @@ constexpr std::array<Footer, 7> kFooters{{
 RunOptions run_options;
 std::filesystem::path socket_path;
 std::vector<std::string> goal;
-bool now = false, as_json = false;
+bool stop_now = false, as_json = false;
 
 void add_socket(CLI::App* command) {
   command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
@@ -121,9 +121,9 @@ void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_
   add_socket(here);
   here->callback([&exit_code] { exit_code = say_place("here"); });
   CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
-  stop->add_flag("--now", now, "As an emergency: brake hard, and latch until a reset");
+  stop->add_flag("--now", stop_now, "As an emergency: brake hard, and latch until a reset");
   add_socket(stop);
-  stop->callback([&exit_code] { exit_code = say(now ? "stop now" : "stop"); });
+  stop->callback([&exit_code] { exit_code = say(stop_now ? "stop now" : "stop"); });
   CLI::App* reset = app.add_subcommand("reset", "After a fault that stopped a run: let it move again");
   add_socket(reset);
   reset->callback([&exit_code] { exit_code = say("reset"); });

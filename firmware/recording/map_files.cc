@@ -2,10 +2,9 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <fstream>
 #include <string>
 
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk {
 namespace {
@@ -14,6 +13,7 @@ namespace {
 constexpr char kOccupied = 0;
 constexpr auto kFree = static_cast<char>(254), kUnknown = static_cast<char>(205);
 constexpr const char* kThresholds = "mode: trinary\nnegate: 0\noccupied_thresh: 0.65\nfree_thresh: 0.196\n";
+constexpr const char* kAnotherFolder = "choose another --out folder";
 
 /// Both ends belong to it.
 struct CellBox {
@@ -39,12 +39,6 @@ CellBox known_cells(const EvidenceMap& map) {
   return box.high.i < box.low.i ? CellBox{first, first} : box;
 }
 
-void write(const std::filesystem::path& file, const std::string& bytes) {
-  std::ofstream out(file, std::ios::binary);
-  out << bytes;
-  if (!out.flush()) throw StartupError(file.string() + ": cannot be written", "choose another --out folder");
-}
-
 std::string pgm_of(const EvidenceMap& map, const CellBox& box) {
   std::string bytes = "P5\n" + std::to_string(box.high.i - box.low.i + 1) + " " +
                       std::to_string(box.high.j - box.low.j + 1) + "\n255\n";
@@ -58,11 +52,11 @@ std::string pgm_of(const EvidenceMap& map, const CellBox& box) {
 
 void save_map(const EvidenceMap& map, const std::filesystem::path& folder) {
   const CellBox box = known_cells(map);
-  write(folder / "map.pgm", pgm_of(map, box));
+  write_text(folder / "map.pgm", pgm_of(map, box), kAnotherFolder);
   char place[160];  // of the lower left pixel's lower left corner, in the map
   std::snprintf(place, sizeof place, "image: map.pgm\nresolution: %.6g\norigin: [%.6f, %.6f, 0.0]\n", map.cell_m(),
                 box.low.i * map.cell_m(), box.low.j * map.cell_m());
-  write(folder / "map.yaml", std::string(place) + kThresholds);
+  write_text(folder / "map.yaml", std::string(place) + kThresholds, kAnotherFolder);
 }
 
 }  // namespace jaywalk

@@ -1,19 +1,14 @@
 #include "firmware/robot/device_report.h"
 
 #include <algorithm>
-#include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk {
 namespace {
 
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) throw StartupError(path.string() + ": cannot be written", "free some space");
-}
+constexpr const char* kNoRoom = "free some space";
 
 nlohmann::ordered_json json_of(const ScannerHealth& laser) {
   return {{"trouble", name(laser.trouble)},
@@ -31,7 +26,7 @@ nlohmann::ordered_json json_of(const ScannerHealth& laser) {
 void write_arming(const std::filesystem::path& folder, const std::vector<std::string>& proof) {
   std::string text;
   for (const std::string& line : proof) text += line + '\n';
-  write(folder / "arming.txt", text);
+  write_text(folder / "arming.txt", text, kNoRoom);
 }
 
 std::string in_short(const std::vector<std::string>& proof) {
@@ -58,7 +53,7 @@ void write_devices(const std::filesystem::path& folder, const DriveWiring& drive
   json["stalls"] = last.stalls;
   json["wheel_radii_m"] = drive.wheel_radii_m;
   json["not_permitted"] = not_permitted;
-  write(folder / "devices.json", json.dump(2) + '\n');
+  write_text(folder / "devices.json", json.dump(2) + '\n', kNoRoom);
 }
 
 }  // namespace jaywalk

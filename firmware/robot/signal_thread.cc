@@ -9,7 +9,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr timespec kRound{.tv_sec = 0, .tv_nsec = 50'000'000};
+constexpr timespec kSignalRound{.tv_sec = 0, .tv_nsec = 50'000'000};
 
 bool is_ignored(int signal) noexcept {
   struct sigaction now {};
@@ -36,7 +36,7 @@ SignalThread::~SignalThread() {
 void SignalThread::live(int priority) noexcept {
   static_cast<void>(enter_realtime({.priority = priority}));  // the loop's thread tells what is not permitted
   while (!ending_) {
-    const int signal = ::sigtimedwait(&signals_, nullptr, &kRound);
+    const int signal = ::sigtimedwait(&signals_, nullptr, &kSignalRound);
     const std::lock_guard lock(handling_);
     if (signal > 0) take(signal);
     if (handler_ != nullptr) handler_->round_();

@@ -15,7 +15,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::chrono::milliseconds kPatience{500}, kLook{10};
+constexpr std::chrono::milliseconds kPatience{500}, kPause{10};
 
 std::atomic<std::uint64_t> lines_lost{0};
 
@@ -36,7 +36,7 @@ StderrRelay::StderrRelay() {
 StderrRelay::~StderrRelay() {
   if (!ends_) return;
   ::dup2(ends_->out.get(), STDERR_FILENO);  // the pipe's last writer is gone: its reader comes to the end
-  for (auto waited = kLook; !ends_->done && waited < kPatience; waited += kLook) std::this_thread::sleep_for(kLook);
+  for (auto waited = kPause; !ends_->done && waited < kPatience; waited += kPause) std::this_thread::sleep_for(kPause);
   if (ends_->done) {
     thread_.join();
   } else {

@@ -9,7 +9,7 @@ namespace {
 /// A loop that is silent for longer may have its drives' watchdogs stop them.
 constexpr Duration kSilent = std::chrono::milliseconds(75);
 /// An older reading is another fault's.
-constexpr Duration kOldest = std::chrono::milliseconds(100);
+constexpr Duration kOldestWheels = std::chrono::milliseconds(100);
 
 }  // namespace
 
@@ -56,7 +56,7 @@ bool FeltMotion::is_apart(Wheel& wheel, double rolled_m, double felt_mps, double
 
 bool FeltMotion::contradicts_itself(const WheelState& wheels) noexcept {
   const double step_s = to_seconds(wheels.stamp - counted_.stamp), radius = drive_.wheel_radius_m;
-  const bool follows = counted_.sequence != 0 && step_s > 0.0 && wheels.stamp - counted_.stamp <= kOldest;
+  const bool follows = counted_.sequence != 0 && step_s > 0.0 && wheels.stamp - counted_.stamp <= kOldestWheels;
   const double left_m = radius * (wheels.left_rad - counted_.left_rad),
                right_m = radius * (wheels.right_rad - counted_.right_rad);
   counted_ = wheels;
@@ -73,8 +73,8 @@ bool FeltMotion::disobeys(const WheelCommand& command, const WheelState& wheels,
   keep({now - step, radius * command.left_radps, radius * command.right_radps});
   if (step > kSilent || wheels.trouble != DriveTrouble::kNone) zero_until_ = now + kObeysWithin;
   const bool zero_too = zero_until_ != kNever && now < zero_until_;
-  const bool readable = wheels.sequence > 0 && now - wheels.stamp <= kOldest && std::isfinite(wheels.left_radps) &&
-                        std::isfinite(wheels.right_radps);
+  const bool readable = wheels.sequence > 0 && now - wheels.stamp <= kOldestWheels &&
+                        std::isfinite(wheels.left_radps) && std::isfinite(wheels.right_radps);
   const auto judge = [&](Wheel& wheel, double Sent::*sent, double felt_radps) {
     const Span span = commanded(sent, now, zero_too);
     return is_off(wheel, span, readable ? radius * felt_radps : wheel.may_be.greatest,

@@ -19,7 +19,7 @@ constexpr double kMostYaw = 0.12;
 constexpr double kSlack_m = 0.006, kTrackShare = 0.05;
 /// Two scans are compared once a wheel rolled that far, or the robot turned that far, and no more after the larger.
 constexpr double kLeast_m = 0.04, kLeast_rad = 0.05, kMost_m = 0.15, kMost_rad = 0.2;
-constexpr Duration kOldest = std::chrono::milliseconds(1000);  ///< of a kept scan: people move
+constexpr Duration kOldestKept = std::chrono::milliseconds(1000);  ///< of a kept scan: people move
 /// Of a fit that tells: fewer points are outliers.
 constexpr double kExplained = 0.5, kCompared = 0.8, kLeastCompared = 12.0;
 constexpr int kPeople = 2;         ///< sectors
@@ -117,7 +117,7 @@ bool MotionModel::look(const LaserScan& scan) noexcept {
   const Rolled felt{rolled.left_m - kept_rolled_.left_m, rolled.right_m - kept_rolled_.right_m};
   const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
-  const bool too_old = !pair_.is_kept() || scan.stamp - kept_stamp_ > kOldest || scan.stamp < kept_stamp_;
+  const bool too_old = !pair_.is_kept() || scan.stamp - kept_stamp_ > kOldestKept || scan.stamp < kept_stamp_;
   const bool compares = !too_old && (path_m >= kLeast_m || turn_rad >= kLeast_rad);
   if (compares) compare(scan, felt);
   const bool unexplained = !too_old && path_m >= kLeast_m && !fitted_;

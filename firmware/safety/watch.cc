@@ -7,7 +7,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kSpacing_m = 0.02;     // a post has 70 mm
+constexpr double kPiece_m = 0.02;       // a post has 70 mm
 constexpr double kMostlyOutward = 0.5;  // of a point's speed: 60 degrees to either side of straight out
 constexpr std::size_t kEveryStep = 4;   // 16 cm: what a laser never sees does not come in slices
 
@@ -17,7 +17,7 @@ Watch::Watch(const Footprint& footprint, const OfEach<Pose2>& robot_from_lasers,
     : footprint_(footprint), lookout_(robot_from_lasers), margin_m_(margin_m) {
   const double front = footprint.front_m, rear = -footprint.rear_m, half = footprint.half_width_m;
   const auto along = [this](Vec2 from, Vec2 to, Vec2 outward) {
-    const int pieces = static_cast<int>(distance(from, to) / kSpacing_m) + 1;
+    const int pieces = static_cast<int>(distance(from, to) / kPiece_m) + 1;
     for (int k = 1; k < pieces; ++k) rim_.push_back({from + (to - from) * (static_cast<double>(k) / pieces), outward});
   };
   const Vec2 corners[4] = {{front, half}, {rear, half}, {rear, -half}, {front, -half}};

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <queue>
 #include <utility>
 
@@ -11,7 +10,6 @@ namespace {
 
 constexpr double kMargin = 1.0;  // m
 constexpr double kMostCellsASide = 4000;
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoot2 = 1.4142135623730951;
 constexpr int kPulls = 8;  // pulled from both ends in turn; the length settles after about four
 

@@ -9,7 +9,6 @@
 
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
-#include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -18,10 +17,7 @@ struct Row {
   double t_s, id, x_m, y_m;
 };
 
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& cause) {
-  throw StartupError(file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + cause,
-                     "write rows of t_s,id,x_m,y_m below a line that says so");
-}
+constexpr const char* kMoverRows = "write rows of t_s,id,x_m,y_m below a line that says so";
 
 Row parse_row(const std::filesystem::path& file, int number, std::string line) {
   std::replace(line.begin(), line.end(), ',', ' ');
@@ -31,7 +27,7 @@ Row parse_row(const std::filesystem::path& file, int number, std::string line) {
   const bool whole = static_cast<bool>(words >> row.t_s >> row.id >> row.x_m >> row.y_m) && !(words >> rest);
   const bool sound = whole && std::fabs(row.t_s) < 1e7 && std::fabs(row.x_m) < 1e6 && std::fabs(row.y_m) < 1e6 &&
                      row.id == std::floor(row.id) && std::fabs(row.id) < 1e15;
-  if (!sound) refuse(file, number, "\"" + shown(line) + "\" is not four numbers");
+  if (!sound) refuse_line(file, number, "\"" + shown(line) + "\" is not four numbers", kMoverRows);
   return row;
 }
 
@@ -45,10 +41,10 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1) drop_byte_order_mark(line);
     if (number == 1 && line == "t_s,id,x_m,y_m") continue;
-    if (number == 1) refuse(file, 1, "does not begin with t_s,id,x_m,y_m");
+    if (number == 1) refuse_line(file, 1, "does not begin with t_s,id,x_m,y_m", kMoverRows);
     if (!line.empty()) rows.push_back(parse_row(file, number, line));
   }
-  if (rows.empty()) refuse(file, number, "holds nobody");
+  if (rows.empty()) refuse_line(file, number, "holds nobody", kMoverRows);
   return rows;
 }
 

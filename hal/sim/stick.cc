@@ -9,7 +9,6 @@
 #include "hal/shown_text.h"
 #include "hal/sim/simulation.h"
 #include "hal/text_file.h"
-#include "hal/types/errors.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::sim {
@@ -20,12 +19,8 @@ constexpr double kLeftPerRad = 1.2;  ///< of the stick's way, a radian off the g
 constexpr double kTurnsFirst_rad = 1.0;
 constexpr double kArrived = 0.5;  ///< of the goal's tolerance: then the hand lets go
 constexpr std::size_t kRemembered = 1024;
-
-[[noreturn]] void refuse(const std::filesystem::path& file, int line, const std::string& cause) {
-  throw StartupError(
-      file.string() + (line > 0 ? ":" + std::to_string(line) : "") + ": " + cause,
-      "write rows of t_s,forward,left below a line that says so; forward and left -1 to 1, times rising");
-}
+constexpr const char* kStickRows =
+    "write rows of t_s,forward,left below a line that says so; forward and left -1 to 1, times rising";
 
 }  // namespace
 
@@ -42,7 +37,7 @@ ScriptedStick::ScriptedStick(const StickSpec& spec, const Scenario& scenario, st
     if (!line.empty() && line.back() == '\r') line.pop_back();
     if (number == 1) {
       drop_byte_order_mark(line);
-      if (line != "t_s,forward,left") refuse(spec.file, 1, "does not begin with t_s,forward,left");
+      if (line != "t_s,forward,left") refuse_line(spec.file, 1, "does not begin with t_s,forward,left", kStickRows);
       continue;
     }
     if (line.empty()) continue;
@@ -54,10 +49,10 @@ ScriptedStick::ScriptedStick(const StickSpec& spec, const Scenario& scenario, st
         static_cast<bool>(numbers >> row.t_s >> row.stick.forward >> row.stick.left) && !(numbers >> rest);
     const bool rises = table_.empty() || row.t_s > table_.back().t_s;
     if (!whole || !rises || !(std::fabs(row.stick.forward) <= 1.0) || !(std::fabs(row.stick.left) <= 1.0))
-      refuse(spec.file, number, "\"" + shown(line) + "\" is no row of it");
+      refuse_line(spec.file, number, "\"" + shown(line) + "\" is no row of it", kStickRows);
     table_.push_back(row);
   }
-  if (table_.empty()) refuse(spec.file, 0, "holds no row");
+  if (table_.empty()) refuse_line(spec.file, 0, "holds no row", kStickRows);
 }
 
 Stick ScriptedStick::at(const Truth& truth) noexcept {

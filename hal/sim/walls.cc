@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 
 namespace jaywalk::sim {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kFinestBucket = 0.5;       // m: measured best of 0.25, 0.5 and 1 on the project's maps
 constexpr double kMostBucketsASide = 2000;  // larger worlds get larger buckets
 

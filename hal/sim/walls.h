@@ -1,6 +1,7 @@
 #pragma once
 // The still part of the world, ready to be asked: where does a ray end, how near is a wall.
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <vector>
 
@@ -8,6 +9,8 @@
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::sim {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 struct Box {
   Vec2 low, high;

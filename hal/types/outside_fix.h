@@ -9,6 +9,7 @@
 namespace jaywalk {
 
 inline constexpr std::size_t kMaxObservedMovers = 64;
+inline constexpr double kFarthestFixM = 1e7;  ///< from the map's origin: a quarter of the way round the Earth
 
 /// A mover as an outside localisation system sees it.
 struct ObservedMover {

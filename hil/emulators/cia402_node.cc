@@ -1,20 +1,16 @@
 #include "hil/emulators/cia402_node.h"
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
+#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
 
 namespace {
 
 constexpr std::uint32_t kPdoOff = 0x80000000;
-
-double ramped(double from, double to, double most) noexcept {
-  return from < to ? std::min(from + most, to) : std::max(from - most, to);
-}
 
 }  // namespace
 

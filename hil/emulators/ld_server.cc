@@ -1,25 +1,14 @@
 #include "hil/emulators/ld_server.h"
 
-#include "hal/types/trig.h"
-
 namespace jaywalk::emulators {
 
 namespace {
 
-constexpr std::size_t kPoints = 12, kPackets = 38, kBeams = kPoints * kPackets;
-constexpr double kRate_hz = 10.0;
+constexpr std::size_t kPacketPoints = 12, kPackets = 38, kBeams = kPacketPoints * kPackets;
 constexpr double kStep_deg = 360.0 / kBeams;
 
-SweepShape turn() {
-  return {.beams = kBeams,
-          .first_angle_rad = 0.0,
-          .angle_step_rad = -kStep_deg * kPi / 180.0,
-          .rate_hz = kRate_hz,
-          .sweep = duration_from_seconds((kBeams - 1.0) / kBeams / kRate_hz)};
-}
-
 /// Remainder of the polynomial x^8 + x^6 + x^3 + x^2 + 1, by long division over all bits.
-std::uint8_t remainder_of(const std::vector<std::uint8_t>& bytes) {
+std::uint8_t crc8(const std::vector<std::uint8_t>& bytes) {
   unsigned rest = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() + 1); ++bit) {
     const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
@@ -32,7 +21,7 @@ std::uint8_t remainder_of(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 LdServer::LdServer(std::unique_ptr<ByteServer> wire, World world)
-    : ScannerServer(std::move(wire), turn(), kPoints, std::move(world)) {}
+    : ScannerServer(std::move(wire), whole_turn(kBeams), kPacketPoints, std::move(world)) {}
 
 std::vector<std::uint8_t> LdServer::message_of(std::size_t first_beam, std::span<const float> range_m, Time, Time now) {
   std::vector<std::uint8_t> packet{0x54, 0x2C};
@@ -41,17 +30,17 @@ std::vector<std::uint8_t> LdServer::message_of(std::size_t first_beam, std::span
     packet.push_back(static_cast<std::uint8_t>(number));
     packet.push_back(static_cast<std::uint8_t>(number >> 8U));
   };
-  word(360.0 * kRate_hz);
+  word(360.0 * kTurnsPerS);
   word(100.0 * kStep_deg * static_cast<double>(first_beam) + 0.5);
   for (const float m : range_m) {
     // 0 for nothing in reach as for nothing measured: it has no other word.
     word(m > 0.0F && m <= 12.0F ? static_cast<double>(m) * 1000.0 + 0.5 : 0.0);
     packet.push_back(200);  // how strong the return was
   }
-  word(100.0 * kStep_deg * static_cast<double>(first_beam + kPoints - 1) + 0.5);
+  word(100.0 * kStep_deg * static_cast<double>(first_beam + kPacketPoints - 1) + 0.5);
   word(static_cast<double>(std::chrono::duration_cast<std::chrono::milliseconds>(now.time_since_epoch()).count() %
                            30000));
-  packet.push_back(remainder_of(packet));
+  packet.push_back(crc8(packet));
   return packet;
 }
 

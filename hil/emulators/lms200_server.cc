@@ -10,12 +10,12 @@ namespace jaywalk::emulators {
 
 namespace {
 
-constexpr std::size_t kBeams = 181, kTelegram = 4 + 3 + 2 * kBeams + 1 + 2, kCommand = 8;
+constexpr std::size_t kFanBeams = 181, kTelegram = 4 + 3 + 2 * kFanBeams + 1 + 2, kCommand = 8;
 constexpr double kMirror_hz = 75.0;
 
 SweepShape fan(std::uint32_t baud) {
   const double on_line_s = kTelegram * 10.0 / baud;
-  return {.beams = kBeams,
+  return {.beams = kFanBeams,
           .first_angle_rad = -kPi / 2.0,
           .angle_step_rad = kPi / 180.0,
           .rate_hz = kMirror_hz / std::ceil(on_line_s * kMirror_hz),
@@ -37,7 +37,7 @@ std::uint16_t check(const std::vector<std::uint8_t>& bytes) {
 }  // namespace
 
 Lms200Server::Lms200Server(std::unique_ptr<ByteServer> wire, std::uint32_t baud, World world)
-    : ScannerServer(std::move(wire), fan(baud), kBeams, std::move(world)) {}
+    : ScannerServer(std::move(wire), fan(baud), kFanBeams, std::move(world)) {}
 
 bool Lms200Server::set_window(Window window) {
   status_ = window == Window::kClean ? 0x00 : window == Window::kSoiled ? 0x82 : 0x83;
@@ -75,7 +75,7 @@ std::vector<std::uint8_t> Lms200Server::framed(std::span<const std::uint8_t> bod
 }
 
 std::vector<std::uint8_t> Lms200Server::message_of(std::size_t, std::span<const float> range_m, Time, Time) {
-  std::vector<std::uint8_t> body{0xB0, kBeams, 0x00};
+  std::vector<std::uint8_t> body{0xB0, kFanBeams, 0x00};
   for (const float m : range_m) {
     constexpr unsigned kBeyond = 8183, kDazzled = 8190;
     const unsigned cm = m > 80.0F ? kBeyond : m > 0.0F ? in_counts(m, 0.01) : kDazzled;

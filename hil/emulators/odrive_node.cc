@@ -1,10 +1,10 @@
 #include "hil/emulators/odrive_node.h"
 
-#include <algorithm>
 #include <bit>
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
+#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
 
@@ -14,10 +14,6 @@ constexpr double kRamp_turns_per_s2 = 20.0;
 constexpr double kRollOut_turns_per_s2 = 2.0;  ///< without torque
 constexpr std::uint32_t kEstop = 0x02000000;
 constexpr Duration kEstimatesPeriod = std::chrono::milliseconds(10);
-
-double towards(double from, double to, double most) noexcept {
-  return from < to ? std::min(from + most, to) : std::max(from - most, to);
-}
 
 bool is_due(Time& said, Duration period, Time now) noexcept {
   if (said != kNever && now - said < period) return false;
@@ -98,8 +94,8 @@ void OdriveNode::restart() noexcept {
 void OdriveNode::move(double seconds) noexcept {
   const double before = velocity_;
   const bool follows = state_ == 8 && control_mode_ == 2;
-  velocity_ = follows ? towards(velocity_, target_, kRamp_turns_per_s2 * seconds)
-                      : towards(velocity_, 0.0, kRollOut_turns_per_s2 * seconds);
+  velocity_ = follows ? ramped(velocity_, target_, kRamp_turns_per_s2 * seconds)
+                      : ramped(velocity_, 0.0, kRollOut_turns_per_s2 * seconds);
   position_ += 0.5 * (before + velocity_) * seconds;
 }
 

@@ -2,27 +2,16 @@
 
 #include <array>
 
-#include "hal/types/trig.h"
-
 namespace jaywalk::emulators {
 
 namespace {
 
 constexpr std::size_t kPoints = 360, kTogether = 8;
-constexpr double kRate_hz = 10.0;
-
-SweepShape turn() {
-  return {.beams = kPoints,
-          .first_angle_rad = 0.0,
-          .angle_step_rad = -2.0 * kPi / kPoints,
-          .rate_hz = kRate_hz,
-          .sweep = duration_from_seconds((kPoints - 1.0) / kPoints / kRate_hz)};
-}
 
 }  // namespace
 
 RplidarServer::RplidarServer(std::unique_ptr<ByteServer> wire, World world)
-    : ScannerServer(std::move(wire), turn(), kTogether, std::move(world)) {}
+    : ScannerServer(std::move(wire), whole_turn(kPoints), kTogether, std::move(world)) {}
 
 void RplidarServer::on_bytes(wire::Bytes bytes) {
   came_in_.insert(came_in_.end(), bytes.begin(), bytes.end());

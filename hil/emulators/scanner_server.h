@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "hal/types/time.h"
+#include "hal/types/trig.h"
 #include "hil/emulators/byte_server.h"
 
 namespace jaywalk::emulators {
@@ -46,6 +47,16 @@ struct SweepShape {
     return first_angle_rad + angle_step_rad * static_cast<double>(beam);
   }
 };
+
+inline constexpr double kTurnsPerS = 10.0;
+/// Of a laser that turns clockwise, so many beams a turn.
+[[nodiscard]] inline SweepShape whole_turn(std::size_t beams) {
+  const auto count = static_cast<double>(beams);
+  return {.beams = beams,
+          .angle_step_rad = -2.0 * kPi / count,
+          .rate_hz = kTurnsPerS,
+          .sweep = duration_from_seconds((count - 1.0) / count / kTurnsPerS)};
+}
 
 /// The nearest whole number of counts of `count_m` metres to `range_m`, 0 or more.
 [[nodiscard]] inline std::uint32_t in_counts(float range_m, double count_m) noexcept {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
+#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
 
@@ -15,12 +16,8 @@ constexpr double kRollOut_erpm_per_s = 1500.0;
 constexpr std::size_t kSettingsBytes = 300;  ///< some firmware has more, some fewer
 constexpr Duration kStatusPeriod = std::chrono::milliseconds(10);
 
-double towards(double from, double to, double most) noexcept {
-  return from < to ? std::min(from + most, to) : std::max(from - most, to);
-}
-
 /// Remainder of x^16 + x^12 + x^5 + 1, by long division over all bits.
-std::uint16_t remainder_of(std::span<const std::uint8_t> bytes) {
+std::uint16_t crc16(std::span<const std::uint8_t> bytes) {
   unsigned rest = 0;
   for (std::size_t bit = 0; bit < 8 * (bytes.size() + 2); ++bit) {
     const unsigned next = bit / 8 < bytes.size() ? (static_cast<unsigned>(bytes[bit / 8]) >> (7 - bit % 8)) & 1U : 0U;
@@ -91,7 +88,7 @@ void VescNode::send_settings(std::uint8_t to) {
   wire::put_big_endian(told_ms_, std::span(all).subspan(6));
   wire::put_big_endian(std::bit_cast<std::uint32_t>(brake_current_a_), std::span(all).subspan(10));
   for (std::size_t k = 14; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k);
-  const std::uint16_t sum = remainder_of(all);
+  const std::uint16_t sum = crc16(all);
   if (damaged_) all[8] ^= 1U;
   std::size_t at = 0;
   for (; at < 256; at += 7) {
@@ -117,7 +114,7 @@ void VescNode::move(double seconds) noexcept {
   const double before = erpm_;
   const Mode mode = fault_ != 0 ? Mode::kCurrent : mode_;
   const double target = mode == Mode::kSpeed ? target_erpm_ : 0.0;
-  erpm_ = towards(erpm_, target, (mode == Mode::kCurrent ? kRollOut_erpm_per_s : kRamp_erpm_per_s) * seconds);
+  erpm_ = ramped(erpm_, target, (mode == Mode::kCurrent ? kRollOut_erpm_per_s : kRamp_erpm_per_s) * seconds);
   position_ += 0.5 * (before + erpm_) / 60.0 * seconds;
 }
 

@@ -1,19 +1,11 @@
 #include "hil/faults/matrix_files.h"
 
-#include <fstream>
-
-#include "hal/types/errors.h"
+#include "hal/text_file.h"
 
 namespace jaywalk::faults {
 namespace {
 
 constexpr double kLong_m = 44.0, kWide_m = 5.0;
-
-void write(const std::filesystem::path& path, const std::string& text) {
-  std::ofstream file(path);
-  file << text << std::flush;
-  if (!file) throw StartupError(path.string() + ": cannot be written", "choose another --out, or free some space");
-}
 
 /// The drive's own keys; counts, turns and pole pairs are those of the bench's motors.
 std::string drive_keys(DriveKind kind) {
@@ -45,12 +37,13 @@ const char* name_of(DriveKind kind) noexcept {
 RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder,
                      bool second_scanner) {
   const std::string scanner = "[[laser]]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\n";
-  write(folder / "model.toml", model_text(speed_mps));
-  write(folder / "robot.toml", std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") +
-                                   std::to_string(rate_hz) + "\n" + scanner +
-                                   (second_scanner ? scanner + "mount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
-                                   "[drive]\nkind = \"" + name_of(kind) +
-                                   "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind));
+  write_text(folder / "model.toml", model_text(speed_mps), kOtherOut);
+  write_text(folder / "robot.toml",
+             std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
+                 "\n" + scanner + (second_scanner ? scanner + "mount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
+                 "[drive]\nkind = \"" + name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" +
+                 drive_keys(kind),
+             kOtherOut);
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;
@@ -59,8 +52,10 @@ RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std
 sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder) {
   const std::string far = std::to_string(static_cast<int>(1000.0 * kLong_m));
   const std::string left = std::to_string(static_cast<int>(1000.0 * kWide_m));
-  write(folder / "hall.map", "2D-Map\nNumLines: 4\nLINES\n0 0 " + far + " 0\n" + far + " 0 " + far + " " + left + "\n" +
-                                 far + " " + left + " 0 " + left + "\n0 " + left + " 0 0\nDATA\n");
+  write_text(folder / "hall.map",
+             "2D-Map\nNumLines: 4\nLINES\n0 0 " + far + " 0\n" + far + " 0 " + far + " " + left + "\n" + far + " " +
+                 left + " 0 " + left + "\n0 " + left + " 0 0\nDATA\n",
+             kOtherOut);
   sim::Scenario scenario;
   scenario.name = "hall";
   scenario.map_kind = sim::MapKind::kAria;

@@ -6,6 +6,9 @@
 
 namespace jaywalk::faults {
 
+/// What to do where a file of the matrix cannot be written.
+inline constexpr const char* kOtherOut = "choose another --out, or free some space";
+
 /// The robot file of the matrix for one kind of drive, written into `folder` and read back like a user's: a P3-DX
 /// with maximum speed `speed_mps`, a SICK scanner on a network and a loop at `rate_hz`; where asked for a second
 /// scanner, looking back. Throws StartupError.

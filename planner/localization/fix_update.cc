@@ -7,9 +7,8 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kFarthestM = 1e7;        // a quarter of the way round the Earth
 constexpr double kMostTurnedRad = 100.0;  // whole turns may be in it
-constexpr double kMostNis = 16.3;         // chi-squared of three, 99.9 % (Bar-Shalom and others 2001, table 1.5.4-1)
+constexpr double kGateNis = 16.3;         // chi-squared of three, 99.9 % (Bar-Shalom and others 2001, table 1.5.4-1)
 constexpr int kEnough = 3;
 
 }  // namespace
@@ -21,20 +20,20 @@ Eigen::Matrix3d covariance_of(const OutsideFix& fix) noexcept {
 
 bool is_usable(const OutsideFix& fix) noexcept {
   const Pose2& p = fix.map_from_robot;
-  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && std::fabs(p.heading) <= kMostTurnedRad &&
-         fix.position_std_m >= 0.0 && fix.position_std_m <= kFarthestM && fix.heading_std_rad >= 0.0 &&
+  return std::fabs(p.x) <= kFarthestFixM && std::fabs(p.y) <= kFarthestFixM && std::fabs(p.heading) <= kMostTurnedRad &&
+         fix.position_std_m >= 0.0 && fix.position_std_m <= kFarthestFixM && fix.heading_std_rad >= 0.0 &&
          fix.heading_std_rad <= kMostTurnedRad;
 }
 
 FixGate::Verdict FixGate::judge(const PoseBelief& predicted, const OutsideFix& fix,
                                 const Pose2& odom_from_robot) noexcept {
   const Eigen::Matrix3d doubt = covariance_of(fix);
-  if (nis(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kMostNis) {
+  if (nis(predicted.map_from_robot, fix.map_from_robot, predicted.covariance + doubt) < kGateNis) {
     agreeing_ = 0;
     return Verdict::kBlend;
   }
   const Pose2 as_the_last_has_it = map_from_odom_ * odom_from_robot;
-  const bool agrees = agreeing_ > 0 && nis(as_the_last_has_it, fix.map_from_robot, doubt + doubt) < kMostNis;
+  const bool agrees = agreeing_ > 0 && nis(as_the_last_has_it, fix.map_from_robot, doubt + doubt) < kGateNis;
   agreeing_ = agrees ? agreeing_ + 1 : 1;
   map_from_odom_ = fix.map_from_robot * inverse(odom_from_robot);
   if (agreeing_ < kEnough) return Verdict::kPassOver;

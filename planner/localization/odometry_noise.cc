@@ -20,7 +20,7 @@ constexpr double kMapHeading = 0.005,
 constexpr double kWindowGain = 0.5;
 
 // Kalman filter for the one number that WheelRadiusBias learns.
-constexpr double kMatchHeadingVar = 0.015 * 0.015;
+constexpr double kSurpriseHeadingVar = 0.015 * 0.015;
 constexpr double kWheelHeadingVar = 0.03 * 0.03;     // a metre or radian
 constexpr double kDriftChangeVar = 0.0005 * 0.0005;  // a metre or radian: tyres wear, loads shift
 constexpr double kMostDriftVar = 0.06 * 0.06;
@@ -84,8 +84,9 @@ void WheelRadiusBias::corrected(double turn_rad) noexcept {
   const double metres = since_.distance_m, driven = way(since_);
   since_ = {};
   variance_ = std::min(variance_ + kDriftChangeVar * driven, kMostDriftVar);
-  const double surprise_var = kMatchHeadingVar + kWheelHeadingVar * driven + metres * metres * variance_;
-  if (std::fabs(turn_rad) > kMost * std::fabs(metres) + std::sqrt(kMatchHeadingVar + kWheelHeadingVar * driven)) return;
+  const double surprise_var = kSurpriseHeadingVar + kWheelHeadingVar * driven + metres * metres * variance_;
+  if (std::fabs(turn_rad) > kMost * std::fabs(metres) + std::sqrt(kSurpriseHeadingVar + kWheelHeadingVar * driven))
+    return;
   const double gain = variance_ * metres / surprise_var;
   turn_per_m_ = std::clamp(turn_per_m_ + gain * turn_rad, -kMost, kMost);
   variance_ -= gain * metres * variance_;

@@ -12,8 +12,8 @@ std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
   return static_cast<std::int8_t>(std::clamp(std::floor(next + 0.5), -127.0, 127.0));
 }
 
-constexpr double kUnit = 127.0;         // a length of 1 in eight bits
-constexpr double kLongestStepS = 0.25;  // one hit after a gap is one hit
+constexpr double kUnit = 127.0;        // a length of 1 in eight bits
+constexpr double kLongestHitS = 0.25;  // one hit after a gap is one hit
 
 }  // namespace
 
@@ -96,7 +96,7 @@ void EvidenceMap::add_hit(Vec2 p, int change, double seen_for_s, Vec2 to_laser) 
   to_laser_[k] = {moved_offset(to_laser_[k].x, towards.x, fresh), moved_offset(to_laser_[k].y, towards.y, fresh)};
   add(cell, change);
   const int units =
-      seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestStepS) + 0.5));
+      seen_for_[k] + static_cast<int>(std::floor(kSeenUnitsPerS * std::min(seen_for_s, kLongestHitS) + 0.5));
   seen_for_[k] = static_cast<std::uint8_t>(std::min(units, 255));
   note_change(k);
 }

@@ -7,8 +7,8 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr float kLeastGain = 0.05F;  ///< s: what bends aside does so until another is better by this
-constexpr int kRounds = 2, kPerturbed = 24;
+constexpr float kLeastStickGain = 0.05F;  ///< s: what bends aside does so until another is better by this
+constexpr int kStickRounds = 2, kStickPerturbed = 24;
 constexpr float kNever_s = 1e9F;
 
 bool rests(const Command& command) { return command.v == 0.0F && command.w == 0.0F; }
@@ -45,15 +45,16 @@ void StickRollouts::choose(const World& world, const Guide& ground) noexcept {
   best_cost_ = kNever_s;
   best_shape_ = {};
   for (int n = 0; n < shape_count(); ++n) try_shape(situation, shape_at(n, body_.bounds));
-  for (int round = 0; round < kRounds; ++round) {
+  for (int round = 0; round < kStickRounds; ++round) {
     const StickShape base = best_shape_;
-    for (int n = 0; n < kPerturbed; ++n)
+    for (int n = 0; n < kStickPerturbed; ++n)
       try_shape(situation, perturbed(base, decision_.number, round, n, body_.bounds));
   }
   const bool is_wish = best_shape_.aside == 0.0F && best_shape_.share == 1.0F && best_shape_.turn_share == 1.0F;
   if (holds(world.now) && !is_wish) {
     trial_ = shifted(decided(), static_cast<float>(to_seconds(world.now - decision_.at)));
-    if (trajectory_cost(situation, trial_, best_cost_ + kLeastGain).total() < best_cost_ + kLeastGain) best_ = trial_;
+    if (trajectory_cost(situation, trial_, best_cost_ + kLeastStickGain).total() < best_cost_ + kLeastStickGain)
+      best_ = trial_;
   }
   decision_.trajectory = best_;
 }

@@ -9,7 +9,7 @@ namespace {
 constexpr double kTurnRad = 0.1;
 constexpr double kBodyM = 0.5;  // about a turn's middle: a pedestrian there is no wider, shoulders and all
 constexpr double kOwnM = 0.3;   // about the axle's: nobody stands there, so that near it everything is asked
-constexpr float kFarthestM = 1.0F;
+constexpr float kFarthestPartM = 1.0F;
 constexpr float kSameM = 0.03F;   // a laser's noise at this distance, twice
 constexpr double kSwaysM = 0.05;  // a mast, and the noise
 constexpr int kMost = 20;         // headings remembered: what was taken off is forgotten after as many
@@ -47,7 +47,7 @@ void SelfMask::learn(const LaserScan& scan, const Pose2& map_from_robot) noexcep
     const float range = scan.range_m[b];
     const Vec2 there = robot_from_laser * (direction(scan.angle_rad(b)) * static_cast<double>(range));
     if (!on_the_spot && distance(there, middle) < kBodyM) continue;
-    const bool same = range < kFarthestM && std::fabs(range - range_m_[b]) < kSameM;
+    const bool same = range < kFarthestPartM && std::fabs(range - range_m_[b]) < kSameM;
     if (same) {
       agreed_[b] = static_cast<std::uint8_t>(std::min(agreed_[b] + 1, kMost));
     } else if (agreed_[b] > 0) {

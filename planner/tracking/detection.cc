@@ -10,10 +10,10 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kPieceM = 1.1;      // wider things that may go on unseen are walls
-constexpr double kFarthestM = 12.0;  // beyond, a person is too few points and a heading error too many cells
-constexpr double kMostWall = 0.4;    // of a body's points may lie on a wall
-constexpr double kMostFree = 0.6;    // of its points in free space: it came there
+constexpr double kPieceM = 1.1;          // wider things that may go on unseen are walls
+constexpr double kFarthestSeenM = 12.0;  // beyond, a person is too few points and a heading error too many cells
+constexpr double kMostWall = 0.4;        // of a body's points may lie on a wall
+constexpr double kMostFree = 0.6;        // of its points in free space: it came there
 constexpr std::uint32_t kFewestPoints = 3, kFewestOfLeg = 2;
 constexpr double kBulge = 0.3;        // of half its width: 0.32 to 0.6 of discs from 0.7 m on, none of a flat thing
 constexpr double kLegM = 0.1;         // across: where beams are farther apart than a third of it, legs have two points
@@ -152,7 +152,7 @@ std::uint32_t fewest_points(const Pieces& pieces, std::size_t s) {
 bool body_sized(const Pieces& pieces, std::size_t s) {
   const auto& [first, last] = pieces.segments[s];
   const Vec2 middle = pieces.in_map.position[first + (last - first) / 2];
-  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestM &&
+  return last - first + 1 >= fewest_points(pieces, s) && pieces.range(s) < kFarthestSeenM &&
          pieces.width(s) < kWidestBodyM && distance(pieces.in_map.position[first], middle) < kWidestBodyM;
 }
 

@@ -11,13 +11,12 @@ namespace {
 
 constexpr double kLeastStdM = 1e-3;  // a filter that is told of no noise divides by none
 constexpr double kMostStdM = 1e3;    // a system that knows no more knows nothing
-constexpr double kFarthestM = 1e7;   // a quarter of the way round the Earth
 constexpr double kWidestM = 1.0;     // by its radius
 
 /// False for NaN.
 bool usable(const ObservedMover& mover) {
   const Vec2 p = mover.position_in_map;
-  return std::fabs(p.x) <= kFarthestM && std::fabs(p.y) <= kFarthestM && mover.radius_m > 0.0 &&
+  return std::fabs(p.x) <= kFarthestFixM && std::fabs(p.y) <= kFarthestFixM && mover.radius_m > 0.0 &&
          mover.radius_m <= kWidestM;
 }
 

@@ -10,7 +10,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kWalkMps = 1.5;
-constexpr double kLongestStepS = 0.13;                // a target unseen for longer may be another
+constexpr double kLongestGapS = 0.13;                 // a target unseen for longer may be another
 constexpr double kNoiseM = 0.01, kNoiseWeighs = 4.0;  // of a position an axis, as if known from so many
 constexpr double kRoundOffM2 = 1e-12;  // scatter of positions that are all the same, a micrometre's square
 
@@ -76,7 +76,7 @@ class PositionHistory::Fit {
 };
 
 double PositionHistory::Fit::hop(const Position& before, const Position& position) noexcept {
-  const double walked_s = std::min(to_seconds(position.when - before.when), kLongestStepS);
+  const double walked_s = std::min(to_seconds(position.when - before.when), kLongestGapS);
   return distance(before.seen.where_in_map, position.seen.where_in_map) - kWalkMps * walked_s;
 }
 

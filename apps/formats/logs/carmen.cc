@@ -121,7 +121,7 @@ class CarmenReader {
     if (!mount_) mount_ = mount;
     const Pose2 apart = inverse(*mount_) * mount;
     mount_is_fixed_ =
-        mount_is_fixed_ && distance(apart.position(), {}) < kSameMountM && std::fabs(apart.heading) < kSameMountRad;
+        mount_is_fixed_ && norm(apart.position()) < kSameMountM && std::fabs(apart.heading) < kSameMountRad;
   }
   void use_mount(const std::string& file) {
     log_.robot_from_laser = *mount_;

@@ -10,7 +10,7 @@ namespace {
 /// Words before the ranges in the two forms; the last of them is the number of beams.
 constexpr std::size_t kPlainHead = 6, kMotionHead = 7;
 
-enum class Form { kUnknown, kPlain, kMotion };
+enum class Form { kNone, kPlain, kMotion };
 
 /// True when the last word of the head is how many words follow it. That can be so in one place only: it tells the two
 /// forms apart.
@@ -21,7 +21,7 @@ bool counts_beams(const LineFile& file, std::size_t head) {
 
 Form form_of(const LineFile& file) {
   if (counts_beams(file, kPlainHead)) return Form::kPlain;
-  return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kUnknown;
+  return counts_beams(file, kMotionHead) ? Form::kMotion : Form::kNone;
 }
 
 void read_plain(LogScans& scans, const LineFile& file) {
@@ -87,10 +87,10 @@ class MotionLines {
 bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines& motion) {
   LineFile file(path);
   LogScans scans(log);
-  Form form = Form::kUnknown;
+  Form form = Form::kNone;
   while (file.next()) {
-    if (form == Form::kUnknown) form = form_of(file);
-    if (form == Form::kUnknown || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
+    if (form == Form::kNone) form = form_of(file);
+    if (form == Form::kNone || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
       log.refuse(file.place(), kWrongLength);
     } else if (form == Form::kPlain) {
       read_plain(scans, file);

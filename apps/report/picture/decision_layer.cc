@@ -5,15 +5,6 @@
 #include "apps/report/picture/run_layers.h"
 
 namespace jaywalk {
-namespace {
-
-Polyline on_sheet(const std::vector<Vec2>& way, const MapFrame& to_sheet) {
-  Polyline line;
-  for (const Vec2 p : way) line.push_back(to_sheet(p));
-  return line;
-}
-
-}  // namespace
 
 void draw_decision(Canvas& canvas, const MapFrame& to_sheet, const DecisionScene& decision) {
   const double weight = weight_of(to_sheet);

@@ -41,12 +41,6 @@ Polyline outline(const Pose2& pose, const Footprint& f, const MapFrame& to_sheet
   return corners;
 }
 
-Polyline on_sheet(const std::vector<Vec2>& line, const MapFrame& to_sheet) {
-  Polyline points;
-  for (const Vec2 p : line) points.push_back(to_sheet(p));
-  return points;
-}
-
 void draw_robot(Canvas& canvas, const MapFrame& to_sheet, const Pose2& pose, const Footprint& footprint,
                 double opacity) {
   const Polyline corners = outline(pose, footprint, to_sheet);

@@ -25,6 +25,12 @@ inline constexpr Colour kForced = colour(0xC2182B);
 /// A mover's or a track's own colour.
 [[nodiscard]] Colour colour_of(std::uint32_t id);
 
+[[nodiscard]] inline Polyline on_sheet(const std::vector<Vec2>& line, const MapFrame& to_sheet) {
+  Polyline points;
+  for (const Vec2 p : line) points.push_back(to_sheet(p));
+  return points;
+}
+
 /// How thick lines are: 1 where the map is shown at 50 pixels a metre, more or less with its size.
 [[nodiscard]] double weight_of(const MapFrame& to_sheet);
 

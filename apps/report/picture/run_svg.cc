@@ -18,8 +18,9 @@ namespace {
 using svg::pair;
 using svg::whole;
 
-constexpr Vec2 kMapCorner{20.0, 80.0}, kMapMost{1600.0, 1400.0};  // units of the drawing; 1600 across 25 m: 1.6 cm each
-constexpr double kFoot = 60.0;
+constexpr Vec2 kDrawingCorner{20.0, 80.0},
+    kDrawingMost{1600.0, 1400.0};  // units of the drawing; 1600 across 25 m: 1.6 cm each
+constexpr double kDrawingFoot = 60.0;
 constexpr double kLongestPlayS = 60.0;
 constexpr std::size_t kMostPositions = 4'000;  ///< at about 10 bytes each
 constexpr std::size_t kMostPieces = 1'500;     ///< of walls and rows of cells, at about 18 bytes each
@@ -30,7 +31,7 @@ class Drawing {
  public:
   explicit Drawing(const PictureScene& scene)
       : scene_(scene),
-        to_sheet_(scene.extent, kMapCorner, kMapMost),
+        to_sheet_(scene.extent, kDrawingCorner, kDrawingMost),
         bodies_(shown_bodies()),
         playback_(scene.driven, kMostPositions / (1 + bodies_.size())) {}
 
@@ -72,7 +73,8 @@ class Drawing {
 
   void begin() {
     const Vec2 size = to_sheet_.size();
-    const std::string width = whole(size.x + 2.0 * kMapCorner.x), height = whole(kMapCorner.y + size.y + kFoot);
+    const std::string width = whole(size.x + 2.0 * kDrawingCorner.x),
+                      height = whole(kDrawingCorner.y + size.y + kDrawingFoot);
     out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
            "\" font-family=\"DejaVu Sans,sans-serif\" font-size=\"30\" fill=\"" + svg::hex(ink::kText) + "\">\n" +
            "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fff\"/>\n<text x=\"20\" y=\"50\">" +
@@ -189,7 +191,7 @@ class Drawing {
   /// A bar that grows with the time, and how long the run was.
   void clock() {
     const double wide = to_sheet_.size().x;
-    const double y = kMapCorner.y + to_sheet_.size().y;
+    const double y = kDrawingCorner.y + to_sheet_.size().y;
     char words[96];
     const double faster = playback_.lasts_s() / play_s();
     std::snprintf(words, sizeof words, faster > 1.0 ? "%.1f s, shown %.1f times faster" : "%.1f s", playback_.lasts_s(),
