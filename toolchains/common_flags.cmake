@@ -17,6 +17,11 @@ if(CMAKE_SYSTEM_PROCESSOR MATCHES "x86_64|AMD64")
   list(APPEND JAYWALK_CXX_FLAGS -mno-fma)
 endif()
 
+# Sources joined (tools/test, CMAKE_UNITY_BUILD): to g++ what is local to a file then lies in an included one.
+if(CMAKE_UNITY_BUILD AND CMAKE_CXX_COMPILER_ID STREQUAL "GNU")
+  list(APPEND JAYWALK_CXX_FLAGS -Wno-subobject-linkage)
+endif()
+
 # The fast linker, where it is and the compiler knows it (g++ from 12.1).
 include(CheckLinkerFlag)
 find_program(JAYWALK_MOLD mold)
