@@ -14,12 +14,12 @@ class StopZoneCost {
 
   /// `clearance_m`: to the nearest surface; `t`: seconds from now. Of the brakings near surfaces the dearest counts.
   void add(const RobotState& now, float clearance_m, float t, Cost& cost) noexcept {
-    // Beside a long body there may be walls that the map does not have.
-    if (s_.is_long()) t = moved_s_ += moves(now) ? kStepS : 0.0F;  // or it would wait to go for ever
-    if ((clearance_m < price::kByWallM || s_.is_long()) && t < NearReturns::kForS) {
+    // Near what stands there may be walls that the map does not have.
+    if (s_.goes_by_poses()) t = moved_s_ += moves(now) ? kStepS : 0.0F;  // or it would wait to go for ever
+    if ((clearance_m < price::kByWallM || s_.goes_by_poses()) && t < NearReturns::kForS) {
       const float share = s_.returns.braked_share(now, s_.body);
-      // Squared for a long body: it passes near by nature.
-      const float price = price::kStopZone * cell::exp(-t) * share * (s_.is_long() ? share : 1.0F);
+      // Squared there: a body that goes by poses passes near by nature.
+      const float price = price::kStopZone * cell::exp(-t) * share * (s_.goes_by_poses() ? share : 1.0F);
       if (price > paid_) cost.stop_zone += price - paid_, paid_ = price;
     }
     cost.stop_zone += price::kBlindRim * s_.body.blind.too_fast(now.v, now.w);

@@ -17,8 +17,9 @@ class WallCost {
   /// `t`: seconds from now. Returns the clearance, m.
   float add(const RobotState& now, const cell::Heading& along, float t, Cost& cost) noexcept {
     const float c = clearance_at(now, along);
-    // It may always leave what it stands beside.
-    const bool nears = c < clearance_ - 1e-4F && c < at_start_ - 0.003F;
+    // It may always leave what it stands beside, swinging as near as the supervisor lets it (StopZone's may_creep()).
+    constexpr float kSwingM = 0.01F, kLeastM = 0.02F;
+    const bool nears = c < clearance_ - 1e-4F && (c < at_start_ - kSwingM || c < kLeastM);
     clearance_ = c;
     if (c < price::kContactM && nears) {
       const float deep = (price::kContactM - c) * 20.0F;
@@ -46,7 +47,7 @@ class WallCost {
 
   [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
     const float least = s_.body.to_walls.clearance(s_.guide, r.x, r.y, along);
-    const bool coarse = !(is_steered() || s_.is_long()) || least >= price::kByWallM;
+    const bool coarse = !(is_steered() || s_.goes_by_poses()) || least >= price::kByWallM;
     return std::min(coarse ? least : s_.body.outline.clearance(s_.guide, r.x, r.y, along),
                     clearance_to_standing(r, along));
   }
