@@ -1,7 +1,6 @@
 #include "hal/sim/walls.h"
 
 #include <algorithm>
-#include <limits>
 
 #include "hal/sim/free_grid.h"
 #include "hal/sim/random.h"
@@ -13,7 +12,6 @@ using namespace jaywalk::sim;
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRoot2 = 1.4142135623730951;
 
 Walls room() {
