@@ -14,7 +14,8 @@ constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to eith
 constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/explanation/decisions/motion-backward.md, 0083
 constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
 constexpr double kStandWithin = 0.9;                          ///< the same, where it has come to rest already
-constexpr float kArriveWithin = 0.8F;                         ///< the same, for roll-outs
+constexpr float kArriveWithin = 0.8F;  ///< the same, for roll-outs; where it is yet to turn, so that it then stands:
+constexpr float kTurnWithin = 0.6F;
 constexpr float kTurnBlocked_s = 5.0F;                        ///< without progress, at the goal
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
@@ -105,7 +106,7 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           decision_.goal,
           decision_.turned,
           decision_.stall,
-          kArriveWithin * static_cast<float>(setup_.goal_tolerance_m),
+          (decision_.wants_heading ? kTurnWithin : kArriveWithin) * static_cast<float>(setup_.goal_tolerance_m),
           nullptr,
           setup_.constant_speed ? nullptr : &poses,
           decision_.goal_heading,

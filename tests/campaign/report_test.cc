@@ -128,7 +128,7 @@ TEST_CASE("a successful run keeps its figures, a failed one everything") {
 
 TEST_CASE("charts hold the lines and the paper's points") {
   const std::string svg = success_chart({{"ours <1>", {{1.0, 4, 4}, {16.0, 2, 4}}}});
-  CHECK(holds(svg, "ours &lt;1>"));
+  CHECK(holds(svg, "ours &lt;1&gt;"));
   std::size_t circles = 0;
   for (std::size_t at = svg.find("<circle"); at != std::string::npos; at = svg.find("<circle", at + 1)) ++circles;
   CHECK(circles == 2 + 6);

@@ -72,7 +72,7 @@ inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
 /// motion-prices).
 inline constexpr float kFacingM = 0.35F;
-inline constexpr float kFacesRad = 0.05F;  ///< off the heading wanted at the goal: there
+inline constexpr float kFacesRad = 0.05F, kFacesRadps = 0.15F;  ///< off the heading wanted at the goal, turning: there
 inline constexpr float kTurnAtGoalRadps = 0.6F;
 inline constexpr float kMostTimeToGoS = 500.0F;  ///< where no way is known
 

@@ -32,7 +32,10 @@ class TimeCost {
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
-    return s_.is_at_goal(now) && (!s_.wants_heading || s_.off_heading(now.heading) < price::kFacesRad);
+    if (!s_.is_at_goal(now)) return false;
+    // A robot that turns past the heading has yet to turn back.
+    return !s_.wants_heading ||
+           (s_.off_heading(now.heading) < price::kFacesRad && std::fabs(now.w) < price::kFacesRadps);
   }
 
  private:
