@@ -25,7 +25,7 @@ namespace jaywalk {
 /// loop's. Memory is fixed.
 class MotionModel {
  public:
-  /// `scanner`: index of the scanner whose scans judge() receives, in RobotModel::lasers().
+  /// `scanner`: its index in RobotModel::lasers(). Scans of this scanner alone go to judge().
   explicit MotionModel(const RobotModel& model, std::size_t scanner = 0);
 
   /// Once a tick, with the newest scan and reading, and what the drive was sent in the tick before: kScanFrozen while

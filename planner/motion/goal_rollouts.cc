@@ -14,7 +14,7 @@ constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to eith
 constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/explanation/decisions/motion-backward.md, 0083
 constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
 constexpr double kStandWithin = 0.9;                          ///< the same, where it has come to rest already
-constexpr float kArriveWithin = 0.8F;  ///< the same, for roll-outs; where it is yet to turn, so that it then stands:
+constexpr float kArriveWithin = 0.8F;  ///< the same: a roll-out has arrived. With a heading wanted it must come nearer:
 constexpr float kTurnWithin = 0.6F;
 constexpr float kTurnBlocked_s = 5.0F;                        ///< without progress, at the goal
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan

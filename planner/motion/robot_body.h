@@ -13,7 +13,7 @@ namespace jaywalk::motion {
 /// The robot, as roll-outs need it.
 struct RobotBody {
   BodyDiscs to_walls, to_movers;
-  BodyOutline outline;              ///< to walls, where a person steers: discs reach beyond a long body's ends
+  BodyOutline outline;              ///< to walls, by a stick or near them: discs reach beyond a body's sides
   std::array<Place, 8> rim{};       ///< corners and the sides' middles, in the robot's frame
   float rim_m = 0.0F;               ///< farthest point from the axle
   bool is_long = false;             ///< not nearly round

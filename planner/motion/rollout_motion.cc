@@ -6,8 +6,7 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr float kTurnOnSpot_radps = 0.6F;  // as a passenger likes it
-constexpr float kRoomToTurn = 2.5F;        // beyond the corners' circle, in what they reach out of the sides'
+constexpr float kRoomToTurn = 2.5F;  // times (circumscribed less inscribed radius), beyond the circumscribed circle
 
 Seen seen_in(const World& world, const OfEach<SeenFrom>& scans, const Guide& ground) noexcept {
   return {world.now,
@@ -61,7 +60,7 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   decision_.seen = world.scan.stamp;
 }
 
-/// For it backs and turns where no laser looks.
+/// The supervisor supposes them where no laser looks; the robot may back or turn into them.
 void RolloutMotion::place_unseen_walls(const World& world) noexcept {
   unseen_walls_.clear();
   const Transform2 map_from_robot(world.map_from_robot);
@@ -97,8 +96,8 @@ PlanRequest RolloutMotion::request(const World& world) const noexcept {
           .poses = poses_asked(world)};
 }
 
-/// Near what its corners would swing into: about a long body that is everything in sight. Elsewhere a robot that turns
-/// on the spot goes by the time to go from places.
+/// Whether a turn could bring a corner near a surface: for a long body nearly everywhere. Elsewhere the time to go from
+/// places is enough, since the robot turns on the spot.
 bool RolloutMotion::heading_counts(const World& world) const noexcept {
   const Guide& guide = world.plan.guide;
   const Vec2 here = world.map_from_robot.position();
@@ -109,7 +108,7 @@ bool RolloutMotion::heading_counts(const World& world) const noexcept {
 
 PoseRequest RolloutMotion::poses_asked(const World& world) const noexcept {
   const MotionBounds& b = body_.bounds;
-  const float spot = std::fabs(body_.blind.slowed({0.0F, std::min(b.turn, kTurnOnSpot_radps)}).w);
+  const float spot = std::fabs(body_.blind.slowed({0.0F, std::min(b.turn, price::kTurnAtGoalRadps)}).w);
   return {.is_asked = !setup_.constant_speed && heading_counts(world),
           .speeds = {.forward = b.speed, .back = b.back, .turn = b.turn, .spot = spot},
           .arrives_m = 0.5F * static_cast<float>(setup_.goal_tolerance_m),

@@ -21,7 +21,7 @@ struct Situation {
   RobotState start;
   Place goal;
   float turned = 0.0F;                  ///< the side that it turned to last: turned_side()
-  StallState stall;                     ///< where it has been since it last made progress
+  StallState stall;                     ///< for how long it has made no progress
   float arrives_within_m = 0.0F;        ///< of the goal: there
   const StickRollout* stick = nullptr;  ///< driven by the stick: nearness to this counts, and no goal
   const PoseGuide* poses = nullptr;     ///< null: the heading counts nowhere

@@ -47,8 +47,8 @@ inline constexpr float kUnseenFadesM = 0.6F;       ///< after driving on so far 
 inline constexpr float kUnseenDared = 0.15F;       ///< a second, where the only way leads there,
 inline constexpr float kUnseenTurned = 10.0F;      ///< and for each rad/s,
 inline constexpr float kUnseenTurnedLong = 30.0F;  ///< with a long body
-/// Ground this near a long body's axle counts as seen. Without it a wheelchair went to 0.40 m of a person who stood
-/// (passage.toml, seed 2; 0.5 m wanted).
+/// A long body treats ground within this distance of its axle as seen. Without this rule a wheelchair approached a
+/// standing pedestrian to 0.40 m (passage.toml, seed 2; 0.5 m wanted).
 inline constexpr float kStoodOnM = 0.5F;
 
 // Comfort (comfort_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (decision motion-prices).
@@ -73,7 +73,7 @@ inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// motion-prices).
 inline constexpr float kFacingM = 0.35F;
 inline constexpr float kFacesRad = 0.05F, kFacesRadps = 0.15F;  ///< off the heading wanted at the goal, turning: there
-inline constexpr float kTurnAtGoalRadps = 0.6F;
-inline constexpr float kMostTimeToGoS = 500.0F;  ///< where no way is known
+inline constexpr float kTurnAtGoalRadps = 0.6F;                 ///< on the spot, as a passenger likes it
+inline constexpr float kMostTimeToGoS = 500.0F;                 ///< where no way is known
 
 }  // namespace jaywalk::motion::price
