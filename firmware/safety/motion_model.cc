@@ -138,8 +138,8 @@ void MotionModel::note_repeats(const LaserScan& scan, const Rolled& rolled) noex
 
 void MotionModel::keep(const LaserScan& scan, const Rolled& rolled) noexcept {
   evidence_ = std::max(evidence_ + evidence_now_ - kDrift, 0.0);
-  for (std::size_t k = 0; k < blind_.size(); ++k)
-    blind_[k] = std::clamp(blind_[k] + blind_now_[k] - 0.25 * kDrift, 0.0, 2.0 * kBlind);
+  for (std::size_t first = 0; first < blind_.size(); ++first)
+    blind_[first] = std::clamp(blind_[first] + stands_from(first) - kDrift, 0.0, 2.0 * kBlind);
   evidence_now_ = 0.0;
   blind_now_ = {};
   fitted_ = false;
@@ -189,14 +189,23 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
   times_ = contradicts ? std::min(times_ + 1, kTimes) : 0;
 }
 
-/// Side by side over kBlind_rad, no sector moves, and together they stand.
+/// Sectors that kBlind_rad takes.
+std::size_t MotionModel::arc() const noexcept {
+  return static_cast<std::size_t>(std::ceil(kBlind_rad / pair_.sector_rad()));
+}
+
+/// What this pair says for "stands" of the arc from sector `first` on.
+double MotionModel::stands_from(std::size_t first) const noexcept {
+  const std::size_t end = std::min(first + arc(), blind_now_.size());
+  return std::accumulate(blind_now_.begin() + first, blind_now_.begin() + end, 0.0);
+}
+
+/// Of an arc no sector moves, and together they stand.
 bool MotionModel::is_blind() const noexcept {
-  const auto wide = static_cast<std::size_t>(std::ceil(kBlind_rad / pair_.sector_rad()));
-  for (std::size_t first = 0; first + wide <= blind_.size(); ++first) {
-    double sum = 0.0;
-    for (std::size_t k = first; k < first + wide; ++k)
-      sum += blind_now_[k] < -kMoves ? -2.0 * kBlind : blind_[k] + blind_now_[k];
-    if (sum > kBlind) return true;
+  for (std::size_t first = 0; first + arc() <= blind_.size(); ++first) {
+    const auto from = blind_now_.begin() + first;
+    const bool moves = std::any_of(from, from + arc(), [](double k) { return k < -kMoves; });
+    if (!moves && blind_[first] + stands_from(first) > kBlind) return true;
   }
   return false;
 }

@@ -17,8 +17,8 @@ namespace jaywalk {
 /// each newer scan is matched to one kept at most kMost_m before (ScanPair). The match is held against the most likely
 /// motion within the bounds: each wheel goes kLeastGain to kMostGain times as far as it rolls, and none of it aside by
 /// more than a mount that is turned by kMostYaw. The logarithm of their likelihoods' ratio is summed up from pair to
-/// pair (Page 1954); kEvidence of it contradicts the wheels. For each sector of the view the same is done for "stands
-/// still" against "moves as the robot does": a sector that stands while the robot drives is blind. A gain that slip
+/// pair (Page 1954); kEvidence of it contradicts the wheels. For each arc of kBlind_rad the same is done for "stands
+/// still" against "moves as the robot does": an arc that stands while the robot drives is blind. A gain that slip
 /// could cause is a fault where a Kalman filter finds it so over metres.
 ///
 /// Told where the scans can tell: not in open ground, nor, of the way along them, between bare walls. Thread: the
@@ -62,6 +62,8 @@ class MotionModel {
   void compare(const LaserScan& scan, const Rolled& felt) noexcept;
   [[nodiscard]] ScanPair::Fit best_fit(const LaserScan& scan, const Rolled& felt) const noexcept;
   [[nodiscard]] Pose2 within_bounds(const ScanPair::Fit& fit, const Rolled& felt) const noexcept;
+  [[nodiscard]] std::size_t arc() const noexcept;
+  [[nodiscard]] double stands_from(std::size_t first) const noexcept;
   [[nodiscard]] bool is_blind() const noexcept;
   void keep(const LaserScan& scan, const Rolled& rolled) noexcept;
   void update_gain(const Rolled& felt) noexcept;
@@ -80,7 +82,7 @@ class MotionModel {
   ScanPair::Fit fit_{};                         ///< of the newest scan to the kept one
   bool fitted_ = false;                         ///< there is one
   double evidence_ = 0.0, evidence_now_ = 0.0;  ///< of the pairs before, and of this one
-  Costs blind_{}, blind_now_{};                 ///< likewise, of each sector
+  Costs blind_{}, blind_now_{};                 ///< likewise, of the arc from each sector on; of each sector
   int times_ = 0;                               ///< scans in a row that had enough of it
   double against_wheels_ = 0.0;  ///< of this pair, by walls alone: any motion's advantage over that of the wheels
   double gain_ = 1.0, gain_var_;

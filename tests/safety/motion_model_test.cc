@@ -113,6 +113,24 @@ std::vector<Wall> room() {
 }
 std::vector<Wall> endless_corridor() { return {{{-200.0, -1.0}, {200.0, -1.0}}, {{-200.0, 1.0}, {200.0, 1.0}}}; }
 
+/// Two walls that slant across their cells of 0.1 m, as in a drawn map, and stand out by a cell here and there.
+std::vector<Wall> stepped_corridor(std::uint32_t seed) {
+  std::mt19937 random{seed};
+  std::vector<Wall> walls;
+  for (const double side : {-1.0, 1.0}) {
+    const double slant = 0.002 * static_cast<double>(random() % 101);
+    double before = side;
+    for (int cell = -40; cell < 400; ++cell) {
+      const double x = 0.1 * cell, out = random() % 8 == 0 ? 0.1 : 0.0;
+      const double y = side + 0.1 * std::floor(slant * cell) * 0.1 + side * out;
+      walls.push_back({{x, before}, {x, y}});
+      walls.push_back({{x, y}, {x + 0.1, y}});
+      before = y;
+    }
+  }
+  return walls;
+}
+
 const std::vector<std::pair<double, double>> kMotions{{0.3, 0.3}, {-0.3, -0.3}, {0.25, 0.35},
                                                       {0.6, 0.5}, {-0.1, 0.1},  {0.05, 0.25}};
 
@@ -185,6 +203,15 @@ TEST_CASE("where scans cannot tell there is no fault: along an endless corridor,
   CHECK(std::isinf(corridor.told_after(3.0, 0.3, 0.3)));
   Bench open{.wiring = {.left = -1.0, .right = -1.0}};
   CHECK(std::isinf(open.told_after(3.0, 0.3, 0.3)));
+}
+
+TEST_CASE("walls whose steps look alike from cell to cell are no blind sector") {
+  for (const std::uint32_t seed : {1U, 8U, 15U}) {  // on these a sum of each sector's own sum told one
+    CAPTURE(seed);
+    Bench bench{.walls = stepped_corridor(seed)};
+    bench.random.seed(seed);
+    CHECK(std::isinf(bench.told_after(50.0, 0.6, 0.6)));
+  }
 }
 
 TEST_CASE("people who walk along with a sound robot are no fault, in a room, a corridor or on open ground") {
