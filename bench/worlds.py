@@ -10,7 +10,7 @@ import argparse
 import pathlib
 
 from command_line import seeds_of
-from world_kinds import drawn, given, walked
+from world_kinds import buildings, drawn, given, walked
 from world_kinds.folder import Folder
 
 KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks are scored with all of them
@@ -24,6 +24,7 @@ KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks ar
     "barn": (given.barn, "701", "failures"),
     "hall": (given.hall, "301-306", "all"),
     "scanners": (given.scanners, "301-304", "all"),
+    "buildings": (buildings.buildings, "1-25", "failures"),
     "movers": (given.movers, "301-304", "all"),
 }
 
@@ -32,14 +33,14 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", choices=KINDS, metavar="KIND", help=", ".join(KINDS))
     parser.add_argument("--seeds", type=seeds_of, help="one, or first-last")
-    parser.add_argument("--data", type=pathlib.Path, help="barn, posts, dynabarn, people: the folder of their files")
+    parser.add_argument("--data", type=pathlib.Path, help="barn, posts, dynabarn, people, buildings: the folder of their files")
     parser.add_argument("--width", type=float, default=0.90, help="doors: how wide, m")
-    parser.add_argument("--movers", type=int, default=0, help="posts: how many walk among them")
+    parser.add_argument("--movers", type=int, default=0, help="posts, buildings: how many walk among them")
     parser.add_argument("--out", type=pathlib.Path, help="default: out/worlds/KIND")
     options = parser.parse_args()
     options.seeds = options.seeds or seeds_of(KINDS[options.kind][1])
     options.out = options.out or pathlib.Path("out/worlds", options.kind)
-    if options.data is None and options.kind in ("barn", "posts", "dynabarn", "dynabarn_loops", "people"):
+    if options.data is None and options.kind in ("barn", "posts", "dynabarn", "dynabarn_loops", "people", "buildings"):
         parser.error(f"{options.kind}: its files come with --data FOLDER")
     return options
 
