@@ -9,6 +9,7 @@
 namespace jaywalk {
 namespace {
 
+using Rules = StopZoneRules<double>;
 constexpr double kStep_m = SweptPath::kStep_m;
 
 /// Where a beam ends, in the laser's frame.
@@ -38,7 +39,7 @@ double StopZone::rim_speed_mps(const Twist2& twist) const noexcept {
 }
 
 double StopZone::margin_at(double rim_mps) const noexcept {
-  const double share = std::min(rim_mps / kFullMargin_mps, 1.0);
+  const double share = std::min(rim_mps / Rules::kFull_mps, 1.0);
   return config_.creep_margin_m + (config_.margin_m - config_.creep_margin_m) * share;
 }
 
@@ -78,13 +79,13 @@ double StopZone::gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
 
 bool StopZone::may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, std::span<const Vec2> unseen,
                          double reaction_s) const noexcept {
-  const double look_m = stopping_distance_m(kCreep_mps, reaction_s) + kStep_m;
+  const double look_m = stopping_distance_m(Rules::kCreep_mps, reaction_s) + kStep_m;
   FixedVector<Vec2, 2 * kMaxBeams> near;
-  double nearest = kBeside_m;
+  double nearest = Rules::kBeside_m;
   bool holds_all = true;
   const auto look = [&](Vec2 point) {
     const double away = config_.footprint.distance_to(point);
-    if (away < kBeside_m + look_m) holds_all = near.push_back(point) && holds_all;
+    if (away < Rules::kBeside_m + look_m) holds_all = near.push_back(point) && holds_all;
     nearest = std::min(nearest, away);
   };
   for (const Vec2 point : unseen) look(point);
@@ -93,9 +94,10 @@ bool StopZone::may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, st
     for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
       if (scan.is_hit(beam)) look(robot_from_laser * surface_at(scan, beam));
   }
-  if (nearest >= kBeside_m || !holds_all) return false;
+  if (nearest >= Rules::kBeside_m || !holds_all) return false;
   const SweptPath path(twist, rim_speed_mps(twist), look_m);
-  const double margin = std::clamp(nearest - kSwing_m, std::min(nearest, kLeast_m), config_.creep_margin_m);
+  const double margin =
+      std::clamp(nearest - Rules::kSwing_m, std::min(nearest, Rules::kLeast_m), config_.creep_margin_m);
   return std::all_of(near.begin(), near.end(),
                      [&](Vec2 point) { return std::isinf(way_to(point, path, margin, look_m)); });
 }

@@ -6,16 +6,17 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/scanners.h"
+#include "hal/types/stop_zone_rules.h"
 
 namespace jaywalk {
 
 struct StopZoneConfig {
   Footprint footprint;
   Pose2 robot_from_laser;
-  double margin_m = 0.08;        ///< kept free round the footprint at kFullMargin_mps of its rim and above
-  double creep_margin_m = 0.04;  ///< the same at rest; in between in proportion: it passes a door closely, but slowly
-  double brake_mps2 = 1.0;       ///< what the drive was proved to do
-  double look_ahead_m = 2.0;     ///< how far the rim goes, at its fastest, until the robot stands
+  double margin_m = StopZoneRules<double>::kMargin_m;
+  double creep_margin_m = StopZoneRules<double>::kCreepMargin_m;
+  double brake_mps2 = 1.0;              ///< what the drive was proved to do
+  double look_ahead_m = 2.0;            ///< how far the rim goes, at its fastest, until the robot stands
   OfOthers<Pose2> robot_from_others{};  ///< the other lasers' mounts
 };
 
@@ -32,9 +33,9 @@ class StopZone {
   /// robot's frame. Cost: a few steps of 4 cm for each beam and point within reach.
   [[nodiscard]] double gap_m(const OfEach<LaserScan>& scans, const Twist2& twist,
                              std::span<const Vec2> unseen = {}) const noexcept;
-  /// Whether it may creep on (kCreep_mps of its rim) beside what is within kBeside_m already: no part of the way that
-  /// it looks along comes nearer than that by more than kSwing_m, nor nearer than kLeast_m. For noise would keep it
-  /// there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the mean.
+  /// Whether it may creep on beside what is near already (StopZoneRules), over all of the way that it looks along. For
+  /// noise would keep it there, or let it come too near, a surface is where the beams that meet 3 cm of it say in the
+  /// mean.
   [[nodiscard]] bool may_creep(const OfEach<LaserScan>& scans, const Twist2& twist, std::span<const Vec2> unseen,
                                double reaction_s) const noexcept;
   /// From the axle: nothing farther off counts.
@@ -53,9 +54,6 @@ class StopZone {
   [[nodiscard]] double stopping_distance_m(double rim_mps, double reaction_s) const noexcept;
   /// The fastest rim speed from which the robot still stops within `gap_m`.
   [[nodiscard]] double speed_to_stop_within(double gap_m, double reaction_s) const noexcept;
-
-  static constexpr double kFullMargin_mps = 0.4;
-  static constexpr double kBeside_m = 0.07, kCreep_mps = 0.1, kSwing_m = 0.01, kLeast_m = 0.02;
 
  private:
   [[nodiscard]] const Pose2& mount_of(const LaserScan& scan) const noexcept;

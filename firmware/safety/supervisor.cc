@@ -164,7 +164,7 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
   verdict.gap_m = stop_zone_.gap_m(input.scans, twist, unseen_walls_.points());
   const double rim_speed = stop_zone_.rim_speed_mps(twist);
   double stops_from_mps = stop_zone_.speed_to_stop_within(verdict.gap_m, reaction);
-  const double creep_mps = std::min(rim_speed, StopZone::kCreep_mps);
+  const double creep_mps = std::min(rim_speed, StopZoneRules<double>::kCreep_mps);
   if (stops_from_mps < creep_mps && stop_zone_.may_creep(input.scans, twist, unseen_walls_.points(), reaction))
     stops_from_mps = creep_mps;
   if (rim_speed > 0.0) at_most(stops_from_mps / rim_speed, Reason::kStopZone);

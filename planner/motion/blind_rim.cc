@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/types/stop_zone_rules.h"
+
 namespace jaywalk::motion {
 namespace {
 
@@ -32,7 +34,7 @@ BlindRim::BlindRim(const Footprint& footprint, const OfEach<LaserModel>& lasers)
   const Vec2 corners[4] = {{front, half}, {rear, half}, {rear, -half}, {front, -half}};
   const Vec2 normals[4] = {{0.0, 1.0}, {-1.0, 0.0}, {0.0, -1.0}, {1.0, 0.0}};  // of the side that begins there
   const auto add = [&](Vec2 p, Vec2 out) {
-    if (is_watched(lasers, p + out * static_cast<double>(kStopZoneMarginM))) return;
+    if (is_watched(lasers, p + out * StopZoneRules<double>::kMargin_m)) return;
     points_.push_back(
         {static_cast<float>(p.x), static_cast<float>(p.y), static_cast<float>(out.x), static_cast<float>(out.y)});
     reach_m_ = std::max(reach_m_, static_cast<float>(norm(p)));

@@ -6,9 +6,6 @@
 
 namespace jaywalk::motion {
 
-/// What the supervisor keeps free round the outline at speed, m (StopZoneConfig's margin_m).
-inline constexpr float kStopZoneMarginM = 0.08F;
-
 /// The parts of the body's outline beside which no laser ever looks. The supervisor lets such a part move outward at
 /// 0.3 m/s at most (firmware/safety/watch.cc); a roll-out that counts on more would be braked.
 ///

@@ -6,16 +6,15 @@
 namespace jaywalk::motion {
 namespace {
 
-// The stop zone's margin at rest (StopZoneConfig), and the speed of the rim from which all of it counts (StopZone).
-constexpr float kCreepMarginM = 0.04F, kStopZoneMarginMps = 0.4F;
-constexpr float kCreepMps = 0.1F, kSwingM = 0.01F;  // the same; StopZone's may_creep()
-constexpr float kEdgeM = 0.01F;                     ///< a range's noise
+using Rules = StopZoneRules<float>;
+constexpr float kEdgeM = 0.01F;  ///< a range's noise
 constexpr float kNearerM =
     2e-4F;  ///< less is no approach: StopZone's, and single precision a kilometre from the origin
 
 /// What the stop zone allows the outline's edge beside a point `gap_m` away.
 float permitted_rim(float gap_m) {
-  return std::max(gap_m - kEdgeM - kCreepMarginM, 0.0F) / (kStopZoneMarginM - kCreepMarginM) * kStopZoneMarginMps;
+  return std::max(gap_m - kEdgeM - Rules::kCreepMargin_m, 0.0F) / (Rules::kMargin_m - Rules::kCreepMargin_m) *
+         Rules::kFull_mps;
 }
 
 bool is_of_a_mover(Vec2 place, std::span<const MoverDisc> movers) {
@@ -33,7 +32,7 @@ float gap_to(const RobotState& robot, const cell::Heading& along, const RobotBod
 
 void NearReturns::update(const OfEach<SeenFrom>& scans, const RobotState& robot, const RobotBody& body,
                          std::span<const MoverDisc> movers, std::span<const Vec2> unseen_walls) noexcept {
-  const float reach_m = kStopZoneMarginM + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
+  const float reach_m = Rules::kMargin_m + kForS * (body.bounds.speed + body.bounds.turn * body.rim_m);
   const cell::Heading along = cell::heading_at(robot.heading);
   float nearest[kSectors];
   std::fill(nearest, nearest + kSectors, reach_m + body.rim_m);
@@ -54,7 +53,7 @@ void NearReturns::update(const OfEach<SeenFrom>& scans, const RobotState& robot,
     }
   }
   for (const Vec2 p : unseen_walls) take(p);
-  count_ = 0, nearest_ = kBesideM;
+  count_ = 0, nearest_ = Rules::kBeside_m;
   for (std::size_t k = 0; k < kSectors; ++k) {
     if (nearest[k] >= reach_m + body.rim_m) continue;
     x_[count_] = static_cast<float>(hit[k].x), y_[count_] = static_cast<float>(hit[k].y);
@@ -66,14 +65,14 @@ void NearReturns::update(const OfEach<SeenFrom>& scans, const RobotState& robot,
 
 float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) const noexcept {
   const cell::Heading along = cell::heading_at(robot.heading);
-  float least = kStopZoneMarginM + kEdgeM;
+  float least = Rules::kMargin_m + kEdgeM;
   for (std::size_t k = 0; k < count_; ++k) {
     const float gap = gap_to(robot, along, body, x_[k], y_[k]);
     least = gap < gap_[k] && gap < least ? gap : least;
   }
-  if (least >= kStopZoneMarginM + kEdgeM) return 0.0F;
+  if (least >= Rules::kMargin_m + kEdgeM) return 0.0F;
   const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m,
-              creep = is_beside() && least > nearest_ - kSwingM ? kCreepMps : 0.0F,
+              creep = is_beside() && least > nearest_ - Rules::kSwing_m ? Rules::kCreep_mps : 0.0F,
               may = std::max(permitted_rim(least), creep);
   return rim > may ? 1.0F - may / rim : 0.0F;
 }

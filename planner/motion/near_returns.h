@@ -4,6 +4,7 @@
 
 #include "hal/types/geometry.h"
 #include "hal/types/scanners.h"
+#include "hal/types/stop_zone_rules.h"
 #include "planner/motion/robot_body.h"
 #include "planner/planner.h"
 #include "planner/scan/seen_from.h"
@@ -25,16 +26,15 @@ class NearReturns {
   [[nodiscard]] float braked_share(const RobotState& robot, const RobotBody& body) const noexcept;
 
   /// Whether something was so near that the supervisor lets the robot creep at most.
-  [[nodiscard]] bool is_beside() const noexcept { return nearest_ < kBesideM; }
+  [[nodiscard]] bool is_beside() const noexcept { return nearest_ < StopZoneRules<float>::kBeside_m; }
 
   static constexpr float kForS = 1.5F;  ///< so far ahead the supervisor's braking is foreseen
 
  private:
-  static constexpr float kBesideM = 0.07F;  ///< StopZone's
   static constexpr std::size_t kSectors = 120;
   float x_[kSectors] = {}, y_[kSectors] = {}, gap_[kSectors] = {};
   std::size_t count_ = 0;
-  float nearest_ = kBesideM;  ///< of the gaps, and no more than that
+  float nearest_ = StopZoneRules<float>::kBeside_m;  ///< of the gaps, and no more than that
 };
 
 }  // namespace jaywalk::motion

@@ -93,8 +93,8 @@ TEST_CASE("what the supervisor's stop zone would stop at once is foreseen, with 
       for (const float w : {-1.0F, -0.3F, 0.0F, 0.3F, 1.0F}) {
         const LaserScan scan = beside_wall(gap);
         const Twist2 twist{static_cast<double>(v), static_cast<double>(w)};
-        const bool creeps =
-            zone.rim_speed_mps(twist) < 1.01 * StopZone::kCreep_mps && zone.may_creep(scan, twist, {}, 0.2);
+        const bool creeps = zone.rim_speed_mps(twist) < 1.01 * StopZoneRules<double>::kCreep_mps &&
+                            zone.may_creep(scan, twist, {}, 0.2);
         if (creeps || zone.gap_m(scan, twist) > 0.0) continue;
         ++stopped;
         INFO("gap " << gap << ", v " << v << ", w " << w);

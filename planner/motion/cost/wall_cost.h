@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hal/types/stop_zone_rules.h"
 #include "planner/cell/exp_log.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
@@ -17,9 +18,9 @@ class WallCost {
   /// `t`: seconds from now. Returns the clearance, m.
   float add(const RobotState& now, const cell::Heading& along, float t, Cost& cost) noexcept {
     const float c = clearance_at(now, along);
-    // It may always leave what it stands beside, swinging as near as the supervisor lets it (StopZone's may_creep()).
-    constexpr float kSwingM = 0.01F, kLeastM = 0.02F;
-    const bool nears = c < clearance_ - 1e-4F && (c < at_start_ - kSwingM || c < kLeastM);
+    // It may always leave what it stands beside, swinging as near as the supervisor lets it.
+    using Rules = StopZoneRules<float>;
+    const bool nears = c < clearance_ - 1e-4F && (c < at_start_ - Rules::kSwing_m || c < Rules::kLeast_m);
     clearance_ = c;
     if (c < price::kContactM && nears) {
       const float deep = (price::kContactM - c) * 20.0F;
