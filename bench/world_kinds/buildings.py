@@ -1,4 +1,8 @@
-"""Drives from place to place through buildings that robots have mapped."""
+"""Drives from place to place through buildings that robots have mapped.
+
+The maps of docs/explanation/results.md are what `jaywalk replay LOG --save-map` makes of the Freiburg 079 and Intel logs whose
+poses SLAM corrected, as fr079.yaml and intel.yaml: places are drawn by a map's name and the seed.
+"""
 import heapq
 import math
 import random
