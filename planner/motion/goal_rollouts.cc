@@ -10,10 +10,9 @@ namespace {
 
 constexpr float kLeastGain = 0.15F;  ///< s: another trajectory must be better by this
 constexpr int kRounds = 3, kPerturbed = 24;
-constexpr std::array<int, 2> kSmoothedOver{3, 8};             ///< steps to either side
-constexpr float kKnownBehindM = 0.5F, kBlindBackMps = 0.12F;  ///< docs/explanation/decisions/motion-backward.md, 0083
-constexpr double kStopWithin = 2.0 / 3.0;                     ///< of the tolerance
-constexpr double kStandWithin = 0.9;                          ///< the same, where it has come to rest already
+constexpr std::array<int, 2> kSmoothedOver{3, 8};  ///< steps to either side
+constexpr double kStopWithin = 2.0 / 3.0;          ///< of the tolerance
+constexpr double kStandWithin = 0.9;               ///< the same, where it has come to rest already
 constexpr float kArriveWithin = 0.8F;  ///< the same: a roll-out has arrived. With a heading wanted it must come nearer:
 constexpr float kTurnWithin = 0.6F;
 constexpr float kTurnBlocked_s = 5.0F;                        ///< without progress, at the goal
@@ -45,11 +44,8 @@ void try_all(const Situation& situation, bool constant_speed, std::uint32_t numb
 
 void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
   RolloutMotion::observe(world, intent);
-  // At rest it shrinks by its greatest length a second: a pedestrian may step behind the robot.
-  const double gained_mps = std::abs(world.driven.v_mps) < kRestsMps ? -kKnownBehindM : world.driven.v_mps;
-  known_behind_m_ = std::clamp(known_behind_m_ + static_cast<float>(gained_mps * setup_.tick_s), 0.0F, kKnownBehindM);
-  if (known_behind_m_ <= 0.0F && body_.blind.is_behind())
-    body_.bounds.back = std::min(body_.bounds.back, kBlindBackMps);
+  known_behind_.drive(static_cast<float>(world.driven.v_mps), tick_s());
+  body_.bounds = known_behind_.limited(body_.bounds);
   const bool lost = setup_.constant_speed && world.plan.status != PlanStatus::kOk;  // it does not slow down by itself
   stands_there_ = intent.kind == Intent::Kind::kGoal && is_there(world);
   const bool near = distance(world.map_from_robot.position(), world.input.goal_in_map) < setup_.goal_tolerance_m;
@@ -77,6 +73,7 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   if (!(goal == decision_.goal)) stalled_since_ = kNever;  // that was the time to another goal
   decision_.goal = goal;
   decision_.turned = turned_;
+  decision_.known_behind = known_behind_;
   decision_.wants_heading = !setup_.constant_speed && world.input.wants_heading();
   decision_.goal_heading = decision_.wants_heading ? static_cast<float>(world.input.goal_heading_rad) : 0.0F;
   const PoseGuide& poses = world.plan.poses;
@@ -111,7 +108,8 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           setup_.constant_speed ? nullptr : &poses,
           decision_.goal_heading,
           decision_.wants_heading,
-          body_.is_long && !setup_.constant_speed ? conflict_price() : price::kConflict};
+          body_.is_long && !setup_.constant_speed ? conflict_price() : price::kConflict,
+          decision_.known_behind};
 }
 
 void GoalRollouts::search(const Situation& situation) noexcept {

@@ -16,11 +16,10 @@ struct Alternative {
 /// Roll-outs to a goal, over the plan's guide: ways along the guide, arcs, pauses and straight escapes, and what is
 /// left of the decision before, which stays unless another is better by kLeastGain.
 ///
-/// Where the laser does not look behind, it limits the speed backward, except over the last half metre that the robot
-/// has driven forward; at rest it forgets them within a second.
+/// Where the laser does not look behind, the speed backward is limited: KnownBehind.
 class GoalRollouts final : public RolloutMotion {
  public:
-  using RolloutMotion::RolloutMotion;
+  explicit GoalRollouts(const MotionSetup& setup) : RolloutMotion(setup), known_behind_(body_.blind.is_behind()) {}
 
   void observe(const World& world, const Intent& intent) noexcept override;
   [[nodiscard]] const GoalRollouts* rollouts() const noexcept override { return this; }
@@ -46,9 +45,9 @@ class GoalRollouts final : public RolloutMotion {
   Cost best_cost_;
   StallState stall_;
   Time stalled_since_ = kNever;
-  bool stands_there_ = false;    ///< at the goal, with the heading wanted
-  float turned_ = 0.0F;          ///< the side that it turned to last
-  float known_behind_m_ = 0.0F;  ///< driven forward, less what it has backed since and what was forgotten at rest
+  bool stands_there_ = false;  ///< at the goal, with the heading wanted
+  float turned_ = 0.0F;        ///< the side that it turned to last
+  KnownBehind known_behind_;
 };
 
 }  // namespace jaywalk::motion

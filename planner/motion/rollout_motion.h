@@ -19,6 +19,7 @@ struct Decision {
   RobotState start;
   Place goal;
   float turned = 0.0F;
+  KnownBehind known_behind;
   StallState stall;
   bool wants_heading = false;
   float goal_heading = 0.0F;

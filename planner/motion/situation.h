@@ -4,6 +4,7 @@
 #include "hal/types/trig.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/motion/cost/prices.h"
+#include "planner/motion/known_behind.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/stick_proposals.h"
@@ -28,6 +29,7 @@ struct Situation {
   float goal_heading = 0.0F;            ///< wanted at the goal, where `wants_heading`
   bool wants_heading = false;
   float conflict_price_s = price::kConflict;  ///< of being in a mover's way
+  KnownBehind known_behind = {};              ///< at the start
 
   [[nodiscard]] bool is_long() const noexcept { return body.is_long && poses != nullptr; }
   /// Whether there is a way from poses near the robot.

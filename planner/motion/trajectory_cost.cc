@@ -19,10 +19,14 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
   ComfortCost comfort(s);
   time.begin(cost);
   RobotState robot = s.start;
+  KnownBehind behind = s.known_behind;
   const int last = s.stick != nullptr ? kStickSteps : kSteps;
   for (int step = 0; step < last; ++step) {
     const RobotState before = robot;
-    states[step] = robot = moved(before, trajectory.commands[static_cast<std::size_t>(step)], s.body.bounds, kStepS);
+    const MotionBounds bounds = behind.limited(s.body.bounds);
+    const Command command = within(bounds, trajectory.commands[static_cast<std::size_t>(step)]);
+    states[step] = robot = moved(before, command, bounds, kStepS);
+    behind.drive(robot.v, kStepS);
     if (s.stick == nullptr) comfort.add(before, robot, cost);  // a person turns and speeds up at will
     time.add(robot, cost);
     if (time.is_there(robot)) {

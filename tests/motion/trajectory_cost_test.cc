@@ -110,6 +110,29 @@ TEST_CASE("a trajectory is given up only where its whole cost is above the bound
   CHECK(trajectory_cost(arrives, ahead, whole - 0.01F).total() > whole - 0.01F);
 }
 
+TEST_CASE("where nothing looks behind, it backs at its speed only as far as it has driven forward") {
+  test::Guided ground;
+  const RobotBody body = body_of(0.6F);
+  const auto nobody = std::make_unique<Futures>();
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  const auto backed = [&](KnownBehind known) {
+    const RobotState start{.v = -0.3F};
+    Situation s{body, guide, *nobody, kNothing, start, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
+    s.known_behind = known;
+    Trajectory backs;
+    backs.commands.fill({-0.3F, 0.0F});
+    std::array<RobotState, kSteps> driven{};
+    CHECK(trajectory_cost(s, backs, 1e9F, driven.data()).total() < 1e9F);
+    return driven;
+  };
+  CHECK(backed(KnownBehind(false)).back().x == Approx(-1.8F).margin(0.05));
+  KnownBehind known(true);
+  known.drive(0.6F, 0.5F);  // 0.3 m
+  CHECK(backed(known)[8].v == -0.3F);
+  CHECK(backed(known).back().v == Approx(-0.12F).margin(1e-3));
+  CHECK(backed(known).back().x == Approx(-0.3F - 5.0F * 0.12F).margin(0.1));
+}
+
 TEST_CASE("with a heading wanted at the goal, to set out later costs, though it turns after the trajectory's end") {
   test::Guided ground;
   const Guide& guide = ground.towards({0.0, 0.0}, {2.7, 0.0});
