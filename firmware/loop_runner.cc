@@ -103,7 +103,7 @@ void LoopRunner::report(const TrueState* truth, const OwnTime& own) {
                    .tick_took = took_,
                    .loop = &loop_,
                    .planner = chosen_.planner.get()};
-  if (loop_.plan().sequence != plan_reported_) sample.plan_ms = loop_.plan().duration_ms;
+  if (loop_.plan().sequence != plan_reported_) sample.plan_took = loop_.plan().took;
   plan_reported_ = loop_.plan().sequence;
   if (own) sample.now = own(sample.now), sample.scanned = own(sample.scanned);
   report(sample);

@@ -12,12 +12,12 @@
 #include "firmware/recording/tick_record.h"
 #include "hal/types/geometry.h"
 #include "hal/types/time.h"
+#include "planner/planner.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
 
 class ControlLoop;
-class Planner;
 
 /// A mover as it really is.
 struct TrueMover {
@@ -43,10 +43,10 @@ struct TrueState {
 /// One tick, seen from outside the loop. Everything referred to outlives the call only.
 struct RunSample {
   const TickRecord& record;
-  std::span<const Track> tracks = {};  ///< as the controller believes after this tick
-  const TrueState* truth = nullptr;    ///< null in a replay
-  Duration tick_took{0};               ///< measured
-  std::optional<double> plan_ms = {};  ///< when this tick collected a new plan: what it took
+  std::span<const Track> tracks = {};      ///< as the controller believes after this tick
+  const TrueState* truth = nullptr;        ///< null in a replay
+  Duration tick_took{0};                   ///< measured
+  std::optional<PlanTook> plan_took = {};  ///< when this tick collected a new plan: what it took
   Time now = record.now;  ///< as tables are to say it, here and below: a recording may have a clock of its own
   Time scanned = record.newest_scan().stamp;  ///< the scan's
   const ControlLoop* loop = nullptr;          ///< where the loop's own thread reports, else null

@@ -86,6 +86,13 @@ struct Prediction {
   double horizon_s = 0.0;
 };
 
+/// What a plan took; for reports only, no decision rests on it.
+struct PlanTook {
+  double ms = 0.0;            ///< from submission until it was finished
+  double processor_ms = 0.0;  ///< of that, the submitting thread's own work
+  double device_ms = 0.0;     ///< of that, a device's by its own clock; 0 on the CPU
+};
+
 struct Plan {
   Time stamp = kNever;         ///< the request's
   std::uint32_t sequence = 0;  ///< of the request that it answers, from 1
@@ -93,7 +100,7 @@ struct Plan {
   bool certified = false;    ///< every goal-connected free cell has a lower neighbour; of the time to go: kNoPath holds
   float reach = 0.0F;        ///< share of goal-connected free cells from which descent arrives
   std::int32_t cycles = 0;   ///< the potential's solver's work; 0 where it was not asked for
-  double duration_ms = 0.0;  ///< measured; for reports only, no decision rests on it
+  PlanTook took;
   Path path;
   Guide guide;      ///< to motion; whatever the status
   PoseGuide poses;  ///< the same, where it was asked for
@@ -146,8 +153,6 @@ class Planner {
   [[nodiscard]] virtual const char* backend() const noexcept = 0;
   /// Why the last submission came to kBackendFailed, in a few words.
   [[nodiscard]] virtual const char* failure() const noexcept { return ""; }
-  /// What a device has taken for all plans so far, by its own clock, without submission and waiting; 0 on the CPU.
-  [[nodiscard]] virtual double device_ms() const noexcept { return 0.0; }
 };
 
 /// A planner on the CPU. Throws StartupError for a configuration that makes no sense.

@@ -96,12 +96,18 @@ void RunReport::add(const RunSample& sample) {
   if (ticks_++ == 0) first_ = now;
   last_ = now;
   tick_ms_.add(to_seconds(sample.tick_took) * 1e3);
-  if (sample.plan_ms) plan_ms_.add(*sample.plan_ms);
+  if (sample.plan_took) add_plan(*sample.plan_took);
   const Pose2& pose = sample.truth ? sample.truth->map_from_robot : sample.record.pose.map_from_robot;
   add_way(pose, sample);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   granted_.add(sample.record);
   add_tracks(sample);
+}
+
+void RunReport::add_plan(const PlanTook& took) {
+  plan_ms_.add(took.ms);
+  plan_processor_ms_.add(took.processor_ms);
+  plan_device_ms_.add(took.device_ms);
 }
 
 void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
@@ -184,6 +190,8 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["dropped_records"] = end.dropped_records;
   j["not_recorded"] = all_complaints(complaints(), end.not_recorded);
   j["plan_ms"] = spread(plan_ms_);
+  j["plan_processor_ms"] = spread(plan_processor_ms_);
+  j["plan_device_ms"] = spread(plan_device_ms_);
   j["tick_ms"] = spread(tick_ms_);
   const LoopTimes* const loop = end.loop_times;
   j["wake_late_us"] = loop != nullptr ? spread(loop->wake_late_us) : Json(nullptr);

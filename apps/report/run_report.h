@@ -57,6 +57,7 @@ class RunReport {
   void turn_to_next_tables();
   void add_truth(const TrueState& truth, Time now);
   void add_tracks(const RunSample& sample);
+  void add_plan(const PlanTook& took);
   void add_way(const Pose2& pose, const RunSample& sample);
   [[nodiscard]] std::string summary(const RunEnd& end) const;
 
@@ -67,7 +68,7 @@ class RunReport {
   std::optional<DiskReserve> reserve_;
   PathShape shape_;
   Smoothness smoothness_;
-  Distribution plan_ms_, tick_ms_;
+  Distribution plan_ms_, plan_processor_ms_, plan_device_ms_, tick_ms_;
   DrivenWay driven_;
   TrailBook movers_, tracks_;
   GrantedShare granted_;

@@ -48,7 +48,7 @@ class LoopReport {
                       .tracks = {t->tracks.begin(), t->tracks.size()},
                       .truth = nullptr,
                       .tick_took = t->took,
-                      .plan_ms = t->plan_ms});
+                      .plan_took = t->plan_took});
       tell(t->status);
       last_ = t->status;
       loop_.traces().pop();

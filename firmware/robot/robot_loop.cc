@@ -153,9 +153,9 @@ void RobotLoop::trace(const TickRecord& t) noexcept {
     if (!slot->tracks.push_back(track)) break;
   }
   slot->took = runner_.last_took();
-  slot->plan_ms.reset();
+  slot->plan_took.reset();
   const Plan& plan = runner_.loop().plan();
-  if (plan.sequence != plan_traced_) slot->plan_ms = plan.duration_ms;
+  if (plan.sequence != plan_traced_) slot->plan_took = plan.took;
   plan_traced_ = plan.sequence;
   slot->status = status_;
   traces_.publish();

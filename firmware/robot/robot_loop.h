@@ -26,7 +26,7 @@ struct TickTrace {
   TickRecord record;
   FixedVector<Track, kMaxTracks> tracks;
   Duration took{0};
-  std::optional<double> plan_ms;
+  std::optional<PlanTook> plan_took;
   RunStatus status;
 };
 

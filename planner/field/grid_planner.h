@@ -3,7 +3,6 @@
 // start, runs the pass, and draws the path.
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <memory>
 #include <utility>
@@ -13,6 +12,7 @@
 #include "planner/field/nearest_cell.h"
 #include "planner/field/pass.h"
 #include "planner/field/path.h"
+#include "planner/field/plan_clock.h"
 #include "planner/field/planning_rules.h"
 #include "planner/field/time_to_go_path.h"
 
@@ -39,7 +39,7 @@ class GridPlanner final : public Planner {
   }
 
   void submit(const PlanRequest& request) noexcept override {
-    const auto begin = std::chrono::steady_clock::now();
+    const PlanClock begin(*executor_);
     Result& result = *answers_[1];
     Plan& plan = result.plan;
     plan.stamp = request.stamp;
@@ -54,7 +54,7 @@ class GridPlanner final : public Planner {
     result.by_potential = request.wants_potential;
     plan.status = answer(request, result);
     if (plan.status != PlanStatus::kOk) plan.path.clear();
-    plan.duration_ms = std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+    plan.took = PlanClock(*executor_) - begin;
     is_new_ = true;
   }
 
@@ -81,8 +81,6 @@ class GridPlanner final : public Planner {
     if constexpr (requires { executor_->failure(); }) return executor_->failure();
     return "";
   }
-
-  [[nodiscard]] double device_ms() const noexcept override { return executor_->took_ms(); }
 
   /// What the stages of the last submission left behind. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.arrays(); }

@@ -41,7 +41,7 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     RunSample sample{*record, tracks};
     if (with_truth) sample.truth = &truth;
     sample.tick_took = Duration{i == 100 ? 3'000'000 : 1'000'000};
-    if (i % 5 == 0) sample.plan_ms = 0.5;
+    if (i % 5 == 0) sample.plan_took = {.ms = 0.5, .processor_ms = 0.25, .device_ms = 0.125};
     report.add(sample);
   }
   RunEnd end;
@@ -109,6 +109,8 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["tick_ms"]["p50"] == 1.0);
   CHECK(j["tick_ms"]["max"] == 3.0);
   CHECK(j["plan_ms"]["p99"] == 0.5);
+  CHECK(j["plan_processor_ms"]["p99"] == 0.25);
+  CHECK(j["plan_device_ms"]["max"] == 0.125);
   CHECK(j["seed"] == 7);
   CHECK(j["mode"] == "full");
   CHECK(j["backend"] == "cpu");
