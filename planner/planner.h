@@ -97,9 +97,9 @@ struct Plan {
   Time stamp = kNever;         ///< the request's
   std::uint32_t sequence = 0;  ///< of the request that it answers, from 1
   PlanStatus status = PlanStatus::kNone;
-  bool certified = false;    ///< every goal-connected free cell has a lower neighbour; of the time to go: kNoPath holds
-  float reach = 0.0F;        ///< share of goal-connected free cells from which descent arrives
-  std::int32_t cycles = 0;   ///< the potential's solver's work; 0 where it was not asked for
+  bool certified = false;   ///< every goal-connected free cell has a lower neighbour; of the time to go: kNoPath holds
+  float reach = 0.0F;       ///< share of goal-connected free cells from which descent arrives
+  std::int32_t cycles = 0;  ///< the potential's solver's work; 0 where it was not asked for
   PlanTook took;
   Path path;
   Guide guide;      ///< to motion; whatever the status

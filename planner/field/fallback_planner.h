@@ -23,7 +23,6 @@ class FallbackPlanner final : public Planner {
   /// "cuda", or "cpu (cuda: a kernel did not end in time)". Any thread.
   [[nodiscard]] const char* backend() const noexcept override { return name_.load(std::memory_order_acquire); }
 
-
   /// By the requests' stamps: seconds in which a driver gets over what it can get over.
   static constexpr Duration kAskAgainAfter = std::chrono::seconds(5);
 
