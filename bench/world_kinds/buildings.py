@@ -1,7 +1,7 @@
 """Drives from place to place through buildings that robots have mapped.
 
-The maps of docs/explanation/results.md are what `jaywalk replay LOG --save-map` makes of the Freiburg 079 and Intel logs whose
-poses SLAM corrected, as fr079.yaml and intel.yaml: places are drawn by a map's name and the seed.
+docs/explanation/results.md uses two maps, fr079.yaml and intel.yaml. `jaywalk replay LOG --save-map` made them from the
+Freiburg 079 and Intel logs with SLAM's poses. Keep these names: a map's name and the seed decide which places are drawn.
 """
 import heapq
 import math
