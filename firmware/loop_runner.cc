@@ -27,19 +27,18 @@ const PartsKept& checked(const PartsKept& kept, const ControlSetup& setup) {
 
 }  // namespace
 
-LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record,
-                       TickObserver& observer, const Wrap& wrap, const PartsKept& kept)
+LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer, const Wrap& wrap)
     : setup_(setup),
       clock_(hal.clock),
-      out_(out),
-      parts_(out, checked(kept, setup)),
+      out_(files.folder),
+      parts_(files.folder, checked(files.parts, setup)),
       chosen_(wrapped(make_planner(setup.planner(), setup.backend, setup.device), wrap)),
-      recorder_({.file = record ? recording_in(parts_) : "", .setup = to_text(setup)}),
+      recorder_({.file = files.records ? recording_in(parts_) : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       observer_(observer),
-      recording_(record && !parts_.any() ? std::optional(out / "recording.jwr") : std::nullopt),
+      recording_(files.records && !parts_.any() ? std::optional(files.folder / "recording.jwr") : std::nullopt),
       due_(hal.clock.now()) {
-  observer_.begin(out, parts_.place(), setup_);
+  observer_.begin(files.folder, parts_.place(), setup_);
 }
 
 const TickRecord& LoopRunner::step_at(Time due) {

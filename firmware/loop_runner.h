@@ -23,11 +23,15 @@ class LoopRunner {
   /// Puts something round the planner.
   using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
 
-  /// `record` says whether to leave recording.jwr in `out`, or in its parts where `kept` wants them.
-  /// Throws StartupError.
-  /// `observer` is told of the run, and outlives it.
-  LoopRunner(const ControlSetup& setup, Hal hal, const std::filesystem::path& out, bool record, TickObserver& observer,
-             const Wrap& wrap = {}, const PartsKept& kept = {});
+  /// What a run leaves behind.
+  struct Files {
+    std::filesystem::path folder;
+    PartsKept parts = {};
+    bool records = true;  ///< recording.jwr, in the folder or, where they are wanted, in its parts
+  };
+
+  /// `observer` is told of the run, and outlives it. Throws StartupError.
+  LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer, const Wrap& wrap = {});
 
   /// Sleeps until the next tick is due and lives through it.
   const TickRecord& step() { return step_at(due_); }

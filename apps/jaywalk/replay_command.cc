@@ -167,7 +167,7 @@ int replay_log(const ReplayOptions& options, const std::string& format) {
   const ControlSetup setup = setup_for(log, options);
   log.set_goal(setup.goal, setup.goal_tolerance_m);
   RunObserver observer(options.mcap);
-  LoopRunner runner(setup, log.hal(), options.out, true, observer);
+  LoopRunner runner(setup, log.hal(), {options.out}, observer);
   ReplayView view(options, runner);
   MountCheck mount;
   Progress progress;
@@ -233,7 +233,7 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   RecordedHal devices(recorded);
   RunObserver observer(options.mcap);
   LoopRunner runner(
-      setup, devices.hal(setup.model.lasers().size()), options.out, false, observer,
+      setup, devices.hal(setup.model.lasers().size()), {.folder = options.out, .records = false}, observer,
       [&](std::unique_ptr<Planner> planner) { return std::make_unique<HeldPlanner>(std::move(planner), recorded); });
   ReplayView view(options, runner);
   Progress progress;

@@ -197,7 +197,7 @@ int run_sim(SimOptions options) {
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
   RunObserver observer(options.mcap);
   observer.show_walls(walls_of(simulation));
-  LoopRunner runner(setup, hal_for(simulation, view.get()), options.out, true, observer, {}, options.parts);
+  LoopRunner runner(setup, hal_for(simulation, view.get()), {options.out, options.parts}, observer);
   Progress progress;
   TruthForReport truth_for_report;
   std::string ended;

@@ -193,11 +193,9 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   LoopRunner runner(
       file.setup,
       {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock, devices.other_lasers()},
-      options.out, true, *observer,
-      [&](std::unique_ptr<Planner> planner) {
+      {options.out, options.parts}, *observer, [&](std::unique_ptr<Planner> planner) {
         return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
-      },
-      options.parts);
+      });
   StallGuard guard(devices.brake(), clock, kLongestStall);
   RobotLoop loop(runner, {devices.drive(), devices.lasers(), devices.bus(), controls.resets()}, desk, clock, guard,
                  *observer);

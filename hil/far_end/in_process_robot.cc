@@ -26,13 +26,13 @@ std::vector<std::unique_ptr<ScannerConnection>> make_lasers(const RobotFile& fil
 }  // namespace
 
 InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
-                               const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer)
-    : InProcessRobot(file, scenario, seed, clock, out, wrap, observer, make_far_wires(file, true)) {}
+                               const Run& run)
+    : InProcessRobot(file, scenario, seed, clock, run, make_far_wires(file, true)) {}
 
 InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
-                               const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer,
-                               FarWires wires)
-    : clock_(clock),
+                               const Run& run, FarWires wires)
+    : observer_(run.observer != nullptr ? *run.observer : nobody_),
+      clock_(clock),
       file_(with_ports(std::move(file), wires)),
       wires_(clock, seed),
       bus_(wires_.port(0), clock),
@@ -40,9 +40,9 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       lasers_(make_lasers(file_, clock)),
       drive_(make_drive(file_.drive, bus_, clock)),
       controls_(file_, *drive_, clock, [] { return std::string(); }),
-      runner_(file_.setup, hal(), out, true, observer, wrap),
+      runner_(file_.setup, hal(), {run.out}, observer_, run.wrap),
       guard_(no_brake_, clock, std::chrono::seconds(1)),
-      loop_(runner_, {*drive_, lasers_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer) {
+      loop_(runner_, {*drive_, lasers_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer_) {
   messages_.reserve(kMostMessages);
 }
 
@@ -50,11 +50,6 @@ Hal InProcessRobot::hal() {
   Hal hal{*lasers_.front(), *drive_, controls_.panel(), controls_.desk().told_place(), clock_};
   for (std::size_t k = 1; k < lasers_.size(); ++k) (void)hal.other_lasers.push_back(lasers_[k].get());
   return hal;
-}
-
-TickObserver& InProcessRobot::nobody() {
-  static TickObserver does_nothing;
-  return does_nothing;
 }
 
 void InProcessRobot::step_far_end() {

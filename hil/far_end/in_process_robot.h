@@ -39,11 +39,15 @@ class WatchedBus final : public CanBus {
 /// wire. `step_far_end` is for the clock: whatever waits, waits by it, and the far end lives meanwhile.
 class InProcessRobot {
  public:
-  /// `clock` and `observer` outlive it; `out` is for what a run leaves. A scanner on a network is found at any free
-  /// port of this machine. Throws StartupError.
-  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
-                 const std::filesystem::path& out, const LoopRunner::Wrap& wrap = {},
-                 TickObserver& observer = nobody());
+  /// A run: the folder for what it leaves, what is put round its planner, and who is told of it.
+  struct Run {
+    std::filesystem::path out;
+    LoopRunner::Wrap wrap = {};
+    TickObserver* observer = nullptr;  ///< outlives it
+  };
+
+  /// `clock` outlives it. A scanner on a network is found at any free port of this machine. Throws StartupError.
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run);
 
   /// Moves the far end on to now; notes when the first scanner's newest message was complete.
   void step_far_end();
@@ -67,12 +71,12 @@ class InProcessRobot {
     void brake() noexcept override {}
   };
 
-  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock,
-                 const std::filesystem::path& out, const LoopRunner::Wrap& wrap, TickObserver& observer,
+  InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run,
                  FarWires wires);
   [[nodiscard]] Hal hal();
-  [[nodiscard]] static TickObserver& nobody();
 
+  TickObserver nobody_;
+  TickObserver& observer_;
   Clock& clock_;
   RobotFile file_;
   InProcessBus wires_;

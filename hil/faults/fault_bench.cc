@@ -41,7 +41,7 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
     world.truth.right_wheel_radius_m = world.truth.left_wheel_radius_m;
   }
   if (fault.miswiring) world.faults = {{.at_s = 0.0, .for_s = 1e6, .kind = *fault.miswiring}};
-  robot_ = std::make_unique<rig::InProcessRobot>(file_, world, 1, clock_, folder, straight);
+  robot_ = std::make_unique<rig::InProcessRobot>(file_, world, 1, clock_, rig::InProcessRobot::Run{folder, straight});
   clock_.live = [this] {
     robot_->step_far_end();
     for (const auto& laser : robot_->lasers()) laser->step();

@@ -116,7 +116,7 @@ TEST_CASE("a robot on wires calibrates itself") {
   RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/robot.toml");
   file.setup.backend = Backend::kCpu;
   rig::HandLivingClock clock;
-  rig::InProcessRobot robot(file, hall(truth), 3, clock, folder);
+  rig::InProcessRobot robot(file, hall(truth), 3, clock, {folder});
   clock.live = [&robot] {
     robot.step_far_end();
     robot.laser().step();

@@ -26,7 +26,7 @@ struct Bench {
       : folder(std::filesystem::temp_directory_path() /
                ("jaywalk_commission_" + std::to_string(::getpid()) + "_" + std::to_string(benches++))),
         file(wiring(name)),
-        robot(file, scenario(miswired), 3, clock, folder) {
+        robot(file, scenario(miswired), 3, clock, {folder}) {
     if (believe) believe(file);
     clock.live = [this] {
       robot.step_far_end();

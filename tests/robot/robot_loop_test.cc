@@ -36,7 +36,7 @@ TEST_CASE("a loop that is prepared and never started lives through no tick") {
   {
     rig::HandLivingClock clock;
     rig::InProcessRobot robot(wiring(), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
-                              folder);
+                              {folder});
     CHECK(robot.loop().prepare({.priority = 0}).empty());
     CHECK_FALSE(robot.loop().has_ended());
     CHECK(robot.loop().traces().front() == nullptr);
@@ -53,7 +53,7 @@ TEST_CASE("the loop's thread tells of its ticks, and ramps to rest and disarms w
     rig::RealLivingClock clock;
     RunObserver observer;
     rig::InProcessRobot robot(wiring(), sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock,
-                              folder, in_thread, observer);
+                              {folder, in_thread, &observer});
     clock.live = [&robot] { robot.step_far_end(); };
     robot.laser().start();
     const Time limit = clock.now() + 60s;

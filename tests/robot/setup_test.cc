@@ -133,7 +133,7 @@ std::string with_port(const KnownOf& of, std::uint16_t port) {
 bool drives_with(RobotFile file, const std::filesystem::path& folder) {
   file.setup.backend = Backend::kCpu;
   rig::HandLivingClock clock;
-  rig::InProcessRobot robot(file, EmulatedMachine::hall(), 3, clock, folder / "run");
+  rig::InProcessRobot robot(file, EmulatedMachine::hall(), 3, clock, {folder / "run"});
   clock.live = [&] {
     robot.step_far_end();
     robot.laser().step();

@@ -34,7 +34,7 @@ struct WiredBench {
                ("jaywalk_wired_tick_" + robot_name + std::to_string(::getpid()))),
         period(duration_from_seconds(1.0 / rate_hz)),
         robot(file(robot_name, panel, rate_hz, steering),
-              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, folder, {}, observer) {
+              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"), 3, clock, {folder, {}, &observer}) {
     clock.live = [this] {
       robot.step_far_end();
       const AllocationGuard guard;

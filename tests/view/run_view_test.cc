@@ -210,12 +210,12 @@ class BesetRun {
                              sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml"),
                              3,
                              clock_,
-                             folder_,
-                             [this](std::unique_ptr<Planner> planner) -> std::unique_ptr<Planner> {
-                               return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup),
-                                                                      page_);
-                             },
-                             page_};
+                             {folder_,
+                              [this](std::unique_ptr<Planner> planner) -> std::unique_ptr<Planner> {
+                                return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup),
+                                                                       page_);
+                              },
+                              &page_}};
   ControlSocket control_{socket_, [this](std::string_view line) { return robot_.desk().reply_to(line); }};
 };
 
