@@ -25,6 +25,13 @@ const std::array<PassedOn, 7> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds_
                                          {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
                                          {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
                                          {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc}}};
+/// Null where it is none; a robot's second scanner has a topic of its own name.
+const PassedOn* passed_on(const std::string& topic) {
+  for (const PassedOn& one : kPassedOn)
+    if (topic == one.topic()) return &one;
+  return topic.starts_with("/scan_") ? kPassedOn.data() : nullptr;
+}
+
 constexpr std::size_t kEncapsulation = 4;
 constexpr std::int32_t kDepth = 10;
 
@@ -37,7 +44,7 @@ Qos qos_of(bool kept) {
 }  // namespace
 
 DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& space)
-    : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")) {
+    : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")), space_(space) {
   for (const PassedOn& one : kPassedOn)
     writers_[one.topic()] = make_writer(participant_, *one.type, space + one.topic(), qos_of(one.kept));
   if (takes_goals) goals_.emplace(participant_);
@@ -45,16 +52,10 @@ DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& 
 
 DdsTopics::~DdsTopics() { dds_delete(participant_); }
 
-std::set<std::string> DdsTopics::topics() {
-  std::set<std::string> all;
-  for (const PassedOn& one : kPassedOn) all.insert(one.topic());
-  return all;
-}
+bool DdsTopics::passes(const std::string& topic) { return passed_on(topic) != nullptr; }
 
 bool DdsTopics::publish(const std::string& topic, std::string message) {
-  const PassedOn* passed = nullptr;
-  for (const PassedOn& one : kPassedOn)
-    if (topic == one.topic()) passed = &one;
+  const PassedOn* const passed = passed_on(topic);
   if (passed == nullptr || message.size() < kEncapsulation) return false;
   char* const body = message.data() + kEncapsulation;
   const auto size = static_cast<std::uint32_t>(message.size() - kEncapsulation);
@@ -66,7 +67,9 @@ bool DdsTopics::publish(const std::string& topic, std::string message) {
   dds_istream_t in;
   dds_istream_init(&in, size, body, CDR_ENC_VERSION_1);
   (void)dds_stream_read(&in, static_cast<char*>(sample.get()), passed->type->m_ops);
-  return dds_write(writers_.at(topic), sample.get()) == DDS_RETCODE_OK;
+  const auto [writer, is_new] = writers_.try_emplace(topic);
+  if (is_new) writer->second = make_writer(participant_, *passed->type, space_ + topic, qos_of(passed->kept));
+  return dds_write(writer->second, sample.get()) == DDS_RETCODE_OK;
 }
 
 std::optional<std::string> DdsTopics::take_goal() { return goals_ ? goals_->take() : std::nullopt; }

@@ -2,7 +2,6 @@
 // ROS 2's topics on DDS, by Cyclone DDS.
 #include <map>
 #include <optional>
-#include <set>
 #include <string>
 
 #include "apps/dds/dds_entities.h"
@@ -20,7 +19,8 @@ class DdsTopics {
   DdsTopics(const DdsTopics&) = delete;
   DdsTopics& operator=(const DdsTopics&) = delete;
 
-  [[nodiscard]] static std::set<std::string> topics();
+  /// Whether such a topic is passed on: those that DdsTopics begins with, and "/scan_rear" or the like.
+  [[nodiscard]] static bool passes(const std::string& topic);
   /// `message`: CDR behind its encapsulation header. False where its bytes do not fit the topic's type: it is not sent.
   bool publish(const std::string& topic, std::string message);
   /// The newest goal that came, as a PoseStamped in CDR; none where none are taken.
@@ -28,6 +28,7 @@ class DdsTopics {
 
  private:
   dds_entity_t participant_;
+  std::string space_;
   std::optional<GoalReader> goals_;
   std::map<std::string, dds_entity_t> writers_;
 };

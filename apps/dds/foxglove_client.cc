@@ -47,8 +47,8 @@ Address address_of(const std::string& url) {
 
 }  // namespace
 
-FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& fingerprint, std::set<std::string> topics)
-    : url_(url), topics_(std::move(topics)), socket_(asio::ip::tcp::socket(io_)) {
+FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& fingerprint, Wants wants)
+    : url_(url), wants_(std::move(wants)), socket_(asio::ip::tcp::socket(io_)) {
   const Address address = address_of(url);
   finish([&](auto done) { socket_.next_layer().next_layer().async_connect(address.at, done); });
   if (address.is_encrypted) begin_tls(fingerprint);
@@ -122,7 +122,7 @@ void FoxgloveClient::take_text(std::string_view text) {
   Json wishes = Json::array();
   for (const Json& channel : json.value("channels", Json::array())) {
     const std::string topic = channel.value("topic", "");
-    if (topics_.count(topic) == 0 || channel.value("encoding", "") != "cdr") continue;
+    if (!wants_(topic) || channel.value("encoding", "") != "cdr") continue;
     const auto id = static_cast<std::uint32_t>(subscribed_.size() + 1);
     subscribed_[id] = topic;
     wishes.push_back({{"id", id}, {"channelId", channel.value("id", 0U)}});

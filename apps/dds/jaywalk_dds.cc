@@ -39,7 +39,7 @@ void greet(const Options& options) {
 
 void pass_run_on(const Options& options) {
   dds::DdsTopics topics(options.domain, options.takes_goals, options.space);
-  dds::FoxgloveClient live(options.from, options.fingerprint, dds::DdsTopics::topics());
+  dds::FoxgloveClient live(options.from, options.fingerprint, dds::DdsTopics::passes);
   std::map<std::string, bool> refused;
   greet(options);
   while (!ends) {

@@ -16,6 +16,15 @@ bool same_heading(double a, double b) { return a == b || (std::isnan(a) && std::
 
 }  // namespace
 
+std::vector<NamedTopic> topics_of(const RobotModel& model) {
+  std::vector<NamedTopic> topics;
+  for (const RosTopic& topic : kRosTopics) topics.push_back({topic.name, topic.type});
+  topics[kScan].name = of_scanner("/scan", model, 0);
+  for (std::size_t k = 1; k < model.lasers().size(); ++k)
+    topics.push_back({of_scanner("/scan", model, k), kRosTopics[kScan].type});
+  return topics;
+}
+
 void RosTopics::forget(std::uint32_t topics) {
   if ((topics & (bit(kScan) | bit(kPoints) | bit(kTracks))) != 0) scan_seen_ = 0;
   if ((topics & bit(kPlan)) != 0) plan_seen_ = kNever;

@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <utility>
+#include <vector>
 
 #include "apps/formats/ros_messages.h"
 #include "firmware/recording/tick_record.h"
@@ -52,6 +53,13 @@ inline constexpr std::array<RosTopic, 11> kRosTopics{{{"/scan", "sensor_msgs/msg
 inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
 /// From this number on come the scans of a robot's other scanners, which kAllTopics does not ask for.
 inline constexpr std::size_t kOtherScans = kRosTopics.size();
+
+struct NamedTopic {
+  std::string name;  ///< "/scan_front" where there are several scanners
+  std::string type;
+};
+/// The topics of a robot's run, by their numbers.
+[[nodiscard]] std::vector<NamedTopic> topics_of(const RobotModel& model);
 
 /// A run's ticks as ROS 2's messages (docs/reference/outputs.md says when there is one of which topic). Each message is
 /// made only where its topic is wanted. Thread: one.

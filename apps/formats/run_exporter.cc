@@ -57,13 +57,8 @@ RunExporter::RunExporter(const std::filesystem::path& file, const ControlSetup& 
       topics_([this](std::size_t topic, Time stamp,
                      const std::string& message) { file_.write(channels_[topic], stamp, message); },
               setup.unix_from_loop) {
-  const auto add = [this](const std::string& name, const std::string& type) {
+  for (const auto& [name, type] : exchange::topics_of(model_))
     channels_.push_back(file_.add_channel(name, type, exchange::ros_schema(type), qos_of(name)));
-  };
-  const auto scans_of = [this](std::size_t scanner) { return exchange::of_scanner("/scan", model_, scanner); };
-  for (std::size_t k = 0; k < exchange::kRosTopics.size(); ++k)
-    add(k == exchange::kScan ? scans_of(0) : exchange::kRosTopics[k].name, exchange::kRosTopics[k].type);
-  for (std::size_t k = 1; k < model_.lasers().size(); ++k) add(scans_of(k), exchange::kRosTopics[exchange::kScan].type);
 }
 
 void RunExporter::add(const TickRecord& t, const Tracker& tracker) {

@@ -84,11 +84,10 @@ class ReplayView {
  public:
   ReplayView(const ReplayOptions& options, const LoopRunner& runner) : runner_(runner) {
     if (!options.view) return;
-    live_ = std::make_unique<LiveView>(*options.view, true, [](const view::ViewOrder&, const view::Reply& reply) {
-      reply("a recording takes no orders\n");
-    });
+    live_ = std::make_unique<LiveView>(
+        *options.view, runner.setup().model, true,
+        [](const view::ViewOrder&, const view::Reply& reply) { reply("a recording takes no orders\n"); });
     live_->begin({.title = options.logs[0].filename().string(),
-                  .model = runner.setup().model,
                   .known = runner.setup().known_map.get(),
                   .takes_goals = false,
                   .takes_pauses = false},

@@ -100,8 +100,10 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
 }
 
-std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
-  std::vector<WallLine> walls;
+/// Wall: the report's or the page's.
+template <class Wall>
+std::vector<Wall> walls_of(const sim::Simulation& simulation) {
+  std::vector<Wall> walls;
   for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
   return walls;
 }
@@ -109,10 +111,8 @@ std::vector<WallLine> walls_of(const sim::Simulation& simulation) {
 std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup& setup, const sim::Scenario& scenario,
                                   sim::Simulation& simulation) {
   if (!options.view) return nullptr;
-  auto view = std::make_unique<SimView>(*options.view, simulation.hal().panel, !setup.keeps_speed());
-  std::vector<view::WallPiece> walls;
-  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
-  view->begin(scenario.name, setup, walls);
+  auto view = std::make_unique<SimView>(*options.view, setup, simulation.hal().panel);
+  view->begin(scenario.name, walls_of<view::WallPiece>(simulation));
   return view;
 }
 
@@ -196,7 +196,7 @@ int run_sim(SimOptions options) {
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
   RunObserver observer(options.mcap);
-  observer.show_walls(walls_of(simulation));
+  observer.show_walls(walls_of<WallLine>(simulation));
   LoopRunner runner(setup, hal_for(simulation, view.get()), {options.out, options.parts}, observer);
   Progress progress;
   TruthForReport truth_for_report;

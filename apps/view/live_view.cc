@@ -16,21 +16,21 @@ constexpr auto kGone = std::chrono::seconds(3);                   // a page that
 constexpr auto kLookEvery = std::chrono::milliseconds(50);
 constexpr std::size_t kMostStripTicks = 2000;  // more than a screen has columns
 
-std::vector<view::FoxgloveChannel> channels() {
+std::vector<view::FoxgloveChannel> channels_of(const RobotModel& model) {
   std::vector<view::FoxgloveChannel> all;
-  for (const exchange::RosTopic& topic : exchange::kRosTopics)
-    all.push_back({topic.name, topic.type, exchange::ros_schema(topic.type)});
+  for (const auto& [name, type] : exchange::topics_of(model)) all.push_back({name, type, exchange::ros_schema(type)});
   return all;
 }
 
 }  // namespace
 
-LiveView::LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey)
+LiveView::LiveView(const view::ViewAddress& where, const RobotModel& model, bool keeps_ticks, Obey obey)
     : obey_(std::move(obey)),
       keeps_ticks_(keeps_ticks),
+      model_(model),
       server_(view::ViewServer::serve(
           where, {.on_order = [this](std::string_view text, const view::Reply& reply) { answer(text, reply); },
-                  .channels = channels()})),
+                  .channels = channels_of(model)})),
       topics_([this](std::size_t channel, Time stamp, std::string message) {
         server_->push(channel, stamp, std::move(message));
       }) {
@@ -54,10 +54,8 @@ void LiveView::answer(std::string_view text, const view::Reply& reply) {
 }
 
 void LiveView::begin(view::HelloScene hello, Duration tick) {
-  model_ = hello.model;
   zone_.emplace(model_, tick);
-  if (!model_.other_lasers.empty())
-    std::fputs("jaywalk: the page draws every scanner; of the topics there, /scan is the first one's alone\n", stderr);
+  hello.model = model_;
   hello.keeps_ticks = keeps_ticks_;
   hello.tick_s = to_seconds(tick);
   hello_ = to_json(hello);

@@ -24,9 +24,9 @@ class LiveView {
 
   /// `keeps_ticks`: any tick can be asked for, as long as the program runs. Prints the line `view: http://...`, with
   /// TLS its certificate's fingerprint too. Throws StartupError where the address cannot be served.
-  LiveView(const view::ViewAddress& where, bool keeps_ticks, Obey obey);
+  LiveView(const view::ViewAddress& where, const RobotModel& model, bool keeps_ticks, Obey obey);
 
-  /// Before the first tick. `keeps_ticks` and `tick_s` of `hello` are set here.
+  /// Before the first tick. `model`, `keeps_ticks` and `tick_s` of `hello` are set here.
   void begin(view::HelloScene hello, Duration tick);
   /// After each tick of a runner that this thread drives. `at_once`: whatever was shown just now.
   void follow(const LoopRunner& runner, const std::string& ended, bool at_once = false);

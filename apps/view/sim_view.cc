@@ -11,28 +11,29 @@ constexpr int kLooksUntilTold = 20;
 
 }  // namespace
 
-SimView::SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals)
+SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel)
     : panel_(panel),
-      takes_goals_(takes_goals),
-      live_(where, true, [this](const view::ViewOrder& order, const view::Reply& reply) {
+      takes_goals_(!setup.keeps_speed()),
+      tick_(setup.tick()),
+      live_(where, setup.model, true, [this](const view::ViewOrder& order, const view::Reply& reply) {
         orders_.add(order);
         if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
       }) {}
 
-void SimView::begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls) {
-  live_.begin({.title = title, .model = setup.model, .walls = walls, .takes_goals = takes_goals_}, setup.tick());
+void SimView::begin(const std::string& title, std::span<const view::WallPiece> walls) {
+  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_}, tick_);
 }
 
 void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
   live_.follow(runner, ended, paused_);
-  keep_pace(runner.setup().tick());
+  keep_pace();
   if (ended.empty()) obey_while_paused(interruption);
 }
 
 /// A run that was held up does not hurry to make up for it.
-void SimView::keep_pace(Duration tick) {
+void SimView::keep_pace() {
   const auto now = std::chrono::steady_clock::now();
-  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(tick), now);
+  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(tick_), now);
   std::this_thread::sleep_until(due_);
 }
 

@@ -12,22 +12,23 @@ namespace jaywalk {
 class SimView {
  public:
   /// Prints the line `view: http://...`. Throws StartupError where the address cannot be served.
-  SimView(const view::ViewAddress& where, OperatorPanel& panel, bool takes_goals);
+  SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel);
 
   [[nodiscard]] OperatorPanel& panel() noexcept { return panel_; }
-  void begin(const std::string& title, const ControlSetup& setup, std::span<const view::WallPiece> walls);
+  void begin(const std::string& title, std::span<const view::WallPiece> walls);
   /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
   void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
   /// After the run: see LiveView::stay.
   void stay(const Interruption& interruption) const { live_.stay(false, interruption); }
 
  private:
-  void keep_pace(Duration tick);
+  void keep_pace();
   void obey_while_paused(const Interruption& interruption);
 
   view::ViewOrders orders_;
   view::SteeredPanel panel_;
   bool takes_goals_;
+  Duration tick_;
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
   LiveView live_;

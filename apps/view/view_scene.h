@@ -20,7 +20,7 @@ struct WallPiece {
 /// What does not change in a run.
 struct HelloScene {
   std::string title;
-  RobotModel model;
+  RobotModel model = {};
   std::span<const WallPiece> walls = {};  ///< the world's, where there is one
   const KnownMap* known = nullptr;        ///< the robot's, where it was given one
   double tick_s = 0.02;

@@ -119,5 +119,5 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   CHECK(plan_of(load_campaign(folder + "/baselines.toml")).runs.size() == 4 * 5 * 5 * 3);
   CHECK(plan_of(load_campaign(folder + "/hall_baselines.toml")).runs.size() == 5 * 8);
   CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 100 * 4);
-  CHECK(plan_of(load_campaign(folder + "/harder.toml")).runs.size() == 100 * 4);
+  CHECK(plan_of(load_campaign(folder + "/harder.toml")).runs.size() == 100 * 5);
 }

@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "apps/formats/ros_messages.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -68,6 +69,33 @@ TEST_CASE("a run's topics lie below the namespace that they are given") {
   };
   CHECK(publishers_of("/jaywalk/scan") == 1);
   CHECK(publishers_of("/scan") == 0);
+  dds_delete(far_end);
+}
+
+TEST_CASE("the scans of a second scanner have a topic of their own") {
+  ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
+  const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
+  dds::DdsTopics topics(domain, false, "/jaywalk");
+  const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
+  const dds_entity_t reader =
+      dds::make_reader(far_end, sensor_msgs_msg_dds__LaserScan__desc, "/jaywalk/scan_rear", dds::qos_keeping(1, true));
+  LaserScan scan;
+  scan.beam_count = 3;
+  REQUIRE(dds::DdsTopics::passes("/scan_rear"));
+  REQUIRE_FALSE(dds::DdsTopics::passes("/scanned"));
+  void* samples[1] = {nullptr};
+  dds_sample_info_t info[1];
+  dds_return_t taken = 0;
+  for (int looks = 0; looks < 100 && taken == 0; ++looks) {
+    CHECK(topics.publish("/scan_rear", exchange::laser_scan(scan, Time{}, "laser_rear")));
+    std::this_thread::sleep_for(std::chrono::milliseconds(20));
+    taken = dds_take(reader, samples, info, 1, 1);
+  }
+  REQUIRE(taken == 1);
+  const auto& came = *static_cast<const sensor_msgs_msg_dds__LaserScan_*>(samples[0]);
+  CHECK(std::string(came.header_.frame_id_) == "laser_rear");
+  CHECK(came.ranges_._length == 3);
+  dds_return_loan(reader, samples, taken);
   dds_delete(far_end);
 }
 
