@@ -18,7 +18,8 @@ struct Perceived {
   const EvidenceMap& still;  ///< what stands
 };
 
-/// What a tick knows, in the map. Valid within the tick.
+/// What a tick knows, in the map, from all that came before motion: more fields than a struct has elsewhere. Valid
+/// within the tick.
 struct World {
   Time now = kNever;
   bool new_scan = false, new_plan = false;  ///< since the tick before; a plan counts while there is a goal

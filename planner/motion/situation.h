@@ -13,7 +13,8 @@
 
 namespace jaywalk::motion {
 
-/// What the trajectories of one decision have in common.
+/// What the trajectories of one decision have in common; each term of the cost reads its part: more fields than a
+/// struct has elsewhere.
 struct Situation {
   const RobotBody& body;
   const Guide& guide;

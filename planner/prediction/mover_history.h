@@ -44,6 +44,7 @@ class MoverHistory {
   struct Look {
     Vec2 place, velocity;
   };
+  /// Two counts of its looks, its walk, its being here: more fields than a struct has elsewhere.
   struct History {
     Track track;  ///< as last seen
     bool here = false;
