@@ -35,6 +35,7 @@ def arguments():
     parser.add_argument("--seeds", type=seeds_of, help="one, or first-last")
     parser.add_argument("--data", type=pathlib.Path, help="barn, posts, dynabarn, people, buildings: the folder of their files")
     parser.add_argument("--width", type=float, default=0.90, help="doors: how wide, m")
+    parser.add_argument("--model", help="rooms: of every robot, wheelchair say; else each room has its own")
     parser.add_argument("--movers", type=int, default=0, help="posts, buildings: how many walk among them")
     parser.add_argument("--out", type=pathlib.Path, help="default: out/worlds/KIND")
     options = parser.parse_args()

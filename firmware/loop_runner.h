@@ -23,7 +23,7 @@ class LoopRunner {
   /// Puts something round the planner.
   using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
 
-  /// What a run leaves behind.
+  /// Where the run's files go, and whether it is recorded.
   struct Files {
     std::filesystem::path folder;
     PartsKept parts = {};

@@ -25,11 +25,11 @@ const std::array<PassedOn, 7> kPassedOn{{{exchange::kScan, &sensor_msgs_msg_dds_
                                          {exchange::kMap, &nav_msgs_msg_dds__OccupancyGrid__desc, true},
                                          {exchange::kPlan, &nav_msgs_msg_dds__Path__desc},
                                          {exchange::kTracks, &visualization_msgs_msg_dds__MarkerArray__desc}}};
-/// Null where it is none; a robot's second scanner has a topic of its own name.
+/// How a topic is published; null where it is not. "/scan_rear", the topic of a named scanner, is published as "/scan".
 const PassedOn* passed_on(const std::string& topic) {
   for (const PassedOn& one : kPassedOn)
     if (topic == one.topic()) return &one;
-  return topic.starts_with("/scan_") ? kPassedOn.data() : nullptr;
+  return topic.starts_with("/scan_") ? passed_on(exchange::kRosTopics[exchange::kScan].name) : nullptr;
 }
 
 constexpr std::size_t kEncapsulation = 4;

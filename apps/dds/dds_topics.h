@@ -19,7 +19,8 @@ class DdsTopics {
   DdsTopics(const DdsTopics&) = delete;
   DdsTopics& operator=(const DdsTopics&) = delete;
 
-  /// Whether such a topic is passed on: those that DdsTopics begins with, and "/scan_rear" or the like.
+  /// Whether publish() takes messages of this topic. It takes "/scan" and also the scan of a named scanner,
+  /// "/scan_rear".
   [[nodiscard]] static bool passes(const std::string& topic);
   /// `message`: CDR behind its encapsulation header. False where its bytes do not fit the topic's type: it is not sent.
   bool publish(const std::string& topic, std::string message);

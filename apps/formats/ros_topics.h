@@ -54,11 +54,12 @@ inline constexpr std::uint32_t kAllTopics = (1U << kRosTopics.size()) - 1U;
 /// From this number on come the scans of a robot's other scanners, which kAllTopics does not ask for.
 inline constexpr std::size_t kOtherScans = kRosTopics.size();
 
+/// A topic as it is published.
 struct NamedTopic {
   std::string name;  ///< "/scan_front" where there are several scanners
   std::string type;
 };
-/// The topics of a robot's run, by their numbers.
+/// All topics of a run with this robot. A topic's index is its number.
 [[nodiscard]] std::vector<NamedTopic> topics_of(const RobotModel& model);
 
 /// A run's ticks as ROS 2's messages (docs/reference/outputs.md says when there is one of which topic). Each message is

@@ -100,7 +100,7 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
           .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
 }
 
-/// Wall: the report's or the page's.
+/// `Wall`: the report's WallLine or the page's WallPiece.
 template <class Wall>
 std::vector<Wall> walls_of(const sim::Simulation& simulation) {
   std::vector<Wall> walls;

@@ -78,21 +78,22 @@ def drawn_people(rng):
         yield keys | {"legs": rng.random() < 0.5}
 
 
-def room(to, seed):
+def room(to, seed, model):
     """Returns the robot's model and the scenario."""
     rng = random.Random(seed)
     name, drawn = f"room_{seed}", drawn_room(rng)
+    model = model or drawn["model"]
     world = to.drawn_map(name, drawn["size"], 0.05, lambda x, y: is_room_wall(x, y, drawn))
     fov, heading = rng.choice([180, 270, 270, 360]), rng.uniform(-math.pi, math.pi)
     goal = rounded(*drawn["goal"], *([] if rng.random() < 0.6 else [rng.uniform(-3.1, 3.1)]))
-    robot = {"start": rounded(*drawn["start"], heading), "goal": goal, "model": drawn["model"], "max_speed_mps": 0.6}
+    robot = {"start": rounded(*drawn["start"], heading), "goal": goal, "model": model, "max_speed_mps": 0.6}
     laser = {"fov_deg": fov, "beams": 3 * fov + (fov < 360)}
-    return drawn["model"], to.scenario(name, world, robot, laser=laser, movers=drawn_people(rng), timeout_s=90.0, seed=seed)
+    return model, to.scenario(name, world, robot, laser=laser, movers=drawn_people(rng), timeout_s=90.0, seed=seed)
 
 
 def rooms(to, options):
     """Boxes, a wall with a door in most, one to nine people about, half of them on two legs; p3dx or wheelchair, a laser
     of 180, 270 or 360 degrees. A start among people is refused: that run did not run."""
-    drawn = [room(to, seed) for seed in options.seeds]
+    drawn = [room(to, seed, options.model) for seed in options.seeds]
     for model in sorted({model for model, _ in drawn}):
         to.experiment(model, [scenario for of, scenario in drawn if of == model])

@@ -39,11 +39,10 @@ class WatchedBus final : public CanBus {
 /// wire. `step_far_end` is for the clock: whatever waits, waits by it, and the far end lives meanwhile.
 class InProcessRobot {
  public:
-  /// A run: the folder for what it leaves, what is put round its planner, and who is told of it.
   struct Run {
-    std::filesystem::path out;
-    LoopRunner::Wrap wrap = {};
-    TickObserver* observer = nullptr;  ///< outlives it
+    std::filesystem::path out;         ///< the folder for the run's files
+    LoopRunner::Wrap wrap = {};        ///< replaces the planner by one that uses it; without it the planner stays
+    TickObserver* observer = nullptr;  ///< gets every tick; outlives the robot. Null: nothing observes the run
   };
 
   /// `clock` outlives it. A scanner on a network is found at any free port of this machine. Throws StartupError.

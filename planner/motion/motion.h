@@ -18,8 +18,8 @@ struct Perceived {
   const EvidenceMap& still;  ///< what stands
 };
 
-/// What a tick knows, in the map, from all that came before motion: more fields than a struct has elsewhere. Valid
-/// within the tick.
+/// The input of motion in a tick, in the map: one field for each stage before it, so more than a struct has elsewhere.
+/// Valid within the tick.
 struct World {
   Time now = kNever;
   bool new_scan = false, new_plan = false;  ///< since the tick before; a plan counts while there is a goal

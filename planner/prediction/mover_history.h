@@ -44,7 +44,7 @@ class MoverHistory {
   struct Look {
     Vec2 place, velocity;
   };
-  /// Two counts of its looks, its walk, its being here: more fields than a struct has elsewhere.
+  /// What was learned of one track. Each estimate keeps its own state here: more fields than a struct has elsewhere.
   struct History {
     Track track;  ///< as last seen
     bool here = false;

@@ -10,7 +10,8 @@
 
 namespace jaywalk::motion {
 
-/// What is believed of one mover, when the decision is made. A field an estimate: more than a struct has elsewhere.
+/// What is believed of one mover, when the decision is made. Each estimate is a field: more than a struct has
+/// elsewhere.
 struct MoverBelief {
   std::uint32_t id = 0;
   float x = 0.0F, y = 0.0F, vx = 0.0F, vy = 0.0F;  ///< at its last sight
@@ -45,7 +46,7 @@ JAYWALK_ANYWHERE bool faces_surface(const Guide& guide, float x, float y, const 
   return near(0.35F, 0.0F, 0.25F) || near(0.7F, 0.0F, 0.3F) || near(0.64F, 0.32F, 0.25F) || near(0.64F, -0.32F, 0.25F);
 }
 
-/// A mover in one future. A field a quantity that was drawn: more than a struct has elsewhere.
+/// A mover in one future. Each drawn quantity is a field: more than a struct has elsewhere.
 struct PedestrianSample {
   float x = 0.0F, y = 0.0F, heading = 0.0F;
   cell::Heading along;
