@@ -47,6 +47,10 @@ ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int dev
   return {make_cpu_planner(config), JAYWALK_HAS_CUDA ? why_not : ""};
 }
 
+ChosenPlanner make_planner(const ControlSetup& setup) {
+  return make_planner(setup.planner(), setup.backend, setup.device);
+}
+
 std::string tried_backend(Backend backend, int device) {
   std::string why_not;
   if (backend == Backend::kCpu) return "plans on the CPU";

@@ -18,6 +18,8 @@ struct ChosenPlanner {
 /// that have not the CPU's bits are a reason not to take it. One that fails while it plans gives way to the CPU
 /// (FallbackPlanner). `device`: CUDA's number. Throws StartupError where kCuda cannot be had.
 [[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device = 0);
+/// The one that the setup names.
+[[nodiscard]] ChosenPlanner make_planner(const ControlSetup& setup);
 
 /// Tries what make_planner() would take, and says in a few words what that is. Throws StartupError like it.
 [[nodiscard]] std::string tried_backend(Backend backend, int device = 0);

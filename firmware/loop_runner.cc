@@ -9,11 +9,6 @@
 namespace jaywalk {
 namespace {
 
-ChosenPlanner wrapped(ChosenPlanner chosen, const LoopRunner::Wrap& wrap) {
-  if (wrap) chosen.planner = wrap(std::move(chosen.planner));
-  return chosen;
-}
-
 std::string recording_in(const RunParts& parts) { return (parts.place() / "recording.jwr").string(); }
 
 /// A known map is in the head of every part.
@@ -27,12 +22,13 @@ const PartsKept& checked(const PartsKept& kept, const ControlSetup& setup) {
 
 }  // namespace
 
-LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer, const Wrap& wrap)
+LoopRunner::LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer,
+                       const MakePlanner& make)
     : setup_(setup),
       clock_(hal.clock),
       out_(files.folder),
       parts_(files.folder, checked(files.parts, setup)),
-      chosen_(wrapped(make_planner(setup.planner(), setup.backend, setup.device), wrap)),
+      chosen_(make ? make(setup) : make_planner(setup)),
       recorder_({.file = files.records ? recording_in(parts_) : "", .setup = to_text(setup)}),
       loop_(setup, hal, *chosen_.planner, recorder_),
       observer_(observer),

@@ -20,8 +20,8 @@ namespace jaywalk {
 /// happens between ticks.
 class LoopRunner {
  public:
-  /// Puts something round the planner.
-  using Wrap = std::function<std::unique_ptr<Planner>(std::unique_ptr<Planner>)>;
+  /// Makes the planner that the loop asks.
+  using MakePlanner = std::function<ChosenPlanner(const ControlSetup&)>;
 
   /// Where the run's files go, and whether it is recorded.
   struct Files {
@@ -30,8 +30,9 @@ class LoopRunner {
     bool records = true;  ///< recording.jwr, in the folder or, where they are wanted, in its parts
   };
 
-  /// `observer` is told of the run, and outlives it. Throws StartupError.
-  LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer, const Wrap& wrap = {});
+  /// `observer` is told of the run, and outlives it. Without `make`, make_planner() does. Throws StartupError.
+  LoopRunner(const ControlSetup& setup, Hal hal, const Files& files, TickObserver& observer,
+             const MakePlanner& make = {});
 
   /// Sleeps until the next tick is due and lives through it.
   const TickRecord& step() { return step_at(due_); }

@@ -231,9 +231,12 @@ int replay_recording(const ReplayOptions& options, FilePart part) {
   const TickRecord& recorded = run.last();
   RecordedHal devices(recorded);
   RunObserver observer(options.mcap);
-  LoopRunner runner(
-      setup, devices.hal(setup.model.lasers().size()), {.folder = options.out, .records = false}, observer,
-      [&](std::unique_ptr<Planner> planner) { return std::make_unique<HeldPlanner>(std::move(planner), recorded); });
+  LoopRunner runner(setup, devices.hal(setup.model.lasers().size()), {.folder = options.out, .records = false},
+                    observer, [&](const ControlSetup& wanted) {
+                      ChosenPlanner chosen = make_planner(wanted);
+                      chosen.planner = std::make_unique<HeldPlanner>(std::move(chosen.planner), recorded);
+                      return chosen;
+                    });
   ReplayView view(options, runner);
   Progress progress;
   std::uint64_t ticks = 0, lost = 0, different = 0;

@@ -49,10 +49,12 @@ Figures measure(const Options& options) {
   const sim::Scenario scenario = sim::load_scenario(options.scenario);
   const RobotFile file = load_robot_file(options.robot);
   rig::RealLivingClock clock;
-  rig::InProcessRobot robot(file, scenario, 3, clock, {options.out, [&file](std::unique_ptr<Planner> planner) {
+  rig::InProcessRobot robot(file, scenario, 3, clock, {options.out, [](const ControlSetup& setup) {
                                                          static TickObserver nobody;
-                                                         return std::make_unique<PlannerThread>(
-                                                             std::move(planner), map_for(file.setup), nobody);
+                                                         ChosenPlanner chosen = make_planner(setup);
+                                                         chosen.planner = std::make_unique<PlannerThread>(
+                                                             std::move(chosen.planner), map_for(setup), nobody);
+                                                         return chosen;
                                                        }});
   clock.live = [&robot] { robot.step_far_end(); };
   for (const std::string& line : lock_memory()) std::fprintf(stderr, "%s\n", line.c_str());

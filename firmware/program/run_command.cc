@@ -193,8 +193,10 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   LoopRunner runner(
       file.setup,
       {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock, devices.other_lasers()},
-      {options.out, options.parts}, *observer, [&](std::unique_ptr<Planner> planner) {
-        return std::make_unique<PlannerThread>(std::move(planner), map_for(file.setup), *observer);
+      {options.out, options.parts}, *observer, [&](const ControlSetup& setup) {
+        ChosenPlanner chosen = make_planner(setup);
+        chosen.planner = std::make_unique<PlannerThread>(std::move(chosen.planner), map_for(setup), *observer);
+        return chosen;
       });
   StallGuard guard(devices.brake(), clock, kLongestStall);
   RobotLoop loop(runner, {devices.drive(), devices.lasers(), devices.bus(), controls.resets()}, desk, clock, guard,

@@ -40,9 +40,9 @@ class WatchedBus final : public CanBus {
 class InProcessRobot {
  public:
   struct Run {
-    std::filesystem::path out;         ///< the folder for the run's files
-    LoopRunner::Wrap wrap = {};        ///< replaces the planner by one that uses it; without it the planner stays
-    TickObserver* observer = nullptr;  ///< gets every tick; outlives the robot. Null: nothing observes the run
+    std::filesystem::path out;                  ///< the folder for the run's files
+    LoopRunner::MakePlanner make_planner = {};  ///< LoopRunner's
+    TickObserver* observer = nullptr;           ///< gets every tick; outlives the robot. Null: nothing observes the run
   };
 
   /// `clock` outlives it. A scanner on a network is found at any free port of this machine. Throws StartupError.

@@ -30,10 +30,10 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
       kind_(kind),
       speed_mps_(speed_mps),
       file_(robot_file(kind, speed_mps, rate_hz, folder, fault.second_scanner)) {
-  const auto straight = [this](std::unique_ptr<Planner>) {
+  const auto straight = [this](const ControlSetup&) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();
-    return planner;
+    return ChosenPlanner{std::move(planner), ""};
   };
   sim::Scenario world = hall(file_.setup.model, folder);
   if (fault.wheels_go != 1.0) {

@@ -22,7 +22,7 @@ Relived relive(const std::string& file) {
   const ControlSetup setup = setup_from_text(reader.setup(), file);
   TickRecord recorded;
   RecordedHal devices(recorded);
-  const ChosenPlanner planner = make_planner(setup.planner(), setup.backend);
+  const ChosenPlanner planner = make_planner(setup);
   Recorder nowhere({});
   ControlLoop loop(setup, devices.hal(setup.model.lasers().size()), *planner.planner, nowhere);
   Relived relived;

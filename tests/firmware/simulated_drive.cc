@@ -16,7 +16,7 @@ SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, cons
   setup_.zones = scenario.zones;
   if (edit_setup) edit_setup(setup_);
   simulation_ = std::make_unique<sim::Simulation>(scenario, seed);
-  planner_ = make_planner(setup_.planner(), setup_.backend);
+  planner_ = make_planner(setup_);
   recorder_ = std::make_unique<Recorder>(RecorderConfig{.file = recording, .setup = to_text(setup_)});
   loop_ = std::make_unique<ControlLoop>(setup_, simulation_->hal(), *planner_.planner, *recorder_);
 }

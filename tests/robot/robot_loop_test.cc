@@ -23,9 +23,11 @@ RobotFile wiring() {
   return file;
 }
 
-std::unique_ptr<Planner> in_thread(std::unique_ptr<Planner> planner) {
+ChosenPlanner in_thread(const ControlSetup& setup) {
   static TickObserver nobody;
-  return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup), nobody);
+  ChosenPlanner chosen = make_planner(setup);
+  chosen.planner = std::make_unique<PlannerThread>(std::move(chosen.planner), map_for(setup), nobody);
+  return chosen;
 }
 
 }  // namespace

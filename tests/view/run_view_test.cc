@@ -211,9 +211,11 @@ class BesetRun {
                              3,
                              clock_,
                              {folder_,
-                              [this](std::unique_ptr<Planner> planner) -> std::unique_ptr<Planner> {
-                                return std::make_unique<PlannerThread>(std::move(planner), map_for(wiring().setup),
-                                                                       page_);
+                              [this](const ControlSetup& setup) {
+                                ChosenPlanner chosen = make_planner(setup);
+                                chosen.planner =
+                                    std::make_unique<PlannerThread>(std::move(chosen.planner), map_for(setup), page_);
+                                return chosen;
                               },
                               &page_}};
   ControlSocket control_{socket_, [this](std::string_view line) { return robot_.desk().reply_to(line); }};
