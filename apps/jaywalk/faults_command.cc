@@ -59,10 +59,10 @@ std::string figures_of(Rows rows) {
 
 constexpr const char* kMatrixHead = R"(# Fault matrix
 
-Generated: `jaywalk faults` leaves this page as `faults.md`, and a test compares the two. A simulated robot drives down a
-hall with emulated drives and an emulated SICK, in the world's own time. *Reaction*: the slowest of all drives and speeds,
-and its limit. *To rest*: metres from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. All faults wait for a
-reset but those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
+Generated: `faults.md` of `jaywalk faults`. A simulated robot with emulated drives and an emulated SICK drives down a hall;
+front and rear faults are of one with a second SICK. *Reaction*: the slowest of all runs, and its limit. *To rest*: metres
+from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. All wait for a reset but those marked. Single runs:
+[faults.csv](outputs.md#fault-matrix).
 
 fault | reaction/limit, ms | to rest: cia402 | odrive | vesc
 ---|---|---|---|---

@@ -29,7 +29,7 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
     : fault_(fault),
       kind_(kind),
       speed_mps_(speed_mps),
-      file_(robot_file(kind, speed_mps, rate_hz, folder, fault.second_scanner)) {
+      file_(robot_file(kind, speed_mps, rate_hz, folder, fault.of_two.has_value())) {
   const auto straight = [this](const ControlSetup&) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();
@@ -82,9 +82,11 @@ void FaultBench::tick() {
   robot_->loop().tick(due_);
   robot_->runner().drain();
   while (robot_->loop().traces().front() != nullptr) robot_->loop().traces().pop();
-  const Reason reasons = robot_->runner().last().verdict.reasons;
-  latched_ = has(reasons, Reason::kLatched);
-  if (struck_ != kNever) seen_ |= reasons;
+  const Verdict& verdict = robot_->runner().last().verdict;
+  latched_ = has(verdict.reasons, Reason::kLatched);
+  if (struck_ == kNever) return;
+  seen_ |= verdict.reasons;
+  faulty_ |= verdict.faulty_scanners;
 }
 
 void FaultBench::wait(Duration time) {
@@ -176,9 +178,15 @@ bool FaultBench::rolls_out() const noexcept {
          (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402);
 }
 
+/// Of two scanners that one alone. What contradicts the wheels may be theirs: it names none.
+bool FaultBench::scanner_named() const noexcept {
+  if (!fault_.of_two || (fault_.in_turn && faulty_ == 0)) return true;
+  return faulty_ == 1U << *fault_.of_two;
+}
+
 std::string FaultBench::complaint(const FaultResult& result) {
   const double rim = rim_mps();
-  if (!named(fault_.reason)) return "not named: " + to_string(seen_);
+  if (!named(fault_.reason) || !scanner_named()) return "not named: " + to_string(seen_, faulty_);
   const double reaction_ms = 1e3 * to_seconds(result.reaction), limit_ms = 1e3 * to_seconds(result.limit);
   if (result.reaction > result.limit) return in_words("reaction %.0f ms, more than %.0f", reaction_ms, limit_ms);
   if (rim > kAtRest_mps) return in_words("still %.2f m/s after %.0f s", rim, to_seconds(kLongest));

@@ -40,7 +40,7 @@ struct FaultCase {
   void (*at_rest)(FaultBench&) = nullptr;  ///< once the robot stands; may be null
   bool in_turn = false;                    ///< it shows as the robot sets out with a turn; else at speed, straight on
   double wheels_go = 1.0;                  ///< so many times as far as the file says
-  bool second_scanner = false;             ///< the robot has one at its rear besides
+  std::optional<std::size_t> of_two = {};  ///< the robot has a second scanner, at its rear; this one fails
 };
 
 struct FaultResult {
@@ -85,6 +85,7 @@ class FaultBench {
   [[nodiscard]] bool reach_speed();
   [[nodiscard]] double rim_mps() noexcept;
   [[nodiscard]] bool named(Reason reason) const noexcept { return reason == Reason::kNone || has(seen_, reason); }
+  [[nodiscard]] bool scanner_named() const noexcept;
   /// At full speed, then the fault.
   [[nodiscard]] FaultResult struck_at_speed();
   /// Sets out towards a goal for which it has to turn: wrong from the start, or struck as it turns.
@@ -109,6 +110,7 @@ class FaultBench {
   double way_m_ = 0.0;  ///< since the fault
   Vec2 place_{};
   Reason seen_ = Reason::kNone;  ///< since the fault
+  std::uint8_t faulty_ = 0;      ///< likewise, Verdict::faulty_scanners
   bool latched_ = false;
   bool outlasts_watchdog_ = false;  ///< what held the loop up
 };

@@ -69,13 +69,15 @@ void reset_and_stop(FaultBench& bench) {
   bench.wait(6s);
 }
 
-/// Of a robot with two scanners.
-FaultCase with_second_scanner(FaultCase fault) {
-  fault.second_scanner = true;
-  return fault;
+void scanner(FaultBench& bench, ScannerFault fault, std::size_t index = 0) {
+  bench.robot().far_end().scanner(index).order(fault, 60s);
 }
 
-void scanner(FaultBench& bench, ScannerFault fault) { bench.robot().far_end().scanner().order(fault, 60s); }
+/// Of a robot with two scanners: a fault of one, while the other's scans go on.
+FaultCase of_two(std::size_t scanner, FaultCase fault) {
+  fault.of_two = scanner;
+  return fault;
+}
 
 /// What the supervisor itself must tell: wheels and scanner that contradict each other or the command.
 FaultCase contradiction(const char* name, void (*strike)(FaultBench&) = nullptr,
@@ -127,9 +129,14 @@ const std::array kCases{
               scans, Outcome::kLatched},
     FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
               scans, Outcome::kLatched},
-    with_second_scanner({"rear_gone",
-                         [](FaultBench& b) { b.robot().far_end().scanner(1).order(ScannerFault::kGone, 60s); }, nullptr,
-                         Reason::kScanStale, scans, Outcome::kLatched}),
+    of_two(0, {"front_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale, scans,
+               Outcome::kLatched}),
+    of_two(1, {"rear_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone, 1); }, nullptr, Reason::kScanStale,
+               scans, Outcome::kLatched}),
+    of_two(1, {"rear_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed, 1); }, nullptr, Reason::kScanStale,
+               scans, Outcome::kLatched}),
+    of_two(1, {"rear_covered", [](FaultBench& b) { b.robot().far_end().scanner(1).lose_sector(-kPi, 3.1); }, nullptr,
+               Reason::kScanInvalid | Reason::kSightLost, next_scan, Outcome::kLatched}),
     FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
               plans, Outcome::kStopped},
     FaultCase{"drive_unplugged_left",
@@ -299,12 +306,12 @@ const std::array kCases{
           deceive(b, {.repeats = {-4.0, 4.0}});
         },
         repeats_for),
-    with_second_scanner(contradiction(
-        "rear_repeats",
-        [](FaultBench& b) {
-          deceive(b, {.repeats = {-4.0, 4.0}, .scanner = 1});
-        },
-        repeats_for)),
+    of_two(1, contradiction(
+                  "rear_repeats",
+                  [](FaultBench& b) {
+                    deceive(b, {.repeats = {-4.0, 4.0}, .scanner = 1});
+                  },
+                  repeats_for)),
     contradiction("scan_repeats_ahead",
                   [](FaultBench& b) {
                     deceive(b, {.repeats = {-0.7, 0.7}});
