@@ -115,7 +115,7 @@ void await_first_scan(ScannerConnection& laser, const RobotFile& file, Clock& cl
   const Time limit = clock.now() + file.lasers()[scanner].first_scan_limit;
   while (laser.latest().sequence == 0) {
     if (clock.now() > limit) {
-      const bool is_topic = file.laser.kind == ScannerKind::kDds;
+      const bool is_topic = file.lasers()[scanner].kind == ScannerKind::kDds;
       throw StartupError(
           laser.name() + ": no scan: " + std::string(name(laser.health().trouble)),
           is_topic ? kStartNodes : "see that the scanner has power and this address, and that nobody else uses it");

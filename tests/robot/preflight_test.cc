@@ -39,6 +39,23 @@ const CheckedPart* find(const std::vector<CheckedPart>& parts, const std::string
 
 }  // namespace
 
+TEST_CASE("each of two scanners is told by its name, with what to do about one of its kind") {
+  SteadyClock clock;
+  RobotFile file = nothing_connected();
+  RobotModel& model = file.setup.model;
+  REQUIRE(model.other_lasers.push_back(model.laser));
+  model.laser.robot_from_laser.x = 0.2;
+  model.other_lasers[0].robot_from_laser = {-0.2, 0.0, kPi};
+  file.other_lasers.push_back(file.laser);
+  file.laser.kind = ScannerKind::kDds;
+  file.laser.topic = "/scan_of_nobody";
+  const std::vector<CheckedPart> parts = preflight(file, socket_path(), clock);
+  REQUIRE(find(parts, "front scanner") != nullptr);
+  CHECK_THAT(find(parts, "front scanner")->said, Catch::Contains("; start the robot's ROS 2 nodes"));
+  REQUIRE(find(parts, "rear scanner") != nullptr);
+  CHECK_THAT(find(parts, "rear scanner")->said, Catch::Contains(": no scan: scanner unreachable; see that"));
+}
+
 TEST_CASE("each part that is missing is told with what to do about it, and the others all the same") {
   SteadyClock clock;
   RobotFile file = nothing_connected();
