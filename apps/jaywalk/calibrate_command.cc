@@ -1,9 +1,12 @@
 #include "apps/jaywalk/calibrate_command.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <fstream>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "apps/setup/armed_session.h"
 #include "apps/setup/calibration_plot.h"
@@ -19,23 +22,15 @@ namespace {
 SessionOptions session_options;
 std::filesystem::path plot_folder = "out/calibrate";
 
-/// A drive, and by which radii its drives' scales counted: to the loop both wheels have the model's.
+/// A drive as each scanner saw it, and by which radii its drives' scales counted: to the loop both wheels have the
+/// model's.
 struct Drive {
-  CalibrationLog log;
+  std::vector<CalibrationLog> logs;
   RobotModel model;
   std::array<double, 2> radii_m;
 };
 
-/// What is found is the mount of one laser.
-void require_one_scanner(const RobotModel& model) {
-  if (!model.other_lasers.empty())
-    throw StartupError(
-        "the robot has " + std::to_string(model.lasers().size()) + " scanners, and calibrating knows one",
-        "calibrate with a robot file of one [laser] at a time");
-}
-
 Drive drive_robot() {
-  require_one_scanner(load_robot_file(session_options.robot).setup.model);
   ArmedSession session(
       session_options, "calibrate",
       "The robot will drive 1.5 m ahead and back, and a circle to each side, for about a minute. Are 2 m "
@@ -43,10 +38,10 @@ Drive drive_robot() {
   const RobotFile& file = session.file();
   const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
   try {
-    CalibrationLog log = drive_guided(setup, session.devices().drive(), session.devices().laser(), session.clock(),
-                                      ArmedSession::stopped);
+    std::vector<CalibrationLog> logs =
+        drive_guided(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
     session.disarm();
-    return {std::move(log), file.setup.model, file.drive.wheel_radii_m};
+    return {std::move(logs), file.setup.model, file.drive.wheel_radii_m};
   } catch (const StartupError&) {
     session.disarm();
     throw;
@@ -65,10 +60,17 @@ std::array<double, 2> radii_beside(const std::filesystem::path& folder, const Ro
 Drive read_recording(const std::filesystem::path& run) {
   RecordedRun recorded(run);
   const RobotModel& model = recorded.setup().model;
-  require_one_scanner(model);
-  CalibrationLog log(model.drive);
-  while (recorded.step()) log.take(recorded.last().wheels, recorded.last().scan);
-  return {std::move(log), model, radii_beside(recorded.folder(), model)};
+  std::vector<CalibrationLog> logs(model.lasers().size(), CalibrationLog(model.drive));
+  while (recorded.step()) {
+    for (std::size_t k = 0; k < logs.size(); ++k) logs[k].take(recorded.last().wheels, recorded.last().scans()[k]);
+  }
+  return {std::move(logs), model, radii_beside(recorded.folder(), model)};
+}
+
+/// "calibration.svg"; of several scanners "calibration_rear.svg" and so on.
+std::filesystem::path plot_of(const RobotModel& model, std::size_t scanner) {
+  const std::string name = scanner_name(model, scanner);
+  return plot_folder / (name.empty() ? "calibration.svg" : "calibration_" + name + ".svg");
 }
 
 void print_line(const char* what, const char* unit, double believed, double found, double within) {
@@ -76,23 +78,45 @@ void print_line(const char* what, const char* unit, double believed, double foun
 }
 
 /// The radii as a robot file has them: `calibration` has them as the loop counted.
-void print(const Drive& drive, const RobotGeometry& believed, const Calibration& calibration) {
+std::array<double, 2> in_file(const Drive& drive, const RobotGeometry& as_counted) {
+  const double believed_m = drive.model.drive.wheel_radius_m;
+  return {drive.radii_m[0] * as_counted.left_radius_m / believed_m,
+          drive.radii_m[1] * as_counted.right_radius_m / believed_m};
+}
+
+void print_found(const Drive& drive, std::size_t scanner, const Calibration& calibration) {
   const RobotGeometry &found = calibration.found, &within = calibration.within;
-  const double left = drive.radii_m[0] / believed.left_radius_m, right = drive.radii_m[1] / believed.right_radius_m;
-  const Pose2 &mount = found.robot_from_laser, &was = believed.robot_from_laser, &off = within.robot_from_laser;
-  std::printf("%-20s %10s %-4s %10s %-4s %s\n", "", "was", "", "is", "", "95 %");
-  print_line("left wheel radius", "m", drive.radii_m[0], left * found.left_radius_m, left * within.left_radius_m);
-  print_line("right wheel radius", "m", drive.radii_m[1], right * found.right_radius_m, right * within.right_radius_m);
-  print_line("track width", "m", believed.track_width_m, found.track_width_m, within.track_width_m);
+  const auto radii_m = in_file(drive, found), radii_within_m = in_file(drive, within);
+  const LaserModel& laser = drive.model.lasers()[scanner];
+  const Pose2 &mount = found.robot_from_laser, &was = laser.robot_from_laser, &off = within.robot_from_laser;
+  const std::string name = scanner_name(drive.model, scanner);
+  std::printf("%-20s %10s %-4s %10s %-4s %s\n", name.empty() ? "" : ("by the " + name + " scanner").c_str(), "was", "",
+              "is", "", "95 %");
+  print_line("left wheel radius", "m", drive.radii_m[0], radii_m[0], radii_within_m[0]);
+  print_line("right wheel radius", "m", drive.radii_m[1], radii_m[1], radii_within_m[1]);
+  print_line("track width", "m", drive.model.drive.track_width_m, found.track_width_m, within.track_width_m);
   print_line("laser x", "m", was.x, mount.x, off.x);
   print_line("laser y", "m", was.y, mount.y, off.y);
   print_line("laser yaw", "rad", was.heading, mount.heading, off.heading);
   std::printf("%zu motions, and %zu that fit nothing; residuals: %s\n\n", calibration.after.size(),
-              calibration.left_out, (plot_folder / "calibration.svg").c_str());
+              calibration.left_out, plot_of(drive.model, scanner).c_str());
+}
+
+/// The wheels by the scanner that tells their track best; each mount by its own.
+void print_keys(const Drive& drive, const std::vector<Calibration>& each) {
+  const RobotGeometry& wheels =
+      std::ranges::min_element(each, {}, [](const Calibration& c) { return c.within.track_width_m; })->found;
+  const auto radii_m = in_file(drive, wheels);
   std::printf(
       "# for ROBOT.toml; then jaywalk commission again\n[drive]\nleft_wheel_radius_m = %.5f\n"
-      "right_wheel_radius_m = %.5f\ntrack_width_m = %.5f\n[laser]\nmount = [%.4f, %.4f, %.5f]\n",
-      left * found.left_radius_m, right * found.right_radius_m, found.track_width_m, mount.x, mount.y, mount.heading);
+      "right_wheel_radius_m = %.5f\ntrack_width_m = %.5f\n",
+      radii_m[0], radii_m[1], wheels.track_width_m);
+  for (std::size_t k = 0; k < each.size(); ++k) {
+    const Pose2& mount = each[k].found.robot_from_laser;
+    const std::string name = scanner_name(drive.model, k);
+    std::printf("%s\nmount = [%.4f, %.4f, %.5f]\n", name.empty() ? "[laser]" : ("[[laser]]  # " + name).c_str(),
+                mount.x, mount.y, mount.heading);
+  }
 }
 
 /// Half a per cent of a radius, one of the track, a centimetre, half a degree.
@@ -104,9 +128,8 @@ bool is_sharp(const Calibration& calibration) {
          mount.heading < 0.5 * kPi / 180.0;
 }
 
-void write_plot(const Calibration& calibration) {
-  std::filesystem::create_directories(plot_folder);
-  const std::filesystem::path file = plot_folder / "calibration.svg";
+void write_plot(const std::filesystem::path& file, const Calibration& calibration) {
+  std::filesystem::create_directories(file.parent_path());
   std::ofstream stream(file);
   stream << svg_of(calibration) << std::flush;
   if (!stream)
@@ -117,13 +140,16 @@ int calibrate_robot() {
   const std::filesystem::path& what = session_options.robot;
   const bool is_run = std::filesystem::is_directory(what) || is_recording(what.string());
   const Drive drive = is_run ? read_recording(what) : drive_robot();
-  const RobotModel& model = drive.model;
-  const RobotGeometry believed{model.drive.wheel_radius_m, model.drive.wheel_radius_m, model.drive.track_width_m,
-                               model.laser.robot_from_laser};
-  const Calibration calibration = calibrate(drive.log, believed);
-  write_plot(calibration);
-  print(drive, believed, calibration);
-  if (is_sharp(calibration)) return 0;
+  std::vector<Calibration> each;
+  for (std::size_t k = 0; k < drive.logs.size(); ++k) {
+    const std::string name = scanner_name(drive.model, k);
+    each.push_back(calibrate(drive.logs[k], believed_of(drive.model, k),
+                             name.empty() ? "scans" : "the " + name + " scanner's scans"));
+    write_plot(plot_of(drive.model, k), each.back());
+    print_found(drive, k, each.back());
+  }
+  print_keys(drive, each);
+  if (std::ranges::all_of(each, is_sharp)) return 0;
   std::fputs("jaywalk: the intervals are too wide to be of use; drive farther, straight on and round\n", stderr);
   return 1;
 }

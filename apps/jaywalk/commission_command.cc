@@ -11,34 +11,21 @@
 namespace jaywalk {
 namespace {
 
-/// The wheels are turned for each scanner anew, and judged by what it sees.
-std::vector<CheckedPart> seen_by(std::size_t scanner, ArmedSession& session) {
-  RobotModel model = session.file().setup.model;
-  const std::string name = scanner_name(model, scanner);
-  model.laser = model.lasers()[scanner];
-  const NudgeSetup setup{.model = model, .tick = session.file().setup.tick()};
-  const std::vector<Nudge> nudges = nudge_wheels(setup, session.devices().drive(), *session.devices().lasers()[scanner],
-                                                 session.clock(), ArmedSession::stopped);
-  std::vector<CheckedPart> checks = judge_nudges(nudges, model);
-  for (CheckedPart& check : checks) check.part = name.empty() ? check.part : name + " scanner: " + check.part;
-  return checks;
-}
-
 int commission_robot(const SessionOptions& options) {
   ArmedSession session(options, "commission",
                        "The wheels will turn, each by 12 cm, forward and back. Is half a metre free all round?");
   const RobotFile& file = session.file();
   withdraw_commissioned(options.robot, file);
-  std::vector<CheckedPart> checks;
+  const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
+  std::vector<Nudge> nudges;
   try {
-    for (std::size_t k = 0; k < file.lasers().size(); ++k) {
-      for (CheckedPart& check : seen_by(k, session)) checks.push_back(std::move(check));
-    }
+    nudges = nudge_wheels(setup, session.drive(), session.lasers(), session.clock(), ArmedSession::stopped);
   } catch (const StartupError&) {
     session.disarm();
     throw;
   }
   session.disarm();
+  const std::vector<CheckedPart> checks = judge_nudges(nudges, setup.model);
   for (const CheckedPart& check : checks)
     std::printf("%-4s  %-15s %s\n", check.is_well ? "ok" : "FAIL", check.part.c_str(), check.said.c_str());
   write_commissioned(options.robot, file, checks);

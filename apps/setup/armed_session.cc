@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdio>
 #include <iostream>
-#include <vector>
 
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
@@ -53,6 +52,7 @@ ArmedSession::ArmedSession(const SessionOptions& options, const std::string& nam
   ::signal(SIGTERM, [](int) { to_stop = true; });
   devices_ = std::make_unique<RobotDevices>(file_, clock_);
   devices_->start();
+  for (const auto& laser : devices_->lasers()) lasers_.push_back(laser.get());
   require_realtime(file_.realtime, enter_fully(file_.realtime));  // before the drives may turn a wheel
   static_cast<void>(devices_->drive().arm());
 }

@@ -4,7 +4,9 @@
 #include <filesystem>
 #include <functional>
 #include <memory>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/robot_devices.h"
@@ -29,7 +31,9 @@ class ArmedSession {
   void disarm();
 
   [[nodiscard]] const RobotFile& file() const { return file_; }
-  [[nodiscard]] RobotDevices& devices() { return *devices_; }
+  [[nodiscard]] WiredDrive& drive() { return devices_->drive(); }
+  /// In the file's order.
+  [[nodiscard]] std::span<LaserScanner* const> lasers() { return lasers_; }
   [[nodiscard]] Clock& clock() { return clock_; }
   [[nodiscard]] static bool stopped();
 
@@ -38,6 +42,7 @@ class ArmedSession {
   SteadyClock clock_;
   std::unique_ptr<ControlSocket> socket_;
   std::unique_ptr<RobotDevices> devices_;
+  std::vector<LaserScanner*> lasers_;  ///< devices_'s
 };
 
 }  // namespace jaywalk

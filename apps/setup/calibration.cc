@@ -192,7 +192,12 @@ std::vector<MotionResidual> residuals(const std::vector<Motion>& motions, const 
 
 }  // namespace
 
-Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed) {
+RobotGeometry believed_of(const RobotModel& model, std::size_t scanner) {
+  const DriveModel& drive = model.drive;
+  return {drive.wheel_radius_m, drive.wheel_radius_m, drive.track_width_m, model.lasers()[scanner].robot_from_laser};
+}
+
+Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed, const std::string& scans) {
   const Vector6 first = vector_of(believed);
   Solution solution{first, prior_of(first)};
   std::vector<Motion> motions;
@@ -201,7 +206,7 @@ Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed) 
     motions = match_all(log, geometry_of(solution.p));
     if (motions.size() < kLeastMotions)
       throw StartupError(
-          "calibrate: only " + std::to_string(motions.size()) + " motions show in scans and wheels alike",
+          "calibrate: only " + std::to_string(motions.size()) + " motions show in " + scans + " and wheels alike",
           "drive farther, straight on and round, in a room with walls on several sides");
     solution = solve(motions, first, solution.p);
     scale = scale_of(motions, solution.p);

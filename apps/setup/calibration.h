@@ -3,7 +3,7 @@
 // (Censi, Franchi, Marchionni and Oriolo, "Simultaneous calibration of odometry and sensor parameters for mobile
 // robots", IEEE Transactions on Robotics 29(2), 2013: the same unknowns and residuals; solved here by Gauss and Newton
 // from what is believed, with each match's own information, instead of in closed form).
-#include <array>
+#include <string>
 #include <vector>
 
 #include "apps/setup/calibration_log.h"
@@ -15,6 +15,9 @@ struct RobotGeometry {
   double left_radius_m = 0.0, right_radius_m = 0.0, track_width_m = 0.0;
   Pose2 robot_from_laser;
 };
+
+/// What the model says of the wheels and of one scanner's mount.
+[[nodiscard]] RobotGeometry believed_of(const RobotModel& model, std::size_t scanner = 0);
 
 /// What wheels and mount say of one motion of the laser, less what the scans say.
 struct MotionResidual {
@@ -31,8 +34,9 @@ struct Calibration {
 };
 
 /// From a drive that turned and went straight. `believed` is where the search begins: good to a tenth, 10 cm and 10
-/// degrees. Throws StartupError where fewer than ten motions can be matched. Start-up only: takes seconds and
-/// allocates.
-[[nodiscard]] Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed);
+/// degrees. Throws StartupError where fewer than ten motions can be matched; `scans` is what it calls them. Start-up
+/// only: takes seconds and allocates.
+[[nodiscard]] Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed,
+                                    const std::string& scans = "scans");
 
 }  // namespace jaywalk

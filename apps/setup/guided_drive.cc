@@ -22,20 +22,20 @@ double towards(double from, double to, double most) { return from + std::clamp(t
 
 class GuidedDrive {
  public:
-  GuidedDrive(const GuidedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
+  GuidedDrive(const GuidedDriveSetup& setup, DriveBase& drive, std::span<LaserScanner* const> lasers, Clock& clock,
               const std::function<bool()>& stopped)
       : setup_(setup),
-        drive_({"calibration", setup.model, setup.tick}, drive, laser, clock, stopped),
-        log_(setup.model.drive) {}
+        drive_({"calibration", setup.model, setup.tick}, drive, lasers, clock, stopped),
+        logs_(lasers.size(), CalibrationLog(setup.model.drive)) {}
 
-  CalibrationLog conduct() {
+  std::vector<CalibrationLog> conduct() {
     drive_.rest();
     const double v = setup_.speed_mps, w = setup_.turn_radps;
     for (const Leg& leg : {Leg{{v, 0.0}, setup_.straight_m, 0.0, true}, Leg{{0.0, w}, 0.0, kPi},
                            Leg{{v, 0.0}, setup_.straight_m, 0.0, true}, Leg{{0.0, -w}, 0.0, kPi},
                            Leg{{v, w}, 0.0, 2.0 * kPi}, Leg{{v, -w}, 0.0, 2.0 * kPi}})
       follow(leg);
-    return std::move(log_);
+    return std::move(logs_);
   }
 
  private:
@@ -70,20 +70,21 @@ class GuidedDrive {
                  radius_m = setup_.model.drive.wheel_radius_m;
     if (!drive_.tick((now_.v_mps - aside_mps) / radius_m, (now_.v_mps + aside_mps) / radius_m))
       drive_.give_up("a wheel does not turn as commanded", "jaywalk commission says which");
-    log_.take(drive_.wheels(), drive_.scan());
+    for (std::size_t k = 0; k < logs_.size(); ++k) logs_[k].take(drive_.wheels(), drive_.scans()[k]);
   }
 
   const GuidedDriveSetup& setup_;
   WatchedDrive drive_;
-  CalibrationLog log_;
+  std::vector<CalibrationLog> logs_;  ///< one a scanner
   Twist2 now_;
 };
 
 }  // namespace
 
-CalibrationLog drive_guided(const GuidedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
-                            const std::function<bool()>& stopped) {
-  return GuidedDrive(setup, drive, laser, clock, stopped).conduct();
+std::vector<CalibrationLog> drive_guided(const GuidedDriveSetup& setup, DriveBase& drive,
+                                         std::span<LaserScanner* const> lasers, Clock& clock,
+                                         const std::function<bool()>& stopped) {
+  return GuidedDrive(setup, drive, lasers, clock, stopped).conduct();
 }
 
 }  // namespace jaywalk

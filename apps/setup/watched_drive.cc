@@ -15,31 +15,42 @@ constexpr double kLeastRoom_m = 0.15;
 
 }  // namespace
 
-WatchedDrive::WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
-                           const std::function<bool()>& stopped)
+WatchedDrive::WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, std::span<LaserScanner* const> lasers,
+                           Clock& clock, const std::function<bool()>& stopped)
     : setup_(setup),
       drive_(drive),
-      laser_(laser),
+      lasers_(lasers.begin(), lasers.end()),
       clock_(clock),
       stopped_(stopped),
-      zone_({.footprint = setup.model.footprint,
-             .robot_from_laser = setup.model.laser.robot_from_laser,
-             .brake_mps2 = setup.model.limits.brake_mps2}),
       felt_(setup.model.drive, setup.model.limits.brake_mps2),
       began_(clock.now()),
-      due_(began_) {}
+      due_(began_),
+      scans_(lasers.size()) {
+  for (const LaserModel& laser : setup.model.lasers())
+    zones_.emplace_back(StopZoneConfig{.footprint = setup.model.footprint,
+                                       .robot_from_laser = laser.robot_from_laser,
+                                       .brake_mps2 = setup.model.limits.brake_mps2});
+}
 
 bool WatchedDrive::tick(double left_radps, double right_radps) {
   due_ = std::max(due_, clock_.now() - setup_.tick) + setup_.tick;  // ticks that were missed are left out
   clock_.sleep_until(due_);
   const Time now = clock_.now();
   wheels_ = drive_.latest();
-  const LaserScan& scan = laser_.latest();
-  if (scan.sequence != scan_.sequence) scan_ = scan, blank(setup_.model.laser.blanked, scan_);
+  take_scans();
   const bool obeys = !felt_.disobeys(sent_, wheels_, now);
   require_well(now);
   command(left_radps, right_radps);
   return obeys;
+}
+
+void WatchedDrive::take_scans() {
+  for (std::size_t k = 0; k < lasers_.size(); ++k) {
+    const LaserScan& scan = lasers_[k]->latest();
+    if (scan.sequence == scans_[k].sequence) continue;
+    scans_[k] = scan;
+    blank(setup_.model.lasers()[k].blanked, scans_[k]);
+  }
 }
 
 void WatchedDrive::command(double left_radps, double right_radps) {
@@ -62,14 +73,21 @@ void WatchedDrive::require_well(Time now) {
     give_up(std::string(name(wheels_.trouble)), "see to the drives, then start it again");
   if (now - began_ < kFirstWords) return;  // drives speak when they are spoken to
   if (is_older(wheels_.stamp, now, kOldestWheels)) give_up("no wheel feedback", "see to the drives");
-  const Duration oldest = duration_from_seconds(3.0 / setup_.model.laser.rate_hz + 0.2);
-  if (is_older(scan_.stamp, now, oldest)) give_up("no scans", "see to the scanner");
+  for (std::size_t k = 0; k < scans_.size(); ++k) {
+    const Duration oldest = duration_from_seconds(3.0 / setup_.model.lasers()[k].rate_hz + 0.2);
+    if (!is_older(scans_[k].stamp, now, oldest)) continue;
+    const std::string name = scanner_name(setup_.model, k);
+    give_up("no scans" + (name.empty() ? "" : " of the " + name + " scanner"), "see to the scanner");
+  }
 }
 
 bool WatchedDrive::has_room(const Twist2& way) const {
-  const double gap_m = zone_.gap_m(scan_, way);
-  return gap_m >= kLeastRoom_m &&
-         zone_.speed_to_stop_within(gap_m, kReaction_s + to_seconds(scan_.sweep)) >= zone_.rim_speed_mps(way);
+  for (std::size_t k = 0; k < scans_.size(); ++k) {
+    const StopZone& zone = zones_[k];
+    const double gap_m = zone.gap_m(scans_[k], way), reaction_s = kReaction_s + to_seconds(scans_[k].sweep);
+    if (gap_m < kLeastRoom_m || zone.speed_to_stop_within(gap_m, reaction_s) < zone.rim_speed_mps(way)) return false;
+  }
+  return true;
 }
 
 }  // namespace jaywalk

@@ -1,7 +1,9 @@
 #pragma once
 // Wheels turned by a program that watches them: for commissioning and calibration.
 #include <functional>
+#include <span>
 #include <string>
+#include <vector>
 
 #include "firmware/safety/felt_motion.h"
 #include "firmware/safety/stop_zone.h"
@@ -20,8 +22,9 @@ struct WatchedDriveSetup {
 /// before it is thrown. Thread: one.
 class WatchedDrive {
  public:
-  /// The devices outlive it; so does `stopped`, which says that a person wants it to end.
-  WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, LaserScanner& laser, Clock& clock,
+  /// `lasers` as many as the model has, in its order. The devices outlive it; so does `stopped`, which says that a
+  /// person wants it to end.
+  WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, std::span<LaserScanner* const> lasers, Clock& clock,
                const std::function<bool()>& stopped);
 
   /// Waits for the next tick, takes what came and commands (rad/s). False where the feedback is not what was commanded.
@@ -29,29 +32,30 @@ class WatchedDrive {
   bool tick(double left_radps, double right_radps);
   /// Until wheels and scans have come to rest.
   void rest();
-  /// Whether it could stop at this speed before anything that stands in the way.
+  /// Whether it could stop at this speed before anything that any scanner sees in the way.
   [[nodiscard]] bool has_room(const Twist2& way) const;
   [[noreturn]] void give_up(const std::string& cause, const std::string& remedy);
 
   [[nodiscard]] Time due() const { return due_; }
   [[nodiscard]] const WheelState& wheels() const { return wheels_; }
-  /// Blanked; the last that came.
-  [[nodiscard]] const LaserScan& scan() const { return scan_; }
+  /// Of each scanner, blanked; the last that came.
+  [[nodiscard]] const std::vector<LaserScan>& scans() const { return scans_; }
 
  private:
   void command(double left_radps, double right_radps);
+  void take_scans();
   void require_well(Time now);
 
   WatchedDriveSetup setup_;
   DriveBase& drive_;
-  LaserScanner& laser_;
+  std::vector<LaserScanner*> lasers_;
   Clock& clock_;
   const std::function<bool()>& stopped_;
-  StopZone zone_;
+  std::vector<StopZone> zones_;  ///< one a scanner
   FeltMotion felt_;
   Time began_, due_;
   WheelState wheels_;
-  LaserScan scan_;
+  std::vector<LaserScan> scans_;
   WheelCommand sent_;
 };
 

@@ -11,15 +11,15 @@ constexpr Duration kLongestNudge = std::chrono::seconds(5);
 
 class Nudging {
  public:
-  Nudging(const NudgeSetup& setup, WiredDrive& drive, LaserScanner& laser, Clock& clock,
+  Nudging(const NudgeSetup& setup, WiredDrive& drive, std::span<LaserScanner* const> lasers, Clock& clock,
           const std::function<bool()>& stopped)
-      : setup_(setup), drive_({"commissioning", setup.model, setup.tick}, drive, laser, clock, stopped) {}
+      : setup_(setup), drive_({"commissioning", setup.model, setup.tick}, drive, lasers, clock, stopped) {}
 
   Nudge nudge(std::size_t side, double sign) {
     Nudge nudge{.side = side, .sign = sign};
     drive_.rest();
     nudge.before = drive_.wheels();
-    nudge.scan_before = drive_.scan();
+    nudge.scans_before = drive_.scans();
     const Time limit = drive_.due() + kLongestNudge;
     while (!nudge.disobeyed && rolled_m(nudge) < setup_.way_m && drive_.due() < limit) {
       require_room();
@@ -28,7 +28,7 @@ class Nudging {
     }
     drive_.rest();
     nudge.after = drive_.wheels();
-    nudge.scan_after = drive_.scan();
+    nudge.scans_after = drive_.scans();
     return nudge;
   }
 
@@ -54,9 +54,9 @@ class Nudging {
 
 }  // namespace
 
-std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive, LaserScanner& laser, Clock& clock,
-                                const std::function<bool()>& stopped) {
-  Nudging nudging(setup, drive, laser, clock, stopped);
+std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive, std::span<LaserScanner* const> lasers,
+                                Clock& clock, const std::function<bool()>& stopped) {
+  Nudging nudging(setup, drive, lasers, clock, stopped);
   std::vector<Nudge> nudges;
   for (const std::size_t side : {0U, 1U}) {
     for (const double sign : {1.0, -1.0}) {

@@ -1,6 +1,7 @@
 #pragma once
 // The motions of a commissioning run: each wheel a little forward and back, the other one at rest.
 #include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -10,13 +11,13 @@
 
 namespace jaywalk {
 
-/// One wheel turned by itself, and what drive and scanner said at rest before and after.
+/// One wheel turned by itself, and what drive and scanners said at rest before and after.
 struct Nudge {
   std::size_t side = 0;  ///< 0: left
   double sign = 1.0;     ///< +1: commanded forward
   WheelState before{}, after{};
-  LaserScan scan_before{}, scan_after{};
-  bool disobeyed = false;  ///< the feedback was not what was commanded: it was broken off
+  std::vector<LaserScan> scans_before{}, scans_after{};  ///< of each scanner
+  bool disobeyed = false;                                ///< the feedback was not what was commanded: it was broken off
 };
 
 struct NudgeSetup {
@@ -27,10 +28,11 @@ struct NudgeSetup {
 };
 
 /// Turns the wheels of drives that are armed: left forward and back, right forward and back, with the stop zone in
-/// force for whatever direction wrong wiring may make of it. Ends early after a disobedient wheel. Throws StartupError
-/// where there is no room, the drives are in trouble, scans or feedback stop coming, or `stopped` says so; the wheels
-/// are commanded to rest before.
-[[nodiscard]] std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive, LaserScanner& laser,
-                                              Clock& clock, const std::function<bool()>& stopped);
+/// force for whatever direction wrong wiring may make of it. `lasers` as many as the model has. Ends early after a
+/// disobedient wheel. Throws StartupError where there is no room, the drives are in trouble, scans or feedback stop
+/// coming, or `stopped` says so; the wheels are commanded to rest before.
+[[nodiscard]] std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive,
+                                              std::span<LaserScanner* const> lasers, Clock& clock,
+                                              const std::function<bool()>& stopped);
 
 }  // namespace jaywalk

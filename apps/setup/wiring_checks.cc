@@ -35,25 +35,26 @@ double felt_m(const Nudge& nudge, const DriveModel& drive) {
 }
 
 /// The middle goes half of the wheel's way, in the direction of half the turn.
-double misfit_with(const Nudge& nudge, double turn_rad, double way_m, const Pose2& mount) {
+double misfit_with(const Nudge& nudge, std::size_t scanner, double turn_rad, double way_m, const Pose2& mount) {
   const Vec2 way = direction(0.5 * turn_rad) * way_m;
-  return misfit_m(nudge.scan_before, nudge.scan_after, inverse(mount) * Pose2{way.x, way.y, turn_rad} * mount);
+  return misfit_m(nudge.scans_before[scanner], nudge.scans_after[scanner],
+                  inverse(mount) * Pose2{way.x, way.y, turn_rad} * mount);
 }
 
-SideMotion motion_of(const std::vector<Nudge>& nudges, std::size_t side, const RobotModel& model) {
+SideMotion motion_of(const std::vector<Nudge>& nudges, std::size_t side, const RobotModel& model, std::size_t scanner) {
   SideMotion sum;
-  const Pose2& mount = model.laser.robot_from_laser;
+  const Pose2& mount = model.lasers()[scanner].robot_from_laser;
   for (const Nudge& nudge : nudges) {
     if (nudge.side != side) continue;
     const double felt = felt_m(nudge, model.drive);
     sum.felt_m += nudge.sign * felt;
-    const std::optional<ScanShift> shift = match_scans(nudge.scan_before, nudge.scan_after);
+    const std::optional<ScanShift> shift = match_scans(nudge.scans_before[scanner], nudge.scans_after[scanner]);
     sum.matched = sum.matched && shift.has_value();
     if (!shift) continue;
     const double turn = shift->before_from_after.heading;
     sum.seen_rad += nudge.sign * (side == 0 ? -turn : turn);
-    sum.forward_misfit_m += misfit_with(nudge, turn, 0.5 * felt, mount);
-    sum.backward_misfit_m += misfit_with(nudge, turn, -0.5 * felt, mount);
+    sum.forward_misfit_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
+    sum.backward_misfit_m += misfit_with(nudge, scanner, turn, -0.5 * felt, mount);
   }
   return sum;
 }
@@ -134,19 +135,19 @@ CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_
 }
 
 /// The scanner's heading on the robot that explains the scans best, beside what the file says.
-CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model) {
+CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
   constexpr double kBetween_rad = 5.0 * kPi / 180.0;
   constexpr int kSteps = 9;  // to 45 degrees either way
   double at_file_m = 0.0, least_m = std::numeric_limits<double>::infinity();
   int best = 0;
   for (int k = -kSteps; k <= kSteps; ++k) {
-    Pose2 mount = model.laser.robot_from_laser;
+    Pose2 mount = model.lasers()[scanner].robot_from_laser;
     mount.heading = wrap_angle(mount.heading + k * kBetween_rad);
     double sum_m = 0.0;
     for (const Nudge& nudge : nudges) {
       const double felt = felt_m(nudge, model.drive);
       const double turn = (nudge.side == 0 ? -felt : felt) / model.drive.track_width_m;
-      sum_m += misfit_with(nudge, turn, 0.5 * felt, mount);
+      sum_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
     }
     if (k == 0) at_file_m = sum_m;
     if (sum_m < least_m) least_m = sum_m, best = k;
@@ -163,22 +164,29 @@ CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& mode
   return {"scanner's mount", well, said};
 }
 
+/// What one scanner's scans show.
+std::vector<CheckedPart> judge_scans(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
+  const std::array seen{motion_of(nudges, 0, model, scanner), motion_of(nudges, 1, model, scanner)};
+  if (!seen[0].matched || !seen[1].matched)
+    return {{"scans", false, "do not tell the motion; go to where walls stand on two sides, and nothing moves"}};
+  const double track_m = model.drive.track_width_m;
+  std::vector<CheckedPart> checks{check_sides(signs_of(seen[0], track_m), signs_of(seen[1], track_m))};
+  if (!checks.back().is_well) return checks;
+  for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
+  checks.push_back(check_mount(nudges, model, scanner));
+  return checks;
+}
+
 }  // namespace
 
 std::vector<CheckedPart> judge_nudges(const std::vector<Nudge>& nudges, const RobotModel& model) {
   std::vector<CheckedPart> checks{check_feedback(nudges, 0, model.drive), check_feedback(nudges, 1, model.drive)};
   if (!checks[0].is_well || !checks[1].is_well) return checks;
-  const std::array seen{motion_of(nudges, 0, model), motion_of(nudges, 1, model)};
-  if (!seen[0].matched || !seen[1].matched) {
-    checks.push_back(
-        {"scans", false, "do not tell the motion; go to where walls stand on two sides, and nothing moves"});
-    return checks;
+  for (std::size_t k = 0; k < model.lasers().size(); ++k) {
+    const std::string name = scanner_name(model, k), before = name.empty() ? "" : name + " scanner: ";
+    for (CheckedPart& check : judge_scans(nudges, model, k))
+      checks.push_back({before + check.part, check.is_well, check.said});
   }
-  const double track_m = model.drive.track_width_m;
-  checks.push_back(check_sides(signs_of(seen[0], track_m), signs_of(seen[1], track_m)));
-  if (!checks.back().is_well) return checks;
-  for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
-  checks.push_back(check_mount(nudges, model));
   return checks;
 }
 

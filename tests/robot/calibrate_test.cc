@@ -23,16 +23,15 @@ sim::Scenario hall(const sim::TrueRobot& truth) {
   return scenario;
 }
 
-CalibrationLog guided(const sim::Scenario& scenario, std::uint64_t seed) {
+/// Driven by a program that believes `model`.
+std::vector<CalibrationLog> guided(
+    const sim::Scenario& scenario, std::uint64_t seed, const RobotModel& model,
+    const std::function<bool()>& stopped = [] { return false; }) {
   sim::Simulation world(scenario, seed);
   const Hal hal = world.hal();
-  const GuidedDriveSetup setup{.model = scenario.model};
-  return drive_guided(setup, hal.drive, hal.laser, hal.clock, [] { return false; });
-}
-
-RobotGeometry believed_of(const RobotModel& model) {
-  return {model.drive.wheel_radius_m, model.drive.wheel_radius_m, model.drive.track_width_m,
-          model.laser.robot_from_laser};
+  std::vector<LaserScanner*> lasers{&hal.laser};
+  lasers.insert(lasers.end(), hal.other_lasers.begin(), hal.other_lasers.end());
+  return drive_guided({.model = model}, hal.drive, lasers, hal.clock, stopped);
 }
 
 }  // namespace
@@ -43,7 +42,7 @@ TEST_CASE("wheel radii, track width and mount come out, whatever the file says")
   for (const auto& [truth, turns] : {std::pair{larger, true}, std::pair{smaller, false}}) {
     sim::Scenario scenario = hall(truth);
     scenario.model.laser.turns = turns;
-    const Calibration result = calibrate(guided(scenario, 1), believed_of(scenario.model));
+    const Calibration result = calibrate(guided(scenario, 1, scenario.model).front(), believed_of(scenario.model));
     const RobotGeometry &found = result.found, &within = result.within;
     const Pose2 &mount = found.robot_from_laser, &is = *truth.robot_from_laser;
     CAPTURE(turns, found.left_radius_m, found.right_radius_m, found.track_width_m, mount.x, mount.y, mount.heading);
@@ -59,6 +58,26 @@ TEST_CASE("wheel radii, track width and mount come out, whatever the file says")
     CHECK(within.track_width_m < 0.01 * found.track_width_m);
     CHECK(within.robot_from_laser.x < 0.01);
     CHECK(result.left_out < 4);
+  }
+}
+
+TEST_CASE("of two scanners the mount of each is found by its own scans") {
+  sim::Scenario scenario = hall({});
+  LaserModel rear = scenario.model.laser;
+  rear.robot_from_laser = {-0.2, 0.0, kPi};
+  rear.rate_hz = 20.0;
+  REQUIRE(scenario.model.other_lasers.push_back(rear));
+  RobotModel believed = scenario.model;
+  believed.laser.robot_from_laser = {0.04, -0.03, 0.06};
+  believed.other_lasers[0].robot_from_laser = {-0.15, 0.03, kPi - 0.07};
+  const std::vector<CalibrationLog> logs = guided(scenario, 1, believed);
+  REQUIRE(logs.size() == 2);
+  for (const std::size_t k : {0U, 1U}) {
+    const Pose2 found = calibrate(logs[k], believed_of(believed, k)).found.robot_from_laser,
+                is = scenario.model.lasers()[k].robot_from_laser;
+    CAPTURE(k, found.x, found.y, found.heading);
+    CHECK(norm(found.position() - is.position()) < 0.01);
+    CHECK(std::fabs(wrap_angle(found.heading - is.heading)) < 0.5 * kPi / 180.0);
   }
 }
 
@@ -84,10 +103,10 @@ TEST_CASE("the guided drive ends at rest where it is told to, where something is
   const auto complaint = [&scenario](const std::function<bool()>& stopped) {
     sim::Simulation world(scenario, 1);
     const Hal hal = world.hal();
-    const GuidedDriveSetup setup{.model = scenario.model};
+    LaserScanner* const laser = &hal.laser;
     std::string said;
     try {
-      static_cast<void>(drive_guided(setup, hal.drive, hal.laser, hal.clock, stopped));
+      static_cast<void>(drive_guided({.model = scenario.model}, hal.drive, {&laser, 1}, hal.clock, stopped));
     } catch (const StartupError& error) {
       said = error.what();
     }
@@ -107,7 +126,8 @@ TEST_CASE("the guided drive ends at rest where it is told to, where something is
 
 TEST_CASE("a handful of scans is no drive") {
   const CalibrationLog log(p3dx().drive);
-  CHECK_THROWS_AS(calibrate(log, believed_of(p3dx())), StartupError);
+  CHECK_THROWS_WITH(calibrate(log, believed_of(p3dx()), "the rear scanner's scans"),
+                    Catch::Contains("only 0 motions show in the rear scanner's scans and wheels alike"));
 }
 
 TEST_CASE("a robot on wires calibrates itself") {
@@ -125,8 +145,9 @@ TEST_CASE("a robot on wires calibrates itself") {
   while (robot.laser().latest().sequence == 0 && clock.now() < limit)
     clock.sleep_until(clock.now() + std::chrono::milliseconds(1));
   static_cast<void>(robot.drive().arm());
+  LaserScanner* const laser = &robot.laser();
   const GuidedDriveSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-  const CalibrationLog log = drive_guided(setup, robot.drive(), robot.laser(), clock, [] { return false; });
+  const CalibrationLog log = drive_guided(setup, robot.drive(), {&laser, 1}, clock, [] { return false; }).front();
   std::filesystem::remove_all(folder);
   CHECK(robot.far_end().rim_speed() < 0.001);
   CHECK(robot.far_end().truth().contacts == 0);

@@ -30,9 +30,11 @@ struct Bench {
     if (believe) believe(file);
     clock.live = [this] {
       robot.step_far_end();
-      robot.laser().step();
+      for (const auto& laser : robot.lasers()) laser->step();
     };
-    while (robot.laser().latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
+    for (const auto& laser : robot.lasers()) {
+      while (laser->latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
+    }
     static_cast<void>(robot.drive().arm());
   }
   ~Bench() { std::filesystem::remove_all(folder); }
@@ -51,7 +53,9 @@ struct Bench {
   }
   std::vector<CheckedPart> commission(const std::function<bool()>& stopped = [] { return false; }) {
     const NudgeSetup setup{.model = file.setup.model, .tick = file.setup.tick()};
-    return judge_nudges(nudge_wheels(setup, robot.drive(), robot.laser(), clock, stopped), file.setup.model);
+    std::vector<LaserScanner*> lasers;
+    for (const auto& laser : robot.lasers()) lasers.push_back(laser.get());
+    return judge_nudges(nudge_wheels(setup, robot.drive(), lasers, clock, stopped), file.setup.model);
   }
 
   static inline int benches = 0;
@@ -127,6 +131,24 @@ TEST_CASE("a model whose wheel is a fifth larger, and a mount that is turned by 
   Bench turned("robot", std::nullopt,
                [](RobotFile& file) { file.setup.model.laser.robot_from_laser.heading = kPi / 6.0; });
   CHECK(says(faults_of(turned.commission()), "correct [laser] mount"));
+}
+
+TEST_CASE("each of two scanners is judged by what it sees, and told by its name") {
+  Bench well("two_scanners", std::nullopt);
+  const std::vector<CheckedPart> checks = well.commission();
+  CHECK(faults_of(checks) == "");
+  CHECK(checks.size() == 10);  // the drives once, four parts of each scanner
+  Bench ahead("two_scanners", std::nullopt,
+              [](RobotFile& file) { file.setup.model.other_lasers[0].robot_from_laser.heading = 0.0; });
+  const std::string faults = faults_of(ahead.commission());
+  CAPTURE(faults);
+  CHECK(faults.starts_with("rear scanner: wheels, scanner: "));  // and nothing of the front one
+}
+
+TEST_CASE("what the rear scanner alone sees near keeps the wheels at rest") {
+  Bench bench("two_scanners", std::nullopt, [](RobotFile& file) { file.setup.model.footprint.rear_m = 3.0; });
+  CHECK_THROWS_WITH(bench.commission(), Catch::Contains("something stands too near"));
+  CHECK(bench.robot.far_end().rim_speed() < 0.001);
 }
 
 TEST_CASE("with something near, or when it is told to stop, no wheel goes on turning") {
