@@ -1,5 +1,6 @@
 #include "apps/setup/robot_draft.h"
 
+#include <algorithm>
 #include <array>
 #include <cstdio>
 
@@ -9,8 +10,6 @@ namespace jaywalk {
 namespace {
 
 constexpr std::size_t kWidest = 158;  // of a line
-
-std::string base_of(const std::string& section) { return section.substr(0, section.find(':')); }
 
 /// "  # meaning (unit); note", cut where the line would be too long.
 std::string comment(const SettingKey& row, const std::string& note, std::size_t taken) {
@@ -36,40 +35,53 @@ std::string RobotDraft::value(const std::string& section, const std::string& key
   return found == values_.end() ? "" : found->second.value;
 }
 
-void RobotDraft::add_table(const std::string& name, const std::vector<std::pair<std::string, std::string>>& keys) {
-  std::string& block = tables_[name];
-  block += "\n[[" + name + "]]\n";
-  for (const auto& [key, value] : keys) block.append(key).append(" = ").append(value).append("\n");
+void RobotDraft::add_table(const std::string& section, const std::string& key,
+                           const std::vector<std::pair<std::string, std::string>>& keys) {
+  const std::string in = section.empty() ? "" : ".";
+  std::string& block = tables_[section + in + key];
+  block += "\n[[" + section_in_file(section) + in + key + "]]\n";
+  for (const auto& [name, value] : keys) block.append(name).append(" = ").append(value).append("\n");
 }
 
-void RobotDraft::remark(const std::string& line) { remarks_.push_back(line); }
+void RobotDraft::remark(const std::string& line) {
+  if (std::ranges::find(remarks_, line) == remarks_.end()) remarks_.push_back(line);
+}
+
+bool RobotDraft::has_section(const std::string& section) const {
+  return std::ranges::any_of(values_, [&](const auto& each) { return each.first.first == section; });
+}
+
+std::string RobotDraft::text_of(const std::string& section) const {
+  if (!has_section(section)) return "";
+  const std::string name = section_in_file(section), kind = value("drive", "kind");
+  const bool is_listed = name == "laser" && has_section(laser_section(1));
+  std::string text = section.empty() ? "" : is_listed ? "\n[[" + name + "]]\n" : "\n[" + name + "]\n";
+  for (const SettingKey& row : robot_file_keys().keys) {
+    const bool of_kind = row.section.starts_with(name + ":") && literal(row.section.substr(name.size() + 1)) == kind;
+    const auto found = values_.find({section, row.key});
+    if (found == values_.end() || (row.section != name && !of_kind)) continue;
+    const std::string line = row.key + " = " + found->second.value;
+    text += line + comment(row, found->second.note, line.size()) + "\n";
+  }
+  const auto blanked = tables_.find(section + ".blanked");
+  return blanked == tables_.end() ? text : text + blanked->second;
+}
 
 std::string RobotDraft::text() const {
   std::string text;
   for (const std::string& line : remarks_) text += "# " + line + "\n";
-  std::string section;
-  const auto chosen = values_.find({"drive", "kind"});
-  const std::string kind = chosen == values_.end() ? "" : chosen->second.value;
-  const auto end_section = [&] {
-    if (const auto blanked = tables_.find(section + ".blanked"); blanked != tables_.end()) text += blanked->second;
-  };
-  for (const SettingKey& row : robot_file_keys().keys) {
-    const std::string here = base_of(row.section);
-    const auto found = values_.find({here, row.key});
-    const bool of_other_kind = here != row.section && literal(row.section.substr(here.size() + 1)) != kind;
-    if (found == values_.end() || of_other_kind) continue;
-    if (here != section) {
-      end_section();
-      text += "\n[" + here + "]\n";
-      section = here;
-    }
-    const std::string line = row.key + " = " + found->second.value;
-    text += line + comment(row, found->second.note, line.size()) + "\n";
-  }
-  end_section();
-  if (const auto places = tables_.find("places"); places != tables_.end()) text += places->second;
-  return text;
+  text += text_of("");
+  for (std::size_t k = 0; has_section(laser_section(k)); ++k) text += text_of(laser_section(k));
+  for (const char* section : {"drive", "panel", "realtime"}) text += text_of(section);
+  const auto places = tables_.find("places");
+  return places == tables_.end() ? text : text + places->second;
 }
+
+std::string laser_section(std::size_t scanner) {
+  return scanner == 0 ? "laser" : "laser " + std::to_string(scanner + 1);
+}
+
+std::string section_in_file(const std::string& section) { return section.substr(0, section.find(' ')); }
 
 std::string literal(const std::string& text) {
   std::string quoted = "\"";

@@ -12,7 +12,8 @@ namespace jaywalk {
 
 class RobotDraft {
  public:
-  /// `value` as TOML writes it; `note`: how it is known, "found" or "as answered", say. `section` without its ":kind".
+  /// `value` as TOML writes it; `note`: how it is known, "found" or "as answered", say. `section` without its ":kind";
+  /// of a scanner laser_section()'s.
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& note);
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   /// As set() wrote it; "" where it did not.
@@ -20,15 +21,19 @@ class RobotDraft {
   /// A robot model file that is to lie beside it, under the name that its key `model` gives; empty: none.
   void set_model(const std::string& text) { model_ = text; }
   [[nodiscard]] const std::string& model() const { return model_; }
-  /// One [[name]] more, whose keys are these.
-  void add_table(const std::string& name, const std::vector<std::pair<std::string, std::string>>& keys);
-  /// A line of the file's head.
+  /// One [[section.key]] more, whose keys are these.
+  void add_table(const std::string& section, const std::string& key,
+                 const std::vector<std::pair<std::string, std::string>>& keys);
+  /// A line of the file's head, once.
   void remark(const std::string& line);
 
   /// The whole file, keys in the order of the table of keys, each with its meaning, unit and note.
   [[nodiscard]] std::string text() const;
 
  private:
+  [[nodiscard]] bool has_section(const std::string& section) const;
+  [[nodiscard]] std::string text_of(const std::string& section) const;
+
   struct Value {
     std::string value, note;
   };
@@ -37,6 +42,10 @@ class RobotDraft {
   std::vector<std::string> remarks_;
   std::string model_;
 };
+
+/// Where a scanner's keys are, of several: "laser", "laser 2" and so on. As the file has it: "laser".
+[[nodiscard]] std::string laser_section(std::size_t scanner);
+[[nodiscard]] std::string section_in_file(const std::string& section);
 
 /// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.
 [[nodiscard]] std::string literal_of(TomlTable& table, const SettingKey& row);

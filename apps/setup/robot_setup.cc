@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstdio>
 #include <initializer_list>
+#include <set>
 
 #include "apps/setup/drive_search.h"
 #include "apps/setup/scanner_search.h"
@@ -47,13 +48,13 @@ class Setup {
   RobotDraft draft() {
     draft_.remark(
         "Written by jaywalk setup. Every key: jaywalk config --explain. Next: jaywalk check, commission, run.");
-    for (const char* table : {"laser", "drive"})
+    for (const std::string& table : {laser_section(0), laser_section(1), std::string("drive")})
       if (answers_.given_text(table, "kind") == "dds")
         throw StartupError("setup: looks for devices on wires, not for the topics of a ROS 2 robot",
                            "begin with deploy/config/ros2-control-base.toml");
     draft_model();
     draft_drives();
-    draft_scanner();
+    draft_scanners();
     draft_panel();
     answers_.finish(draft_);
     return std::move(draft_);
@@ -144,15 +145,15 @@ class Setup {
   }
 
   /// Where a scanner may be: what the answers name, else everywhere.
-  [[nodiscard]] std::vector<ScannerPlace> places() {
-    const std::string kind = answers_.given_text("laser", "kind"), host = answers_.given_text("laser", "host"),
-                      device = answers_.given_text("laser", "device");
+  [[nodiscard]] std::vector<ScannerPlace> places(const std::string& section) {
+    const std::string kind = answers_.given_text(section, "kind"), host = answers_.given_text(section, "host"),
+                      device = answers_.given_text(section, "device");
     const auto asked = [&kind](std::vector<ScannerKind> otherwise) {
       const auto named = scanner_kind(kind);
       return named ? std::vector{*named} : std::move(otherwise);
     };
-    const auto number = [this](const char* key) {
-      return static_cast<std::uint32_t>(std::stoul(answers_.given("laser", key).value_or("0")));
+    const auto number = [&](const char* key) {
+      return static_cast<std::uint32_t>(std::stoul(answers_.given(section, key).value_or("0")));
     };
     const auto port = static_cast<std::uint16_t>(number("port"));
     const std::uint32_t baud = number("baud");
@@ -167,26 +168,36 @@ class Setup {
       places.push_back({"", line, 0, baud, asked(kinds_by_adapter(line))});
     return places;
   }
-  void draft_scanner() {
-    const std::vector<FoundScanner> scanners = find_scanners(places(), clock_);
+  /// As many as the answers have, one at least, and as many more of those that answer as a person says.
+  void draft_scanners() {
+    std::size_t count = 0;
+    do draft_scanner(laser_section(count++));
+    while (count < answers_.scanners() || (others_answer_ && answers_.agrees("Has the robot a further scanner?")));
+  }
+  void draft_scanner(const std::string& section) {
+    std::vector<FoundScanner> scanners = find_scanners(places(section), clock_);
+    std::erase_if(scanners, [this](const FoundScanner& each) { return taken_.contains(place_of(each)); });
+    others_answer_ = scanners.size() > 1;
     std::vector<std::string> words;
     for (const FoundScanner& scanner : scanners) words.push_back(describe(scanner));
     for (const std::string& word : words) draft_.remark("scanner " + word);
     if (scanners.empty()) {
       draft_.remark("No scanner answered.");
-      answers_.settle(draft_, "laser", "kind");
-      if (!answers_.given("laser", "host") && !answers_.given("laser", "device"))
+      answers_.settle(draft_, section, "kind");
+      if (!answers_.given(section, "host") && !answers_.given(section, "device"))
         throw StartupError("setup: no scanner was found",
                            "see to its power and address, or name laser.host or .device");
     } else {
-      enter_scanner(scanners[answers_.choose("scanner", words)]);
+      enter_scanner(section, scanners[answers_.choose("scanner", words)]);
     }
-    if (answers_.asks() || answers_.given("laser", "mount"))
-      answers_.settle(draft_, "laser", "mount", "[0.0, 0.0, 0.0]");
+    const bool is_first = section == laser_section(0);
+    if (!is_first || answers_.asks() || answers_.given(section, "mount"))
+      answers_.settle(draft_, section, "mount", is_first ? "[0.0, 0.0, 0.0]" : "");
   }
-  void enter_scanner(const FoundScanner& scanner) {
-    const auto enter = [this](const char* key, const std::string& value) {
-      if (!answers_.given("laser", key)) draft_.set("laser", key, value, kFound);
+  void enter_scanner(const std::string& section, const FoundScanner& scanner) {
+    taken_.insert(place_of(scanner));
+    const auto enter = [&](const char* key, const std::string& value) {
+      if (!answers_.given(section, key)) draft_.set(section, key, value, kFound);
     };
     const LaserWiring& wiring = scanner.wiring;
     enter("kind", literal(std::string(scanner_make(wiring.kind).name)));
@@ -220,6 +231,8 @@ class Setup {
   SetupAnswers& answers_;
   Clock& clock_;
   RobotDraft draft_;
+  std::set<std::string> taken_;  ///< scanners' places
+  bool others_answer_ = false;   ///< scanners that the file does not have yet
 };
 
 }  // namespace

@@ -120,13 +120,16 @@ std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places,
   return found;
 }
 
-std::string describe(const FoundScanner& scanner) {
+std::string place_of(const FoundScanner& scanner) {
   const LaserWiring& wiring = scanner.wiring;
-  const std::string place = wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
+  return wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
+}
+
+std::string describe(const FoundScanner& scanner) {
   char figures[80];
   std::snprintf(figures, sizeof figures, ": %u beams over %.2f degrees, %g a second",
                 static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
-  return std::string(scanner_make(wiring.kind).name) + " at " + place + figures;
+  return std::string(scanner_make(scanner.wiring.kind).name) + " at " + place_of(scanner) + figures;
 }
 
 }  // namespace jaywalk

@@ -12,7 +12,7 @@
 namespace jaywalk {
 namespace {
 
-constexpr std::array kSections{"laser", "drive", "panel", "realtime"};
+constexpr std::array kSections{"drive", "panel", "realtime"};
 
 /// What a person typed, as TOML writes it; nothing where it is no value of this key.
 std::optional<std::string> understood(const SettingKey& row, const std::string& said) {
@@ -38,8 +38,7 @@ std::optional<std::string> understood(const SettingKey& row, const std::string& 
   }
 }
 
-std::string title(const SettingKey& row) {
-  const std::string section = row.section.substr(0, row.section.find(':'));
+std::string title(const SettingKey& row, const std::string& section) {
   return section.empty() ? row.key : section + "." + row.key;
 }
 
@@ -53,6 +52,8 @@ SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std
   TomlTable root = file_->root();
   for (const char* section : kSections)
     if (root.has(section)) tables_.emplace(section, root.table(section));
+  if (root.has("laser"))
+    for (const TomlTable& laser : root.table_or_tables("laser")) tables_.emplace(laser_section(scanners_++), laser);
   tables_.emplace("", root);
 }
 
@@ -64,7 +65,7 @@ TomlTable* SetupAnswers::table(const std::string& section) {
 std::optional<std::string> SetupAnswers::given(const std::string& section, const std::string& key) {
   TomlTable* const found = table(section);
   if (found == nullptr || !found->has(key)) return std::nullopt;
-  return literal_of(*found, robot_key(section, key, section == "drive" ? kind_ : ""));
+  return literal_of(*found, robot_key(section_in_file(section), key, section == "drive" ? kind_ : ""));
 }
 
 std::string SetupAnswers::given_text(const std::string& section, const std::string& key) {
@@ -79,10 +80,10 @@ void SetupAnswers::take_kind(const std::string& kind) {
 void SetupAnswers::settle(RobotDraft& draft, const std::string& section, const std::string& key,
                           const std::string& suggestion, const std::string& note) {
   if (const auto known = given(section, key)) return draft.set(section, key, *known, "as answered");
-  const SettingKey& row = robot_key(section, key, section == "drive" ? kind_ : "");
-  if (asks()) return draft.set(section, key, ask(row, suggestion), "as answered");
+  const SettingKey& row = robot_key(section_in_file(section), key, section == "drive" ? kind_ : "");
+  if (asks()) return draft.set(section, key, ask(row, section, suggestion), "as answered");
   if (suggestion.empty())
-    throw StartupError("setup: " + title(row) + " cannot be seen: " + row.meaning,
+    throw StartupError("setup: " + title(row, section) + " cannot be seen: " + row.meaning,
                        "put it into " + name_ + ", as ROBOT.toml has it");
   draft.set(section, key, suggestion, note);
 }
@@ -95,10 +96,10 @@ std::string SetupAnswers::line() {
   return said;
 }
 
-std::string SetupAnswers::ask(const SettingKey& row, const std::string& suggestion) {
+std::string SetupAnswers::ask(const SettingKey& row, const std::string& section, const std::string& suggestion) {
   const std::string unit = row.unit[0] == '\0' ? "" : std::string(" ") + row.unit;
   for (;;) {
-    *to_ << title(row) << ": " << row.meaning << " (" << allowed(row) << unit << ")"
+    *to_ << title(row, section) << ": " << row.meaning << " (" << allowed(row) << unit << ")"
          << (suggestion.empty() ? "" : " [" + suggestion + "]") << ": ";
     const std::string said = line();
     if (said.empty() && !suggestion.empty()) return suggestion;
@@ -126,19 +127,20 @@ bool SetupAnswers::agrees(const std::string& question) {
 
 void SetupAnswers::take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section,
                                const std::string& key) {
-  const std::string name = section.empty() ? key : section + "." + key;
+  const std::string name = section.empty() ? key : section_in_file(section) + "." + key;
   for (TomlTable& each : parent.tables(key)) {
     std::vector<std::pair<std::string, std::string>> keys;
     for (const SettingKey& row : robot_file_keys().keys)
       if (row.section == name && each.has(row.key)) keys.emplace_back(row.key, literal_of(each, row));
     each.finish();
-    draft.add_table(name, keys);
+    draft.add_table(section, key, keys);
   }
 }
 
 void SetupAnswers::finish_section(RobotDraft& draft, const std::string& section, TomlTable& table) {
   for (const SettingKey& row : robot_file_keys().keys) {
-    const bool mine = row.section == section || (section == "drive" && row.section == "drive:" + kind_);
+    const bool mine =
+        row.section == section_in_file(section) || (section == "drive" && row.section == "drive:" + kind_);
     if (!mine || row.kind == KeyKind::kTable || !table.has(row.key)) continue;
     if (row.kind == KeyKind::kTables) {
       take_tables(draft, table, section, row.key);

@@ -23,6 +23,8 @@ class SetupAnswers {
   /// The same as a text; "" where there is none.
   [[nodiscard]] std::string given_text(const std::string& section, const std::string& key);
   [[nodiscard]] bool has_section(const std::string& section) const { return tables_.count(section) != 0; }
+  /// How many scanners the file has, each in a section of its own by laser_section(); 0: none.
+  [[nodiscard]] std::size_t scanners() const { return scanners_; }
   [[nodiscard]] bool asks() const { return from_ != nullptr; }
   void take_kind(const std::string& kind);
 
@@ -31,7 +33,7 @@ class SetupAnswers {
   void settle(RobotDraft& draft, const std::string& section, const std::string& key, const std::string& suggestion = "",
               const std::string& note = "");
   /// What a person says of a key of any file, as TOML writes it.
-  [[nodiscard]] std::string said_of(const SettingKey& row) { return ask(row, ""); }
+  [[nodiscard]] std::string said_of(const SettingKey& row) { return ask(row, row.section, ""); }
   /// The person's choice among several, from 0; without a person, or with one to choose from, the first.
   [[nodiscard]] std::size_t choose(const std::string& what, const std::vector<std::string>& among);
   [[nodiscard]] bool agrees(const std::string& question);
@@ -43,12 +45,13 @@ class SetupAnswers {
   TomlTable* table(const std::string& section);
   void finish_section(RobotDraft& draft, const std::string& section, TomlTable& table);
   void take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section, const std::string& key);
-  [[nodiscard]] std::string ask(const SettingKey& row, const std::string& suggestion);
+  [[nodiscard]] std::string ask(const SettingKey& row, const std::string& section, const std::string& suggestion);
   [[nodiscard]] std::string line();
 
   std::string name_ = "--answers FILE";
   std::unique_ptr<TomlFile> file_;
   std::map<std::string, TomlTable> tables_;
+  std::size_t scanners_ = 0;
   std::string kind_;  ///< of the drives; "" while it is not known
   std::istream* from_;
   std::ostream* to_;

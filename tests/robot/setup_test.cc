@@ -24,16 +24,15 @@ bool says(const std::string& text, const std::string& words) { return text.find(
 /// A machine at whose wires an emulated robot hangs that is wired like a file of tools/rig/drive.
 class EmulatedMachine final : public Surroundings {
  public:
-  explicit EmulatedMachine(const std::string& name)
+  /// `twice`: with another scanner like its own at its rear.
+  explicit EmulatedMachine(const std::string& name, bool twice = false)
       : folder(std::filesystem::temp_directory_path() / ("jaywalk_setup_" + std::to_string(::getpid()))),
-        truth_(wiring(name)),
+        truth_(wiring(name, twice)),
         wires(clock, 3) {
-    LaserWiring any_port = truth_.laser;
-    any_port.port = 0;
-    auto wire = rig::make_far_wire(any_port);
-    if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get())) port = network->port();
-    rig::FarWires far_wires;
-    far_wires.push_back(std::move(wire));
+    rig::FarWires far_wires = rig::make_far_wires(truth_, true);
+    for (const auto& wire : far_wires)
+      if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get()))
+        ports.push_back(network->port());
     robot = std::make_unique<rig::SimulatedRobot>(hall(), 3, truth_,
                                                   rig::SimulatedRobot::Buses{&wires.port(1), &wires.port(2)},
                                                   std::move(far_wires), clock.now());
@@ -47,7 +46,10 @@ class EmulatedMachine final : public Surroundings {
     return std::make_unique<Lent>(wires.port(0));
   }
   std::vector<std::string> serial_lines() override {
-    return truth_.laser.host.empty() ? std::vector{truth_.laser.device} : std::vector<std::string>{};
+    std::vector<std::string> lines;
+    for (const LaserWiring& laser : truth_.lasers())
+      if (laser.host.empty()) lines.push_back(laser.device);
+    return lines;
   }
   std::vector<std::string> hosts() override { return {"127.0.0.1"}; }
   std::vector<std::string> joysticks() override { return {"/dev/input/by-id/usb-Pad-event-joystick"}; }
@@ -86,10 +88,15 @@ class EmulatedMachine final : public Surroundings {
     CanBus& bus_;
   };
 
-  [[nodiscard]] RobotFile wiring(const std::string& name) const {
+  [[nodiscard]] RobotFile wiring(const std::string& name, bool twice) const {
     std::filesystem::create_directories(folder);
     RobotFile file = load_robot_file(std::string(JAYWALK_RIG) + "/drive/" + name + ".toml");
     if (file.laser.host.empty()) file.laser.device = folder / "scanner";
+    if (!twice) return file;
+    file.other_lasers.push_back(file.laser);
+    file.other_lasers[0].device += "_rear";
+    REQUIRE(file.setup.model.other_lasers.push_back(file.setup.model.laser));
+    file.setup.model.other_lasers[0].robot_from_laser = {-0.2, 0.0, kPi};
     return file;
   }
 
@@ -97,7 +104,7 @@ class EmulatedMachine final : public Surroundings {
 
  public:
   InProcessBus wires;
-  std::uint16_t port = 0;
+  std::vector<std::uint16_t> ports;
   std::unique_ptr<rig::SimulatedRobot> robot;
 };
 
@@ -123,9 +130,10 @@ const std::array kRobots{
             450, 359.2, 10.0}};
 
 /// The answers with the port that the emulated scanner really has.
-std::string with_port(const KnownOf& of, std::uint16_t port) {
+std::string with_port(const KnownOf& of, const EmulatedMachine& machine) {
   std::string text = of.known;
-  if (port != 0) text.insert(text.find("[laser]\n") + 8, "port = " + std::to_string(port) + "\n");
+  if (!machine.ports.empty())
+    text.insert(text.find("[laser]\n") + 8, "port = " + std::to_string(machine.ports[0]) + "\n");
   return text;
 }
 
@@ -136,9 +144,11 @@ bool drives_with(RobotFile file, const std::filesystem::path& folder) {
   rig::InProcessRobot robot(file, EmulatedMachine::hall(), 3, clock, {folder / "run"});
   clock.live = [&] {
     robot.step_far_end();
-    robot.laser().step();
+    for (const auto& laser : robot.lasers()) laser->step();
   };
-  while (robot.laser().latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
+  for (const auto& laser : robot.lasers()) {
+    while (laser->latest().sequence == 0 && clock.now() < Time{5s}) clock.sleep_until(clock.now() + 1ms);
+  }
   static_cast<void>(robot.drive().arm());
   bool going = false;
   for (Time due = clock.now(), end = due + 40s; due < end;) {
@@ -158,7 +168,7 @@ TEST_CASE("setup drafts a file for each kind of drive which checks and drives") 
   for (const KnownOf& of : kRobots) {
     CAPTURE(of.robot);
     EmulatedMachine machine(of.robot);
-    const RobotFile file = machine.drafted(with_port(of, machine.port));
+    const RobotFile file = machine.drafted(with_port(of, machine));
     CAPTURE(machine.file_text);
     CHECK(file.drive.kind == of.kind);
     CHECK(file.drive.can == "vcan0");
@@ -172,6 +182,55 @@ TEST_CASE("setup drafts a file for each kind of drive which checks and drives") 
     CHECK(machine.robot->rim_speed() == 0.0);
     CHECK(drives_with(file, machine.folder));
   }
+}
+
+namespace {
+
+/// What a person knows of the robot with two scanners; `mount` is the rear one's line.
+std::string known_of_two(const EmulatedMachine& machine, const std::string& mount) {
+  const auto laser = [&machine](std::size_t k) {
+    return "[[laser]]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[k]) + "\nrange_m = 25\n";
+  };
+  return "model = \"p3dx\"\nmax_speed_mps = 0.6\nstart = [2.0, 3.0, 1.2]\n" + laser(0) + "mount = [0.2, 0.0, 0.0]\n" +
+         laser(1) + mount + "[[laser.blanked]]\nfrom_deg = 130\nto_deg = 134\n" +
+         "[drive]\ncounts_per_wheel_turn = 76600\n";
+}
+
+}  // namespace
+
+TEST_CASE("setup drafts each of two scanners with what it found of it, and the robot drives with both") {
+  EmulatedMachine machine("two_scanners");
+  const RobotFile file = machine.drafted(known_of_two(machine, "mount = [-0.2, 0.0, 3.14159]\n"));
+  CAPTURE(machine.file_text);
+  REQUIRE(file.lasers().size() == 2);
+  CHECK(file.lasers()[1].port == machine.ports[1]);
+  CHECK(file.setup.model.laser.beams == 541);
+  const LaserModel& rear = file.setup.model.lasers()[1];
+  CHECK(rear.beams == 811);
+  CHECK(rear.rate_hz == 20.0);
+  CHECK(rear.robot_from_laser == Pose2{-0.2, 0.0, 3.14159});
+  CHECK(file.setup.model.laser.blanked.empty());
+  CHECK(rear.blanked.size() == 1);
+  CHECK(drives_with(file, machine.folder));
+}
+
+TEST_CASE("where the second scanner is mounted cannot be guessed") {
+  EmulatedMachine machine("two_scanners");
+  CHECK_THROWS_WITH(machine.drafted(known_of_two(machine, "")), Catch::Contains("setup: laser 2.mount cannot be seen"));
+}
+
+TEST_CASE("at a terminal a further scanner that answers is asked for") {
+  EmulatedMachine machine("vesc_ld19", true);
+  std::istringstream person("p3dx\n\n\n50\n\n\n2\n\nyes\n[-0.2, 0, 3.14]\nno\n");
+  std::ostringstream said;
+  SetupAnswers known(std::nullopt, &person, &said);
+  const std::string text = draft_robot(machine, known, machine.clock).text();
+  CAPTURE(text, said.str());
+  CHECK(says(said.str(), "Has the robot a further scanner? [yes/no] laser 2.mount: "));
+  CHECK(text.find("scanner_rear\"") < text.find("scanner\""));  // in the order in which they were chosen
+  CHECK(says(text, "[[laser]]\n"));
+  CHECK(says(text, "mount = [0.0, 0.0, 0.0] "));
+  CHECK(says(text, "mount = [-0.2, 0, 3.14] "));
 }
 
 TEST_CASE("CiA 402 drives are found by their profile and named by their identity") {
@@ -210,7 +269,7 @@ TEST_CASE("what cannot be seen and is not answered is named, with what it means"
 
 TEST_CASE("an answer that ROBOT.toml does not know, or that is out of its range, is refused with its line") {
   EmulatedMachine machine("odrive_hokuyo");
-  const std::string well = with_port(kRobots[1], machine.port);
+  const std::string well = with_port(kRobots[1], machine);
   const auto refused_as = [&](const std::string& text) {
     SetupAnswers known(machine.answers(text), nullptr, nullptr);
     try {
@@ -230,7 +289,7 @@ TEST_CASE("at a terminal what cannot be seen is asked, what is nonsense again, a
   EmulatedMachine machine("odrive_hokuyo");
   std::istringstream person("p3dx\n\n4\nmany\n10\n\n\n[0.1, 0, 0]\nyes\n\n");
   std::ostringstream said;
-  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.port) + "\n";
+  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[0]) + "\n";
   SetupAnswers known(machine.answers(port), &person, &said);
   const std::string text = draft_robot(machine, known, machine.clock).text();
   CAPTURE(text, said.str());
@@ -248,7 +307,7 @@ TEST_CASE("where no model is named at a terminal, the robot is measured, and a m
   EmulatedMachine machine("odrive_hokuyo");
   std::istringstream person("\n0.3\n0.28\n0.25\n0.1\n0.45\n12\n\n4\n10\n\n\n[0.1, 0, 0]\nyes\n\n");
   std::ostringstream said;
-  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.port) + "\n";
+  const std::string port = "[laser]\nhost = \"127.0.0.1\"\nport = " + std::to_string(machine.ports[0]) + "\n";
   SetupAnswers known(machine.answers(port), &person, &said);
   const RobotDraft draft = draft_robot(machine, known, machine.clock);
   CAPTURE(draft.model(), said.str());
@@ -266,7 +325,7 @@ TEST_CASE("where no model is named at a terminal, the robot is measured, and a m
 TEST_CASE("what the answers say besides is taken over whole") {
   EmulatedMachine machine("odrive_hokuyo");
   const RobotFile file = machine.drafted(
-      "rate_hz = 100\n" + with_port(kRobots[1], machine.port) +
+      "rate_hz = 100\n" + with_port(kRobots[1], machine) +
       "allow_unproved = true\nleft_node = 4\nright_node = 3\n[[laser.blanked]]\nfrom_deg = 95\nto_deg = 110\n"
       "[realtime]\nrequired = false\n[[places]]\nname = \"hall\"\nat = [4.0, 1.5, 1.57]\n");
   CHECK(file.setup.rate_hz == 100.0);
