@@ -27,13 +27,13 @@ enum class RollsOut {
 /// One row of the matrix but for drive and speed.
 struct FaultCase {
   const char* name;
-  void (*strike)(FaultBench&);      ///< once; null: something is wrong from the start
-  void (*every_tick)(FaultBench&);  ///< and then again and again; may be null
-  Reason reason;                    ///< one of these is to be named; kNone: none can be
+  void (*strike)(FaultBench&);  ///< once; null: something is wrong from the start
+  Reason reason;                ///< one of these is to be named; kNone: none can be
   /// Of the loop's period: from the fault to the moment from which on the wheels only slow down.
   Duration (*limit)(Duration tick) noexcept;
-  Outcome outcome;
-  std::optional<DriveKind> only = {};  ///< of the one kind of drive that can have it
+  Outcome outcome = Outcome::kLatched;
+  void (*every_tick)(FaultBench&) = nullptr;  ///< and then again and again; may be null
+  std::optional<DriveKind> only = {};         ///< of the one kind of drive that can have it
   RollsOut rolls_out = RollsOut::kNone;
   bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
   std::optional<sim::FaultKind> miswiring = {};

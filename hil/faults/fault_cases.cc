@@ -25,7 +25,7 @@ Duration plans(Duration tick) noexcept { return 540ms + at_once(tick); }
 /// A lost stop escalates to silence 100 ms after the ramp's end, and 100 ms later the drive's own watchdog acts.
 Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick); }
 /// A stranger's NMT command, repeated: the feedback that stops coming, silence, and the drives' own watchdog.
-Duration network(Duration tick) noexcept { return 100ms + by_themselves(tick); }
+Duration taken_over(Duration tick) noexcept { return 100ms + by_themselves(tick); }
 /// A scan of 15 Hz, and what it takes to come.
 Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
 /// Two and a half periods of the loop.
@@ -45,6 +45,14 @@ CanFrame foreign_setpoint(DriveKind kind) {
   frame.id = kind == DriveKind::kVesc ? 0x317 : kind == DriveKind::kOdrive ? 3U << 5U | 0x0DU : 0x202;
   if (kind == DriveKind::kVesc) frame.size = 4;
   if (kind == DriveKind::kCia402) frame.size = 6;
+  return frame;
+}
+
+CanFrame foreign_heartbeat() {
+  CanFrame frame;
+  frame.id = 0x701;
+  frame.size = 1;
+  frame.bytes = {0x05};
   return frame;
 }
 
@@ -79,16 +87,39 @@ FaultCase of_two(std::size_t scanner, FaultCase fault) {
   return fault;
 }
 
+FaultCase rolling_out(RollsOut which, FaultCase fault) {
+  fault.rolls_out = which;
+  return fault;
+}
+
+FaultCase of_cia402(FaultCase fault) {
+  fault.only = DriveKind::kCia402;
+  return fault;
+}
+
+FaultCase network(const char* name, void (*tell)(FaultBench&)) {
+  FaultCase fault{name, tell, Reason::kForeignMaster | Reason::kDrive, taken_over};
+  fault.every_tick = tell;
+  return of_cia402(fault);
+}
+
+FaultCase stop_ignored(const char* name, void (*strike)(FaultBench&)) {
+  FaultCase fault{name, strike, Reason::kStopUnconfirmed, escalated};
+  fault.after_ramp = true;
+  return rolling_out(RollsOut::kMotors, fault);
+}
+
+FaultCase stop_in_proof() {
+  FaultCase fault{"stop_in_proof", [](FaultBench& b) { b.right_drive().restart(); },
+                  Reason::kDrive | Reason::kWheelsDisobey, feedback};
+  fault.at_rest = reset_and_stop;
+  return rolling_out(RollsOut::kAll, fault);
+}
+
 /// What the supervisor itself must tell: wheels and scanner that contradict each other or the command.
 FaultCase contradiction(const char* name, void (*strike)(FaultBench&) = nullptr,
                         Duration (*limit)(Duration) noexcept = shows_for) {
-  FaultCase fault{.name = name,
-                  .strike = strike,
-                  .every_tick = nullptr,
-                  .reason = Reason::kNone,
-                  .limit = limit,
-                  .outcome = Outcome::kLatched};
-  fault.reason = Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kScanFrozen;
+  FaultCase fault{name, strike, Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kScanFrozen, limit};
   fault.in_turn = true;
   return fault;
 }
@@ -108,189 +139,67 @@ FaultCase wheels_go(const char* name, double times, Duration (*limit)(Duration) 
 void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
-    FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, nullptr,
-              Reason::kEmergencyStop, at_once, Outcome::kLatched},
-    FaultCase{"stop_in_proof",
-              [](FaultBench& b) { b.right_drive().restart(); },
-              nullptr,
-              Reason::kDrive | Reason::kWheelsDisobey,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kAll,
-              false,
-              {},
-              reset_and_stop},
-    FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, nullptr, Reason::kScanStale,
-              scans, Outcome::kLatched},
-    FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale,
-              scans, Outcome::kLatched},
-    FaultCase{"scanner_garbage", [](FaultBench& b) { scanner(b, ScannerFault::kGarbage); }, nullptr, Reason::kScanStale,
-              scans, Outcome::kLatched},
-    FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, nullptr, Reason::kScanStale,
-              scans, Outcome::kLatched},
-    of_two(0, {"front_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, nullptr, Reason::kScanStale, scans,
-               Outcome::kLatched}),
-    of_two(1, {"rear_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone, 1); }, nullptr, Reason::kScanStale,
-               scans, Outcome::kLatched}),
-    of_two(1, {"rear_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed, 1); }, nullptr, Reason::kScanStale,
-               scans, Outcome::kLatched}),
-    of_two(1, {"rear_covered", [](FaultBench& b) { b.robot().far_end().scanner(1).lose_sector(-kPi, 3.1); }, nullptr,
-               Reason::kScanInvalid | Reason::kSightLost, next_scan, Outcome::kLatched}),
-    FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, nullptr, Reason::kPlanStale,
-              plans, Outcome::kStopped},
-    FaultCase{"drive_unplugged_left",
-              [](FaultBench& b) { b.left_drive().pull_cable(); },
-              nullptr,
-              Reason::kWheelsStale | Reason::kDrive,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"drive_unplugged_right",
-              [](FaultBench& b) { b.right_drive().pull_cable(); },
-              nullptr,
-              Reason::kWheelsStale | Reason::kDrive,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"drive_fault_left",
-              [](FaultBench& b) { b.left_drive().raise_fault(0x21); },
-              nullptr,
-              Reason::kDrive,
-              at_once,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"drive_fault_right",
-              [](FaultBench& b) { b.right_drive().raise_fault(0x21); },
-              nullptr,
-              Reason::kDrive,
-              at_once,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"bus_refuses_frames",
-              [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); },
-              nullptr,
-              Reason::kBus,
-              by_themselves,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"bus_off",
-              [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
-              nullptr,
-              Reason::kBus,
-              by_themselves,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, nullptr,
-              Reason::kBus, at_once, Outcome::kLatched},
-    FaultCase{"interface_down",
-              [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); },
-              nullptr,
-              Reason::kBus,
-              by_themselves,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(5 * b.tick_length() / 2); }, nullptr,
-              Reason::kMissedTicks, two_ticks, Outcome::kLatched},
-    FaultCase{"controller_hangs",
-              [](FaultBench& b) { b.hold_up(400ms); },
-              nullptr,
-              Reason::kMissedTicks,
-              by_themselves,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"controller_dies",
-              [](FaultBench& b) { b.hold_up(Duration::max()); },
-              nullptr,
-              Reason::kNone,
-              by_themselves,
-              Outcome::kDead,
-              {},
-              RollsOut::kMotors},
-
-    FaultCase{"scanner_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed); }, nullptr, Reason::kScanStale,
-              scans, Outcome::kLatched},
-    FaultCase{"scanner_dirty", [](FaultBench& b) { (void)b.scanner().set_window(emulators::Window::kDirty); }, nullptr,
-              Reason::kScanStale, scans, Outcome::kLatched},
-    FaultCase{"beams_lost_ahead", [](FaultBench& b) { b.scanner().lose_sector(-kPi / 3.0, kPi / 3.0); }, nullptr,
+    FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, Reason::kEmergencyStop,
+              at_once},
+    stop_in_proof(),
+    FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, Reason::kScanStale, scans},
+    FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, Reason::kScanStale, scans},
+    FaultCase{"scanner_garbage", [](FaultBench& b) { scanner(b, ScannerFault::kGarbage); }, Reason::kScanStale, scans},
+    FaultCase{"scanner_damaged", [](FaultBench& b) { scanner(b, ScannerFault::kDamage); }, Reason::kScanStale, scans},
+    of_two(0, {"front_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, Reason::kScanStale, scans}),
+    of_two(1, {"rear_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone, 1); }, Reason::kScanStale, scans}),
+    of_two(1, {"rear_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed, 1); }, Reason::kScanStale, scans}),
+    of_two(1, {"rear_covered", [](FaultBench& b) { b.robot().far_end().scanner(1).lose_sector(-kPi, 3.1); },
+               Reason::kScanInvalid | Reason::kSightLost, next_scan}),
+    FaultCase{"plan_absent", [](FaultBench& b) { b.planner().order(PlanFault::kNoMore); }, Reason::kPlanStale, plans,
+              Outcome::kStopped},
+    rolling_out(RollsOut::kMotors, {"drive_unplugged_left", [](FaultBench& b) { b.left_drive().pull_cable(); },
+                                    Reason::kWheelsStale | Reason::kDrive, feedback}),
+    rolling_out(RollsOut::kMotors, {"drive_unplugged_right", [](FaultBench& b) { b.right_drive().pull_cable(); },
+                                    Reason::kWheelsStale | Reason::kDrive, feedback}),
+    rolling_out(RollsOut::kMotors,
+                {"drive_fault_left", [](FaultBench& b) { b.left_drive().raise_fault(0x21); }, Reason::kDrive, at_once}),
+    rolling_out(RollsOut::kMotors, {"drive_fault_right", [](FaultBench& b) { b.right_drive().raise_fault(0x21); },
+                                    Reason::kDrive, at_once}),
+    rolling_out(RollsOut::kMotors,
+                {"bus_refuses_frames", [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); }, Reason::kBus,
+                 by_themselves}),
+    rolling_out(RollsOut::kMotors, {"bus_off", [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
+                                    Reason::kBus, by_themselves}),
+    FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, Reason::kBus,
+              at_once},
+    rolling_out(RollsOut::kMotors,
+                {"interface_down", [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); }, Reason::kBus,
+                 by_themselves}),
+    FaultCase{"two_ticks_missed", [](FaultBench& b) { b.hold_up(5 * b.tick_length() / 2); }, Reason::kMissedTicks,
+              two_ticks},
+    rolling_out(RollsOut::kMotors,
+                {"controller_hangs", [](FaultBench& b) { b.hold_up(400ms); }, Reason::kMissedTicks, by_themselves}),
+    rolling_out(RollsOut::kMotors, {"controller_dies", [](FaultBench& b) { b.hold_up(Duration::max()); }, Reason::kNone,
+                                    by_themselves, Outcome::kDead}),
+    FaultCase{"scanner_late", [](FaultBench& b) { scanner(b, ScannerFault::kDelayed); }, Reason::kScanStale, scans},
+    FaultCase{"scanner_dirty", [](FaultBench& b) { (void)b.scanner().set_window(emulators::Window::kDirty); },
+              Reason::kScanStale, scans},
+    FaultCase{"beams_lost_ahead", [](FaultBench& b) { b.scanner().lose_sector(-kPi / 3.0, kPi / 3.0); },
               Reason::kUnwatched, next_scan, Outcome::kStopped},
-    FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); }, nullptr,
-              Reason::kScanInvalid | Reason::kSightLost, next_scan, Outcome::kLatched},
-    FaultCase{"feedback_lost_left",
-              [](FaultBench& b) { b.left_drive().lose_feedback(); },
-              nullptr,
-              Reason::kWheelsStale | Reason::kDrive,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"feedback_lost_right",
-              [](FaultBench& b) { b.right_drive().lose_feedback(); },
-              nullptr,
-              Reason::kWheelsStale | Reason::kDrive,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors},
-    FaultCase{"drive_restarts_left",
-              [](FaultBench& b) { b.left_drive().restart(); },
-              nullptr,
-              Reason::kDrive | Reason::kWheelsDisobey,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kAll},
-    FaultCase{"drive_restarts_right",
-              [](FaultBench& b) { b.right_drive().restart(); },
-              nullptr,
-              Reason::kDrive | Reason::kWheelsDisobey,
-              feedback,
-              Outcome::kLatched,
-              {},
-              RollsOut::kAll},
-    FaultCase{"stop_ignored_left",
-              [](FaultBench& b) { stick_and_stop(b, b.left_drive()); },
-              nullptr,
-              Reason::kStopUnconfirmed,
-              escalated,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors,
-              true},
-    FaultCase{"stop_ignored_right",
-              [](FaultBench& b) { stick_and_stop(b, b.right_drive()); },
-              nullptr,
-              Reason::kStopUnconfirmed,
-              escalated,
-              Outcome::kLatched,
-              {},
-              RollsOut::kMotors,
-              true},
-    FaultCase{"network_preoperational", [](FaultBench& b) { tell_network(b, 0x80); },
-              [](FaultBench& b) { tell_network(b, 0x80); }, Reason::kForeignMaster | Reason::kDrive, network,
-              Outcome::kLatched, DriveKind::kCia402},
-    FaultCase{"network_stopped", [](FaultBench& b) { tell_network(b, 0x02); },
-              [](FaultBench& b) { tell_network(b, 0x02); }, Reason::kForeignMaster | Reason::kDrive, network,
-              Outcome::kLatched, DriveKind::kCia402},
-    FaultCase{"foreign_heartbeat",
-              [](FaultBench& b) {
-                CanFrame frame;
-                frame.id = 0x701;
-                frame.size = 1;
-                frame.bytes = {0x05};
-                b.say_as_stranger(frame);
-              },
-              nullptr, Reason::kForeignMaster, at_once, Outcome::kLatched, DriveKind::kCia402},
-    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); }, nullptr,
-              Reason::kForeignMaster, at_once, Outcome::kLatched},
+    FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); },
+              Reason::kScanInvalid | Reason::kSightLost, next_scan},
+    rolling_out(RollsOut::kMotors, {"feedback_lost_left", [](FaultBench& b) { b.left_drive().lose_feedback(); },
+                                    Reason::kWheelsStale | Reason::kDrive, feedback}),
+    rolling_out(RollsOut::kMotors, {"feedback_lost_right", [](FaultBench& b) { b.right_drive().lose_feedback(); },
+                                    Reason::kWheelsStale | Reason::kDrive, feedback}),
+    rolling_out(RollsOut::kAll, {"drive_restarts_left", [](FaultBench& b) { b.left_drive().restart(); },
+                                 Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    rolling_out(RollsOut::kAll, {"drive_restarts_right", [](FaultBench& b) { b.right_drive().restart(); },
+                                 Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    stop_ignored("stop_ignored_left", [](FaultBench& b) { stick_and_stop(b, b.left_drive()); }),
+    stop_ignored("stop_ignored_right", [](FaultBench& b) { stick_and_stop(b, b.right_drive()); }),
+    network("network_preoperational", [](FaultBench& b) { tell_network(b, 0x80); }),
+    network("network_stopped", [](FaultBench& b) { tell_network(b, 0x02); }),
+    of_cia402({"foreign_heartbeat", [](FaultBench& b) { b.say_as_stranger(foreign_heartbeat()); },
+               Reason::kForeignMaster, at_once}),
+    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
+              Reason::kForeignMaster, at_once},
     miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
     miswired("left_motor_reversed", sim::FaultKind::kLeftMotorReversed),
     miswired("left_wheel_reversed", sim::FaultKind::kLeftWheelReversed),
