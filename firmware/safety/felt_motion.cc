@@ -55,8 +55,9 @@ bool FeltMotion::is_apart(Wheel& wheel, double rolled_m, double felt_mps, double
 }
 
 bool FeltMotion::contradicts_itself(const WheelState& wheels) noexcept {
-  const double step_s = to_seconds(wheels.stamp - counted_.stamp), radius = drive_.wheel_radius_m;
-  const bool follows = counted_.sequence != 0 && step_s > 0.0 && wheels.stamp - counted_.stamp <= kOldestWheels;
+  const Duration step = age(counted_.stamp, wheels.stamp);
+  const double step_s = to_seconds(step), radius = drive_.wheel_radius_m;
+  const bool follows = step > Duration{0} && step <= kOldestWheels;
   const double left_m = radius * (wheels.left_rad - counted_.left_rad),
                right_m = radius * (wheels.right_rad - counted_.right_rad);
   counted_ = wheels;
