@@ -42,8 +42,8 @@ void* CudaDevice::take_bytes(std::size_t bytes) {
   void* block = nullptr;
   must(is_one_memory_ ? cudaMallocManaged(&block, bytes) : cudaMalloc(&block, bytes));
   taken_.push_back(block);
-  must(cudaMemset(block, 0, bytes));
-  must(cudaDeviceSynchronize());
+  must(cudaMemsetAsync(block, 0, bytes, stream_));
+  must(cudaStreamSynchronize(stream_));
   return block;
 }
 
@@ -56,7 +56,8 @@ void* CudaDevice::pin_bytes(std::size_t bytes) {
 }
 
 void CudaDevice::fill_bytes(void* to, const void* from, std::size_t bytes) {
-  must(cudaMemcpy(to, from, bytes, cudaMemcpyHostToDevice));
+  must(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_));
+  must(cudaStreamSynchronize(stream_));
 }
 
 bool CudaDevice::begin() noexcept {

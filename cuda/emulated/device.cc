@@ -1,162 +1,181 @@
 #include "cuda/emulated/device.h"
 
-#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
+#include <cstring>
 #include <utility>
 
-#include "cuda/emulated/poison.h"
+struct CUstream_st {
+  int of_device;
+};
+struct CUevent_st {
+  std::uint64_t place;  ///< in line: before it is all that the event waits for
+};
 
 namespace jaywalk::emulated {
 namespace {
 
-// CUDA's numbers (driver_types.h).
-constexpr int kOutOfResources = 701, kIllegalAddress = 700, kTimeout = 702, kLaunchFailure = 719;
+Device& d = device();
+/// All that were ever made: what is left behind on a device that hangs is no leak.
+std::deque<CUstream_st> streams;
+std::deque<CUevent_st> events;
+/// That the calling thread works on, as cudaSetDevice() has it.
+thread_local int current_device = 0;
 
 [[noreturn]] void never_returns(const char* call) {
   std::fprintf(stderr, "emulated CUDA: %s waits for a kernel that never ends\n", call);
   std::abort();
 }
 
+/// One call: alone, and with the sticky error as its answer where there is one. An error is remembered.
+template <class Call>
+cudaError_t call(const Call& what) {
+  const std::lock_guard lock(d.mutex);
+  cudaError_t error = d.sticky == cudaSuccess ? what() : d.sticky;
+  if (d.sticky != cudaSuccess) error = d.sticky;
+  return error == cudaSuccess ? error : d.last = error;
+}
+
+/// What a call answers that always does.
+cudaError_t done() {
+  return call([] { return cudaSuccess; });
+}
+
+/// What comes of a launch.
+Fault next_fault() {
+  return d.fault != Fault::kNone && d.fault_after-- == 0 ? std::exchange(d.fault, Fault::kNone) : Fault::kNone;
+}
+
+void run_grid(unsigned blocks, unsigned threads, const std::function<void()>& kernel) {
+  blockDim.x = threads;
+  for (const unsigned block : in_random_order(blocks, d.random)) {
+    blockIdx.x = block;
+    if (!run_block(threads, kernel, d.random, d.counts.block)) return void(d.is_stuck = true);
+  }
+  ++d.counts.launches;
+}
+
+/// Whether all before that place in line has run.
+bool has_run(std::uint64_t place) { return d.put - d.line.size() >= place; }
+
+/// Runs it. False: it never ends.
+bool run_to(std::uint64_t place) {
+  d.memory.protect(Busy::kWorks);
+  while (!has_run(place) && !d.is_stuck) {
+    d.line.front()();
+    if (!d.is_stuck) d.line.pop_front();
+    if (d.sticky != cudaSuccess) d.line.clear();
+  }
+  d.memory.protect(d.line.empty() ? Busy::kNot : Busy::kMaybe);
+  return !d.is_stuck;
+}
+
+cudaError_t wait(std::uint64_t place, const char* in_call) {
+  if (!run_to(place)) never_returns(in_call);
+  return cudaSuccess;
+}
+
+cudaError_t put_in_line(std::function<void()> work) {
+  d.memory.protect(Busy::kMaybe);
+  d.line.push_back(std::move(work));
+  ++d.put;
+  return cudaSuccess;
+}
+
+cudaError_t take(void** block, std::size_t bytes, Where where) {
+  return call([&] { return (*block = d.memory.take(bytes, where)) ? cudaSuccess : cudaErrorMemoryAllocation; });
+}
+
 }  // namespace
 
-Device& device() {
-  static auto* const only = new Device;  // outlives what is destroyed at the program's end and still calls it
-  static const bool is_on = [] {
-    only->power_on();
-    std::atexit([] {
-      if (only->is_stuck()) never_returns("the driver's part of exit()");
-    });
-    return true;
-  }();
-  (void)is_on;
-  return *only;
-}
-
-int& Device::current() {
-  thread_local int number = 0;
-  return number;
-}
-
-void Device::power_on(const Properties& properties) {
+void Device::power_on(const Properties& of) {
   const std::lock_guard lock(mutex);
-  properties_ = properties;
-  counts_ = {};
-  random_ = OrderRandom(properties.seed);
-  poison_byte = properties.seed % 2 == 0 ? 0xff : 0xcd;
-  memory_.set_busy(false);
-  memory_.begin_anew(properties.guarded);
-  streams_.clear(), events_.clear();
-  current() = 0;
-  default_stream_ = make_stream(true);
-  fault_ = Fault::kNone;
-  sticky_ = last_error = 0;
+  properties = of;
+  memory.begin_anew(of.bytes, of.seed % 2 == 0 ? 0xff : 0xcd, of.guarded);  // NaNs; floats of -4e8
+  random.seed(static_cast<unsigned>(of.seed));
+  line.clear();
+  counts = {}, is_stuck = false, sticky = last = cudaSuccess, fault = Fault::kNone, current_device = 0;
 }
 
-void Device::order(Fault fault, int after_launches, int times) {
-  fault_ = fault, fault_after_ = after_launches, fault_times_ = times;
+Device::~Device() {
+  if (is_stuck) never_returns("the driver's part of exit()");
 }
 
-void Device::delay(int not_ready) {
-  properties_.not_ready = not_ready;
-  for (Event& event : events_) event.not_ready = std::min(event.not_ready, not_ready);
-}
-
-bool Device::is_stuck() const {
-  return std::any_of(streams_.begin(), streams_.end(), [](const Stream& stream) { return stream.is_stuck; });
-}
-
-Device::Stream* Device::make_stream(bool waits_for_default) {
-  return &streams_.emplace_back(Stream{{}, waits_for_default});
-}
-Device::Event* Device::make_event() { return &events_.emplace_back(); }
-
-Fault Device::next_fault() {
-  if (fault_ == Fault::kNone || fault_after_-- > 0) return Fault::kNone;
-  fault_after_ = 0;
-  return std::exchange(fault_, --fault_times_ > 0 ? fault_ : Fault::kNone);
-}
-
-int Device::launch(Stream* stream, const Shape& shape, std::function<void()> kernel) {
-  const Fault fault = next_fault();
-  if (fault == Fault::kRefused) return kOutOfResources;
-  stream->line.push_back(
-      {[this, stream, shape, kernel = std::move(kernel), fault] { run(*stream, shape, kernel, fault); }, true});
-  note_busy();
-  return 0;
-}
-
-void Device::later(Stream* stream, std::function<void()> work) { stream->line.push_back({std::move(work), false}); }
-
-void Device::record(Event* event, Stream* stream) {
-  event->stream = stream;
-  event->not_ready = properties_.not_ready;
-  later(stream, [event, number = ++event->recorded] { event->done = number; });
-}
-
-void Device::run(Stream& stream, const Shape& shape, const std::function<void()>& kernel, Fault fault) {
-  if (fault == Fault::kHangs) {
-    stream.is_stuck = true;
-    return;
-  }
-  memory_.begin_work();
-  const Ended how = launch_->run(shape, kernel, random_, properties_.most_barriers, counts_);
-  memory_.end_work();
-  stream.is_stuck = how == Ended::kNever;
-  if (how == Ended::kTooLong) sticky_ = kTimeout;
-  if (how == Ended::kOffStack) sticky_ = kLaunchFailure;
-  if (fault == Fault::kBroken) sticky_ = kIllegalAddress;
-  if (how != Ended::kWell && !stream.is_stuck)
-    std::fprintf(stderr, "emulated CUDA: a kernel was ended by error %d\n", sticky_);
-}
-
-bool Device::advance(Stream& stream) {
-  if (sticky_ != 0) stream.line.clear();
-  if (stream.line.empty() || stream.is_stuck) return false;
-  if (&stream != default_stream_ && stream.waits_for_default && advance(*default_stream_)) return true;
-  const Stream::Work work = std::move(stream.line.front());
-  stream.line.pop_front();
-  work.run();
-  note_busy();
-  return !stream.is_stuck;
-}
-
-void Device::note_busy() {
-  memory_.set_busy(std::any_of(streams_.begin(), streams_.end(), [](const Stream& stream) {
-    return stream.is_stuck ||
-           std::any_of(stream.line.begin(), stream.line.end(), [](const auto& work) { return work.is_kernel; });
-  }));
-}
-
-bool Device::is_done(Event* event) {
-  if (event->done == event->recorded) return true;
-  if (event->not_ready > 0) {
-    --event->not_ready;
-    return false;
-  }
-  while (event->done != event->recorded && advance(*event->stream)) {
-  }
-  return event->done == event->recorded;
-}
-
-void Device::wait(Event* event, const char* call) {
-  event->not_ready = 0;
-  if (!is_done(event) && sticky_ == 0) never_returns(call);
-}
-
-void Device::wait(Stream* stream, const char* call) {
-  if (stream == default_stream_) {
-    for (Stream& other : streams_) {
-      if (&other != stream && other.waits_for_default) wait(&other, call);
-    }
-  }
-  while (advance(*stream)) {
-  }
-  if (stream->is_stuck) never_returns(call);
-}
-
-void Device::wait_for_all(const char* call) {
-  for (Stream& stream : streams_) wait(&stream, call);
+cudaError_t launch(const cudaLaunchConfig_t& config, std::function<void()> kernel) {
+  return call([&] {
+    const unsigned blocks = config.gridDim.x, threads = config.blockDim.x;
+    if (config.stream->of_device != current_device) return cudaErrorInvalidResourceHandle;
+    const Fault fault = next_fault();
+    if (fault == Fault::kRefused) return cudaErrorLaunchOutOfResources;
+    return put_in_line([=, kernel = std::move(kernel)] {
+      if (fault == Fault::kHangs) return void(d.is_stuck = true);
+      run_grid(blocks, threads, kernel);
+      if (fault == Fault::kBroken) d.sticky = cudaErrorIllegalAddress;
+    });
+  });
 }
 
 }  // namespace jaywalk::emulated
+
+using namespace jaywalk::emulated;
+
+const char* cudaGetErrorString(cudaError_t error) {
+  if (error == cudaErrorMemoryAllocation) return "out of memory";
+  return error == cudaErrorNoDevice ? "no CUDA-capable device is detected" : "an error of the emulated device";
+}
+cudaError_t cudaGetLastError() {
+  const std::lock_guard lock(d.mutex);
+  return std::exchange(d.last, d.sticky);
+}
+
+cudaError_t cudaGetDeviceCount(int* count) {
+  return call([&] { return (*count = d.properties.devices) > 0 ? cudaSuccess : cudaErrorNoDevice; });
+}
+cudaError_t cudaSetDevice(int number) {
+  if (number < 0 || number >= d.properties.devices) return call([] { return cudaErrorInvalidDevice; });
+  return call([&] { return current_device = number, cudaSuccess; });
+}
+cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
+  return *value = attribute == cudaDevAttrManagedMemory || d.properties.integrated ? 1 : 0, done();
+}
+cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest) { return *least = 0, *greatest = -5, done(); }
+
+cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned, int) {
+  return *stream = &streams.emplace_back(CUstream_st{current_device}), done();
+}
+cudaError_t cudaStreamDestroy(cudaStream_t) { return done(); }
+cudaError_t cudaStreamSynchronize(cudaStream_t) {
+  return call([] { return wait(d.put, "cudaStreamSynchronize"); });
+}
+
+cudaError_t cudaEventCreate(cudaEvent_t* event) { return *event = &events.emplace_back(), done(); }
+cudaError_t cudaEventDestroy(cudaEvent_t) { return done(); }
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t) {
+  return call([&] { return event->place = d.put, d.not_ready = d.properties.not_ready, cudaSuccess; });
+}
+cudaError_t cudaEventQuery(cudaEvent_t event) {
+  return call([&] {
+    if (has_run(event->place)) return cudaSuccess;
+    if (d.not_ready > 0) return --d.not_ready, cudaErrorNotReady;
+    return run_to(event->place) ? cudaSuccess : cudaErrorNotReady;
+  });
+}
+cudaError_t cudaEventSynchronize(cudaEvent_t event) {
+  return call([&] { return wait(event->place, "cudaEventSynchronize"); });
+}
+cudaError_t cudaEventElapsedTime(float* ms, cudaEvent_t, cudaEvent_t) { return *ms = 0.0F, done(); }
+
+cudaError_t cudaMalloc(void** block, std::size_t bytes) { return take(block, bytes, Where::kDevice); }
+cudaError_t cudaMallocManaged(void** block, std::size_t bytes) { return take(block, bytes, Where::kManaged); }
+cudaError_t cudaHostAlloc(void** block, std::size_t bytes, unsigned) { return take(block, bytes, Where::kPinned); }
+cudaError_t cudaFree(void* block) {
+  return call([&] { return wait(d.put, "cudaFree"), d.memory.release(block), cudaSuccess; });
+}
+cudaError_t cudaFreeHost(void* block) { return cudaFree(block); }
+
+cudaError_t cudaMemsetAsync(void* to, int value, std::size_t bytes, cudaStream_t) {
+  return call([&] { return put_in_line([=] { std::memset(to, value, bytes); }); });
+}
+cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind, cudaStream_t) {
+  return call([&] { return put_in_line([=] { std::memcpy(to, from, bytes); }); });
+}

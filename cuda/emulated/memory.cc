@@ -2,7 +2,8 @@
 
 #include <sys/mman.h>
 
-#include "cuda/emulated/poison.h"
+#include <cassert>
+#include <cstring>
 
 namespace jaywalk::emulated {
 namespace {
@@ -13,83 +14,43 @@ std::size_t rounded_up(std::size_t bytes, std::size_t to) { return (bytes + to -
 
 }  // namespace
 
-Memory::~Memory() {
-  begin_anew(false);
-  for (const auto& [size, pages] : spare_) ::munmap(pages, size);
-}
-
-void* Memory::take(std::size_t bytes, Where where, std::size_t most) {
-  if (bytes > most || taken_ > most - bytes) return nullptr;
-  const std::size_t used = rounded_up(bytes, kPage), size = used + kPage;
-  char* pages = nullptr;
-  if (const auto spare = spare_.find(size); spare != spare_.end()) {
-    pages = spare->second;
-    spare_.erase(spare);
-  } else {
-    void* fresh = ::mmap(nullptr, size, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
-    if (fresh == MAP_FAILED) return nullptr;
-    pages = static_cast<char*>(fresh);
-    ::mprotect(pages + used, kPage, PROT_NONE);
-  }
-  poison(pages, used);
-  char* begin = pages + (used - rounded_up(bytes, kAlignment));
-  const auto [at, is_new] = blocks_.emplace(begin, Block{pages, bytes, used, size, where});
-  taken_ += bytes;
-  if (!is_open(at->second)) protect(at->second, false);
-  return begin;
-}
-
-bool Memory::release(void* block) {
-  if (block == nullptr) return true;
-  const auto at = blocks_.find(block);
-  if (at == blocks_.end()) return false;
-  taken_ -= at->second.bytes;
-  if (guarded_) protect(at->second, true);
-  spare_.emplace(at->second.size, at->second.pages);
-  blocks_.erase(at);
-  return true;
-}
-
-void Memory::begin_anew(bool guarded) {
+void Memory::begin_anew(std::size_t room, std::uint8_t poison, bool guarded) {
   while (!blocks_.empty()) release(blocks_.begin()->first);
-  guarded_ = guarded;
+  room_ = room, poison_ = poison, guarded_ = guarded, busy_ = Busy::kNot;
 }
 
-bool Memory::is_open(const Block& block) const {
-  return !guarded_ || works_ || block.where == Where::kPinned || (block.where == Where::kManaged && !busy_);
+void* Memory::take(std::size_t bytes, Where where) {
+  if (bytes > room_) return nullptr;
+  const std::size_t used = rounded_up(bytes, kPage);
+  void* const pages = ::mmap(nullptr, used + kPage, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS, -1, 0);
+  if (pages == MAP_FAILED) return nullptr;
+  std::memset(pages, poison_, used);
+  const Block block{static_cast<char*>(pages), bytes, used, where};
+  ::mprotect(block.pages + used, kPage, PROT_NONE);
+  protect(block);
+  room_ -= bytes;
+  return blocks_.emplace(block.pages + used - rounded_up(bytes, kAlignment), block).first->first;
 }
 
-void Memory::protect(const Block& block, bool open) {
-  ::mprotect(block.pages, block.used, open ? PROT_READ | PROT_WRITE : PROT_NONE);
-}
-void Memory::protect_all() {
-  if (!guarded_) return;
-  for (const auto& [begin, block] : blocks_) {
-    if (block.where != Where::kPinned) protect(block, is_open(block));
-  }
+void Memory::release(void* block) {
+  if (block == nullptr) return;
+  const auto at = blocks_.find(block);
+  assert(at != blocks_.end());
+  room_ += at->second.bytes;
+  ::munmap(at->second.pages, at->second.used + kPage);
+  blocks_.erase(at);
 }
 
-void Memory::begin_work() {
-  works_ = true;
-  protect_all();
-}
-void Memory::end_work() {
-  works_ = false;
-  protect_all();
-}
-void Memory::open(const void* in_block, bool open) {
-  auto after = blocks_.upper_bound(const_cast<void*>(in_block));
-  if (after == blocks_.begin()) return;
-  const Block& block = (--after)->second;
-  if (in_block < block.pages + block.used && !is_open(block)) protect(block, open);
-}
-void Memory::set_busy(bool busy) {
+void Memory::protect(Busy busy) {
   if (busy == busy_) return;
   busy_ = busy;
-  if (!guarded_) return;
-  for (const auto& [begin, block] : blocks_) {
-    if (block.where == Where::kManaged) protect(block, is_open(block));
-  }
+  for (const auto& [begin, block] : blocks_) protect(block);
+}
+
+void Memory::protect(const Block& block) const {
+  if (!guarded_ || block.where == Where::kPinned) return;
+  const bool is_open = busy_ == Busy::kWorks || (block.where == Where::kManaged && busy_ == Busy::kNot);
+  ::mprotect(block.pages, block.used, is_open ? PROT_READ | PROT_WRITE : PROT_NONE);
 }
 
 }  // namespace jaywalk::emulated

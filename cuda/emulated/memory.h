@@ -2,56 +2,49 @@
 // The memories of an emulated device. Each allocation is poisoned and ends at a page that nothing may touch. What the
 // host must not read or write it cannot where memory is guarded: that is a segmentation fault. (To open and close
 // memory takes longer than small kernels do, on virtual machines most of all.)
-#include <cstddef>
 #include <cstdint>
 #include <map>
 
 namespace jaywalk::emulated {
 
 enum class Where : std::uint8_t {
-  kDevice,   ///< kernels alone
-  kPinned,   ///< of the host; kernels too
-  kManaged,  ///< both, the host while no kernel is under way (as on a Jetson)
+  kDevice,   ///< the device's alone
+  kPinned,   ///< of the host; the device's too
+  kManaged,  ///< both, the host's while the device has nothing to do (as on a Jetson)
+};
+
+/// The device, as the host has to take it.
+enum class Busy : std::uint8_t {
+  kNot,
+  kMaybe,  ///< it has something to do that has not been waited for
+  kWorks,  ///< it does it now, while the host waits
 };
 
 class Memory {
  public:
-  Memory() = default;
-  ~Memory();
-  Memory(const Memory&) = delete;
-  Memory& operator=(const Memory&) = delete;
-
-  /// Null where there is no room. `most`: bytes that all together may have.
-  void* take(std::size_t bytes, Where where, std::size_t most);
-  /// False: nothing was taken there.
-  bool release(void* block);
-  /// All of it. What is taken from now on is guarded, or not.
-  void begin_anew(bool guarded);
-
-  /// While a kernel runs, all may be touched.
-  void begin_work();
-  void end_work();
-  /// For a copy: whether the block that holds this address may be touched besides, if there is one.
-  void open(const void* in_block, bool open);
-  /// Whether kernels are under way, as the host has to take it: from a launch to a wait.
-  void set_busy(bool busy);
-  [[nodiscard]] std::size_t taken() const { return taken_; }
+  /// Releases all, and has room for so many bytes from now on. What nothing has been written to is `poison`.
+  void begin_anew(std::size_t room, std::uint8_t poison, bool guarded);
+  /// From now on there is no room for more.
+  void fill() { room_ = 0; }
+  /// Null where there is no room.
+  [[nodiscard]] void* take(std::size_t bytes, Where where);
+  /// Null or what was taken.
+  void release(void* block);
+  void protect(Busy busy);
 
  private:
   struct Block {
     char* pages;
-    std::size_t bytes, used, size;  ///< asked for; in whole pages; with the guarding page
+    std::size_t bytes, used;  ///< asked for; in pages, without the last
     Where where;
   };
-  [[nodiscard]] bool is_open(const Block& block) const;
-  static void protect(const Block& block, bool open);
-  void protect_all();
+  void protect(const Block& block) const;
 
   std::map<void*, Block> blocks_;
-  std::multimap<std::size_t, char*> spare_;  ///< pages that were released, open, by their size
-  std::size_t taken_ = 0;
+  std::size_t room_ = 0;
+  std::uint8_t poison_ = 0;
   bool guarded_ = false;
-  bool works_ = false, busy_ = false;
+  Busy busy_ = Busy::kNot;
 };
 
 }  // namespace jaywalk::emulated

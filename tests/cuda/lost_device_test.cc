@@ -64,7 +64,7 @@ TEST_CASE("emulated: each way to fail, early, late and between, is answered by t
   const auto launches = [] {
     Drive drive;
     (void)drive.plan();
-    return static_cast<int>(device().counts().launches);
+    return static_cast<int>(device().counts.launches);
   }();
   CHECK(launches > 50);
   const std::size_t points = [] {
@@ -99,11 +99,11 @@ TEST_CASE(
   drive.request.wants_potential = false;
   CHECK(drive.plan().status == PlanStatus::kOk);
   CHECK(drive.plan().cycles == 0);
-  const std::int64_t launches = device().counts().launches;
+  const std::int64_t launches = device().counts.launches;
   CHECK(launches > 0);
-  device().order(Fault::kBroken, 0, 100);
+  device().order(Fault::kBroken);
   CHECK(drive.plan().status == PlanStatus::kOk);  // repaired on the processor
-  CHECK(device().counts().launches == launches);
+  CHECK(device().counts.launches == launches);
   CHECK(drive.backend() == "cuda");
   drive.request.goal_in_map = {5.0, 0.9};
   CHECK(drive.plan().status == PlanStatus::kOk);
@@ -146,10 +146,10 @@ TEST_CASE(
     Drive drive({.integrated = true, .guarded = true});
     device().order(fault);
     (void)drive.plan();
-    const std::int64_t launches = device().counts().launches;
+    const std::int64_t launches = device().counts.launches;
     drive.request.stamp += std::chrono::seconds(6);
     CHECK(drive.plan().status == PlanStatus::kOk);
-    CHECK(device().counts().launches == launches);
+    CHECK(device().counts.launches == launches);
     CHECK(drive.backend().substr(0, 4) == "cpu ");
   }
 }
@@ -188,15 +188,14 @@ TEST_CASE("emulated: no device, none of that number, one that fails at the start
     Fault fault;
     const char* why;
   };
-  for (const Case& c :
-       {Case{{.devices = 0}, 0, Fault::kNone, "cuda: no device (cudaErrorNoDevice)"},
-        Case{{.devices = 2}, 2, Fault::kNone, "cuda: no device 2 (2 there, numbered from 0)"},
-        Case{{.bytes = 1 << 20}, 0, Fault::kNone, "cuda: the device does not serve (cudaErrorMemoryAllocation)"},
-        Case{{}, 0, Fault::kRefused, "cuda: a trial plan failed (a launch was refused)"},
-        Case{{}, 0, Fault::kBroken, "cuda: a trial plan failed (the device failed)"},
-        Case{{}, 0, Fault::kHangs, "cuda: a trial plan failed (a kernel did not end in time)"}}) {
+  for (const Case& c : {Case{{.devices = 0}, 0, Fault::kNone, "cuda: no device (no CUDA-capable device is detected)"},
+                        Case{{.devices = 2}, 2, Fault::kNone, "cuda: no device 2 (2 there, numbered from 0)"},
+                        Case{{.bytes = 1 << 20}, 0, Fault::kNone, "cuda: the device does not serve (out of memory)"},
+                        Case{{}, 0, Fault::kRefused, "cuda: a trial plan failed (a launch was refused)"},
+                        Case{{}, 0, Fault::kBroken, "cuda: a trial plan failed (the device failed)"},
+                        Case{{}, 0, Fault::kHangs, "cuda: a trial plan failed (a kernel did not end in time)"}}) {
     device().power_on(c.properties);
-    device().order(c.fault, 0, 100);
+    device().order(c.fault);
     std::string why;
     CHECK_FALSE(passes_cuda_trial(c.number, why));
     CHECK(why == c.why);

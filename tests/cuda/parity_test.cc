@@ -57,7 +57,7 @@ void check_seed(std::uint64_t seed) {
   device().power_on(properties_of(seed));
   const field::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
   check_field(map, *cuda_field(map));
-  CHECK_FALSE(device().is_stuck());
+  CHECK_FALSE(device().is_stuck);
 }
 
 void check_shape(const field::CellMap& map, std::uint64_t seed) {

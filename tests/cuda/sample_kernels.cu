@@ -20,10 +20,6 @@ __global__ void meet_by_halves(int*) {
   if (threadIdx.x % 2 == 0) __syncthreads();
 }
 
-__global__ void meet_for_ever(int*) {
-  for (;;) __syncthreads();
-}
-
 __global__ void nans(int* ints, float nan) {
   const float zero = nan == nan ? 1.0F : 0.0F, infinity = 1.0F / zero;  // what the compiler cannot know
   const float values[] = {nan, nan + 1.0F, zero / zero, infinity - infinity, zero + 1.5F, std::sqrt(zero - 1.0F)};

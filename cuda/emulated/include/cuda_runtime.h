@@ -1,39 +1,66 @@
 #pragma once
-// What of CUDA's runtime the project calls, for its sources compiled by the host's compiler onto the emulated device.
-// Names, numbers and what calls do are those of the CUDA runtime API's reference, 13.0.
+// What of CUDA the project uses, for its sources compiled by the host's compiler onto the emulated device. Names,
+// numbers and what calls do are those of the CUDA runtime API's reference, 13.0.
+#include <bit>
 #include <cstddef>
-#include <cstdint>
+#include <utility>
 
-#include "cuda/emulated/device_functions.h"
+#include "cuda/emulated/block.h"
 
+// What kernels say. Of a block there is one at a time, and fibers give way at barriers alone: what it shares is static,
+// and plain code is atomic.
+#define __global__
+#define __device__
+#define __host__
+#define __grid_constant__
+#define __launch_bounds__(...)
+#define __shared__ static
+#define __CUDA_ARCH__ 900
+
+using jaywalk::emulated::threadIdx, jaywalk::emulated::blockIdx, jaywalk::emulated::blockDim;
+
+inline void __syncthreads() { (void)jaywalk::emulated::meet_block(false); }
+inline int __syncthreads_or(int vote) { return jaywalk::emulated::meet_block(vote != 0) ? 1 : 0; }
+inline void __threadfence() {}
+inline int __clz(int n) { return std::countl_zero(static_cast<unsigned>(n)); }
+inline int __ffs(int n) { return n == 0 ? 0 : std::countr_zero(static_cast<unsigned>(n)) + 1; }
+
+template <class T>
+T atomicAdd(T* at, T by) {
+  return std::exchange(*at, static_cast<T>(*at + by));
+}
+template <class T>
+T atomicOr(T* at, T with) {
+  return std::exchange(*at, static_cast<T>(*at | with));
+}
+template <class T>
+T atomicExch(T* at, T with) {
+  return std::exchange(*at, with);
+}
+
+// What the host says.
 enum cudaError_t {
   cudaSuccess = 0,
-  cudaErrorInvalidValue = 1,
   cudaErrorMemoryAllocation = 2,
-  cudaErrorInvalidConfiguration = 9,
   cudaErrorNoDevice = 100,
   cudaErrorInvalidDevice = 101,
   cudaErrorInvalidResourceHandle = 400,
   cudaErrorNotReady = 600,
   cudaErrorIllegalAddress = 700,
   cudaErrorLaunchOutOfResources = 701,
-  cudaErrorLaunchTimeout = 702,
   cudaErrorLaunchFailure = 719,
 };
 enum cudaDeviceAttr { cudaDevAttrIntegrated = 18, cudaDevAttrManagedMemory = 83 };
-enum cudaMemcpyKind {
-  cudaMemcpyHostToHost,
-  cudaMemcpyHostToDevice,
-  cudaMemcpyDeviceToHost,
-  cudaMemcpyDeviceToDevice,
-  cudaMemcpyDefault
+enum cudaMemcpyKind { cudaMemcpyDefault = 4 };
+inline constexpr unsigned cudaStreamNonBlocking = 1, cudaHostAllocPortable = 1;
+
+using cudaStream_t = struct CUstream_st*;
+using cudaEvent_t = struct CUevent_st*;
+
+struct dim3 {
+  unsigned x, y, z;
+  constexpr dim3(unsigned of_x = 1, unsigned of_y = 1, unsigned of_z = 1) : x(of_x), y(of_y), z(of_z) {}
 };
-inline constexpr unsigned cudaStreamNonBlocking = 1, cudaEventBlockingSync = 1, cudaEventDisableTiming = 2;
-inline constexpr unsigned cudaHostAllocPortable = 1, cudaHostAllocMapped = 2, cudaMemAttachGlobal = 1;
-
-using cudaStream_t = jaywalk::emulated::Device::Stream*;
-using cudaEvent_t = jaywalk::emulated::Device::Event*;
-
 struct cudaLaunchConfig_t {
   dim3 gridDim, blockDim;
   std::size_t dynamicSmemBytes;
@@ -41,49 +68,32 @@ struct cudaLaunchConfig_t {
 };
 
 const char* cudaGetErrorString(cudaError_t error);
-const char* cudaGetErrorName(cudaError_t error);
 cudaError_t cudaGetLastError();
 cudaError_t cudaGetDeviceCount(int* count);
 cudaError_t cudaSetDevice(int device);
 cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
 cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest);
-cudaError_t cudaDeviceSynchronize();
-cudaError_t cudaStreamCreateWithFlags(cudaStream_t* stream, unsigned flags);
 cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, int priority);
 cudaError_t cudaStreamDestroy(cudaStream_t stream);
 cudaError_t cudaStreamSynchronize(cudaStream_t stream);
 cudaError_t cudaEventCreate(cudaEvent_t* event);
-cudaError_t cudaEventCreateWithFlags(cudaEvent_t* event, unsigned flags);
 cudaError_t cudaEventDestroy(cudaEvent_t event);
-cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream = nullptr);
+cudaError_t cudaEventRecord(cudaEvent_t event, cudaStream_t stream);
 cudaError_t cudaEventQuery(cudaEvent_t event);
 cudaError_t cudaEventSynchronize(cudaEvent_t event);
 cudaError_t cudaEventElapsedTime(float* ms, cudaEvent_t begin, cudaEvent_t end);
+cudaError_t cudaMalloc(void** block, std::size_t bytes);
+cudaError_t cudaMallocManaged(void** block, std::size_t bytes);
+cudaError_t cudaHostAlloc(void** block, std::size_t bytes, unsigned flags);
 cudaError_t cudaFree(void* block);
 cudaError_t cudaFreeHost(void* block);
-cudaError_t cudaMemset(void* to, int value, std::size_t bytes);
-cudaError_t cudaMemsetAsync(void* to, int value, std::size_t bytes, cudaStream_t stream = nullptr);
-cudaError_t cudaMemcpy(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind);
-cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind,
-                            cudaStream_t stream = nullptr);
+cudaError_t cudaMemsetAsync(void* to, int value, std::size_t bytes, cudaStream_t stream);
+cudaError_t cudaMemcpyAsync(void* to, const void* from, std::size_t bytes, cudaMemcpyKind kind, cudaStream_t stream);
 
 namespace jaywalk::emulated {
-cudaError_t allocate(void** block, std::size_t bytes, Where where);
 cudaError_t launch(const cudaLaunchConfig_t& config, std::function<void()> kernel);
 }  // namespace jaywalk::emulated
 
-template <class T>
-cudaError_t cudaMalloc(T** block, std::size_t bytes) {
-  return jaywalk::emulated::allocate(reinterpret_cast<void**>(block), bytes, jaywalk::emulated::Where::kDevice);
-}
-template <class T>
-cudaError_t cudaHostAlloc(T** block, std::size_t bytes, unsigned) {
-  return jaywalk::emulated::allocate(reinterpret_cast<void**>(block), bytes, jaywalk::emulated::Where::kPinned);
-}
-template <class T>
-cudaError_t cudaMallocManaged(T** block, std::size_t bytes, unsigned = cudaMemAttachGlobal) {
-  return jaywalk::emulated::allocate(reinterpret_cast<void**>(block), bytes, jaywalk::emulated::Where::kManaged);
-}
 template <class... Parameters, class... Arguments>
 cudaError_t cudaLaunchKernelEx(const cudaLaunchConfig_t* config, void (*kernel)(Parameters...),
                                Arguments&&... arguments) {

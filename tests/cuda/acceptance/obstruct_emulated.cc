@@ -19,7 +19,7 @@ bool occupy(bool for_good) {
   return true;
 }
 bool break_device() { return emulated::device().order(Fault::kBroken), true; }
-bool fill_memory() { return emulated::device().fill(), true; }
+bool fill_memory() { return emulated::device().memory.fill(), true; }
 std::string description() { return "\"device\": \"emulated\""; }
 
 }  // namespace jaywalk::acceptance
