@@ -1,6 +1,6 @@
 #pragma once
-// An executor on a CUDA device: the host runs an order, and every stage is a launch on one stream. The host waits where
-// the order chooses by what was counted, and at its end.
+// An executor on a CUDA device: every stage is a launch on one stream. The host waits where it chooses by what was
+// counted, and at the end.
 #include <memory>
 
 #include "cuda/cuda_cost_to_go.h"
@@ -27,9 +27,7 @@ static __global__ void __launch_bounds__(kBlockThreads)
 class CudaExecutor {
  public:
   static constexpr bool kQueue = false;
-  static constexpr bool kOneMemory = false;
   static constexpr bool kInTurn = false;
-  static constexpr std::int32_t kColumns = field::kOneCell;
   static constexpr std::int32_t kCellsOfRow = 16;
   /// By reckoning, not measured: a launch takes as long as one block takes for four thousand cells.
   static constexpr std::int32_t kOneBlockSide = 64;
@@ -65,13 +63,8 @@ class CudaExecutor {
   [[nodiscard]] double took_ms() const noexcept { return device_.took_ms(); }
   [[nodiscard]] const char* name() const noexcept { return "cuda"; }
 
-  template <class Order>
-  bool run(const Order& order) noexcept {
-    if (!device_.begin()) return false;
-    order(*this);
-    return device_.wait();
-  }
-
+  [[nodiscard]] bool begin() noexcept { return device_.begin(); }
+  [[nodiscard]] bool end() noexcept { return device_.wait(); }
   template <class T>
   void copy(std::int32_t n, const T* from, T* to) noexcept {
     device_.copy(to, from, static_cast<std::size_t>(n));
@@ -97,16 +90,15 @@ class CudaExecutor {
   void in_one_block(const Order& order) noexcept {
     device_.launch(run_in_one_block<Order>, 1, kBlockThreads, order);
   }
-  /// Nothing where the device fails: that ends every order.
+  /// Nothing where the device fails: there is then no way, and that is the end.
   [[nodiscard]] field::Counted total(std::int32_t n, const field::Counted* counted) noexcept {
     device_.launch(add_up, 1, kBlockThreads, counted, n, sum_.device);
     device_.copy_out(sum_, 1);
     return device_.wait() && device_.begin() ? *sum_.host : field::Counted{};
   }
-  /// The start field, by tiles.
+  /// The start field's costs, by tiles.
   void settle(field::Grid grid, std::int32_t goal, const field::FieldArrays& a) noexcept {
-    for_each_cell(grid.side, grid.side, field::RateOfEachCell{grid, a.clearance, a.table, a.rate});
-    for_each(grid.cells(), field::FarFromGoal{goal, a.cost});
+    for_each(grid.cells(), FarFromGoal{goal, a.cost});
     (void)settle_tiles(device_, StartWays{grid, a.rate, a.cost}, waits_);
   }
 

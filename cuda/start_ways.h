@@ -4,6 +4,14 @@
 
 namespace jaywalk {
 
+/// Everything far but the goal.
+struct FarFromGoal {
+  std::int32_t goal;
+  std::uint32_t* cost;
+
+  JAYWALK_CELL void operator()(std::int32_t c) const { cost[c] = c == goal ? 0U : field::kNoWay; }
+};
+
 /// Cells and the start field's steps to eight neighbours (settle_tiles.h).
 struct StartWays {
   using Value = std::uint32_t;

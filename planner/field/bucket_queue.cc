@@ -149,13 +149,32 @@ std::int32_t BucketQueue::place(Grid grid, std::int32_t c) noexcept {
   return (c / grid.side + 1) * (grid.side + 2) + c % grid.side + 1;
 }
 
-bool BucketQueue::settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept {
+void BucketQueue::settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept {
   const std::int32_t width = grid.side + 2, first = place(grid, goal);
   load(grid, rate);
   nodes_[at(first)].cost = 0;
   push(first, width, 0);
   for (std::uint32_t bucket = 0; chunks_in_use_ > 0; ++bucket) drain(width, bucket);
-  return !full_;
+  if (full_) settle_in_turn({nodes_.data(), width, first});
+}
+
+/// Where the entries did not do: steps from all cells, forth and back, until nothing changes.
+void BucketQueue::settle_in_turn(const Ways& ways) noexcept {
+  const std::int32_t end = ways.width * ways.width;
+  bool any = true;
+  const auto step_from = [&](std::int32_t n) {
+    const Node here = ways.nodes[n];
+    if (here.rate == 0 || here.cost >= kFarthest) return;
+    const auto is_less = [&](std::uint32_t there, std::uint32_t step) { return here.cost + step < there; };
+    ways.for_each_step(n, is_less, [&](std::int32_t to, std::uint32_t step) {
+      if (is_less(ways.cost(to), step)) ways.cost(to) = here.cost + step, any = true;
+    });
+  };
+  while (any) {
+    any = false;
+    for (std::int32_t n = 0; n < end; ++n) step_from(n);
+    for (std::int32_t n = end; n-- > 0;) step_from(n);
+  }
 }
 
 /// False where all is to be settled anew.
@@ -184,16 +203,14 @@ bool BucketQueue::repair(Grid grid, std::int32_t goal, const std::uint16_t* rate
   return false;
 }
 
-bool BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept {
-  const bool is_settled = repair(grid, goal, rate) || settle_anew(grid, goal, rate);
-  settled_grid_ = is_settled ? grid : Grid{};
-  settled_goal_ = goal;
+void BucketQueue::settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept {
+  if (!repair(grid, goal, rate)) settle_anew(grid, goal, rate);
+  settled_grid_ = grid, settled_goal_ = goal;
   const std::int32_t width = grid.side + 2;
   for (std::int32_t j = 0; j < grid.side; ++j) {
     const Node* row = &nodes_[at((j + 1) * width + 1)];
     for (std::int32_t i = 0; i < grid.side; ++i) cost[grid.at(i, j)] = row[i].rate == 0 ? kNoWay : row[i].cost;
   }
-  return is_settled;
 }
 
 }  // namespace jaywalk::field

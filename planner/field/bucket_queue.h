@@ -13,11 +13,10 @@ namespace jaywalk::field {
 /// Where few rates have changed since the last time, what depends on them is repaired, to the same bytes.
 class BucketQueue {
  public:
-  /// Takes memory for grids up to `max_side` cells, and for `entries` of them queued at a time.
+  /// Takes memory for grids up to `max_side` cells, and for `entries` of them queued at a time; more take long.
   BucketQueue(std::int32_t max_side, std::size_t entries);
-  /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0. False when the entries
-  /// did not do: costs are then not settled.
-  [[nodiscard]] bool settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;
+  /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0.
+  void settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;
 
  private:
   static constexpr std::uint32_t kBucketShift = 7;  ///< 128 costs a bucket
@@ -40,7 +39,8 @@ class BucketQueue {
   struct Ways;
 
   [[nodiscard]] bool repair(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept;
-  [[nodiscard]] bool settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept;
+  void settle_anew(Grid grid, std::int32_t goal, const std::uint16_t* rate) noexcept;
+  void settle_in_turn(const Ways& ways) noexcept;
   [[nodiscard]] static std::int32_t place(Grid grid, std::int32_t c) noexcept;
   void load(Grid grid, const std::uint16_t* rate) noexcept;
   void relax(std::int32_t to, std::int32_t width, std::uint32_t through, std::uint32_t bucket) noexcept;

@@ -1,32 +1,30 @@
 #pragma once
 // An executor visits: it has memory and loops, and no mathematics. To the host it offers:
 //   T* take<T>(n)                zeroed memory for n values, for stages alone
-//   kOneMemory                   whether host and stages share theirs; is_one_memory() where that depends on the device
+//   is_one_memory()              whether host and stages share theirs
 //   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
-//                                it gave, where they share theirs; elsewhere other memory, and orders copy
+//                                it gave, where they share theirs
 //   fill(to, from, n)            n values from the host into memory for stages
-//   run(order)                   order(executor); false: it failed. What was shown may then be read
-//   kQueue                       whether the host's own loops beat stages here: a serial queue instead of sweeps
-//                                (start_field.h), looking whether anything has changed (pass.h)
-//   took_ms()                    what all orders have taken on a device, by its own clock; 0 where the host visits
+//   begin(), end()               about what follows; false: it failed. After the end the host may read what was shown
+//   kQueue                       whether the host's own loops beat stages here: a serial queue and repairs instead of
+//                                settle(), columns and rows at a time instead of cells (pass.h)
+//   took_ms()                    what all of it has taken on a device, by its own clock; 0 where the host visits
 //   name()                       for reports
-//   failure(), is_ready()        of executors that can fail: why the last order did; whether the host may touch shown
-//   has_failed()                 memory and run another order; whether one has failed since
+//   failure(), is_ready()        of executors that can fail: why the last did; whether the host may touch shown memory
+//   has_failed()                 and begin again; whether one has failed since
 //   settler()                    of those that settle costs of the time to go as well
-// and to orders (order.h), which know no more of it:
-//   copy(n, from, to)            n values from the host's memory to the stages' or back; left out where that is one
+// and between begin() and end(), to pass.h and what it calls:
+//   copy(n, from, to)            n values from the host's memory to the stages' or back, where these are two
 //   for_each(n, stage)           stage(k) for every k in [0, n), in any order
 //   for_each_cell(w, h, stage)   stage(i, j) for every i in [0, w), j in [0, h), in any order
 //   for_each_row(h, steps...)    the steps one after the other, each as for_each_cell does; or, to the same bits, all
 //                                of them row by row, each a row behind the one before (RowStep says what that asks)
 //   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
-//   total(n, counted)            the sums of n pairs of numbers, for the order to choose by
-//   settle(grid, goal, arrays)   rate and cost of the start field, where the executor does not go by stages' sweeps
+//   total(n, counted)            the sums of n pairs of numbers, for the host to choose by
+//   settle(grid, goal, arrays)   cost of the start field, from its rates
 //   in_one_block(order)          order(...) of steps that are too small to be shared out among a device's blocks
 //   kOneBlockSide                the largest board of blocks of cells that one block should take alone; 0: none
 //   kLowerLevels                 whether it is such a block's: of boards of blocks alone
-//   kColumns                     columns that one visit should take where a stage goes down columns; divides 64.
-//                                kOneCell: visits of one cell each, as many threads want them
 //   kCellsOfRow                  cells that one visit should take where a stage goes along rows; divides 64, or is
 //                                kWholeRow
 //   kInTurn                      whether visits come one after the other, so that many may write to the same place
@@ -101,7 +99,7 @@ struct Counted {
   std::int32_t joined = 0;  ///< those that it looks at
 };
 
-inline constexpr std::int32_t kWholeRow = 1 << 30, kOneCell = 0;
+inline constexpr std::int32_t kWholeRow = 1 << 30;
 
 /// Cells that a visit takes of a row of `side` cells, a power of two.
 template <class Executor>
@@ -119,8 +117,6 @@ template <class Executor>
 class SerialExecutor {
  public:
   static constexpr bool kQueue = true;
-  static constexpr bool kOneMemory = true;
-  static constexpr std::int32_t kColumns = 64;
   static constexpr std::int32_t kCellsOfRow = kWholeRow;
   static constexpr bool kInTurn = true;
   static constexpr std::int32_t kOneBlockSide = 0;
@@ -148,11 +144,11 @@ class SerialExecutor {
   void fill(T* to, const T* from, std::size_t n) {
     std::copy_n(from, n, to);
   }
-  template <class Order>
-  bool run(const Order& order) noexcept {
-    order(*this);
-    return true;
-  }
+  [[nodiscard]] static bool is_one_memory() noexcept { return true; }
+  template <class T>
+  static void copy(std::int32_t, const T*, T*) noexcept {}
+  [[nodiscard]] static bool begin() noexcept { return true; }
+  [[nodiscard]] static bool end() noexcept { return true; }
 
   template <class Order>
   void in_one_block(const Order& order) noexcept {

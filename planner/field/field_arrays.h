@@ -1,5 +1,5 @@
 #pragma once
-// What the orders of planner/field/order.h work on, and what comes of it.
+// What planner/field/pass.h works on, and what comes of it.
 #include <algorithm>
 #include <cstddef>
 #include <vector>
@@ -56,7 +56,7 @@ struct FieldArrays {
   std::uint16_t *table, *rate;
   std::uint32_t* cost;
   std::uint8_t* index;
-  Counted *changed, *pits;  ///< by pieces of rows
+  Counted* pits;  ///< by pieces of rows
   cell::Point *points, *raw_points;
   std::int32_t* moved;         ///< in which step each of the band's points did last
   double *segments, *lengths;  ///< of the band; of the raw path and the band
@@ -84,7 +84,7 @@ template <class Executor>
   take(a.start_psi, cells), take(a.correction, cells);
   take(a.table, table.size()), take(a.rate, cells), take(a.cost, cells);
   share(a.index, a.shown.index, cells);
-  take(a.changed, pieces), take(a.pits, pieces);
+  take(a.pits, pieces);
   share(a.points, a.shown.points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.raw_points, static_cast<std::size_t>(kMaxBandPoints));
   take(a.moved, static_cast<std::size_t>(kMaxBandPoints));

@@ -1,6 +1,6 @@
 #pragma once
-// From walls and movers to a taut band, one order after the other; between them the host chooses goal and path's start.
-// What a processor's own loops do better than stages is here, and what is remembered from order to order.
+// From walls and movers to a taut band; between the steps the host chooses goal and path's start. What a processor's
+// own loops do better than stages is here, and what is remembered from step to step.
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -9,10 +9,12 @@
 #include "planner/field/bucket_queue.h"
 #include "planner/field/clearance_repair.h"
 #include "planner/field/nearest_cell.h"
-#include "planner/field/order.h"
+#include "planner/field/pull.h"
+#include "planner/field/solve.h"
 
 namespace jaywalk::field {
 
+/// Where one of its calls is false the executor has failed.
 template <class Executor>
 class Pass {
  public:
@@ -33,12 +35,12 @@ class Pass {
 
   /// Memory for a potential that solve() is to fill.
   [[nodiscard]] float* take_psi() {
-    if (is_one_memory()) return take_rows<float>(executor_, max_side_);
+    if (executor_.is_one_memory()) return take_rows<float>(executor_, max_side_);
     if (psi_ == nullptr) psi_ = take_rows<float>(executor_, max_side_);
     return executor_.show(psi_, static_cast<std::size_t>(Grid{max_side_}.cells()));
   }
 
-  /// Warps, predicts, marks, and clears.
+  /// Warps, predicts, marks, and clears. The host has written walls into `occupants`, and `movers`.
   bool mark_and_clear(Grid grid, const Warping& warping, std::int32_t movers, float inflation,
                       std::uint8_t wanted) noexcept;
 
@@ -70,10 +72,10 @@ class Pass {
   bool pull(Grid grid, std::int32_t first, std::int32_t count) noexcept;
 
  private:
-  /// Room in the queue. A cell is queued 1.3 times in all, and few at a time; where that should ever not do, sweeps do.
+  /// Room in the queue. A cell is queued 1.3 times in all, and few at a time.
   static constexpr std::size_t kQueuedPerCell = 1;
 
-  /// What `clearance` was computed for, beside the occupants.
+  /// What `clearance` is computed for, beside the occupants.
   struct Cleared {
     std::int32_t side = 0, width = 0, height = 0;
     float inflation = 0.0F;
@@ -81,26 +83,23 @@ class Pass {
     bool operator==(const Cleared&) const = default;
   };
 
-  [[nodiscard]] bool is_one_memory() const noexcept {
-    if constexpr (requires { executor_.is_one_memory(); }) return executor_.is_one_memory();
-    return Executor::kOneMemory;
-  }
-
   static std::size_t cells_looked_through(std::int32_t max_side) {
     return static_cast<std::size_t>(Executor::kQueue ? Grid{max_side}.cells() : 0);
   }
 
-  /// Clearance of other occupants, from that of the last ones.
-  void repair(const ClearOrder& order) noexcept;
-
   /// Whether clearance is that of these occupants already; from now on it is taken to be.
-  bool is_cleared(Grid grid, const Cleared& wanted) noexcept {
-    const auto bytes = static_cast<std::size_t>(grid.cells());
+  bool is_cleared(const Cleared& wanted) noexcept {
+    const auto bytes = static_cast<std::size_t>(Grid{wanted.side}.cells());
     if (wanted == cleared_ && std::memcmp(a_.occupants, cleared_occupants_.data(), bytes) == 0) return true;
     std::memcpy(cleared_occupants_.data(), a_.occupants, bytes);
     cleared_ = wanted;
     return false;
   }
+
+  // Parts of the above, between begin() and end() of the executor.
+  void mark(Grid grid, const Warping& warping, std::int32_t movers) noexcept;
+  void find_clearance(const Cleared& wanted) noexcept;
+  void find_start(Grid grid, std::int32_t goal) noexcept;
 
   Executor& executor_;
   MultigridArrays levels_;
@@ -119,65 +118,104 @@ class Pass {
 template <class Executor>
 bool Pass<Executor>::mark_and_clear(Grid grid, const Warping& warping, std::int32_t movers, float inflation,
                                     std::uint8_t wanted) noexcept {
-  const MarkOrder mark{a_, grid, warping, movers};
-  if constexpr (Executor::kQueue) return executor_.run(mark) && clear(grid, inflation, wanted);
-  started_ = kNoCell;
-  return executor_.run(MarkAndClearOrder{mark, {a_, grid, grid.side, grid.side, inflation, wanted}});
+  if (!executor_.begin()) return false;
+  executor_.copy(grid.cells(), a_.shown.occupants, a_.occupants);
+  mark(grid, warping, movers);
+  find_clearance({grid.side, grid.side, grid.side, inflation, wanted});
+  return executor_.end();
+}
+
+template <class Executor>
+void Pass<Executor>::mark(Grid grid, const Warping& warping, std::int32_t movers) noexcept {
+  const std::int32_t cells = cells_of_row<Executor>(grid.side);
+  executor_.copy(movers, a_.shown.movers, a_.movers);
+  executor_.for_each_cell(grid.side, grid.side, WarpOfEachCell{grid, warping, a_.warp});
+  executor_.for_each(movers, PredictEachMover{grid, warping, a_.warp, a_.movers, a_.marks});
+  executor_.for_each_cell(grid.side / cells, grid.side,
+                          MarkRow{grid, cells, warping, a_.warp, a_.movers, a_.marks, movers, a_.occupants});
+  executor_.copy(grid.cells(), a_.occupants, a_.shown.occupants);
+  executor_.copy(movers, a_.marks, a_.shown.marks);
 }
 
 template <class Executor>
 bool Pass<Executor>::clear(Grid grid, std::int32_t width, std::int32_t height, float inflation,
                            std::uint8_t wanted) noexcept {
-  const ClearOrder order{a_, grid, width, height, inflation, wanted};
+  if (!executor_.begin()) return false;
+  executor_.copy(grid.cells(), a_.shown.occupants, a_.occupants);
+  find_clearance({grid.side, width, height, inflation, wanted});
+  return executor_.end();
+}
+
+/// On the host from the last clearance where only occupants are others.
+template <class Executor>
+void Pass<Executor>::find_clearance(const Cleared& wanted) noexcept {
+  const Grid grid{wanted.side};
   if constexpr (Executor::kQueue) {
-    const Cleared now{grid.side, width, height, inflation, wanted};
-    const bool keeps = now == cleared_;
-    if (is_cleared(grid, now)) return true;
-    started_ = kNoCell;
-    if (keeps) return repair(order), true;
+    constexpr std::int32_t kColumns = 64;  // that a visit takes: a line of a cache
+    const bool keeps = wanted == cleared_;
+    if (is_cleared(wanted)) return;
+    if (keeps) std::swap(a_.rows_away, last_rows_away_);
+    const ClearanceOfRow rows{grid,        wanted.width, wanted.height, a_.rows_away, wanted.inflation,
+                              a_.envelope, a_.stretch,   a_.clearance};
+    executor_.for_each(grid.side / kColumns,
+                       NearestInColumns{grid, kColumns, a_.occupants, wanted.wanted, a_.rows_away});
+    if (keeps) executor_.for_each(grid.side, RepairClearanceOfRow{rows, last_rows_away_});
+    if (!keeps) executor_.for_each(grid.side, rows);
+  } else {
+    executor_.for_each_cell(grid.side, grid.side / kRowsOfWord,
+                            OccupiedInColumn{grid, a_.occupants, wanted.wanted, a_.columns});
+    executor_.for_each_cell(grid.side, grid.side, NearestInColumn{grid, a_.columns, a_.rows_away});
+    executor_.for_each_cell(
+        grid.side, grid.side,
+        ClearanceOfCell{grid, wanted.width, wanted.height, a_.rows_away, wanted.inflation, a_.clearance});
+    executor_.copy(grid.cells(), a_.clearance, a_.shown.clearance);
   }
   started_ = kNoCell;
-  return executor_.run(order);
 }
 
 template <class Executor>
 bool Pass<Executor>::start(Grid grid, std::int32_t goal) noexcept {
-  if (started_ == goal) return true;
-  started_ = goal;
-  const StartOrder order{a_, grid, goal};
+  if (!executor_.begin()) return false;
+  find_start(grid, goal);
+  return executor_.end();
+}
+
+template <class Executor>
+void Pass<Executor>::find_start(Grid grid, std::int32_t goal) noexcept {
+  if (std::exchange(started_, goal) == goal) return;
+  executor_.for_each_cell(grid.side, grid.side, RateOfEachCell{grid, a_.clearance, a_.table, a_.rate});
   if constexpr (Executor::kQueue) {
-    order.rate(executor_);
-    if (queue_.settle(grid, goal, a_.rate, a_.cost)) {
-      order.carry_over(executor_);
-      return true;
-    }
+    queue_.settle(grid, goal, a_.rate, a_.cost);
+  } else {
+    executor_.settle(grid, goal, a_);
   }
-  return executor_.run(order);
+  executor_.for_each(grid.cells(), PsiOfCost{a_.rate, a_.cost, a_.start_psi});
 }
 
 template <class Executor>
 FieldQuality Pass<Executor>::solve(Grid grid, std::int32_t goal, From from, const Disc& robot, float* psi) noexcept {
-  if constexpr (Executor::kQueue) (void)start(grid, goal);
-  const bool is_started = started_ == goal;
-  started_ = goal;
-  float* solved = is_one_memory() ? psi : psi_;
-  FieldQuality found;
-  if (!executor_.run(SolveOrder{{a_, grid, goal}, is_started, levels_, from, robot, solved, psi, &found})) return {};
-  return found;
+  if (!executor_.begin()) return {};
+  find_start(grid, goal);
+  float* const solved = executor_.is_one_memory() ? psi : psi_;
+  Solve<Executor> solve(executor_, levels_, a_, grid, goal, solved);
+  FieldQuality quality;
+  if (solve.has_joined(robot)) {
+    quality = solve.begin_with(from);
+    executor_.copy(grid.cells(), a_.index, a_.shown.index);
+    executor_.copy(grid.cells(), solved, psi);
+  }
+  if (!executor_.end()) return {};
+  quality.done = true;
+  return quality;
 }
 
 template <class Executor>
 bool Pass<Executor>::pull(Grid grid, std::int32_t first, std::int32_t count) noexcept {
-  return executor_.run(PullOrder{{a_, grid, first, count}});
-}
-
-template <class Executor>
-void Pass<Executor>::repair(const ClearOrder& order) noexcept {
-  std::swap(a_.rows_away, last_rows_away_);
-  const Grid grid = order.grid;
-  constexpr std::int32_t kColumns = Executor::kColumns;
-  executor_.for_each(grid.side / kColumns, NearestInColumns{grid, kColumns, a_.occupants, order.wanted, a_.rows_away});
-  executor_.for_each(grid.side, RepairClearanceOfRow{order.rows(a_.rows_away), last_rows_away_});
+  if (!executor_.begin()) return false;
+  executor_.copy(count, a_.shown.points, a_.points);
+  executor_.in_one_block(PullInOneBlock{a_, grid, first, count});
+  executor_.copy(count, a_.points, a_.shown.points);
+  return executor_.end();
 }
 
 extern template class Pass<SerialExecutor>;

@@ -24,16 +24,6 @@ std::uint32_t bits_of(const float* value) {
 /// file.
 class Visitor : public OneMemory {
  public:
-  static constexpr std::int32_t kColumns = 1, kCellsOfRow = 16;
-  static constexpr bool kInTurn = true;
-  static constexpr std::int32_t kOneBlockSide = 0;
-  static constexpr bool kLowerLevels = false;
-
-  template <class Order>
-  bool run(const Order& order) {
-    order(*this);
-    return true;
-  }
   template <class Order>
   void in_one_block(const Order& order) {
     order(*this);
@@ -53,9 +43,6 @@ class Visitor : public OneMemory {
   template <class... Steps>
   void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) {
     for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
-  }
-  static field::Counted total(std::int32_t n, const field::Counted* counted) {
-    return field::SerialExecutor::total(n, counted);
   }
 };
 

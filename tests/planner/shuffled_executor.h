@@ -1,5 +1,5 @@
 #pragma once
-// Visits cells in random order, another one each time, and settles the start field by sweeps as a GPU does.
+// Visits cells in random order, another one each time.
 #include <numeric>
 #include <utility>
 
@@ -11,17 +11,6 @@ namespace jaywalk::test {
 
 class ShuffledExecutor : public OneMemory {
  public:
-  static constexpr std::int32_t kColumns = field::kOneCell;
-  static constexpr std::int32_t kCellsOfRow = 16;
-  static constexpr bool kInTurn = true;
-  static constexpr std::int32_t kOneBlockSide = 0;
-  static constexpr bool kLowerLevels = false;
-
-  template <class Order>
-  bool run(const Order& order) {
-    order(*this);
-    return true;
-  }
   template <class Order>
   void in_one_block(const Order& order) {
     order(*this);
@@ -49,9 +38,6 @@ class ShuffledExecutor : public OneMemory {
     for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
   }
 
-  static field::Counted total(std::int32_t n, const field::Counted* counted) {
-    return field::SerialExecutor::total(n, counted);
-  }
   [[nodiscard]] const char* name() const noexcept { return "shuffled"; }
 
  private:
