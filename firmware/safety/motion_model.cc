@@ -22,10 +22,10 @@ constexpr double kLeast_m = 0.04, kLeast_rad = 0.05, kMost_m = 0.15, kMost_rad =
 constexpr Duration kOldestKept = std::chrono::milliseconds(1000);  ///< of a kept scan: people move
 /// Of a fit that tells: fewer points are outliers.
 constexpr double kExplained = 0.5, kCompared = 0.8, kLeastCompared = 12.0;
-constexpr int kPeople = 2;         ///< sectors
-/// All that an arc says counts at most so many times what it says without the kPeople sectors that say most: somebody
-/// walks along with the robot. Told in time of 200 frozen sectors (tests/safety, "[trials]"): 179, of 183 without this
-/// rule, 161 with 4. With 16 one of the four that were accused in ten hours still is.
+constexpr int kPeople = 2;  ///< sectors
+/// All that an arc says counts at most so many times what it says without the kPeople sectors that say most: a
+/// pedestrian that walks along with the robot fills no more. Told in time of 200 frozen sectors (safety_tests
+/// "[trials]"): 179, of 183 without this rule, 161 with 4. With 16 one of four drives with such pedestrians is accused.
 constexpr double kOthers = 8.0;
 constexpr double kRough_m = 0.05;  ///< of errors before a fit
 /// Natural logarithms of likelihood ratios; what a pair less decays between pairs.

@@ -1,5 +1,6 @@
 // Random trials of SAFETY 18 and 23 in rooms; by hand, as they take minutes: safety_tests "[trials]" prints a row a
-// kind (JAYWALK_TRIALS of each, 200), safety_tests "[hours]" drives for JAYWALK_HOURS (1) without a fault.
+// kind (JAYWALK_TRIALS of each, 200), safety_tests "[hours]" drives for JAYWALK_HOURS (1), from JAYWALK_FIRST_SEED
+// (100000) on, without a fault.
 #include <algorithm>
 #include <cstdio>
 #include <cstdlib>
@@ -105,9 +106,11 @@ TEST_CASE("people who walk along with the robot are no blind sector") {
 
 TEST_CASE("trials: hours without a fault", "[.][hours]") {
   const double hours = std::getenv("JAYWALK_HOURS") != nullptr ? std::atof(std::getenv("JAYWALK_HOURS")) : 1.0;
+  const char* const first = std::getenv("JAYWALK_FIRST_SEED");
   double driven_s = 0.0, way_m = 0.0;
   int false_faults = 0;
-  for (std::uint64_t seed = 100000; driven_s < 3600.0 * hours; ++seed) {
+  for (std::uint64_t seed = first != nullptr ? std::strtoul(first, nullptr, 10) : 100000; driven_s < 3600.0 * hours;
+       ++seed) {
     trials::TrialRobot robot(seed, Fault::kNone, 0.0);
     double stood_s = 0.0;  // wedged in: the next room
     for (bool accused = false; robot.now_s() < 60.0 && !accused && stood_s < 6.0;) {
