@@ -17,7 +17,8 @@ constexpr const char* kStyle =
     "svg{max-width:100%;height:auto;background:#fff}\n.wide{overflow-x:auto}\n.failures{display:grid;grid-template-"
     "columns:repeat(auto-fill,"
     "minmax(min(22rem,100%),1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid "
-    "#8886;background:#fff}\n</style>\n</head>\n<body>\n";
+    "#8886;background:#fff}\n@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) "
+    "hue-rotate(180deg)}}\n</style>\n</head>\n<body>\n";
 
 /// RFC 4648.
 std::string base64(const std::string& bytes) {
