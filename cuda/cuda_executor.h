@@ -1,6 +1,6 @@
 #pragma once
-// An executor on a CUDA device: every stage is a launch on one stream. The host waits where it chooses by what was
-// counted, and at the end.
+// An executor on a CUDA device: every stage is a launch on one stream. The host waits where its next step depends
+// on a count, and at the end.
 #include <memory>
 
 #include "cuda/cuda_cost_to_go.h"
@@ -90,7 +90,7 @@ class CudaExecutor {
   void in_one_block(const Order& order) noexcept {
     device_.launch(run_in_one_block<Order>, 1, kBlockThreads, order);
   }
-  /// Nothing where the device fails: there is then no way, and that is the end.
+  /// Zeros where the device has failed: the caller then finds no way, and stops.
   [[nodiscard]] field::Counted total(std::int32_t n, const field::Counted* counted) noexcept {
     device_.launch(add_up, 1, kBlockThreads, counted, n, sum_.device);
     device_.copy_out(sum_, 1);

@@ -18,7 +18,7 @@ struct ChosenPlanner {
 /// that have not the CPU's bits are a reason not to take it. One that fails while it plans gives way to the CPU
 /// (FallbackPlanner). `device`: CUDA's number. Throws StartupError where kCuda cannot be had.
 [[nodiscard]] ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device = 0);
-/// The one that the setup names.
+/// The planner with the setup's configuration, backend and device.
 [[nodiscard]] ChosenPlanner make_planner(const ControlSetup& setup);
 
 /// Tries what make_planner() would take, and says in a few words what that is. Throws StartupError like it.

@@ -20,7 +20,7 @@ namespace jaywalk {
 /// happens between ticks.
 class LoopRunner {
  public:
-  /// Makes the planner that the loop asks.
+  /// Makes the loop's planner.
   using MakePlanner = std::function<ChosenPlanner(const ControlSetup&)>;
 
   /// Where the run's files go, and whether it is recorded.

@@ -22,8 +22,8 @@ namespace {
 SessionOptions session_options;
 std::filesystem::path plot_folder = "out/calibrate";
 
-/// A drive as each scanner saw it, and by which radii its drives' scales counted: to the loop both wheels have the
-/// model's.
+/// A calibration drive: a log of each scanner, and the wheel radii in the drives' settings. The loop counts with the
+/// model's radius for both wheels.
 struct Drive {
   std::vector<CalibrationLog> logs;
   RobotModel model;
@@ -102,7 +102,8 @@ void print_found(const Drive& drive, std::size_t scanner, const Calibration& cal
               calibration.left_out, plot_of(drive.model, scanner).c_str());
 }
 
-/// The wheels by the scanner that tells their track best; each mount by its own.
+/// Prints keys for the robot file: the wheels by the scanner whose interval of the track width is narrowest, each mount
+/// by its own scanner.
 void print_keys(const Drive& drive, const std::vector<Calibration>& each) {
   const RobotGeometry& wheels =
       std::ranges::min_element(each, {}, [](const Calibration& c) { return c.within.track_width_m; })->found;

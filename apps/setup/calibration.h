@@ -34,8 +34,8 @@ struct Calibration {
 };
 
 /// From a drive that turned and went straight. `believed` is where the search begins: good to a tenth, 10 cm and 10
-/// degrees. Throws StartupError where fewer than ten motions can be matched; `scans` is what it calls them. Start-up
-/// only: takes seconds and allocates.
+/// degrees. Throws StartupError where fewer than ten motions can be matched; `scans` names the scans in its message.
+/// Start-up only: takes seconds and allocates.
 [[nodiscard]] Calibration calibrate(const CalibrationLog& log, const RobotGeometry& believed,
                                     const std::string& scans = "scans");
 

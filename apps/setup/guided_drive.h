@@ -19,7 +19,8 @@ struct GuidedDriveSetup {
 /// Drives armed wheels: forward, half a turn left, back, half a turn right, a circle to the left and one to the right;
 /// about 50 s. It needs straight_m and the body's length ahead, and a metre to each side. The stop zone is in force all
 /// the way; where a turn or a circle has no room, or a wheel does not obey, it ends at rest with a StartupError, as it
-/// does where `stopped` says so. `lasers` as many as the model has; a log of each.
+/// does where `stopped` says so. `lasers`: the model's, in its order.
+/// Returns a log of each.
 [[nodiscard]] std::vector<CalibrationLog> drive_guided(const GuidedDriveSetup& setup, DriveBase& drive,
                                                        std::span<LaserScanner* const> lasers, Clock& clock,
                                                        const std::function<bool()>& stopped);

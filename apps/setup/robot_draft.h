@@ -13,7 +13,7 @@ namespace jaywalk {
 class RobotDraft {
  public:
   /// `value` as TOML writes it; `note`: how it is known, "found" or "as answered", say. `section` without its ":kind";
-  /// of a scanner laser_section()'s.
+  /// laser_section() for a scanner.
   void set(const std::string& section, const std::string& key, const std::string& value, const std::string& note);
   [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
   /// As set() wrote it; "" where it did not.
@@ -21,10 +21,10 @@ class RobotDraft {
   /// A robot model file that is to lie beside it, under the name that its key `model` gives; empty: none.
   void set_model(const std::string& text) { model_ = text; }
   [[nodiscard]] const std::string& model() const { return model_; }
-  /// One [[section.key]] more, whose keys are these.
+  /// Adds an entry to the array of tables [[section.key]]. `keys`: names and values, as TOML writes them.
   void add_table(const std::string& section, const std::string& key,
                  const std::vector<std::pair<std::string, std::string>>& keys);
-  /// A line of the file's head, once.
+  /// Adds a comment line to the top of the file, unless it is there already.
   void remark(const std::string& line);
 
   /// The whole file, keys in the order of the table of keys, each with its meaning, unit and note.
@@ -43,8 +43,9 @@ class RobotDraft {
   std::string model_;
 };
 
-/// Where a scanner's keys are, of several: "laser", "laser 2" and so on. As the file has it: "laser".
+/// The name of a scanner's section in a draft; `scanner` counts from 0: "laser", "laser 2" and so on.
 [[nodiscard]] std::string laser_section(std::size_t scanner);
+/// The name that such a section has in the file: "laser" for "laser 2".
 [[nodiscard]] std::string section_in_file(const std::string& section);
 
 /// What stands under the row's key, checked by the row, as TOML writes it. The key is there. Throws StartupError.

@@ -168,7 +168,8 @@ class Setup {
       places.push_back({"", line, 0, baud, asked(kinds_by_adapter(line))});
     return places;
   }
-  /// As many as the answers have, one at least, and as many more of those that answer as a person says.
+  /// Drafts every scanner of the answers, at least one. At a terminal it asks about each further scanner that was
+  /// found.
   void draft_scanners() {
     std::size_t count = 0;
     do draft_scanner(laser_section(count++));
@@ -231,8 +232,8 @@ class Setup {
   SetupAnswers& answers_;
   Clock& clock_;
   RobotDraft draft_;
-  std::set<std::string> taken_;  ///< scanners' places
-  bool others_answer_ = false;   ///< scanners that the file does not have yet
+  std::set<std::string> taken_;  ///< places of the scanners in the draft
+  bool others_answer_ = false;   ///< a scanner was found that the draft does not have
 };
 
 }  // namespace

@@ -36,7 +36,7 @@ struct FoundScanner {
 /// only.
 [[nodiscard]] std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock);
 
-/// "192.168.0.1:2112", "/dev/ttyUSB0".
+/// Where the scanner is connected: "192.168.0.1:2112", "/dev/ttyUSB0".
 [[nodiscard]] std::string place_of(const FoundScanner& scanner);
 /// "sick-cola-b at 192.168.0.1:2112: 811 beams over 270.00 degrees, 15 a second"
 [[nodiscard]] std::string describe(const FoundScanner& scanner);

@@ -22,7 +22,7 @@ struct WatchedDriveSetup {
 /// before it is thrown. Thread: one.
 class WatchedDrive {
  public:
-  /// `lasers` as many as the model has, in its order. The devices outlive it; so does `stopped`, which says that a
+  /// `lasers`: the model's, in its order. The devices outlive it; so does `stopped`, which says that a
   /// person wants it to end.
   WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, std::span<LaserScanner* const> lasers, Clock& clock,
                const std::function<bool()>& stopped);

@@ -28,7 +28,7 @@ struct NudgeSetup {
 };
 
 /// Turns the wheels of drives that are armed: left forward and back, right forward and back, with the stop zone in
-/// force for whatever direction wrong wiring may make of it. `lasers` as many as the model has. Ends early after a
+/// force for whatever direction wrong wiring may make of it. `lasers`: the model's, in its order. Ends early after a
 /// disobedient wheel. Throws StartupError where there is no room, the drives are in trouble, scans or feedback stop
 /// coming, or `stopped` says so; the wheels are commanded to rest before.
 [[nodiscard]] std::vector<Nudge> nudge_wheels(const NudgeSetup& setup, WiredDrive& drive,

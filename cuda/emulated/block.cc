@@ -19,8 +19,8 @@ constexpr std::size_t kGuard = 4096, kStack = 16 * kGuard;  // a page of it is t
 
 /// Runs threads one after the other until one of them waits: those of a kernel without barriers all run in one fiber.
 struct Fiber {
-  jmp_buf place;    ///< where it goes on
-  unsigned thread;  ///< that waits in it
+  jmp_buf place;    ///< where the fiber goes on
+  unsigned thread;  ///< the thread that waits in it
 };
 
 /// Fibers stay from block to block: to make one takes as long as a hundred switches.
@@ -56,14 +56,14 @@ void make_and_enter(std::size_t fiber) {
   ucontext_t context;
   ::getcontext(&context);
   context.uc_stack.ss_sp = stack;
-  // They begin at different places of a page: at the same they would drive one another from the nearest cache.
+  // Stacks begin at different places of a page: at the same place they would evict one another from the first cache.
   context.uc_stack.ss_size = kStack - 64 * (fiber % 63);
   ::makecontext(&context, &run_threads, 0);
   made = fiber + 1;
   ::setcontext(&context);
 }
 
-/// Until it waits, or there is no thread left for it.
+/// Runs a fiber until its thread waits, or no thread is left for it.
 void run_fiber(std::size_t fiber) {
   running = fiber;
   if (_setjmp(caller) != 0) return;

@@ -10,20 +10,20 @@ namespace jaywalk::emulated {
 
 using OrderRandom = std::minstd_rand;  ///< of blocks and threads: the same seed gives the same order
 
-/// 0 to n - 1.
+/// The numbers 0 to n - 1, shuffled.
 [[nodiscard]] std::vector<unsigned> in_random_order(std::size_t n, OrderRandom& random);
 
 inline constexpr std::size_t kMostThreads = 1024;  ///< of a block (CUDA C++ Programming Guide, table 21)
 
-/// Runs `kernel` for each thread, and counts the barriers that open. False: threads wait at one that the others do not
-/// come to.
+/// Runs `kernel` for each thread, and counts the barriers that open. Returns false where threads wait at a barrier that
+/// other threads never reach.
 [[nodiscard]] bool run_block(std::size_t threads, const std::function<void()>& kernel, OrderRandom& random,
                              std::int64_t& barriers);
 
-/// From inside a kernel: waits for the block's other threads. Whether any of them has voted so.
+/// Called by a kernel: waits until all threads of the block have called it. Returns whether any of them voted true.
 bool meet_block(bool vote);
 
-/// CUDA's names for where the running thread stands, as far as the project's kernels use them.
+/// CUDA's indices of the running thread, those that the project's kernels use.
 struct Index {
   unsigned x = 1;
 };

@@ -15,15 +15,15 @@ struct Properties {
   bool integrated = false;  ///< one memory, as on a Jetson
   bool guarded = false;     ///< the host cannot touch what is not its own (memory.h)
   std::size_t bytes = std::size_t{4} << 30;
-  int not_ready = 0;       ///< times that what an event waits for is said to be still ahead
+  int not_ready = 0;       ///< queries of an event that answer "not ready" before its work runs
   std::uint64_t seed = 1;  ///< of the order in which threads run
 };
 
-/// What a launch can be ordered to come to.
+/// How a launch can be ordered to fail.
 enum class Fault : std::uint8_t {
   kNone,
-  kRefused,  ///< it is refused; the next is not
-  kBroken,   ///< it fails, and with it all that is called from then on: the error is sticky
+  kRefused,  ///< the launch is refused; the next one runs
+  kBroken,   ///< the launch fails, and every later call returns its error
   kHangs,    ///< it never ends
 };
 
@@ -32,16 +32,16 @@ struct Counts {
   std::int64_t launches = 0, block = 0;
 };
 
-/// Its streams are one line: what is called for runs in the order of the calls.
+/// All streams share one queue: work runs in the order of the calls.
 struct Device {
   Device() { power_on(); }
-  /// Ends the program as a driver would that waits for a kernel which never ends.
+  /// Ends the program where a kernel never ends: a driver would wait for it for ever.
   ~Device();
-  /// As newly switched on: nothing is launched, no memory taken, no fault ordered.
+  /// Resets the device: nothing is launched, no memory taken, no fault ordered.
   void power_on(const Properties& of = {});
-  /// Of the launch after so many more.
+  /// Makes a launch fail: the next one, or the one after `after_launches` more.
   void order(Fault of_launch, int after_launches = 0) { fault = of_launch, fault_after = after_launches; }
-  /// From now on what an event waits for is said to be still ahead so often.
+  /// From now on so many queries of an event answer "not ready".
   void delay(int times) { properties.not_ready = not_ready = times; }
 
   std::mutex mutex;  ///< of all calls
@@ -50,15 +50,15 @@ struct Device {
   Counts counts;
   OrderRandom random;
   std::deque<std::function<void()>> line;
-  std::uint64_t put = 0;  ///< in line, in all
-  bool is_stuck = false;  ///< the first in line is a kernel that never ends
-  int not_ready = 0;      ///< times that are left
+  std::uint64_t put = 0;  ///< calls queued so far
+  bool is_stuck = false;  ///< the first in the queue is a kernel that never ends
+  int not_ready = 0;      ///< such queries that are left
   cudaError_t sticky = cudaSuccess, last = cudaSuccess;
   Fault fault = Fault::kNone;
   int fault_after = 0;
 };
 
-/// The one that the program has.
+/// The program's only device.
 inline Device& device() {
   static Device only;
   return only;

@@ -1,6 +1,6 @@
 #pragma once
-// The memories of an emulated device. Each allocation is poisoned and ends at a page that nothing may touch. What the
-// host must not read or write it cannot where memory is guarded: that is a segmentation fault. (To open and close
+// The memories of an emulated device. Each allocation is poisoned and ends at a page that nothing may touch. Where
+// memory is guarded, the host's access to what is not its own is a segmentation fault. (To open and close
 // memory takes longer than small kernels do, on virtual machines most of all.)
 #include <cstdint>
 #include <map>
@@ -13,22 +13,22 @@ enum class Where : std::uint8_t {
   kManaged,  ///< both, the host's while the device has nothing to do (as on a Jetson)
 };
 
-/// The device, as the host has to take it.
+/// What the device does, as far as the host knows.
 enum class Busy : std::uint8_t {
   kNot,
-  kMaybe,  ///< it has something to do that has not been waited for
-  kWorks,  ///< it does it now, while the host waits
+  kMaybe,  ///< work was queued that the host has not waited for
+  kWorks,  ///< it works, and the host waits
 };
 
 class Memory {
  public:
-  /// Releases all, and has room for so many bytes from now on. What nothing has been written to is `poison`.
+  /// Releases all memory. From now on there are `room` bytes; a block that is taken is filled with `poison`.
   void begin_anew(std::size_t room, std::uint8_t poison, bool guarded);
-  /// From now on there is no room for more.
+  /// Leaves no room for further blocks.
   void fill() { room_ = 0; }
   /// Null where there is no room.
   [[nodiscard]] void* take(std::size_t bytes, Where where);
-  /// Null or what was taken.
+  /// `block`: what take() returned, or null.
   void release(void* block);
   void protect(Busy busy);
 

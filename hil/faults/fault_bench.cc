@@ -178,7 +178,8 @@ bool FaultBench::rolls_out() const noexcept {
          (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402);
 }
 
-/// Of two scanners that one alone. What contradicts the wheels may be theirs: it names none.
+/// Whether the supervisor named the scanner that failed, and no other. motion_mismatch names none: the wheels may be
+/// at fault.
 bool FaultBench::scanner_named() const noexcept {
   if (!fault_.of_two || (fault_.in_turn && faulty_ == 0)) return true;
   return faulty_ == 1U << *fault_.of_two;

@@ -81,7 +81,7 @@ void scanner(FaultBench& bench, ScannerFault fault, std::size_t index = 0) {
   bench.robot().far_end().scanner(index).order(fault, 60s);
 }
 
-/// Of a robot with two scanners: a fault of one, while the other's scans go on.
+/// The fault strikes this scanner of a robot with two; the other one goes on.
 FaultCase of_two(std::size_t scanner, FaultCase fault) {
   fault.of_two = scanner;
   return fault;

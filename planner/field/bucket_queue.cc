@@ -158,7 +158,7 @@ void BucketQueue::settle_anew(Grid grid, std::int32_t goal, const std::uint16_t*
   if (full_) settle_in_turn({nodes_.data(), width, first});
 }
 
-/// Where the entries did not do: steps from all cells, forth and back, until nothing changes.
+/// For a queue without room: sweeps over all cells, forward and backward, until no cost changes.
 void BucketQueue::settle_in_turn(const Ways& ways) noexcept {
   const std::int32_t end = ways.width * ways.width;
   bool any = true;

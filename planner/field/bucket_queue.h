@@ -13,7 +13,8 @@ namespace jaywalk::field {
 /// Where few rates have changed since the last time, what depends on them is repaired, to the same bytes.
 class BucketQueue {
  public:
-  /// Takes memory for grids up to `max_side` cells, and for `entries` of them queued at a time; more take long.
+  /// Takes memory for grids up to `max_side` cells, and for `entries` cells in the queue. Where that is too few,
+  /// settle() falls back to sweeps over all cells, which take long.
   BucketQueue(std::int32_t max_side, std::size_t entries);
   /// Fills `cost`: 0 at the goal, a free cell; kNoWay where there is no way or the rate is 0.
   void settle(Grid grid, std::int32_t goal, const std::uint16_t* rate, std::uint32_t* cost) noexcept;

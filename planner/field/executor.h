@@ -5,7 +5,8 @@
 //   T* show<T>(stages, n)        memory for n values that host and stages read and write: `stages` itself, memory that
 //                                it gave, where they share theirs
 //   fill(to, from, n)            n values from the host into memory for stages
-//   begin(), end()               about what follows; false: it failed. After the end the host may read what was shown
+//   begin(), end()               before and after a group of stages; false: it failed. After end() the host may read
+//                                what was shown
 //   kQueue                       whether the host's own loops beat stages here: a serial queue and repairs instead of
 //                                settle(), columns and rows at a time instead of cells (pass.h)
 //   took_ms()                    what all of it has taken on a device, by its own clock; 0 where the host visits
@@ -20,7 +21,7 @@
 //   for_each_row(h, steps...)    the steps one after the other, each as for_each_cell does; or, to the same bits, all
 //                                of them row by row, each a row behind the one before (RowStep says what that asks)
 //   repeat(n, h, steps...)       for_each_row(h, steps...) n times over
-//   total(n, counted)            the sums of n pairs of numbers, for the host to choose by
+//   total(n, counted)            the sums of n pairs of numbers, on which the host's next step depends
 //   settle(grid, goal, arrays)   cost of the start field, from its rates
 //   in_one_block(order)          order(...) of steps that are too small to be shared out among a device's blocks
 //   kOneBlockSide                the largest board of blocks of cells that one block should take alone; 0: none

@@ -1,6 +1,6 @@
 #pragma once
-// From walls and movers to a taut band; between the steps the host chooses goal and path's start. What a processor's
-// own loops do better than stages is here, and what is remembered from step to step.
+// A plan's steps: marks and clearance, start field, solution, band. Between them the host chooses the goal and the
+// path's start. Where loops on the processor are faster than stages, they are here; so is what the next plan reuses.
 #include <cstddef>
 #include <cstring>
 #include <utility>
@@ -14,7 +14,7 @@
 
 namespace jaywalk::field {
 
-/// Where one of its calls is false the executor has failed.
+/// A call returns false, or a quality that is not `done`, where the executor has failed.
 template <class Executor>
 class Pass {
  public:
@@ -146,7 +146,7 @@ bool Pass<Executor>::clear(Grid grid, std::int32_t width, std::int32_t height, f
   return executor_.end();
 }
 
-/// On the host from the last clearance where only occupants are others.
+/// On the host it repairs the last clearance where only the occupants have changed.
 template <class Executor>
 void Pass<Executor>::find_clearance(const Cleared& wanted) noexcept {
   const Grid grid{wanted.side};

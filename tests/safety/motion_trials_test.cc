@@ -96,7 +96,7 @@ TEST_CASE("trials: a table of all kinds", "[.][trials]") {
 }
 
 TEST_CASE("people who walk along with the robot are no blind sector") {
-  // Each was accused in ten hours of "[hours]" before what one pedestrian's sectors say was bounded.
+  // Without the bound kOthers of motion_model.cc each of these robots is stopped.
   const std::uint64_t seed = GENERATE(101231U, 101299U, 102018U, 102118U);
   trials::TrialRobot robot(seed, Fault::kNone, 0.0);
   while (robot.now_s() < 21.0 && !robot.accused()) robot.tick();

@@ -7,8 +7,8 @@
 
 #include "cuda/emulated/block.h"
 
-// What kernels say. Of a block there is one at a time, and fibers give way at barriers alone: what it shares is static,
-// and plain code is atomic.
+// For kernels. One block runs at a time, and its fibers give way at barriers alone: so shared memory is static, and
+// plain code is atomic.
 #define __global__
 #define __device__
 #define __host__
@@ -38,7 +38,7 @@ T atomicExch(T* at, T with) {
   return std::exchange(*at, with);
 }
 
-// What the host says.
+// For the host.
 enum cudaError_t {
   cudaSuccess = 0,
   cudaErrorMemoryAllocation = 2,
