@@ -24,8 +24,8 @@ constexpr Duration kOldestKept = std::chrono::milliseconds(1000);  ///< of a kep
 constexpr double kExplained = 0.5, kCompared = 0.8, kLeastCompared = 12.0;
 constexpr int kPeople = 2;  ///< sectors
 /// The evidence of an arc counts at most so many times that of its sectors without the kPeople strongest: a pedestrian
-/// that walks along with the robot stands in no more. Of 200 frozen sectors 179 are told in 0.5 s (safety_tests
-/// "[trials]"), 183 without the bound, 161 with 4. With 16, one of the four robots beside such pedestrians still stops.
+/// that walks along with the robot stands in no more. It costs 2 of 100 frozen sectors that were told in 0.5 s
+/// (safety_tests "[trials]"), 4 would cost 11. With 16, one of the four robots beside such pedestrians still stops.
 constexpr double kOthers = 8.0;
 constexpr double kRough_m = 0.05;  ///< of errors before a fit
 /// Natural logarithms of likelihood ratios; what a pair less decays between pairs.

@@ -186,7 +186,8 @@ ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool
   return shown(scan, laser_from_robot_ * (inverse(moved) * (robot_from_laser_ * in_laser)), hidden_too);
 }
 
-/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge.
+/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge. The surface goes through the mean of
+/// the three hits that it is told by: one alone has too much noise.
 ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
   constexpr Residual kNone{kNan, {}};
   const double full = std::fabs(scan.angle_step_rad);
@@ -203,9 +204,10 @@ ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hi
   if (!scan.is_hit(low) || !scan.is_hit(high)) return kNone;
   const double apart_m = range_m * full * static_cast<double>(2 * beside);
   if (std::fabs(scan.range_m[high] - scan.range_m[low]) > 0.05 + 4.0 * apart_m) return kNone;
-  const Vec2 along = direction_[high] * scan.range_m[high] - direction_[low] * scan.range_m[low];
+  const Vec2 left = direction_[low] * scan.range_m[low], right = direction_[high] * scan.range_m[high];
+  const Vec2 along = right - left;
   const Vec2 normal = Vec2{-along.y, along.x} * (1.0 / std::max(norm(along), 1e-6));
-  const double error = dot(normal, in_laser - direction_[middle] * range_m);
+  const double error = dot(normal, in_laser - (left + direction_[middle] * range_m + right) * (1.0 / 3.0));
   return {std::clamp(error, -kMostError_m, kMostError_m), normal};
 }
 

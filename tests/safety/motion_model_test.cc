@@ -160,8 +160,13 @@ TEST_CASE("swapped wheels and a mirrored scanner are told within half a second o
       Bench turning{.walls = room(), .wiring = wiring};
       CHECK(turning.told_after(1.0, -rim, rim) < 0.5);
     }
-    Bench bending{.walls = room(), .wiring = wiring};
-    CHECK(bending.told_after(1.0, 0.25, 0.35) < 0.5);
+    int in_time = 0;
+    for (std::uint32_t draw = 1; draw <= 20; ++draw) {  // of the scanner's noise
+      Bench bending{.walls = room(), .wiring = wiring};
+      bending.random.seed(draw);
+      in_time += bending.told_after(1.0, 0.25, 0.35) < 0.5 ? 1 : 0;
+    }
+    CHECK(in_time >= 18);
   }
 }
 
