@@ -102,8 +102,8 @@ void print_found(const Drive& drive, std::size_t scanner, const Calibration& cal
               calibration.left_out, plot_of(drive.model, scanner).c_str());
 }
 
-/// Prints keys for the robot file: the wheels by the scanner whose interval of the track width is narrowest, each mount
-/// by its own scanner.
+/// Prints the robot file's keys. Wheel radii and track width come from the scanner that finds the track width with the
+/// smallest uncertainty. Each scanner's mount comes from its own scans.
 void print_keys(const Drive& drive, const std::vector<Calibration>& each) {
   const RobotGeometry& wheels =
       std::ranges::min_element(each, {}, [](const Calibration& c) { return c.within.track_width_m; })->found;

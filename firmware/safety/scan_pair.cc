@@ -186,8 +186,8 @@ ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool
   return shown(scan, laser_from_robot_ * (inverse(moved) * (robot_from_laser_ * in_laser)), hidden_too);
 }
 
-/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge. The surface goes through the mean of
-/// the three hits that it is told by: one alone has too much noise.
+/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge. The surface is a line parallel to the
+/// chord of the outer two of three hits, through the mean of all three: a single hit has too much noise.
 ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
   constexpr Residual kNone{kNan, {}};
   const double full = std::fabs(scan.angle_step_rad);
