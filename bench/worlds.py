@@ -10,14 +10,16 @@ import argparse
 import pathlib
 
 from command_line import seeds_of
-from world_kinds import buildings, drawn, given, walked
+from world_kinds import buildings, crossings, drawn, given, walked
 from world_kinds.folder import Folder
 
 KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks are scored with all of them
     "doors": (drawn.doors, "101-140", "failures"),
+    "headings": (drawn.headings, "5601-5650", "failures"),
     "rooms": (drawn.rooms, "601-700", "failures"),
     "passages": (walked.passages, "302-303", "failures"),
     "people": (walked.people, "1", "all"),
+    "crossings": (crossings.crossings, "501-525", "failures"),
     "dynabarn": (walked.dynabarn, "1", "all"),
     "dynabarn_loops": (walked.dynabarn_loops, "701", "failures"),
     "posts": (given.posts, "302-305", "all"),
@@ -33,7 +35,7 @@ def arguments():
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
     parser.add_argument("kind", choices=KINDS, metavar="KIND", help=", ".join(KINDS))
     parser.add_argument("--seeds", type=seeds_of, help="one, or first-last")
-    parser.add_argument("--data", type=pathlib.Path, help="barn, posts, dynabarn, people, buildings: the folder of their files")
+    parser.add_argument("--data", type=pathlib.Path, help="barn, posts, dynabarn, people, crossings, buildings: the folder of their files")
     parser.add_argument("--width", type=float, default=0.90, help="doors: how wide, m")
     parser.add_argument("--model", help="rooms: of every robot, wheelchair say; else each room has its own")
     parser.add_argument("--movers", type=int, default=0, help="posts, buildings: how many walk among them")
@@ -41,7 +43,7 @@ def arguments():
     options = parser.parse_args()
     options.seeds = options.seeds or seeds_of(KINDS[options.kind][1])
     options.out = options.out or pathlib.Path("out/worlds", options.kind)
-    if options.data is None and options.kind in ("barn", "posts", "dynabarn", "dynabarn_loops", "people", "buildings"):
+    if options.data is None and options.kind in ("barn", "posts", "dynabarn", "dynabarn_loops", "people", "crossings", "buildings"):
         parser.error(f"{options.kind}: its files come with --data FOLDER")
     return options
 

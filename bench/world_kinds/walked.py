@@ -39,19 +39,26 @@ def passages(to, options):
             to.experiment(stem, scenarios, settings={"robot.model": ["p3dx", "wheelchair"]})
 
 
-def middle(file):
+def columns(file, *names):
     with reading(file, "recorded ways: t_s,id,x_m,y_m"), file.open() as rows:
-        places = [(float(row["x_m"]), float(row["y_m"])) for row in csv.DictReader(rows)]
-        return [(min(values) + max(values)) / 2 for values in zip(*places)]
+        return list(zip(*([float(row[name]) for name in names] for row in csv.DictReader(rows))))
+
+
+def middle(file):
+    return [(min(values) + max(values)) / 2 for values in columns(file, "x_m", "y_m")]
+
+
+def recordings(data):
+    files = sorted(data.glob("*.csv"))
+    if not files:
+        refuse(f"{data}: no .csv in it", "give a folder of recorded ways")
+    return files
 
 
 def people(to, options):
     """As people once walked (20 m by 20 m at most), as discs and on two legs, past a robot that creeps along a wall."""
     robot = {"start": [2.0, 1.5, 0.0], "goal": [22.5, 1.5], "max_speed_mps": 0.1}
-    files = sorted(options.data.glob("*.csv"))
-    if not files:
-        refuse(f"{options.data}: no .csv in it", "give a folder of recorded ways")
-    for file in files:
+    for file in recordings(options.data):
         offset = [round(wanted - there, 2) for wanted, there in zip(HALL_MIDDLE, middle(file))]
         walkers = recorded(to.copy(file), offset=offset, legs=False)
         scenario = to.scenario(f"way_{file.stem}", bare_hall(to), robot, movers=[walkers], timeout_s=200.0)

@@ -120,4 +120,6 @@ TEST_CASE("the campaigns that are shipped can be planned") {
   CHECK(plan_of(load_campaign(folder + "/hall_baselines.toml")).runs.size() == 5 * 8);
   CHECK(plan_of(load_campaign(folder + "/results.toml")).runs.size() == 100 * 4);
   CHECK(plan_of(load_campaign(folder + "/harder.toml")).runs.size() == 100 * 5);
+  CHECK(plan_of(load_campaign(folder + "/two_scanners.toml")).runs.size() == 25 * 2);
+  CHECK(plan_of(load_campaign(folder + "/wheelchair.toml")).runs.size() == 25 * 3);
 }
