@@ -5,15 +5,15 @@ import random
 from world_kinds.walked import columns, middle, recorded, recordings
 
 SQUARE_M, CROSSING_M, CROSSING_S = 44.0, 13.0, 90.0  # its side; straight across; at most
-UNSEEN_S = 12.0  # a way goes on so long beyond what was recorded: out of the square
+BEYOND_S = 12.0  # a way goes on so long beyond what was recorded: out of the square
 
 
 def comes_and_goes(way):
     """A way from before to after what was recorded, straight on: nobody appears before the robot, or vanishes."""
     (t0, x0, y0), (t1, x1, y1), (t2, x2, y2), (t3, x3, y3) = *way[:2], *way[-2:]
-    before, after = UNSEEN_S / (t1 - t0), UNSEEN_S / (t3 - t2)
-    first = t0 - UNSEEN_S, x0 - before * (x1 - x0), y0 - before * (y1 - y0)
-    return [first, *way, (t3 + UNSEEN_S, x3 + after * (x3 - x2), y3 + after * (y3 - y2))]
+    before, after = BEYOND_S / (t1 - t0), BEYOND_S / (t3 - t2)
+    first = t0 - BEYOND_S, x0 - before * (x1 - x0), y0 - before * (y1 - y0)
+    return [first, *way, (t3 + BEYOND_S, x3 + after * (x3 - x2), y3 + after * (y3 - y2))]
 
 
 def square_ways(to, file):
@@ -38,16 +38,14 @@ def across(chance):
 
 def crossings(to, options):
     """People on two legs as they once walked, from a moment that the seed draws, on a square that the robot crosses: they
-    do not see it. A start where somebody stands is refused: that run did not run."""
-    corners = [(0, 0), (SQUARE_M, 0), (SQUARE_M, SQUARE_M), (0, SQUARE_M)]
-    walls = [(*a, *b) for a, b in zip(corners, corners[1:] + corners[:1])]
+    do not see it. A person at the start is a collision."""
     for file in recordings(options.data):
         ways, ends_s = square_ways(to, file)
         scenarios = []
         for seed in options.seeds:
             chance = random.Random(seed)
-            begins_s = chance.uniform(0.0, max(ends_s - CROSSING_S, 0.0)) + UNSEEN_S
+            begins_s = chance.uniform(0.0, max(ends_s - CROSSING_S, 0.0)) + BEYOND_S
             walk = recorded(ways, legs=True, start_at_s=round(-begins_s, 1))
-            world = to.aria_map("square", (0, 0, SQUARE_M, SQUARE_M), *walls)
+            world = to.bare_map("square", SQUARE_M, SQUARE_M)
             scenarios.append(to.scenario(f"{file.stem}_{seed}", world, across(chance), movers=[walk], timeout_s=CROSSING_S, seed=seed))
         to.experiment(file.stem, scenarios, settings={"robot.max_speed_mps": [0.6, 1.2], "robot.laser.fov_deg": [270, 360]})

@@ -45,15 +45,12 @@ def doors(to, options):
 
 def headings(to, options):
     """A bare room; start, goal and both headings anywhere in it: it gets there, and stands as it is to stand."""
-    width, height = DOORS_M
-    corners = [(0, 0), (width, 0), (width, height), (0, height)]
-    walls = [(0, 0, width, height)] + [(*a, *b) for a, b in zip(corners, corners[1:] + corners[:1])]
     scenarios = []
     for seed in options.seeds:
         rng = random.Random(seed)
         start, goal = ([rng.uniform(FROM_SIDE_M, side - FROM_SIDE_M) for side in DOORS_M] + [rng.uniform(-3.1, 3.1)] for _ in range(2))
         robot = {"start": rounded(*start), "goal": rounded(*goal), "max_speed_mps": 0.6}
-        scenarios.append(to.scenario(f"headings_{seed}", to.aria_map("bare", *walls), robot, laser=None, seed=seed))
+        scenarios.append(to.scenario(f"headings_{seed}", to.bare_map("bare", *DOORS_M), robot, laser=None, seed=seed))
     to.experiment("headings", scenarios, settings={"robot.model": ["p3dx", "wheelchair"]})
 
 

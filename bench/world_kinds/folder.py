@@ -40,6 +40,12 @@ class Folder:
         text = f"2D-Map\nLineMinPos: 0 0\nLineMaxPos: {far}\nNumLines: {len(lines) - 1}\nLINES\n"
         return {"aria": self.write(f"{name}.map", text + "\n".join(lines[1:]) + "\n")}
 
+    def bare_map(self, name, width_m, height_m):
+        """A room with nothing in it."""
+        corners = [(0, 0), (width_m, 0), (width_m, height_m), (0, height_m)]
+        walls = [(*a, *b) for a, b in zip(corners, corners[1:] + corners[:1])]
+        return self.aria_map(name, (0, 0, width_m, height_m), *walls)
+
     def drawn_map(self, name, size_m, cell_m, is_wall):
         """`is_wall(x, y)` is asked at the middle of each cell, in metres from the lower left corner."""
         columns, rows = (round(side / cell_m) for side in size_m)

@@ -29,7 +29,7 @@ MOVERS = (
 
 def bare_hall(to):
     """24 m by 24 m."""
-    return to.aria_map("hall", (0, 0, 24, 24), (0, 0, 24, 0), (24, 0, 24, 24), (24, 24, 0, 24), (0, 24, 0, 0))
+    return to.bare_map("hall", 24, 24)
 
 
 def cylinders(to, data):
