@@ -37,6 +37,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
     throw StartupError(
         "the robot has " + std::to_string(wanted) + " scanners, and " + std::to_string(there) + " can be read here",
         "give what was recorded or wired with as many");
+  for (std::size_t k = 0; k < wanted && setup.wheels; ++k) free_claims_.emplace_back(setup.model, k);
 }
 
 const TickRecord& ControlLoop::tick(Time now) noexcept {
@@ -56,17 +57,22 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 }
 
 void ControlLoop::read_devices(TickRecord& t) noexcept {
+  t.wheels = hal_.drive.latest();
   t.scan = hal_.laser.latest();
-  blank(setup_.model.laser.blanked, t.scan);
+  believe(0, t.wheels, t.scan);
   t.other_scans.clear();
   for (std::size_t k = 0; k < hal_.other_lasers.size(); ++k) {
     (void)t.other_scans.push_back(hal_.other_lasers[k]->latest());
     t.other_scans[k].scanner = static_cast<std::uint8_t>(k + 1);
-    blank(setup_.model.other_lasers[k].blanked, t.other_scans[k]);
+    believe(k + 1, t.wheels, t.other_scans[k]);
   }
-  t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
+}
+
+void ControlLoop::believe(std::size_t scanner, const WheelState& wheels, LaserScan& scan) noexcept {
+  blank(setup_.model.lasers()[scanner].blanked, scan);
+  if (!free_claims_.empty()) free_claims_[scanner].judge(scan, wheels);
 }
 
 void ControlLoop::take_plan(TickRecord& t) noexcept {

@@ -3,11 +3,13 @@
 #include <cstdint>
 #include <memory>
 #include <utility>
+#include <vector>
 
 #include "firmware/control_setup.h"
 #include "firmware/estimator.h"
 #include "firmware/known_walls.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/safety/free_claims.h"
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
@@ -37,6 +39,8 @@ class ControlLoop {
 
  private:
   void read_devices(TickRecord& t) noexcept;
+  /// What the sensing of a scanner is worth: less what shows the robot, and free beams that are not believed.
+  void believe(std::size_t scanner, const WheelState& wheels, LaserScan& scan) noexcept;
   void take_plan(TickRecord& t) noexcept;
   /// What motion wants.
   void ask(TickRecord& t) noexcept;
@@ -55,6 +59,7 @@ class ControlLoop {
   Hal hal_;
   Planner& planner_;
   Recorder& recorder_;
+  std::vector<FreeClaims> free_claims_;  ///< of each scanner; empty where no wheels are read
   motion::SpeedZones speed_zones_;
   motion::ZoneSpeed zone_speed_{};  ///< this tick's
   Estimator estimator_;

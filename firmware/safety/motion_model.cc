@@ -58,12 +58,13 @@ MotionModel::MotionModel(const RobotModel& model, std::size_t scanner)
     : drive_(model.drive),
       felt_motion_(model.drive, model.limits.brake_mps2),
       pair_(model.lasers()[scanner].robot_from_laser),
+      travel_(model.drive),
       gain_var_(kFile * kFile) {}
 
 Reason MotionModel::judge(const LaserScan& scan, const WheelState& wheels, const WheelCommand& sent,
                           Time now) noexcept {
-  note(wheels);
-  if (scan.sequence != scan_seen_ && scan.sequence != 0 && readings_[newest_].stamp >= scan.stamp) {
+  travel_.note(wheels);
+  if (scan.sequence != scan_seen_ && scan.sequence != 0 && travel_.newest() >= scan.stamp) {
     scan_seen_ = scan.sequence;
     if (pair_.usable(scan) && look(scan) && times_ >= kTimes) contradicted_ = now;
   }
@@ -73,52 +74,13 @@ Reason MotionModel::judge(const LaserScan& scan, const WheelState& wheels, const
   return reasons;
 }
 
-void MotionModel::note(const WheelState& wheels) noexcept {
-  if (wheels.sequence == wheels_seen_ || wheels.sequence == 0) return;
-  wheels_seen_ = wheels.sequence;
-  if (!std::isfinite(wheels.left_rad) || !std::isfinite(wheels.right_rad)) return;
-  if (readings_[newest_].stamp >= wheels.stamp) return;
-  newest_ = (newest_ + 1) % kMostReadings;
-  readings_[newest_] = {wheels.stamp,
-                        {drive_.wheel_radius_m * wheels.left_rad, drive_.wheel_radius_m * wheels.right_rad}};
-}
-
-/// Between the readings before and after; false where there are none.
-bool MotionModel::rolled_at(Time stamp, Rolled& rolled) const noexcept {
-  const Reading* after = &readings_[newest_];
-  if (after->stamp < stamp) return false;
-  for (std::size_t back = 1; back < kMostReadings; ++back) {
-    const Reading& before = readings_[(newest_ + kMostReadings - back) % kMostReadings];
-    if (before.stamp == kNever || before.stamp > after->stamp) return false;
-    if (before.stamp <= stamp) {
-      const double share = to_seconds(stamp - before.stamp) / to_seconds(after->stamp - before.stamp);
-      rolled = {before.rolled.left_m + share * (after->rolled.left_m - before.rolled.left_m),
-                before.rolled.right_m + share * (after->rolled.right_m - before.rolled.right_m)};
-      return true;
-    }
-    after = &before;
-  }
-  return false;
-}
-
-/// The mean twist since; none where the newest reading is no later.
-Twist2 MotionModel::felt_since(Time stamp, const Rolled& rolled) const noexcept {
-  constexpr double kLeast_s = 0.005;
-  const Reading& now = readings_[newest_];
-  const double seconds = to_seconds(now.stamp - stamp);
-  if (seconds < kLeast_s) return {};
-  const double left = (now.rolled.left_m - rolled.left_m) / seconds,
-               right = (now.rolled.right_m - rolled.right_m) / seconds;
-  return {0.5 * (left + right), (right - left) / drive_.track_width_m};
-}
-
 bool MotionModel::look(const LaserScan& scan) noexcept {
   Rolled rolled;
-  if (!rolled_at(scan.stamp, rolled)) return false;
+  if (!travel_.at(scan.stamp, rolled)) return false;
   note_repeats(scan, rolled);
   if (repeats_ > 0) return false;  // it tells nothing new: kScanFrozen, a fault that ends with it, is its word
-  pair_.sweep(scan, felt_since(scan.stamp, rolled));
-  const Rolled felt{rolled.left_m - kept_rolled_.left_m, rolled.right_m - kept_rolled_.right_m};
+  pair_.sweep(scan, travel_.twist_since(scan.stamp, rolled));
+  const Rolled felt = rolled - kept_rolled_;
   const double path_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m));
   const double turn_rad = std::fabs(felt.right_m - felt.left_m) / drive_.track_width_m;
   const bool too_old = !pair_.is_kept() || scan.stamp - kept_stamp_ > kOldestKept || scan.stamp < kept_stamp_;

@@ -6,6 +6,7 @@
 #include "firmware/safety/felt_motion.h"
 #include "firmware/safety/reasons.h"
 #include "firmware/safety/scan_pair.h"
+#include "firmware/safety/wheel_travel.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
@@ -37,24 +38,12 @@ class MotionModel {
   static constexpr Duration kHolds = std::chrono::milliseconds(500);
 
  private:
-  static constexpr std::size_t kMostReadings = 128;
   using Costs = std::array<double, ScanPair::kSectors>;
-  /// How far each wheel's rim has rolled (m).
-  struct Rolled {
-    double left_m = 0.0, right_m = 0.0;
-  };
-  struct Reading {
-    Time stamp = kNever;
-    Rolled rolled;
-  };
   /// How far each wheel moved the robot, and how far it went aside, half way through its turn.
   struct Moved {
     double left_m = 0.0, right_m = 0.0, aside_m = 0.0;
   };
 
-  void note(const WheelState& wheels) noexcept;
-  [[nodiscard]] bool rolled_at(Time stamp, Rolled& rolled) const noexcept;
-  [[nodiscard]] Twist2 felt_since(Time stamp, const Rolled& rolled) const noexcept;
   /// False where it tells nothing, as at rest.
   bool look(const LaserScan& scan) noexcept;
   void note_repeats(const LaserScan& scan, const Rolled& rolled) noexcept;
@@ -73,9 +62,8 @@ class MotionModel {
   DriveModel drive_;
   FeltMotion felt_motion_;
   ScanPair pair_;
-  std::array<Reading, kMostReadings> readings_{};
-  std::size_t newest_ = 0;
-  std::uint32_t wheels_seen_ = 0, scan_seen_ = 0;
+  WheelTravel travel_;
+  std::uint32_t scan_seen_ = 0;
 
   Time kept_stamp_ = kNever;
   Rolled kept_rolled_, felt_before_;

@@ -59,6 +59,7 @@ struct FaultSpec {
   double for_s = 0.0;
   FaultKind kind = FaultKind::kScanStale;
   BlankedSector lost{-kPi / 3.0, kPi / 3.0};  ///< of kBeamsLost, in the laser's frame: 120 degrees ahead
+  bool claims_free = false;                   ///< of kBeamsLost: its beams say that nothing is within reach
   int scanner = 0;                            ///< of the scanner's faults: which one's, from 1; 0: all
 
   [[nodiscard]] bool is_of(std::size_t which) const noexcept {

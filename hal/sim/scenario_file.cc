@@ -147,6 +147,7 @@ FaultSpec read_fault(TomlTable& table) {
   if (table.has("scanner")) spec.scanner = static_cast<int>(table.integer("scanner"));
   if (spec.kind == FaultKind::kBeamsLost && (table.has("from_deg") || table.has("to_deg")))
     spec.lost = read_sector(table);
+  if (spec.kind == FaultKind::kBeamsLost) spec.claims_free = table.boolean("claims_free");
   table.finish();
   return spec;
 }

@@ -220,7 +220,14 @@ std::vector<SettingKey> fault_keys() {
           {"faults:beams_lost", "from_deg", kNumber, kDegrees, "degrees", "-60",
            "where the sector begins, in the laser's frame; needed with to_deg"},
           {"faults:beams_lost", "to_deg", kNumber, kDegrees, "degrees", "60",
-           "where it ends, counter-clockwise; needed with from_deg"}};
+           "where it ends, counter-clockwise; needed with from_deg"},
+          {"faults:beams_lost",
+           "claims_free",
+           kBoolean,
+           {},
+           "",
+           FaultSpec{}.claims_free,
+           "whether its beams say that nothing is within reach; else that they measured nothing"}};
 }
 
 FileKeys make_scenario_keys() {

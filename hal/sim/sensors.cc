@@ -6,11 +6,11 @@
 namespace jaywalk::sim {
 namespace {
 
-/// As a scanner does whose packets of a sector are lost, or whose window is dirty there.
-void lose(const BlankedSector& sector, LaserScan& scan) noexcept {
+/// As a scanner does whose packets of a sector are lost, or whose window is dirty there; or one whose diode is dead.
+void lose(const BlankedSector& sector, float says_m, LaserScan& scan) noexcept {
   constexpr double kSame_rad = 1e-6;  // single precision's angles: a beam on the sector's rim is in it
   for (std::size_t k = 0; k < scan.beam_count; ++k) {
-    if (sector.off_rad(scan.angle_rad(k)) <= kSame_rad) scan.range_m[k] = 0.0F;
+    if (sector.off_rad(scan.angle_rad(k)) <= kSame_rad) scan.range_m[k] = says_m;
   }
 }
 
@@ -90,7 +90,8 @@ void Sensors::spoil(Scanner& scanner, const World& world) noexcept {
   if (has(FaultKind::kScanShort)) scan.beam_count /= 2;
   for (const FaultSpec& fault : world.faults()) {
     const bool active = fault.is_of(scanner.index) && fault.active(to_seconds(world.now()));
-    if (fault.kind == FaultKind::kBeamsLost && active) lose(fault.lost, scan);
+    if (fault.kind == FaultKind::kBeamsLost && active)
+      lose(fault.lost, fault.claims_free ? std::numeric_limits<float>::infinity() : 0.0F, scan);
   }
   if (has(FaultKind::kScannerMirrored)) std::reverse(scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
 }

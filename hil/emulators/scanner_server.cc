@@ -15,18 +15,17 @@ ScannerServer::ScannerServer(std::unique_ptr<ByteServer> wire, const SweepShape&
       beams_per_message_(beams_per_message),
       world_(std::move(world)),
       range_m_(shape.beams),
-      lost_(shape.beams) {}
+      says_m_(shape.beams, kMeasures) {}
 
-void ScannerServer::lose_beams(std::size_t first, std::size_t count) {
-  for (std::size_t k = first; k < std::min(first + count, lost_.size()); ++k) lost_[k] = true;
+void ScannerServer::lose_beams(std::size_t first, std::size_t count, float says_m) {
+  for (std::size_t k = first; k < std::min(first + count, says_m_.size()); ++k) says_m_[k] = says_m;
 }
 
-void ScannerServer::lose_sector(double from_rad, double to_rad) {
+void ScannerServer::lose_sector(double from_rad, double to_rad, float says_m) {
   constexpr double kSame_rad = 1e-9;
   const BlankedSector sector{from_rad, to_rad};
-  for (std::size_t k = 0; k < lost_.size(); ++k) {
-    if (sector.off_rad(wrap_angle(shape_.angle_rad(k))) <= kSame_rad) lost_[k] = true;
-  }
+  for (std::size_t k = 0; k < says_m_.size(); ++k)
+    if (sector.off_rad(wrap_angle(shape_.angle_rad(k))) <= kSame_rad) says_m_[k] = says_m;
 }
 
 void ScannerServer::order(ScannerFault fault, Duration duration) {
@@ -90,7 +89,7 @@ void ScannerServer::measure_until_now(Time now) {
   if (until <= measured_) return;
   world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
   for (; measured_ < until; ++measured_) {
-    if (lost_[measured_]) range_m_[measured_] = 0.0F;
+    if (says_m_[measured_] != kMeasures) range_m_[measured_] = says_m_[measured_];
   }
   tell_measured(now);
 }

@@ -83,11 +83,11 @@ class ScannerServer {
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
 
-  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing; what else
-  /// was lost stays so.
-  void lose_beams(std::size_t first, std::size_t count);
-  void lose_sector(double from_rad, double to_rad);
-  void find_beams() noexcept { lost_.assign(lost_.size(), false); }
+  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing and say
+  /// `says_m` (World): infinity as a dead diode may. What else was lost stays so.
+  void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F);
+  void lose_sector(double from_rad, double to_rad, float says_m = 0.0F);
+  void find_beams() noexcept { says_m_.assign(says_m_.size(), kMeasures); }
   /// From now on each message is damaged with this probability, 0 to 1.
   void damage_share(double share) noexcept { damaged_share_ = share; }
   /// False where this kind of scanner has no word for dirt.
@@ -133,7 +133,8 @@ class ScannerServer {
   std::size_t beams_per_message_;
   World world_;
   std::vector<float> range_m_;
-  std::vector<bool> lost_;  ///< for each beam
+  static constexpr float kMeasures = -1.0F;
+  std::vector<float> says_m_;  ///< for each beam, instead of what it measures; kMeasures where it does
   double damaged_share_ = 0.0;
   std::deque<Held> held_;
   std::size_t measured_ = 0, told_ = 0;  ///< beams of this sweep

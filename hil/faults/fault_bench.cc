@@ -29,7 +29,7 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
     : fault_(fault),
       kind_(kind),
       speed_mps_(speed_mps),
-      file_(robot_file(kind, speed_mps, rate_hz, folder, fault.of_two.has_value())) {
+      file_(robot_file(kind, speed_mps, rate_hz, folder, {fault.claims_free, fault.of_two.has_value()})) {
   const auto straight = [this](const ControlSetup&) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();

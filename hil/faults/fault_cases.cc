@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <limits>
 
 namespace jaywalk::faults {
 namespace {
@@ -116,6 +117,18 @@ FaultCase stop_in_proof() {
   return rolling_out(RollsOut::kAll, fault);
 }
 
+/// Beams within so much of straight ahead claim that nothing is within reach.
+void say_free(FaultBench& bench, double half_deg) {
+  const double half_rad = std::min(half_deg, 179.9) * kPi / 180.0;
+  bench.scanner().lose_sector(-half_rad, half_rad, std::numeric_limits<float>::infinity());
+}
+
+FaultCase claiming_free(const char* name, void (*strike)(FaultBench&), Outcome outcome) {
+  FaultCase fault{name, strike, Reason::kUnwatched | Reason::kScanInvalid | Reason::kSightLost, next_scan, outcome};
+  fault.claims_free = true;
+  return fault;
+}
+
 /// What the supervisor itself must tell: wheels and scanner that contradict each other or the command.
 FaultCase contradiction(const char* name, void (*strike)(FaultBench&) = nullptr,
                         Duration (*limit)(Duration) noexcept = shows_for) {
@@ -184,6 +197,10 @@ const std::array kCases{
               Reason::kUnwatched, next_scan, Outcome::kStopped},
     FaultCase{"beams_lost_all_round", [](FaultBench& b) { b.scanner().lose_sector(-kPi, 3.1); },
               Reason::kScanInvalid | Reason::kSightLost, next_scan},
+    claiming_free(
+        "nothing_ahead_claimed", [](FaultBench& b) { say_free(b, 40.0); }, Outcome::kStopped),
+    claiming_free(
+        "nothing_all_round_claimed", [](FaultBench& b) { say_free(b, 180.0); }, Outcome::kLatched),
     rolling_out(RollsOut::kMotors, {"feedback_lost_left", [](FaultBench& b) { b.left_drive().lose_feedback(); },
                                     Reason::kWheelsStale | Reason::kDrive, feedback}),
     rolling_out(RollsOut::kMotors, {"feedback_lost_right", [](FaultBench& b) { b.right_drive().lose_feedback(); },
