@@ -79,7 +79,7 @@ struct KernelBench {
 
 }  // namespace
 
-TEST_CASE("a thousand frames cross the kernel's virtual bus in order, filtered and stamped") {
+TEST_CASE("a thousand frames cross the kernel's virtual bus in order, filtered and stamped", "[can]") {
   if (is_missing()) return;
   tests::HandClock clock;
   clock.sleep_until(Time{std::chrono::seconds(9)});
@@ -105,7 +105,7 @@ TEST_CASE("a thousand frames cross the kernel's virtual bus in order, filtered a
   CHECK(receiver.health().malformed == 0);
 }
 
-TEST_CASE("what a second user of a socket sends reaches the bus and not the socket itself") {
+TEST_CASE("what a second user of a socket sends reaches the bus and not the socket itself", "[can]") {
   if (is_missing()) return;
   tests::HandClock clock;
   SocketCan bus = place_on_bus(clock), other = place_on_bus(clock);
@@ -120,7 +120,8 @@ TEST_CASE("what a second user of a socket sends reaches the bus and not the sock
   CHECK(bus.receive(received));  // another program's
 }
 
-TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the controller's socket is none") {
+TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the controller's socket is none",
+          "[can]") {
   if (is_missing()) return;
   KernelBench bench;
   bench.bring_to_two_radps();
@@ -134,7 +135,7 @@ TEST_CASE("a stranger on the kernel's bus is a fault, and the second user of the
   bench.check_stopped_until_reset();
 }
 
-TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lost frame or the heap") {
+TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lost frame or the heap", "[can]") {
   if (is_missing()) return;
   KernelBench bench;
   bench.bring_to_two_radps();
@@ -153,7 +154,7 @@ TEST_CASE("drives arm, drive and stop over the kernel's virtual bus without a lo
   }
 }
 
-TEST_CASE("bus-off as the kernel tells it stops the drives until a reset") {
+TEST_CASE("bus-off as the kernel tells it stops the drives until a reset", "[can]") {
   if (is_missing()) return;
   KernelBench bench;
   bench.bring_to_two_radps();
@@ -168,7 +169,7 @@ TEST_CASE("bus-off as the kernel tells it stops the drives until a reset") {
   bench.check_stopped_until_reset();
 }
 
-TEST_CASE("a link that goes down stops the drives until it is up and somebody resets") {
+TEST_CASE("a link that goes down stops the drives until it is up and somebody resets", "[can]") {
   if (is_missing()) return;
   KernelBench bench;
   bench.bring_to_two_radps();

@@ -53,7 +53,7 @@ struct Bench {
 
 }  // namespace
 
-TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of them fails") {
+TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of them fails", "[can]") {
   if (is_missing()) return;
   odrive::BaseSetup setup = tests::Odrive::setup();
   setup.silence_limit = setup.stop.fresh = 2s;
@@ -70,7 +70,7 @@ TEST_CASE("ODrives over the kernel's bus are proved, drive, and stop when one of
   CHECK(bench.controller.health().frames_lost == 0);
 }
 
-TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one of them fails") {
+TEST_CASE("VESCs over the kernel's bus are read back, drive, and stop when one of them fails", "[can]") {
   if (is_missing()) return;
   vesc::BaseSetup setup = tests::Vesc::setup();
   setup.silence_limit = setup.stop.fresh = 2s;

@@ -193,11 +193,10 @@ TEST_CASE("a watch in a thread of its own finds the joystick and publishes how i
   pipe.plug_in();
   JoystickWatch watch(clock, {.path = pipe.path()});
   watch.start(0);
-  const auto limit = std::chrono::steady_clock::now() + 30s;
-  while (!watch.latest().connected && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
+  while (!watch.latest().connected) std::this_thread::sleep_for(1ms);
   pipe.press(kDeadMan, false);
   pipe.press(kDeadMan);
-  while (!watch.latest().dead_man && std::chrono::steady_clock::now() < limit) std::this_thread::sleep_for(1ms);
+  while (!watch.latest().dead_man) std::this_thread::sleep_for(1ms);
   CHECK(watch.latest().dead_man);
 }
 

@@ -42,8 +42,10 @@ start_plant() {
   rm -f "$out/plant.log"
   "$plant" "${RIG_HALL:-$root/tools/rig/drive/hall.toml}" --seed 3 --robot "$out/robot.toml" --can "$far_can" --log "$out/plant.log" "$@" <&3 &
   plant_pid=$!
-  for _ in $(seq 50); do [ ! -s "$out/plant.log" ] || return 0; sleep 0.1; done
-  fail "the plant did not start"
+  until [ -s "$out/plant.log" ]; do
+    kill -0 "$plant_pid" 2>/dev/null || { fail "the plant did not start"; return 1; }
+    sleep 0.1
+  done
 }
 end_plant() {
   kill "$plant_pid" && wait "$plant_pid"
@@ -57,13 +59,10 @@ start_run() {
   rm -rf "$out/run"  # a run would set it aside, and the guest's memory is small
   "$jaywalk" run "$out/robot.toml" --backend cpu --allow-no-realtime --uncommissioned --out "$out/run" "$@" >"$out/run.log" 2>&1 &
   run_pid=$!
-  for _ in $(seq 100); do
-    [[ $(<"$out/run.log") != *"ready for"* ]] || return 0
-    kill -0 "$run_pid" 2>/dev/null || break
+  until [[ $(<"$out/run.log") == *"ready for"* ]]; do
+    kill -0 "$run_pid" 2>/dev/null || { fail "the run did not start: $(cat "$out/run.log")"; return 1; }
     sleep 0.2
   done
-  fail "the run did not start: $(cat "$out/run.log")"
-  return 1
 }
 # end_run EXIT_CODE [SIGNAL]
 end_run() {
