@@ -29,6 +29,7 @@ class ControlLoop {
   /// Lives through one tick; call once a period with the clock's time. Returns the tick's record, valid until the next.
   const TickRecord& tick(Time now) noexcept;
 
+  [[nodiscard]] const ControlSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const Estimator& estimator() const noexcept { return estimator_; }
   [[nodiscard]] const Tracker& tracker() const noexcept { return estimator_.tracker(); }
   [[nodiscard]] const Plan& plan() const noexcept { return *plan_; }

@@ -77,6 +77,7 @@ std::vector<std::string> success_row(const ReportedRow& row) {
           outcome("fault"),
           std::to_string(not_run),
           std::to_string(clear),
+          std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
           fixed(sum_of(values_of(runs, plain("forced_movers"))), 0),
           std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("loops") > 0.0; }))};
 }
@@ -84,7 +85,7 @@ std::vector<std::string> success_row(const ReportedRow& row) {
 ReportTable success_table(const ReportedTables& tables) {
   ReportTable table{"Success",
                     {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run",
-                     "contact-free", "movers made to turn", "runs with a loop"},
+                     "contact-free", "touched while driving", "movers made to turn", "runs with a loop"},
                     {}};
   for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
   return table;
@@ -102,7 +103,8 @@ std::vector<RideFigure> ride_figures() {
           {"time lost, s", time_lost_s, 1},
           {"steering reversals a minute", a_minute("steering_reversals"), 1},
           {"speed reversals a minute", a_minute("speed_reversals"), 1},
-          {"time below 0.1 m/s, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("slow_share"); }, 1},
+          {"stood, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("stood_share"); }, 1},
+          {"detours, m", plain("detour_m"), 1},
           {"largest acceleration, m/s2", plain("accel_max_mps2"), 2},
           {"jerk p99, m/s3", plain("jerk_p99_mps3"), 2},
           {"largest jerk, m/s3", plain("jerk_max_mps3"), 2},

@@ -8,7 +8,7 @@ namespace jaywalk::campaign {
 namespace {
 
 constexpr double kLeastTurn_radps = 0.1, kLeastSpeed_mps = 0.03;  // slower than this it turns, or drives, neither way
-constexpr double kSlow_mps = 0.1;
+constexpr double kStands_mps = 0.05;
 
 /// How often a value larger than `least` is followed, at last, by one of the other sign.
 class Reversals {
@@ -32,14 +32,14 @@ class Reversals {
 Ride ride_of(const std::filesystem::path& robot_csv) {
   CsvRows rows(robot_csv, {"v_mps", "w_radps"});
   Reversals steering(kLeastTurn_radps), speed(kLeastSpeed_mps);
-  double ticks = 0.0, slow = 0.0;
+  double ticks = 0.0, stood = 0.0;
   for (; rows.next(); ++ticks) {
     const double v_mps = rows.number(0);
     steering.add(rows.number(1));
     speed.add(v_mps);
-    if (std::fabs(v_mps) < kSlow_mps) ++slow;
+    if (std::fabs(v_mps) < kStands_mps) ++stood;
   }
-  return {steering.count(), speed.count(), ticks > 0.0 ? slow / ticks : 0.0};
+  return {steering.count(), speed.count(), ticks > 0.0 ? stood / ticks : 0.0};
 }
 
 }  // namespace jaywalk::campaign

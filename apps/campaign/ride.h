@@ -7,7 +7,7 @@ namespace jaywalk::campaign {
 struct Ride {
   double steering_reversals = 0.0;  ///< how often the robot turned one way, and then the other
   double speed_reversals = 0.0;     ///< how often it drove one way, and then the other
-  double slow_share = 0.0;          ///< of its ticks: slower than 0.1 m/s
+  double stood_share = 0.0;         ///< of its ticks: slower than 0.05 m/s
 };
 
 /// Throws StartupError where there is no such table.

@@ -20,7 +20,7 @@ constexpr std::array kFigures{"path_length_m",   "static_shortest_path_m", "dura
                               "min_clearance_m", "min_mover_clearance_m",  "forced_movers",
                               "contacts",        "contacts_caused",        "max_turn_deg",
                               "loops",           "accel_max_mps2",         "jerk_p99_mps3",
-                              "jerk_max_mps3",   "granted_share"};
+                              "jerk_max_mps3",   "granted_share",          "detour_m"};
 
 /// The program's last error line, without the path of the run's folder: that path differs between shards.
 std::string last_words(const std::filesystem::path& folder) {
@@ -49,7 +49,7 @@ void add_figures(const Json& summary, const std::filesystem::path& folder, RunRe
   const Ride ride = ride_of(folder / "robot.csv");
   result.figures["steering_reversals"] = ride.steering_reversals;
   result.figures["speed_reversals"] = ride.speed_reversals;
-  result.figures["slow_share"] = ride.slow_share;
+  result.figures["stood_share"] = ride.stood_share;
 }
 
 }  // namespace

@@ -1,33 +1,48 @@
 #include "apps/report/loop_count.h"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 namespace jaywalk {
+namespace {
 
-void LoopCount::add(double t_s, const Pose2& pose, Vec2 goal, double to_go_s) {
+constexpr double kLoop_rad = 340.0 / 180.0 * kPi;
+
+}  // namespace
+
+void LoopCount::Window::add(double at, double t_s, double turned_rad) {
+  if (pieces_.empty() || at - pieces_.back().at > piece_) pieces_.push_back({at, turned_rad, turned_rad, t_s, t_s});
+  Piece& newest = pieces_.back();
+  if (turned_rad <= newest.least_rad) newest.least_rad = turned_rad, newest.least_s = t_s;
+  if (turned_rad >= newest.most_rad) newest.most_rad = turned_rad, newest.most_s = t_s;
+  while (at - pieces_.front().at > span_) pieces_.pop_front();
+}
+
+double LoopCount::Window::loop_since_s(double turned_rad) const {
+  for (auto piece = pieces_.rbegin(); piece != pieces_.rend(); ++piece) {
+    if (turned_rad - piece->least_rad >= kLoop_rad) return piece->least_s;
+    if (piece->most_rad - turned_rad >= kLoop_rad) return piece->most_s;
+  }
+  return std::numeric_limits<double>::quiet_NaN();
+}
+
+void LoopCount::add(double t_s, const Pose2& pose, Vec2 goal) {
+  if (!begun_ || !(goal == goal_)) by_way_.clear(), by_time_.clear();
   if (begun_) {
     way_m_ += distance(last_.position(), pose.position());
     turned_rad_ += wrap_angle(pose.heading - last_.heading);
   }
-  const bool is_new = !begun_ || !(goal == goal_);
   begun_ = true, last_ = pose, goal_ = goal;
-  if (is_new || to_go_s < least_to_go_s_ - kGetsOn_s) {
-    least_to_go_s_ = to_go_s;
-    begin_at(way_m_);
+  by_way_.add(way_m_, t_s, turned_rad_);
+  by_time_.add(t_s, t_s, turned_rad_);
+  for (Window* const window : {&by_way_, &by_time_}) {
+    const double since_s = window->loop_since_s(turned_rad_);
+    if (std::isnan(since_s)) continue;
+    loops_.push_back({since_s, t_s});
+    by_way_.clear(), by_time_.clear();
+    return;
   }
-  if (way_m_ - pieces_.back().way_m > kPiece_m) pieces_.push_back({way_m_, turned_rad_, turned_rad_});
-  Piece& newest = pieces_.back();
-  newest.least_rad = std::min(newest.least_rad, turned_rad_);
-  newest.most_rad = std::max(newest.most_rad, turned_rad_);
-  while (way_m_ - pieces_.front().way_m > kWithin_m) pieces_.pop_front();
-  const auto closes = [&](const Piece& piece) {
-    return std::max(turned_rad_ - piece.least_rad, piece.most_rad - turned_rad_) >= 2.0 * kPi;
-  };
-  if (std::none_of(pieces_.begin(), pieces_.end(), closes)) return;
-  loops_at_s_.push_back(t_s);
-  begin_at(way_m_);
 }
-
-void LoopCount::begin_at(double way_m) { pieces_.assign(1, {way_m, turned_rad_, turned_rad_}); }
 
 }  // namespace jaywalk

@@ -1,38 +1,49 @@
 #pragma once
-// Loops: full turns on little way that brought the robot no nearer to its goal.
+// Loops: full turns of the robot on little way or in little time, and the stretches of a run they take.
 #include <deque>
-#include <limits>
 #include <vector>
 
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
 
-/// A loop is a turn by 2 pi, net, within 6 m of way during which the time to go was never less than before.
+/// A stretch of a run.
+struct Episode {
+  double from_s = 0.0, to_s = 0.0;
+};
+
+/// A loop is a net turn by 340 degrees within 10 m of way, or within 60 s, whatever the plan was meanwhile.
 class LoopCount {
  public:
-  /// `to_go_s`: at the controller's plan, from here; infinite where no way is known.
-  void add(double t_s, const Pose2& pose, Vec2 goal, double to_go_s);
-  /// When each was complete, s.
-  [[nodiscard]] const std::vector<double>& loops_at_s() const { return loops_at_s_; }
+  /// A new goal begins anew: a turn back to another goal is none.
+  void add(double t_s, const Pose2& pose, Vec2 goal);
+  [[nodiscard]] const std::vector<Episode>& loops() const { return loops_; }
 
  private:
-  static constexpr double kWithin_m = 6.0, kPiece_m = 0.05;
-  static constexpr double kGetsOn_s = 0.5;  ///< a fall of the least time to go that is more than noise
+  /// How far the robot was turned during the last `span` of a quantity that only grows.
+  class Window {
+   public:
+    Window(double span, double piece) : span_(span), piece_(piece) {}
+    void clear() { pieces_.clear(); }
+    void add(double at, double t_s, double turned_rad);
+    /// The last moment since which the robot has turned by a loop; NaN: there is none.
+    [[nodiscard]] double loop_since_s(double turned_rad) const;
 
-  /// A piece of the way, and how far the robot was turned there, at least and at most.
-  struct Piece {
-    double way_m, least_rad, most_rad;
+   private:
+    /// Turns while the quantity grew by `piece_`: at the least and at the most, and when these were.
+    struct Piece {
+      double at, least_rad, most_rad, least_s, most_s;
+    };
+    double span_, piece_;
+    std::deque<Piece> pieces_;
   };
-  void begin_at(double way_m);
 
   bool begun_ = false;
   Pose2 last_;
   Vec2 goal_;
   double way_m_ = 0.0, turned_rad_ = 0.0;
-  double least_to_go_s_ = std::numeric_limits<double>::infinity();
-  std::deque<Piece> pieces_;  ///< since the least time to go was reached, kWithin_m at most
-  std::vector<double> loops_at_s_;
+  Window by_way_{10.0, 0.05}, by_time_{60.0, 0.2};
+  std::vector<Episode> loops_;
 };
 
 }  // namespace jaywalk

@@ -54,6 +54,22 @@ std::vector<std::string> all_complaints(std::vector<std::string> some, const std
   return some;
 }
 
+/// When each began, and how long it took.
+void add_times(Json& j, const std::string& of, const std::vector<Episode>& episodes) {
+  Json at = Json::array(), lasted = Json::array();
+  for (const Episode& episode : episodes) at.push_back(episode.from_s), lasted.push_back(episode.to_s - episode.from_s);
+  j[of + "_at_s"] = at, j[of + "_for_s"] = lasted;
+}
+
+/// At full speed; infinite where no way is known.
+double way_to_go_m(const ControlLoop& loop, Vec2 here) {
+  const Guide& guide = loop.plan().guide;
+  const float to_go_s =
+      guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
+  return to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) * loop.setup().model.limits.max_speed_mps
+                                   : std::numeric_limits<double>::infinity();
+}
+
 }  // namespace
 
 RunReport::RunReport(const std::filesystem::path& folder, const std::filesystem::path& tables)
@@ -113,14 +129,13 @@ void RunReport::add_plan(const PlanTook& took) {
 void RunReport::add_way(const Pose2& pose, const RunSample& sample) {
   shape_.add(pose.position());
   driven_.add(sample.record.now, pose);
-  if (sample.loop == nullptr || !sample.record.input.has_goal) return;
-  const Vec2 here = sample.record.pose.map_from_robot.position();
-  const Guide& guide = sample.loop->plan().guide;
-  const float to_go_s =
-      guide.known() ? guide.time_to_go(static_cast<float>(here.x), static_cast<float>(here.y)) : Guide::kNoWay_s;
-  if (!loops_) loops_.emplace();
-  loops_->add(to_seconds(sample.record.now - first_), pose, sample.record.input.goal_in_map,
-              to_go_s < Guide::kNoWay_s ? static_cast<double>(to_go_s) : std::numeric_limits<double>::infinity());
+  if (!sample.record.input.has_goal) return;
+  const double t_s = to_seconds(sample.now);
+  const Vec2 goal = sample.record.input.goal_in_map;
+  loops_.add(t_s, pose, goal);
+  if (sample.loop == nullptr) return;
+  if (!detours_) detours_.emplace();
+  detours_->add(t_s, pose.position(), goal, way_to_go_m(*sample.loop, sample.record.pose.map_from_robot.position()));
 }
 
 void RunReport::add_truth(const TrueState& truth, Time now) {
@@ -178,8 +193,10 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;
-  j["loops"] = known(loops_.has_value(), loops_ ? loops_->loops_at_s().size() : 0U);
-  j["loops_at_s"] = loops_ ? loops_->loops_at_s() : std::vector<double>{};
+  j["loops"] = loops_.loops().size();
+  add_times(j, "loops", loops_.loops());
+  j["detour_m"] = known(detours_.has_value(), detours_ ? detours_->detour_m() : 0.0);
+  add_times(j, "detours", detours_ ? detours_->detours() : std::vector<Episode>{});
   j["accel_max_mps2"] = smoothness_.accel_max_mps2();
   j["jerk_p99_mps3"] = smoothness_.jerk_quantile_mps3(0.99);
   j["jerk_max_mps3"] = smoothness_.jerk_quantile_mps3(1.0);

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/report/detour_count.h"
 #include "apps/report/disk_reserve.h"
 #include "apps/report/distribution.h"
 #include "apps/report/drive_metrics.h"
@@ -72,7 +73,8 @@ class RunReport {
   DrivenWay driven_;
   TrailBook movers_, tracks_;
   GrantedShare granted_;
-  std::optional<LoopCount> loops_;  ///< where the loop's own thread reports
+  LoopCount loops_;
+  std::optional<DetourCount> detours_;  ///< where the loop's own thread reports
   std::uint64_t ticks_ = 0;
   Time first_ = kNever, last_ = kNever;
   bool has_truth_ = false;

@@ -9,7 +9,8 @@
 #include <vector>
 
 #include "apps/report/csv_rows.h"
-#include "apps/report/waits.h"
+#include "apps/report/loop_count.h"
+#include "apps/report/moments.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"
@@ -17,19 +18,28 @@
 namespace jaywalk {
 namespace {
 
+constexpr double kStands_mps = 0.05;  ///< as contacts that the robot causes (CONTRACT.md)
+
 struct RunRow {
   double t_s = 0.0;
   Pose2 map_from_robot;  ///< as the controller believed
-  bool stands = false;   ///< both wheels' commands are zero
+  bool stands = false;   ///< neither wheel is to roll at kStands_mps
   std::vector<std::string> reasons;
 };
 
+/// Whether the faster wheel is to roll slower than kStands_mps: the robot's speed is that of the wheels' mean.
+bool stands(double permitted_mps, double left_radps, double right_radps) {
+  if (left_radps == 0.0 && right_radps == 0.0) return true;
+  const double faster = std::max(std::fabs(left_radps), std::fabs(right_radps));
+  return std::fabs(permitted_mps) * faster < kStands_mps * std::fabs(0.5 * (left_radps + right_radps));
+}
+
 /// Of the columns that run_words() reads.
 RunRow row_of(const CsvRows& rows) {
-  const std::string& reasons = rows.text(6);
+  const std::string& reasons = rows.text(7);
   return {rows.number(0),
           {rows.number(1), rows.number(2), rows.number(3)},
-          rows.number(4) == 0.0 && rows.number(5) == 0.0,
+          stands(rows.number(4), rows.number(5), rows.number(6)),
           reasons.empty() ? std::vector<std::string>() : parts_between(reasons, '|')};
 }
 
@@ -49,6 +59,7 @@ constexpr std::array<Cause, 7> kCauses{{{"latched", "a fault waited for a reset"
 constexpr const char* kOwnWish = "it gave way or waited by its own choice";
 /// Shorter rests are changes of direction.
 constexpr double kShortestStop_s = 0.5;
+constexpr double kLeastWait_s = 3.0;  ///< of a stop that is told by itself
 /// Reasons that are limits, or say only that a fault is latched.
 constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",      "unwatched",
                                "no_goal",   "touched",    "turn_blocked", "not_recorded", "speed_zone"};
@@ -66,10 +77,37 @@ std::string cause_of(const RunRow& row) {
   return kOwnWish;
 }
 
+/// A kind of episode that the summary lists, and what it is called.
+struct Told {
+  const char* key;
+  const char* title;
+};
+constexpr std::array<Told, 2> kTold{{{"loops", "Full turns within 10 m of way or 60 s:"},
+                                     {"detours", "Way of which more than a third brought it no nearer:"}}};
+
+std::vector<double> numbers_of(const nlohmann::json& summary, const std::string& key) {
+  std::vector<double> numbers;
+  if (!summary.is_object() || !summary.contains(key) || !summary[key].is_array()) return numbers;
+  for (const auto& number : summary[key]) numbers.push_back(number.is_number() ? number.get<double>() : 0.0);
+  return numbers;
+}
+
+std::vector<Episode> episodes_of(const nlohmann::json& summary, const std::string& key) {
+  const std::vector<double> at_s = numbers_of(summary, key + "_at_s"), for_s = numbers_of(summary, key + "_for_s");
+  std::vector<Episode> episodes;
+  for (std::size_t k = 0; k < std::min(at_s.size(), for_s.size()); ++k)
+    episodes.push_back({at_s[k], at_s[k] + for_s[k]});
+  return episodes;
+}
+
 /// Everything that the words say, gathered row by row.
 class Day {
  public:
+  explicit Day(const nlohmann::json& summary) {
+    for (std::size_t k = 0; k < kTold.size(); ++k) episodes_[k] = episodes_of(summary, kTold[k].key);
+  }
   void add(const RunRow& row) {
+    place_episodes(row);
     if (rows_ > 0) lived(row);
     if (rows_ == 0) begin_s_ = row.t_s;
     note_faults(row);
@@ -77,8 +115,16 @@ class Day {
     ++rows_;
   }
   [[nodiscard]] double lasted_s() const { return before_.t_s - begin_s_; }
-  /// Its last row was added.
-  Waits& waits() { return end_stop(), waits_; }
+  /// Bodies as they were tracked, after the last row.
+  template <class Visit>
+  void note_bodies(const Visit& each_table) {
+    end_stop();
+    if (waits_.any() || told_[0].any() || told_[1].any())
+      each_table([this](auto... body) {
+        waits_.note(body...);
+        for (Moments& told : told_) told.note(body...);
+      });
+  }
   [[nodiscard]] std::string words() {
     end_stop();
     const double drove_s = before_.t_s - begin_s_ - stood_s_;
@@ -87,7 +133,8 @@ class Day {
     text += formatted("; stood %.1f s.\n", stood_s_);
     for (const auto& [cause, stops] : stops_)
       text += formatted("  %7.1f s", stops.seconds) + ", " + often(stops.times) + ": " + cause + "\n";
-    text += waits_.words();
+    text += waits_.words("Its longest waits:");
+    for (std::size_t k = 0; k < kTold.size(); ++k) text += told_[k].words(kTold[k].title);
     if (faults_.empty()) return text + "Faults: none.\n";
     text += "Faults:\n";
     for (const auto& [fault, times] : faults_) text += "  " + fault + ", " + often(times) + "\n";
@@ -114,8 +161,8 @@ class Day {
     for (const auto& [cause, seconds] : in_stop_) whole_s += seconds;
     const auto main = std::max_element(in_stop_.begin(), in_stop_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (main != in_stop_.end() && main->first != kNoGoal)
-      waits_.add(stopped_.t_s, whole_s, stopped_.map_from_robot, main->first);
+    if (main != in_stop_.end() && main->first != kNoGoal && whole_s >= kLeastWait_s)
+      waits_.add(stopped_.t_s, whole_s, stopped_.map_from_robot.position(), main->first);
     if (whole_s >= kShortestStop_s) {
       stood_s_ += whole_s;
       for (const auto& [cause, seconds] : in_stop_) {
@@ -124,6 +171,16 @@ class Day {
       }
     }
     in_stop_.clear();
+  }
+  /// An episode is where the robot was in its middle.
+  void place_episodes(const RunRow& row) {
+    for (std::size_t k = 0; k < kTold.size(); ++k) {
+      for (; placed_[k] < episodes_[k].size(); ++placed_[k]) {
+        const Episode& episode = episodes_[k][placed_[k]];
+        if (row.t_s < 0.5 * (episode.from_s + episode.to_s)) break;
+        told_[k].add(episode.from_s, episode.to_s - episode.from_s, row.map_from_robot.position(), "");
+      }
+    }
   }
   void note_faults(const RunRow& row) {
     for (const std::string& reason : row.reasons) {
@@ -134,7 +191,10 @@ class Day {
 
   std::size_t rows_ = 0;
   RunRow before_, stopped_;
-  Waits waits_;
+  Moments waits_;
+  std::array<std::vector<Episode>, kTold.size()> episodes_;
+  std::array<std::size_t, kTold.size()> placed_{};  ///< so many of them
+  std::array<Moments, kTold.size()> told_;
   double begin_s_ = 0.0, way_m_ = 0.0, stood_s_ = 0.0;
   std::map<std::string, double> in_stop_;  ///< seconds of the stop that goes on, by cause
   std::map<std::string, Stops> stops_;
@@ -168,15 +228,6 @@ std::string steering_of(const nlohmann::json& summary) {
          formatted("; %.0f %% of what the stick asked for was granted.\n", 100.0 * number("granted_share"));
 }
 
-/// When it drove loops; nothing where it drove none.
-std::string loops_of(const nlohmann::json& summary) {
-  if (!summary.is_object() || !summary.contains("loops_at_s") || !summary["loops_at_s"].is_array()) return "";
-  std::string times;
-  for (const auto& at : summary["loops_at_s"])
-    if (at.is_number()) times += formatted(times.empty() ? "%.1f" : ", %.1f", at.get<double>());
-  return times.empty() ? "" : "Full turns within 6 m of way that brought it no nearer, at " + times + " s.\n";
-}
-
 /// What can no longer be told, where the oldest parts of a run are gone.
 std::string gone_of(int parts, const Day& day) {
   if (parts == 0) return "";
@@ -184,29 +235,32 @@ std::string gone_of(int parts, const Day& day) {
          formatted(" %.1f s.\n", day.lasted_s());
 }
 
-void note_tracks(const std::filesystem::path& table, Waits& waits) {
+template <class Note>
+void note_tracks(const std::filesystem::path& table, const Note& note) {
   CsvRows rows(table, {"t_s", "id", "x_m", "y_m", "vx_mps", "vy_mps"});
   while (rows.next())
-    waits.note(rows.number(0), static_cast<unsigned>(rows.number(1)), {rows.number(2), rows.number(3)},
-               {rows.number(4), rows.number(5)});
+    note(rows.number(0), static_cast<unsigned>(rows.number(1)), Vec2{rows.number(2), rows.number(3)},
+         Vec2{rows.number(4), rows.number(5)});
 }
 
 }  // namespace
 
 std::string run_words(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> parts = parts_of(folder);
-  Day day;
+  const nlohmann::json summary = summary_of(folder);
+  Day day(summary);
   for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts) {
     if (!parts.empty() && place == parts.back() && has_nothing(place / "robot.csv")) break;
-    CsvRows rows(place / "robot.csv",
-                 {"t_s", "est_x_m", "est_y_m", "est_heading_rad", "left_radps", "right_radps", "reasons"});
+    CsvRows rows(place / "robot.csv", {"t_s", "est_x_m", "est_y_m", "est_heading_rad", "permitted_v_mps", "left_radps",
+                                       "right_radps", "reasons"});
     while (rows.next()) day.add(row_of(rows));
   }
-  for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts)
-    if (day.waits().any() && !has_nothing(place / "tracks.csv")) note_tracks(place / "tracks.csv", day.waits());
-  const nlohmann::json summary = summary_of(folder);
+  day.note_bodies([&](const auto& note) {
+    for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts)
+      if (!has_nothing(place / "tracks.csv")) note_tracks(place / "tracks.csv", note);
+  });
   const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;
-  return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() + loops_of(summary) +
+  return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() +
          (before > 0 && !steering_of(summary).empty() ? "Of the whole run: " : "") + steering_of(summary);
 }
 

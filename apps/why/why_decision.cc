@@ -63,6 +63,8 @@ std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
       return {"wish", "drive as the stick asks"};
     case Proposal::kGoStraight:
       return {"go_straight", "turn and drive straight on"};
+    case Proposal::kBrake:
+      return {"brake", "brake as hard as it can"};
   }
   return {"unknown", "do something unknown"};
 }

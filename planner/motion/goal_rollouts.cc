@@ -80,16 +80,15 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   Situation situation = this->situation(guide, poses);
   note_progress(situation, world.now);
   situation.stall = decision_.stall = stall_;
-  best_cost_ = {.time = 1e9F};
-  float to_beat = 1e9F;
+  best_cost_ = {.time = 1e9F, .hit_share = 1.0F};
+  Cost to_beat = best_cost_;
   decision_.went_on = holds(world.now);
   if (decision_.went_on) {
     decision_.last = best_ = shifted(decided(), static_cast<float>(to_seconds(world.now - decision_.at)));
-    best_cost_ = trajectory_cost(situation, best_, 1e9F);
-    to_beat = best_cost_.total();
+    to_beat = best_cost_ = trajectory_cost(situation, best_, 1e9F);
   }
   search(situation);
-  if (best_cost_.total() > to_beat - kLeastGain) best_ = decision_.last;
+  if (decision_.went_on && !best_cost_.is_better_than(to_beat, kLeastGain)) best_ = decision_.last;
   decision_.trajectory = best_;
   decision_.cost = trajectory_cost(situation, best_, 1e9F, decision_.driven.data());
 }
@@ -114,8 +113,8 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
 
 void GoalRollouts::search(const Situation& situation) noexcept {
   try_all(situation, setup_.constant_speed, decision_.number, best_, trial_, [&](const Trajectory& trial) {
-    const Cost cost = trajectory_cost(situation, trial, best_cost_.total());
-    if (cost.total() < best_cost_.total()) best_ = trial, best_cost_ = cost;
+    const Cost cost = trajectory_cost(situation, trial, best_cost_.is_safe() ? best_cost_.total() : 1e9F);
+    if (cost.is_better_than(best_cost_)) best_ = trial, best_cost_ = cost;
   });
 }
 
@@ -123,17 +122,17 @@ std::vector<Alternative> GoalRollouts::alternatives(const Plan& plan) const {
   const Situation situation = this->situation(plan.guide, plan.poses);
   std::vector<Alternative> all;
   Trajectory best, trial;
-  float least = 1e9F;
+  Cost least{.time = 1e9F, .hit_share = 1.0F};
   const auto look = [&](const Trajectory& trajectory) {
     Alternative a{trajectory, {}, {}};
     a.cost = trajectory_cost(situation, trajectory, 1e9F, a.driven.data());
-    if (a.cost.total() < least) least = a.cost.total(), best = trajectory;
+    if (a.cost.is_better_than(least)) least = a.cost, best = trajectory;
     all.push_back(a);
   };
   if (decision_.went_on) look(decision_.last);
   try_all(situation, setup_.constant_speed, decision_.number, best, trial, look);
   std::stable_sort(all.begin(), all.end(),
-                   [](const Alternative& a, const Alternative& b) { return a.cost.total() < b.cost.total(); });
+                   [](const Alternative& a, const Alternative& b) { return a.cost.is_better_than(b.cost); });
   return all;
 }
 

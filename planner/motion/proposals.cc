@@ -25,7 +25,10 @@ constexpr int kFollows = static_cast<int>(kFollowShares.size());
 constexpr int kArcs = static_cast<int>(kForward.size() + kBack.size()) * kTurnCount;
 constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) * kTurnCount;
 constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
-constexpr int kStraights = 12;  ///< directions, all round
+constexpr int kStraights = 12;                        ///< directions, all round
+constexpr int kBrakes = 6;                            ///< now: for 0.8 to 4 s before it follows, and for good
+constexpr std::array<int, 3> kBrakesAfter{3, 6, 10};  ///< steps of following before it brakes for good
+constexpr int kAllBrakes = kBrakes + static_cast<int>(kBrakesAfter.size());
 
 constexpr int kSteerEvery = 3;     ///< steps
 constexpr int kSteerWayEvery = 2;  ///< the same, along a way of poses
@@ -82,7 +85,7 @@ float at(const std::array<float, kTurns.size()>& values, int k) { return values[
 
 int TrajectoryProposals::count() const {
   return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
-                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights;
+                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights + kAllBrakes;
 }
 
 void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
@@ -114,7 +117,22 @@ void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
   if (n < kArcs) return arc(n, out);
   n -= kArcs;
   if (n < kBentForward + kBentBack) return arc_then_follow(n, out);
-  go_straight(n - kBentForward - kBentBack, out);
+  n -= kBentForward + kBentBack;
+  n < kStraights ? go_straight(n, out) : brake(n - kStraights, out);
+}
+
+void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
+  constexpr Command kStop{0.0F, 0.0F, true};
+  out.proposal = Proposal::kBrake;
+  RobotState robot = s_.start;
+  if (n >= kBrakes) {
+    follow_from(robot, 0, s_.body.bounds.speed, out);
+    const int after = kBrakesAfter[static_cast<std::size_t>(n - kBrakes)];
+    return std::fill(out.commands.begin() + after, out.commands.end(), kStop);
+  }
+  const int wait = n == 0 ? kSteps : 8 * n;
+  drive_out(robot, 0, wait, kStop, out);
+  if (wait < kSteps) follow_from(robot, wait, s_.body.bounds.speed, out);
 }
 
 void TrajectoryProposals::arc(int n, Trajectory& out) const noexcept {
@@ -229,8 +247,9 @@ void TrajectoryProposals::perturb(const Trajectory& base, std::uint32_t decision
     v += 0.3F * (v_goal - v);
     w += 0.3F * (w_goal - w);
     const Command& c = base.commands[static_cast<std::size_t>(step)];
-    out.commands[static_cast<std::size_t>(step)] = {
-        constant_ > 0.0F ? constant_ : std::clamp(c.v + v, -b.back, b.speed), std::clamp(c.w + w, -b.turn, b.turn)};
+    const float to = c.brakes ? c.v : std::clamp(c.v + v, -b.back, b.speed);  // a brake that is half on is none
+    out.commands[static_cast<std::size_t>(step)] = {constant_ > 0.0F ? constant_ : to,
+                                                    std::clamp(c.w + w, -b.turn, b.turn), c.brakes};
   }
 }
 
@@ -257,7 +276,7 @@ Trajectory shifted(const Trajectory& trajectory, float by_s) noexcept {
     const std::size_t j = std::min(i + 1, old.size() - 1);
     const float share = at - static_cast<float>(static_cast<int>(at));
     out.commands[static_cast<std::size_t>(k)] = {old[i].v + share * (old[j].v - old[i].v),
-                                                 old[i].w + share * (old[j].w - old[i].w)};
+                                                 old[i].w + share * (old[j].w - old[i].w), old[i].brakes};
   }
   out.proposal = Proposal::kLast;
   return out;

@@ -25,6 +25,7 @@ class TrajectoryProposals {
   void arc(int number, Trajectory& out) const noexcept;
   void arc_then_follow(int number, Trajectory& out) const noexcept;
   void go_straight(int number, Trajectory& out) const noexcept;
+  void brake(int number, Trajectory& out) const noexcept;
   [[nodiscard]] Command permitted(const Command& command) const noexcept;
   [[nodiscard]] Command pursuit(const RobotState& robot, float speed) const noexcept;
   [[nodiscard]] Command towards(float error_rad, float speed) const noexcept;

@@ -46,7 +46,8 @@ RobotBody robot_body(const Footprint& f, const MotionLimits& l, const OfEach<Las
                  .turn_accel = at_most(l.max_turn_accel_radps2, kMostTurnAccel),
                  .accel = static_cast<float>(l.max_accel_mps2),
                  .slowing = std::max(static_cast<float>(l.max_accel_mps2), at_most(l.brake_mps2, kSlowing)),
-                 .jerk = at_most(l.max_jerk_mps3, kMostJerk)};
+                 .jerk = at_most(l.max_jerk_mps3, kMostJerk),
+                 .brake = static_cast<float>(l.brake_mps2)};
   limit_speed_of(body.bounds, l, l.max_speed_mps);
   return body;
 }

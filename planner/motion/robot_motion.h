@@ -13,16 +13,19 @@ struct MotionBounds {
   float turn = 0.0F, turn_accel = 0.0F;
   float accel = 0.0F, slowing = 0.0F;
   float jerk = 0.0F;
+  float brake = 0.0F;  ///< as hard as the drives are proved to, without a limit of jerk
 };
 
 /// Where the robot is and how it moves, in the map.
 struct RobotState {
   float x = 0.0F, y = 0.0F, heading = 0.0F;
   float v = 0.0F, w = 0.0F, accel = 0.0F;
+  float braked = 0.0F;  ///< m/s2 that the brake took last, beside `accel`
 };
 
 struct Command {
   float v = 0.0F, w = 0.0F;
+  bool brakes = false;  ///< where it slows down: as hard as it can
 };
 
 /// The same arc, within the bounds' speeds.
@@ -30,7 +33,7 @@ JAYWALK_CELL Command within(const MotionBounds& bounds, const Command& command) 
   const float most = command.v < 0.0F ? bounds.back : bounds.speed, size = std::fabs(command.v);
   if (size <= most) return command;
   const float share = most / size;
-  return {command.v * share, command.w * share};
+  return {command.v * share, command.w * share, command.brakes};
 }
 
 /// The side (1: left, -1: right) that a robot turns to at `w` rad/s; `last` while it turns to neither.
@@ -51,13 +54,9 @@ struct StallState {
   }
 };
 
-/// `dt` seconds on the way to a command: the speed with bounded acceleration and jerk (the acceleration never exceeds
-/// what jerk takes back to zero in the speed left), the turn with bounded acceleration. A command that stays is not
-/// overshot; one that comes while the robot speeds up past it is. To go the other way the speed comes to rest first.
-/// The arc is taken at its middle heading.
-JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
-  RobotState s = from;
-  const float target = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
+/// The speed of `s`, `dt` seconds on the way to `target`, with bounded acceleration and jerk: the acceleration never
+/// exceeds what jerk takes back to zero in the speed left.
+JAYWALK_CELL void change_speed(RobotState& s, float target, const MotionBounds& bounds, float dt) {
   const float left = target - s.v, size = std::fabs(left);
   const bool slows = std::fabs(target) < std::fabs(s.v);
   const float step = bounds.jerk * dt;
@@ -71,6 +70,27 @@ JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const M
   const bool passed = left > 0.0F ? s.v > target : s.v < target;
   const bool lands = std::fabs(s.accel) <= 1.01F * step;
   if ((passed && lands) || std::fabs(target - s.v) < 1e-6F) s.v = target;
+}
+
+/// The speed of `s`, `dt` seconds of braking to `target` later: the brake bites and is let go at once.
+JAYWALK_CELL void brake_speed(RobotState& s, float target, const MotionBounds& bounds, float dt) {
+  const float left = target - s.v, most = bounds.brake * dt;
+  s.braked = (std::fabs(left) < most ? std::fabs(left) : most) / dt;
+  s.v = std::fabs(left) > most ? s.v + (left < 0.0F ? -most : most) : target;
+  s.accel = 0.0F;
+}
+
+/// `dt` seconds on the way to a command: the speed by change_speed() or brake_speed(), the turn with bounded
+/// acceleration. A command that stays is not overshot; one that comes while the robot speeds up past it is, unless it
+/// brakes. To go the other way the speed comes to rest first. The arc is taken at its middle heading.
+JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
+  RobotState s = from;
+  const float target = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
+  s.braked = 0.0F;
+  if (to.brakes && std::fabs(target) < std::fabs(s.v))
+    brake_speed(s, target, bounds, dt);
+  else
+    change_speed(s, target, bounds, dt);
   const float turn_step = bounds.turn_accel * dt, turn_left = to.w - s.w;
   s.w += turn_left > turn_step ? turn_step : turn_left < -turn_step ? -turn_step : turn_left;
   const cell::Heading middle = cell::heading_at(s.heading + 0.5F * s.w * dt);

@@ -53,6 +53,7 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), ground, decision_.number);
   decision_.start = start_in(world, body_.bounds);
   decision_.start.accel = accel_;
+  decision_.start.braked = braked_;
   place_unseen_walls(world);
   returns_.update(scans, decision_.start, body_, memory_.masked(), {unseen_walls_.begin(), unseen_walls_.size()});
   choose(world, ground);
@@ -77,9 +78,10 @@ Command RolloutMotion::command_at(Time now) const noexcept {
 
 Twist2 RolloutMotion::command(const World& world, const Intent& intent) noexcept {
   const Command was{static_cast<float>(world.driven.v_mps), static_cast<float>(world.driven.w_radps)};
-  if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = 0.0F;  // the supervisor or another motion has set the speed
+  if (std::fabs(was.v - commanded_.v) > 1e-4F) accel_ = braked_ = 0.0F;  // the supervisor or another motion has set it
   const Next next = this->next(world, intent, {0.0F, 0.0F, 0.0F, was.v, was.w, accel_});
   accel_ = next.robot.accel;
+  braked_ = next.robot.braked;
   commanded_ = {next.robot.v, next.robot.w};
   if (next.rests && std::fabs(commanded_.v) < 1e-6F && std::fabs(commanded_.w) < 1e-6F) commanded_ = {};
   return {static_cast<double>(commanded_.v), static_cast<double>(commanded_.w)};

@@ -84,7 +84,7 @@ class RolloutMotion : public Motion {
   MoverHistory memory_;
   FixedVector<Vec2, kMaxUnseenWalls> unseen_walls_;  ///< World's, in the map
   Command commanded_;                                ///< last
-  float accel_ = 0.0F;                               ///< of the ramp
+  float accel_ = 0.0F, braked_ = 0.0F;               ///< of the ramp, and of the brake
 };
 
 }  // namespace jaywalk::motion

@@ -14,6 +14,9 @@ inline constexpr float kLagS = 0.05F;                                  ///< from
 inline constexpr Duration kHoldsFor = std::chrono::milliseconds(500);  ///< without a new decision; then it stops
 inline constexpr float kRestsMps = 0.02F;                              ///< below this speed the robot is at rest
 
+inline constexpr float kSafeForS = 2.0F;    ///< ahead: who is touched later is decided on again in time
+inline constexpr float kSafeShare = 0.07F;  ///< of the futures: two of 32 may touch
+
 /// What a trajectory proposes. Recorded by number: new ones at the end.
 enum class Proposal : std::uint8_t {
   kLast,    ///< the one decided on before, as far as it is not driven yet
@@ -26,6 +29,7 @@ enum class Proposal : std::uint8_t {
   kBackThenFollow,
   kStick,       ///< what a stick asks for, or nearly
   kGoStraight,  ///< turns to one of twelve headings and drives straight on
+  kBrake,       ///< as hard as it can, now or soon, for good or for a while
 };
 
 /// Timed commands; what comes of them is up to robot_motion.h.
@@ -45,8 +49,15 @@ struct Cost {
   float unseen = 0.0F;     ///< parts of the body where nothing was ever seen
   float nearness = 0.0F;   ///< near movers
   float comfort = 0.0F;    ///< changes of speed and of turning, and of the side it turns to
+  float hit_share = 0.0F;  ///< of the futures: the robot touches a mover within kSafeForS, itself moving. No price
   [[nodiscard]] float total() const {
     return time + conflict + touch + stop_zone + clearance + unseen + nearness + comfort;
+  }
+  /// Passive safety (SAFETY 32): it comes to rest before it touches anybody, in nearly all futures.
+  [[nodiscard]] bool is_safe() const { return hit_share <= kSafeShare; }
+  /// A safe trajectory is better than any other; among equals the price decides.
+  [[nodiscard]] bool is_better_than(const Cost& other, float by_s = 0.0F) const {
+    return is_safe() != other.is_safe() ? is_safe() : total() < other.total() - by_s;
   }
 };
 

@@ -18,7 +18,7 @@ namespace {
 const std::string kSummary =
     R"({"outcome": "OUTCOME", "success": false, "path_length_m": 12.5, "duration_s": 30.0, "contacts": 0,
 "heading_error_rad": null, "turn_histogram": [9,1,0,0,0,0,0,0,0,0,0,0,0,0,0,0,0,2]})";
-// v: forward, 0 (neither), back, forward: two reversals; w: one; a quarter... three of four rows below 0.1 m/s
+// v: forward, 0 (neither), back, forward: two reversals; w: one; two of four rows below 0.05 m/s
 const std::string kRobot =
     "t_s,x_m,y_m,v_mps,w_radps,reasons\n0.0,1,1,0.5,0.2,\n1.0,1.5,1,0.01,-0.3,\n2.0,1.5,1,-0.05,-0.2,latched|drive_"
     "fault\n"
@@ -79,7 +79,7 @@ TEST_CASE("how a passenger is driven is counted") {
   const RunResult result = Folder("timeout").result();
   CHECK(result.figure("speed_reversals") == 2.0);
   CHECK(result.figure("steering_reversals") == 1.0);
-  CHECK(result.figure("slow_share") == 0.75);
+  CHECK(result.figure("stood_share") == 0.5);
   CHECK(result.figure("path_length_m") == 12.5);
   CHECK(std::isnan(result.figure("jerk_p99_mps3")));
 }

@@ -1,6 +1,7 @@
 // Decisions: in worlds small enough to say what is right.
 #include "planner/motion/goal_rollouts.h"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -141,6 +142,37 @@ TEST_CASE("somebody who crosses is neither touched nor made to turn") {
   drive.mover = {2.0, -1.9}, drive.walks = {0.0, 0.5};
   CHECK(drive.run(25.0) > 0.0);
   CHECK(drive.least_m > 0.27 + 0.3);
+}
+
+TEST_CASE("a wheelchair at 0.6 m/s is at rest before somebody who crosses 1.5 m ahead touches it") {
+  for (const double walks_mps : {0.8, 1.0, 1.2, 1.4})
+    for (const double late_s : {0.0, 0.3, 0.6}) {
+      test::Guided ground;
+      tests::Moment moment(ground.map());
+      moment.go_to({5.0, 0.0});
+      moment.driven = moment.wanted = {0.6, 0.0};
+      GoalRollouts planner({.model = wheelchair(), .tick_s = kTick});
+      tests::TrackPast past;
+      const Footprint body = wheelchair().footprint;
+      const double touches_s = (1.5 - body.front_m) / 0.6 + late_s;  // its front is there then, if it drives on
+      Vec2 walker{1.5, -walks_mps * touches_s};
+      double touched_at_mps = 0.0;
+      for (int tick = 0; tick < 150; ++tick) {
+        moment.now += duration_from_seconds(kTick);
+        moment.drive(planner, kTick);
+        walker.y += walks_mps * kTick;
+        const Vec2 seen = Transform2(inverse(moment.pose)) * walker;
+        const Vec2 off{std::max({seen.x - body.front_m, -body.rear_m - seen.x, 0.0}),
+                       std::max(std::fabs(seen.y) - body.half_width_m, 0.0)};
+        if (norm(off) < 0.27) touched_at_mps = std::max(touched_at_mps, std::fabs(moment.driven.v_mps));
+        if (tick % 4 != 0) continue;
+        moment.plan.guide = ground.towards(moment.pose.position(), {5.0, 0.0});
+        moment.tracks = {past.of(walker, {0.0, walks_mps}, moment.now)};
+        moment.decide(planner);
+      }
+      CAPTURE(walks_mps, late_s);
+      CHECK(touched_at_mps < 0.05);
+    }
 }
 
 TEST_CASE("somebody who comes head-on is let by") {

@@ -10,8 +10,14 @@ using namespace jaywalk::motion;
 
 namespace {
 
-constexpr MotionBounds kBounds{
-    .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 2.0F};
+constexpr MotionBounds kBounds{.speed = 0.6F,
+                               .back = 0.3F,
+                               .turn = 1.2F,
+                               .turn_accel = 2.0F,
+                               .accel = 0.5F,
+                               .slowing = 0.8F,
+                               .jerk = 2.0F,
+                               .brake = 1.0F};
 
 }  // namespace
 
@@ -44,6 +50,27 @@ TEST_CASE("commands that change under way are followed within acceleration and j
       s.accel = accel;
     }
   }
+}
+
+TEST_CASE("braking as hard as it can takes 1 m/s2 from the first tick on, and is let go at once") {
+  RobotState s{.v = 0.6F, .accel = 0.3F};
+  float way_m = 0.0F;
+  for (int k = 1; k <= 30; ++k) {
+    s = moved(s, {0.0F, 0.0F, true}, kBounds, 0.02F);
+    CHECK(s.v == Approx(0.6F - 0.02F * static_cast<float>(k)).margin(1e-5));
+    CHECK(s.accel == 0.0F);
+    way_m += 0.02F * s.v;
+  }
+  CHECK(s.v == Approx(0.0F).margin(1e-6));
+  CHECK(way_m == Approx(0.174F).margin(0.002));  // 0.36 / 2, and half a tick less
+  CHECK(moved(s, {0.0F, 0.0F, true}, kBounds, 0.02F).v == 0.0F);
+  const RobotState rests = moved(s, {0.0F, 0.0F, true}, kBounds, 0.02F),
+                   on = moved(rests, {0.6F, 0.0F}, kBounds, 0.02F);
+  CHECK(on.v == Approx(2.0F * 0.02F * 0.02F));  // as from rest
+  RobotState slower{.v = 0.6F};
+  for (int k = 0; k < 40; ++k) slower = moved(slower, {0.3F, 0.0F, k < 20}, kBounds, 0.02F);
+  CHECK(slower.v == 0.3F);
+  CHECK(moved({.v = 0.1F}, {0.6F, 0.0F, true}, kBounds, 0.02F).v < 0.11F);  // speeding up is none of its business
 }
 
 TEST_CASE("a turn to neither side keeps the last one") {

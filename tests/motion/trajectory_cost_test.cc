@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "planner/motion/proposals.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
 
@@ -25,7 +26,8 @@ RobotBody body_of(float full_speed) {
                  .turn_accel = 2.0F,
                  .accel = 0.5F,
                  .slowing = 0.8F,
-                 .jerk = 0.75F};
+                 .jerk = 0.75F,
+                 .brake = 1.0F};
   return body;
 }
 
@@ -214,6 +216,82 @@ TEST_CASE("in a walker's way already, to drive into the walker costs more than t
         .conflict;
   };
   CHECK(conflict_at(0.3F) > conflict_at(0.0F) + 50.0F);
+}
+
+namespace {
+
+/// A P3-DX at 0.6 m/s, its goal ahead, and somebody who comes towards it at 1.2 m/s from so far ahead.
+struct Oncoming {
+  explicit Oncoming(float from_m) {
+    const MoverBelief comes{
+        .id = 1, .x = from_m, .vx = -1.2F, .radius_m = 0.25F, .usual_mps = 1.2F, .has_walked = true};
+    futures->draw({&comes, 1}, {}, {}, guide, 1);
+  }
+  [[nodiscard]] Cost cost_of(const Trajectory& trajectory, std::array<RobotState, kSteps>& driven) const {
+    return trajectory_cost(situation, trajectory, 1e9F, driven.data());
+  }
+  [[nodiscard]] Cost cost_of(float until_v_mps, int after, bool brakes) const {
+    Trajectory trajectory;
+    trajectory.commands.fill({until_v_mps, 0.0F});
+    std::fill(trajectory.commands.begin() + after, trajectory.commands.end(), Command{0.0F, 0.0F, brakes});
+    std::array<RobotState, kSteps> driven{};
+    return cost_of(trajectory, driven);
+  }
+
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  RobotBody body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
+  std::unique_ptr<Futures> futures = std::make_unique<Futures>();
+  Situation situation{body, guide, *futures, kNothing, {.v = 0.6F}, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
+};
+
+}  // namespace
+
+TEST_CASE("a trajectory is unsafe that still moves when somebody is touched within two seconds") {
+  const Oncoming far(2.2F);  // 1.65 m between them: met after 0.9 s, or after 1.4 s by a robot that has stopped
+  CHECK_FALSE(far.cost_of(0.6F, kSteps, false).is_safe());
+  CHECK_FALSE(far.cost_of(0.6F, 0, false).is_safe());  // within the comfort of 0.75 m/s3 it stops in 1.8 s
+  CHECK(far.cost_of(0.0F, 0, true).is_safe());
+  CHECK(Oncoming(5.0F).cost_of(0.6F, kSteps, false).is_safe());  // decided on again in time
+}
+
+TEST_CASE("among trajectories that all touch somebody while moving the slower and later one is better") {
+  const Oncoming near(0.9F);  // 0.35 m between them
+  const Cost brakes = near.cost_of(0.0F, 0, true), slows = near.cost_of(0.0F, 0, false),
+             later = near.cost_of(0.6F, 3, true), drives = near.cost_of(0.6F, kSteps, false);
+  for (const Cost& cost : {brakes, slows, later, drives}) CHECK_FALSE(cost.is_safe());
+  CHECK(brakes.is_better_than(slows));
+  CHECK(brakes.is_better_than(later));
+  CHECK(slows.is_better_than(drives));
+  CHECK(brakes.conflict < slows.conflict);
+  CHECK(slows.conflict < drives.conflict);
+}
+
+TEST_CASE("where every trajectory touches somebody, the one that is at rest soonest is proposed and is best") {
+  const Oncoming near(0.9F);
+  const TrajectoryProposals proposals(near.situation, 0.0F);
+  Cost best{.time = 1e9F, .hit_share = 1.0F};
+  std::array<RobotState, kSteps> driven{}, best_driven{};
+  Trajectory trial;
+  for (int n = 0; n < proposals.count(); ++n) {
+    proposals.make(n, trial);
+    const Cost cost = near.cost_of(trial, driven);
+    CHECK_FALSE(cost.is_safe());
+    if (cost.is_better_than(best)) best = cost, best_driven = driven;
+  }
+  CHECK(best_driven[5].v == Approx(0.0F).margin(1e-5));  // 0.6 m/s at 1 m/s2
+}
+
+TEST_CASE("perturbations keep the brake on") {
+  const Oncoming near(0.9F);
+  const TrajectoryProposals proposals(near.situation, 0.0F);
+  Trajectory brakes, trial;
+  brakes.commands.fill({0.0F, 0.0F, true});
+  for (int n = 0; n < 24; ++n) {
+    proposals.perturb(brakes, 1, 0, n, trial);
+    for (const Command& c : trial.commands) CHECK((c.brakes && c.v == 0.0F));
+  }
+  CHECK(shifted(brakes, 0.25F).commands[0].brakes);
 }
 
 TEST_CASE("a body's gap to a place is that of its rectangle") {

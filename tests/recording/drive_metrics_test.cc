@@ -4,9 +4,10 @@
 #include <limits>
 
 #include "apps/report/csv_file.h"
+#include "apps/report/detour_count.h"
 #include "apps/report/loop_count.h"
+#include "apps/report/moments.h"
 #include "apps/report/trails.h"
-#include "apps/report/waits.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 
@@ -132,50 +133,79 @@ TEST_CASE("trails are thinned to a point every 0.2 s and ordered by id") {
   CHECK(trails[1].flagged);
 }
 
-/// Loops of a drive at a steady turn: `turned_rad` in all on circles of this radius, the goal nearer by so much a
-/// second.
-std::size_t loops_of(double radius_m, double turned_rad, double nearer) {
-  constexpr double kStep_rad = 0.02, kMps = 0.5;
+/// Loops of a drive at a steady turn of 0.4 rad/s: `turned_deg` in all on circles of this radius, a stand of `stands_s`
+/// in the middle.
+std::vector<Episode> loops_of(double radius_m, double turned_deg, double stands_s = 0.0) {
+  constexpr double kStep_deg = 0.5, kRadps = 0.4;
   LoopCount count;
-  for (int k = 0; k <= static_cast<int>(std::fabs(turned_rad) / kStep_rad); ++k) {
-    const double heading = std::copysign(kStep_rad, turned_rad) * k, way_m = kStep_rad * k * radius_m;
-    const Vec2 at{radius_m * std::sin(heading), std::copysign(radius_m, turned_rad) * (1.0 - std::cos(heading))};
-    count.add(0.1 * k, {at.x, at.y, wrap_angle(heading)}, {9, 9}, 20.0 - nearer * way_m / kMps);
+  const int steps = static_cast<int>(std::fabs(turned_deg) / kStep_deg);
+  for (int k = 0; k <= steps; ++k) {
+    const double turned = kStep_deg / 180.0 * kPi * k, heading = std::copysign(turned, turned_deg);
+    const Vec2 at{radius_m * std::sin(heading), std::copysign(radius_m, turned_deg) * (1.0 - std::cos(heading))};
+    const double stood_s = 2 * k > steps ? stands_s : 0.0;
+    count.add(turned / kRadps + stood_s, {at.x, at.y, wrap_angle(heading)}, {9, 9});
   }
-  return count.loops_at_s().size();
+  return count.loops();
 }
 
-TEST_CASE("a loop is a full turn within 6 m of way that brought the robot no nearer to its goal") {
+TEST_CASE("a loop is a net turn by 340 degrees within 10 m of way or 60 s, whatever the plan said") {
   for (const double side : {1.0, -1.0}) {
-    CHECK(loops_of(0.5, side * 6.2, 0.0) == 0);
-    CHECK(loops_of(0.5, side * 6.4, 0.0) == 1);
-    CHECK(loops_of(0.5, side * 12.7, 0.0) == 2);
-    CHECK(loops_of(0.0, side * 6.4, 0.0) == 1);  // on the spot
-    CHECK(loops_of(0.9, side * 6.4, 0.0) == 1);
-    CHECK(loops_of(1.0, side * 20.0, 0.0) == 0);  // 6.3 m round
-    CHECK(loops_of(0.5, side * 6.4, 0.5) == 0);
+    CHECK(loops_of(0.5, side * 339.0).empty());
+    CHECK(loops_of(0.5, side * 341.0).size() == 1);
+    CHECK(loops_of(0.5, side * 679.0).size() == 1);
+    CHECK(loops_of(0.5, side * 685.0).size() == 2);
+    CHECK(loops_of(0.0, side * 341.0).size() == 1);         // on the spot
+    CHECK(loops_of(1.5, side * 341.0, 90.0).size() == 1);   // 8.9 m: a stand amid it changes nothing
+    CHECK(loops_of(2.5, side * 341.0).size() == 1);         // 14.9 m in 14.9 s
+    CHECK(loops_of(2.5, side * 1000.0, 90.0).size() == 2);  // the stand parts it: 500 degrees before and after
+    CHECK(loops_of(2.5, side * 400.0, 90.0).empty());
   }
+  const std::vector<Episode> one = loops_of(0.5, 345.0);
+  REQUIRE(one.size() == 1);
+  CHECK(one[0].from_s == Approx(0.0).margin(0.3));
+  CHECK(one[0].to_s == Approx(340.0 / 180.0 * kPi / 0.4).margin(0.3));
 }
 
 TEST_CASE("what turns back is no loop, and a new goal begins anew") {
   LoopCount rocks, has_two_goals;
-  for (int k = 0; k < 2000; ++k) rocks.add(0.1 * k, {0, 0, 3.1 * std::sin(0.01 * k)}, {9, 9}, 20.0);
-  CHECK(rocks.loops_at_s().empty());
-  for (int k = 0; k < 60; ++k) has_two_goals.add(0.1 * k, {0, 0, wrap_angle(0.2 * k)}, {k < 30 ? 9.0 : 8.0, 9}, 20.0);
-  CHECK(has_two_goals.loops_at_s().empty());
+  for (int k = 0; k < 2000; ++k) rocks.add(0.1 * k, {0, 0, 2.9 * std::sin(0.01 * k)}, {9, 9});
+  CHECK(rocks.loops().empty());
+  for (int k = 0; k < 60; ++k) has_two_goals.add(0.1 * k, {0, 0, wrap_angle(0.19 * k)}, {k < 30 ? 9.0 : 8.0, 9});
+  CHECK(has_two_goals.loops().empty());
+}
+
+TEST_CASE("a detour is way above 1.5 times the fall of the way to go") {
+  DetourCount count;
+  // 3 m nearer by as much; 6 m that bring it 3 m nearer: 6 - 1.5 * 3 = 1.5 m over, in two halves; 3 m nearer.
+  for (int k = 0; k <= 1200; ++k) {
+    const double way_m = 0.01 * k, slow_m = std::clamp(way_m - 3.0, 0.0, 6.0);
+    count.add(0.1 * k, {way_m, 0}, {99, 0}, 20.0 - way_m + 0.5 * slow_m);
+  }
+  CHECK(count.detour_m() == Approx(1.5).margin(0.05));
+  REQUIRE(count.detours().size() == 1);
+  CHECK(count.detours()[0].from_s == Approx(30.0).margin(0.3));
+  CHECK(count.detours()[0].to_s == Approx(90.0).margin(0.3));
+}
+
+TEST_CASE(
+    "a way that proves longer where the robot stands is no detour, and to go away counts as no more than its way") {
+  DetourCount waits, leaves;
+  for (int k = 0; k < 100; ++k) waits.add(0.1 * k, {0, 0}, {99, 0}, k < 50 ? 10.0 : 30.0);
+  CHECK(waits.detour_m() == 0.0);
+  for (int k = 0; k <= 310; ++k) leaves.add(0.1 * k, {0.01 * k, 0}, {99, 0}, 10.0 + 0.05 * k);
+  CHECK(leaves.detour_m() == Approx(3.0).margin(0.02));
 }
 
 }  // namespace
 
 TEST_CASE("a wait is told with how long it was and the body that was nearest meanwhile") {
-  Waits waits;
-  waits.add(10.0, 2.9, {1.0, 0.0, 0.0}, "too short");
+  Moments waits;
   CHECK_FALSE(waits.any());
-  waits.add(20.0, 5.0, {1.0, 2.0, 0.0}, "something stood in its way");
+  waits.add(20.0, 5.0, {1.0, 2.0}, "something stood in its way");
   waits.note(19.0, 3, {1.0, 2.1}, {0.0, 0.0});  // before
   waits.note(21.0, 4, {1.0, 3.5}, {0.4, 0.0});
   waits.note(24.0, 5, {2.0, 2.0}, {0.0, 0.1});
-  CHECK(waits.words() ==
+  CHECK(waits.words("Its longest waits:") ==
         "Its longest waits:\n  at 20.0 s, 1.0, 2.0 m, for 5.0 s: something stood in its way; body 5 was 1.0 m from its "
         "middle and stood\n");
 }

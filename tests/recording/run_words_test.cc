@@ -17,8 +17,8 @@ constexpr const char* kHeader =
 /// A row every second.
 std::string row(double t_s, double x_m, double wheels_radps, const std::string& reasons) {
   char text[200];
-  std::snprintf(text, sizeof text, "%.6f,,,,,,%.6f,0.000000,0.000000,0,0,%.6f,%.6f,%s\n", t_s, x_m, wheels_radps,
-                wheels_radps, reasons.c_str());
+  std::snprintf(text, sizeof text, "%.6f,,,,,,%.6f,0.000000,0.000000,0,%.6f,%.6f,%.6f,%s\n", t_s, x_m,
+                0.1 * wheels_radps, wheels_radps, wheels_radps, reasons.c_str());
   return text;
 }
 
@@ -41,7 +41,9 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
   table += row(t++, x, 0.0, "latched|no_goal");
   table += row(t++, x, 0.0, "no_goal");
   run.write("robot.csv", table);
-  run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0, "loops_at_s": [3.25, 7.0]})");
+  run.write("summary.json", R"({"outcome": "fault", "duration_s": 10.0, "loops_at_s": [1.0], "loops_for_s": [2.0],
+"detours_at_s": [0.0, 2.5], "detours_for_s": [1.5, 0.5]})");
+  run.write("tracks.csv", "t_s,id,x_m,y_m,vx_mps,vy_mps,moving,std_m\n1.5,7,2.0,-1.2,0.0,0.6,1,0.1\n");
   CHECK(run_words(run.folder()) ==
         run.folder().string() +
             ": fault after 10.0 s\n"
@@ -50,8 +52,21 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
             "      3.0 s, once: something stood in its way\n"
             "Its longest waits:\n"
             "  at 4.0 s, 4.0, 0.0 m, for 5.0 s: something stood in its way; nobody was near\n"
-            "Faults:\n  scan_stale, once\n"
-            "Full turns within 6 m of way that brought it no nearer, at 3.2, 7.0 s.\n");
+            "Full turns within 10 m of way or 60 s:\n"
+            "  at 1.0 s, 2.0, 0.0 m, for 2.0 s; body 7 was 1.2 m from its middle and walked\n"
+            "Way of which more than a third brought it no nearer:\n"
+            "  at 0.0 s, 1.0, 0.0 m, for 1.5 s; body 7 was 1.6 m from its middle and walked\n"
+            "  at 2.5 s, 3.0, 0.0 m, for 0.5 s; nobody was near\n"
+            "Faults:\n  scan_stale, once\n");
+}
+
+TEST_CASE("a robot that creeps at less than 5 cm/s stands, one that turns on the spot does not") {
+  const Scratch run;
+  std::string table = kHeader;
+  for (int k = 0; k < 4; ++k) table += row(k, 0.04 * k, 0.4, "");
+  for (int k = 4; k < 6; ++k) table += std::to_string(k) + ".0,,,,,,0.16,0,0,0,0,-2.0,2.0,\n";
+  run.write("robot.csv", table);
+  CHECK(run_words(run.folder()).find("; stood 4.0 s.\n") != std::string::npos);
 }
 
 TEST_CASE("a run that was killed is told by its table up to the last whole row") {

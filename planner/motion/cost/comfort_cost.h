@@ -6,7 +6,7 @@
 
 namespace jaywalk::motion {
 
-/// Changes of speed and of turning, turning itself, driving backward, and turning to the other side than last.
+/// Changes of speed and of turning, braking, turning itself, driving backward, and turning to the other side than last.
 class ComfortCost {
  public:
   explicit ComfortCost(const Situation& s)
@@ -16,6 +16,8 @@ class ComfortCost {
     const float dv = now.v - before.v, dw = now.w - before.w, side = now.v * now.w;
     cost.comfort += change_share_ * (price::kAccel * dv * dv + price::kTurnAccel * dw * dw) +
                     price::kTurning * now.w * now.w + price::kSideways * side * side;
+    const float bite = now.braked - before.braked;
+    cost.comfort += price::kBrake * bite * bite;
     if (now.v < -0.01F) cost.comfort += price::kBackward;
     const float turns = turned_side(now.w, turned_);
     if (turns * turned_ < 0.0F) cost.comfort += change_share_ * price::kReversal;

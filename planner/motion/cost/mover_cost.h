@@ -5,12 +5,12 @@
 
 #include "planner/cell/exp_log.h"
 #include "planner/motion/cost/interaction.h"
-#include "planner/motion/cost/met_movers.h"
+#include "planner/motion/cost/worst_meetings.h"
 #include "planner/motion/situation.h"
 
 namespace jaywalk::motion {
 
-/// Movers: the chance of touching or forcing one for the first time, and nearness to them.
+/// Movers: the chance of touching or forcing one, and nearness to them. They walk as they do, whatever the robot does.
 class MoverCost {
  public:
   explicit MoverCost(const Situation& s) : s_(s) {}
@@ -29,22 +29,12 @@ class MoverCost {
       for (int k = 0; k < discs.count; ++k) {
         const Place disc = disc_at(r, along, k);
         const float dx = disc.x - at.mid_x, dy = disc.y - at.mid_y;
-        if (dx * dx + dy * dy >= most * most) continue;
-        if (!s_.is_long()) {
-          add_disc(r, disc, {k, m}, at, all);
-          continue;
-        }
-        const std::uint32_t met = add_disc(r, disc, {k, m}, met_movers_.shown(at, m, t), all);
-        met_movers_.note(at, m, met, t);
+        if (dx * dx + dy * dy < most * most) add_disc(r, disc, {k, m}, at, all);
       }
     }
     cost.nearness += (price::kNearMover * all.nearness + price::kTooFast * all.too_fast) /
                      static_cast<float>(kFutures * discs.count);
-    const float fades_s = s_.is_long() ? price::kTouchLongFadesS : price::kConflictFadesS;
-    const float later = cell::exp(-t / price::kConflictFadesS);
-    cost.conflict += s_.conflict_price_s * first_share(all.met, met_) * later;
-    cost.conflict += s_.conflict_price_s * price::kStandingWeight * first_share(all.stood, met_) * later;
-    cost.conflict += price::kConflict * first_share(all.touched, touched_) * cell::exp(-t / fades_s);
+    price_meetings(all, rim_mps(r), t, cost);
   }
 
  private:
@@ -60,25 +50,38 @@ class MoverCost {
     std::size_t mover;
   };
 
-  /// Returns the futures in which the disc is in the mover's way, and does not touch it.
-  std::uint32_t add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
+  void add_disc(const RobotState& r, Place disc, Pair of, const MoverAt& at, Sum& all) const noexcept {
     const BodyDiscs& discs = s_.body.to_movers;
     const bool has_stood = s_.futures.has_stood(of.mover);  // a surface until it sets out: standing()
     const float comfort_m = s_.body.comfort_distance_m + (has_stood && s_.is_long() ? price::kBeforeStandingM : 0.0F);
     const Interaction with = interaction(at, s_.futures.radius(of.mover), s_.futures.is_surface(of.mover),
                                          {disc.x, disc.y, discs.radius, std::fabs(r.v)}, comfort_m);
     (has_stood ? all.stood : all.met) |= with.met;
-    if (with.touched != 0 && !has_stood && moves(r)) {
+    if (with.touched != 0 && !has_stood && rim_mps(r) > kRestsMps) {
       const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
       all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
     }
     all.nearness += with.nearness;
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
-    return with.met & ~with.touched;
   }
 
-  [[nodiscard]] bool moves(const RobotState& r) const noexcept {
-    return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m > kRestsMps;
+  /// Each future's worst meeting counts: the sooner and the faster, the worse.
+  void price_meetings(const Sum& all, float rim_mps, float t, Cost& cost) noexcept {
+    if ((all.met | all.stood | all.touched) == 0) return;
+    const float later = cell::exp(-t / price::kConflictFadesS);
+    const float fast = std::min(1.0F, rim_mps / price::kMetAtMps);
+    const float level = later * (price::kMetAtRest + (1.0F - price::kMetAtRest) * fast);
+    cost.conflict += s_.conflict_price_s * met_.add(all.met, level);
+    cost.conflict += s_.conflict_price_s * met_.add(all.stood & ~all.met, price::kStandingWeight * level);
+    cost.conflict += price::kConflict * touched_.add(all.touched, level);
+    if (t > kSafeForS) return;
+    hit_ |= all.touched;
+    cost.hit_share = static_cast<float>(std::popcount(hit_)) / kFutures;
+  }
+
+  /// Of the body's fastest point, about.
+  [[nodiscard]] float rim_mps(const RobotState& r) const noexcept {
+    return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
   }
 
   [[nodiscard]] Place disc_at(const RobotState& r, const cell::Heading& along, int k) const noexcept {
@@ -86,18 +89,10 @@ class MoverCost {
     return {r.x + ahead * along.x, r.y + ahead * along.y};
   }
 
-  /// The share of the futures in which it is so for the first time.
-  static float first_share(std::uint32_t met, std::uint32_t& before) noexcept {
-    const std::uint32_t first = met & ~before;
-    before |= met;
-    return static_cast<float>(std::popcount(first)) / kFutures;
-  }
-
   const Situation& s_;
-  std::uint32_t met_ = 0;  ///< futures in which a mover was met: a bit each
-  /// Futures in which the moving robot touched a mover: a bit each. Priced apart from being in the mover's way.
-  std::uint32_t touched_ = 0;
-  MetMovers met_movers_;
+  /// Touching is priced apart from being in a mover's way.
+  WorstMeetings met_, touched_;
+  std::uint32_t hit_ = 0;  ///< futures in which the moving robot touched a mover within kSafeForS: a bit each
 };
 
 }  // namespace jaywalk::motion

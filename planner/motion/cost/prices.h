@@ -14,9 +14,9 @@ inline constexpr float kConflict = 200.0F;
 /// Of a long body: as many seconds as waiting would take to cause one, from kLeastConflict to kConflict. Movers are met
 /// at their speeds within kAboutM, over a strip of kMetWidthM.
 inline constexpr float kLeastConflict = 15.0F, kAboutM = 5.0F, kMetWidthM = 1.6F;
-inline constexpr float kMeetsForS = 1.0F;        ///< it stands so long when it was met, and is gone then
-inline constexpr float kTouchLongFadesS = 1.0F;  ///< a long body's touching, ahead by so much
-inline constexpr float kConflictFadesS = 4.0F;   ///< ahead by so much it counts less by a factor e: decided on again
+/// Of a meeting: at rest, and from this speed of the body's edge, with a gradient between.
+inline constexpr float kMetAtRest = 0.5F, kMetAtMps = 0.6F;
+inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts less by a factor e: decided on again
 /// Of a conflict with a mover that has stood for long: should it set out, the robot sees that before it drives on
 /// (decision standing-pedestrians).
 inline constexpr float kStandingWeight = 0.1F;
@@ -56,6 +56,7 @@ inline constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;  ///< a squared change 
 /// A squared rad/s, m/s2, each step. kTurning 0.03 changed nothing beyond noise: 3 runs with a loop, not 2, of 32 (maps
 /// 1 to 4, 16 movers, seeds 9301 to 9308).
 inline constexpr float kTurning = 0.01F, kSideways = 0.03F;
+inline constexpr float kBrake = 3.0F;  ///< a squared change of what the brake takes, m/s2: when it bites, and is let go
 inline constexpr float kBackward = 0.02F;  ///< each step
 /// Turning to the other side than last. At 0.6 or 1.0 the robot did so 5.2 to 7 times a minute, not 5 (decision
 /// motion-prices).
