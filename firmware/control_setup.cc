@@ -35,6 +35,7 @@ namespace {
 constexpr double kCell_m = 0.1;  // the paper's
 /// What a robot that is nearly round may plan with beyond the circle inside it.
 constexpr double kMarginOverInscribed_m = 0.15;
+constexpr double kNearlyRound_m = 0.16;  ///< between the two circles; a P3-DX: 0.158 m
 
 nlohmann::json json_of(const Blanking& blanked) {
   nlohmann::json sectors = nlohmann::json::array();
@@ -117,7 +118,7 @@ std::shared_ptr<const KnownMap> known_map_of(const nlohmann::json& json) {
 
 bool ControlSetup::has_long_body() const {
   const Footprint& body = model.footprint;
-  return !keeps_speed() && body.circumscribed_radius_m() > body.inscribed_radius_m() + kMarginOverInscribed_m;
+  return !keeps_speed() && body.circumscribed_radius_m() > body.inscribed_radius_m() + kNearlyRound_m;
 }
 
 double ControlSetup::mover_radius_m() const {

@@ -44,8 +44,8 @@ struct ControlSetup {
       0};        ///< the wall clock less the loop's at the start; 0: the loop's has no wall clock beside it
   int part = 1;  ///< number of the recording's part, from 1; a later part does not hold what the run did before it
 
-  /// Whether the body is more than a circle to movers, and to the planners of others. At constant speed none is: it can
-  /// neither stop nor back out.
+  /// Whether the body is more than a circle to the planners of others. At constant speed none is: it can neither stop
+  /// nor back out.
   [[nodiscard]] bool has_long_body() const;
   /// The robot's radius where movers are concerned, and walls for a nearly round one.
   [[nodiscard]] double mover_radius_m() const;

@@ -39,34 +39,49 @@ std::string scanner_name(const RobotModel& model, std::size_t scanner) {
   return number == 1 ? name : name + std::to_string(number);
 }
 
+// ARIA: params/p3dx.p of the maker's library (github.com/reedhedges/AriaCoda). A number without a source is assumed,
+// with the reason why it errs on the safe side or does not matter to safety.
 RobotModel p3dx() {
   return {.name = "p3dx",
-          .footprint = {.front_m = 0.2275, .rear_m = 0.2275, .half_width_m = 0.1905},
-          .drive = {.wheel_radius_m = 0.0975, .track_width_m = 0.33, .max_wheel_speed_radps = 14.0},
-          .limits = {.max_speed_mps = 0.6,
-                     .max_turn_radps = 1.5,
-                     .max_accel_mps2 = 0.5,
-                     .max_turn_accel_radps2 = 3.0,
-                     .max_jerk_mps3 = 2.0,
+          .footprint = {.front_m = 0.210,         // ARIA: RobotLengthFront
+                        .rear_m = 0.301,          // ARIA: RobotLengthRear, the caster's housing
+                        .half_width_m = 0.2125},  // ARIA: RobotWidth 425, over the wheels
+          .drive = {.wheel_radius_m = 0.0975,     // data sheet: 195 mm across
+                    .track_width_m = 0.33,        // assumed: wheels of 5 cm within 0.381 m; calibrate measures it
+                    // Assumed: the data sheet's 1.2 m/s and a bend's outer wheel. Bounds what odometry may report; a
+                    // motor that cannot is told by wheels_disobey.
+                    .max_wheel_speed_radps = 14.0},
+          .limits = {.max_speed_mps = 0.6,          // ours: half of the data sheet's 1.2
+                     .max_turn_radps = 1.5,         // ours: data sheet 5.2 (300 degrees/s)
+                     .max_accel_mps2 = 0.5,         // ours: comfort, half of the braking
+                     .max_turn_accel_radps2 = 3.0,  // ours: comfort, 0.5 m/s2 at a wheel
+                     .max_jerk_mps3 = 2.0,          // ours: comfort
+                     // ODrives' ramp (vel_ramp_rate, docs/reference/hardware.md) in place of the base's own board,
+                     // whose TransDecel is 0.3 from the factory (Pioneer 3 Operations Manual).
                      .brake_mps2 = 1.0},
-          .laser = {.robot_from_laser = {0.0, 0.0, 0.0},
-                    .fov_rad = 270.0 * kPi / 180.0,
-                    .beams = 811,
+          .laser = {.robot_from_laser = {0.0, 0.0, 0.0},  // ours: robot files give their own
+                    .fov_rad = 270.0 * kPi / 180.0,  // SICK TiM571, data sheet: 270 degrees in steps of 1/3, 15 Hz,
+                    .beams = 811,                    // 0.05 to 25 m
                     .rate_hz = 15.0,
                     .range_min_m = 0.05,
                     .range_max_m = 25.0,
-                    .noise_m = 0.01,
+                    .noise_m = 0.01,  // assumed for the simulation: the data sheet's statistical error is 20 mm at most
                     .drop_out = 0.0}};
 }
 
 RobotModel wheelchair() {
   RobotModel model = p3dx();
   model.name = "wheelchair";
+  // Assumed, of no make: EN 12184 allows 0.70 m x 1.20 m and 5 cm of feet. On the safe side only of a chair that is no
+  // larger, so that deploy/config says: measure yours.
   model.footprint = {.front_m = 0.75, .rear_m = 0.35, .half_width_m = 0.325};
-  model.drive = {.wheel_radius_m = 0.17, .track_width_m = 0.56, .max_wheel_speed_radps = 16.0};
-  model.limits.max_turn_radps = 1.0;
-  model.limits.max_turn_accel_radps2 = 2.0;
-  model.laser.robot_from_laser = {0.70, 0.0, 0.0};
+  model.drive = {.wheel_radius_m = 0.17,          // assumed: 14 inches, under load; calibrate measures it
+                 .track_width_m = 0.56,           // assumed; calibrate measures it
+                 .max_wheel_speed_radps = 16.0};  // assumed: 2.7 m/s, 10 km/h; bounds what odometry may report
+  model.limits.max_turn_radps = 1.0;              // ours: comfort
+  model.limits.max_turn_accel_radps2 = 2.0;       // ours: comfort
+  // brake_mps2 as above: EN 12184 has a chair stop within 1.0 m from 6 km/h, with 1.4 m/s2.
+  model.laser.robot_from_laser = {0.70, 0.0, 0.0};  // assumed: between the footrests
   return model;
 }
 

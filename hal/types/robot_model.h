@@ -66,8 +66,8 @@ struct RobotModel {
 /// messages and topics call a scanner. "" where there is one alone.
 [[nodiscard]] std::string scanner_name(const RobotModel& model, std::size_t scanner);
 
-/// Pioneer P3-DX: 0.455 m x 0.381 m, wheels 0.195 m across and 0.33 m apart, 1.2 m/s, 300 deg/s
-/// (maker's data sheet), with a 270 degree scanner.
+/// Pioneer P3-DX with ODrives in place of its own board, and a 270 degree scanner: 0.511 m x 0.425 m, its axle 0.21 m
+/// behind its front. Each number's source stands beside it.
 [[nodiscard]] RobotModel p3dx();
 /// A power wheelchair, 0.65 m x 1.10 m, turning about its drive axle 0.35 m from its rear.
 [[nodiscard]] RobotModel wheelchair();

@@ -17,7 +17,7 @@ std::string drive_keys(DriveKind kind) {
 /// A P3-DX (hal/types/robot_model.h) as a file, with a fastest speed of its own.
 std::string model_text(double speed_mps) {
   return "name = \"matrix\"\n"
-         "[footprint]\nfront_m = 0.2275\nrear_m = 0.2275\nhalf_width_m = 0.1905\n"
+         "[footprint]\nfront_m = 0.210\nrear_m = 0.301\nhalf_width_m = 0.2125\n"
          "[drive]\nwheel_radius_m = 0.0975\ntrack_width_m = 0.33\nmax_wheel_speed_radps = 14.0\n"
          "[limits]\nmax_speed_mps = " +
          std::to_string(speed_mps) +

@@ -32,7 +32,7 @@ class Guided {
 
  private:
   tests::Ground ground_;
-  field::TimeToGoField field_{0.1905, 0.297, 256};
+  field::TimeToGoField field_{0.210, 0.3685, 256};
   field::TimeToGoField::Memory memory_{256};
   Guide guide_;
 };

@@ -34,7 +34,7 @@ struct Zoned {
 
   std::shared_ptr<const KeepOutField> field;
   tests::Ground ground;
-  field::TimeToGoField guides{0.1905, 0.297, 256, field};
+  field::TimeToGoField guides{0.210, 0.3685, 256, field};
   field::TimeToGoField::Memory memory{256};
   Guide guide;
 };
@@ -107,7 +107,7 @@ TEST_CASE("a robot in a keep-out zone has a way out of it; from outside none lea
 TEST_CASE("a guide whose zones are far away has the bytes of one without") {
   Zoned zoned(box({60.0, 60.0}, {61.0, 61.0}));
   const Guide& with = zoned.from({-2.0, 0.0});
-  field::TimeToGoField plain(0.1905, 0.297, 256);
+  field::TimeToGoField plain(0.210, 0.3685, 256);
   field::TimeToGoField::Memory memory(256);
   const Guide without = plain.settle({.window = {{-118, -118}, 256, 0.1},
                                       .still = &zoned.ground.map(),
@@ -125,12 +125,12 @@ TEST_CASE("a guide whose zones are far away has the bytes of one without") {
 TEST_CASE("a speed zone holds where the circle about the body touches it, and slows down before") {
   const std::vector<MapZone> zones{box({3.0, -1.0}, {5.0, 1.0}, ZoneKind::kSpeed, 0.2), box({8.0, 0.0}, {9.0, 1.0})};
   const motion::SpeedZones speed(zones, p3dx());
-  // The circle has 0.2967 m, and 0.05 m are added: it touches from x = 2.6533 on.
-  CHECK(speed.at({2.6, 0.0}).here_mps > 100.0);
-  CHECK(speed.at({2.7, 0.0}).here_mps == 0.2);
+  // The circle has 0.3685 m, and 0.05 m are added: it touches from x = 2.5816 on.
+  CHECK(speed.at({2.5, 0.0}).here_mps > 100.0);
+  CHECK(speed.at({2.6, 0.0}).here_mps == 0.2);
   CHECK(speed.at({4.0, 0.9}).here_mps == 0.2);
-  CHECK(speed.at({2.6, 0.0}).ahead_mps == 0.2);  // nearer than 0.1 m
+  CHECK(speed.at({2.5, 0.0}).ahead_mps == 0.2);  // nearer than 0.1 m
   // 1 m before it touches, 0.1 m off: v^2 = 0.04 + 0.5 * 0.9 = 0.49.
-  CHECK(speed.at({1.6533, 0.0}).ahead_mps == Approx(0.7).margin(1e-3));
+  CHECK(speed.at({1.5816, 0.0}).ahead_mps == Approx(0.7).margin(1e-3));
   CHECK(speed.at({8.5, 0.5}).here_mps > 100.0);
 }

@@ -118,12 +118,12 @@ TEST_CASE("hard braking keeps to the arc that the stop zone looked along") {
 TEST_CASE("a wall ahead lets the robot come near only as slowly as it can stop") {
   Bench bench;
   bench.scan.range_m.fill(INFINITY);
-  bench.scan.range_m[405] = 0.5F;  // dead ahead: 0.5 - 0.2275 - 0.08 = 0.19 m free
+  bench.scan.range_m[405] = 0.5F;  // dead ahead: 0.5 - 0.21 - 0.08 = 0.21 m free
   const Verdict verdict = bench.ticks(60, {0.6, 0.0});
   CHECK(has(verdict.reasons, Reason::kStopZone));
   CHECK(verdict.permitted.v_mps > 0.0);
-  // v t + v^2/2b = 0.1925 with t = 0.1 + 0.08 s, b = 1: v = sqrt(0.0324 + 0.385) - 0.18 = 0.4661.
-  CHECK(verdict.permitted.v_mps == Approx(0.4661).epsilon(1e-3));
+  // v t + v^2/2b = 0.21 with t = 0.1 + 0.08 s, b = 1: v = sqrt(0.0324 + 0.42) - 0.18 = 0.4926.
+  CHECK(verdict.permitted.v_mps == Approx(0.4926).epsilon(1e-3));
   bench.scan.range_m[405] = 0.26F;
   CHECK(bench.ticks(60, {0.6, 0.0}).permitted.v_mps == 0.0);
 }
@@ -191,7 +191,7 @@ TEST_CASE("two beams are no scanner; one that finds nothing in reach is") {
 
 TEST_CASE("a beam that ends on the body itself forbids every motion, and is told apart from what stands in the way") {
   Bench bench;
-  bench.scan.range_m[405] = 0.15F;  // straight ahead; the P3-DX ends at 0.2275
+  bench.scan.range_m[405] = 0.15F;  // straight ahead; the P3-DX ends at 0.21
   for (const Twist2 wanted : {Twist2{0.1, 0.0}, Twist2{-0.1, 0.0}, Twist2{0.0, 0.3}}) {
     const Verdict verdict = bench.tick(wanted);
     CHECK(verdict.permitted == Twist2{});

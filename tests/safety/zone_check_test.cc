@@ -35,19 +35,19 @@ TEST_CASE("the built-in robots reach as far as they need, at any rate of the loo
 }
 
 TEST_CASE("the longest stop counts the rim's speed, the oldest scan, the slowest loop and drive, and the braking") {
-  // p3dx: 0.6 + 1.5 x 0.29673 = 1.0451 m/s. Scans of 15 Hz: 3.7 periods, 0.24667 s; 0.02 + 0.1 + 0.3 s.
-  // 1.0451 x 0.66667 + 1.0451^2 / 2 = 1.2428 m.
-  CHECK(fastest_rim_mps(p3dx()) == Approx(1.0451).epsilon(1e-4));
-  CHECK(longest_stop_m(p3dx(), kTick) == Approx(1.2428).epsilon(1e-3));
+  // p3dx: 0.6 + 1.5 x 0.36845 = 1.1527 m/s. Scans of 15 Hz: 3.7 periods, 0.24667 s; 0.02 + 0.1 + 0.3 s.
+  // 1.1527 x 0.66667 + 1.1527^2 / 2 = 1.4328 m.
+  CHECK(fastest_rim_mps(p3dx()) == Approx(1.1527).epsilon(1e-4));
+  CHECK(longest_stop_m(p3dx(), kTick) == Approx(1.4328).epsilon(1e-3));
 }
 
 TEST_CASE("a robot that outruns what its laser sees is refused with what to do about it") {
   RobotModel fast = at(p3dx(), 2.0);
   fast.limits.brake_mps2 = 0.5;
-  CHECK(refusal(fast).empty());  // 7.6 m of 25
+  CHECK(refusal(fast).empty());  // 8.2 m of 25
   fast.laser.range_max_m = 5.0;
   const std::string said = refusal(fast);
-  CHECK(said.rfind("robot.toml: stopping takes 7.6 m, ", 0) == 0);
+  CHECK(said.rfind("robot.toml: stopping takes 8.2 m, ", 0) == 0);
   CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps, raise limits.brake_mps2") != std::string::npos);
 }
 

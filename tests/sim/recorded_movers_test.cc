@@ -69,14 +69,14 @@ TEST_CASE("a person is forced once when the robot comes within 0.4 m ahead, not 
   const Scratch scratch;
   RecordedMovers people = recorded(two(scratch));  // walks along x, its edge 0.25 m ahead of its middle
   const auto robot_at = [](double x, double y) { return RobotBody{p3dx().footprint, {x, y, 0.0}}; };
-  people.place(0.1, robot_at(0.1 + 0.25 + 0.41 + 0.2275, 0.0));
+  people.place(0.1, robot_at(0.1 + 0.25 + 0.41 + 0.301, 0.0));
   CHECK(people.forced() == 0);
   people.place(0.1, robot_at(0.1, 0.6));
   CHECK(people.forced() == 0);
-  people.place(0.1, robot_at(0.1 + 0.25 + 0.39 + 0.2275, 0.0));
+  people.place(0.1, robot_at(0.1 + 0.25 + 0.39 + 0.301, 0.0));
   CHECK(people.forced() == 1);
   CHECK(people.movers()[0].forced);
-  people.place(0.12, robot_at(0.1 + 0.25 + 0.39 + 0.2275, 0.0));
+  people.place(0.12, robot_at(0.1 + 0.25 + 0.39 + 0.301, 0.0));
   CHECK(people.forced() == 1);
   people.place(0.14, kFarAway);
   CHECK_FALSE(people.movers()[0].forced);

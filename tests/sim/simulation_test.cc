@@ -143,12 +143,12 @@ TEST_CASE("the panel shows the goal") {
 TEST_CASE("a wall stops the robot; pushing on is one contact, coming back another") {
   const Scratch scratch;
   Simulation sim(in_room(scratch), 1);
-  drive(sim, 6.0, 6.0, 12.0);  // 0.585 m/s for the 4.77 m to the wall
+  drive(sim, 6.0, 6.0, 12.0);  // 0.585 m/s for the 4.79 m to the wall
   const Truth& truth = sim.truth();
   CHECK(truth.contacts == 1);
   CHECK(truth.contacts_caused == 1);
   CHECK(truth.clearance_m == 0.0);
-  CHECK(truth.map_from_robot.x == Approx(10.0 - 0.2275).margin(0.01));
+  CHECK(truth.map_from_robot.x == Approx(10.0 - 0.21).margin(0.01));
   drive(sim, 6.0, 6.0, 2.0);
   CHECK(truth.contacts == 1);
   drive(sim, -3.0, -3.0, 1.0);
@@ -176,7 +176,7 @@ TEST_CASE("a wheelchair that turns beside a wall is stopped before its nose goes
 TEST_CASE("clearance is from footprint to wall, and without movers theirs is infinite") {
   const Scratch scratch;
   Simulation sim(in_room(scratch), 1);
-  CHECK(sim.truth().clearance_m == Approx(5.0 - 0.2275));
+  CHECK(sim.truth().clearance_m == Approx(5.0 - 0.301));
   CHECK(sim.truth().mover_clearance_m == std::numeric_limits<double>::infinity());
 }
 
@@ -188,7 +188,7 @@ TEST_CASE("a recorded person who walks into the standing robot is a contact that
   Simulation sim(scenario, 1);
   drive(sim, 0.0, 0.0, 3.0);
   CHECK(sim.truth().contacts == 0);
-  CHECK(sim.truth().mover_clearance_m == Approx(1.0 - 0.25 - 0.2275));
+  CHECK(sim.truth().mover_clearance_m == Approx(1.0 - 0.25 - 0.301));
   drive(sim, 0.0, 0.0, 1.0);
   CHECK(sim.truth().contacts == 1);
   CHECK(sim.truth().mover_clearance_m == 0.0);

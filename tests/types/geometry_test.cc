@@ -72,10 +72,10 @@ TEST_CASE("a beam proves a hit or free room or nothing, and a scan that holds no
   for (const float unknown : {0.0F, -0.0F, 0.05F, -1.0F, -INFINITY, NAN}) CHECK(of(unknown) == BeamState::kUnknown);
 }
 
-TEST_CASE("the P3-DX fits a circle of 19 cm and is held by one of 30 cm") {
+TEST_CASE("the P3-DX holds a circle of 21 cm and is held by one of 37 cm") {
   const Footprint body = p3dx().footprint;
-  CHECK(body.inscribed_radius_m() == Approx(0.1905));
-  CHECK(body.circumscribed_radius_m() == Approx(0.29672).epsilon(1e-4));  // sqrt(0.2275^2 + 0.1905^2)
-  CHECK(body.distance_to({0.5275, 0.0}) == Approx(0.3));
+  CHECK(body.inscribed_radius_m() == Approx(0.210));
+  CHECK(body.circumscribed_radius_m() == Approx(0.36845).epsilon(1e-4));  // sqrt(0.301^2 + 0.2125^2)
+  CHECK(body.distance_to({0.51, 0.0}) == Approx(0.3));
   CHECK(body.distance_to({0.0, 0.1}) == 0.0);
 }
