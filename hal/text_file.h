@@ -19,6 +19,23 @@ inline void require_readable(const std::filesystem::path& path, const std::strin
   if (!std::ifstream(path)) throw StartupError(place + "cannot be read", "check its permissions");
 }
 
+/// All of a file that must be there. Throws StartupError as require_readable() does, and where reading fails on the way
+/// or the file is longer than any text of ours: the kernel has regular files that cannot be read, and endless ones.
+inline std::string whole_text(const std::filesystem::path& path, const std::string& place,
+                              const std::string& expected) {
+  constexpr std::size_t kBlock = 1U << 16U, kMostBytes = 1U << 26U;
+  require_readable(path, place, expected);
+  std::ifstream in(path, std::ios::binary);
+  std::string text, block(kBlock, '\0');
+  do {
+    in.read(block.data(), static_cast<std::streamsize>(kBlock));
+    text.append(block, 0, static_cast<std::size_t>(in.gcount()));
+  } while (in && text.size() <= kMostBytes);
+  if (in.bad()) throw StartupError(place + "cannot be read to its end", expected);
+  if (text.size() > kMostBytes) throw StartupError(place + "is longer than 64 MiB", expected);
+  return text;
+}
+
 /// Some editors and spreadsheets begin a text with three bytes that say "UTF-8".
 inline void drop_byte_order_mark(std::string& first_line) {
   constexpr const char* kMark = "\xEF\xBB\xBF";

@@ -4,7 +4,6 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
-#include <fstream>
 #include <sstream>
 
 #include "hal/nearest_word.h"
@@ -59,11 +58,10 @@ std::string cause_in(const std::string& text) {
 /// has, those in texts and comments included.
 constexpr int kDeepestNesting = 500;
 
-void refuse_deep_nesting(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+void refuse_deep_nesting(const std::filesystem::path& file, const std::string& text) {
   std::uint32_t line = 1;
   int depth = 0;
-  for (char c = 0; stream.get(c);) {
+  for (const char c : text) {
     if (c == '\n') ++line;
     if (c == '[' || c == '{') ++depth;
     if ((c == ']' || c == '}') && depth > 0) --depth;
@@ -73,8 +71,8 @@ void refuse_deep_nesting(const std::filesystem::path& file) {
 
 /// toml11 3.7 ends the program by an assertion at some mistakes behind a text of several lines. No key of ours needs
 /// one.
-void refuse_texts_of_several_lines(const std::filesystem::path& file) {
-  std::ifstream stream(file, std::ios::binary);
+void refuse_texts_of_several_lines(const std::filesystem::path& file, const std::string& text) {
+  std::istringstream stream(text);
   std::size_t number = 1;
   for (std::string line; std::getline(stream, line); ++number) {
     if (line.find("'''") != std::string::npos || line.find("\"\"\"") != std::string::npos)
@@ -83,11 +81,12 @@ void refuse_texts_of_several_lines(const std::filesystem::path& file) {
 }
 
 toml::value parse(const std::filesystem::path& file) {
-  require_readable(file, file.string() + ": ", "give the path of a TOML file");
-  refuse_deep_nesting(file);
-  refuse_texts_of_several_lines(file);
+  const std::string text = whole_text(file, file.string() + ": ", "give the path of a TOML file");
+  refuse_deep_nesting(file, text);
+  refuse_texts_of_several_lines(file, text);
   try {
-    return toml::parse(file.string());
+    std::istringstream stream(text);
+    return toml::parse(stream, file.string());
   } catch (const toml::syntax_error& e) {
     throw StartupError(place(file, line_of_mistake(e)) + cause_in(e.what()), "write valid TOML");
   } catch (const std::exception& e) {  // a date or number that does not exist

@@ -2,6 +2,10 @@
 
 #include <ros_topics.h>  // idlc writes it
 
+#include <chrono>
+#include <cstdio>
+#include <utility>
+
 #include "apps/formats/cdr_writer.h"
 #include "hal/types/errors.h"
 
@@ -24,6 +28,8 @@ std::string in_cdr(const geometry_msgs_msg_dds__PoseStamped_& goal) {
 }
 
 }  // namespace
+
+Time wall_time() { return Time(std::chrono::system_clock::now().time_since_epoch()); }
 
 dds_entity_t checked(dds_entity_t entity, const std::string& what) {
   if (entity >= 0) return entity;
@@ -56,7 +62,18 @@ GoalReader::GoalReader(dds_entity_t participant)
 
 std::optional<std::string> GoalReader::take() {
   std::optional<std::string> newest;
-  take_all<geometry_msgs_msg_dds__PoseStamped_>(reader_, [&](const auto& goal) { newest = in_cdr(goal); });
+  const auto look = [&](const geometry_msgs_msg_dds__PoseStamped_& goal, const dds_sample_info_t& about) {
+    using Heard = exchange::GoalOrders::Heard;
+    const auto& stamp = goal.header_.stamp_;
+    const Time stamped{std::chrono::seconds(stamp.sec_) + std::chrono::nanoseconds(stamp.nanosec_)};
+    std::string message = in_cdr(goal);
+    const Heard heard =
+        orders_.judge(message, stamped, about.publication_handle, {kNever, wall_time(), written(about)});
+    if (heard == Heard::kOrder) newest = std::move(message);
+    if (heard == Heard::kLate)
+      std::fputs("jaywalk_dds: a goal is not taken: it comes late, or clocks differ: synchronise them\n", stderr);
+  };
+  take_all<geometry_msgs_msg_dds__PoseStamped_>(reader_, look);
   return newest;
 }
 

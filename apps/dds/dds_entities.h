@@ -6,6 +6,9 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
+
+#include "apps/formats/goal_orders.h"
 
 namespace jaywalk::dds {
 
@@ -22,27 +25,36 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 [[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                                        const std::string& topic, const Qos& qos);
 
-/// `use(sample)` for each that waits at a reader of the type T.
+/// By the wall clock, as stamps of ROS 2 and DDS are.
+[[nodiscard]] Time wall_time();
+[[nodiscard]] inline Time written(const dds_sample_info_t& about) { return Time(Duration(about.source_timestamp)); }
+
+/// `use(sample)`, or `use(sample, about)`, for each that waits at a reader of the type T.
 template <class T, class Use>
 void take_all(dds_entity_t reader, Use use) {
   void* sample = nullptr;
   dds_sample_info_t about;
   while (dds_take(reader, &sample, &about, 1, 1) > 0) {
-    if (about.valid_data) use(*static_cast<const T*>(sample));
+    if constexpr (std::is_invocable_v<Use, const T&, const dds_sample_info_t&>) {
+      if (about.valid_data) use(*static_cast<const T*>(sample), about);
+    } else {
+      if (about.valid_data) use(*static_cast<const T*>(sample));
+    }
     dds_return_loan(reader, &sample, 1);
     sample = nullptr;
   }
 }
 
-/// Reads /goal_pose.
+/// Reads /goal_pose; of what is repeated or late nothing is an order (exchange::GoalOrders).
 class GoalReader {
  public:
   explicit GoalReader(dds_entity_t participant);
-  /// The newest that came, as a PoseStamped in CDR.
+  /// The newest order that came, as a PoseStamped in CDR.
   [[nodiscard]] std::optional<std::string> take();
 
  private:
   dds_entity_t reader_;
+  exchange::GoalOrders orders_;
 };
 
 }  // namespace jaywalk::dds

@@ -94,30 +94,40 @@ void RobotBridge::pass_in(std::chrono::milliseconds most) {
 }
 
 void RobotBridge::pass_scans() {
-  take_all<sensor_msgs_msg_dds__LaserScan_>(scans_, [&](const auto& scan) {
-    const Time now = clock_.now();
-    if (!is_alone(scans_, robot_.laser.topic)) return;
-    const ros::ScanMessage fitted = scan_feed_.take(in_fields(scan), now);
-    if (fitted.beam_count == 0)
-      complain(robot_.laser.topic + ": a scan without beams, or of angles or limits that make none");
-    ros::SharedRing* const ring = scan_ring_->at(now);
-    if (ring != nullptr) ring->write(std::as_bytes(std::span(&fitted, 1)));
-  });
+  const std::string& topic = robot_.laser.topic;
+  const auto pass = [&](const sensor_msgs_msg_dds__LaserScan_& scan, const dds_sample_info_t& about) {
+    const exchange::Arrival now(clock_.now(), wall_time(), written(about));
+    if (!is_alone(scans_, topic)) return;
+    const auto fitted = scan_feed_.take(in_fields(scan), now);
+    if (!fitted) return complain(topic + ": a scan that is no newer than one before");
+    if (fitted->beam_count == 0) complain(topic + ": a scan without beams, or of angles or limits that make none");
+    tell_late(topic, Time(Duration(fitted->stamp_ns + fitted->sweep_ns)), now.ours);
+    ros::SharedRing* const ring = scan_ring_->at(now.ours);
+    if (ring != nullptr) ring->write(std::as_bytes(std::span(&*fitted, 1)));
+  };
+  take_all<sensor_msgs_msg_dds__LaserScan_>(scans_, pass);
 }
 
 void RobotBridge::pass_odometry() {
   const std::string& topic = robot_.drive.ros.odometry;
-  take_all<nav_msgs_msg_dds__Odometry_>(odometry_, [&](const auto& odometry) {
+  const auto pass = [&](const nav_msgs_msg_dds__Odometry_& odometry, const dds_sample_info_t& about) {
     if (!is_alone(odometry_, topic)) return;
-    const auto wheels = odometry_feed_.take(in_fields(odometry), clock_.now());
-    if (!wheels) return complain(topic + ": a pose or twist that no robot has");
+    const exchange::Arrival now(clock_.now(), wall_time(), written(about));
+    const auto wheels = odometry_feed_.take(in_fields(odometry), now);
+    if (!wheels) return complain(topic + ": a pose or twist that no robot has, or no newer than one before");
+    tell_late(topic, wheels->stamp, now.ours);
     dds_publication_matched_status_t matched{};
     dds_get_publication_matched_status(commands_, &matched);
     CanFrame listeners{.id = ros::kListeners, .size = 1};
     listeners.bytes[0] = static_cast<std::uint8_t>(std::min(matched.current_count, 255U));
     send(wheels->stamp, listeners);
     for (std::uint32_t k = 0; k < 2; ++k) send(wheels->stamp, ros::to_frame(ros::kWheel + k, wheels->wheels[k]));
-  });
+  };
+  take_all<nav_msgs_msg_dds__Odometry_>(odometry_, pass);
+}
+
+void RobotBridge::tell_late(const std::string& topic, Time sent, Time now) {
+  if (now - sent > kSilence) complain(topic + ": comes late, or clocks differ: synchronise them");
 }
 
 /// Two masters of one base would stop each other's stops (SAFETY 16).

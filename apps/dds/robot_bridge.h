@@ -48,6 +48,8 @@ class RobotBridge {
   void publish(const Twist2& twist);
   void keep_stopped(Time now);
   [[nodiscard]] bool is_alone(dds_entity_t reader, const std::string& topic);
+  /// The robot's program sees how old it is; a person is told why.
+  void tell_late(const std::string& topic, Time sent, Time now);
   void complain(const std::string& what);
 
   RobotFile robot_;

@@ -30,18 +30,30 @@ std::uint32_t angle_count(double turned_rad) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(turned_rad / ros::kAngle_rad)));
 }
 
-}  // namespace
-
-Time SentTimes::sent(Time stamp, Time arrival) noexcept {
-  if (stamp <= last_) clock_.forget();
-  last_ = stamp;
-  return arrival -
-         clock_.delay(static_cast<std::uint64_t>(std::max(stamp.time_since_epoch(), Duration{0}).count()), arrival);
+/// By the wall clock; 0 where one of them is not set or they go by different clocks.
+Duration age_on_wall(Time stamp, Time wall) {
+  const bool are_set = stamp > Time{} && wall > Time{};
+  const Duration old = are_set ? wall - stamp : Duration{0};
+  return old < SentTimes::kOneClock ? std::max(old, Duration{0}) : Duration{0};
 }
 
-ros::ScanMessage ScanFeed::take(const ScanMessage& scan, Time arrival) {
+}  // namespace
+
+std::optional<Time> SentTimes::sent(Time stamp, const Arrival& arrival) noexcept {
+  if (stamp <= Time{}) stamp = arrival.written;
+  if (stamp <= Time{}) return arrival.ours;
+  if (stamp <= last_ && last_ - stamp < kOneClock) return std::nullopt;
+  if (stamp <= last_) clock_.forget();
+  last_ = stamp;
+  const Duration delay = clock_.delay(static_cast<std::uint64_t>(stamp.time_since_epoch().count()), arrival.ours);
+  return arrival.ours - std::max({delay, age_on_wall(stamp, arrival.wall), age_on_wall(arrival.written, arrival.wall)});
+}
+
+std::optional<ros::ScanMessage> ScanFeed::take(const ScanMessage& scan, const Arrival& arrival) {
   ros::ScanMessage fitted;
   if (!is_fan(scan)) return fitted;
+  const std::optional<Time> sent = times_.sent(scan.stamp, arrival);
+  if (!sent) return std::nullopt;
   const Duration period = duration_from_seconds(1.0 / laser_.rate_hz), sweep = sweep_of(scan, period);
   const sim::BeamAngles from{static_cast<double>(scan.first_angle_rad), static_cast<double>(scan.angle_step_rad),
                              scan.range_m.size()};
@@ -52,24 +64,27 @@ ros::ScanMessage ScanFeed::take(const ScanMessage& scan, Time arrival) {
   fitted.angle_step_rad = static_cast<float>(to.step_rad);
   fitted.range_min_m = std::max(scan.range_min_m, 0.0F);
   fitted.range_max_m = scan.range_max_m <= kFarthestRange_m ? scan.range_max_m : static_cast<float>(laser_.range_max_m);
-  fitted.stamp_ns = (times_.sent(scan.stamp, arrival) - sweep).time_since_epoch().count();
+  fitted.stamp_ns = (*sent - sweep).time_since_epoch().count();
   fitted.sweep_ns = sweep.count();
   fitted.period_ns = period.count();
   return fitted;
 }
 
-std::optional<OdometryFeed::Wheels> OdometryFeed::take(const OdometryMessage& odometry, Time arrival) noexcept {
+std::optional<OdometryFeed::Wheels> OdometryFeed::take(const OdometryMessage& odometry,
+                                                       const Arrival& arrival) noexcept {
   const Pose2& pose = odometry.pose;
   const Twist2& twist = odometry.twist;
   const auto within = [](double value, double most) { return std::fabs(value) <= most; };  // false for NaN
   if (!within(pose.x, kFarthest_m) || !within(pose.y, kFarthest_m) || !within(pose.heading, 2.0 * kPi) ||
       !within(twist.v_mps, kFastest) || !within(twist.w_radps, kFastest))
     return std::nullopt;
+  const std::optional<Time> sent = times_.sent(odometry.stamp, arrival);
+  if (!sent) return std::nullopt;
   const double turned_rad = last_ ? wrap_angle(pose.heading - last_->heading) : 0.0;
   const double middle_rad = pose.heading - 0.5 * turned_rad;
   const double way_m = last_ ? (pose.x - last_->x) * cos(middle_rad) + (pose.y - last_->y) * sin(middle_rad) : 0.0;
   last_ = pose;
-  Wheels out{.stamp = times_.sent(odometry.stamp, arrival), .wheels = {}};
+  Wheels out{.stamp = *sent, .wheels = {}};
   for (std::size_t k = 0; k < 2; ++k) {
     const double arm_m = (k == 0 ? -0.5 : 0.5) * drive_.track_width_m;
     turned_rad_[k] += (way_m + arm_m * turned_rad) / drive_.wheel_radius_m;

@@ -10,12 +10,27 @@
 
 namespace jaywalk::exchange {
 
-/// When a message was sent, by our clock: its arrival minus its extra delay. The message's own stamps give the delay
-/// beyond that of the fastest message. Where stamps do not increase (the sender's clock was set back, or never set)
-/// the time of arrival is used.
+/// When a message came, and when its writer says that it was written.
+struct Arrival {
+  Arrival(Time by_ours, Time by_wall = kNever, Time at_writer = kNever) noexcept  // NOLINT: a time is an arrival
+      : ours(by_ours), wall(by_wall), written(at_writer) {}
+  Time ours;     ///< by the loop's clock
+  Time wall;     ///< by this machine's wall clock; kNever: not known
+  Time written;  ///< DDS's source timestamp, by its writer's wall clock; kNever: not known
+};
+
+/// When a message was sent, by our clock: its arrival minus its delay. That is what its stamp differs by from those of
+/// the fastest message, and at least its age by the wall clock where stamps go by that: within kOneClock of ours. Where
+/// nobody set stamps, the time of writing is the stamp.
 class SentTimes {
  public:
-  [[nodiscard]] Time sent(Time stamp, Time arrival) noexcept;
+  /// Clocks that differ by more are not the same. Robots' clocks are synchronised (ROS 2 wants it for tf), or never
+  /// set.
+  static constexpr Duration kOneClock = std::chrono::seconds(10);
+
+  /// Nothing for a message that is no newer than one before: it was repeated, or overtaken. A stamp further back than
+  /// kOneClock is a clock that was set back.
+  [[nodiscard]] std::optional<Time> sent(Time stamp, const Arrival& arrival) noexcept;
 
  private:
   DeviceClock clock_{Duration{1}, std::uint64_t{1} << 62U};
@@ -27,8 +42,9 @@ class SentTimes {
 class ScanFeed {
  public:
   explicit ScanFeed(const LaserModel& laser) noexcept : laser_(laser) {}
-  /// Without beams where it is no scan of a fan: no or too few ranges, angles or limits that are no numbers.
-  [[nodiscard]] ros::ScanMessage take(const ScanMessage& scan, Time arrival);
+  /// Without beams where it is no scan of a fan: no or too few ranges, angles or limits that are no numbers. Nothing
+  /// where it is no newer than one before.
+  [[nodiscard]] std::optional<ros::ScanMessage> take(const ScanMessage& scan, const Arrival& arrival);
 
  private:
   LaserModel laser_;
@@ -43,8 +59,8 @@ class OdometryFeed {
     std::array<ros::WheelFrame, 2> wheels;  ///< left, right
   };
   explicit OdometryFeed(const DriveModel& drive) noexcept : drive_(drive) {}
-  /// Nothing where a number in it is none, or no robot's.
-  [[nodiscard]] std::optional<Wheels> take(const OdometryMessage& odometry, Time arrival) noexcept;
+  /// Nothing where a number in it is none, or no robot's, and where it is no newer than one before.
+  [[nodiscard]] std::optional<Wheels> take(const OdometryMessage& odometry, const Arrival& arrival) noexcept;
 
  private:
   DriveModel drive_;

@@ -14,6 +14,7 @@
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
 #include "firmware/recording/recording_stream.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -139,7 +140,10 @@ void write_plot(const std::filesystem::path& file, const Calibration& calibratio
 
 int calibrate_robot() {
   const std::filesystem::path& what = session_options.robot;
-  const bool is_run = std::filesystem::is_directory(what) || is_recording(what.string());
+  const bool is_folder = std::filesystem::is_directory(what);
+  if (!is_folder)
+    require_readable(what, what.string() + ": ", "give a robot file, a run's folder or its recording.jwr");
+  const bool is_run = is_folder || is_recording(what.string());
   const Drive drive = is_run ? read_recording(what) : drive_robot();
   std::vector<Calibration> each;
   for (std::size_t k = 0; k < drive.logs.size(); ++k) {

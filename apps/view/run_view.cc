@@ -19,6 +19,9 @@ view::ViewAddress with_token(view::ViewAddress where) {
 /// Nothing waits for one more than these.
 constexpr unsigned kMostWaiting = 32;
 
+/// Latches: beside the page others may give goals.
+constexpr const char* kStop = "stop now";
+
 }  // namespace
 
 RunView::RunView(const view::ViewAddress& where, const std::filesystem::path& control_socket, const std::string& title,
@@ -46,6 +49,7 @@ void RunView::follow() {
 
 void RunView::obey(const view::ViewOrder& order, const view::Reply& reply) {
   if (order.stop) return stop(reply);
+  if (order.reset) return go("reset", reply);
   if (order.goal) go("goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}), reply);
 }
 
@@ -62,7 +66,7 @@ void RunView::stop(const view::Reply& reply) {
   if (stops_asked_ - stops_done_ >= kMostWaiting) return reply("stopping\n");
   ++stops_asked_;
   boost::asio::post(stops_, [this, reply] {
-    reply(said_to("stop"));
+    reply(said_to(kStop));
     ++stops_done_;
   });
 }
@@ -76,7 +80,7 @@ void RunView::go(const std::string& line, const view::Reply& reply) {
     while (static_cast<int>(stops_done_ - stops) < 0) std::this_thread::sleep_for(std::chrono::milliseconds(1));
     const bool goes = stops == stops_asked_;
     reply(goes ? said_to(line) : "taken back by a stop\n");
-    if (goes && stops != stops_asked_) static_cast<void>(said_to("stop"));
+    if (goes && stops != stops_asked_) static_cast<void>(said_to(kStop));
     --goals_waiting_;
   });
 }

@@ -12,9 +12,10 @@
 
 namespace jaywalk {
 
-/// The live page of a run on a robot: 25 ticks a second through a ring, goals and stops through the run's control
-/// socket, as those of any client; and what a run leaves in its folder. No page delays a tick. To look and to set goals
-/// wants a token, on this machine too: the socket is not everybody's either. The address with the token lies beside it.
+/// The live page of a run on a robot: 25 ticks a second through a ring, goals, stops and resets through the run's
+/// control socket, as those of any client; and what a run leaves in its folder. No page delays a tick. To look and to
+/// set goals wants a token, on this machine too: the socket is not everybody's either. The address with the token lies
+/// beside it.
 class RunView final : public RunObserver {
  public:
   /// Takes the memory. Prints the line `view: http://...`. Throws StartupError where the address cannot be served.

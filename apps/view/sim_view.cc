@@ -15,10 +15,15 @@ SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, Oper
     : panel_(panel),
       takes_goals_(!setup.keeps_speed()),
       tick_(setup.tick()),
-      live_(where, setup.model, true, [this](const view::ViewOrder& order, const view::Reply& reply) {
-        orders_.add(order);
-        if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
-      }) {}
+      live_(where, setup.model, true,
+            [this](const view::ViewOrder& order, const view::Reply& reply) { take(order, reply); }) {}
+
+void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
+  orders_.add(order);
+  if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
+  if (order.reset) reply(stands_ ? "reset\n" : "refused: the robot still moves; try again when it stands\n");
+  if (order.goal && is_stopped_) reply("refused: stopped by this page; press Reset first\n");
+}
 
 void SimView::begin(const std::string& title, std::span<const view::WallPiece> walls) {
   live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_}, tick_);
@@ -26,6 +31,7 @@ void SimView::begin(const std::string& title, std::span<const view::WallPiece> w
 
 void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
   live_.follow(runner, ended, paused_);
+  stands_ = runner.last().verdict.permitted == Twist2{};
   keep_pace();
   if (ended.empty()) obey_while_paused(interruption);
 }
@@ -41,7 +47,8 @@ void SimView::obey_while_paused(const Interruption& interruption) {
   for (int looks = 0; !interruption.came(); ++looks, std::this_thread::sleep_for(kPausedLook)) {
     const view::ViewOrder order = orders_.take();
     if (order.pause) paused_ = *order.pause;
-    if (takes_goals_) panel_.obey(order);
+    if (takes_goals_) panel_.obey(order, stands_);
+    is_stopped_ = panel_.is_pressed();
     if (!paused_ || order.step) return;
     if (looks % kLooksUntilTold == 0) live_.tell_paused();
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <atomic>
 #include <chrono>
 #include <string>
 
@@ -22,6 +23,8 @@ class SimView {
   void stay(const Interruption& interruption) const { live_.stay(false, interruption); }
 
  private:
+  /// Thread: the page's.
+  void take(const view::ViewOrder& order, const view::Reply& reply);
   void keep_pace();
   void obey_while_paused(const Interruption& interruption);
 
@@ -31,6 +34,7 @@ class SimView {
   Duration tick_;
   std::chrono::steady_clock::time_point due_ = std::chrono::steady_clock::now();
   bool paused_ = false;
+  std::atomic<bool> stands_{true}, is_stopped_{false};  ///< at rest; by the page's Stop
   LiveView live_;
 };
 

@@ -1,37 +1,42 @@
 #pragma once
-#include <optional>
+#include <utility>
 
 #include "apps/view/view_orders.h"
 #include "hal/hal.h"
 
 namespace jaywalk::view {
 
-/// An operator's panel whose goal the live page may replace. Without an order it is the other panel, bit for bit.
-/// Thread: the loop's.
+/// An operator's panel whose goal the live page may replace. The page's Stop is an emergency stop that stays pressed
+/// until the page's Reset, at rest; the panel's own goal is gone then. Without an order it is the other panel, bit for
+/// bit. Thread: the loop's.
 class SteeredPanel final : public OperatorPanel {
  public:
   explicit SteeredPanel(OperatorPanel& inner) : inner_(inner) {}
   [[nodiscard]] OperatorInput latest() noexcept override {
     OperatorInput input = inner_.latest();
     input.stop_orders += stops_;
-    if (stopped_ || goal_) input.steers = false, input.stick = {};
-    if (stopped_) input.has_goal = false;
-    if (!goal_) return input;
+    input.emergency_stop = input.emergency_stop || pressed_;
+    input.reset = input.reset || std::exchange(resets_, false);
+    if (stops_ > 0 || has_goal_) input.steers = false, input.stick = {};
+    if (stops_ > 0) input.has_goal = false;
+    if (!has_goal_) return input;
     input.has_goal = true;
-    input.goal_in_map = goal_->goal_in_map;
-    input.goal_heading_rad = goal_->heading_rad;
+    input.goal_in_map = goal_.goal_in_map;
+    input.goal_heading_rad = goal_.heading_rad;
     return input;
   }
   /// Between ticks.
-  void obey(const ViewOrder& order) noexcept {
-    if (order.goal) goal_ = order.goal, stopped_ = false;
-    if (order.stop) goal_.reset(), stopped_ = true, ++stops_;
+  void obey(const ViewOrder& order, bool at_rest) noexcept {
+    if (order.stop) has_goal_ = false, pressed_ = true, ++stops_;
+    if (order.reset && !order.stop && at_rest) resets_ = std::exchange(pressed_, false);
+    if (order.goal && !pressed_) goal_ = *order.goal, has_goal_ = true;
   }
+  [[nodiscard]] bool is_pressed() const noexcept { return pressed_; }
 
  private:
   OperatorPanel& inner_;
-  std::optional<GoalOrder> goal_;
-  bool stopped_ = false;
+  GoalOrder goal_{};
+  bool has_goal_ = false, pressed_ = false, resets_ = false;
   std::uint32_t stops_ = 0;
 };
 

@@ -39,14 +39,16 @@ std::optional<ViewOrder> parse_order(std::string_view json) {
   if (!value.is_boolean()) return std::nullopt;
   if (name == "pause") order.pause = value.get<bool>();
   if (name == "stop") order.stop = value.get<bool>();
+  if (name == "reset") order.reset = value.get<bool>();
   if (name == "step") order.step = value.get<bool>();
-  return order.pause || order.stop || order.step ? std::optional(order) : std::nullopt;
+  return order.pause || order.stop || order.reset || order.step ? std::optional(order) : std::nullopt;
 }
 
 void ViewOrders::add(const ViewOrder& order) {
   const std::scoped_lock lock(mutex_);
-  if (order.goal) waiting_.goal = order.goal, waiting_.stop = false;
-  if (order.stop) waiting_.stop = true, waiting_.goal.reset();
+  if (order.stop) waiting_.stop = true, waiting_.goal.reset(), waiting_.reset = false;
+  if (order.goal) waiting_.goal = order.goal;
+  waiting_.reset = waiting_.reset || order.reset;
   if (order.pause) waiting_.pause = order.pause;
   waiting_.step = waiting_.step || order.step;
 }

@@ -19,14 +19,16 @@ struct ViewOrder {
   std::optional<GoalOrder> goal;
   std::optional<bool> pause;
   bool stop = false;
+  bool reset = false;
   bool step = false;
 };
 
-/// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"stop":true}, {"pause":true}, {"step":true}; m and rad in the map. Nothing
-/// where it is none of these or a number is no place (beyond 1e6 m) or no angle (beyond pi).
+/// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"stop":true}, {"reset":true}, {"pause":true}, {"step":true}; m and rad in
+/// the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no angle (beyond pi).
 [[nodiscard]] std::optional<ViewOrder> parse_order(std::string_view json);
 
-/// Orders wait here until they are taken; a later one of a kind replaces the earlier. Any thread.
+/// Orders wait here until they are taken; a later one of a kind replaces the earlier, and a stop takes back the goal
+/// and the reset before it. Any thread.
 class ViewOrders {
  public:
   void add(const ViewOrder& order);

@@ -6,17 +6,21 @@
 #include "apps/rivals/baseline.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
+#include "hal/text_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-/// Oldest first.
+/// Oldest first. Throws StartupError where the first is no file that can be read: a pipe would be waited for.
 std::vector<std::filesystem::path> recordings_of(const std::filesystem::path& run) {
-  if (!std::filesystem::is_directory(run)) return {run};
   std::vector<std::filesystem::path> files;
-  for (const std::filesystem::path& part : parts_of(run)) files.push_back(part / "recording.jwr");
-  return files.empty() ? std::vector{run / "recording.jwr"} : files;
+  const bool is_folder = std::filesystem::is_directory(run);
+  if (is_folder)
+    for (const std::filesystem::path& part : parts_of(run)) files.push_back(part / "recording.jwr");
+  if (files.empty()) files.push_back(is_folder ? run / "recording.jwr" : run);
+  require_readable(files[0], files[0].string() + ": ", "give a recording.jwr that a run left in its --out");
+  return files;
 }
 
 std::string said_of(int part, const TickRecord& first) {

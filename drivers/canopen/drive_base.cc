@@ -63,7 +63,7 @@ void CanopenDriveBase::refuse() const {
   }
   for (const DriveProof& proof : proofs_) {
     if (proof.state() != DriveProof::State::kFailed) continue;
-    throw StartupError(proof.failure(), "use a drive that can prove it, or allow_unproved at your own risk");
+    throw StartupError(proof.failure(), proof.remedy());
   }
   throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
 }
@@ -83,7 +83,7 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
   ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
   conduct(identity);
   if (identity.lines()[0].verdict == ProofVerdict::kSilent) {
-    throw StartupError(who + ": no answer", "see that it has power, this number and the bus's bit rate");
+    throw StartupError(who + ": no answer", kSilentDrive);
   }
   if (!speaks_profile_velocity(identity.lines())) {
     throw StartupError(who + ": is no CiA 402 drive with profile velocity, by its 1000h and 6502h", "use one that is");
@@ -94,15 +94,18 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
   conduct(settings);
   const std::size_t behaviours = behaviour_items(setup_.settings).size();  // the first of all
   std::string lacking;
+  bool is_silent = false;
   std::size_t as_wanted = 0;
   for (std::size_t k = 0; k < settings.lines().size(); ++k) {
     const ProofLine& line = settings.lines()[k];
     if (line.verdict == ProofVerdict::kProved && k < behaviours) ++as_wanted;
     if (line.verdict == ProofVerdict::kProved || line.verdict == ProofVerdict::kDiffers) continue;
+    is_silent = is_silent || line.verdict == ProofVerdict::kSilent;
     lacking += (lacking.empty() ? "" : "; ") + describe(line);
   }
   if (!lacking.empty() && !setup_.allow_unproved) {
-    throw StartupError(who + ": " + lacking, "use a drive that has it, or allow_unproved at your own risk");
+    throw StartupError(who + ": " + lacking,
+                       is_silent ? kSilentDrive : "use a drive that has it, or allow_unproved at your own risk");
   }
   return who + ": CiA 402, profile velocity; " + std::to_string(as_wanted) + " of " + std::to_string(behaviours) +
          " settings stand as arming writes them" + (lacking.empty() ? "" : "; " + lacking);

@@ -1,6 +1,14 @@
 #include "drivers/canopen/drive_proof.h"
 
 namespace jaywalk::canopen {
+namespace {
+
+/// It answers well, and otherwise than the one of the first proof.
+bool is_another(const ProofLine& failed) noexcept {
+  return failed.verdict == ProofVerdict::kProved || failed.verdict == ProofVerdict::kLacks;
+}
+
+}  // namespace
 
 void DriveProof::begin(Time now) noexcept {
   asked_.emplace(bus_, node_, whole_proof(node_, setup_.settings), setup_.answer_timeout);
@@ -68,13 +76,23 @@ std::vector<std::string> DriveProof::report() const {
 
 std::string DriveProof::failure() const {
   const std::string drive = "node " + std::to_string(node_) + ": ";
-  for (std::size_t k = 0; asked_ && k < asked_->lines().size(); ++k) {
-    if (is_good(k)) continue;
-    const ProofLine& line = asked_->lines()[k];
-    const bool is_another = line.verdict == ProofVerdict::kProved || line.verdict == ProofVerdict::kLacks;
-    return drive + describe(line) + (is_another ? ", another drive than before: NOT PROVED" : "");
-  }
-  return drive + "no heartbeat that says it is operational";
+  const ProofLine* const line = failed_line();
+  if (line == nullptr) return drive + "no heartbeat that says it is operational";
+  return drive + describe(*line) + (is_another(*line) ? ", another drive than before: NOT PROVED" : "");
+}
+
+std::string DriveProof::remedy() const {
+  const ProofLine* const line = failed_line();
+  if (line == nullptr || line->verdict == ProofVerdict::kSilent) return kSilentDrive;
+  if (is_another(*line)) return "start the run anew, and commission the robot if the drive was exchanged";
+  if (line->item.demand == ProofDemand::kAtMost) return "see why its wheel turns";
+  return "use a drive that can prove it, or allow_unproved at your own risk";
+}
+
+const ProofLine* DriveProof::failed_line() const noexcept {
+  for (std::size_t k = 0; asked_ && k < asked_->lines().size(); ++k)
+    if (!is_good(k)) return &asked_->lines()[k];
+  return nullptr;
 }
 
 }  // namespace jaywalk::canopen

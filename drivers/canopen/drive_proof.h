@@ -9,6 +9,9 @@
 
 namespace jaywalk::canopen {
 
+/// For a drive that does not answer, or no longer.
+inline constexpr const char* kSilentDrive = "see to its cable, its power, its node number and the bus's bit rate";
+
 struct DriveProofSetup {
   DriveSettings settings;
   Duration answer_timeout{0};   ///< of one transfer
@@ -40,12 +43,15 @@ class DriveProof {
   [[nodiscard]] Time heard() const noexcept { return heard_; }
   /// What the drive said so far, a line a setting. Not for the loop.
   [[nodiscard]] std::vector<std::string> report() const;
-  /// Why it failed. Not for the loop.
+  /// Why it failed, and what to do. Not for the loop.
   [[nodiscard]] std::string failure() const;
+  [[nodiscard]] std::string remedy() const;
 
  private:
   void conclude_asking(Time now) noexcept;
   [[nodiscard]] bool is_good(std::size_t line) const noexcept;
+  /// The first that is not good; null: none.
+  [[nodiscard]] const ProofLine* failed_line() const noexcept;
 
   CanBus& bus_;
   std::uint8_t node_;

@@ -93,6 +93,9 @@ std::string VescBase::proof_line(std::size_t index) const {
 }
 
 std::string VescBase::proof_remedy() const {
+  for (const Seen& seen : seen_)
+    if (seen.asked != kNever && !seen.answered)
+      return "see to its cable, its power and its controller number; firmware 3.0 and newer answers";
   return "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at your own "
          "risk";
 }

@@ -11,11 +11,7 @@ OperatorInput JoystickPanel::latest() noexcept {
   input.reset = input.reset || state_.reset;
   if (needs_dead_man_ && !state_.dead_man) input.has_goal = false;
   if (!stick_drives_) return input;
-  const Stick stick{state_.forward, state_.left};
-  const bool is_ordered_to_stop = input.stop_orders != stops_obeyed_;
-  stops_obeyed_ = input.stop_orders;
-  waits_for_middle_ = (waits_for_middle_ || is_ordered_to_stop) && !stick.is_centred();
-  if (!waits_for_middle_) input.stick = stick;
+  input.stick = {state_.forward, state_.left};
   input.steers = !input.stick.is_centred() || !input.has_goal;
   if (input.steers) input.has_goal = false;
   return input;

@@ -6,8 +6,7 @@ namespace jaywalk::panel {
 
 /// A joystick in front of whatever else tells the robot what to do: it adds its stop and its reset, and lets the goal
 /// through only while the dead man's button is held. A joystick that is gone is an emergency stop. Where the stick
-/// drives, it does so when it leaves its middle, goal or no goal, and goes on while there is none; after an order to
-/// stop it has to come back to its middle first.
+/// drives, it does so when it leaves its middle, goal or no goal, and goes on while there is none.
 class JoystickPanel final : public OperatorPanel {
  public:
   /// Both outlive it. Without `needs_dead_man` the goal always passes, and no stick drives.
@@ -23,8 +22,6 @@ class JoystickPanel final : public OperatorPanel {
   JoystickWatch& joystick_;
   JoystickState state_;
   bool needs_dead_man_, stick_drives_;
-  std::uint32_t stops_obeyed_ = 0;
-  bool waits_for_middle_ = false;
 };
 
 }  // namespace jaywalk::panel

@@ -180,7 +180,7 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
   std::optional<RunFolder> folder;
   choose_folder(options, folder);
   ServiceManager service = ServiceManager::from_environment();
-  ArmedMark armed(own_runtime_folder(), file.drive.can);
+  ArmedMark armed(folder_of_marks(), file.drive.can);
   SteadyClock clock;
   locate_on_map(options.robot, file, clock);
   RobotDevices devices(file, clock);

@@ -55,6 +55,17 @@ std::filesystem::path own_runtime_folder() {
                      "see to its owner and rights, or name another in $XDG_RUNTIME_DIR");
 }
 
+std::filesystem::path folder_of_marks(const std::filesystem::path& shared) {
+  struct stat there {};
+  if (::lstat(shared.c_str(), &there) != 0) return own_runtime_folder();
+  if (!S_ISDIR(there.st_mode) || (there.st_mode & S_IWOTH) != 0)
+    throw StartupError(shared.string() + ": is no folder that its group alone may write to",
+                       "make it anew: systemd-tmpfiles --create jaywalk.conf");
+  if (::access(shared.c_str(), W_OK | X_OK) != 0)
+    throw StartupError(shared.string() + ": this user may not write there", "join the group jaywalk, and log in anew");
+  return shared;
+}
+
 ArmedMark::ArmedMark(const std::filesystem::path& folder, std::string robot)
     : file_(folder / name_for(std::move(robot))),
       folder_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)),
@@ -73,6 +84,7 @@ void ArmedMark::set() {
     throw StartupError(file_.string() + ": cannot be written: " + std::strerror(errno),
                        "take away what lies there, or free some space");
   }
+  ::fchmod(file.get(), S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP);  // the next run may be another's of the group
   set_ = true;
 }
 

@@ -7,6 +7,15 @@
 #include "hal/types/rest.h"
 
 namespace jaywalk {
+namespace {
+
+/// Faults of the drives, which a reset proves anew, and of the bus.
+constexpr Reason kEndedByReset = Reason::kBus | Reason::kDrive | Reason::kStopUnconfirmed | Reason::kForeignMaster |
+                                 Reason::kWheelsStale | Reason::kPoseDoubtful;
+
+constexpr const char* kStillMoves = "refused: the robot still moves; try again when it stands\n";
+
+}  // namespace
 
 ControlReply OperatorDesk::reply_to(std::string_view line) {
   line = trimmed(line);
@@ -36,6 +45,8 @@ std::string OperatorDesk::take_stop(bool now) {
   return "stopping\n";
 }
 
+bool OperatorDesk::is_stopping(const RunStatus& status) const { return status.stops_done != wish_.stops; }
+
 void OperatorDesk::wish(const Orders& orders) {
   ++wish_.number;
   wish_.orders = orders;
@@ -55,16 +66,25 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   }
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
-  if (closed_) return "refused: the run is ending\n";
-  if (!status.running) return "refused: the robot is not ready yet; try again\n";
-  if (status.latched && !status.proved && status.drive == DriveTrouble::kNone) {
-    return "refused: the drives are being proved again; try again in some seconds\n";
-  }
-  if (status.latched) {
-    return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
+  const bool is_void = said_.is_void(words, status.revoked, clock_.now());
+  if (const std::string why_not = goals_are_refused(status); !why_not.empty()) return why_not;
+  if (is_void) {
+    return "refused: it was stopped on its way there, and the goal is being repeated; give it again after " +
+           std::to_string(SaidGoals::kSame_s) + " s without\n";
   }
   wish({.under = status.revoked, .route = route});
   return "going\n";
+}
+
+std::string OperatorDesk::goals_are_refused(const RunStatus& status) const {
+  if (closed_) return "refused: the run is ending\n";
+  if (!status.running) return "refused: the robot is not ready yet; try again\n";
+  if (status.latched && !status.proved && status.drive == DriveTrouble::kNone)
+    return "refused: the drives are being proved again; try again in some seconds\n";
+  if (status.latched)
+    return "refused: stopped by " + to_string(status.latched_by) + "; see to it, then jaywalk reset\n";
+  if (is_stopping(status)) return "refused: the robot is still stopping; give the goal when it stands\n";
+  return "";
 }
 
 std::string OperatorDesk::take_place(std::string_view words) {
@@ -79,7 +99,7 @@ std::string OperatorDesk::take_place(std::string_view words) {
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
-  if (!(status.speed_mps <= kAtRest_mps)) return "refused: the robot still moves; try again when it stands\n";
+  if (is_stopping(status) || !(status.speed_mps <= kAtRest_mps)) return kStillMoves;
   wish({.under = status.revoked, .here = Pose2{place.position_in_map.x, place.position_in_map.y, place.heading_rad}});
   return "there\n";
 }
@@ -87,6 +107,7 @@ std::string OperatorDesk::take_place(std::string_view words) {
 ControlReply OperatorDesk::take_reset() {
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
+  if (is_stopping(status) && status.bus.state != CanState::kBusOff) return kStillMoves;
   if (!status.latched) return "nothing to reset\n";
   if (status.bus.state != CanState::kBusOff) return reset_at_rest(status);
   // First of all: off the bus nobody knows how fast the wheels are.
@@ -102,10 +123,12 @@ std::string OperatorDesk::restart_bus_and_reset(std::uint32_t stops) {
 }
 
 std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
-  if (status.speed_mps > kAtRest_mps) return "refused: the robot still moves; try again when it stands\n";
+  if (status.speed_mps > kAtRest_mps) return kStillMoves;
   if (has(status.reasons, Reason::kPoseDoubtful) && status.proved) {
     return "refused: where the robot is was guessed over a gap; say jaywalk here X,Y HEADING, then jaywalk reset\n";
   }
+  const Reason still = without(status.reasons, kNoFaults | kEndedByReset);
+  if (still != Reason::kNone) return "refused: still " + to_string(still) + "; see to it, then jaywalk reset\n";
   wish({.under = status.revoked, .reset = true});
   return "reset\n";
 }
@@ -134,6 +157,7 @@ OperatorInput OperatorDesk::latest() noexcept {
   input_.goal_heading_tolerance_rad = tolerances_.heading_rad;
   input_.stop_orders = wish.stops;
   input_.emergency_stop = wish.emergencies != seen_.emergencies;  // for one tick, as a reset
+  if (wish.stops != seen_.stops) permission_.stop();
   const bool given = is_new && permission_.give(wish.orders);
   input_.reset = given && wish.orders.reset;
   if (given && wish.orders.here) told_place_.tell(*wish.orders.here);
@@ -152,6 +176,8 @@ void OperatorDesk::head_for_goal() noexcept {
 }
 
 void OperatorDesk::tell(RunStatus& status) noexcept {
+  permission_.note_rest(status.at_rest);
+  if (!permission_.is_stopping()) status.stops_done = seen_.stops;
   if (!status.latched) status.latched_by = Reason::kNone;
   if (permission_.judge(status.reasons)) status.latched_by = without(status.reasons, kNoFaults);
   if (status.goal_reached && input_.has_goal) permission_.goal_is_reached();

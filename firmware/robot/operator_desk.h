@@ -10,6 +10,7 @@
 #include "firmware/robot/goal_order.h"
 #include "firmware/robot/permission.h"
 #include "firmware/robot/run_status.h"
+#include "firmware/robot/said_goals.h"
 #include "firmware/robot/told_place.h"
 #include "hal/hal.h"
 #include "hal/mailbox.h"
@@ -34,7 +35,8 @@ struct ClosedGround {
 ///
 /// Of a route it gives the loop one goal after the other, the next when one is reached.
 ///
-/// A fault that is latched drops the goal (Permission): after a reset the goal must be given anew. A goal that was
+/// A stop is obeyed to rest, and no goal is taken before. A stop and a fault that is latched drop the goal
+/// (Permission): it must be given anew, which a client that goes on repeating it does not (SaidGoals). A goal that was
 /// reached is dropped too, and so is one when a person takes the stick.
 class OperatorDesk final : public OperatorPanel {
  public:
@@ -78,6 +80,10 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] std::string take_stop(bool now);
   /// Under the lock: takes the place of what was asked for before.
   void wish(const Orders& orders);
+  /// Under the lock: until the newest order to stop was obeyed to rest.
+  [[nodiscard]] bool is_stopping(const RunStatus& status) const;
+  /// Under the lock: why no goal is taken now; empty where one is.
+  [[nodiscard]] std::string goals_are_refused(const RunStatus& status) const;
   /// Loop's thread: the goal that is permitted, or none.
   void head_for_goal() noexcept;
   [[nodiscard]] std::string take_goal(std::string_view words);
@@ -98,7 +104,8 @@ class OperatorDesk final : public OperatorPanel {
   ClosedGround closed_ground_;
   std::mutex asking_;  ///< never the loop's, and never held while something waits
   bool closed_ = false;
-  Wish wish_;  ///< the askers'
+  Wish wish_;       ///< the askers'
+  SaidGoals said_;  ///< likewise
   Mailbox<Wish> wishes_;
   Mailbox<RunStatus> statuses_;
   Wish seen_;  ///< the loop's

@@ -16,7 +16,8 @@ struct Orders {
 };
 
 /// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every
-/// order, stop, fault and latch assigns anew, so that nothing given before them is left.
+/// order, stop, fault and latch assigns anew, so that nothing given before them is left. A stop is obeyed to rest:
+/// until then nothing is given, and a stick counts from its middle on.
 ///
 /// Orders come from other threads, which know the loop as it was a moment ago: those given before the last revocation
 /// are void, too. Thread: the loop's; never allocates, never waits.
@@ -25,7 +26,7 @@ class Permission {
   /// Takes the place of all that was given before, a reset that waits among it. False: void, and nothing is given.
   bool give(const Orders& orders) noexcept {
     given_ = {};
-    if (orders.under != revoked_) return false;
+    if (stopping_ || orders.under != revoked_) return false;
     given_.route = orders.route;
     return true;
   }
@@ -33,6 +34,19 @@ class Permission {
     revokes_reset_ = revokes_reset_ || given_.reset_waits;
     given_ = {};
     ++revoked_;
+  }
+  /// A person's order to stop.
+  void stop() noexcept {
+    revoke();
+    stopping_ = true;
+  }
+  /// After each tick: whether the robot stands and is told to.
+  void note_rest(bool at_rest) noexcept { stopping_ = stopping_ && !at_rest; }
+  [[nodiscard]] bool is_stopping() const noexcept { return stopping_; }
+  /// Once a tick: what counts of where a stick stands.
+  [[nodiscard]] Stick admitted(const Stick& stick) noexcept {
+    stick_waits_ = (stick_waits_ || stopping_) && !stick.is_centred();
+    return stick_waits_ ? Stick{} : stick;
   }
   /// A tick's verdict: a latch, and a fault that comes while latched, revoke. True where it latched, or where a reset
   /// that waited was revoked in this tick: by these reasons it stands.
@@ -62,6 +76,8 @@ class Permission {
   Given given_;
   std::uint32_t revoked_ = 0;
   bool revokes_reset_ = false;  ///< in this tick
+  bool stopping_ = false;       ///< ordered to, and not at rest since
+  bool stick_waits_ = false;    ///< for its middle
   bool latched_ = false;
   Reason faults_ = Reason::kNone;  ///< of the tick before
 };

@@ -4,6 +4,7 @@ namespace jaywalk {
 
 OperatorInput ResetGate::latest() noexcept {
   OperatorInput input = panel_.latest();
+  input.stick = permission_.admitted(input.stick);
   const bool edge = input.reset && !reset_before_;
   reset_before_ = input.reset;
   if (input.emergency_stop) {

@@ -5,7 +5,8 @@
 
 namespace jaywalk {
 
-/// An operator panel in front of another whose reset reaches the loop only once the drives may turn again.
+/// An operator panel in front of another: its reset reaches the loop only once the drives may turn again, and its stick
+/// as far as it is permitted (Permission::admitted()).
 ///
 /// A person's reset edge, at rest, resets the drives. Where they were in trouble that begins their whole proof (SAFETY
 /// 15), and the loop stays latched until both have passed it. A stop, a fault and another order meanwhile void the

@@ -66,8 +66,7 @@ void RobotLoop::live() noexcept {
     due = next_due(due);
     tick(due);
     if (ending_ && !asked_to_end) asked_to_end = due;
-    at_rest = !(status_.speed_mps > kAtRest_mps) && runner_.last().command.left_radps == 0.0 &&
-              runner_.last().command.right_radps == 0.0;
+    at_rest = status_.at_rest;
   }
   guard_.rest();
   disarm(due);
@@ -114,6 +113,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.running = true;
   status_.map_from_robot = t.pose.map_from_robot;
   status_.speed_mps = speed_mps(t.wheels, t.now);
+  status_.at_rest = !(status_.speed_mps > kAtRest_mps) && t.command.left_radps == 0.0 && t.command.right_radps == 0.0;
   status_.enabled = devices_.drive.is_enabled();
   status_.proved = devices_.drive.is_proved();
   status_.foreign_frame = devices_.drive.foreign_frame();

@@ -17,9 +17,10 @@ namespace jaywalk {
 struct RunStatus {
   bool running = false;  ///< the loop has begun
   Pose2 map_from_robot;
+  bool at_rest = true;     ///< told to stand, and not felt to move
   double speed_mps = 0.0;  ///< felt at the wheels; of the faster one; NaN where they were not heard lately
   bool enabled = false;
-  bool proved = true;                     ///< the drives passed their whole proof since their last trouble
+  bool proved = false;                    ///< the drives passed their whole proof since their last trouble
   std::optional<CanFrame> foreign_frame;  ///< of another master, while that is the trouble
   bool steered = false;                   ///< a person drives by the stick; an earlier goal must be given anew
   bool has_goal = false;
@@ -33,6 +34,7 @@ struct RunStatus {
   std::uint8_t faulty_scanners = 0;     ///< Verdict's
   PlanStatus plan = PlanStatus::kNone;  ///< how the last plan that came went
   std::uint32_t revoked = 0;            ///< how often goals and resets were revoked by a stop, a fault or a latch
+  std::uint32_t stops_done = 0;         ///< orders to stop that were obeyed to rest, of all that there were
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
   DriveTrouble drive = DriveTrouble::kNone;

@@ -31,6 +31,8 @@ Duration taken_over(Duration tick) noexcept { return 100ms + by_themselves(tick)
 Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
 /// Two and a half periods of the loop.
 Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
+/// A plain stop keeps to the limits of comfort: 1 m/s2 is reached by a jerk of at most 2 m/s3.
+Duration in_comfort(Duration tick) noexcept { return 500ms + at_once(tick); }
 /// Half a second of motion that shows it.
 Duration shows_for(Duration) noexcept { return 500ms; }
 /// The same, from the first scan that repeats.
@@ -76,6 +78,25 @@ void reset_and_stop(FaultBench& bench) {
   bench.wait(2 * bench.tick_length());
   (void)bench.robot().desk().obey("stop now");
   bench.wait(6s);
+}
+
+void say_goal(FaultBench& bench) { (void)bench.robot().desk().obey("goto 42 2.5"); }
+
+/// A plain stop, which a client that repeats its goal does not undo, on the way to rest and there.
+FaultCase stop_among_goals() {
+  FaultCase fault{"stop_among_goals",
+                  [](FaultBench& b) {
+                    say_goal(b), say_goal(b);
+                    (void)b.robot().desk().obey("stop");
+                  },
+                  Reason::kNoGoal,
+                  in_comfort,
+                  Outcome::kStopped,
+                  say_goal};
+  fault.at_rest = [](FaultBench& b) {
+    for (int k = 0; k < 100; ++k) say_goal(b), b.wait(b.tick_length());
+  };
+  return fault;
 }
 
 void scanner(FaultBench& bench, ScannerFault fault, std::size_t index = 0) {
@@ -154,6 +175,7 @@ void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().
 const std::array kCases{
     FaultCase{"emergency_stop", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); }, Reason::kEmergencyStop,
               at_once},
+    stop_among_goals(),
     stop_in_proof(),
     FaultCase{"scanner_silent", [](FaultBench& b) { scanner(b, ScannerFault::kSilence); }, Reason::kScanStale, scans},
     FaultCase{"scanner_gone", [](FaultBench& b) { scanner(b, ScannerFault::kGone); }, Reason::kScanStale, scans},

@@ -37,15 +37,10 @@ inline Octets event(std::uint8_t type, std::uint16_t code, std::int32_t value) {
 struct GoalAtOne final : OperatorPanel {
   [[nodiscard]] OperatorInput latest() noexcept override {
     OperatorInput input;
-    input.has_goal = stops_ == 0;
+    input.has_goal = true;
     input.goal_in_map = {1.0, 0.0};
-    input.stop_orders = stops_;
     return input;
   }
-  void stop() { ++stops_; }
-
- private:
-  std::uint32_t stops_ = 0;
 };
 
 /// This machine's.

@@ -50,21 +50,3 @@ TEST_CASE("where the stick drives it takes the goal's place when it leaves its m
   CHECK(input.stick.is_centred());
   CHECK_FALSE(input.wants_motion());
 }
-
-TEST_CASE("an order to stop is obeyed by the stick, until it was in its middle") {
-  Bench bench(false, 0s, bus_of, true);
-  bench.plug_in();
-  static_cast<void>(bench.after(0ms));
-  bench.press(kDeadMan, false);
-  bench.press(kDeadMan);
-  static_cast<void>(bench.after(20ms));
-  bench.write(event(EV_ABS, kY, -32767));
-  CHECK(bench.after(20ms).wants_motion());
-  bench.goals.stop();
-  CHECK_FALSE(bench.after(20ms).wants_motion());
-  CHECK_FALSE(bench.after(1s).wants_motion());
-  bench.write(event(EV_ABS, kY, 0));
-  CHECK_FALSE(bench.after(20ms).wants_motion());
-  bench.write(event(EV_ABS, kY, -32767));
-  CHECK(bench.after(20ms).wants_motion());
-}

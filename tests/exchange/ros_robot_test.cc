@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "apps/formats/goal_orders.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -24,9 +25,11 @@ LaserModel laser_of(std::uint32_t beams, double fov_rad = kPi, double rate_hz = 
   return laser;
 }
 
+/// Stamped a millisecond after the one before.
 ScanMessage half_turn(std::vector<float> ranges) {
+  static Time stamp{1'800'000'000s};
   ScanMessage scan;
-  scan.stamp = Time{1'800'000'000s};
+  scan.stamp = stamp += 1ms;
   scan.first_angle_rad = static_cast<float>(-kPi / 2.0);
   scan.angle_step_rad = static_cast<float>(kPi / (static_cast<double>(ranges.size()) - 1.0));
   scan.beam_step_s = 0.01F;
@@ -50,49 +53,50 @@ double rad(std::uint32_t angle) { return ros::kAngle_rad * static_cast<std::int3
 TEST_CASE("a ROS scan has the model's beams, the nearer hit of two, the one beside where there is none") {
   ScanFeed feed(laser_of(5));
   const auto same = feed.take(half_turn({1, 2, 3, kInfinity, kNan}), Time{5s});
-  REQUIRE(same.beam_count == 5);
-  CHECK(same.first_angle_rad == Approx(-kPi / 2.0));
-  CHECK(same.angle_step_rad == Approx(kPi / 4.0));
-  CHECK(same.range_m[0] == 1.0F);
-  CHECK(same.range_m[3] == kInfinity);
-  CHECK(std::isnan(same.range_m[4]));
+  REQUIRE(same->beam_count == 5);
+  CHECK(same->first_angle_rad == Approx(-kPi / 2.0));
+  CHECK(same->angle_step_rad == Approx(kPi / 4.0));
+  CHECK(same->range_m[0] == 1.0F);
+  CHECK(same->range_m[3] == kInfinity);
+  CHECK(std::isnan(same->range_m[4]));
   const auto finer = feed.take(half_turn({1, 5, 2, 5, 3, 5, 4, 0.5F, 5}), Time{5100ms});
-  REQUIRE(finer.beam_count == 5);
-  CHECK(finer.range_m[0] == 1.0F);
-  CHECK(finer.range_m[4] == 0.5F);
+  REQUIRE(finer->beam_count == 5);
+  CHECK(finer->range_m[0] == 1.0F);
+  CHECK(finer->range_m[4] == 0.5F);
   const auto coarser = feed.take(half_turn({1, 2, 3}), Time{5200ms});
-  REQUIRE(coarser.beam_count == 5);
-  CHECK(coarser.range_m[2] == 2.0F);
-  CHECK(coarser.range_m[4] == 3.0F);
-  CHECK_FALSE(std::isnan(coarser.range_m[3]));
+  REQUIRE(coarser->beam_count == 5);
+  CHECK(coarser->range_m[2] == 2.0F);
+  CHECK(coarser->range_m[4] == 3.0F);
+  CHECK_FALSE(std::isnan(coarser->range_m[3]));
 }
 
 TEST_CASE("a ROS scan is stamped at its first beam; its sweep is one period at most") {
   ScanFeed feed(laser_of(5));
   ScanMessage scan = half_turn({1, 2, 3, 4, 5});
   const auto stamp_s = [&](Duration arrival) {
-    return static_cast<double>(feed.take(scan, Time{arrival}).stamp_ns) * 1e-9;
+    return static_cast<double>(feed.take(scan, Time{arrival})->stamp_ns) * 1e-9;
   };
   CHECK(stamp_s(5s) == Approx(4.96).margin(1e-6));
   scan.stamp += 100ms;
   CHECK(stamp_s(5s + 130ms) == Approx(5.06).margin(1e-4));  // 30 ms longer under way
   scan.beam_step_s = 1.0F;
   scan.stamp += 100ms;
-  CHECK(feed.take(scan, Time{5s + 200ms}).sweep_ns == std::chrono::nanoseconds(100ms).count());
+  CHECK(feed.take(scan, Time{5s + 200ms})->sweep_ns == std::chrono::nanoseconds(100ms).count());
   for (const float none : {kNan, -1.0F, 0.0F}) {
     scan.beam_step_s = none;
-    CHECK(feed.take(scan, Time{6s}).sweep_ns == 0);
+    scan.stamp += 100ms;
+    CHECK(feed.take(scan, Time{6s})->sweep_ns == 0);
   }
 }
 
 TEST_CASE("what is no scan has no beams") {
   ScanFeed feed(laser_of(5));
-  CHECK(feed.take(half_turn({}), Time{5s}).beam_count == 0);
-  CHECK(feed.take(half_turn({1, 2}), Time{5s}).beam_count == 0);
+  CHECK(feed.take(half_turn({}), Time{5s})->beam_count == 0);
+  CHECK(feed.take(half_turn({1, 2}), Time{5s})->beam_count == 0);
   const auto with = [&](auto change) {
     ScanMessage scan = half_turn({1, 2, 3, 4, 5});
     change(scan);
-    return feed.take(scan, Time{5s}).beam_count;
+    return feed.take(scan, Time{5s})->beam_count;
   };
   for (const float bad : {kNan, kInfinity, 1e9F}) {
     CHECK(with([bad](auto& s) { s.first_angle_rad = bad; }) == 0);
@@ -110,7 +114,7 @@ TEST_CASE("stamps of any clock tell how long a message was under way, and none t
   const Time theirs{1'700'000'000s};
   CHECK(times.sent(theirs, Time{10s}) == Time{10s});
   CHECK(times.sent(theirs + 100ms, Time{10s + 100ms}) == Time{10s + 100ms});
-  const Time late = times.sent(theirs + 200ms, Time{10s + 500ms});
+  const Time late = times.sent(theirs + 200ms, Time{10s + 500ms}).value();
   CHECK(late < Time{10s + 201ms});
   CHECK(late > Time{10s + 199ms});
   CHECK(times.sent(theirs - 3600s, Time{11s}) == Time{11s});                  // set back
@@ -118,6 +122,42 @@ TEST_CASE("stamps of any clock tell how long a message was under way, and none t
   CHECK(times.sent(theirs, Time{11s + 200ms}) == Time{11s + 200ms});
   CHECK(times.sent(Time{}, Time{12s}) == Time{12s});  // not set
   CHECK(times.sent(Time{}, Time{13s}) == Time{13s});
+}
+
+TEST_CASE("a message that is repeated or overtaken is none, and one that is late from the start is as old as it is") {
+  SentTimes times;
+  const Time wall{1'700'000'000s}, ours{100s};
+  const auto at = [&](Duration after, Duration age, Duration written = 0s) {
+    return times.sent(wall + after - age, {ours + after, wall + after, wall + after - written});
+  };
+  CHECK(at(0s, 600ms) == ours - 600ms);  // the first of all
+  CHECK(at(100ms, 600ms) == ours + 100ms - 600ms);
+  CHECK_FALSE(at(200ms, 700ms));  // the same again
+  CHECK_FALSE(at(200ms, 900ms));  // an earlier one
+  CHECK(at(300ms, 0ms) == ours + 300ms);
+  CHECK_FALSE(at(400ms, 600ms));
+  CHECK(at(500ms, 0ms, 300ms) == ours + 200ms);  // it lay at its writer
+  SentTimes unset;
+  CHECK(unset.sent(Time{}, {ours, wall, wall - 400ms}) == ours - 400ms);
+  CHECK_FALSE(unset.sent(Time{}, {ours + 1s, wall + 1s, wall - 400ms}));
+}
+
+TEST_CASE("a goal that is repeated is one order, another writer's is another, and one that comes late is none") {
+  using Heard = GoalOrders::Heard;
+  GoalOrders orders;
+  const Time wall{1'700'000'000s};
+  const auto say = [&](const char* message, std::uint64_t writer, Time stamp, Duration written = 0s) {
+    return orders.judge(message, stamp, writer, {kNever, wall, wall - written});
+  };
+  CHECK(say("a", 1, Time{}) == Heard::kOrder);
+  for (int k = 0; k < 3; ++k) CHECK(say("a", 1, Time{}) == Heard::kRepeated);
+  CHECK(say("a", 2, Time{}) == Heard::kOrder);
+  CHECK(say("b", 1, wall - 1s) == Heard::kOrder);
+  CHECK(say("a", 1, wall - 3s) == Heard::kLate);
+  CHECK(say("c", 1, wall + 3s) == Heard::kLate);
+  CHECK(say("d", 1, Time{}, 3s) == Heard::kLate);
+  CHECK(say("d", 1, Time{}, 0s) == Heard::kRepeated);  // late once, late for ever
+  for (std::uint64_t writer = 10; writer < 1000; ++writer) CHECK(say("e", writer, Time{}) == Heard::kOrder);
 }
 
 TEST_CASE("odometry is two wheels of the model's radius and track") {

@@ -49,6 +49,25 @@ TEST_CASE("a link in the mark's place is not followed, and latches") {
   CHECK(kept == "kept");
 }
 
+TEST_CASE("where the package has made a folder for marks every user's run uses it, or does not start") {
+  const Scratch scratch;
+  const std::filesystem::path shared = scratch.path("shared");
+  CHECK(folder_of_marks(shared) == own_runtime_folder());
+  std::filesystem::create_directory(shared);
+  std::filesystem::permissions(shared, std::filesystem::perms::owner_all | std::filesystem::perms::group_all);
+  CHECK(folder_of_marks(shared) == shared);
+  ArmedMark service(folder_of_marks(shared), "can0");
+  service.set();
+  CHECK(ArmedMark(folder_of_marks(shared), "can0").was_left());
+  CHECK(std::filesystem::status(shared / "jaywalk-can0.armed").permissions() ==
+        (std::filesystem::perms::owner_read | std::filesystem::perms::owner_write | std::filesystem::perms::group_read |
+         std::filesystem::perms::group_write));
+  std::filesystem::permissions(shared, std::filesystem::perms::all);
+  CHECK_THROWS_AS(folder_of_marks(shared), StartupError);  // anybody's
+  std::filesystem::create_directory_symlink(shared, scratch.path("link"));
+  CHECK_THROWS_AS(folder_of_marks(scratch.path("link")), StartupError);
+}
+
 TEST_CASE("the folder for marks is this user's alone: one that is a link, or where others may write, is passed over") {
   const Scratch scratch;
   const std::string before = std::getenv("XDG_RUNTIME_DIR") != nullptr ? std::getenv("XDG_RUNTIME_DIR") : "";

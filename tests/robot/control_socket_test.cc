@@ -103,11 +103,13 @@ TEST_CASE("the end of a run takes its own socket away and nothing that lies ther
 TEST_CASE("a stop is one however it is said, as the last words of a client and after others in one write") {
   const ControlSocket socket(place(), echo);
   for (const char* said : {"stop now\r\n", "STOP NOW\n", "stop  now \n", "  Stop\tnow", "stop now",
-                           "goto 1 2\nstop now\n", "status\nstop now", "stop\nstop now\n"}) {
+                           "goto 1 2\nstop now\n", "status\nstop now", "stop\nstop now\n", "emergency stop\n",
+                           "Emergency!", "estop\n", "halt now\n", "\xEF\xBB\xBFstop now\n"}) {
     INFO(said);
     CHECK(answer_to(said) == "heard stop now\n");
   }
-  for (const char* said : {"stop", "stop\r\n", "stop here!\n", "goto 1 2\r\nSTOP\r\n", "Stopp\n"}) {
+  for (const char* said : {"stop", "stop\r\n", "stop here!\n", "goto 1 2\r\nSTOP\r\n", "Stopp\n", "halt\n", "HALT \r\n",
+                           "\xEF\xBB\xBFstop\n", "stop \t\r\r\n", "/stop\n", "\"stop\"\n"}) {
     INFO(said);
     CHECK(answer_to(said) == "heard stop\n");
   }

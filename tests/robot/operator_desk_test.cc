@@ -1,46 +1,12 @@
-#include "firmware/robot/operator_desk.h"
-
 #include <cmath>
 #include <string>
 
-#include "tests/drivers/hand_clock.h"
+#include "tests/robot/desk_bench.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
-
-namespace {
-
-struct Bench {
-  Bench() {
-    tell([](RunStatus&) {});
-  }
-  template <class Change>
-  void tell(Change change) {
-    status.running = true;
-    change(status);
-    desk.tell(status);
-  }
-  void latch() {
-    tell([](RunStatus& s) { s.latched = true, s.reasons = Reason::kLatched | Reason::kDrive; });
-  }
-  void unlatch() {
-    tell([](RunStatus& s) { s.latched = false, s.reasons = Reason::kNone; });
-  }
-
-  tests::HandClock clock;
-  int restarts = 0;
-  std::string restart_fails;
-  bool bus_answers = true;
-  OperatorDesk desk{clock, {0.25, 0.05}, [this] {
-                      ++restarts;
-                      if (bus_answers) tell([](RunStatus& s) { s.bus.state = CanState::kActive, s.speed_mps = 0.0; });
-                      return restart_fails;
-                    }};
-  RunStatus status;
-};
-
-}  // namespace
+using Bench = tests::DeskBench;
 
 TEST_CASE("a goal that was asked for is the loop's until somebody says stop") {
   Bench bench;
@@ -83,6 +49,7 @@ TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of i
   CHECK(goal_x() == 1.0);
   CHECK(desk.obey("stop") == "stopping\n");
   CHECK(goal_x() == 0.0);
+  reach(false);  // a tick, at rest
   CHECK(desk.obey("goto a b") == "going\n");
   CHECK(goal_x() == 1.0);
   status.latched = true, status.reasons = Reason::kLatched | Reason::kBus, desk.tell(status);
@@ -106,7 +73,7 @@ TEST_CASE("a route with a goal in a keep-out zone, or too near one, is refused")
   CHECK(desk.obey("goto 2.5 1.5") == "going\n");
 }
 
-TEST_CASE("a person who takes the stick drops the goal, and every order to stop is told to the stick") {
+TEST_CASE("a person who takes the stick drops the goal, and every order to stop is counted") {
   Bench bench;
   CHECK(bench.desk.obey("goto 1 2") == "going\n");
   CHECK(bench.desk.latest().has_goal);
@@ -273,6 +240,12 @@ TEST_CASE("the loop's side of the desk asks nothing of the heap") {
   const auto calls = guard.calls();
   CHECK(has_goal);
   CHECK(calls == 0);
+}
+
+TEST_CASE("before the loop runs nothing is said to be proved") {
+  tests::HandClock clock;
+  OperatorDesk desk(clock, {}, [] { return std::string(); });
+  CHECK(desk.obey("status").find("\ndrives_proved: no\n") != std::string::npos);
 }
 
 TEST_CASE("status is told in lines of word and value") {

@@ -97,6 +97,25 @@ TEST_CASE("a stop while the proof runs takes the reset that waits, and so does o
   CHECK(bench.drive.resets == 1);
 }
 
+TEST_CASE("an order to stop holds the stick until it was in its middle at rest", "[stop]") {
+  Bench bench;
+  const auto passes = [&](double forward) {
+    bench.panel.input.stick.forward = forward;
+    return bench.gate.latest().stick.forward;
+  };
+  CHECK(passes(1.0) == 1.0);
+  bench.permission.stop();
+  CHECK(passes(1.0) == 0.0);
+  CHECK(passes(0.0) == 0.0);
+  CHECK(passes(1.0) == 0.0);  // let go and pushed again, on the way to rest
+  bench.permission.note_rest(false);
+  CHECK(passes(1.0) == 0.0);
+  bench.permission.note_rest(true);
+  CHECK(passes(1.0) == 0.0);
+  CHECK(passes(0.0) == 0.0);
+  CHECK(passes(1.0) == 1.0);
+}
+
 TEST_CASE("there is no reset while a wheel is felt turning") {
   Bench bench;
   bench.gate.note_turning(true);

@@ -25,7 +25,8 @@ class SafetyCore {
   }
 
   // What may happen.
-  void give_goal() { ask("goto 50 0"); }
+  /// Another one each time: one that is repeated is void after a stop.
+  void give_goal() { ask("goto 50 0." + std::to_string(++goals_)); }
   void drop_goal() { ask("stop"); }
   void stop_now() { ask("stop now"); }
   void press_stop() { button_.held = true; }
@@ -56,7 +57,7 @@ class SafetyCore {
     out << row_of(supervisor_.mode()).name << ' ' << name(wheels_.trouble) << ' ' << name(wheels_.stop) << ' '
         << base_.is_proved() << base_.is_enabled() << ' ' << left_.state_name() << ' ' << right_.state_name() << ' '
         << (left_.velocity() != 0.0) << (right_.velocity() != 0.0) << ' ' << has_goal_ << button_.held << scans_come_
-        << plugged_ << hangs_ << reset_given_ << goal_given_ << proof_owed_ << asks_as_it_latches_;
+        << plugged_ << hangs_ << reset_given_ << goal_given_ << proof_owed_ << asks_as_it_latches_ << stopping_;
     return out.str();
   }
   /// The first rule that was broken; empty: none.
@@ -114,7 +115,7 @@ class SafetyCore {
     permitted_ = verdict.permitted;
     base_.command(diff_drive_.wheel_speeds(permitted_, now));
     const bool latches = supervisor_.mode() == Mode::kLatched && before_ != Mode::kLatched && asks_as_it_latches_;
-    if (latches) ask("goto 50 0");
+    if (latches) give_goal();
     tell(verdict);
     hold_against_rules(now);
     if (latches) asks_as_it_latches_ = false, ask("reset");
@@ -127,12 +128,14 @@ class SafetyCore {
     status_.drive = wheels_.trouble;
     status_.reasons = verdict.reasons;
     status_.latched = supervisor_.mode() == Mode::kLatched;
+    status_.at_rest = permitted_ == Twist2{} && status_.speed_mps <= kAtRest_mps;
     gate_.note_turning(status_.speed_mps > kAtRest_mps);
     desk_.tell(status_);
   }
   void ask(const std::string& line) {
     const std::string answer = desk_.obey(line);
-    if (line.starts_with("stop")) note_stop();
+    if (line.starts_with("stop")) note_stop(), stopping_ = true;
+    if (answer == "going\n" && stopping_) accuse("a goal is taken on the way to rest");
     if (answer == "reset\n") reset_given_ = proof_asked_ = true;
     if (answer == "going\n") goal_given_ = true;
   }
@@ -161,15 +164,17 @@ class SafetyCore {
   WheelState wheels_;
   Twist2 permitted_;
   RunStatus status_;
+  int goals_ = 0;
   bool has_goal_ = false, asks_as_it_latches_ = false;
   bool scans_come_ = true, plugged_ = true, hangs_ = false;
 
   // What the rules remember.
   Mode before_ = Mode::kStandby;
   Time latched_ = kNever;
-  double speed_latched_ = 0.0;   ///< counts/s
-  bool reset_given_ = false;     ///< since it latched, and since the last stop while it was
-  bool goal_given_ = false;      ///< since it latched, and since the last stop
+  double speed_latched_ = 0.0;                       ///< counts/s
+  bool reset_given_ = false;                         ///< since it latched, and since the last stop while it was
+  bool goal_given_ = false;                          ///< since it latched, and since the last stop
+  bool stopping_ = false, stopping_before_ = false;  ///< ordered to stop, and not at rest since; likewise, a tick ago
   bool proof_asked_ = false;     ///< by a reset since it latched, one that a stop took back among them
   bool proof_owed_ = false;      ///< there was trouble, and since then no proof that began after a reset
   std::array<int, 2> proofs_{};  ///< writes to 1016h on the bus since the reset, by drive
@@ -222,6 +227,10 @@ inline void SafetyCore::hold_against_rules(Time now) {
   const bool is_due = mode == Mode::kLatched && now - latched_ > duration_from_seconds(ramp_s + 0.120);
   const bool turns = std::fabs(left_.velocity()) > 300.0 || std::fabs(right_.velocity()) > 300.0;  // 0.3 rad/s
   if (is_due && turns && now - port_.last() < std::chrono::milliseconds(20)) accuse("it turns, and is spoken to");
+  // 4: a stop is obeyed to rest.
+  stopping_ = stopping_ && status_.speed_mps > kAtRest_mps;
+  if (stopping_ && stopping_before_ && target_ > target_before_) accuse("ordered to stop, and faster");
+  stopping_before_ = stopping_;
   before_ = mode;
 }
 

@@ -1,46 +1,11 @@
 // The whole controller with a joystick in front of it.
-#include <fcntl.h>
-#include <linux/input.h>
-#include <sys/stat.h>
-
+#include "tests/robot/joystick_pipe.h"
 #include "tests/robot/wired_bench.h"
 
 using namespace jaywalk;
 using namespace std::chrono_literals;
 using Bench = tests::WiredBench;
-
-namespace {
-
-/// A named pipe in the place of a joystick.
-class Joystick {
- public:
-  Joystick() {
-    std::filesystem::remove(path);
-    REQUIRE(::mkfifo(path.c_str(), 0600) == 0);
-    pipe_ = wire::FileDescriptor(::open(path.c_str(), O_RDWR | O_NONBLOCK));
-  }
-  ~Joystick() { std::filesystem::remove(path); }
-  void press(std::uint16_t button, bool pressed = true) { write(EV_KEY, button, pressed ? 1 : 0); }
-  /// Of 32767 from the middle to the end; ahead counts down.
-  void push(std::int32_t forward) { write(EV_ABS, ABS_Y, -forward); }
-  void write(std::uint16_t type, std::uint16_t code, std::int32_t value) {
-    input_event event{};
-    event.type = type;
-    event.code = code;
-    event.value = value;
-    REQUIRE(::write(pipe_.get(), &event, sizeof event) == sizeof event);
-  }
-  void pull() {
-    std::filesystem::remove(path);
-    pipe_ = wire::FileDescriptor();
-  }
-  const std::string path = std::filesystem::temp_directory_path() / ("jaywalk_tick_" + std::to_string(::getpid()));
-
- private:
-  wire::FileDescriptor pipe_;
-};
-
-}  // namespace
+using Joystick = tests::JoystickPipe;
 
 TEST_CASE("with a joystick the robot drives while its dead man is held, and its stop and reset are the robot's") {
   Joystick joystick;

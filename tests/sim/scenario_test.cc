@@ -181,6 +181,13 @@ TEST_CASE("bad scenarios are refused with file, line and cause") {
   CHECK(says(refusal([] { static_cast<void>(load_scenario("/nowhere.toml")); }), "/nowhere.toml: no such file"));
 }
 
+TEST_CASE("a file that cannot be read is refused by its place, cause and remedy, whatever it is") {
+  const auto refused = [](const char* file) { return refusal([file] { static_cast<void>(load_scenario(file)); }); };
+  CHECK(says(refused("/tmp"), "/tmp: a folder; give the path of a TOML file"));
+  CHECK(says(refused("/dev/zero"), "/dev/zero: no regular file; give"));
+  CHECK(says(refused("/proc/self/mem"), "/proc/self/mem: cannot be read to its end; give"));  // once opened
+}
+
 TEST_CASE("lost beams are those of the named sector, or else of the 120 degrees ahead") {
   const std::string fault = "[[faults]]\nat_s = 1\nfor_s = 2\nkind = \"beams_lost\"\n";
   CHECK(parsed(kMap + kRobot + fault).faults[0].lost.width_rad() == Approx(2.0 * kPi / 3.0));

@@ -78,7 +78,7 @@ TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control
   const auto stop = connected(port);
   say(stop, request("POST /stop"));
   CHECK(heard(stop).find("heard stop") != std::string::npos);
-  CHECK(bench.told() == "stop\n");
+  CHECK(bench.told() == "stop now\n");  // it latches
 
   const std::string query = query_of(url.substr(0, url.size() - 1));
   const auto friendly = connected(port);
@@ -86,7 +86,7 @@ TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control
   CHECK(heard(friendly, "\r\n\r\n").find(" 101 ") != std::string::npos);
   say(friendly, frame(R"({"goal":[1,2]})"));
   CHECK(heard(friendly, "heard goto").find("heard goto") != std::string::npos);
-  CHECK(bench.told() == "stop\ngoto 1 2\n");
+  CHECK(bench.told() == "stop now\ngoto 1 2\n");
 }
 
 TEST_CASE("the file with the address goes with the run, and a file of another kind in its place stays as it is") {
@@ -122,7 +122,9 @@ TEST_CASE("a stop waits for no goal, takes back the one that waits, and follows 
   CHECK(heard(page, "taken back").find("heard goto 0 0") != std::string::npos);
   say(page, frame(R"({"goal":[3,3]})"));
   CHECK(heard(page, "heard goto 3 3").find("2 2") == std::string::npos);
-  CHECK(bench.told() == "goto 0 0\nstop\nstop\ngoto 3 3\n");
+  say(page, frame(R"({"reset":true})"));
+  CHECK(heard(page, "heard reset").find("stop") == std::string::npos);
+  CHECK(bench.told() == "goto 0 0\nstop now\nstop now\ngoto 3 3\nreset\n");
 }
 
 namespace {

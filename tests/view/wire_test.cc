@@ -6,6 +6,7 @@
 #include "apps/view/foxglove_session.h"
 #include "apps/view/frame_store.h"
 #include "apps/view/goal_message.h"
+#include "apps/view/steered_panel.h"
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"
 #include "tests/support/catch.h"
@@ -13,13 +14,14 @@
 using namespace jaywalk;
 using namespace jaywalk::view;
 
-TEST_CASE("orders are a goal with or without a heading, stop, pause or step") {
+TEST_CASE("orders are a goal with or without a heading, stop, reset, pause or step") {
   const auto goal = parse_order(R"({"goal":[1.5,-2,0.5]})");
   REQUIRE(goal);
   CHECK(goal->goal->goal_in_map == Vec2{1.5, -2.0});
   CHECK(goal->goal->heading_rad == 0.5);
   CHECK(std::isnan(parse_order(R"({"goal":[1,2]})")->goal->heading_rad));
   CHECK(parse_order(R"({"stop":true})")->stop);
+  CHECK(parse_order(R"({"reset":true})")->reset);
   CHECK(parse_order(R"({"pause":false})")->pause == false);
   CHECK(parse_order(R"({"step":true})")->step);
 }
@@ -33,17 +35,54 @@ TEST_CASE("what is no order is left out") {
   }
 }
 
-TEST_CASE("a stop takes back a goal that waits, and a goal a stop") {
+TEST_CASE("a stop takes back a goal and a reset that wait, and none that follows takes it back", "[stop]") {
   ViewOrders orders;
   orders.add(*parse_order(R"({"goal":[1,2]})"));
   orders.add(*parse_order(R"({"stop":true})"));
-  const ViewOrder stopped = orders.take();
+  ViewOrder stopped = orders.take();
   CHECK(stopped.stop);
   CHECK_FALSE(stopped.goal);
   CHECK_FALSE(orders.take().stop);
   orders.add(*parse_order(R"({"stop":true})"));
   orders.add(*parse_order(R"({"goal":[1,2]})"));
-  CHECK_FALSE(orders.take().stop);
+  CHECK(orders.take().stop);
+  orders.add(*parse_order(R"({"reset":true})"));
+  orders.add(*parse_order(R"({"stop":true})"));
+  stopped = orders.take();
+  CHECK(stopped.stop);
+  CHECK_FALSE(stopped.reset);
+}
+
+TEST_CASE("the page's stop stays pressed until its reset, at rest; no goal counts before", "[stop]") {
+  struct GoesToOne final : OperatorPanel {
+    [[nodiscard]] OperatorInput latest() noexcept override {
+      OperatorInput input;
+      input.has_goal = true;
+      return input;
+    }
+  } inner;
+  SteeredPanel panel(inner);
+  const ViewOrder stop = *parse_order(R"({"stop":true})"), reset = *parse_order(R"({"reset":true})");
+  const ViewOrder goal = *parse_order(R"({"goal":[1,2]})");
+  CHECK(panel.latest().has_goal);
+  panel.obey(stop, false);
+  for (const bool at_rest : {false, true}) {
+    panel.obey(goal, at_rest);
+    CHECK_FALSE(panel.latest().has_goal);
+    CHECK(panel.latest().emergency_stop);
+  }
+  panel.obey(reset, false);
+  CHECK(panel.latest().emergency_stop);
+  panel.obey(reset, true);
+  const OperatorInput input = panel.latest();
+  CHECK(input.reset);
+  CHECK_FALSE(input.emergency_stop);
+  CHECK_FALSE(input.has_goal);  // its own goal is gone
+  CHECK_FALSE(panel.latest().reset);
+  panel.obey(goal, true);
+  CHECK(panel.latest().goal_in_map == Vec2{1.0, 2.0});
+  panel.obey(reset, true);
+  CHECK_FALSE(panel.latest().reset);  // nothing is pressed
 }
 
 TEST_CASE(

@@ -1,5 +1,5 @@
 // What a person does, by pointer and by keys.
-const kKeys = [['Space', 'Stop', ask_stop], ['Enter', 'go to the goal proposed', accept], ['Escape', 'leave the goal proposed', () => { cancel_proposal(); show_card(null); }],
+const kKeys = [['Space', 'Stop', ask_stop], ['r', 'let it move again after a stop', ask_reset], ['Enter', 'go to the goal proposed', accept], ['Escape', 'leave the goal proposed', () => { cancel_proposal(); show_card(null); }],
   ['u', 'undo the last goal', undo], ['p', 'pause or go on', () => element('pause').click()], ['.', 'a tick on', () => element('step').click()],
   ['ArrowLeft', 'a second back', () => { plays = false; choose(shown - Math.round(1 / hello.tick_s)); }], ['ArrowRight', 'a second on', () => { plays = false; choose(shown + Math.round(1 / hello.tick_s)); }],
   ['End', 'live', () => element('live').click()], ['+', 'nearer', () => zoom(1.3)], ['-', 'farther', () => zoom(1 / 1.3)], ['0', 'all of it', () => aim_at('whole')],
@@ -15,6 +15,7 @@ element('step').onclick = () => {
   order({step: true});
 };
 element('stop').onclick = ask_stop;
+element('reset').onclick = ask_reset;
 element('undo').onclick = undo;
 element('go').onclick = accept;
 element('leave').onclick = cancel_proposal;

@@ -31,16 +31,15 @@ function accept() {
   const frame = frames.get(newest);
   if (is_lost()) return take_said({text: 'no connection: the goal was not sent'});
   earlier = frame.goal ? frame.goal.filter(value => value !== null) : false;
-  stop = null;
   order({goal: proposal.goal});
-  element('undo').hidden = false;
+  element('undo').hidden = !earlier;
   cancel_proposal();
 }
 function undo() {
   if (proposal) return cancel_proposal();
   if (element('undo').hidden) return;
   element('undo').hidden = true;
-  if (earlier) order({goal: earlier}); else ask_stop();
+  order({goal: earlier});
 }
 function draw_proposal(pen) {
   if (drag && !drag.pans) line(pen, [drag.from, drag.to], ink('path'), 3);

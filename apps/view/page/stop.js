@@ -9,6 +9,7 @@ function ask_stop() {
   send_stop(stop);
   show_state();
 }
+function ask_reset() { order({reset: true}); }
 function send_stop(mine) {
   mine.sent = performance.now();
   order({stop: true});
@@ -18,7 +19,7 @@ function send_stop(mine) {
 }
 function hear_stops(frame) {
   stops_said = frame.stops;
-  if (stop && stop.heard !== null && frame.goal) stop = null;
+  if (stop && stop.heard !== null && !is_latched(frame)) stop = null;
   if (!stop || stop.heard !== null) return;
   if (stop.before === null) stop = {...stop, before: stops_said, taken: false};
   if (stops_said !== stop.before) stop.heard = performance.now() - stop.asked;
@@ -38,6 +39,7 @@ function stop_alarm() {
 function show_stop() {
   const button = element('stop'), frame = frames.get(newest);
   if (stop && stop.heard === null && !stop.taken && !over && performance.now() - stop.sent > kAgain_ms) send_stop(stop);
+  element('reset').hidden = !frame || !hello.takes_goals || over || !is_latched(frame);
   const moves = frame && Math.abs(frame.speed) > 0.01;
   button.className = !stop ? '' : stop.heard !== null ? 'heard' : stop_alarm() ? 'unheard' : 'waits';
   button.textContent = !stop ? 'Stop' : stop.heard !== null ? (moves ? `Heard in ${Math.round(stop.heard)} ms, stopping` : 'Stopped \u2713') :

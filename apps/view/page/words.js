@@ -14,6 +14,7 @@ const kNoFaults = new Set(['stop_zone', 'plan_stale', 'speed_limit', 'latched', 
 const reasons_of = text => text ? text.split('|') : [];
 const words_of = text => reasons_of(text).map(name => kWords[name] || name).join(', ');
 const has_fault = text => reasons_of(text).some(name => !kNoFaults.has(name));
+const is_latched = frame => reasons_of(frame.reasons).includes('latched');
 const metres = value => `${value.toFixed(1)} m`;
 const speed_of = value => `${Math.abs(value) < 0.005 ? '0.00' : value.toFixed(2)} m/s`;
 const degrees = radians => `${Math.round(radians * 180 / Math.PI)}\u00B0`;
