@@ -71,6 +71,7 @@ class MotionModel {
   [[nodiscard]] Moved moved_to(const Pose2& kept_from_now) const noexcept;
 
   DriveModel drive_;
+  double late_m_;  ///< that a wheel may have rolled while its report was late
   FeltMotion felt_motion_;
   ScanPair pair_;
   std::array<Reading, kMostReadings> readings_{};

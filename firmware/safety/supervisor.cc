@@ -46,7 +46,10 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       unseen_walls_(config.model.footprint, stop_zone_.mounts(), stop_zone_.reach_m() + kPlannersReach_m),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {
   for (const LaserModel& laser : config.model.lasers()) {
-    scanners_.push_back({laser, ScanTiming(laser.rate_hz), {}, MotionModel(config.model, scanners_.size())});
+    scanners_.push_back({laser,
+                         ScanTiming(laser.rate_hz),
+                         {},
+                         MotionModel(config.model, scanners_.size())});
     gaps_.emplace_back(laser);
   }
 }
@@ -106,16 +109,25 @@ Reason Supervisor::scan_faults(std::size_t scanner, const SafetyInput& input) no
 Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
   Reason reasons = reason_for(wheels.trouble);
   // Drives that are being proved report nothing yet, and have no torque.
-  if (config_.needs_wheels && wheels.ready && is_older(wheels.stamp, now, config_.max_wheel_age))
+  if (config_.needs_wheels && wheels.ready &&
+      is_older(wheels.stamp, now, oldest_wheels(config_.model.drive.times, config_.tick)))
     reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
   return reasons;
 }
 
 Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) noexcept {
-  const Reason reasons = scanners_[scanner].motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
+  Scanner& judged = scanners_[scanner];
+  Reason reasons = judged.motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
+  if (answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
   constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
+}
+
+/// Whether the feedback, read once a tick, follows the commands later than a sound drive's: it is old, whatever its
+/// stamp says.
+bool Supervisor::answers_late(const MeasuredLatency& measured) const noexcept {
+  return measured.drive_s > config_.model.drive.times.obeyed_within_s() + to_seconds(config_.tick);
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {
@@ -186,7 +198,7 @@ bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
 }
 
 double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return jaywalk::reaction_s(input.scans, config_.model.lasers(), input.now, config_.tick, input.latency);
+  return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
 }
 
 /// Slowly where no laser ever looks: each part of the body that goes there.

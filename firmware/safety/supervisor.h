@@ -23,7 +23,6 @@ namespace jaywalk {
 
 struct SupervisorConfig {
   RobotModel model;
-  Duration max_wheel_age = std::chrono::milliseconds(60);   ///< three ticks of 50 Hz
   Duration max_plan_age = std::chrono::milliseconds(1000);  ///< older: standstill
   Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
   double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
@@ -75,6 +74,7 @@ class Supervisor {
   [[nodiscard]] OfEach<BlindGaps> gaps() const noexcept { return OfEach<BlindGaps>(std::span(gaps_)); }
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
   [[nodiscard]] Reason motion_faults(std::size_t scanner, const SafetyInput& input) noexcept;
+  [[nodiscard]] bool answers_late(const MeasuredLatency& measured) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
