@@ -12,7 +12,8 @@ SupervisorConfig supervisor_config(const ControlSetup& setup) {
           .tick = setup.tick(),
           .needs_wheels = setup.wheels,
           .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
-          .latches_all = setup.wired};
+          .latches_all = setup.wired,
+          .proves_wheels = setup.wired && setup.judges_motion && setup.wheels};
 }
 
 }  // namespace

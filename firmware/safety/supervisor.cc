@@ -49,7 +49,8 @@ Supervisor::Supervisor(const SupervisorConfig& config)
     scanners_.push_back({laser,
                          ScanTiming(laser.rate_hz),
                          {},
-                         MotionModel(config.model, scanners_.size())});
+                         MotionModel(config.model, scanners_.size()),
+                         WheelProof(config.model, scanners_.size())});
     gaps_.emplace_back(laser);
   }
 }
@@ -119,6 +120,9 @@ Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexce
 Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) noexcept {
   Scanner& judged = scanners_[scanner];
   Reason reasons = judged.motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
+  if (mode_ == Mode::kStandby) judged.wheel_proof.begin();
+  if (config_.proves_wheels && judged.wheel_proof.contradicts(input.scans[scanner], input.wheels))
+    reasons |= Reason::kMotionMismatch;
   if (answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
   constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
@@ -128,6 +132,16 @@ Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) 
 /// stamp says.
 bool Supervisor::answers_late(const MeasuredLatency& measured) const noexcept {
   return measured.drive_s > config_.model.drive.times.obeyed_within_s() + to_seconds(config_.tick);
+}
+
+/// Slowly until one of the scanners showed that the wheels go as far as they say.
+double Supervisor::unproved_share(const Twist2& twist) const noexcept {
+  const auto is_over = [](const Scanner& scanner) { return scanner.wheel_proof.is_over(); };
+  if (!config_.proves_wheels || std::any_of(scanners_.begin(), scanners_.end(), is_over)) return 1.0;
+  double most_mps = 0.0;
+  for (const Scanner& scanner : scanners_) most_mps = std::max(most_mps, scanner.wheel_proof.most_mps());
+  const double wheel_mps = std::fabs(twist.v_mps) + 0.5 * config_.model.drive.track_width_m * std::fabs(twist.w_radps);
+  return most_mps / std::max(wheel_mps, most_mps);
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {
@@ -166,6 +180,7 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
     verdict.reasons |= reason;
   };
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
+  at_most(unproved_share(twist), Reason::kSpeedLimit);
   at_most(input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9), Reason::kSpeedZone);
   const double reaction = reaction_s(input);
   at_most(watched_share(twist, reaction), Reason::kUnwatched);

@@ -28,6 +28,7 @@ struct Base {
   double report_every_s = 0.01;
   DriveTimes times{};
   bool stamped_as_read = true;  ///< else as it comes, which is up to times.late_s later
+  bool proves_wheels = false;
   double wheels_go = 1.0;  ///< so many times as far as they say, from the start
 };
 
@@ -65,7 +66,7 @@ class TrialRobot {
         base_(base),
         setting_(with(random_setting(engine_), base)),
         room_(engine_, std::max(setting_.people, 0)),
-        supervisor_({.model = setting_.model, .judges_motion = true}) {
+        supervisor_({.model = setting_.model, .judges_motion = true, .proves_wheels = base.proves_wheels}) {
     pose_.heading = uniform(engine_, -kPi, kPi);
     input_.has_goal = true;
     draw_fault();
