@@ -5,16 +5,13 @@
 
 namespace jaywalk {
 
-namespace {
-/// So long after the ramp's end both wheels show that they stand, or nothing is sent any more.
-constexpr double kConfirmation_s = 0.1;
-}  // namespace
-
-StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick) noexcept {
+StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick, const DriveTimes& drive) noexcept {
   StopLimits limits{.brake_radps2 = brake_radps2, .tolerance_radps = tolerance_radps};
-  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * tick);
-  limits.fresh = std::max<Duration>(limits.fresh, 5 * tick / 2);
+  const Duration slower = duration_from_seconds(drive.slower_s(to_seconds(tick)));
+  limits.response = std::max<Duration>(limits.response, std::chrono::milliseconds(20) + 2 * tick) + slower;
+  limits.fresh = std::max({limits.fresh, 5 * tick / 2, duration_from_seconds(drive.oldest_report_s())});
   limits.tick = tick;
+  limits.confirmation += slower;
   return limits;
 }
 
@@ -66,7 +63,8 @@ void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noe
   for (std::size_t k = 0; k < wheels.size(); ++k) {
     speed_at_order_[k] = std::min(std::fabs(wheels[k].speed_radps), owed_radps_[k]);
   }
-  longest_s_ = std::max(speed_at_order_[0], speed_at_order_[1]) / limits_.brake_radps2 + kConfirmation_s;
+  longest_s_ =
+      std::max(speed_at_order_[0], speed_at_order_[1]) / limits_.brake_radps2 + to_seconds(limits_.confirmation);
   confirmed_ = false;
   // The drives are told to quick-stop at once where there is trouble.
   if (trouble_) stage_ = std::max(stage_, StopStage::kQuickStop);

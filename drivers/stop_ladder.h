@@ -2,6 +2,7 @@
 #include <array>
 #include <limits>
 
+#include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
@@ -10,15 +11,17 @@ namespace jaywalk {
 struct StopLimits {
   double brake_radps2 = 0.0;     ///< the ramp that a stop is owed; the drives were shown to be set to it or more
   double tolerance_radps = 0.0;  ///< a wheel may be so much faster than its ramp; below it, it stands
-  Duration response = std::chrono::milliseconds(60);  ///< from the order until the ramp must show in the feedback
-  Duration stage = std::chrono::milliseconds(20);     ///< from one stage to the next
-  Duration fresh = std::chrono::milliseconds(60);     ///< older feedback confirms nothing
-  Duration tick = std::chrono::milliseconds(20);      ///< the controller's cycle
+  Duration response = std::chrono::milliseconds(60);       ///< from the order until the ramp must show in the feedback
+  Duration stage = std::chrono::milliseconds(20);          ///< from one stage to the next
+  Duration fresh = std::chrono::milliseconds(60);          ///< older feedback confirms nothing
+  Duration tick = std::chrono::milliseconds(20);           ///< the controller's cycle
+  Duration confirmation = std::chrono::milliseconds(100);  ///< after the ramp's end both wheels show that they stand
 };
 
 /// As much time as the loop's period `tick` makes of it, since the feedback that a tick reads was measured a period
-/// before. One late tick is no stop.
-[[nodiscard]] StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick) noexcept;
+/// before. One late tick is no stop. A drive that states that it obeys or reports slower than usual has that time too.
+[[nodiscard]] StopLimits stop_limits(double brake_radps2, double tolerance_radps, Duration tick,
+                                     const DriveTimes& drive = {}) noexcept;
 
 /// What one wheel's drive said last, and what it is told in this cycle.
 struct WheelFeedback {
@@ -32,9 +35,9 @@ struct WheelFeedback {
 /// From the order on each wheel must stay below v - b (t - response), v its speed at the order, and say so with fresh
 /// feedback. Where it was told to slow down before, v is at most what that left of it at the ramp b: a commanded ramp
 /// is not owed twice. One that does not takes the stop a stage further: quick stop, network stop, silence, one `stage`
-/// after the other. 100 ms after the ramp both wheels stand or nothing is sent any more, whatever the loop's rate: a
-/// stage for which no cycle is left until then comes together with the next, or not at all. A stage is never gone back
-/// on before reset().
+/// after the other. `confirmation` after the ramp both wheels stand or nothing is sent any more, whatever the loop's
+/// rate: a stage for which no cycle is left until then comes together with the next, or not at all. A stage is never
+/// gone back on before reset().
 ///
 /// A stop that was commanded (both speeds zero) ends when both wheels stand; one because of trouble is watched until
 /// reset(): a wheel that turns again while the drives are in trouble takes it further. Thread: the drive base's; never

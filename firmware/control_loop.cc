@@ -8,13 +8,12 @@ namespace jaywalk {
 namespace {
 
 SupervisorConfig supervisor_config(const ControlSetup& setup) {
-  SupervisorConfig config{.model = setup.model,
-                          .tick = setup.tick(),
-                          .needs_wheels = setup.wheels,
-                          .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
-                          .latches_all = setup.wired};
-  config.max_wheel_age = std::max(config.max_wheel_age, 5 * setup.tick() / 2);  // of feedback, too, one may be lost
-  return config;
+  return {.model = setup.model,
+          .tick = setup.tick(),
+          .needs_wheels = setup.wheels,
+          .judges_motion = setup.judges_motion && setup.wheels && setup.applies_verdict(),
+          .latches_all = setup.wired,
+          .proves_wheels = setup.wired && setup.judges_motion && setup.wheels};
 }
 
 }  // namespace
@@ -44,7 +43,7 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
   TickRecord& t = recorder_.begin(now);        // preallocated; all that crosses the HAL this tick
   read_devices(t);                             // sense: the newest of each; nothing waits
   const bool new_scan = estimator_.update(t);  // estimate, track
-  t.pose = estimator_.pose();
+  t.pose = estimator_.pose_at(now);
   take_plan(t);  // of an earlier tick's request
   estimator_.forget_where_stuck(t);
   ask(t);     // motion asks,

@@ -63,6 +63,15 @@ LaserModel laser_of(const nlohmann::json& json) {
   return laser;
 }
 
+nlohmann::json json_of(const DriveTimes& times) { return {times.report_s, times.late_s, times.response_s}; }
+
+/// Those of `json` where it has any: a recording of an earlier version has none.
+DriveTimes drive_times_of(const nlohmann::json& json) {
+  if (!json.contains("drive_times")) return {};
+  const auto [report_s, late_s, response_s] = json["drive_times"].get<std::array<double, 3>>();
+  return {report_s, late_s, response_s};
+}
+
 /// Runs of equal cells: "12u3f1w".
 std::string runs_of(const std::vector<KnownCell>& cells) {
   std::string text;
@@ -162,6 +171,7 @@ std::string to_text(const ControlSetup& setup) {
   if (!setup.model.laser.blanked.empty()) json["blanked"] = json_of(setup.model.laser.blanked);
   for (const LaserModel& laser : setup.model.other_lasers) json["other_lasers"].push_back(json_of(laser));
   json["judges_motion"] = setup.judges_motion;
+  json["drive_times"] = json_of(setup.model.drive.times);
   if (!setup.rival.empty()) json["planner"] = setup.rival;
   if (setup.given_movers) json["given_movers"] = true;
   if (setup.steering != StickUse::kNone) json["steering"] = setup.steering;
@@ -181,6 +191,7 @@ ControlSetup setup_from_text(const std::string& text, const std::string& place) 
     for (const nlohmann::json& laser : json.value("other_lasers", nlohmann::json::array()))
       if (!setup.model.other_lasers.push_back(laser_of(laser))) throw std::invalid_argument("too many lasers");
     setup.judges_motion = json.at("judges_motion").get<bool>();
+    setup.model.drive.times = drive_times_of(json);
     setup.rival = json.value("planner", setup.rival);
     setup.given_movers = json.value("given_movers", false);
     setup.steering = json.value("steering", StickUse::kNone);

@@ -1,6 +1,9 @@
 #include "firmware/estimator.h"
 
+#include <algorithm>
 #include <utility>
+
+#include "planner/localization/odometry.h"
 
 namespace jaywalk {
 namespace {
@@ -35,8 +38,19 @@ PerceptionConfig perception_config(const ControlSetup& setup) {
 
 Estimator::Estimator(const ControlSetup& setup)
     : sees_given_movers_(setup.sees_given_movers()),
+      times_(setup.model.drive.times),
       localizer_(localization_config(setup)),
       tracker_(perception_config(setup)) {}
+
+PoseEstimate Estimator::pose_at(Time now) const noexcept {
+  constexpr DriveTimes kUsual;
+  if (times_.report_s <= kUsual.report_s && times_.late_s <= kUsual.late_s) return pose_;
+  const double seconds = std::clamp(to_seconds(age(pose_.stamp, now)), 0.0, times_.oldest_report_s());
+  const Twist2 twist = localizer_.twist();
+  PoseEstimate carried = pose_;
+  carried.map_from_robot = after_arc(pose_.map_from_robot, {twist.v_mps * seconds, twist.w_radps * seconds});
+  return carried;
+}
 
 bool Estimator::update(const TickRecord& t) noexcept {
   FixedVector<const LaserScan*, kMostScanners> scans;

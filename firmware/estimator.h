@@ -27,6 +27,9 @@ class Estimator {
   void end_tick(const TickRecord& t) noexcept;
 
   [[nodiscard]] const PoseEstimate& pose() const noexcept { return pose_; }
+  /// The pose by now: that of a base that reports more rarely than usual, or late, is carried on at its last twist, for
+  /// as long as its reports are not stale. Else pose().
+  [[nodiscard]] PoseEstimate pose_at(Time now) const noexcept;
   [[nodiscard]] const Tracker& tracker() const noexcept { return tracker_; }
   /// Localizer's.
   [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept {
@@ -48,6 +51,7 @@ class Estimator {
   [[nodiscard]] bool take(const TickRecord& t, const LaserScan& scan) noexcept;
 
   bool sees_given_movers_;  ///< they come with the fix
+  DriveTimes times_;
   Localizer localizer_;
   Tracker tracker_;
   PoseEstimate pose_;

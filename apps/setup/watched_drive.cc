@@ -9,7 +9,8 @@ namespace jaywalk {
 namespace {
 
 constexpr Duration kRest = std::chrono::milliseconds(800);
-constexpr Duration kOldestWheels = std::chrono::milliseconds(100), kFirstWords = std::chrono::milliseconds(300);
+constexpr double kOldestWheels_s = 0.1;
+constexpr Duration kFirstWords = std::chrono::milliseconds(300);
 constexpr double kReaction_s = 0.2;  ///< a scan's age, a tick, the drive
 constexpr double kLeastRoom_m = 0.15;
 
@@ -22,7 +23,8 @@ WatchedDrive::WatchedDrive(const WatchedDriveSetup& setup, DriveBase& drive, std
       lasers_(lasers.begin(), lasers.end()),
       clock_(clock),
       stopped_(stopped),
-      felt_(setup.model.drive, setup.model.limits.brake_mps2),
+      felt_(setup.model.drive, setup.model.limits),
+      response_(setup.model.drive),
       began_(clock.now()),
       due_(began_),
       scans_(lasers.size()) {
@@ -56,6 +58,7 @@ void WatchedDrive::take_scans() {
 void WatchedDrive::command(double left_radps, double right_radps) {
   sent_ = {clock_.now(), left_radps, right_radps};
   drive_.command(sent_);
+  response_.add(wheels_, sent_);
 }
 
 void WatchedDrive::rest() {
@@ -72,7 +75,8 @@ void WatchedDrive::require_well(Time now) {
   if (wheels_.trouble != DriveTrouble::kNone)
     give_up(std::string(name(wheels_.trouble)), "see to the drives, then start it again");
   if (now - began_ < kFirstWords) return;  // drives speak when they are spoken to
-  if (is_older(wheels_.stamp, now, kOldestWheels)) give_up("no wheel feedback", "see to the drives");
+  const double oldest_s = std::max(kOldestWheels_s, setup_.model.drive.times.oldest_report_s());
+  if (is_older(wheels_.stamp, now, duration_from_seconds(oldest_s))) give_up("no wheel feedback", "see to the drives");
   for (std::size_t k = 0; k < scans_.size(); ++k) {
     const Duration oldest = duration_from_seconds(3.0 / setup_.model.lasers()[k].rate_hz + 0.2);
     if (!is_older(scans_[k].stamp, now, oldest)) continue;

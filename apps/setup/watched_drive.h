@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/safety/felt_motion.h"
+#include "firmware/safety/latency.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/hal.h"
 #include "hal/types/robot_model.h"
@@ -38,6 +39,8 @@ class WatchedDrive {
 
   [[nodiscard]] Time due() const { return due_; }
   [[nodiscard]] const WheelState& wheels() const { return wheels_; }
+  /// By how much the feedback has followed the commands so far, s; 0: not known.
+  [[nodiscard]] double response_s() const { return response_.seconds(); }
   /// Of each scanner, blanked; the last that came.
   [[nodiscard]] const std::vector<LaserScan>& scans() const { return scans_; }
 
@@ -53,6 +56,7 @@ class WatchedDrive {
   const std::function<bool()>& stopped_;
   std::vector<StopZone> zones_;  ///< one a scanner
   FeltMotion felt_;
+  DriveResponse response_;
   Time began_, due_;
   WheelState wheels_;
   std::vector<LaserScan> scans_;

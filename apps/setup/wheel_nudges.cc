@@ -29,6 +29,7 @@ class Nudging {
     drive_.rest();
     nudge.after = drive_.wheels();
     nudge.scans_after = drive_.scans();
+    nudge.response_s = drive_.response_s();
     return nudge;
   }
 

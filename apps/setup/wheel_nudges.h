@@ -18,6 +18,7 @@ struct Nudge {
   WheelState before{}, after{};
   std::vector<LaserScan> scans_before{}, scans_after{};  ///< of each scanner
   bool disobeyed = false;                                ///< the feedback was not what was commanded: it was broken off
+  double response_s = 0.0;  ///< by which the feedback followed the commands, of all nudges so far; 0: not known
 };
 
 struct NudgeSetup {

@@ -80,6 +80,22 @@ CheckedPart check_feedback(const std::vector<Nudge>& nudges, std::size_t side, c
   return {part, true, "turns as commanded, forward and back"};
 }
 
+/// Against what staleness, obedience and stop zone reckon with.
+CheckedPart check_response(double measured_s, const DriveTimes& times) {
+  char said[160];
+  const bool well = measured_s <= times.obeyed_within_s();
+  if (well) {
+    std::snprintf(said, sizeof said, "the feedback follows commands by %.2f s", measured_s);
+  } else {
+    std::snprintf(
+        said, sizeof said,
+        "the feedback follows commands by %.2f s, more than %.2f; write response_ms = %.0f in [drive], or have "
+        "the drives ramp and filter less",
+        measured_s, times.obeyed_within_s(), 1e3 * measured_s);
+  }
+  return {"response", well, said};
+}
+
 /// Forward turn and forward way as they should be: +1, the other way round: -1, neither: 0.
 struct Signs {
   int turn = 0, way = 0;
@@ -182,6 +198,7 @@ std::vector<CheckedPart> judge_scans(const std::vector<Nudge>& nudges, const Rob
 std::vector<CheckedPart> judge_nudges(const std::vector<Nudge>& nudges, const RobotModel& model) {
   std::vector<CheckedPart> checks{check_feedback(nudges, 0, model.drive), check_feedback(nudges, 1, model.drive)};
   if (!checks[0].is_well || !checks[1].is_well) return checks;
+  checks.push_back(check_response(nudges.back().response_s, model.drive.times));
   for (std::size_t k = 0; k < model.lasers().size(); ++k) {
     const std::string name = scanner_name(model, k), before = name.empty() ? "" : name + " scanner: ";
     for (CheckedPart& check : judge_scans(nudges, model, k))

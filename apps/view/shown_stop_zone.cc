@@ -18,7 +18,7 @@ ShownStopZone::ShownStopZone(const RobotModel& model, Duration tick)
 ShownStopZone::Outlines ShownStopZone::at(const TickRecord& t) const noexcept {
   const Twist2& twist = t.verdict.permitted;
   const double rim_mps = zone_.rim_speed_mps(twist), margin_m = zone_.margin_at(rim_mps);
-  const double reaction = reaction_s(t.scans(), model_.lasers(), t.now, tick_, t.latency);
+  const double reaction = reaction_s(t.scans(), model_, t.now, tick_, t.latency);
   const bool stands = rim_mps < kStands_mps;
   const SweptPath way(stands ? Twist2{} : twist, std::max(rim_mps, kStands_mps),
                       stands ? 0.0 : zone_.stopping_distance_m(rim_mps, reaction));

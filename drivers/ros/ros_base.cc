@@ -11,13 +11,21 @@ namespace {
 constexpr Duration kAnswerLimit = std::chrono::seconds(2);  // jaywalk_dds finds new rings, and nodes each other
 constexpr Duration kSilence = std::chrono::milliseconds(150), kSettling = std::chrono::milliseconds(300);
 constexpr Duration kProof = std::chrono::milliseconds(500);
-constexpr double kReadingsPerTick = 0.8;
+constexpr int kReports = 10;               // of the period stated, in a proof
+constexpr double kShown = 0.8;             // of those that its period promises
+constexpr double kLongestReport_s = 0.25;  // report_ms
+
+/// Long enough to tell how often it reports.
+Duration proof_time(const DriveTimes& times) {
+  return std::max(kProof, duration_from_seconds(kReports * times.report_s));
+}
 
 }  // namespace
 
 RosBase::RosBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
-                {std::max(kSilence, 3 * setup.tick), kSettling, kAnswerLimit, setup.stop, setup.allow_unproved}),
+                {std::max({kSilence, 3 * setup.tick, duration_from_seconds(setup.times.oldest_report_s())}), kSettling,
+                 kAnswerLimit, setup.stop, setup.allow_unproved}),
       setup_(setup) {}
 
 std::string RosBase::inspect(std::size_t side) {
@@ -46,9 +54,11 @@ void RosBase::take(const ReceivedFrame& received) noexcept {
   note_heard(index, received.stamp);
   note_speed(index, received.stamp, static_cast<double>(wheel->speed_radps));
   note_obeys(index, torque_on_[index] && listeners_ > 0);
-  ++shown_[index].readings;
-  shown_[index].fastest_radps =
-      std::fmax(shown_[index].fastest_radps, std::fabs(static_cast<double>(wheel->speed_radps)));
+  Shown& shown = shown_[index];
+  const Time now = clock().now();
+  if (++shown.readings > 1) shown.longest = std::max(shown.longest, now - shown.read);
+  shown.read = now;
+  shown.fastest_radps = std::fmax(shown.fastest_radps, std::fabs(static_cast<double>(wheel->speed_radps)));
 }
 
 // A base that is told nothing is not told to let go either: it is at rest then.
@@ -69,16 +79,31 @@ ProofResult RosBase::continue_proof(std::size_t index) noexcept {
     for (std::uint32_t side = 0; side < 2; ++side) send(to_frame(kWheelOrder + side, {}));
     zero_sent_ = now;
   }
-  if (now - shown_[index].began < kProof) return ProofResult::kUnderWay;
+  if (now - shown_[index].began < proof_time(setup_.times)) return ProofResult::kUnderWay;
   shown_[index].listeners = listeners_;
   const Shown& shown = shown_[index];
   const bool is_well =
-      shown.listeners > 0 && shown.readings >= least_readings() && shown.fastest_radps <= setup_.stop.tolerance_radps;
+      shown.listeners > 0 && is_often_enough(shown) && shown.fastest_radps <= setup_.stop.tolerance_radps;
   return is_well ? ProofResult::kUnproved : ProofResult::kFailed;
 }
 
-double RosBase::least_readings() const noexcept {
-  return kReadingsPerTick * to_seconds(kProof) / to_seconds(setup_.tick);
+bool RosBase::is_often_enough(const Shown& shown) const noexcept {
+  const double stated = to_seconds(proof_time(setup_.times)) / setup_.times.report_s;
+  const Duration oldest = duration_from_seconds(setup_.times.oldest_report_s()) + setup_.tick;  // read once a tick
+  return shown.readings >= std::floor(kShown * stated) && shown.longest <= oldest;
+}
+
+/// Periods and delays that it showed, for the robot file; or that no robot file can have them.
+std::string RosBase::times_remedy(const Shown& shown) const {
+  const double report_s = to_seconds(proof_time(setup_.times)) / std::max(shown.readings, 1);
+  const double late_s = std::max(to_seconds(shown.longest) - report_s, 0.0);
+  std::array<char, 200> text{};
+  std::snprintf(text.data(), text.size(),
+                report_s <= kLongestReport_s
+                    ? "write report_ms = %.0f and report_late_ms = %.0f in [drive], or have it published more often"
+                    : "have it published at least 4 times a second (now every %.0f ms, up to %.0f ms late)",
+                std::ceil(1e3 * report_s), 10.0 * std::ceil(100.0 * late_s));
+  return text.data();
 }
 
 std::string RosBase::proof_line(std::size_t index) const {
@@ -88,8 +113,8 @@ std::string RosBase::proof_line(std::size_t index) const {
       text.data(), text.size(),
       "%s wheel: %d nodes listen to %s, %.0f readings a second from %s, at most %.2f rad/s at commanded zero; "
       "that the base stops by itself without commands shows only while it drives: NOT PROVED",
-      index == 0 ? "left" : "right", shown.listeners, setup_.command.c_str(), shown.readings / to_seconds(kProof),
-      setup_.odometry.c_str(), shown.fastest_radps);
+      index == 0 ? "left" : "right", shown.listeners, setup_.command.c_str(),
+      shown.readings / to_seconds(proof_time(setup_.times)), setup_.odometry.c_str(), shown.fastest_radps);
   return text.data();
 }
 
@@ -98,7 +123,7 @@ std::string RosBase::proof_remedy() const {
     if (shown.began == kNever) continue;
     if (shown.listeners == 0) return "start the node that drives the base, in this domain, or correct [drive] command";
     if (shown.fastest_radps > setup_.stop.tolerance_radps) return "see why the base moves, or its odometry says so";
-    if (shown.readings < least_readings()) return "lower rate_hz to the odometry's, or have it published more often";
+    if (!is_often_enough(shown)) return times_remedy(shown);
   }
   return "see that the base's own timeout for commands (cmd_vel_timeout) is short, and write allow_unproved = true";
 }

@@ -14,12 +14,13 @@ struct BaseSetup {
   StopLimits stop;                                       ///< braking and tolerance must be given
   bool allow_unproved = false;
   Duration tick = std::chrono::milliseconds(20);
+  DriveTimes times{};  ///< of its odometry
 };
 
 /// A base that obeys cmd_vel and publishes its odometry on ROS 2, as two motors behind jaywalk_dds.
 ///
-/// Arming proof, before the first command and after every return: some node listens to the commands; odometry comes at
-/// least as often as the loop ticks; no other node commands the base; and commanded zero it stands. That the base
+/// Arming proof, before the first command and after every return: some node listens to the commands; odometry comes as
+/// often as the robot file states; no other node commands the base; and commanded zero it stands. That the base
 /// stops by itself when no commands come (its cmd_vel timeout) would show only while it drives: never proved, so
 /// that arming needs allow_unproved. jaywalk_dds commands zero 100 ms after the loop's last command; the base's timeout
 /// is for the death of both. A base has no second way to stop but silence.
@@ -33,6 +34,8 @@ class RosBase final : public MotorPair {
   /// What a wheel showed in its proof.
   struct Shown {
     int readings = 0;
+    Time read = kNever;  ///< the newest
+    Duration longest{};  ///< between two
     double fastest_radps = 0.0;
     int listeners = 0;
     Time began = kNever;
@@ -43,7 +46,8 @@ class RosBase final : public MotorPair {
   void send_reset(std::size_t) noexcept override {}
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
-  [[nodiscard]] double least_readings() const noexcept;
+  [[nodiscard]] bool is_often_enough(const Shown& shown) const noexcept;
+  [[nodiscard]] std::string times_remedy(const Shown& shown) const;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
   [[nodiscard]] std::string proof_remedy() const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;

@@ -36,6 +36,13 @@ std::vector<SettingKey> drive_keys() {
       {"drive", "right_wheel_radius_m", kNumber, {0.02, 0.5}, "m", "the model's", "the same of the right wheel"},
       {"drive", "track_width_m", kNumber, {0.05, 3.0}, "m", "the model's", "between the wheels' contact points"},
       {"drive",
+       "response_ms",
+       kNumber,
+       {1.0, 500.0},
+       "ms",
+       1e3 * DriveTimes{}.response_s,
+       "from a command until the wheels turn so, ramps apart; jaywalk commission measures it"},
+      {"drive",
        "allow_unproved",
        kBoolean,
        {},
@@ -65,6 +72,20 @@ std::vector<SettingKey> drive_keys() {
   const ros::BaseSetup base;
   keys.push_back({"drive:dds", "odometry", kText, {}, "", "/odom", "its nav_msgs/Odometry"});
   keys.push_back({"drive:dds", "command", kText, {}, "", "/cmd_vel", "where it takes commands"});
+  keys.push_back({"drive:dds",
+                  "report_ms",
+                  kNumber,
+                  {1.0, 250.0},
+                  "ms",
+                  "the loop's period",
+                  "between two messages of its odometry"});
+  keys.push_back({"drive:dds",
+                  "report_late_ms",
+                  kNumber,
+                  {0.0, 200.0},
+                  "ms",
+                  1e3 * DriveTimes{}.late_s,
+                  "so much later than its turn a message may come"});
   keys.push_back({"drive:dds", "stamped", kBoolean, {}, "", base.stamped, "as TwistStamped"});
   keys.push_back({"drive:dds", "reliable", kBoolean, {}, "", base.reliable, "lost odometry is sent again"});
   return keys;

@@ -54,7 +54,7 @@ std::array<double, 2> read_scales(TomlTable& table, const std::string& key, cons
 StopLimits stop_limits_of(const RobotModel& model, Duration tick) {
   constexpr double kTolerance_mps = 0.05;  // above what a VESC's speed scatters by at rest
   const double radius_m = model.drive.wheel_radius_m;
-  return stop_limits(model.limits.brake_mps2 / radius_m, kTolerance_mps / radius_m, tick);
+  return stop_limits(model.limits.brake_mps2 / radius_m, kTolerance_mps / radius_m, tick, model.drive.times);
 }
 
 /// Refuses a loop of which two periods take longer than the longest timeout that a drive of this kind may have.
@@ -100,14 +100,31 @@ void read_axes(TomlTable& table, const std::string& key, const DriveModel& model
   base.stop = stop;
 }
 
-ros::BaseSetup read_ros(TomlTable& table, Duration tick, const StopLimits& stop) {
+double seconds_of(TomlTable& table, const char* key, double otherwise_s) {
+  return 1e-3 * table.number(key, 1e3 * otherwise_s);
+}
+
+/// A CANopen drive answers the loop's SYNC, and ODrive and VESC report by themselves at 50 Hz or more; a ROS 2 base
+/// says how often it does.
+DriveTimes read_times(TomlTable& table, DriveKind kind, Duration tick) {
+  DriveTimes times;
+  times.response_s = seconds_of(table, "response_ms", times.response_s);
+  if (kind == DriveKind::kCia402) times.report_s = std::max(times.report_s, to_seconds(tick));
+  if (kind != DriveKind::kDds) return times;
+  times.report_s = seconds_of(table, "report_ms", to_seconds(tick));
+  times.late_s = seconds_of(table, "report_late_ms", times.late_s);
+  return times;
+}
+
+ros::BaseSetup read_ros(TomlTable& table, Duration tick, const DriveTimes& times, const StopLimits& stop) {
   return {.odometry = read_topic(table, "odometry", ros::BaseSetup{}.odometry),
           .command = read_topic(table, "command", ros::BaseSetup{}.command),
           .stamped = table.boolean("stamped"),
           .reliable = table.boolean("reliable"),
           .stop = stop,
           .allow_unproved = table.boolean("allow_unproved"),
-          .tick = tick};
+          .tick = tick,
+          .times = times};
 }
 
 std::string read_interface(TomlTable& table) {
@@ -141,8 +158,9 @@ std::array<double, 4> axes_of(const DriveWiring& drive) {
 
 DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   DriveWiring wiring;
-  const StopLimits stop = stop_limits_of(model, tick);
   wiring.kind = static_cast<DriveKind>(table.choose_keys("kind"));  // the choices are in the enumeration's order
+  model.drive.times = read_times(table, wiring.kind, tick);
+  const StopLimits stop = stop_limits_of(model, tick);
   model.drive.track_width_m = table.number("track_width_m", model.drive.track_width_m);
   const bool has_wheels = wiring.kind != DriveKind::kDds;  // of its own; a ROS 2 base has those of the model
   if (has_wheels) wiring.can = read_interface(table);
@@ -163,7 +181,7 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
       read_axes(table, "electrical_turns_per_wheel_turn", model.drive, stop, wiring.vesc);
       break;
     case DriveKind::kDds:
-      wiring.ros = read_ros(table, tick, stop);
+      wiring.ros = read_ros(table, tick, model.drive.times, stop);
       wiring.can = wiring.ros.command;
       break;
   }

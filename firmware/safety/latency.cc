@@ -8,7 +8,7 @@ namespace {
 
 constexpr double kMemory_s = 2.0;    // of time in which commands changed
 constexpr double kEnough_s = 0.3;    // of it, before anything is said
-constexpr double kLongest_s = 0.05;  // that one reading stands for
+constexpr double kLongest_s = 0.05;  // that a usual drive's reading stands for
 
 double squares(const WheelState& felt, const WheelCommand& wanted) {
   const double left = felt.left_radps - wanted.left_radps, right = felt.right_radps - wanted.right_radps;
@@ -16,6 +16,12 @@ double squares(const WheelState& felt, const WheelCommand& wanted) {
 }
 
 }  // namespace
+
+DriveResponse::DriveResponse(const DriveModel& drive)
+    : telling_radps_(kTelling_mps / drive.wheel_radius_m),
+      delays_(
+          std::min(static_cast<std::size_t>(most_drive_s(drive.times) / to_seconds(kDelayStep) + 1.5), kMostDelays)),
+      longest_s_(std::max(kLongest_s, drive.times.report_s)) {}
 
 /// The command that was in force then; null where it is not kept.
 const WheelCommand* DriveResponse::command_at(Time time) const noexcept {
@@ -30,7 +36,7 @@ const WheelCommand* DriveResponse::command_at(Time time) const noexcept {
 /// Whether the commands of the longest delay before that time differ enough to tell delays apart.
 bool DriveResponse::changed_before(Time time) const noexcept {
   const WheelCommand* const last = command_at(time);
-  const Time first = time - (kDelays - 1) * kDelayStep;
+  const Time first = time - (delays_ - 1) * kDelayStep;
   if (last == nullptr || command_at(first) == nullptr) return false;
   double most = 0.0;
   for (const WheelCommand& command : commands_) {
@@ -45,13 +51,13 @@ void DriveResponse::add(const WheelState& wheels, const WheelCommand& command) n
   const bool is_new = wheels.sequence != seen_ && std::isfinite(wheels.left_radps) && std::isfinite(wheels.right_radps);
   seen_ = wheels.sequence;
   if (is_new && changed_before(wheels.stamp)) {
-    const double step_s = std::clamp(told_ == kNever ? 0.0 : to_seconds(wheels.stamp - told_), 0.0, kLongest_s);
+    const double step_s = std::clamp(told_ == kNever ? 0.0 : to_seconds(wheels.stamp - told_), 0.0, longest_s_);
     const double kept = std::max(0.0, 1.0 - step_s / kMemory_s);
-    for (std::size_t k = 0; k < kDelays; ++k)
+    for (std::size_t k = 0; k < delays_; ++k)
       misfit_[k] = kept * misfit_[k] + step_s * squares(wheels, *command_at(wheels.stamp - k * kDelayStep));
     told_ = wheels.stamp;
     told_s_ += step_s;
-    const auto best = std::min_element(misfit_.begin(), misfit_.end()) - misfit_.begin();
+    const auto best = std::min_element(misfit_.begin(), misfit_.begin() + delays_) - misfit_.begin();
     if (told_s_ >= kEnough_s) seconds_ = to_seconds(best * kDelayStep);
   }
   commands_[count_++ % kKept] = command;

@@ -12,28 +12,30 @@ namespace jaywalk {
 /// the last seconds explain the speeds felt best, in squares. Only while commands change can they be told apart.
 class DriveResponse {
  public:
-  explicit DriveResponse(const DriveModel& drive) : telling_radps_(kTelling_mps / drive.wheel_radius_m) {}
+  explicit DriveResponse(const DriveModel& drive);
 
   /// Once a tick, with what was felt before and what is commanded now.
   void add(const WheelState& wheels, const WheelCommand& command) noexcept;
-  /// 0 until it could be measured; kMostLatency.drive_s at most.
+  /// 0 until it could be measured; most_drive_s() at most, to a step of 10 ms.
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
 
  private:
   static constexpr double kTelling_mps = 0.05;  ///< commands that differ by less tell nothing
-  static constexpr std::size_t kDelays = 31, kKept = 128;
+  static constexpr std::size_t kMostDelays = 61, kKept = 128;
   static constexpr Duration kDelayStep = std::chrono::milliseconds(10);
 
   [[nodiscard]] const WheelCommand* command_at(Time time) const noexcept;
   [[nodiscard]] bool changed_before(Time time) const noexcept;
 
   double telling_radps_;
+  std::size_t delays_;
+  double longest_s_;                            ///< that one reading stands for
   std::array<WheelCommand, kKept> commands_{};  ///< a ring: 0.64 s at 200 Hz
   std::size_t count_ = 0;
   std::uint32_t seen_ = 0;
   Time told_ = kNever;
   double told_s_ = 0.0;
-  std::array<double, kDelays> misfit_{};
+  std::array<double, kMostDelays> misfit_{};
   double seconds_ = 0.0;
 };
 

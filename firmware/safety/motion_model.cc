@@ -56,7 +56,9 @@ double without_greatest(std::array<double, ScanPair::kSectors> costs) {
 
 MotionModel::MotionModel(const RobotModel& model, std::size_t scanner)
     : drive_(model.drive),
-      felt_motion_(model.drive, model.limits.brake_mps2),
+      late_m_(model.drive.times.late_s *
+              (model.limits.max_speed_mps + 0.5 * model.drive.track_width_m * model.limits.max_turn_radps)),
+      felt_motion_(model.drive, model.limits),
       pair_(model.lasers()[scanner].robot_from_laser),
       travel_(model.drive),
       gain_var_(kFile * kFile) {}
@@ -208,7 +210,7 @@ ScanPair::Fit MotionModel::best_fit(const LaserScan& scan, const Rolled& felt) c
 Pose2 MotionModel::within_bounds(const ScanPair::Fit& fit, const Rolled& felt) const noexcept {
   using Vector4 = Eigen::Vector4d;
   const Moved found = moved_to(fit.kept_from_now);
-  const double apart_m = kTrackShare * std::fabs(felt.right_m - felt.left_m);
+  const double apart_m = kTrackShare * std::fabs(felt.right_m - felt.left_m) + late_m_;
   const auto range = [&](double rolled_m) {
     const double least = kLeastGain * rolled_m, most = kMostGain * rolled_m;
     return std::pair{std::min(least, most) - apart_m, std::max(least, most) + apart_m};
@@ -236,7 +238,7 @@ void MotionModel::update_gain(const Rolled& felt) noexcept {
   const Moved moved = moved_to(fit_.kept_from_now);
   const bool tells = against_wheels_ > kTells * fit_.compared;  // else the wheels explain it
   const double seen = tells ? 0.5 * (moved.left_m + moved.right_m) / ahead_m : 1.0;
-  const double var = fit_.information.inverse()(0, 0) / (ahead_m * ahead_m) + kSlip * kSlip;
+  const double var = (fit_.information.inverse()(0, 0) + late_m_ * late_m_) / (ahead_m * ahead_m) + kSlip * kSlip;
   gain_var_ = std::min(gain_var_ / kForget, kFile * kFile);
   const double weight = gain_var_ / (gain_var_ + var);
   gain_ += weight * (std::clamp(seen, 0.0, 2.0) - gain_);

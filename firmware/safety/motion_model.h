@@ -60,6 +60,7 @@ class MotionModel {
   [[nodiscard]] Moved moved_to(const Pose2& kept_from_now) const noexcept;
 
   DriveModel drive_;
+  double late_m_;  ///< that a wheel may have rolled while its report was late
   FeltMotion felt_motion_;
   ScanPair pair_;
   WheelTravel travel_;

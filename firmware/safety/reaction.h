@@ -15,9 +15,10 @@ struct MeasuredLatency {
   double drive_s = 0.0;  ///< by how much the wheels' feedback follows the commands
 };
 
-/// Least and most that is reckoned with, s: a tick and a frame, and the drive's lag (50 ms in the plant). A tick that
-/// takes longer is stopped by the stall guard; a drive that takes longer is a fault of its own.
-inline constexpr MeasuredLatency kLeastLatency{0.01, 0.05}, kMostLatency{0.1, 0.3};
+/// Least and most of a tick and its frame that is reckoned with, s. The stall guard stops a tick that takes longer.
+inline constexpr double kLeastTick_s = 0.01, kMostTick_s = 0.1;
+/// Most of a usual drive that is reckoned with, s; a slower one has DriveTimes::slower_s() more.
+inline constexpr double kMostDrive_s = 0.3;
 /// In all at least this, s, however fast loop and drives are.
 inline constexpr double kLeastControlAndDrive_s = 0.08;
 
@@ -25,16 +26,31 @@ inline constexpr double kLeastControlAndDrive_s = 0.08;
 /// its successor be half a period late, so that the second is the oldest that is accepted; a sweep may last the third.
 inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSweepPeriods = 1.2;
 
-/// A command holds for a period, so that the next tick may be as late again.
-[[nodiscard]] inline double control_and_drive_s(Duration tick, const MeasuredLatency& measured) noexcept {
-  const double tick_s = std::clamp(measured.tick_s, kLeastLatency.tick_s, kMostLatency.tick_s);
-  const double drive_s = std::clamp(measured.drive_s, kLeastLatency.drive_s, kMostLatency.drive_s);
+/// Age up to which the wheels' newest reading is no fault. Of the loop's own readings, too, one may be lost.
+[[nodiscard]] inline Duration oldest_wheels(const DriveTimes& drive, Duration tick) noexcept {
+  constexpr Duration kUsual = std::chrono::milliseconds(60);  // three ticks of 50 Hz
+  return std::max({kUsual, 5 * tick / 2, duration_from_seconds(drive.oldest_report_s())});
+}
+
+/// Longest response of a drive that is reckoned with, s. One that takes longer is a fault (Supervisor).
+[[nodiscard]] inline double most_drive_s(const DriveTimes& drive) noexcept {
+  return kMostDrive_s + drive.slower_s(DriveTimes{}.report_s);
+}
+
+/// A command holds for a period, so that the next tick may be as late again. A drive is at best as fast as it states.
+[[nodiscard]] inline double control_and_drive_s(Duration tick, const DriveTimes& drive,
+                                                const MeasuredLatency& measured) noexcept {
+  const double tick_s = std::clamp(measured.tick_s, kLeastTick_s, kMostTick_s);
+  const double drive_s = std::clamp(measured.drive_s, drive.response_s, most_drive_s(drive));
   return std::max(to_seconds(tick) + tick_s + drive_s, kLeastControlAndDrive_s);
 }
 
 /// With the oldest scan that is accepted and the slowest loop and drives that are reckoned with.
-[[nodiscard]] inline double worst_reaction_s(double scan_rate_hz, Duration tick) noexcept {
-  return (kOldestScanPeriods + kLongestSweepPeriods) / scan_rate_hz + control_and_drive_s(tick, kMostLatency);
+[[nodiscard]] inline double worst_reaction_s(const RobotModel& model, Duration tick) noexcept {
+  double slowest_hz = model.laser.rate_hz;
+  for (const LaserModel& laser : model.other_lasers) slowest_hz = std::min(slowest_hz, laser.rate_hz);
+  return (kOldestScanPeriods + kLongestSweepPeriods) / slowest_hz +
+         control_and_drive_s(tick, model.drive.times, {kMostTick_s, most_drive_s(model.drive.times)});
 }
 
 /// What a scan says it took, within reason.
@@ -50,12 +66,13 @@ inline constexpr double kScanPeriods = 1.5, kOldestScanPeriods = 2.5, kLongestSw
 }
 
 /// SAFETY 7's t_scan + t_control + t_drive (s), as the stop zone reckons with them now; of the scanner that is longest.
-[[nodiscard]] inline double reaction_s(const OfEach<LaserScan>& scans, const OfEach<LaserModel>& lasers, Time now,
-                                       Duration tick, const MeasuredLatency& measured) noexcept {
+[[nodiscard]] inline double reaction_s(const OfEach<LaserScan>& scans, const RobotModel& model, Time now, Duration tick,
+                                       const MeasuredLatency& measured) noexcept {
+  const OfEach<LaserModel> lasers = model.lasers();
   double oldest_s = 0.0;
   for (std::size_t k = 0; k < lasers.size(); ++k)
     oldest_s = std::max(oldest_s, reckoned_age_s(scans[k], now, lasers[k].rate_hz));
-  return oldest_s + control_and_drive_s(tick, measured);
+  return oldest_s + control_and_drive_s(tick, model.drive.times, measured);
 }
 
 }  // namespace jaywalk

@@ -46,7 +46,11 @@ Supervisor::Supervisor(const SupervisorConfig& config)
       unseen_walls_(config.model.footprint, stop_zone_.mounts(), stop_zone_.reach_m() + kPlannersReach_m),
       mode_(config.latches_all ? Mode::kStandby : Mode::kArmed) {
   for (const LaserModel& laser : config.model.lasers()) {
-    scanners_.push_back({laser, ScanTiming(laser.rate_hz), {}, MotionModel(config.model, scanners_.size())});
+    scanners_.push_back({laser,
+                         ScanTiming(laser.rate_hz),
+                         {},
+                         MotionModel(config.model, scanners_.size()),
+                         WheelProof(config.model, scanners_.size())});
     gaps_.emplace_back(laser);
   }
 }
@@ -106,16 +110,38 @@ Reason Supervisor::scan_faults(std::size_t scanner, const SafetyInput& input) no
 Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
   Reason reasons = reason_for(wheels.trouble);
   // Drives that are being proved report nothing yet, and have no torque.
-  if (config_.needs_wheels && wheels.ready && is_older(wheels.stamp, now, config_.max_wheel_age))
+  if (config_.needs_wheels && wheels.ready &&
+      is_older(wheels.stamp, now, oldest_wheels(config_.model.drive.times, config_.tick)))
     reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
   return reasons;
 }
 
 Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) noexcept {
-  const Reason reasons = scanners_[scanner].motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
+  Scanner& judged = scanners_[scanner];
+  Reason reasons = judged.motion.judge(input.scans[scanner], input.wheels, input.sent, input.now);
+  if (mode_ == Mode::kStandby) judged.wheel_proof.begin();
+  if (config_.proves_wheels && judged.wheel_proof.contradicts(input.scans[scanner], input.wheels))
+    reasons |= Reason::kMotionMismatch;
+  if (answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
   constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
+}
+
+/// Whether the feedback, read once a tick, follows the commands later than a sound drive's: it is old, whatever its
+/// stamp says.
+bool Supervisor::answers_late(const MeasuredLatency& measured) const noexcept {
+  return measured.drive_s > config_.model.drive.times.obeyed_within_s() + to_seconds(config_.tick);
+}
+
+/// Slowly until one of the scanners showed that the wheels go as far as they say.
+double Supervisor::unproved_share(const Twist2& twist) const noexcept {
+  const auto is_over = [](const Scanner& scanner) { return scanner.wheel_proof.is_over(); };
+  if (!config_.proves_wheels || std::any_of(scanners_.begin(), scanners_.end(), is_over)) return 1.0;
+  double most_mps = 0.0;
+  for (const Scanner& scanner : scanners_) most_mps = std::max(most_mps, scanner.wheel_proof.most_mps());
+  const double wheel_mps = std::fabs(twist.v_mps) + 0.5 * config_.model.drive.track_width_m * std::fabs(twist.w_radps);
+  return most_mps / std::max(wheel_mps, most_mps);
 }
 
 int Supervisor::missed_in_a_row(Time now) noexcept {
@@ -154,6 +180,7 @@ Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verd
     verdict.reasons |= reason;
   };
   at_most(share_within(twist, limits, 1.0), Reason::kSpeedLimit);
+  at_most(unproved_share(twist), Reason::kSpeedLimit);
   at_most(input.most_speed_mps / std::max(std::fabs(twist.v_mps), 1e-9), Reason::kSpeedZone);
   const double reaction = reaction_s(input);
   at_most(watched_share(twist, reaction), Reason::kUnwatched);
@@ -186,7 +213,7 @@ bool Supervisor::touched(const OfEach<LaserScan>& scans) const noexcept {
 }
 
 double Supervisor::reaction_s(const SafetyInput& input) const noexcept {
-  return jaywalk::reaction_s(input.scans, config_.model.lasers(), input.now, config_.tick, input.latency);
+  return jaywalk::reaction_s(input.scans, config_.model, input.now, config_.tick, input.latency);
 }
 
 /// Slowly where no laser ever looks: each part of the body that goes there.

@@ -14,6 +14,7 @@
 #include "firmware/safety/unseen_walls.h"
 #include "firmware/safety/verdict.h"
 #include "firmware/safety/watch.h"
+#include "firmware/safety/wheel_proof.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
@@ -23,7 +24,6 @@ namespace jaywalk {
 
 struct SupervisorConfig {
   RobotModel model;
-  Duration max_wheel_age = std::chrono::milliseconds(60);   ///< three ticks of 50 Hz
   Duration max_plan_age = std::chrono::milliseconds(1000);  ///< older: standstill
   Duration slow_plan_age = std::chrono::milliseconds(300);  ///< older: the slower the older
   double unwatched_speed_mps = 0.3;                         ///< SAFETY: where nothing watches the way
@@ -31,6 +31,7 @@ struct SupervisorConfig {
   bool needs_wheels = true;    ///< false only where a recording has none
   bool judges_motion = false;  ///< commanded against felt against seen: where wheels obey what is commanded here
   bool latches_all = false;    ///< on wires: any fault latches, once scans and wheels have been there (SAFETY 6)
+  bool proves_wheels = false;  ///< on wires: drives that were set up go slowly until WheelProof is over
 };
 
 /// What the supervisor looks at; nothing of it comes from the planner but a stamp.
@@ -75,6 +76,8 @@ class Supervisor {
   [[nodiscard]] OfEach<BlindGaps> gaps() const noexcept { return OfEach<BlindGaps>(std::span(gaps_)); }
   [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
   [[nodiscard]] Reason motion_faults(std::size_t scanner, const SafetyInput& input) noexcept;
+  [[nodiscard]] bool answers_late(const MeasuredLatency& measured) const noexcept;
+  [[nodiscard]] double unproved_share(const Twist2& twist) const noexcept;
   /// Ticks that did not happen, in a row with those that were skipped just before.
   [[nodiscard]] int missed_in_a_row(Time now) noexcept;
   void update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept;
@@ -99,6 +102,7 @@ class Supervisor {
     ScanTiming timing;
     SightLoss sight_loss;
     MotionModel motion;
+    WheelProof wheel_proof;
   };
   std::vector<Scanner> scanners_;
   std::vector<BlindGaps> gaps_;  ///< of each

@@ -12,8 +12,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kPost_m = 0.07;
-constexpr const char* kRemedy =
-    "lower limits.max_speed_mps, raise limits.brake_mps2 (what the drives are proved to do), or take ";
+constexpr const char* kRemedy = ", raise limits.brake_mps2 (what the drives are proved to do), or take ";
 
 /// From the laser to the farthest corner of the footprint.
 double farthest_corner_m(const Footprint& body, const LaserModel& of) {
@@ -34,9 +33,7 @@ double fastest_rim_mps(const RobotModel& model) noexcept {
 
 double longest_stop_m(const RobotModel& model, Duration tick) noexcept {
   const double v = fastest_rim_mps(model);
-  double slowest_hz = model.laser.rate_hz;
-  for (const LaserModel& laser : model.other_lasers) slowest_hz = std::min(slowest_hz, laser.rate_hz);
-  return v * worst_reaction_s(slowest_hz, tick) + v * v / (2.0 * model.limits.brake_mps2);
+  return v * worst_reaction_s(model, tick) + v * v / (2.0 * model.limits.brake_mps2);
 }
 
 StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
@@ -51,8 +48,22 @@ StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept {
 
 namespace {
 
-void require_in_reach(const Footprint& body, const LaserModel& laser, double stop_m, const std::string& place) {
-  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(body, laser);
+/// Fastest speed ahead (m/s) whose stop takes no more than `stop_m`, at the model's turn rate.
+double speed_for_stop(const RobotModel& model, Duration tick, double stop_m) {
+  const double bt = model.limits.brake_mps2 * worst_reaction_s(model, tick);
+  const double rim_mps = std::sqrt(bt * bt + 2.0 * model.limits.brake_mps2 * std::max(stop_m, 0.0)) - bt;
+  return model.limits.max_speed_mps - (fastest_rim_mps(model) - rim_mps);
+}
+
+std::string lower_speed_to(double mps) {
+  std::array<char, 60> text{};
+  std::snprintf(text.data(), text.size(), "lower limits.max_speed_mps to %.2f", std::floor(100.0 * mps) / 100.0);
+  return mps >= 0.01 ? text.data() : "lower limits.max_speed_mps and max_turn_radps";
+}
+
+void require_in_reach(const RobotModel& model, const LaserModel& laser, Duration tick, const std::string& place) {
+  const double stop_m = longest_stop_m(model, tick);
+  const double reach_m = stop_m + StopZoneConfig{}.margin_m + farthest_corner_m(model.footprint, laser);
   const double step_rad = laser.fov_rad / (laser.beams - 1);
   const double seen_m = kPost_m / (2.0 * sin(std::min(0.5 * step_rad, 0.5 * kPi)));
   std::array<char, 200> text{};
@@ -60,7 +71,8 @@ void require_in_reach(const Footprint& body, const LaserModel& laser, double sto
     if (reach_m <= limit_m) return;
     std::snprintf(text.data(), text.size(), ": stopping takes %.1f m, up to %.1f m from the laser, and %s %.1f m",
                   stop_m, reach_m, why, limit_m);
-    throw StartupError(place + text.data(), std::string(kRemedy) + otherwise);
+    throw StartupError(place + text.data(),
+                       lower_speed_to(speed_for_stop(model, tick, stop_m - (reach_m - limit_m))) + kRemedy + otherwise);
   };
   refuse_beyond(laser.range_max_m, "its range is", "a laser that sees farther");
   refuse_beyond(seen_m, "a post of 70 mm fits between two of its beams from", "a laser with more beams");
@@ -70,8 +82,7 @@ void require_in_reach(const Footprint& body, const LaserModel& laser, double sto
 }  // namespace
 
 void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place) {
-  const double stop_m = longest_stop_m(model, tick);
-  for (const LaserModel& laser : model.lasers()) require_in_reach(model.footprint, laser, stop_m, place);
+  for (const LaserModel& laser : model.lasers()) require_in_reach(model, laser, tick, place);
 }
 
 }  // namespace jaywalk

@@ -80,6 +80,12 @@ struct TrueRobot {
   std::optional<Pose2> robot_from_laser;
 };
 
+/// How the wheels' motion is reported to the robot.
+struct ReportSpec {
+  double period_s = 0.01;
+  double late_s = 0.0;  ///< each comes up to so much later, in order, and is stamped as it comes
+};
+
 struct PoseSourceSpec {
   bool enabled = false;
   double rate_hz = 5.0;
@@ -119,6 +125,7 @@ struct Scenario {
   Comfort comfort = Comfort::kNormal;
   SlipSpec slip;
   TrueRobot truth;
+  ReportSpec reports;
   PoseSourceSpec pose_source;
   std::optional<StickSpec> stick;
   std::vector<MapZone> zones;

@@ -1,3 +1,4 @@
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -45,6 +46,15 @@ SlipSpec read_slip(TomlTable table) {
   return spec;
 }
 
+/// The robot knows it of its drive.
+ReportSpec read_reports(TomlTable table, DriveTimes& known) {
+  const ReportSpec spec{1e-3 * table.number("period_ms"), 1e-3 * table.number("late_ms")};
+  known.report_s = std::max(known.report_s, spec.period_s);
+  known.late_s = spec.late_s;
+  table.finish();
+  return spec;
+}
+
 TrueRobot read_truth(TomlTable table) {
   TrueRobot truth;
   const auto read = [&table](const char* key, std::optional<double>& into) {
@@ -86,6 +96,7 @@ void read_robot(TomlTable table, Scenario& scenario) {
   scenario.model.limits = limits_for(scenario.comfort, scenario.model);
   if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
   if (table.has("truth")) scenario.truth = read_truth(table.table("truth"));
+  if (table.has("reports")) scenario.reports = read_reports(table.table("reports"), scenario.model.drive.times);
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
   table.finish();
 }

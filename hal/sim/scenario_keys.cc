@@ -16,6 +16,7 @@ const WanderSpec kWander{};
 const RecordedSpec kRecorded{};
 const PoseSourceSpec kPoseSource{};
 const SlipSpec kSlip{};
+const ReportSpec kReports{};
 const StickSpec kStick{};
 
 std::vector<SettingKey> world_keys() {
@@ -75,6 +76,7 @@ std::vector<SettingKey> robot_keys() {
       {"robot", "laser", kTable, {}, "", "the model's", "over the model's own, or [[robot.laser]] for each"},
       {"robot", "slip", kTable, {}, "", "the defaults", "how the wheels slip, as shares of their speed"},
       {"robot", "truth", kTable, {}, "", "as its model", "what the robot really is; the controller is not told"},
+      {"robot", "reports", kTable, {}, "", "100 a second", "how the wheels' motion is reported"},
       {"robot", "pose_source", kTable, {}, "", "none", "a localisation system outside the robot, as the paper has"}};
 }
 
@@ -101,6 +103,8 @@ std::vector<SettingKey> robot_table_keys() {
            "",
            kSlip.std,
            "standard deviation of each wheel by itself, correlated over 1 s"},
+          {"robot.reports", "period_ms", kNumber, {1.0, 250.0}, "ms", 1e3 * kReports.period_s, "between two"},
+          {"robot.reports", "late_ms", kNumber, {0.0, 200.0}, "ms", 1e3 * kReports.late_s, "each comes up to so late"},
           {"robot.truth", "left_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the left wheel"},
           {"robot.truth", "right_wheel_radius_m", kNumber, kWheel, "m", kModels, "of the right wheel"},
           {"robot.truth", "track_width_m", kNumber, kTrack, "m", kModels, "between the wheels' contact points"},

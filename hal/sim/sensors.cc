@@ -29,10 +29,12 @@ bool Metronome::due(Time now) noexcept {
 }
 
 Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
-    : pose_source_(scenario.pose_source),
-      encoder_beat_(1.0 / to_seconds(kEncoderPeriod)),
+    : reports_(scenario.reports),
+      pose_source_(scenario.pose_source),
+      encoder_beat_(1.0 / scenario.reports.period_s),
       fix_beat_(scenario.pose_source.rate_hz),
-      fix_noise_(seed, Purpose::kFix) {
+      fix_noise_(seed, Purpose::kFix),
+      delay_(seed, Purpose::kDelay) {
   const std::size_t count = scenario.model.lasers().size();
   for (std::size_t k = 0; k < count; ++k) {
     const LaserModel laser = true_laser(scenario, k);
@@ -44,10 +46,16 @@ Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
 void Sensors::sense(World& world) noexcept {
   const Time now = world.now();
   for (Scanner& scanner : scanners_) sense(scanner, world);
-  if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) {
-    wheels_ = world.plant().read_encoders(now);
-  }
+  if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) report(world);
+  for (; !under_way_.empty() && under_way_.front().stamp <= now; under_way_.pop_front()) wheels_ = under_way_.front();
   if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
+}
+
+void Sensors::report(World& world) {
+  WheelState reading = world.plant().read_encoders(world.now());
+  if (reports_.late_s > 0.0) reading.stamp += duration_from_seconds(reports_.late_s * delay_.uniform());
+  if (!under_way_.empty()) reading.stamp = std::max(reading.stamp, under_way_.back().stamp);
+  under_way_.push_back(reading);
 }
 
 void Sensors::sense(Scanner& scanner, const World& world) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 // What the controller gets to see of the world, each device at its own rate, faults included.
+#include <deque>
 #include <vector>
 
 #include "hal/hal.h"
@@ -7,9 +8,6 @@
 #include "hal/sim/world.h"
 
 namespace jaywalk::sim {
-
-/// Encoders are read this often.
-inline constexpr Duration kEncoderPeriod{10'000'000};
 
 /// True at the first call at or after each multiple of a period, put off by a share `phase` of it.
 class Metronome {
@@ -47,11 +45,14 @@ class Sensors {
   static void turn(Scanner& scanner, const World& world) noexcept;
   static void spoil(Scanner& scanner, const World& world) noexcept;
   void locate(const Truth& truth) noexcept;
+  void report(World& world);
 
+  ReportSpec reports_;
   PoseSourceSpec pose_source_;
   std::vector<Scanner> scanners_;
   Metronome encoder_beat_, fix_beat_;
-  Random fix_noise_;
+  Random fix_noise_, delay_;
+  std::deque<WheelState> under_way_;  ///< readings that come late
   WheelState wheels_;
   OutsideFix fix_;
 };

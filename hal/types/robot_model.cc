@@ -15,6 +15,19 @@ double Footprint::distance_to(Vec2 p) const {
   return norm({beyond_x, beyond_y});
 }
 
+double DriveTimes::oldest_report_s() const { return 2.0 * report_s + std::max(late_s, 0.5 * report_s); }
+
+double DriveTimes::obeyed_within_s() const {
+  constexpr double kTickAndBus_s = 0.13;  // two ticks of 20 Hz and a frame that waits for others
+  return kTickAndBus_s + response_s + report_s + late_s;
+}
+
+double DriveTimes::slower_s(double tick_s) const {
+  const DriveTimes usual;
+  return std::max(response_s - usual.response_s, 0.0) + std::max(report_s - std::max(usual.report_s, tick_s), 0.0) +
+         late_s;
+}
+
 namespace {
 
 /// Of a corner: by its end of the body.

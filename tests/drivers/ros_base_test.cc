@@ -35,9 +35,10 @@ class FarBase {
       speed_radps[k] += std::clamp(told_[k] - speed_radps[k], -most, most);
       turned_rad_[k] += speed_radps[k] * to_seconds(span);
     }
-    since_ += span;
-    if (is_mute || since_ < period) return;
-    since_ = 0ms;
+    since_ = is_mute ? 0ms : since_ + span;
+    if (is_mute || since_ < period + delay_) return;
+    since_ -= period;  // the next one's turn does not wait for this one
+    delay_ = late * (++reports_ * 7 % 5) / 4;
     static_cast<void>(bus_.send({.id = ros::kListeners, .size = 1, .bytes = {listeners}}));
     for (std::uint32_t k = 0; k < 2; ++k)
       static_cast<void>(bus_.send(ros::to_frame(
@@ -50,13 +51,14 @@ class FarBase {
   std::array<double, 2> speed_radps{};
   std::uint8_t listeners = 1;
   bool is_mute = false, is_deaf = false;
-  Duration period = 20ms;
+  Duration period = 20ms, late = 0ms;
 
  private:
   CanBus& bus_;
   Clock& clock_;
   std::array<double, 2> told_{}, turned_rad_{};
-  Duration since_{0};
+  Duration since_{0}, delay_{0};
+  int reports_ = 0;
   Time told_at_ = kNever;
 };
 
@@ -83,9 +85,12 @@ struct Bench {
   ros::RosBase base;
   std::uint64_t heap_calls = 0;
 
-  explicit Bench(bool allow_unproved = true)
+  explicit Bench(bool allow_unproved = true, const DriveTimes& times = {})
       : base(bus.port(0), clock,
-             {.stop = stop_limits(10.0, 0.5, 20ms), .allow_unproved = allow_unproved, .tick = 20ms}) {
+             {.stop = stop_limits(10.0, 0.5, 20ms, times),
+              .allow_unproved = allow_unproved,
+              .tick = 20ms,
+              .times = times}) {
     clock.base = &far_end;
   }
   std::string armed() {
@@ -145,7 +150,10 @@ TEST_CASE("a ROS base is not armed without odometry, listeners, readings enough,
   Bench slow;
   slow.far_end.period = 50ms;
   CHECK(says(slow.armed(), "20 readings a second"));
-  CHECK(says(slow.armed(), "; lower rate_hz"));
+  CHECK(says(slow.armed(), "; write report_ms = 50 and report_late_ms = "));
+  Bench too_slow;
+  too_slow.far_end.period = 500ms;
+  CHECK(says(too_slow.armed(), "; have it published at least 4 times a second"));
   Bench moving;
   static_cast<void>(moving.bus.port(2).send(ros::to_frame(ros::kWheelOrder, {2.0F, 0})));
   moving.clock.sleep_until(moving.clock.now() + 200ms);
@@ -154,6 +162,26 @@ TEST_CASE("a ROS base is not armed without odometry, listeners, readings enough,
   Bench driven;
   static_cast<void>(driven.bus.port(2).send({.id = ros::kOtherMaster}));
   CHECK(says(driven.armed(), "another program commands the drives"));
+}
+
+TEST_CASE(
+    "a ROS base arms, drives and stops with reports as rare and late as its file states, and not with later ones") {
+  for (const Duration period : {10ms, 20ms, 50ms, 100ms}) {
+    CAPTURE(to_seconds(period));
+    Bench bench(true, {.report_s = to_seconds(period), .late_s = 0.06});
+    bench.far_end.period = period;
+    bench.far_end.late = 60ms;
+    bench.bring_to_speed();
+    for (int round = 0; round < 20; ++round) {
+      CHECK(bench.drive(2.0, 3.0, 50).trouble == DriveTrouble::kNone);
+      const WheelState stopped = bench.drive(0.0, 0.0, 50);
+      CHECK(stopped.trouble == DriveTrouble::kNone);
+      CHECK(stopped.stop == StopStage::kNone);
+    }
+  }
+  Bench later(true, {.report_s = 0.02});
+  later.far_end.late = 200ms;
+  CHECK(says(later.armed(), "report_late_ms = "));
 }
 
 TEST_CASE("a ROS base that falls silent stops and stays so until a reset") {

@@ -80,3 +80,24 @@ TEST_CASE("after an emergency stop the robot stays where it is, button out or no
   CHECK(distance(drive.truth().map_from_robot.position(), stopped_at) < 0.01);
   CHECK(has(drive.tick().verdict.reasons, Reason::kLatched));
 }
+
+TEST_CASE("a base whose reports come every 10 to 100 ms, up to 60 ms late, drives to its goal as it states them") {
+  for (const double period_s : {0.01, 0.05, 0.1}) {
+    CAPTURE(period_s);
+    SimulatedDrive drive("crossing", 1, [&](sim::Scenario& scenario) {
+      scenario.wanderers.clear();
+      scenario.reports = {period_s, 0.06};
+      scenario.model.drive.times = {.report_s = std::max(period_s, 0.02), .late_s = 0.06};
+    });
+    Reason named = Reason::kNone;
+    double off_m = 0.0;
+    const bool reached = drive.drive(60.0, [&](const TickRecord& t) {
+      named |= without(t.verdict.reasons, kNoFaults);
+      off_m = std::max(off_m, distance(t.pose.map_from_robot.position(), drive.truth().map_from_robot.position()));
+      return drive.to_goal_m() < 0.3;
+    });
+    CHECK(reached);
+    CHECK(to_string(named) == "");
+    CHECK(off_m < 0.12);
+  }
+}

@@ -93,7 +93,7 @@ TEST_CASE("a robot that is wired as its file says passes every check, on all kin
     Bench bench(name, std::nullopt);
     const std::vector<CheckedPart> checks = bench.commission();
     CHECK(faults_of(checks) == "");
-    CHECK(checks.size() == 6);
+    CHECK(checks.size() == 7);
     CHECK(bench.robot.far_end().rim_speed() < 0.001);
     CHECK(bench.robot.far_end().truth().contacts == 0);
   }
@@ -137,7 +137,7 @@ TEST_CASE("each of two scanners is judged by what it sees, and told by its name"
   Bench well("two_scanners", std::nullopt);
   const std::vector<CheckedPart> checks = well.commission();
   CHECK(faults_of(checks) == "");
-  CHECK(checks.size() == 10);  // the drives once, four parts of each scanner
+  CHECK(checks.size() == 11);  // the drives and their response once, four parts of each scanner
   Bench ahead("two_scanners", std::nullopt,
               [](RobotFile& file) { file.setup.model.other_lasers[0].robot_from_laser.heading = 0.0; });
   const std::string faults = faults_of(ahead.commission());

@@ -105,6 +105,13 @@ TEST_CASE("a robot on ROS 2 is named by its topics, which stand for the bus") {
   CHECK(robot.drive.ros.stop.brake_radps2 == Approx(10.2564));
   CHECK(robot.drive.wheel_radii_m[0] == robot.setup.model.drive.wheel_radius_m);
   CHECK(load(ros("")).drive.ros.command == "/cmd_vel");
+  CHECK(load(ros("")).setup.model.drive.times.report_s == Approx(0.02));  // the loop's period
+  const RobotFile slow = load(ros("report_ms = 100\nreport_late_ms = 60\nresponse_ms = 120"));
+  CHECK(slow.setup.model.drive.times.report_s == Approx(0.1));
+  CHECK(slow.drive.ros.times.late_s == Approx(0.06));
+  CHECK(slow.drive.ros.stop.fresh == std::chrono::milliseconds(260));
+  CHECK(setup_from_text(to_text(slow.setup), "here").model.drive.times.response_s == Approx(0.12));
+  CHECK(refusal(ros("report_ms = 400")).find("report_ms") != std::string::npos);
   for (const char* topic : {"cmd_vel", "/", "/cmd_vel/", "/a//b", "/../etc", "/cmd vel", ""})
     CHECK(refusal(ros("command = \"" + std::string(topic) + "\"")).find("is no topic's whole name") !=
           std::string::npos);

@@ -136,6 +136,9 @@ odometry = "/odom"
 command = "/cmd_vel"
 stamped = true
 reliable = false
+report_ms = 100.0
+report_late_ms = 60.0
+response_ms = 120.0
 allow_unproved = true
 )"};
 
@@ -170,6 +173,9 @@ to_deg = 80.0
 [robot.slip]
 mean = 0.01
 std = 0.005
+[robot.reports]
+period_ms = 100.0
+late_ms = 60.0
 [robot.truth]
 left_wheel_radius_m = 0.098
 right_wheel_radius_m = 0.097

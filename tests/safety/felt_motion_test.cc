@@ -4,6 +4,7 @@
 #include <cmath>
 #include <deque>
 #include <functional>
+#include <random>
 
 #include "tests/support/catch.h"
 
@@ -11,19 +12,35 @@ using namespace jaywalk;
 
 namespace {
 
+constexpr DriveModel kWheels{.wheel_radius_m = 0.1, .track_width_m = 0.4};
+constexpr MotionLimits kLimits{.max_speed_mps = 0.6, .brake_mps2 = 1.0};
+
+DriveModel with(const DriveTimes& times) {
+  DriveModel drive = kWheels;
+  drive.times = times;
+  return drive;
+}
+
 /// Two wheels of 0.1 m, each with a motor that follows its command with a lag of 50 ms and at most 1.5 m/s2, and whose
 /// speed is read some time later, in steps of 1000 counts a turn over 10 ms: 0.063 m/s.
 struct Bench {
-  double period_s = 0.02, late_s = 0.02, step_mps = 0.0;
+  double period_s = 0.02, late_s = 0.02, dead_s = 0.0, step_mps = 0.0;
   double left_motor = 1.0, right_motor = 1.0;  ///< -1 reversed, 0 stuck
   bool runs_away = false;                      ///< it turns as it turned
   DriveTrouble trouble = DriveTrouble::kNone;
-  FeltMotion felt{DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0};
+  DriveTimes times{};
+  double report_every_s = 0.001;  ///< its reports are up to times.late_s later, and stamped as they come
+  FeltMotion felt{with(times), kLimits};
+  std::minstd_rand draws{1};
   double now_s = 1.0, left_mps = 0.0, right_mps = 0.0, left_m = 0.0, right_m = 0.0;
   double left_counts = 1.0, right_counts = 1.0;  ///< what their counters make of the wheels' turning
   double counted_every_s = 0.001;
+  bool speeds_stand = false;
+  double speeds_off_m = 0.0;  ///< way of the left wheel less that of the speeds told of it, since they stand
+  double next_report_s = 0.0, delivered_s = 0.0;
   std::deque<WheelState> readings{};
   WheelCommand sent{};
+  std::deque<WheelCommand> orders{};  ///< those not obeyed yet, and before them the one that is
 
   double turned(double speed, double wanted) const {
     return runs_away ? speed : speed + std::clamp((wanted - speed) / 0.05, -1.5, 1.5) * 0.001;
@@ -31,26 +48,37 @@ struct Bench {
   double read(double speed) const {
     return 10.0 * (step_mps > 0.0 ? std::floor(speed / step_mps + 0.5) * step_mps : speed);
   }
+  void report() {
+    next_report_s = now_s + report_every_s;
+    const double late = times.late_s * std::uniform_real_distribution(0.0, 1.0)(draws);
+    delivered_s = std::max(delivered_s, now_s + late);
+    const bool counts = readings.empty() || std::fmod(now_s + 1e-6, counted_every_s) < 0.001;
+    const bool stand = speeds_stand && !readings.empty();
+    readings.push_back({.stamp = time_from_seconds(delivered_s),
+                        .sequence = 1,
+                        .left_rad = counts ? 10.0 * left_m : readings.back().left_rad,
+                        .right_rad = counts ? 10.0 * right_m : readings.back().right_rad,
+                        .left_radps = stand ? readings.back().left_radps : read(left_mps),
+                        .right_radps = stand ? readings.back().right_radps : read(right_mps),
+                        .trouble = trouble});
+  }
   /// A tick that then commands these; whether what came before was disobeyed.
   bool tick(double left, double right) {
     for (double t = 0.0; t < period_s - 1e-9; t += 0.001) {
       now_s += 0.001;
-      left_mps = turned(left_mps, left_motor * 0.1 * sent.left_radps);
-      right_mps = turned(right_mps, right_motor * 0.1 * sent.right_radps);
+      while (orders.size() > 1 && orders[1].stamp <= time_from_seconds(now_s - dead_s)) orders.pop_front();
+      const WheelCommand obeyed = orders.empty() ? WheelCommand{} : orders.front();
+      left_mps = turned(left_mps, left_motor * 0.1 * obeyed.left_radps);
+      right_mps = turned(right_mps, right_motor * 0.1 * obeyed.right_radps);
       left_m += 0.001 * left_counts * left_mps;
       right_m += 0.001 * right_counts * right_mps;
-      const bool counts = readings.empty() || std::fmod(now_s + 1e-6, counted_every_s) < 0.001;
-      readings.push_back({.stamp = time_from_seconds(now_s),
-                          .sequence = 1,
-                          .left_rad = counts ? 10.0 * left_m : readings.back().left_rad,
-                          .right_rad = counts ? 10.0 * right_m : readings.back().right_rad,
-                          .left_radps = read(left_mps),
-                          .right_radps = read(right_mps),
-                          .trouble = trouble});
+      if (speeds_stand) speeds_off_m += 0.001 * (left_mps - 0.1 * readings.back().left_radps);
+      if (now_s >= next_report_s - 1e-9) report();
     }
     while (readings.size() > 1 && readings[1].stamp <= time_from_seconds(now_s - late_s)) readings.pop_front();
     const bool disobeyed = felt.disobeys(sent, readings.front(), time_from_seconds(now_s));
     sent = {time_from_seconds(now_s), 10.0 * left, 10.0 * right};
+    orders.push_back(sent);
     return disobeyed;
   }
   /// Seconds until disobedience is told; infinity where it is not within `limit_s`.
@@ -110,7 +138,7 @@ TEST_CASE("a wheel that sticks under way is told within half a second") {
 TEST_CASE("wheels that turn though they are commanded to stand are told, on either side and in either direction") {
   for (const double felt_mps : {0.2, -0.2}) {
     for (const bool left : {true, false}) {
-      FeltMotion felt(DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0);
+      FeltMotion felt(kWheels, kLimits);
       double told_s = 0.0;
       for (double t = 0.0; told_s == 0.0 && t < 2.0; t += 0.02) {
         const WheelState wheels{.stamp = time_from_seconds(t),
@@ -151,7 +179,7 @@ TEST_CASE("commands too small for a fault at once add up: a wheel that does not 
 }
 
 TEST_CASE("feedback that stopped coming, or is no number, says nothing of obedience") {
-  FeltMotion felt(DriveModel{.wheel_radius_m = 0.1, .track_width_m = 0.4}, 1.0);
+  FeltMotion felt(kWheels, kLimits);
   WheelState wheels{.stamp = time_from_seconds(0.0), .sequence = 1};
   for (double t = 0.0; t < 3.0; t += 0.02) {
     if (t > 1.0) wheels.left_radps = std::numeric_limits<double>::quiet_NaN(), wheels.stamp = time_from_seconds(t);
@@ -179,6 +207,43 @@ TEST_CASE("counters that are read less often than speeds, or a few per cent off,
     for (const double counts : {0.95, 1.0, 1.05}) {
       Bench bench{.left_counts = counts, .counted_every_s = every_s};
       CHECK(std::isinf(bench.told_after(18.0, lively)));
+    }
+  }
+}
+
+TEST_CASE("bases that report every 10 to 100 ms, up to 60 ms late, are no fault, and are told where they do not obey") {
+  for (const double report_s : {0.01, 0.02, 0.05, 0.1}) {
+    for (const unsigned seed : {1U, 2U, 3U}) {
+      CAPTURE(report_s, seed);
+      const DriveTimes times{.report_s = report_s, .late_s = 0.06};
+      Bench bench{.late_s = 0.0, .times = times, .report_every_s = report_s, .draws = std::minstd_rand(seed)};
+      CHECK(std::isinf(bench.told_after(60.0, lively)));
+      Bench reversed{.late_s = 0.0, .left_motor = -1.0, .times = times, .report_every_s = report_s};
+      CHECK(reversed.told_after(2.0, steadily) < 0.5 + report_s + 0.06);
+    }
+  }
+}
+
+TEST_CASE("a drive that states a slow response has the time it states") {
+  for (const double response_s : {0.05, 0.25}) {
+    const DriveTimes times{.report_s = 0.1, .response_s = response_s};
+    Bench bench{.dead_s = response_s - 0.05, .times = times, .report_every_s = 0.1};
+    CHECK(std::isinf(bench.told_after(30.0, lively)));
+  }
+  Bench slow{.dead_s = 0.6};
+  CHECK(slow.told_after(6.0, lively) < 6.0);
+}
+
+TEST_CASE("speeds that stand while both counters live are told within centimetres of a difference in way") {
+  const auto slows = [](double) { return std::pair{0.2, 0.2}; };
+  const auto speeds_up = [](double) { return std::pair{0.6, 0.6}; };
+  for (const double from : {0.3, 0.4, 0.5}) {
+    for (const bool up : {true, false}) {
+      Bench bench;
+      REQUIRE(std::isinf(bench.told_after(2.0, [&](double) { return std::pair{from, from}; })));
+      bench.speeds_stand = true;
+      REQUIRE(bench.told_after(3.0, up ? std::function(speeds_up) : std::function(slows)) < 1.5);
+      CHECK(std::fabs(bench.speeds_off_m) < 0.11);
     }
   }
 }

@@ -80,9 +80,22 @@ TEST_CASE("the worst tick counts for five seconds at least and ten at most") {
 
 TEST_CASE("control and drive take a period, the tick and the drive's lag, 0.08 s at least and never without bounds") {
   constexpr Duration k50Hz = std::chrono::milliseconds(20), k20Hz = std::chrono::milliseconds(50);
-  CHECK(control_and_drive_s(k50Hz, {}) == Approx(0.08));
-  CHECK(control_and_drive_s(std::chrono::milliseconds(5), {}) == Approx(0.08));
-  CHECK(control_and_drive_s(k20Hz, {}) == Approx(0.11));
-  CHECK(control_and_drive_s(k50Hz, {0.015, 0.12}) == Approx(0.155));
-  CHECK(control_and_drive_s(k50Hz, {9.0, 9.0}) == Approx(0.42));
+  constexpr DriveTimes kUsual;
+  CHECK(control_and_drive_s(k50Hz, kUsual, {}) == Approx(0.08));
+  CHECK(control_and_drive_s(std::chrono::milliseconds(5), kUsual, {}) == Approx(0.08));
+  CHECK(control_and_drive_s(k20Hz, kUsual, {}) == Approx(0.11));
+  CHECK(control_and_drive_s(k50Hz, kUsual, {0.015, 0.12}) == Approx(0.155));
+  CHECK(control_and_drive_s(k50Hz, kUsual, {9.0, 9.0}) == Approx(0.42));
+  constexpr DriveTimes kSlow{.report_s = 0.1, .late_s = 0.06, .response_s = 0.15};  // 0.3 + 0.24 s at most
+  CHECK(control_and_drive_s(k50Hz, kSlow, {}) == Approx(0.18));
+  CHECK(control_and_drive_s(k50Hz, kSlow, {0.01, 9.0}) == Approx(0.57));
+}
+
+TEST_CASE(
+    "a reading of the wheels is old after two reports and what the next may be late, or as the loop's rate has it") {
+  constexpr Duration k50Hz = std::chrono::milliseconds(20), k20Hz = std::chrono::milliseconds(50);
+  CHECK(oldest_wheels({}, k50Hz) == std::chrono::milliseconds(60));
+  CHECK(oldest_wheels({}, k20Hz) == std::chrono::milliseconds(125));
+  CHECK(oldest_wheels({.report_s = 0.1}, k50Hz) == std::chrono::milliseconds(250));
+  CHECK(oldest_wheels({.report_s = 0.01, .late_s = 0.06}, k50Hz) == std::chrono::milliseconds(80));
 }

@@ -1,5 +1,8 @@
 #pragma once
 // A robot that wanders through a room under the supervisor alone, and a fault of scanner, mount or wheels under way.
+#include <deque>
+#include <utility>
+
 #include "firmware/safety/supervisor.h"
 #include "tests/safety/trial_room.h"
 
@@ -18,6 +21,15 @@ enum class Fault {
   kRangesShort,    ///< 0.5 to 0.8 times
   kCountersStuck,  ///< both wheels' angles stand, the speeds go on
   kCounterStuck    ///< one wheel's
+};
+
+/// A robot whose base reports as it states, and of drives that were just set up.
+struct Base {
+  double report_every_s = 0.01;
+  DriveTimes times{};
+  bool stamped_as_read = true;  ///< else as it comes, which is up to times.late_s later
+  bool proves_wheels = false;
+  double wheels_go = 1.0;  ///< so many times as far as they say, from the start
 };
 
 /// Before anything is tried: robot, scanner, floor.
@@ -47,13 +59,14 @@ inline Setting random_setting(Engine& engine) {
 
 class TrialRobot {
  public:
-  TrialRobot(std::uint64_t seed, Fault fault, double strikes_s)
+  TrialRobot(std::uint64_t seed, Fault fault, double strikes_s, const Base& base = {})
       : engine_(seed),
         fault_(fault),
         strikes_s_(strikes_s),
-        setting_(random_setting(engine_)),
+        base_(base),
+        setting_(with(random_setting(engine_), base)),
         room_(engine_, std::max(setting_.people, 0)),
-        supervisor_({.model = setting_.model, .judges_motion = true}) {
+        supervisor_({.model = setting_.model, .judges_motion = true, .proves_wheels = base.proves_wheels}) {
     pose_.heading = uniform(engine_, -kPi, kPi);
     input_.has_goal = true;
     draw_fault();
@@ -80,8 +93,11 @@ class TrialRobot {
            has(reasons_, Reason::kScanFrozen);
   }
   [[nodiscard]] Reason reasons() const { return reasons_; }
+  [[nodiscard]] const RobotModel& model() const { return setting_.model; }
   /// What really moves.
   [[nodiscard]] double speed_mps() const { return std::fabs(truth_.v_mps); }
+  /// The faster wheel's rim, as it says.
+  [[nodiscard]] double wheel_mps() const { return std::max(std::fabs(left_mps_), std::fabs(right_mps_)); }
   /// Whether the motion of this tick shows the fault: faster than 0.15 m/s (or 0.3 rad/s, where turning shows it), and
   /// where ranges are frozen once a third of those that are stuck is off by 5 cm.
   [[nodiscard]] bool shows() const {
@@ -97,6 +113,10 @@ class TrialRobot {
   }
 
  private:
+  [[nodiscard]] static Setting with(Setting setting, const Base& base) {
+    setting.model.drive.times = base.times;
+    return setting;
+  }
   [[nodiscard]] bool frozen() const {
     return fault_ == Fault::kNearlyFrozen || fault_ == Fault::kJitterFrozen || fault_ == Fault::kSectorFrozen;
   }
@@ -151,7 +171,7 @@ class TrialRobot {
     left_slip_ = kept * left_slip_ + fresh * normal();
     right_slip_ = kept * right_slip_ + fresh * normal();
     const bool geared = struck() && (fault_ == Fault::kWheelsFar || fault_ == Fault::kWheelsShort);
-    const double gain = (geared ? gain_ : 1.0) * (1.0 - setting_.slip_mean);
+    const double gain = base_.wheels_go * (geared ? gain_ : 1.0) * (1.0 - setting_.slip_mean);
     const double left = left_mps_ * gain * (1.0 - left_slip_), right = right_mps_ * gain * (1.0 - right_slip_);
     truth_ = {0.5 * (left + right), (right - left) / track};
     const double heading = pose_.heading + 0.5 * truth_.w_radps * kStep_s;
@@ -160,7 +180,9 @@ class TrialRobot {
     room_.move(kStep_s, {pose_.x, pose_.y});
     left_rad_ += left_mps_ * kStep_s / radius;
     right_rad_ += right_mps_ * kStep_s / radius;
-    if (++steps_ % 5 == 0) read_wheels();
+    if (++steps_ % std::lround(base_.report_every_s / kStep_s) == 0) read_wheels();
+    for (; !reports_.empty() && reports_.front().first <= now_s_; reports_.pop_front())
+      wheels_ = reports_.front().second;
     if (now_s_ >= next_scan_s_) look();
     if (measured_.sequence != delivered_.sequence && now_s_ >= to_seconds(measured_.stamp) + setting_.late_s)
       delivered_ = measured_;
@@ -169,12 +191,16 @@ class TrialRobot {
     const double radius = setting_.model.drive.wheel_radius_m;
     const bool left_stuck = struck() && fault_ == Fault::kCountersStuck;
     const bool right_stuck = left_stuck || (struck() && fault_ == Fault::kCounterStuck);
-    wheels_.stamp = time_from_seconds(now_s_);
-    ++wheels_.sequence;
-    if (!left_stuck) wheels_.left_rad = left_rad_ - left_gone_;
-    if (!right_stuck) wheels_.right_rad = right_rad_;
-    wheels_.left_radps = left_mps_ / radius;
-    wheels_.right_radps = right_mps_ / radius;
+    double comes_s = now_s_;
+    if (base_.times.late_s > 0.0) comes_s += uniform(engine_, 0.0, base_.times.late_s);
+    if (!reports_.empty()) comes_s = std::max(comes_s, reports_.back().first);
+    read_.stamp = time_from_seconds(base_.stamped_as_read ? now_s_ : comes_s);
+    ++read_.sequence;
+    if (!left_stuck) read_.left_rad = left_rad_ - left_gone_;
+    if (!right_stuck) read_.right_rad = right_rad_;
+    read_.left_radps = left_mps_ / radius;
+    read_.right_radps = right_mps_ / radius;
+    reports_.emplace_back(comes_s, read_);
   }
   void look() {
     next_scan_s_ = now_s_ + 1.0 / setting_.model.laser.rate_hz;
@@ -232,6 +258,7 @@ class TrialRobot {
   std::normal_distribution<double> normal_{0.0, 1.0};
   Fault fault_;
   double strikes_s_;
+  Base base_;
   Setting setting_;
   Room room_;
   Supervisor supervisor_;
@@ -245,7 +272,8 @@ class TrialRobot {
   double gain_ = 1.0, turned_ = 0.0, turns_radps_ = 0.0, jitter_m_ = 0.0, stuck_from_ = 0.0, stuck_to_ = 0.0;
   double frozen_off_ = 0.0;
   LaserScan measured_, delivered_, before_;
-  WheelState wheels_;
+  WheelState read_, wheels_;
+  std::deque<std::pair<double, WheelState>> reports_;  ///< and when they come
   WheelCommand sent_;
   Reason reasons_ = Reason::kNone;
 };

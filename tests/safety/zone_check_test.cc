@@ -48,7 +48,25 @@ TEST_CASE("a robot that outruns what its laser sees is refused with what to do a
   fast.laser.range_max_m = 5.0;
   const std::string said = refusal(fast);
   CHECK(said.rfind("robot.toml: stopping takes 8.2 m, ", 0) == 0);
-  CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps, raise limits.brake_mps2") != std::string::npos);
+  CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps to 1.39, raise limits.brake_mps2") !=
+        std::string::npos);
+}
+
+TEST_CASE("a base that obeys and reports late is refused from the speed on that outruns the laser with it") {
+  RobotModel slow = at(p3dx(), 1.2);
+  slow.laser.range_max_m = 3.5;
+  CHECK(refusal(slow).empty());
+  slow.drive.times = {.report_s = 0.25, .late_s = 0.2, .response_s = 0.5};
+  const std::string said = refusal(slow);
+  const std::string to = "lower limits.max_speed_mps to ";
+  REQUIRE(said.find(to) != std::string::npos);
+  const double would_do = std::stod(said.substr(said.find(to) + to.size()));
+  CHECK(would_do < 1.2);
+  RobotModel slower = slow, faster = slow;
+  slower.limits.max_speed_mps = would_do;
+  faster.limits.max_speed_mps = would_do + 0.02;
+  CHECK(refusal(slower).empty());
+  CHECK_FALSE(refusal(faster).empty());
 }
 
 TEST_CASE("a robot before which a post of 70 mm fits between two beams is refused") {
