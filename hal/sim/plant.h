@@ -47,6 +47,8 @@ class Plant {
   /// What share of its turning each wheel moves the robot by.
   void grip(double left, double right) noexcept { left_grip_ = left, right_grip_ = right; }
   void connect(const Miswiring& wiring) noexcept { wiring_ = wiring; }
+  /// A person lifts the robot: nothing turns its wheels, and whatever they do moves nothing.
+  void carry_to(const Pose2& pose) noexcept { map_from_robot_ = pose; }
   /// Something solid is in the way: body and wheels stand, the body at `pose`.
   void stop_at(const Pose2& pose) noexcept;
   /// Reads the encoders: whole ticks as angles, and speeds from the ticks counted since the last reading.

@@ -51,7 +51,8 @@ enum class FaultKind {
   kLeftWheelReversed,   ///< motor and encoder: the feedback obeys
   kWheelsSwapped,       ///< drives, motors and encoders: left is right
   kLeftWheelStuck,
-  kScannerMirrored  ///< upside down, or its sense of rotation taken the wrong way round
+  kScannerMirrored,  ///< upside down, or its sense of rotation taken the wrong way round
+  kCarried           ///< a person lifts the robot and puts it down elsewhere: its wheels stand
 };
 
 struct FaultSpec {
@@ -60,6 +61,7 @@ struct FaultSpec {
   FaultKind kind = FaultKind::kScanStale;
   BlankedSector lost{-kPi / 3.0, kPi / 3.0};  ///< of kBeamsLost, in the laser's frame: 120 degrees ahead
   bool claims_free = false;                   ///< of kBeamsLost: its beams say that nothing is within reach
+  Pose2 way{};                                ///< of kCarried: to where, from where it stood then
   int scanner = 0;                            ///< of the scanner's faults: which one's, from 1; 0: all
 
   [[nodiscard]] bool is_of(std::size_t which) const noexcept {

@@ -159,6 +159,10 @@ FaultSpec read_fault(TomlTable& table) {
   if (spec.kind == FaultKind::kBeamsLost && (table.has("from_deg") || table.has("to_deg")))
     spec.lost = read_sector(table);
   if (spec.kind == FaultKind::kBeamsLost) spec.claims_free = table.boolean("claims_free");
+  if (spec.kind == FaultKind::kCarried) {
+    const std::vector<double> way = table.numbers("way", 3);
+    spec.way = {way[0], way[1], way[2]};
+  }
   table.finish();
   return spec;
 }

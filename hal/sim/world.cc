@@ -155,11 +155,24 @@ void World::connect_plant() noexcept {
                   .left_stuck = fault_active(FaultKind::kLeftWheelStuck)});
 }
 
+void World::carry_robot() noexcept {
+  for (const FaultSpec& fault : faults_) {
+    if (fault.kind != FaultKind::kCarried || !fault.active(to_seconds(truth_.now))) continue;
+    const double steps = std::max(std::round(fault.for_s / to_seconds(kWorldStep)), 1.0);
+    const double done = std::floor((to_seconds(truth_.now) - fault.at_s) / to_seconds(kWorldStep) + 1e-6);
+    const Pose2& at = plant_.map_from_robot();
+    const double lifted_heading = at.heading - fault.way.heading * done / steps;
+    const Vec2 step = Transform2({0.0, 0.0, lifted_heading}).rotate(fault.way.position() * (1.0 / steps));
+    plant_.carry_to({at.x + step.x, at.y + step.y, wrap_angle(at.heading + fault.way.heading / steps)});
+  }
+}
+
 void World::step() noexcept {
   truth_.now += kWorldStep;
   const Pose2 before = plant_.map_from_robot();
   connect_plant();
   plant_.step(to_seconds(kWorldStep), truth_.now);
+  carry_robot();
   keep_out_of_solids(before);
   if (++steps_ % kStepsAMove == 0) {
     plant_.change_slip(to_seconds(kMoverStep));

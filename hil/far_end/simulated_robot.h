@@ -39,6 +39,8 @@ class SimulatedRobot {
   [[nodiscard]] emulators::ScannerServer& scanner(std::size_t index = 0) noexcept { return *eyes_[index]->scanner; }
   /// From now on.
   void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
+  /// A person lifts the robot and puts it down there: `from_here`, seen from where it stands.
+  void carry(const Pose2& from_here) noexcept { world_.plant().carry_to(truth().map_from_robot * from_here); }
   /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
   /// out at both, and the controller hears it twice.
   void say_as_stranger(const CanFrame& frame) noexcept {

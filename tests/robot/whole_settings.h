@@ -216,6 +216,11 @@ for_s = 1.0
 scanner = 1
 from_deg = -20.0
 to_deg = 20.0
+[[faults]]
+kind = "carried"
+at_s = 7.0
+for_s = 2.0
+way = [1.0, 0.5, 0.2]
 [[zones]]
 kind = "keep_out"
 points = [[-3.0, 5.0], [-2.0, 5.0], [-2.0, 6.5]]

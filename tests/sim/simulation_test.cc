@@ -214,6 +214,21 @@ TEST_CASE("acceleration is that of the drive: 1.5 m/s2 while it spins up") {
   CHECK(sim.truth().accel_mps2 == Approx(1.5));
 }
 
+TEST_CASE("a robot that is carried is put down where the scenario says, and its wheels stand") {
+  const Scratch scratch;
+  Scenario scenario = in_room(scratch);
+  scenario.faults.push_back({.at_s = 1.0, .for_s = 2.0, .kind = FaultKind::kCarried, .way = {0.4, -0.2, 1.0}});
+  Simulation sim(scenario, 1);
+  const Pose2 from = sim.truth().map_from_robot, there = from * Pose2{0.4, -0.2, 1.0};
+  drive(sim, 0.0, 0.0, 2.0);
+  CHECK(distance(sim.truth().map_from_robot.position(), from * Vec2{0.2, -0.1}) < 0.002);
+  drive(sim, 0.0, 0.0, 2.0);
+  CHECK(distance(sim.truth().map_from_robot.position(), there.position()) < 0.002);
+  CHECK(std::fabs(wrap_angle(sim.truth().map_from_robot.heading - there.heading)) < 0.002);
+  CHECK(sim.hal().drive.latest().left_rad == 0.0);
+  CHECK(sim.truth().contacts == 0);
+}
+
 TEST_CASE("faults last as long as they are told") {
   const Scratch scratch;
   const auto with_fault = [&](FaultKind kind) {
