@@ -20,7 +20,7 @@ constexpr double kMoved_m = 0.06;  ///< two standard deviations of a common scan
 /// Share of the reach in which a surface is certain to echo again.
 constexpr double kSure = 0.9;
 /// Age to which a surface is expected where its beam has told nothing since.
-constexpr double kOldest_s = 1.0;
+constexpr double kOldestSeen_s = 1.0;
 constexpr double kMostWay_m = 1.0;  ///< between two scans; more is another robot
 
 }  // namespace
@@ -72,7 +72,7 @@ void FreeClaims::expect(const LaserScan& scan, const Pose2& now_from_before) noe
   if (norm(now_from_before.position()) > kMostWay_m || step_rad_ == 0.0) return;
   const Transform2 to_now(now_from_before);
   for (std::size_t k = 0; k < beams_; ++k) {
-    if (surface_[k].seen == kNever || to_seconds(scan.stamp - surface_[k].seen) > kOldest_s) continue;
+    if (surface_[k].seen == kNever || to_seconds(scan.stamp - surface_[k].seen) > kOldestSeen_s) continue;
     const Vec2 place = to_now * surface_[k].in_laser;
     const double range_m = norm(place);
     const std::size_t beam = beam_towards(place);

@@ -11,7 +11,7 @@ namespace jaywalk {
 namespace {
 
 constexpr double kStands_m = 0.0005;   // of the felt way from scan to scan: the newer one is kept
-constexpr double kLongest_m = 0.3;     // of a felt way, before a newer scan is kept: people move
+constexpr double kLongestPair_m = 0.3;     // of a felt way, before a newer scan is kept: people move
 constexpr double kNoFaster_m = 0.015;  // of a felt way that tells that they go no more than kNoFaster times as far
 constexpr double kNoFaster = 2.5;
 constexpr double kExplained = 0.5, kLeastCompared = 12.0;  // of a fit that tells (MotionModel)
@@ -80,7 +80,7 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   } else if (usable) {
     match(scan, felt);
     judge(felt);
-    if (longer(now, kept_rolled_) > kLongest_m && times_against_ == 0) keep(scan, now);
+    if (longer(now, kept_rolled_) > kLongestPair_m && times_against_ == 0) keep(scan, now);
   }
   began_ = true;
   over_ = over_ || rolled_m_ > kUnseen_m;
