@@ -37,7 +37,7 @@ struct OperatorInput {
   bool reset = false;                       ///< its rising edge clears latched faults
   bool steers = false;                      ///< a person drives by the stick; then there is no goal
   Stick stick{};                            ///< in the middle it means stop
-  std::uint32_t stop_orders = 0;            ///< so far; a panel with a stick obeys them, the loop does not look at them
+  std::uint32_t stop_orders = 0;            ///< so far, for the page that shows them; the loop does not look at them
 
   /// Whether the robot is asked to move at all.
   [[nodiscard]] bool wants_motion() const noexcept { return has_goal || (steers && !stick.is_centred()); }
