@@ -25,6 +25,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       planner_(planner),
       recorder_(recorder),
       speed_zones_(setup.zones, setup.model),
+      lone_returns_(setup.model),
       estimator_(setup),
       motion_(setup.make_motion(setup.motion())),
       latency_(setup.model.drive),
@@ -67,6 +68,15 @@ void ControlLoop::read_devices(TickRecord& t) noexcept {
   t.wheels = hal_.drive.latest();
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
+  strike_out_lone_returns(t);
+}
+
+// Where no wheels tell how the scanner moved, one scan cannot be laid on another: all returns count.
+void ControlLoop::strike_out_lone_returns(TickRecord& t) noexcept {
+  if (!setup_.wheels) return;
+  lone_returns_.follow(t.wheels);
+  lone_returns_.strike_out(t.scan);
+  for (LaserScan& scan : t.other_scans) lone_returns_.strike_out(scan);
 }
 
 void ControlLoop::take_plan(TickRecord& t) noexcept {

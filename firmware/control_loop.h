@@ -9,6 +9,7 @@
 #include "firmware/known_walls.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/safety/latency.h"
+#include "firmware/safety/lone_returns.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/motion/diff_drive.h"
@@ -37,6 +38,7 @@ class ControlLoop {
 
  private:
   void read_devices(TickRecord& t) noexcept;
+  void strike_out_lone_returns(TickRecord& t) noexcept;
   void take_plan(TickRecord& t) noexcept;
   /// What motion wants.
   void ask(TickRecord& t) noexcept;
@@ -57,6 +59,7 @@ class ControlLoop {
   Recorder& recorder_;
   motion::SpeedZones speed_zones_;
   motion::ZoneSpeed zone_speed_{};  ///< this tick's
+  LoneReturns lone_returns_;
   Estimator estimator_;
   std::unique_ptr<motion::Motion> motion_;  ///< never null
   Latency latency_;

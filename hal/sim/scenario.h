@@ -51,7 +51,8 @@ enum class FaultKind {
   kLeftWheelReversed,   ///< motor and encoder: the feedback obeys
   kWheelsSwapped,       ///< drives, motors and encoders: left is right
   kLeftWheelStuck,
-  kScannerMirrored  ///< upside down, or its sense of rotation taken the wrong way round
+  kScannerMirrored,  ///< upside down, or its sense of rotation taken the wrong way round
+  kRain              ///< 0.5 % of the beams end at drops, 0.1 to 0.3 m off
 };
 
 struct FaultSpec {

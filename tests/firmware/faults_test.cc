@@ -80,3 +80,20 @@ TEST_CASE("after an emergency stop the robot stays where it is, button out or no
   CHECK(distance(drive.truth().map_from_robot.position(), stopped_at) < 0.01);
   CHECK(has(drive.tick().verdict.reasons, Reason::kLatched));
 }
+
+TEST_CASE("rain on the scanner does not hold the robot up") {
+  const auto seconds_to_goal = [](bool rains) {
+    SimulatedDrive drive("crossing", 1, [rains](sim::Scenario& scenario) {
+      scenario.wanderers.clear();
+      if (rains) scenario.faults = {{.at_s = 2.0, .for_s = 1e3, .kind = sim::FaultKind::kRain}};
+    });
+    double seconds = 0.0;
+    CHECK(drive.drive(90.0, [&](const TickRecord& t) {
+      seconds = to_seconds(t.now);
+      return drive.to_goal_m() < 0.3;
+    }));
+    CHECK(drive.truth().contacts == 0);
+    return seconds;
+  };
+  CHECK(seconds_to_goal(true) < 1.15 * seconds_to_goal(false));
+}
