@@ -11,6 +11,7 @@
 #include "firmware/recording/recorder.h"
 #include "firmware/safety/free_claims.h"
 #include "firmware/safety/latency.h"
+#include "firmware/safety/lone_returns.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/motion/diff_drive.h"
@@ -40,7 +41,7 @@ class ControlLoop {
 
  private:
   void read_devices(TickRecord& t) noexcept;
-  /// What the sensing of a scanner is worth: less what shows the robot, and free beams that are not believed.
+  /// Leaves out of a scanner's newest scan what proves nothing: the robot itself, drops, free beams that are doubted.
   void believe(std::size_t scanner, const WheelState& wheels, LaserScan& scan) noexcept;
   void take_plan(TickRecord& t) noexcept;
   /// What motion wants.
@@ -60,9 +61,10 @@ class ControlLoop {
   Hal hal_;
   Planner& planner_;
   Recorder& recorder_;
-  std::vector<FreeClaims> free_claims_;  ///< of each scanner; empty where no wheels are read
+  std::vector<FreeClaims> free_claims_;  ///< of each scanner
   motion::SpeedZones speed_zones_;
   motion::ZoneSpeed zone_speed_{};  ///< this tick's
+  LoneReturns lone_returns_;
   Estimator estimator_;
   std::unique_ptr<motion::Motion> motion_;  ///< never null
   Latency latency_;

@@ -162,19 +162,22 @@ WheelState CanopenDriveBase::latest() noexcept {
 }
 
 void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
-  if (phase_ != Phase::kUnproved && !foreign_ && is_foreign(received)) {
-    foreign_ = received.frame;
-    latch(DriveTrouble::kForeignMaster);
-  }
+  if (phase_ != Phase::kUnproved && is_foreign(received)) note_foreign(received.frame);
   const auto emergency = decode_emergency(received.frame);
   for (std::size_t k = 0; k < axes_.size(); ++k) {
     axes_[k].take(received);
+    if (phase_ == Phase::kProved && axes_[k].has_twin()) note_foreign(received.frame);
     if (phase_ == Phase::kProving) proofs_[k].on_frame(received);
     // Before that it tells of what was: that it missed the heartbeat.
     const bool tells = phase_ == Phase::kProved && emergency && emergency->error_code != 0;
     if (tells && emergency->node == axes_[k].setup().node) latch(DriveTrouble::kEmergency);
   }
   publish(received.stamp);
+}
+
+void CanopenDriveBase::note_foreign(const CanFrame& frame) noexcept {
+  if (!foreign_) foreign_ = frame;
+  latch(DriveTrouble::kForeignMaster);
 }
 
 bool CanopenDriveBase::is_foreign(const ReceivedFrame& received) const noexcept {

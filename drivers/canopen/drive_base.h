@@ -77,6 +77,8 @@ class CanopenDriveBase final : public WiredDrive {
 
   void take(const ReceivedFrame& received) noexcept;
   [[nodiscard]] bool is_foreign(const ReceivedFrame& received) const noexcept;
+  /// A frame of another master's, or of a second drive with a number of ours.
+  void note_foreign(const CanFrame& frame) noexcept;
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;

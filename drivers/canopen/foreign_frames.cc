@@ -18,7 +18,8 @@ std::string kind_of(std::uint32_t id) {
   if (base == kHeartbeat) return "heartbeat of" + node;
   if (base == kSdoRequest) return "SDO request to" + node;
   if (base == kSdoAnswer) return "SDO answer that was not asked for, of" + node;
-  return "process data to" + node;
+  const bool from_drive = base == 0x180 || base == 0x280;  // of which two are too many
+  return (from_drive ? "process data, too often, of" : "process data to") + node;
 }
 
 }  // namespace

@@ -33,6 +33,7 @@ void WheelAxis::take(const ReceivedFrame& received) noexcept {
 
 // A boot-up may be followed by "operational" at once, from a drive that starts itself: it is kept.
 void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
+  has_twin_ = !heartbeats_.take_at(stamp, setup_.heartbeat) || has_twin_;
   network_ = state;
   heard_ = stamp;
   restarted_ = restarted_ || state == NmtState::kBootUp;
@@ -43,6 +44,7 @@ void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
 }
 
 void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
+  has_twin_ = !statuses_.take() || has_twin_;
   const auto values = unpack(status_mapping_, received.frame);
   if (!values) return;
   state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
@@ -55,6 +57,7 @@ void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
 
 // The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
 void WheelAxis::take_position(const CanFrame& frame) noexcept {
+  has_twin_ = !positions_.take() || has_twin_;
   const auto values = unpack(position_mapping_, frame);
   if (!values) return;
   const std::uint32_t raw = (*values)[0];
@@ -78,11 +81,14 @@ bool WheelAxis::begin(Time heard, Time settled, bool heard_all) noexcept {
   fresh_status_ = fresh_position_ = was_enabled_ = restarted_ = false;
   resets_fault_ = true;
   left_network_ = DriveTrouble::kNone;
+  heartbeats_ = statuses_ = positions_ = {};
+  has_twin_ = false;
   return counts_on;
 }
 
 void WheelAxis::note_sync(Time now) noexcept {
   if (unanswered_since_ == kNever) unanswered_since_ = now;
+  statuses_.expect(1.0), positions_.expect(1.0);
 }
 
 DriveTrouble WheelAxis::trouble(Time now, const AxisLimits& limits) noexcept {

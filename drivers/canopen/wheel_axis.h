@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "drivers/can/can_frame.h"
+#include "drivers/can/frame_rate.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/pdo.h"
 #include "drivers/canopen/services.h"
@@ -14,6 +15,7 @@ namespace jaywalk::canopen {
 struct AxisSetup {
   std::uint8_t node = 0;
   double counts_per_rad = 0.0;  ///< of the wheel; negative where the motor is mounted the other way round
+  Duration heartbeat = std::chrono::milliseconds(50);  ///< 1017h
 };
 
 /// When a drive that was proved counts as lost.
@@ -37,6 +39,8 @@ class WheelAxis {
   bool begin(Time heard, Time settled, bool heard_all) noexcept;
   /// A SYNC was sent.
   void note_sync(Time now) noexcept;
+  /// Since begin() its node number spoke more often than one drive does: a second drive has it.
+  [[nodiscard]] bool has_twin() const noexcept { return has_twin_; }
   /// What is wrong with it by what it said since begin().
   [[nodiscard]] DriveTrouble trouble(Time now, const AxisLimits& limits) noexcept;
   /// Process data for one cycle. A fault that is there after begin() is reset once.
@@ -75,6 +79,8 @@ class WheelAxis {
   Time heard_ = kNever, settled_ = kNever, unanswered_since_ = kNever;
   DriveGoal goal_ = DriveGoal::kOff;  ///< asked of it last
   bool was_enabled_ = false, resets_fault_ = false;
+  FrameRate heartbeats_, statuses_, positions_;
+  bool has_twin_ = false;
   DriveTrouble left_network_ = DriveTrouble::kNone;
 };
 

@@ -6,8 +6,6 @@
 
 namespace jaywalk::odrive {
 
-namespace {}  // namespace
-
 OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
                 {setup.silence_limit, setup.settling, std::chrono::seconds(1), setup.stop, setup.allow_unproved}),
@@ -67,8 +65,10 @@ void OdriveBase::take(const ReceivedFrame& received) noexcept {
   if (!message) return;
   for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
     if (message->node != setup_.axes[k].node) continue;
-    if (const auto* heartbeat = std::get_if<Heartbeat>(&message->content))
+    if (const auto* heartbeat = std::get_if<Heartbeat>(&message->content)) {
+      if (!seen_[k].heartbeats.take_at(received.stamp, setup_.heartbeat_least)) note_foreign(received.frame);
       take_heartbeat(k, *heartbeat, received.stamp);
+    }
     if (const auto* estimates = std::get_if<EncoderEstimates>(&message->content)) {
       take_estimates(k, *estimates, received.stamp);
     }

@@ -3,6 +3,7 @@
 #include <cstdint>
 #include <string>
 
+#include "drivers/can/frame_rate.h"
 #include "drivers/motor/motor_pair.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/odrive_proof.h"
@@ -21,6 +22,8 @@ struct BaseSetup {
   Duration watchdog_limit = std::chrono::milliseconds(100);
   Duration watchdog_least = std::chrono::milliseconds(40);  ///< it must outlast two commands
   Duration silence_limit = std::chrono::milliseconds(150);  ///< without a heartbeat
+  /// An axis is set to say it no more often (heartbeat_msg_rate_ms); more are a second axis with its number.
+  Duration heartbeat_least = std::chrono::milliseconds(10);
   Duration settling = std::chrono::milliseconds(300);
   StopLimits stop;              ///< braking and tolerance must be given
   bool allow_unproved = false;  ///< arms although an axis did not show that it stops by itself
@@ -41,6 +44,7 @@ class OdriveBase final : public MotorPair {
     std::uint32_t errors = 0;
     std::uint8_t state = 0;  ///< AxisState where it is one of those
     Time expired = kNever;   ///< its watchdog, by its heartbeats
+    FrameRate heartbeats = {};
     float position_turns = 0.0F;
   };
 

@@ -46,7 +46,8 @@ void MotorPair::listen() {
 std::vector<std::string> MotorPair::judge_proofs() const {
   if (foreign_) {
     throw StartupError("CAN: another program commands the drives: frame " + in_words(*foreign_),
-                       "end that program, or take it off this bus");
+                       "end that program, or take it off this bus; a frame of a drive's own came too often: give each "
+                       "a number of its own, and an ODrive can.heartbeat_msg_rate_ms of 10 or more");
   }
   std::vector<std::string> report;
   for (std::size_t k = 0; k < axes_.size(); ++k) {

@@ -84,7 +84,8 @@ canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, D
   const auto nodes = read_nodes(table);
   require_distinct(table,
                    {{"left_node", nodes[0]}, {"right_node", nodes[1]}, {"controller_node", settings.controller_node}});
-  base.axes = {canopen::AxisSetup{nodes[0], scales[0]}, canopen::AxisSetup{nodes[1], scales[1]}};
+  const auto heartbeat = std::chrono::milliseconds(settings.heartbeat_ms);
+  base.axes = {canopen::AxisSetup{nodes[0], scales[0], heartbeat}, canopen::AxisSetup{nodes[1], scales[1], heartbeat}};
   settings.acceleration = settings.deceleration = settings.quick_stop =
       ramp(kRampOverBrake * model.limits.brake_mps2, model.drive, std::fabs(scales[0]));
   return base;

@@ -18,7 +18,7 @@ constexpr double kWide_rad = 10.0 * kPi / 180.0;
 constexpr double kBeside_m = 0.7;  ///< a body's width and a step
 constexpr double kMoved_m = 0.06;  ///< two standard deviations of a common scanner's range
 /// Share of the reach in which a surface is certain to echo again.
-constexpr double kSure = 0.9;
+constexpr double kSureShare = 0.9;
 /// Age to which a surface is expected where its beam has told nothing since.
 constexpr double kOldestSeen_s = 1.0;
 constexpr double kMostWay_m = 1.0;  ///< between two scans; more is another robot
@@ -77,7 +77,7 @@ void FreeClaims::expect(const LaserScan& scan, const Pose2& now_from_before) noe
     const double range_m = norm(place);
     const std::size_t beam = beam_towards(place);
     if (beam >= beams_ || range_m < static_cast<double>(scan.range_min_m) ||
-        range_m > kSure * static_cast<double>(scan.range_max_m))
+        range_m > kSureShare * static_cast<double>(scan.range_max_m))
       continue;
     Surface& nearest = expected_[beam];
     if (nearest.seen == kNever || range_m < norm(nearest.in_laser)) nearest = {place, surface_[k].seen};

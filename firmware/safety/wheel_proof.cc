@@ -10,16 +10,16 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kStands_m = 0.0005;   // of the felt way from scan to scan: the newer one is kept
-constexpr double kLongestPair_m = 0.3;     // of a felt way, before a newer scan is kept: people move
-constexpr double kNoFaster_m = 0.015;  // of a felt way that tells that they go no more than kNoFaster times as far
+constexpr double kStands_m = 0.0005;    // of the felt way from scan to scan: the newer one is kept
+constexpr double kLongestPair_m = 0.3;  // of a felt way, before a newer scan is kept: people move
+constexpr double kNoFaster_m = 0.015;   // of a felt way that tells that they go no more than kNoFaster times as far
 constexpr double kNoFaster = 2.5;
-constexpr double kExplained = 0.5, kLeastCompared = 12.0;  // of a fit that tells (MotionModel)
-constexpr double kSure = 4.0, kMatch_m = 0.003;            // standard deviations; of a match, its points apart
-constexpr double kTellsShare = 0.08;                       // of the way: a match as sure as that proves it
-constexpr double kRough_m = 0.05;                          // of errors before a fit
-constexpr double kEvidence = 10.0;                         // for the seen way against the felt one (MotionModel)
-constexpr int kTimes = 2, kPeople = 2;                     // scans in a row; sectors
+constexpr double kProofExplained = 0.5, kProofLeastCompared = 12.0;  // of a fit that tells (MotionModel)
+constexpr double kSure = 4.0, kMatch_m = 0.003;   // standard deviations; of a match, its points apart
+constexpr double kTellsShare = 0.08;              // of the way: a match as sure as that proves it
+constexpr double kProofRough_m = 0.05;            // of errors before a fit
+constexpr double kProofEvidence = 10.0;           // for the seen way against the felt one (MotionModel)
+constexpr int kProofTimes = 2, kProofPeople = 2;  // scans in a row; sectors
 
 template <class Ways>
 double longer(const Ways& to, const Ways& from) {
@@ -34,8 +34,8 @@ double total(const std::array<double, ScanPair::kSectors>& costs) {
 
 /// Without what one or two pedestrians and their shadows say.
 double without_greatest(std::array<double, ScanPair::kSectors> costs) {
-  std::nth_element(costs.begin(), costs.end() - kPeople, costs.end());
-  std::fill(costs.end() - kPeople, costs.end(), 0.0);
+  std::nth_element(costs.begin(), costs.end() - kProofPeople, costs.end());
+  std::fill(costs.end() - kProofPeople, costs.end(), 0.0);
   return total(costs);
 }
 
@@ -66,7 +66,8 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   if (over_) return false;
   const bool is_new = scan.sequence != scan_seen_ && scan.sequence != 0 && wheels.sequence != 0;
   scan_seen_ = scan.sequence;
-  if (!is_new || !std::isfinite(wheels.left_rad) || !std::isfinite(wheels.right_rad)) return times_against_ >= kTimes;
+  if (!is_new || !std::isfinite(wheels.left_rad) || !std::isfinite(wheels.right_rad))
+    return times_against_ >= kProofTimes;
   const Ways now = rolled(wheels, scan.stamp);
   if (!began_) began_rolled_ = now;
   rolled_m_ = longer(now, began_rolled_);
@@ -84,7 +85,7 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   }
   began_ = true;
   over_ = over_ || rolled_m_ > kUnseen_m;
-  return !over_ && times_against_ >= kTimes;
+  return !over_ && times_against_ >= kProofTimes;
 }
 
 void WheelProof::keep(const LaserScan& scan, const Ways& rolled) noexcept {
@@ -110,7 +111,7 @@ void WheelProof::match(const LaserScan& scan, const Ways& felt) noexcept {
   ScanPair::Errors least = pair_.errors(scan, start);
   for (std::size_t k = 1; k < starts.size(); ++k) {
     const ScanPair::Errors errors = pair_.errors(scan, starts[k]);
-    if (total(pair_.advantage(errors, least, kRough_m, false)) <= 0.0) continue;
+    if (total(pair_.advantage(errors, least, kProofRough_m, false)) <= 0.0) continue;
     least = errors;
     start = starts[k];
   }
@@ -140,18 +141,18 @@ double WheelProof::seen_std_m() const noexcept {
 }
 
 void WheelProof::judge(const Ways& felt) noexcept {
-  if (fit_.explained < kExplained || fit_.compared < kLeastCompared) return;
+  if (fit_.explained < kProofExplained || fit_.compared < kProofLeastCompared) return;
   const Ways seen = this->seen();
   const double off_m = std::max(std::fabs(seen.left - felt.left), std::fabs(seen.right - felt.right));
   const double way_m = std::max(std::fabs(felt.left), std::fabs(felt.right)), std_m = seen_std_m();
   const double sure_m = kSure * std_m;
-  const bool against = evidence_ > kEvidence && off_m - sure_m > kOff_m + kOffShare * way_m;
+  const bool against = evidence_ > kProofEvidence && off_m - sure_m > kOff_m + kOffShare * way_m;
   times_against_ = against ? times_against_ + 1 : 0;
   const double seen_m = std::max(std::fabs(seen.left), std::fabs(seen.right));
   is_no_faster_ = is_no_faster_ || (way_m > kNoFaster_m && seen_m + sure_m < kNoFaster * way_m);
   const bool agree = way_m > kProof_m && std_m < kTellsShare * way_m && off_m < kAgreeShare * way_m;
   times_for_ = agree ? times_for_ + 1 : 0;
-  over_ = times_for_ >= kTimes;
+  over_ = times_for_ >= kProofTimes;
 }
 
 }  // namespace jaywalk

@@ -5,7 +5,7 @@
 namespace jaywalk::sim {
 
 /// What random numbers are for. Each purpose has a stream of its own, so that adding beams does not change movers.
-enum class Purpose : std::uint64_t { kRange, kDropOut, kSlip, kFix, kPlacement, kWanderer, kStick, kDelay };
+enum class Purpose : std::uint64_t { kRange, kDropOut, kSlip, kFix, kPlacement, kWanderer, kStick, kDelay, kRain };
 
 /// Random numbers that are the same on every machine: xoshiro256** 1.0 (Blackman and Vigna, 2018), its state filled
 /// by SplitMix64 from the run's seed and the purpose.

@@ -52,7 +52,8 @@ enum class FaultKind {
   kWheelsSwapped,       ///< drives, motors and encoders: left is right
   kLeftWheelStuck,
   kScannerMirrored,  ///< upside down, or its sense of rotation taken the wrong way round
-  kCarried           ///< a person lifts the robot and puts it down elsewhere: its wheels stand
+  kCarried,          ///< a person lifts the robot and puts it down elsewhere: its wheels stand
+  kRain              ///< 0.5 % of the beams end at drops, 0.1 to 0.3 m off
 };
 
 struct FaultSpec {

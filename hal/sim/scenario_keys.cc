@@ -217,7 +217,7 @@ std::vector<SettingKey> fault_keys() {
            // in the order of FaultKind
            {"scan_stale", "scan_nan", "scan_short", "scan_frozen", "beams_lost", "wheels_stale", "wheel_slip",
             "emergency_stop", "no_grip", "both_motors_reversed", "left_motor_reversed", "left_wheel_reversed",
-            "wheels_swapped", "left_wheel_stuck", "scanner_mirrored", "carried"}},
+            "wheels_swapped", "left_wheel_stuck", "scanner_mirrored", "carried", "rain"}},
           {"faults", "at_s", kNumber, kSeconds, "s", kNeeded, "when it begins"},
           {"faults", "for_s", kNumber, kSeconds, "s", kNeeded, "how long it lasts"},
           {"faults", "scanner", kInteger, {1.0, static_cast<double>(kMostScanners)}, "", "all", "which scanner has it"},

@@ -14,6 +14,13 @@ void lose(const BlankedSector& sector, float says_m, LaserScan& scan) noexcept {
   }
 }
 
+/// Drops before the window: each beam by itself, in each scan anew.
+void rain_on(LaserScan& scan, Random& random) noexcept {
+  constexpr double kShare = 0.005, kNearest_m = 0.1, kFarthest_m = 0.3;
+  for (std::size_t k = 0; k < scan.beam_count; ++k)
+    if (random.uniform() < kShare) scan.range_m[k] = static_cast<float>(random.uniform(kNearest_m, kFarthest_m));
+}
+
 LaserModel true_laser(const Scenario& scenario, std::size_t scanner) {
   LaserModel laser = scenario.model.lasers()[scanner];
   if (scanner == 0) laser.robot_from_laser = scenario.truth.robot_from_laser.value_or(laser.robot_from_laser);
@@ -39,7 +46,8 @@ Sensors::Sensors(const Scenario& scenario, std::uint64_t seed)
   for (std::size_t k = 0; k < count; ++k) {
     const LaserModel laser = true_laser(scenario, k);
     const double phase = static_cast<double>(k) / static_cast<double>(count);  // no clock of theirs is another's
-    scanners_.push_back({k, Metronome(laser.rate_hz, phase), LaserSim(laser, seed, k), laser.turns});
+    scanners_.push_back(
+        {k, Metronome(laser.rate_hz, phase), LaserSim(laser, seed, k), Random(seed, Purpose::kRain, k), laser.turns});
   }
 }
 
@@ -101,6 +109,7 @@ void Sensors::spoil(Scanner& scanner, const World& world) noexcept {
     if (fault.kind == FaultKind::kBeamsLost && active)
       lose(fault.lost, fault.claims_free ? std::numeric_limits<float>::infinity() : 0.0F, scan);
   }
+  if (has(FaultKind::kRain)) rain_on(scan, scanner.rain);
   if (has(FaultKind::kScannerMirrored)) std::reverse(scan.range_m.begin(), scan.range_m.begin() + scan.beam_count);
 }
 

@@ -37,6 +37,7 @@ class Sensors {
     std::size_t index;
     Metronome beat;
     LaserSim laser;
+    Random rain;
     bool turns, turning = false;
     LaserScan scan{};
   };

@@ -26,6 +26,7 @@ SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed
       world_(scenario, seed),
       wheel_radius_m_(scenario.model.drive.wheel_radius_m),
       buses_(buses),
+      wiring_(wiring.drive),
       drives_{make_wheel_drive(wiring.drive, 0, *buses[0]), make_wheel_drive(wiring.drive, 1, *buses[1])} {
   for (std::size_t k = 0; k < wires.size(); ++k) {
     const LaserModel laser = laser_of(scenario, wiring, k);
@@ -38,6 +39,7 @@ SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed
 }
 
 void SimulatedRobot::step(Time now) {
+  if (twin_) twin_->step(now);
   for (const auto& drive : drives_) drive->step(now);
   while (world_.now() + (began_.time_since_epoch()) < now) {
     turn_wheels();

@@ -37,6 +37,9 @@ class SimulatedRobot {
   [[nodiscard]] const sim::Truth& truth() const noexcept { return world_.truth(); }
   [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
   [[nodiscard]] emulators::ScannerServer& scanner(std::size_t index = 0) noexcept { return *eyes_[index]->scanner; }
+  /// A second drive with the number of the one on this side comes to its own place on the bus, which outlives this,
+  /// says everything before that one and obeys what that one is told; its own wheel turns in the air.
+  void add_twin(std::size_t side, CanBus& bus) { twin_ = make_wheel_drive(wiring_, side, bus); }
   /// From now on.
   void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
   /// A person lifts the robot and puts it down there: `from_here`, seen from where it stands.
@@ -68,6 +71,8 @@ class SimulatedRobot {
   sim::World world_;
   double wheel_radius_m_;
   Buses buses_;
+  DriveWiring wiring_;
+  std::unique_ptr<WheelDrive> twin_;  ///< null: none
   std::array<std::unique_ptr<WheelDrive>, 2> drives_;
   std::vector<std::unique_ptr<Eye>> eyes_;
   Time encoders_read_ = kNever;

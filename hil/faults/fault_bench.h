@@ -73,6 +73,8 @@ class FaultBench {
   [[nodiscard]] InProcessBus::Port& controllers_port() noexcept { return robot_->wires().port(0); }
   /// Another program's place on the bus.
   void say_as_stranger(const CanFrame& frame) noexcept { (void)robot_->wires().port(3).send(frame); }
+  /// A second drive with the number of the one on this side.
+  void add_twin(std::size_t side) { robot_->far_end().add_twin(side, robot_->wires().port(4)); }
   [[nodiscard]] Duration tick_length() const noexcept { return file_.setup.tick(); }
   [[nodiscard]] StraightPlanner& planner() noexcept { return *planner_; }
   /// The loop lives on for so long.

@@ -29,6 +29,8 @@ Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick
 Duration taken_over(Duration tick) noexcept { return 100ms + by_themselves(tick); }
 /// A scan of 15 Hz, and what it takes to come.
 Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
+/// A plain stop is a comfortable one: 5 mm/s less take 0.12 s at 0.75 m/s3.
+Duration gently(Duration tick) noexcept { return 200ms + at_once(tick); }
 /// Two and a half periods of the loop.
 Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
 /// A plain stop keeps to the limits of comfort: 1 m/s2 is reached by a jerk of at most 2 m/s3.
@@ -129,6 +131,21 @@ FaultCase stop_ignored(const char* name, void (*strike)(FaultBench&)) {
   FaultCase fault{name, strike, Reason::kStopUnconfirmed, escalated};
   fault.after_ramp = true;
   return rolling_out(RollsOut::kMotors, fault);
+}
+
+/// At rest after a stop, not latched; half a second without power.
+void restart_at_rest(FaultBench& bench, rig::WheelDrive& drive) {
+  drive.pull_cable();
+  bench.wait(500ms);
+  drive.plug_cable();
+  drive.restart();
+  bench.wait(200ms);
+}
+
+FaultCase restarts_at_rest(const char* name, void (*restart)(FaultBench&)) {
+  FaultCase fault{name, [](FaultBench& b) { (void)b.robot().desk().obey("stop"); }, Reason::kDrive, gently};
+  fault.at_rest = restart;
+  return fault;
 }
 
 FaultCase stop_in_proof() {
@@ -239,6 +256,12 @@ const std::array kCases{
                Reason::kForeignMaster, at_once}),
     FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
               Reason::kForeignMaster, at_once},
+    rolling_out(RollsOut::kMotors, {"twin_left", [](FaultBench& b) { b.add_twin(0); },
+                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    rolling_out(RollsOut::kMotors, {"twin_right", [](FaultBench& b) { b.add_twin(1); },
+                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    restarts_at_rest("restarts_at_rest_left", [](FaultBench& b) { restart_at_rest(b, b.left_drive()); }),
+    restarts_at_rest("restarts_at_rest_right", [](FaultBench& b) { restart_at_rest(b, b.right_drive()); }),
     miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
     miswired("left_motor_reversed", sim::FaultKind::kLeftMotorReversed),
     miswired("left_wheel_reversed", sim::FaultKind::kLeftWheelReversed),

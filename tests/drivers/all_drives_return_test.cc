@@ -124,6 +124,60 @@ TEST_CASE("a restart at rest that is over before anything is missed is noticed a
   });
 }
 
+// Every boot that a counter or a silence can show: one that takes less than the 150 ms of silence which are allowed,
+// before the wheel ever turned, changes nothing that a VESC tells.
+TEST_CASE("a drive that restarts at rest is noticed however far it had turned, and both are proved anew") {
+  for (const std::size_t side : {0U, 1U}) {
+    for (const int turning_ticks : {0, 5, 200}) {
+      for (const Duration boots : {Duration{0}, Duration{100ms}, Duration{600ms}}) {
+        if (turning_ticks == 0 && boots < 150ms) continue;
+        CAPTURE(side, turning_ticks, boots.count());
+        with_each_kind([&](const DriveKind& kind, DriveBench& bench) {
+          REQUIRE(bench.armed() == "armed");
+          bench.drive(0.0, 0.0, 20);
+          bench.drive(2.0, 2.0, turning_ticks);
+          bench.drive(0.0, 0.0, 60);
+          REQUIRE(bench.drives().is_proved());
+          bench.pull_cable(side);
+          bench.wait(boots);
+          bench.plug_cable(side);
+          bench.restart(side);
+          bench.drive(0.0, 0.0, 10);
+          CHECK(bench.drives().trouble() != DriveTrouble::kNone);
+          CHECK_FALSE(bench.drives().is_proved());
+          reset_and_drive(kind, bench);
+        });
+      }
+    }
+  }
+}
+
+TEST_CASE("a second drive with the number of one of ours, there from the start, is told before a wheel turns") {
+  for (const std::size_t side : {0U, 1U}) {
+    with_each_kind([side](const DriveKind&, DriveBench& bench) {
+      bench.add_twin(side);
+      const bool armed = bench.armed() == "armed";
+      bench.drive(0.0, 0.0, 10);
+      CHECK((!armed || bench.drives().trouble() == DriveTrouble::kForeignMaster));
+      bench.drive(2.0, 2.0, 50);
+      CHECK(bench.is_at_rest());
+    });
+  }
+}
+
+TEST_CASE("a second drive with the number of one of ours that comes under way is trouble, and both wheels stop") {
+  for (const std::size_t side : {0U, 1U}) {
+    with_each_kind([side](const DriveKind& kind, DriveBench& bench) {
+      bench.bring_to_two_radps();
+      bench.add_twin(side);
+      bench.drive(2.0, 2.0, 5);
+      CHECK(bench.drives().trouble() != DriveTrouble::kNone);
+      bench.drive(2.0, 2.0, kind.stop_ticks + 150);
+      CHECK(bench.wheel_radps(0) + bench.wheel_radps(1) == Approx(0.0).margin(1e-9));
+    });
+  }
+}
+
 TEST_CASE("a drive whose cable is pulled is missed and the other stopped") {
   with_each_kind([](const DriveKind& kind, DriveBench& bench) {
     bench.bring_to_two_radps();

@@ -2,6 +2,7 @@
 #include <chrono>
 #include <cmath>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -31,6 +32,8 @@ class DriveBench {
   virtual void pull_cable(std::size_t side) = 0;
   virtual void plug_cable(std::size_t side) = 0;
   virtual void restart(std::size_t side) = 0;
+  /// A second drive with the number of the one on this side comes to the bus, and says everything before it.
+  virtual void add_twin(std::size_t side) = 0;
 
   /// A tick is `tick` long.
   void drive(double left_radps, double right_radps, int ticks) {
@@ -83,7 +86,10 @@ class BenchOf : public DriveBench {
   using Node = typename Kind::Node;
   explicit BenchOf(const typename Kind::Setup& setup = Kind::setup())
       : left(bus.port(1), Kind::kIds[0]), right(bus.port(2), Kind::kIds[1]), base(port, clock, setup) {
-    clock.plant = [this](Time now) { left.step(now), right.step(now); };
+    clock.plant = [this](Time now) {
+      if (twin) twin->step(now);
+      left.step(now), right.step(now);
+    };
   }
   [[nodiscard]] Node& node(std::size_t side) { return side == 0 ? left : right; }
   [[nodiscard]] const Node& node(std::size_t side) const { return side == 0 ? left : right; }
@@ -95,8 +101,10 @@ class BenchOf : public DriveBench {
   void pull_cable(std::size_t side) override { node(side).pull_cable(); }
   void plug_cable(std::size_t side) override { node(side).plug_cable(); }
   void restart(std::size_t side) override { node(side).restart(); }
+  void add_twin(std::size_t side) override { twin.emplace(bus.port(4), Kind::kIds[side]); }
 
   Node left, right;
+  std::optional<Node> twin;
   typename Kind::Base base;
 
  private:

@@ -52,14 +52,13 @@ struct DriveKind {
 /// CiA 402, ODrive, VESC: what a test of all drives goes through.
 [[nodiscard]] const std::vector<DriveKind>& drive_kinds();
 
-/// `body(kind, bench)` for each kind, on a bench of its own, in a section of its own.
+/// `body(kind, bench)` for each kind, on a bench of its own. No sections: of those in a loop only the first turn runs.
 template <class Body>
 void with_each_kind(Body body, const BenchChanges& changes = {}) {
   for (const DriveKind& kind : drive_kinds()) {
-    DYNAMIC_SECTION(kind.name) {
-      const auto bench = kind.make(changes);
-      body(kind, *bench);
-    }
+    CAPTURE(kind.name);
+    const auto bench = kind.make(changes);
+    body(kind, *bench);
   }
 }
 

@@ -101,3 +101,20 @@ TEST_CASE("a base whose reports come every 10 to 100 ms, up to 60 ms late, drive
     CHECK(off_m < 0.12);
   }
 }
+
+TEST_CASE("rain on the scanner does not hold the robot up") {
+  const auto seconds_to_goal = [](bool rains) {
+    SimulatedDrive drive("crossing", 1, [rains](sim::Scenario& scenario) {
+      scenario.wanderers.clear();
+      if (rains) scenario.faults = {{.at_s = 2.0, .for_s = 1e3, .kind = sim::FaultKind::kRain}};
+    });
+    double seconds = 0.0;
+    CHECK(drive.drive(90.0, [&](const TickRecord& t) {
+      seconds = to_seconds(t.now);
+      return drive.to_goal_m() < 0.3;
+    }));
+    CHECK(drive.truth().contacts == 0);
+    return seconds;
+  };
+  CHECK(seconds_to_goal(true) < 1.15 * seconds_to_goal(false));
+}

@@ -129,7 +129,7 @@ TEST_CASE("a wall ahead lets the robot come near only as slowly as it can stop")
 }
 
 TEST_CASE("slow drives, slow ticks and an old scan each cost their way, and no more than is reckoned with") {
-  // 0.1925 m are free, as above: v = sqrt(t^2 + 0.385) - t for a reaction time of t and 1 m/s2.
+  // 0.21 m are free, as above: v = sqrt(t^2 + 0.42) - t for a reaction time of t and 1 m/s2.
   const auto speed_for = [](const MeasuredLatency& latency, int old_ticks = 0) {
     Bench bench;
     bench.latency = latency;
@@ -139,7 +139,7 @@ TEST_CASE("slow drives, slow ticks and an old scan each cost their way, and no m
     bench.scan_fresh = false;
     return bench.ticks(1 + old_ticks, {0.6, 0.0}).permitted.v_mps;
   };
-  const auto reckoned = [](double t_s) { return std::sqrt(t_s * t_s + 0.385) - t_s; };
+  const auto reckoned = [](double t_s) { return std::sqrt(t_s * t_s + 0.42) - t_s; };
   CHECK(speed_for({}) == Approx(reckoned(0.18)).epsilon(1e-3));
   CHECK(speed_for({0.001, 0.02}) == Approx(reckoned(0.18)).epsilon(1e-3));
   CHECK(speed_for({0.015, 0.15}) == Approx(reckoned(0.1 + 0.02 + 0.015 + 0.15)).epsilon(1e-3));
