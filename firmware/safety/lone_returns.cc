@@ -66,7 +66,7 @@ Pose2 LoneReturns::robot_at(Time stamp) const noexcept {
 }
 
 void LoneReturns::strike_out(LaserScan& scan) noexcept {
-  if (scan.sequence == 0) return;
+  if (scan.sequence == 0 || scan.beam_count > kMaxBeams) return;
   Looks& looks = looks_[scan.scanner];
   if (scan.sequence != looks.now.scan.sequence) {
     std::swap(looks.now, looks.before);
