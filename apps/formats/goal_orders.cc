@@ -16,7 +16,7 @@ GoalOrders::Heard GoalOrders::judge(std::string_view message, Time stamp, std::u
                                     const Arrival& arrival) {
   if (last_.size() == kMostWriters && !last_.contains(writer)) last_.clear();
   std::string& last = last_[writer];
-  if (last == message) return Heard::kRepeated;
+  if (stamp > Time{} && last == message) return Heard::kRepeated;
   last = message;
   const bool late = is_far_from(stamp, arrival.wall) || is_far_from(arrival.written, arrival.wall);
   return late ? Heard::kLate : Heard::kOrder;

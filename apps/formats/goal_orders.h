@@ -10,7 +10,8 @@ namespace jaywalk::exchange {
 
 /// Which of the goals that come on a topic are orders.
 ///
-/// A node may publish its goal again and again: the same message of the same writer is the same order, given once. A
+/// A node may publish its goal again and again: the same stamp and pose of the same writer are the same order, given
+/// once. Where nobody sets stamps all are passed on, and the robot's program tells what is repeated (SaidGoals). A
 /// message that was held up is none: what was asked for then may be unwanted now.
 class GoalOrders {
  public:

@@ -149,14 +149,16 @@ TEST_CASE("a goal that is repeated is one order, another writer's is another, an
   const auto say = [&](const char* message, std::uint64_t writer, Time stamp, Duration written = 0s) {
     return orders.judge(message, stamp, writer, {kNever, wall, wall - written});
   };
-  CHECK(say("a", 1, Time{}) == Heard::kOrder);
-  for (int k = 0; k < 3; ++k) CHECK(say("a", 1, Time{}) == Heard::kRepeated);
-  CHECK(say("a", 2, Time{}) == Heard::kOrder);
+  CHECK(say("a", 1, wall) == Heard::kOrder);
+  for (int k = 0; k < 3; ++k) CHECK(say("a", 1, wall) == Heard::kRepeated);
+  CHECK(say("a", 2, wall) == Heard::kOrder);
+  for (int k = 0; k < 3; ++k) CHECK(say("unstamped", 3, Time{}) == Heard::kOrder);  // the desk tells
   CHECK(say("b", 1, wall - 1s) == Heard::kOrder);
   CHECK(say("a", 1, wall - 3s) == Heard::kLate);
   CHECK(say("c", 1, wall + 3s) == Heard::kLate);
   CHECK(say("d", 1, Time{}, 3s) == Heard::kLate);
-  CHECK(say("d", 1, Time{}, 0s) == Heard::kRepeated);  // late once, late for ever
+  CHECK(say("e", 1, wall, 3s) == Heard::kLate);
+  CHECK(say("e", 1, wall) == Heard::kRepeated);  // late once, late for ever
   for (std::uint64_t writer = 10; writer < 1000; ++writer) CHECK(say("e", writer, Time{}) == Heard::kOrder);
 }
 
