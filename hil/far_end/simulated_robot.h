@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,6 +18,8 @@ struct FalseSenses {
   BlankedSector repeats{0.0, 0.0};  ///< in the laser's frame: its ranges stay, but for noise and one beam that moves
   double mount_turned_rad = 0.0;    ///< the scanner in its mount
   bool counters_stand = false;      ///< both wheels' positions; their speeds go on
+  bool speeds_stand = false;        ///< both wheels' speeds; their positions go on
+  double feedback_ages = 0.0;       ///< seconds a second: the drives report what was, to half a second ago
   std::size_t scanner = 0;          ///< index of the scanner that these faults apply to
 };
 
@@ -38,7 +41,7 @@ class SimulatedRobot {
   [[nodiscard]] WheelDrive& drive(std::size_t side) noexcept { return *drives_[side]; }
   [[nodiscard]] emulators::ScannerServer& scanner(std::size_t index = 0) noexcept { return *eyes_[index]->scanner; }
   /// From now on.
-  void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
+  void deceive(const FalseSenses& senses) noexcept { senses_ = senses, deceived_ = world_.now(); }
   /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
   /// out at both, and the controller hears it twice.
   void say_as_stranger(const CanFrame& frame) noexcept {
@@ -60,6 +63,7 @@ class SimulatedRobot {
   };
   void look(Eye& eye, std::size_t first_beam, std::span<float> range_m);
   void turn_wheels();
+  void read_encoders();
   [[nodiscard]] double range_along(Eye& eye, std::size_t beam);
 
   Time began_;
@@ -70,7 +74,9 @@ class SimulatedRobot {
   std::vector<std::unique_ptr<Eye>> eyes_;
   Time encoders_read_ = kNever;
   FalseSenses senses_;
-  std::array<double, 2> counted_rad_{};  ///< left and right, as the encoders show it
+  Time deceived_ = kNever;
+  WheelState shown_;             ///< as the encoders show it
+  std::deque<WheelState> read_;  ///< of the last half second, and the newest
 };
 
 }  // namespace jaywalk::rig
