@@ -19,6 +19,7 @@ struct PairSetup {
   Duration answer_limit{};   ///< what a motor may take to show itself before its proof
   StopLimits stop;
   bool allow_unproved = false;
+  bool proves_reports = false;  ///< the proof itself judges how often a motor says something
 };
 
 /// Two motors on one CAN bus that take speeds and watch over the time between commands themselves: what ODrive and VESC

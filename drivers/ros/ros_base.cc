@@ -25,7 +25,7 @@ Duration proof_time(const DriveTimes& times) {
 RosBase::RosBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
                 {std::max({kSilence, 3 * setup.tick, duration_from_seconds(setup.times.oldest_report_s())}), kSettling,
-                 kAnswerLimit, setup.stop, setup.allow_unproved}),
+                 kAnswerLimit, setup.stop, setup.allow_unproved, true}),
       setup_(setup) {}
 
 std::string RosBase::inspect(std::size_t side) {

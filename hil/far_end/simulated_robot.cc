@@ -9,6 +9,7 @@ namespace jaywalk::rig {
 namespace {
 
 constexpr Duration kEncoderPeriod = std::chrono::milliseconds(10);
+constexpr std::size_t kMostOld = 50;  // readings: half a second
 
 /// Shaped as the controller believes, and mounted so where the scenario has no truth about it; as noisy as that says.
 LaserModel laser_of(const sim::Scenario& scenario, const RobotFile& wiring, std::size_t index) {
@@ -52,10 +53,19 @@ void SimulatedRobot::turn_wheels() {
   world_.plant().command({world_.now(), drives_[0]->speed_radps(), drives_[1]->speed_radps()}, world_.now());
   if (age(encoders_read_, world_.now()) < kEncoderPeriod) return;
   encoders_read_ = world_.now();
-  const WheelState wheels = world_.plant().read_encoders(world_.now());
-  if (!senses_.counters_stand) counted_rad_ = {wheels.left_rad, wheels.right_rad};
-  drives_[0]->measure(wheels.left_radps, counted_rad_[0]);
-  drives_[1]->measure(wheels.right_radps, counted_rad_[1]);
+  read_encoders();
+  drives_[0]->measure(shown_.left_radps, shown_.left_rad);
+  drives_[1]->measure(shown_.right_radps, shown_.right_rad);
+}
+
+void SimulatedRobot::read_encoders() {
+  read_.push_back(world_.plant().read_encoders(world_.now()));
+  if (read_.size() > kMostOld) read_.pop_front();
+  const double old_s = senses_.feedback_ages * std::max(to_seconds(age(deceived_, world_.now())), 0.0);
+  const auto old = static_cast<std::size_t>(std::min(old_s, 1.0) / to_seconds(kEncoderPeriod));
+  const WheelState& wheels = read_[read_.size() - 1 - std::min(old, read_.size() - 1)];
+  if (!senses_.counters_stand) shown_.left_rad = wheels.left_rad, shown_.right_rad = wheels.right_rad;
+  if (!senses_.speeds_stand) shown_.left_radps = wheels.left_radps, shown_.right_radps = wheels.right_radps;
 }
 
 double SimulatedRobot::rim_speed() const noexcept {

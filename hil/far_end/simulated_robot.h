@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <cstdint>
+#include <deque>
 #include <memory>
 #include <span>
 #include <vector>
@@ -17,6 +18,8 @@ struct FalseSenses {
   BlankedSector repeats{0.0, 0.0};  ///< in the laser's frame: its ranges stay, but for noise and one beam that moves
   double mount_turned_rad = 0.0;    ///< the scanner in its mount
   bool counters_stand = false;      ///< both wheels' positions; their speeds go on
+  bool speeds_stand = false;        ///< both wheels' speeds; their positions go on
+  double feedback_ages = 0.0;       ///< seconds a second: the drives report what was, to half a second ago
   std::size_t scanner = 0;          ///< index of the scanner that these faults apply to
 };
 
@@ -41,7 +44,7 @@ class SimulatedRobot {
   /// says everything before that one and obeys what that one is told; its own wheel turns in the air.
   void add_twin(std::size_t side, CanBus& bus) { twin_ = make_wheel_drive(wiring_, side, bus); }
   /// From now on.
-  void deceive(const FalseSenses& senses) noexcept { senses_ = senses; }
+  void deceive(const FalseSenses& senses) noexcept { senses_ = senses, deceived_ = world_.now(); }
   /// A person lifts the robot and puts it down there: `from_here`, seen from where it stands.
   void carry(const Pose2& from_here) noexcept { world_.plant().carry_to(truth().map_from_robot * from_here); }
   /// A frame that neither drive would send, as of another program. A place on the bus does not hear itself: so it goes
@@ -65,6 +68,7 @@ class SimulatedRobot {
   };
   void look(Eye& eye, std::size_t first_beam, std::span<float> range_m);
   void turn_wheels();
+  void read_encoders();
   [[nodiscard]] double range_along(Eye& eye, std::size_t beam);
 
   Time began_;
@@ -77,7 +81,9 @@ class SimulatedRobot {
   std::vector<std::unique_ptr<Eye>> eyes_;
   Time encoders_read_ = kNever;
   FalseSenses senses_;
-  std::array<double, 2> counted_rad_{};  ///< left and right, as the encoders show it
+  Time deceived_ = kNever;
+  WheelState shown_;             ///< as the encoders show it
+  std::deque<WheelState> read_;  ///< of the last half second, and the newest
 };
 
 }  // namespace jaywalk::rig

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "firmware/safety/wheel_proof.h"
 #include "hal/types/errors.h"
 #include "hal/types/rest.h"
 #include "hil/faults/matrix_files.h"
@@ -147,9 +148,9 @@ FaultResult FaultBench::struck_at_speed() {
 
 // The goal lies 106 degrees to the left, so that the robot has to turn: a gentle arc at 0.3 m/s is too slow for the
 // scan-based check (docs/explanation/safety.md). The reaction time starts when the left wheel, whose wiring is wrong,
-// is commanded above 0.1 m/s: below that, drive lag and encoder steps hide the fault.
+// is commanded faster than the first way after arming is driven (WheelProof): what was told in that is told in time.
 FaultResult FaultBench::wrong_in_turn() {
-  constexpr double kDriving_mps = 0.1;
+  constexpr double kDriving_mps = WheelProof::kSlow_mps + 0.02;
   FaultResult result;
   wait(std::chrono::milliseconds(200));
   if (robot_->desk().obey("goto 1.0 4.2") != "going\n") result.why_not = "takes no goal";
@@ -157,7 +158,7 @@ FaultResult FaultBench::wrong_in_turn() {
     return std::fabs(robot_->runner().last().command.left_radps) * file_.setup.model.drive.wheel_radius_m;
   };
   begin_watch();  // what is told before that wheel turns so fast, by the other one, is told in time
-  for (const Time end = due_ + std::chrono::seconds(3); due_ < end && asked_mps() < kDriving_mps && !latched_;) tick();
+  for (const Time end = due_ + std::chrono::seconds(6); due_ < end && asked_mps() < kDriving_mps && !latched_;) tick();
   begin_watch();
   if (fault_.strike != nullptr) fault_.strike(*this);
   for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();

@@ -42,6 +42,11 @@ Duration repeats_for(Duration) noexcept { return 67ms + 500ms; }
 /// Wheels that go less far than they say look like slip for long (docs/explanation/safety.md).
 Duration slips_for(Duration) noexcept { return 4s; }
 
+/// Speeds that stand show where they change.
+Duration changes_for(Duration) noexcept { return 1s; }
+/// A tenth of a second in each: until it is more than a sound drive's, and then a change of speed that shows it.
+Duration ages_for(Duration) noexcept { return 4s; }
+
 /// What another master would tell the left drive.
 CanFrame foreign_setpoint(DriveKind kind) {
   CanFrame frame;
@@ -270,6 +275,8 @@ const std::array kCases{
     miswired("scanner_mirrored", sim::FaultKind::kScannerMirrored),
     miswired("no_grip", sim::FaultKind::kNoGrip),
     wheels_go("wheels_go_twice", 2.0, shows_for),
+    wheels_go("wheels_go_thrice", 3.0, shows_for),
+    wheels_go("wheels_go_tenfold", 10.0, shows_for),
     wheels_go("wheels_go_half", 0.5, slips_for),
     contradiction(
         "scan_repeats",
@@ -289,6 +296,10 @@ const std::array kCases{
                   }),
     contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
     contradiction("counters_stand", [](FaultBench& b) { deceive(b, {.counters_stand = true}); }),
+    contradiction(
+        "speeds_stand", [](FaultBench& b) { deceive(b, {.speeds_stand = true}); }, changes_for),
+    contradiction(
+        "feedback_ages", [](FaultBench& b) { deceive(b, {.feedback_ages = 0.1}); }, ages_for),
 };
 
 }  // namespace

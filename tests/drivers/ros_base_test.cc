@@ -182,6 +182,10 @@ TEST_CASE(
   Bench later(true, {.report_s = 0.02});
   later.far_end.late = 200ms;
   CHECK(says(later.armed(), "report_late_ms = "));
+  Bench pioneer;  // whose file states nothing
+  pioneer.far_end.period = 100ms;
+  pioneer.far_end.late = 60ms;
+  CHECK(says(pioneer.armed(), "; write report_ms = "));
 }
 
 TEST_CASE("a ROS base that falls silent stops and stays so until a reset") {
