@@ -5,6 +5,7 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
+#include "firmware/robot/place_check.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
@@ -35,6 +36,7 @@ struct RunStatus {
   std::uint32_t revoked = 0;            ///< how often goals and resets were revoked by a stop, a fault or a latch
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
+  PlaceAnswer place;                  ///< to the last `here`
   DriveTrouble drive = DriveTrouble::kNone;
   ScannerHealth laser;
   OfOthers<ScannerHealth> other_lasers;
