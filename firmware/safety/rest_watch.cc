@@ -17,8 +17,9 @@ constexpr double kMove_m = 0.1, kMove_rad = 0.06;
 /// Natural logarithm of a likelihood ratio, as MotionModel's for an arc that stands; sectors that do not count.
 constexpr double kMoveEvidence = 27.0;
 constexpr int kPeoplesSectors = 2;
-/// Share of what was compared that a place explains if the robot is there.
-constexpr double kPlaceExplains = 0.5;
+/// Share of what was compared that a place explains if the robot is there, and that none explains that it left: with
+/// 0.5 for both, twelve people within two metres look like a move (safety_tests "stands among people").
+constexpr double kPlaceExplains = 0.5, kLeftExplains = 0.35;
 /// Least that is compared: as a share of what the first scan showed, and as a sum of weights (a wall's point has 1).
 constexpr double kInView = 0.15, kLeastInView = 12.0;
 /// Explained less than kFresh while the robot stands, within so much: things were moved, and the first scan is renewed.
@@ -100,7 +101,7 @@ RestWatch::Says RestWatch::compare(const LaserScan& scan) noexcept {
   find(scan);
   const Agreement standing = agreement(scan, {}), there = agreement(scan, fit_.kept_from_now);
   const bool in_view = standing.compared >= kLeastInView && standing.compared >= kInView * kept_weight_;
-  const bool nowhere = in_view && standing.explained < kPlaceExplains && there.explained < kPlaceExplains;
+  const bool nowhere = in_view && standing.explained < kLeftExplains && there.explained < kPlaceExplains;
   const bool moved = is_far(fit_.kept_from_now) && there.explained >= kPlaceExplains &&
                      there.explained * there.compared > standing.explained * standing.compared && is_likelier(scan);
   doubts_ = moved || nowhere ? std::min(doubts_ + 1, kDoubtTimes) : 0;
