@@ -16,7 +16,7 @@ constexpr double kLattice_m = 0.15, kLattice_rad = 0.06;  ///< standard deviatio
 constexpr double kBeforePoint_m = 0.3;                    ///< a wall this much nearer than the point hides it
 /// A good place: of the points known, and of these on walls; people stand before the others. Better by kClearly: points
 /// on walls less those that the map contradicts, as shares (robot_tests "[carried]").
-constexpr double kPlaceKnown = 0.8, kPlaceIsGood = 0.85, kPlaceFits = 0.7, kSaysNothing = 0.3, kClearly = 0.1;
+constexpr double kPlaceKnown = 0.5, kPlaceFits = 0.7, kSaysNothing = 0.3, kClearly = 0.1;
 
 double worth_of_place(const PlaceFit& place) { return 2.0 * place.on_walls - place.known; }
 
@@ -65,7 +65,7 @@ void add_sample(const ScanPoints& scan, Vec2 laser_in_robot, std::size_t scanner
 }
 
 bool PlaceFit::fits() const noexcept { return fit() >= kPlaceFits; }
-bool PlaceFit::is_good() const noexcept { return known >= kPlaceKnown && fit() >= kPlaceIsGood; }
+bool PlaceFit::is_good() const noexcept { return known >= kPlaceKnown && fits(); }
 bool PlaceFit::says_nothing() const noexcept { return known < kSaysNothing; }
 bool PlaceFit::is_clearly_better_than(const PlaceFit& other) const noexcept {
   return worth_of_place(*this) > worth_of_place(other) + kClearly;

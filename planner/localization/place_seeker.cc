@@ -7,8 +7,6 @@ namespace {
 
 /// A robot that looks for its place stands: its wheels count no more, m and rad.
 constexpr double kStood_m = 0.02, kStood_rad = 0.02;
-/// Farther than a person carries it the map, seen from one place alone, has shown false places that fit.
-constexpr double kCarried_m = 4.0;
 constexpr double kSamePlace_m = 0.1;  ///< a newer scan is matched no farther off
 
 }  // namespace
@@ -40,9 +38,7 @@ std::optional<Pose2> PlaceSeeker::take(const ScanPoints& points, Vec2 laser_in_r
 
 void PlaceSeeker::step(const EvidenceMap& still, Vec2 about) noexcept {
   if (search_.is_busy()) {
-    if (!search_.step(still)) return;
-    const PlaceFit& best = search_.best();
-    found_ = search_.is_sole() && best.is_good() && distance(best.map_from_robot.position(), about) < kCarried_m;
+    if (search_.step(still)) found_ = search_.is_sole() && search_.best().is_good();
   } else if (gave_ + 1 == 1U << scanners_) {
     search_.begin(sample_, about);
     gave_ = 0;
