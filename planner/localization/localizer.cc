@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <vector>
 
 #include "planner/localization/coasting.h"
 #include "planner/localization/fix_update.h"
 #include "planner/localization/odometry.h"
 #include "planner/localization/odometry_noise.h"
-#include "planner/localization/place_seeker.h"
 #include "planner/localization/pose_doubt.h"
 #include "planner/localization/slip_detector.h"
 #include "planner/localization/submap.h"
@@ -35,11 +33,8 @@ constexpr double kLostMapFit = 0.7, kFoundMapFit = 0.8, kMapFitWayM = 6.0;
 // Keyframes know no free space, and their points' errors are their own.
 constexpr double kSubmapKernelM = 0.2, kSubmapIndependentShare = 0.5;
 
-/// Variances of a place that was found: the matches that follow put it right.
-constexpr double kFoundVar = 0.05 * 0.05, kFoundHeadingVar = 0.02 * 0.02;
-
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T.
-Eigen::Matrix3d propagated(const Eigen::Matrix3d& p, double dx, double dy) {
+Eigen::Matrix3d carried(const Eigen::Matrix3d& p, double dx, double dy) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   f(0, 2) = -dy, f(1, 2) = dx;
   return f * p * f.transpose();
@@ -75,8 +70,7 @@ struct Localizer::State {
         covariance(diagonal(kLeastPositionVar, kLeastPositionVar, kLeastHeadingVar)),
         since_last_match(covariance),
         if_wheels_slipped(covariance),
-        at_last_wheels(covariance),
-        seeker(1 + c.robot_from_others.size()) {
+        at_last_wheels(covariance) {
     for (const Pose2& mount : OfEach<Pose2>(c.robot_from_laser, c.robot_from_others)) scanners.push_back({mount});
     publish();
   }
@@ -96,10 +90,6 @@ struct Localizer::State {
   [[nodiscard]] bool match_submap(const Pose2& predicted) noexcept;
   /// What matches put right, to what learns of wheels.
   void learn(const Pose2& predicted, const Pose2& placed) noexcept;
-  /// A scan in doubt.
-  void seek(const LaserScan& scan, const EvidenceMap& still) noexcept;
-  /// Its place is known from elsewhere: what was learnt on the way to where it was believed does not count.
-  void begin_anew() noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
   void correct_to(const Pose2& map_from_robot, const Pose2& odom_from_robot) noexcept {
@@ -132,7 +122,6 @@ struct Localizer::State {
   Coasting coasting;               ///< while wheels say nothing
   Eigen::Matrix3d at_last_wheels;  ///< covariance when they spoke last
   PoseDoubt doubt;
-  PlaceSeeker seeker;  ///< while in doubt
   FixGate fix_gate;
   Twist2 twist;
 
@@ -150,17 +139,17 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   twist = odometry.twist();
   const double dx = after.x - before.x, dy = after.y - before.y;
   const OdometryNoise noise = noise_of_unknown_wheels(step);
-  covariance = propagated(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  covariance = carried(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
   since_last_match =
-      propagated(since_last_match, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
-  if_wheels_slipped = propagated(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
+      carried(since_last_match, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
   odometry_noise.drove(step);
   radius_bias.drove(step);
   at_last_wheels = covariance;
 }
 
 void Localizer::State::end_silence(const ArcStep& way, const Pose2& map_from_robot, Time stamp) noexcept {
-  doubt.counted_on();
+  doubt.settle();
   covariance += unknown_way(way);
   coasting = {};
   coasting.placed(map_from_robot, stamp);
@@ -249,9 +238,7 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   const bool matched = match(scan, still, moving);
   scanners[scan.scanner].odom_from_robot = odom_from_robot_at_scan;
   const Pose2 there = map_from_odom * odom_from_robot_at_scan;
-  if (doubt.is_doubtful()) {
-    seek(scan, still);
-  } else {
+  if (!doubt.is_doubtful()) {
     sample_of(points, sample);
     submap.add(sample, there);
   }
@@ -270,26 +257,6 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   if (!odometry.by_wheels()) twist = coasting.twist();
 }
 
-void Localizer::State::seek(const LaserScan& scan, const EvidenceMap& still) noexcept {
-  ScannerState& own = scanners[scan.scanner];
-  own.projection.project(scan, own.robot_from_laser, {}, points);
-  const std::optional<Pose2> place =
-      seeker.take(points, own.robot_from_laser.position(), scan.scanner, odom_from_robot_at_scan, still);
-  if (!place) return;
-  correct_to(*place, odom_from_robot_at_scan);
-  covariance = diagonal(kFoundVar, kFoundVar, kFoundHeadingVar);
-  submap.begin_anew();
-  begin_anew();
-}
-
-void Localizer::State::begin_anew() noexcept {
-  since_last_match = if_wheels_slipped = at_last_wheels = covariance;
-  odometry.placed();
-  doubt.settle();
-  odometry_noise.begin_anew();
-  radius_bias.begin_anew();
-}
-
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
   if (!is_usable(fix) || !odometry.remembers(fix.stamp)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
@@ -299,8 +266,12 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const bool lost = verdict == FixGate::Verdict::kTake;
   const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
+  since_last_match = if_wheels_slipped = covariance;
+  odometry.placed();
+  doubt.settle();
   if (lost) submap.begin_anew();
-  begin_anew();
+  odometry_noise.begin_anew();
+  radius_bias.begin_anew();
   correct_to(now.map_from_robot, odom_from_robot);
 }
 
@@ -323,19 +294,11 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
   std::uint32_t& seen = s.scanners[scan.scanner].seen;
   if (scan.sequence != 0 && scan.sequence != seen) s.place_scan(scan, still, moving);
   if (fix.sequence != s.fix_seen && fix.has_pose) s.blend(fix);
-  if (s.doubt.is_doubtful()) s.seeker.step(still, s.estimate.map_from_robot.position());
   s.wheels_seen = wheels.sequence;
   if (scan.sequence != 0) seen = scan.sequence;
   s.fix_seen = fix.sequence;
   s.publish();
   return s.estimate;
-}
-
-void Localizer::carried() noexcept {
-  State& s = *state_;
-  if (!s.config.doubts || s.doubt.is_doubtful()) return;
-  s.doubt.carried();
-  s.seeker.begin_anew();
 }
 
 Pose2 Localizer::map_from_robot_at_scan(std::size_t scanner) const noexcept {

@@ -24,10 +24,6 @@ struct MatchResult {
 /// Every n-th of the scan's points, kMostMatchPoints at most.
 void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
 
-/// As ScanMatcher does it, of points in the robot's frame.
-[[nodiscard]] MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
-                                       const PoseBelief& predicted) noexcept;
-
 /// Thread: the loop's. No allocation after construction.
 class ScanMatcher {
  public:

@@ -63,25 +63,29 @@ TEST_CASE("after a stall under way the pose is right again, or in doubt, before 
   }
 }
 
-TEST_CASE("a drive that restarted in a stall leaves the pose in doubt until a match or a person says where it is") {
+TEST_CASE("a drive that restarted in a stall leaves the pose in doubt until a person says where the robot is") {
   Bench bench("robot");
   bench.tick(10);
   REQUIRE(bench.robot.desk().obey("goto 9 8") == "going\n");
   bench.tick(200);
   bench.robot.far_end().drive(0).restart();
   stall(bench, 3000ms);
-  bench.tick(20);
+  bench.tick(100);
   REQUIRE(bench.speed_mps() == 0.0);
+  CHECK(doubtful(bench));
+  reset(bench);
+  bench.tick(50);
   CHECK(doubtful(bench));
   CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
   CHECK(bench.robot.desk().obey("goto 9 8").starts_with("refused"));
+  CHECK(bench.robot.desk().obey("reset").starts_with("refused: where the robot is was guessed"));
 
   const Pose2 there = bench.robot.far_end().truth().map_from_robot;
   char words[100];
   std::snprintf(words, sizeof words, "here %.2f %.2f", there.x + 0.1, there.y - 0.1);
   CHECK(bench.robot.desk().obey(words) == "refused: here: say one place, and its heading\n");
   std::snprintf(words, sizeof words, "here %.2f %.2f %.2f", there.x + 0.1, there.y - 0.1, there.heading + 0.05);
-  CHECK(tests::say(bench, words) == "there\n");
+  CHECK(bench.robot.desk().obey(words) == "there\n");
   bench.tick(20);
   CHECK_FALSE(doubtful(bench));
   CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
