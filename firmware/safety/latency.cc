@@ -6,9 +6,10 @@
 namespace jaywalk {
 namespace {
 
-constexpr double kMemory_s = 2.0;    // of time in which commands changed
-constexpr double kEnough_s = 0.3;    // of it, before anything is said
-constexpr double kLongest_s = 0.05;  // that a usual drive's reading stands for
+constexpr double kMemory_s = 2.0;                      // of time in which commands changed
+constexpr double kEnough_s = 0.3;                      // of it, before anything is said
+constexpr Duration kAtRest = std::chrono::seconds(1);  // after which what was measured is forgotten
+constexpr double kLongest_s = 0.05;                    // that a usual drive's reading stands for
 
 double squares(const WheelState& felt, const WheelCommand& wanted) {
   const double left = felt.left_radps - wanted.left_radps, right = felt.right_radps - wanted.right_radps;
@@ -47,7 +48,16 @@ bool DriveResponse::changed_before(Time time) const noexcept {
   return most > telling_radps_;
 }
 
+/// A stop, and what followed it, tells nothing about the drives that set out anew: a reset must not fail by it.
+void DriveResponse::forget_at_rest(const WheelCommand& command) noexcept {
+  if (command.left_radps != 0.0 || command.right_radps != 0.0) moved_ = command.stamp;
+  if (command.stamp - moved_ <= kAtRest) return;
+  misfit_ = {};
+  told_s_ = seconds_ = 0.0;
+}
+
 void DriveResponse::add(const WheelState& wheels, const WheelCommand& command) noexcept {
+  forget_at_rest(command);
   const bool is_new = wheels.sequence != seen_ && std::isfinite(wheels.left_radps) && std::isfinite(wheels.right_radps);
   seen_ = wheels.sequence;
   if (is_new && changed_before(wheels.stamp)) {

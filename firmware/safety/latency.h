@@ -16,7 +16,7 @@ class DriveResponse {
 
   /// Once a tick, with what was felt before and what is commanded now.
   void add(const WheelState& wheels, const WheelCommand& command) noexcept;
-  /// 0 until it could be measured; most_drive_s() at most, to a step of 10 ms.
+  /// 0 until it could be measured, and after a second of commands at rest; most_drive_s() at most, to a step of 10 ms.
   [[nodiscard]] double seconds() const noexcept { return seconds_; }
 
  private:
@@ -24,6 +24,7 @@ class DriveResponse {
   static constexpr std::size_t kMostDelays = 61, kKept = 128;
   static constexpr Duration kDelayStep = std::chrono::milliseconds(10);
 
+  void forget_at_rest(const WheelCommand& command) noexcept;
   [[nodiscard]] const WheelCommand* command_at(Time time) const noexcept;
   [[nodiscard]] bool changed_before(Time time) const noexcept;
 
@@ -33,7 +34,7 @@ class DriveResponse {
   std::array<WheelCommand, kKept> commands_{};  ///< a ring: 0.64 s at 200 Hz
   std::size_t count_ = 0;
   std::uint32_t seen_ = 0;
-  Time told_ = kNever;
+  Time told_ = kNever, moved_{};  ///< last report that told; last command that was not at rest
   double told_s_ = 0.0;
   std::array<double, kMostDelays> misfit_{};
   double seconds_ = 0.0;

@@ -55,15 +55,26 @@ void Sensors::sense(World& world) noexcept {
   const Time now = world.now();
   for (Scanner& scanner : scanners_) sense(scanner, world);
   if (encoder_beat_.due(now) && !world.fault_active(FaultKind::kWheelsStale)) report(world);
-  for (; !under_way_.empty() && under_way_.front().stamp <= now; under_way_.pop_front()) wheels_ = under_way_.front();
+  deliver_reports(now);
   if (fix_beat_.due(now) && pose_source_.enabled) locate(world.truth());
 }
 
-void Sensors::report(World& world) {
+void Sensors::deliver_reports(Time now) noexcept {
+  FixedVector<WheelState, kMostUnderWay> left;
+  for (const WheelState& reading : under_way_) {
+    if (reading.stamp <= now)
+      wheels_ = reading;
+    else
+      (void)left.push_back(reading);
+  }
+  under_way_ = left;
+}
+
+void Sensors::report(World& world) noexcept {
   WheelState reading = world.plant().read_encoders(world.now());
   if (reports_.late_s > 0.0) reading.stamp += duration_from_seconds(reports_.late_s * delay_.uniform());
-  if (!under_way_.empty()) reading.stamp = std::max(reading.stamp, under_way_.back().stamp);
-  under_way_.push_back(reading);
+  if (!under_way_.empty()) reading.stamp = std::max(reading.stamp, under_way_[under_way_.size() - 1].stamp);
+  (void)under_way_.push_back(reading);
 }
 
 void Sensors::sense(Scanner& scanner, const World& world) noexcept {

@@ -1,11 +1,11 @@
 #pragma once
 // What the controller gets to see of the world, each device at its own rate, faults included.
-#include <deque>
 #include <vector>
 
 #include "hal/hal.h"
 #include "hal/sim/laser_sim.h"
 #include "hal/sim/world.h"
+#include "hal/types/fixed_vector.h"
 
 namespace jaywalk::sim {
 
@@ -46,14 +46,16 @@ class Sensors {
   static void turn(Scanner& scanner, const World& world) noexcept;
   static void spoil(Scanner& scanner, const World& world) noexcept;
   void locate(const Truth& truth) noexcept;
-  void report(World& world);
+  void report(World& world) noexcept;
+  void deliver_reports(Time now) noexcept;
 
   ReportSpec reports_;
   PoseSourceSpec pose_source_;
   std::vector<Scanner> scanners_;
   Metronome encoder_beat_, fix_beat_;
   Random fix_noise_, delay_;
-  std::deque<WheelState> under_way_;  ///< readings that come late
+  static constexpr std::size_t kMostUnderWay = 16;
+  FixedVector<WheelState, kMostUnderWay> under_way_;  ///< readings that come late; what does not fit is lost
   WheelState wheels_;
   OutsideFix fix_;
 };

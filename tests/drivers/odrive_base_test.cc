@@ -152,5 +152,6 @@ TEST_CASE("an ODrive that hears another master names its frame") {
   bench.stranger_says(tests::frame(0x06D, {0, 0, 0x80, 0x3F, 0, 0, 0, 0}));
   CHECK(bench.armed() ==
         "CAN: another program commands the drives: frame 06Dh 00 00 80 3F 00 00 00 00; end that program, or take it "
-        "off this bus");
+        "off this bus; a frame of a drive's own came too often: give each a number of its own, and an ODrive "
+        "can.heartbeat_msg_rate_ms of 10 or more");
 }

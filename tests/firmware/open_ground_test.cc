@@ -1,4 +1,4 @@
-// Runs on open ground: four posts, 12 m away, outside the laser's range of 10 m.
+// Runs on open ground: four posts, 12 m away, outside the laser's range of 10 m, and three within it.
 #include <filesystem>
 #include <fstream>
 
@@ -13,7 +13,7 @@ namespace {
 bool arrives(Vec2 goal, double within_s) {
   INFO("goal " << goal.x << " " << goal.y);
   const std::filesystem::path file = std::filesystem::temp_directory_path() / "jaywalk_open_ground_test.txt";
-  std::ofstream(file) << "-12 -12 0.1\n-12 12 0.1\n12 12 0.1\n12 -12 0.1\n-3 5 0.1\n";
+  std::ofstream(file) << "-12 -12 0.1\n-12 12 0.1\n12 12 0.1\n12 -12 0.1\n-3 5 0.1\n6 4 0.1\n6 -7 0.1\n";
   SimulatedDrive drive("map1_00", 1, [&](sim::Scenario& s) {
     s.map_kind = sim::MapKind::kCylinders;
     s.map_file = file;

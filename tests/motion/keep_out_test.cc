@@ -85,8 +85,9 @@ TEST_CASE("the way to the goal leads round a keep-out zone, and what walks may w
   CHECK(guide.distance(0.5F, 0.0F) == Guide::kFar_m);
   CHECK(guide.room(0.5F, 0.0F) == Approx(-0.55F).margin(1e-4));
   const motion::BodyDiscs body = motion::BodyDiscs::covering(p3dx().footprint, 0.02);
-  // The foremost of three discs: its middle is 0.1517 m ahead of the axle, its radius 0.2050 m.
-  CHECK(body.clearance(guide, -0.5F, 0.0F, {1.0F, 0.0F}) == Approx(0.45 - 0.1517 - 0.2050).margin(1e-3));
+  // The foremost of three discs, 0.170 m apart from -0.301 m to 0.210 m: its middle is 0.1248 m ahead of the axle, its
+  // radius hypot(0.0852, 0.2125) = 0.2289 m.
+  CHECK(body.clearance(guide, -0.5F, 0.0F, {1.0F, 0.0F}) == Approx(0.45 - 0.1248 - 0.2289).margin(1e-3));
 }
 
 TEST_CASE("a robot in a keep-out zone has a way out of it; from outside none leads in") {

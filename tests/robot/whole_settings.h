@@ -215,6 +215,7 @@ at_s = 5.0
 for_s = 1.0
 scanner = 1
 from_deg = -20.0
+claims_free = true
 to_deg = 20.0
 [[faults]]
 kind = "carried"

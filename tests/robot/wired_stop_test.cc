@@ -96,7 +96,7 @@ TEST_CASE("a stick that is held, or let go and pushed on the way to rest, waits 
     joystick.press(BTN_TL);
     bench.tick(5);
     joystick.push(32767);
-    bench.tick(100);
+    bench.tick(200);
     REQUIRE(bench.speed_mps() > 0.3);
     CHECK(say(bench, "stop") == "stopping\n");
     bench.tick(5);
