@@ -29,14 +29,12 @@ Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick
 Duration taken_over(Duration tick) noexcept { return 100ms + by_themselves(tick); }
 /// A scan of 15 Hz, and what it takes to come.
 Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
-/// A plain stop is a comfortable one: 5 mm/s less take 0.12 s at 0.75 m/s3.
-Duration gently(Duration tick) noexcept { return 200ms + at_once(tick); }
 /// Two and a half periods of the loop.
 Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
 /// A plain stop keeps to the limits of comfort: 1 m/s2 is reached by a jerk of at most 2 m/s3.
 Duration in_comfort(Duration tick) noexcept { return 500ms + at_once(tick); }
-/// Half a second of motion that shows it.
-Duration shows_for(Duration) noexcept { return 500ms; }
+/// Half a second of motion that shows it, and what a P3-DX that turns at 0.8 rad/s needs to move enough.
+Duration shows_for(Duration) noexcept { return 700ms; }
 /// The same, from the first scan that repeats.
 Duration repeats_for(Duration) noexcept { return 67ms + 500ms; }
 /// Wheels that go less far than they say look like slip for long (docs/explanation/safety.md).
@@ -44,8 +42,9 @@ Duration slips_for(Duration) noexcept { return 4s; }
 
 /// Speeds that stand show where they change.
 Duration changes_for(Duration) noexcept { return 1s; }
-/// A tenth of a second in each: until it is more than a sound drive's, and then a change of speed that shows it.
-Duration ages_for(Duration) noexcept { return 4s; }
+/// A tenth of a second in each: until it is more than a sound drive's, and then a change of speed that shows it: at
+/// 0.3 m/s the next one is the stop.
+Duration ages_for(Duration) noexcept { return 5500ms; }
 
 /// What another master would tell the left drive.
 CanFrame foreign_setpoint(DriveKind kind) {
@@ -148,7 +147,7 @@ void restart_at_rest(FaultBench& bench, rig::WheelDrive& drive) {
 }
 
 FaultCase restarts_at_rest(const char* name, void (*restart)(FaultBench&)) {
-  FaultCase fault{name, [](FaultBench& b) { (void)b.robot().desk().obey("stop"); }, Reason::kDrive, gently};
+  FaultCase fault{name, [](FaultBench& b) { (void)b.robot().desk().obey("stop"); }, Reason::kDrive, in_comfort};
   fault.at_rest = restart;
   return fault;
 }

@@ -67,7 +67,7 @@ TEST_CASE("a drive that restarted in a stall leaves the pose in doubt until a pe
   Bench bench("robot");
   bench.tick(10);
   REQUIRE(bench.robot.desk().obey("goto 9 8") == "going\n");
-  bench.tick(200);
+  bench.tick(300);
   bench.robot.far_end().drive(0).restart();
   stall(bench, 3000ms);
   bench.tick(100);
@@ -94,7 +94,7 @@ TEST_CASE("a drive that restarted in a stall leaves the pose in doubt until a pe
   CHECK(off_m(bench) < 0.05);
   CHECK(off_rad(bench) < 0.02);
   CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-  bench.tick(100);
+  bench.tick(200);
   CHECK(bench.speed_mps() > 0.2);
   CHECK(bench.robot.desk().obey(words) == "refused: the robot still moves; try again when it stands\n");
 }

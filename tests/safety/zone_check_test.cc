@@ -49,7 +49,7 @@ TEST_CASE("a robot that outruns what its laser sees is refused with what to do a
   const std::string said = refusal(fast);
   CHECK(said.rfind("robot.toml: stopping takes 8.2 m, ", 0) == 0);
   INFO(said);
-  CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps to 1.33, raise limits.brake_mps2") !=
+  CHECK(said.find("its range is 5.0 m; lower limits.max_speed_mps to 1.27, raise limits.brake_mps2") !=
         std::string::npos);
 }
 

@@ -65,15 +65,15 @@ class MoverCost {
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
   }
 
-  /// Each future's worst meeting counts: the sooner and the faster, the worse.
+  /// Each future's worst meeting counts: the sooner the worse, and contact the faster.
   void price_meetings(const Sum& all, float rim_mps, float t, Cost& cost) noexcept {
     if ((all.met | all.stood | all.touched) == 0) return;
     const float later = cell::exp(-t / price::kConflictFadesS);
-    const float fast = std::min(1.0F, rim_mps / price::kMetAtMps);
-    const float level = later * (price::kMetAtRest + (1.0F - price::kMetAtRest) * fast);
-    cost.conflict += s_.conflict_price_s * met_.add(all.met, level);
-    cost.conflict += s_.conflict_price_s * met_.add(all.stood & ~all.met, price::kStandingWeight * level);
-    cost.conflict += price::kConflict * touched_.add(all.touched, level);
+    const float fast = std::min(1.0F, rim_mps / price::kTouchedAtMps);
+    const float hard = later * (price::kTouchedSlowly + (1.0F - price::kTouchedSlowly) * fast);
+    cost.conflict += s_.conflict_price_s * met_.add(all.met, later);
+    cost.conflict += s_.conflict_price_s * met_.add(all.stood & ~all.met, price::kStandingWeight * later);
+    cost.conflict += price::kConflict * touched_.add(all.touched, hard);
     if (t > kSafeForS) return;
     hit_ |= all.touched;
     cost.hit_share = static_cast<float>(std::popcount(hit_)) / kFutures;
