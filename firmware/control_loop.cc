@@ -24,7 +24,6 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
       planner_(planner),
       recorder_(recorder),
       speed_zones_(setup.zones, setup.model),
-      lone_returns_(setup.model),
       estimator_(setup),
       motion_(setup.make_motion(setup.motion())),
       latency_(setup.model.drive),
@@ -37,7 +36,7 @@ ControlLoop::ControlLoop(const ControlSetup& setup, Hal hal, Planner& planner, R
     throw StartupError(
         "the robot has " + std::to_string(wanted) + " scanners, and " + std::to_string(there) + " can be read here",
         "give what was recorded or wired with as many");
-  for (std::size_t k = 0; k < wanted; ++k) free_claims_.emplace_back(setup.model, k);
+  for (std::size_t k = 0; k < wanted; ++k) beam_filters_.emplace_back(setup.model, k, setup.wheels);
 }
 
 const TickRecord& ControlLoop::tick(Time now) noexcept {
@@ -58,25 +57,16 @@ const TickRecord& ControlLoop::tick(Time now) noexcept {
 
 void ControlLoop::read_devices(TickRecord& t) noexcept {
   t.wheels = hal_.drive.latest();
-  lone_returns_.follow(t.wheels);
   t.scan = hal_.laser.latest();
-  believe(0, t.wheels, t.scan);
+  beam_filters_[0].filter(t.scan, t.wheels);
   t.other_scans.clear();
   for (std::size_t k = 0; k < hal_.other_lasers.size(); ++k) {
     (void)t.other_scans.push_back(hal_.other_lasers[k]->latest());
     t.other_scans[k].scanner = static_cast<std::uint8_t>(k + 1);
-    believe(k + 1, t.wheels, t.other_scans[k]);
+    beam_filters_[k + 1].filter(t.other_scans[k], t.wheels);
   }
   t.input = hal_.panel.latest();
   t.fix = hal_.pose_source.latest();
-}
-
-// Where no wheels tell how the scanner moved, one scan cannot be laid on another: all beams count as they come.
-void ControlLoop::believe(std::size_t scanner, const WheelState& wheels, LaserScan& scan) noexcept {
-  blank(setup_.model.lasers()[scanner].blanked, scan);
-  if (!setup_.wheels) return;
-  lone_returns_.strike_out(scan);
-  free_claims_[scanner].judge(scan, wheels);
 }
 
 void ControlLoop::take_plan(TickRecord& t) noexcept {

@@ -9,9 +9,8 @@
 #include "firmware/estimator.h"
 #include "firmware/known_walls.h"
 #include "firmware/recording/recorder.h"
-#include "firmware/safety/free_claims.h"
+#include "firmware/safety/beam_filter.h"
 #include "firmware/safety/latency.h"
-#include "firmware/safety/lone_returns.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/motion/diff_drive.h"
@@ -41,8 +40,6 @@ class ControlLoop {
 
  private:
   void read_devices(TickRecord& t) noexcept;
-  /// Leaves out of a scanner's newest scan what proves nothing: the robot itself, drops, free beams that are doubted.
-  void believe(std::size_t scanner, const WheelState& wheels, LaserScan& scan) noexcept;
   void take_plan(TickRecord& t) noexcept;
   /// What motion wants.
   void ask(TickRecord& t) noexcept;
@@ -61,10 +58,9 @@ class ControlLoop {
   Hal hal_;
   Planner& planner_;
   Recorder& recorder_;
-  std::vector<FreeClaims> free_claims_;  ///< of each scanner
+  std::vector<BeamFilter> beam_filters_;  ///< of each scanner
   motion::SpeedZones speed_zones_;
   motion::ZoneSpeed zone_speed_{};  ///< this tick's
-  LoneReturns lone_returns_;
   Estimator estimator_;
   std::unique_ptr<motion::Motion> motion_;  ///< never null
   Latency latency_;

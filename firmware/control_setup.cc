@@ -65,7 +65,7 @@ LaserModel laser_of(const nlohmann::json& json) {
 
 nlohmann::json json_of(const DriveTimes& times) { return {times.report_s, times.late_s, times.response_s}; }
 
-/// Those of `json` where it has any: a recording of an earlier version has none.
+/// Drive times in a recording's head; the usual ones where it has none, as earlier versions wrote it.
 DriveTimes drive_times_of(const nlohmann::json& json) {
   if (!json.contains("drive_times")) return {};
   const auto [report_s, late_s, response_s] = json["drive_times"].get<std::array<double, 3>>();

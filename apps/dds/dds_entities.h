@@ -25,7 +25,7 @@ using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
 [[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
                                        const std::string& topic, const Qos& qos);
 
-/// By the wall clock, as stamps of ROS 2 and DDS are.
+/// Time of the wall clock, which stamps of ROS 2 and DDS are of.
 [[nodiscard]] Time wall_time();
 [[nodiscard]] inline Time written(const dds_sample_info_t& about) { return Time(Duration(about.source_timestamp)); }
 

@@ -8,19 +8,19 @@
 
 namespace jaywalk::exchange {
 
-/// Which of the goals that come on a topic are orders.
+/// Filter of the goals on a topic: repeated and late messages are no orders.
 ///
-/// A node may publish its goal again and again: the same stamp and pose of the same writer are the same order, given
-/// once. Where nobody sets stamps all are passed on, and the robot's program tells what is repeated (SaidGoals). A
-/// message that was held up is none: what was asked for then may be unwanted now.
+/// A node may publish its goal again and again: messages of one writer with the same stamp and pose are one order.
+/// Messages without a stamp are all orders here; the robot's program recognises repeated ones (SaidGoals). A late
+/// message is no order: its goal may be unwanted by now.
 class GoalOrders {
  public:
   enum class Heard : std::uint8_t { kOrder, kRepeated, kLate };
-  /// As long as a person waits for an answer. Clocks that differ by more make every goal late: synchronise them.
+  /// Greatest age of an order: a person waits no longer for an answer. Clocks that differ by more make every goal late.
   static constexpr Duration kGood = std::chrono::seconds(2);
 
-  /// `message`: all of it, its stamp included; `stamp`: the header's, 0 where nobody set it; `writer`: tells it from
-  /// others.
+  /// Judges a message. `message`: its bytes, with the stamp; `stamp`: of its header, 0: not set; `writer`: identity of
+  /// its publisher.
   [[nodiscard]] Heard judge(std::string_view message, Time stamp, std::uint64_t writer, const Arrival& arrival);
 
  private:

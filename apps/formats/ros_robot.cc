@@ -30,7 +30,7 @@ std::uint32_t angle_count(double turned_rad) {
   return static_cast<std::uint32_t>(static_cast<std::int64_t>(std::llround(turned_rad / ros::kAngle_rad)));
 }
 
-/// By the wall clock; 0 where one of them is not set or they go by different clocks.
+/// Age of a stamp by the wall clock, at least 0; 0 where a time is not set or they are of different clocks.
 Duration age_on_wall(Time stamp, Time wall) {
   const bool are_set = stamp > Time{} && wall > Time{};
   const Duration old = are_set ? wall - stamp : Duration{0};

@@ -10,7 +10,7 @@
 
 namespace jaywalk::exchange {
 
-/// When a message came, and when its writer says that it was written.
+/// Times of a message: its arrival, and its writing as its writer says.
 struct Arrival {
   Arrival(Time by_ours, Time by_wall = kNever, Time at_writer = kNever) noexcept  // NOLINT: a time is an arrival
       : ours(by_ours), wall(by_wall), written(at_writer) {}
@@ -19,9 +19,10 @@ struct Arrival {
   Time written;  ///< DDS's source timestamp, by its writer's wall clock; kNever: not known
 };
 
-/// When a message was sent, by our clock: its arrival minus its delay. That is what its stamp differs by from those of
-/// the fastest message, and at least its age by the wall clock where stamps go by that: within kOneClock of ours. Where
-/// nobody set stamps, the time of writing is the stamp.
+/// Estimator of the time when a message was sent, by our clock: its arrival less its delay.
+///
+/// The delay is the message's stamp against that of the fastest message. Stamps within kOneClock of our wall clock are
+/// of the same clock; the delay is at least their age by it. A message without a stamp has the time of its writing.
 class SentTimes {
  public:
   /// Clocks that differ by more are not the same. Robots' clocks are synchronised (ROS 2 wants it for tf), or never

@@ -20,7 +20,7 @@ class LoopCount {
   [[nodiscard]] const std::vector<Episode>& loops() const { return loops_; }
 
  private:
-  /// How far the robot was turned during the last `span` of a quantity that only grows.
+  /// Turn of the robot, rad, over the last `span` of a quantity that only grows (way or time).
   class Window {
    public:
     Window(double span, double piece) : span_(span), piece_(piece) {}

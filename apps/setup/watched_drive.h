@@ -39,7 +39,7 @@ class WatchedDrive {
 
   [[nodiscard]] Time due() const { return due_; }
   [[nodiscard]] const WheelState& wheels() const { return wheels_; }
-  /// By how much the feedback has followed the commands so far, s; 0: not known.
+  /// Measured delay from a command to its feedback, s; 0: not known yet.
   [[nodiscard]] double response_s() const { return response_.seconds(); }
   /// Of each scanner, blanked; the last that came.
   [[nodiscard]] const std::vector<LaserScan>& scans() const { return scans_; }

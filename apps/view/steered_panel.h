@@ -6,9 +6,10 @@
 
 namespace jaywalk::view {
 
-/// An operator's panel whose goal the live page may replace. The page's Stop is an emergency stop that stays pressed
-/// until the page's Reset, at rest; the panel's own goal is gone then. Without an order it is the other panel, bit for
-/// bit. Thread: the loop's.
+/// Operator panel with the live page's goals in place of its own.
+///
+/// The page's Stop is an emergency stop. It stays pressed until the page's Reset at rest, and voids the panel's own
+/// goal. Without an order the input is the other panel's, bit for bit. Thread: the loop's.
 class SteeredPanel final : public OperatorPanel {
  public:
   explicit SteeredPanel(OperatorPanel& inner) : inner_(inner) {}

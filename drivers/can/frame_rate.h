@@ -5,21 +5,22 @@
 
 namespace jaywalk {
 
-/// Token bucket over a frame that one device alone sends: a second device of the same number shows as one too many.
+/// Token bucket that detects two devices with the same number by the rate of a frame that only one device may send.
 ///
-/// Half as many again as are due may come: a device's clock may be fast, and CAN repeats a frame whose last bit was
-/// disturbed (ISO 11898-1). Two devices send twice as many, and empty the store of three with the fourth pair.
+/// The bucket fills at one and a half times the due rate: a device's clock may be fast, and CAN repeats a frame whose
+/// last bit was disturbed (ISO 11898-1). Two devices send at twice the due rate and empty its three tokens with the
+/// fourth pair.
 class FrameRate {
  public:
-  /// So many became due, as one with each SYNC.
+  /// Adds tokens for frames that became due, such as one with each SYNC.
   void expect(double frames) noexcept { store_ = std::min(store_ + kShare * frames, kStore); }
-  /// One came; false where it is one too many.
+  /// Takes a token for a frame that came; false where none is left.
   [[nodiscard]] bool take() noexcept {
     if (store_ < 1.0) return false;
     store_ -= 1.0;
     return true;
   }
-  /// The same of a frame that is due once a period.
+  /// Takes a token for a frame that is due once a period.
   [[nodiscard]] bool take_at(Time stamp, Duration period) noexcept {
     if (last_ != kNever) expect(to_seconds(stamp - last_) / to_seconds(period));
     last_ = stamp;

@@ -11,7 +11,7 @@ namespace jaywalk {
 /// made. What is a link, another user's, or writable for others is left out. Throws StartupError where there is none.
 [[nodiscard]] std::filesystem::path own_runtime_folder();
 
-/// Where marks lie, for every user of a machine with the package: `shared`, a folder of the group jaywalk that systemd
+/// Folder of the marks, for every user of a machine with the package: `shared`, of the group jaywalk, which systemd
 /// makes at boot and a stopped service leaves. Elsewhere own_runtime_folder(). Throws StartupError where `shared` is
 /// there and this user may not write to it: its run and the service's would not see each other's marks.
 [[nodiscard]] std::filesystem::path folder_of_marks(const std::filesystem::path& shared = "/run/jaywalk-armed");

@@ -6,9 +6,10 @@ namespace jaywalk {
 
 enum class StopWords : std::uint8_t { kNone, kStop, kStopNow };
 
-/// The strongest stop among the lines of `text`. A person who wants it to stop is in a hurry: each line whose first
-/// letters are "stop", "halt" or "emergency" is one, in any case, whatever stands before them and follows; with "now"
-/// in it, and an emergency, at once.
+/// Returns the strongest stop in any line of `text`.
+///
+/// A line is a stop where its first letters are "stop" or "halt", in either case, whatever stands before and after
+/// them. "emergency", "estop" and "e-stop", and "now" in the line, stop at once.
 [[nodiscard]] StopWords stop_in(std::string_view text) noexcept;
 
 /// Without the blanks, and the ends of lines, round it.

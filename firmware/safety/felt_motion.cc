@@ -27,7 +27,7 @@ void FeltMotion::keep(const Sent& sent) noexcept {
   sent_[newest_] = sent;
 }
 
-/// Of the commands that held at any time of the last obeys_within_; zero before the first.
+/// Span of the commands that held at any time of the last obeys_within_; zero before the first.
 FeltMotion::Span FeltMotion::commanded(double Sent::*wheel, Time now, bool zero_too) const noexcept {
   const double newest = sent_[newest_].*wheel;
   Span span{zero_too ? std::min(newest, 0.0) : newest, zero_too ? std::max(newest, 0.0) : newest};

@@ -15,7 +15,7 @@ namespace jaywalk {
 /// of the bound is summed up (Page 1954, CUSUM); kFault_m is disobedience: reversed, stuck, or turning without a
 /// command. Speeds and ways are the rim's. A wheel that stands though commanded 0.2 m/s is told within 0.5 s.
 ///
-/// How far a wheel's angle turns is held against its speed in the same way, up to kApart_m and what the robot at its
+/// A wheel's angle is held against its speed in the same way, up to kApart_m and what the robot at its
 /// fastest drives while a report may be late: counters that stand while speeds go on, and speeds that stand while
 /// counters do, are disobedience as well. Every report counts, however long after the one before: times that are told
 /// wrong for one of them are told wrong the other way for the next, so that their sum is not. Thread: the loop's.

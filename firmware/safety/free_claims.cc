@@ -7,7 +7,7 @@
 namespace jaywalk {
 namespace {
 
-/// What a pedestrian uncovers between two scans: a fast walk, and noise, edges and legs.
+/// Width that a walking pedestrian may uncover between two scans: a fast walk's way, and noise, edges and legs.
 constexpr double kWalk_mps = 2.0, kEdges_m = 0.15;
 /// Fewer beams are flicker of an edge or of a dark surface.
 constexpr std::size_t kLeastVanished = 4;
@@ -25,24 +25,17 @@ constexpr double kMostWay_m = 1.0;  ///< between two scans; more is another robo
 
 }  // namespace
 
-FreeClaims::FreeClaims(const RobotModel& model, std::size_t scanner)
-    : drive_(model.drive), robot_from_laser_(model.lasers()[scanner].robot_from_laser), travel_(model.drive) {}
-
-void FreeClaims::judge(LaserScan& scan, const WheelState& wheels) noexcept {
-  travel_.note(wheels);
-  if (scan.sequence == 0 || scan.beam_count < 2 || scan.beam_count > kMaxBeams) return;
-  if (scan.sequence != sequence_) take(scan);
-  sequence_ = scan.sequence;
-  for (std::size_t k = 0; k < beams_; ++k)
-    if ((silent_ || doubt_[k] != Doubt::kNone) && scan.found_nothing(k)) scan.range_m[k] = 0.0F;
-}
-
-void FreeClaims::take(const LaserScan& scan) noexcept {
+void FreeClaims::take(const LaserScan& scan, const Pose2& now_from_before) noexcept {
   learn_directions(scan);
-  expect(scan, laser_motion(scan.stamp));
+  expect(scan, now_from_before);
   find_vanished(scan);
   believe_hits(scan);
   remember(scan);
+}
+
+void FreeClaims::strike_out(LaserScan& scan) const noexcept {
+  for (std::size_t k = 0; k < beams_; ++k)
+    if ((silent_ || doubt_[k] != Doubt::kNone) && scan.found_nothing(k)) scan.range_m[k] = 0.0F;
 }
 
 void FreeClaims::learn_directions(const LaserScan& scan) noexcept {
@@ -55,16 +48,6 @@ void FreeClaims::learn_directions(const LaserScan& scan) noexcept {
   surface_ = {};
   doubt_ = {};
   hit_ = scan.stamp;
-}
-
-/// Pose of the laser at the scan before, in its frame at this one.
-Pose2 FreeClaims::laser_motion(Time stamp) noexcept {
-  Rolled rolled;
-  const bool known = travel_.expected_at(stamp, rolled);
-  const Pose2 moved = known && rolled_known_ ? arc_of(rolled - rolled_, drive_.track_width_m) : Pose2{};
-  rolled_ = rolled;
-  rolled_known_ = known;
-  return inverse(inverse(robot_from_laser_) * moved * robot_from_laser_);
 }
 
 void FreeClaims::expect(const LaserScan& scan, const Pose2& now_from_before) noexcept {
@@ -130,7 +113,7 @@ bool FreeClaims::has_failed(const LaserScan& scan, const Vanished& vanished) con
   return beams * std::fabs(step_rad_) >= kWide_rad && !moves_beside(scan, vanished);
 }
 
-/// How far from what was expected of it and of the beams to either side a hit is, m; infinity where nothing was.
+/// Distance of a hit from the surface expected of its beam and of the two beside it, m; infinity without one.
 double FreeClaims::moved_m(std::size_t beam, double range_m) const noexcept {
   double least_m = std::numeric_limits<double>::infinity();
   for (const std::size_t near : {beam, at(beam + 1), at(beam + beams_ - 1)})

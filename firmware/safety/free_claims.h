@@ -3,9 +3,8 @@
 #include <cstddef>
 #include <cstdint>
 
-#include "firmware/safety/wheel_travel.h"
+#include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
-#include "hal/types/robot_model.h"
 
 namespace jaywalk {
 
@@ -18,19 +17,18 @@ namespace jaywalk {
 /// that is a fault of the scanner: its beams there are doubted until each has hit something in two scans. A scanner
 /// without any hit for kSilent is doubted as a whole: indoors something is within reach.
 ///
-/// Doubted beams are unknown to all that follows: stop zone, tracker and map. A scan that was judged before is left as
-/// it is, so that a recording replays. Thread: the loop's; memory is fixed.
+/// Doubted beams are unknown to stop zone, tracker and map. Thread: the loop's; memory is fixed.
 class FreeClaims {
  public:
-  FreeClaims(const RobotModel& model, std::size_t scanner);
-
-  /// Once a tick with the scanner's newest scan as it came, whose doubted free beams get the range 0.
-  void judge(LaserScan& scan, const WheelState& wheels) noexcept;
+  /// Judges a new scan. `now_from_before`: pose of the laser at the scan before, in its frame at this one.
+  void take(const LaserScan& scan, const Pose2& now_from_before) noexcept;
+  /// Sets the range of the doubted free beams of the scan that was taken last to 0.
+  void strike_out(LaserScan& scan) const noexcept;
 
   static constexpr Duration kSilent = std::chrono::seconds(2);
 
  private:
-  /// What a beam's free is held against.
+  /// Surface that a beam is expected to hit.
   struct Surface {
     Vec2 in_laser{};
     Time seen = kNever;  ///< kNever: none
@@ -43,10 +41,8 @@ class FreeClaims {
   };
   enum class Doubt : std::uint8_t { kNone, kHitOnce, kVanished, kBeside };
 
-  void take(const LaserScan& scan) noexcept;
   void learn_directions(const LaserScan& scan) noexcept;
-  [[nodiscard]] Pose2 laser_motion(Time stamp) noexcept;
-  void expect(const LaserScan& scan, const Pose2& before_from_now) noexcept;
+  void expect(const LaserScan& scan, const Pose2& now_from_before) noexcept;
   [[nodiscard]] std::size_t beam_towards(Vec2 in_laser) const noexcept;
   void find_vanished(const LaserScan& scan) noexcept;
   void add(const LaserScan& scan, std::size_t beam, Vanished& vanished) const noexcept;
@@ -59,15 +55,9 @@ class FreeClaims {
   void remember(const LaserScan& scan) noexcept;
   [[nodiscard]] std::size_t at(std::size_t beam) const noexcept { return beam % beams_; }
 
-  DriveModel drive_;
-  Pose2 robot_from_laser_;
-  WheelTravel travel_;
-  std::uint32_t sequence_ = 0;
   std::size_t beams_ = 0;
   double first_rad_ = 0.0, step_rad_ = 0.0;
   bool all_round_ = false;
-  Rolled rolled_;  ///< at the scan before
-  bool rolled_known_ = false;
   Time hit_ = kNever;  ///< stamp of the last scan with hits; of the first scan before one
   bool silent_ = false;
   std::array<Surface, kMaxBeams> surface_{},

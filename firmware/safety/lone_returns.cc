@@ -36,78 +36,38 @@ bool has_neighbours(const LaserScan& scan, std::size_t beam) {
 
 }  // namespace
 
-LoneReturns::LoneReturns(const RobotModel& model) : drive_(model.drive) {
-  for (const LaserModel& laser : model.lasers()) mounts_.push_back(laser.robot_from_laser);
-  looks_.resize(mounts_.size());
-}
-
-void LoneReturns::follow(const WheelState& wheels) noexcept {
-  const WheelState before = std::exchange(wheels_, wheels);
-  if (wheels.sequence == before.sequence) return;
-  if (before.sequence == 0 || wheels.sequence < before.sequence) {  // where it was before is not known
-    for (Looks& looks : looks_) looks.now.times.fill(0), looks.before.times.fill(0);
-    return;
-  }
-  const double left = (wheels.left_rad - before.left_rad) * drive_.wheel_radius_m,
-               right = (wheels.right_rad - before.right_rad) * drive_.wheel_radius_m;
-  const double turned = (right - left) / drive_.track_width_m;
-  const Vec2 moved = direction(odom_from_robot_.heading + 0.5 * turned) * (0.5 * (left + right));
-  odom_from_robot_ = {odom_from_robot_.x + moved.x, odom_from_robot_.y + moved.y,
-                      wrap_angle(odom_from_robot_.heading + turned)};
-}
-
-/// From the newest reading, by its speeds.
-Pose2 LoneReturns::robot_at(Time stamp) const noexcept {
-  const double after_s = wheels_.stamp == kNever ? 0.0 : std::clamp(to_seconds(stamp - wheels_.stamp), -0.2, 0.2);
-  const double left = wheels_.left_radps * drive_.wheel_radius_m, right = wheels_.right_radps * drive_.wheel_radius_m;
-  const double turned = (right - left) / drive_.track_width_m * after_s;
-  const Vec2 moved = direction(odom_from_robot_.heading + 0.5 * turned) * (0.5 * (left + right) * after_s);
-  return {odom_from_robot_.x + moved.x, odom_from_robot_.y + moved.y, wrap_angle(odom_from_robot_.heading + turned)};
-}
-
-void LoneReturns::strike_out(LaserScan& scan) noexcept {
-  if (scan.sequence == 0 || scan.beam_count > kMaxBeams) return;
-  Looks& looks = looks_[scan.scanner];
-  if (scan.sequence != looks.now.scan.sequence) {
-    std::swap(looks.now, looks.before);
-    looks.now.scan = scan;
-    for (std::size_t k = 0; k < scan.beam_count; ++k)  // of a recording: what was struck out
-      if (!scan.too_near(k) && scan.range_m[k] < 0.0F) looks.now.scan.range_m[k] = -scan.range_m[k];
-    looks.now.odom_from_laser = robot_at(scan.stamp) * mounts_[scan.scanner];
-    judge(looks);
-  }
-  for (std::size_t k = 0; k < scan.beam_count; ++k) {
-    const std::uint8_t times = looks.now.times[k];
-    if (looks.now.scan.is_hit(k))
-      scan.range_m[k] = times > 0 && times < kBelieved ? -looks.now.scan.range_m[k] : looks.now.scan.range_m[k];
-  }
-}
-
-void LoneReturns::judge(Looks& looks) noexcept {
-  Look& now = looks.now;
-  const Look& before = looks.before;
-  const Transform2 before_from_now(inverse(before.odom_from_laser) * now.odom_from_laser);
-  const double step = static_cast<double>(before.scan.angle_step_rad), middle = 0.5 * before.scan.beam_count;
-  const double ahead = before.scan.angle_rad(0) + middle * step;
-  /// Most times that the last scan had something at that place.
-  const auto times_before = [&](Vec2 place) {
-    std::uint8_t most = 0;
-    const double range = norm(place);
-    const double aside = (kAside_m / std::max(range, kAside_m) + kTurn_rad) / std::fabs(step) + 1.0;
-    const double at = middle + wrap_angle(jaywalk::atan2(place.y, place.x) - ahead) / step;
-    const auto last = static_cast<std::size_t>(std::clamp(at + aside + 1.0, 0.0, 2.0 * middle));
-    for (auto k = static_cast<std::size_t>(std::clamp(std::ceil(at - aside), 0.0, 2.0 * middle)); k < last; ++k)
-      if (std::fabs(range_of(before.scan, k) - range) < kAlong_m) most = std::max(most, before.times[k]);
-    return most;
-  };
-  const bool has_before = before.scan.sequence != 0 && step != 0.0;
-  for (std::size_t k = 0; k < now.scan.beam_count; ++k) {
-    now.times[k] = now.scan.is_hit(k) ? kBelieved : std::uint8_t{0};
-    if (now.times[k] == 0 || has_neighbours(now.scan, k)) continue;
-    const Vec2 place = before_from_now * (direction(now.scan.angle_rad(k)) * range_of(now.scan, k));
+void LoneReturns::take(const LaserScan& scan, const Pose2& now_from_before) noexcept {
+  std::swap(now_, before_);
+  now_.scan = scan;
+  for (std::size_t k = 0; k < scan.beam_count; ++k)  // of a recording: what was struck out
+    if (!scan.too_near(k) && scan.range_m[k] < 0.0F) now_.scan.range_m[k] = -scan.range_m[k];
+  const Transform2 before_from_now(inverse(now_from_before));
+  const bool has_before = before_.scan.sequence != 0 && before_.scan.angle_step_rad != 0.0F;
+  for (std::size_t k = 0; k < now_.scan.beam_count; ++k) {
+    now_.times[k] = now_.scan.is_hit(k) ? kBelieved : std::uint8_t{0};
+    if (now_.times[k] == 0 || has_neighbours(now_.scan, k)) continue;
+    const Vec2 place = before_from_now * (direction(now_.scan.angle_rad(k)) * range_of(now_.scan, k));
     const std::uint8_t before_times = has_before ? times_before(place) : std::uint8_t{0};
-    now.times[k] = std::min<std::uint8_t>(kBelieved, static_cast<std::uint8_t>(before_times + 1U));
+    now_.times[k] = std::min<std::uint8_t>(kBelieved, static_cast<std::uint8_t>(before_times + 1U));
   }
+}
+
+std::uint8_t LoneReturns::times_before(Vec2 place) const noexcept {
+  const auto step = static_cast<double>(before_.scan.angle_step_rad);
+  const double middle = 0.5 * before_.scan.beam_count, ahead = before_.scan.angle_rad(0) + middle * step;
+  const double range = norm(place);
+  const double aside = (kAside_m / std::max(range, kAside_m) + kTurn_rad) / std::fabs(step) + 1.0;
+  const double at = middle + wrap_angle(jaywalk::atan2(place.y, place.x) - ahead) / step;
+  const auto last = static_cast<std::size_t>(std::clamp(at + aside + 1.0, 0.0, 2.0 * middle));
+  std::uint8_t most = 0;
+  for (auto k = static_cast<std::size_t>(std::clamp(std::ceil(at - aside), 0.0, 2.0 * middle)); k < last; ++k)
+    if (std::fabs(range_of(before_.scan, k) - range) < kAlong_m) most = std::max(most, before_.times[k]);
+  return most;
+}
+
+void LoneReturns::strike_out(LaserScan& scan) const noexcept {
+  for (std::size_t k = 0; k < scan.beam_count; ++k)
+    if (now_.scan.is_hit(k)) scan.range_m[k] = now_.times[k] < kBelieved ? -now_.scan.range_m[k] : now_.scan.range_m[k];
 }
 
 }  // namespace jaywalk

@@ -20,14 +20,12 @@ constexpr double kSlack_m = 0.006, kTrackShare = 0.05;
 /// Two scans are compared once a wheel rolled that far, or the robot turned that far, and no more after the larger.
 constexpr double kLeast_m = 0.04, kLeast_rad = 0.05, kMost_m = 0.15, kMost_rad = 0.2;
 constexpr Duration kOldestKept = std::chrono::milliseconds(1000);  ///< of a kept scan: people move
-/// Of a fit that tells: fewer points are outliers.
-constexpr double kExplained = 0.5, kCompared = 0.8, kLeastCompared = 12.0;
-constexpr int kPeople = 2;  ///< sectors
+/// Least share of the points compared as the wheels have it that a fit compares.
+constexpr double kCompared = 0.8;
 /// The evidence of an arc counts at most so many times that of its sectors without the kPeople strongest: a pedestrian
 /// that walks along with the robot stands in no more. It costs 2 of 100 frozen sectors that were told in 0.5 s
 /// (safety_tests "[trials]"), 4 would cost 11. With 16, one of the four robots beside such pedestrians still stops.
 constexpr double kOthers = 8.0;
-constexpr double kRough_m = 0.05;  ///< of errors before a fit
 /// Natural logarithms of likelihood ratios; what a pair less decays between pairs.
 constexpr double kEvidence = 10.0, kBlind = 27.0, kDrift = 3.0, kMoves = 4.0;
 /// A blind sector pulls the match towards itself: what it gains over it counts threefold. More than twice what it
@@ -41,16 +39,6 @@ constexpr double kTells = 0.5, kSlip = 0.2, kFile = 0.05, kLastingGain = 0.8, kF
 /// Share of beams to the last bit, of so many scans, while a wheel rolled so far.
 constexpr double kRepeated = 0.875, kRepeatedFor_m = 0.1;
 constexpr int kRepeats = 2;
-
-double total(const std::array<double, ScanPair::kSectors>& costs) {
-  return std::accumulate(costs.begin(), costs.end(), 0.0);
-}
-
-/// The sum without its greatest: what one or two pedestrians and their shadows say does not count.
-double without_greatest(std::array<double, ScanPair::kSectors> costs) {
-  std::nth_element(costs.begin(), costs.end() - kPeople, costs.end());
-  return std::accumulate(costs.begin(), costs.end() - kPeople, 0.0);
-}
 
 }  // namespace
 
@@ -123,8 +111,7 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
   felt_before_ = felt;
   ScanPair::Fit as_felt{.kept_from_now = by_wheels, .noise_m = fit_.noise_m};
   pair_.improve(scan, as_felt);
-  fitted_ =
-      fit_.explained >= kExplained && fit_.compared >= kLeastCompared && fit_.compared >= kCompared * as_felt.compared;
+  fitted_ = fit_.tells() && fit_.compared >= kCompared * as_felt.compared;
   evidence_now_ = 0.0;
   blind_now_ = {};
   if (fitted_) {
@@ -132,13 +119,13 @@ void MotionModel::compare(const LaserScan& scan, const Rolled& felt) noexcept {
     const ScanPair::Errors free = pair_.errors(scan, fit_.kept_from_now);
     const ScanPair::Errors wheels = pair_.errors(scan, by_wheels);
     Pose2 bound = by_wheels;
-    evidence_now_ = without_greatest(pair_.advantage(free, wheels, noise, false));
-    against_wheels_ = total(pair_.advantage(free, wheels, noise, true));
+    evidence_now_ = ScanPair::without_greatest(pair_.advantage(free, wheels, noise, false));
+    against_wheels_ = ScanPair::total(pair_.advantage(free, wheels, noise, true));
     ScanPair::Fit inside = fit_;
     for (int step = 0; step < kBoundSteps; ++step) {  // Gauss-Newton in the box, from a projection to the next
       inside.kept_from_now = within_bounds(inside, felt);
       const ScanPair::Errors tried = pair_.errors(scan, inside.kept_from_now);
-      const double evidence = without_greatest(pair_.advantage(free, tried, noise, false));
+      const double evidence = ScanPair::without_greatest(pair_.advantage(free, tried, noise, false));
       if (evidence < evidence_now_) evidence_now_ = evidence, bound = inside.kept_from_now;
       pair_.improve(scan, inside);
     }
@@ -166,7 +153,7 @@ std::size_t MotionModel::arc() const noexcept {
 double MotionModel::stands_from(std::size_t first) const noexcept {
   Costs says{};
   std::copy_n(blind_now_.begin() + first, arc(), says.begin());
-  const auto end = says.begin() + arc(), most = end - kPeople;
+  const auto end = says.begin() + arc(), most = end - ScanPair::kPeople;
   std::nth_element(says.begin(), most, end);
   const double others = std::accumulate(says.begin(), most, 0.0), all = std::accumulate(most, end, others);
   return std::min(all, kOthers * std::max(others, 0.0));
@@ -198,7 +185,7 @@ ScanPair::Fit MotionModel::best_fit(const LaserScan& scan, const Rolled& felt) c
   Pose2 start = starts[0];
   for (std::size_t k = 1; k < starts.size(); ++k) {
     errors[1] = pair_.errors(scan, starts[k]);
-    if (total(pair_.advantage(errors[1], errors[0], kRough_m, false)) <= 0.0) continue;
+    if (ScanPair::total(pair_.advantage(errors[1], errors[0], ScanPair::kRough_m, false)) <= 0.0) continue;
     errors[0] = errors[1];
     start = starts[k];
   }

@@ -38,7 +38,7 @@ class MotionModel {
   static constexpr Duration kHolds = std::chrono::milliseconds(500);
 
  private:
-  using Costs = std::array<double, ScanPair::kSectors>;
+  using Costs = ScanPair::Costs;
   /// How far each wheel moved the robot, and how far it went aside, half way through its turn.
   struct Moved {
     double left_m = 0.0, right_m = 0.0, aside_m = 0.0;

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numeric>
 
 namespace jaywalk {
 namespace {
@@ -27,6 +28,13 @@ std::uint32_t every(const LaserScan& scan) {
 }
 
 }  // namespace
+
+double ScanPair::total(const Costs& costs) noexcept { return std::accumulate(costs.begin(), costs.end(), 0.0); }
+
+double ScanPair::without_greatest(Costs costs) noexcept {
+  std::nth_element(costs.begin(), costs.end() - kPeople, costs.end());
+  return std::accumulate(costs.begin(), costs.end() - kPeople, 0.0);
+}
 
 bool ScanPair::usable(const LaserScan& scan) noexcept {
   if (scan.beam_count < 2 || scan.beam_count > kMaxBeams) return false;
@@ -146,8 +154,8 @@ void ScanPair::improve(const LaserScan& scan, Fit& fit) const noexcept {
   fit.kept_from_now = fit.kept_from_now * Pose2{by.x(), by.y(), by.z()};
 }
 
-std::array<double, ScanPair::kSectors> ScanPair::advantage(const Errors& better, const Errors& worse, double noise_m,
-                                                           bool walls) const noexcept {
+ScanPair::Costs ScanPair::advantage(const Errors& better, const Errors& worse, double noise_m,
+                                    bool walls) const noexcept {
   const auto cost = [noise_m](float error_m) {
     const double off = error_m / noise_m;
     return std::min(0.5 * off * off, kOutlier);
@@ -160,8 +168,8 @@ std::array<double, ScanPair::kSectors> ScanPair::advantage(const Errors& better,
   return sum;
 }
 
-std::array<double, ScanPair::kSectors> ScanPair::gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
-                                                                  double noise_m) const noexcept {
+ScanPair::Costs ScanPair::gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
+                                           double noise_m) const noexcept {
   const Transform2 moved(inverse(kept_from_now * robot_from_laser_));
   std::array<double, kSectors> sum{};
   for (const Point& point : points_) {

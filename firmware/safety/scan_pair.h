@@ -19,6 +19,13 @@ namespace jaywalk {
 class ScanPair {
  public:
   static constexpr std::size_t kMostPoints = 160, kSectors = 24;
+  static constexpr int kPeople = 2;         ///< sectors that pedestrians and their shadows may fill
+  static constexpr double kRough_m = 0.05;  ///< standard deviation of errors before a fit
+  /// Logarithm of a likelihood ratio, for each sector.
+  using Costs = std::array<double, kSectors>;
+  [[nodiscard]] static double total(const Costs& costs) noexcept;
+  /// Sum without the kPeople greatest: one or two pedestrians prove nothing.
+  [[nodiscard]] static double without_greatest(Costs costs) noexcept;
   /// Of each kept point (m); NaN where it could not be compared.
   using Errors = std::array<float, kMostPoints>;
   struct Fit {
@@ -27,6 +34,8 @@ class ScanPair {
     double noise_m = 0.0;                                   ///< standard deviation of the errors, outliers apart
     double compared = 0.0;                                  ///< sum of the weights of the points that could be
     double explained = 0.0;                                 ///< share of them that are no outliers
+    /// True where enough points agree for the fit to tell a motion: else they are outliers.
+    [[nodiscard]] bool tells() const noexcept { return explained >= 0.5 && compared >= 12.0; }
   };
 
   explicit ScanPair(const Pose2& robot_from_laser)
@@ -56,13 +65,12 @@ class ScanPair {
   void improve(const LaserScan& scan, Fit& fit) const noexcept;
   /// By how much the logarithm of the likelihood of errors with that noise, outliers at three of it, is greater than
   /// that of others, in each sector of the view; `walls`: of flat surfaces alone.
-  [[nodiscard]] std::array<double, kSectors> advantage(const Errors& better, const Errors& worse, double noise_m,
-                                                       bool walls) const noexcept;
+  [[nodiscard]] Costs advantage(const Errors& better, const Errors& worse, double noise_m, bool walls) const noexcept;
 
   /// What standing surfaces would gain so over ones that moved, on average, if they stand: by what the two predict of
   /// each point, across its surface. Nothing along a wall.
-  [[nodiscard]] std::array<double, kSectors> gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
-                                                              double noise_m) const noexcept;
+  [[nodiscard]] Costs gain_of_standing(const LaserScan& scan, const Pose2& kept_from_now,
+                                       double noise_m) const noexcept;
 
  private:
   struct Point {

@@ -75,7 +75,7 @@ Verdict Supervisor::judge(const Twist2& wanted, const SafetyInput& input) noexce
 }
 
 Reason Supervisor::faults(const Twist2& wanted, const SafetyInput& input) noexcept {
-  Reason reasons = scan_faults(input) | wheel_faults(input.wheels, input.now);
+  Reason reasons = scan_faults(input) | wheel_faults(input);
   if (input.input.emergency_stop) reasons |= Reason::kEmergencyStop;
   if (input.pose_doubtful) reasons |= Reason::kPoseDoubtful;
   if (missed_in_a_row(input.now) >= 2) reasons |= Reason::kMissedTicks;
@@ -107,13 +107,15 @@ Reason Supervisor::scan_faults(std::size_t scanner, const SafetyInput& input) no
   return reasons;
 }
 
-Reason Supervisor::wheel_faults(const WheelState& wheels, Time now) const noexcept {
+Reason Supervisor::wheel_faults(const SafetyInput& input) const noexcept {
+  const WheelState& wheels = input.wheels;
   Reason reasons = reason_for(wheels.trouble);
   // Drives that are being proved report nothing yet, and have no torque.
   if (config_.needs_wheels && wheels.ready &&
-      is_older(wheels.stamp, now, oldest_wheels(config_.model.drive.times, config_.tick)))
+      is_older(wheels.stamp, input.now, oldest_wheels(config_.model.drive.times, config_.tick)))
     reasons |= Reason::kWheelsStale;
   if (!is_trustworthy(wheels)) reasons |= Reason::kWheelsInvalid;
+  if (config_.judges_motion && answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
   return reasons;
 }
 
@@ -123,7 +125,6 @@ Reason Supervisor::motion_faults(std::size_t scanner, const SafetyInput& input) 
   if (mode_ == Mode::kStandby) judged.wheel_proof.begin();
   if (config_.proves_wheels && judged.wheel_proof.contradicts(input.scans[scanner], input.wheels))
     reasons |= Reason::kMotionMismatch;
-  if (answers_late(input.latency)) reasons |= Reason::kWheelsDisobey;
   constexpr Reason kNeedObedience = Reason::kWheelsDisobey | Reason::kMotionMismatch;
   return config_.judges_motion ? reasons : without(reasons, kNeedObedience);
 }

@@ -74,7 +74,7 @@ class Supervisor {
   [[nodiscard]] Reason scan_faults(const SafetyInput& input) noexcept;
   [[nodiscard]] Reason scan_faults(std::size_t scanner, const SafetyInput& input) noexcept;
   [[nodiscard]] OfEach<BlindGaps> gaps() const noexcept { return OfEach<BlindGaps>(std::span(gaps_)); }
-  [[nodiscard]] Reason wheel_faults(const WheelState& wheels, Time now) const noexcept;
+  [[nodiscard]] Reason wheel_faults(const SafetyInput& input) const noexcept;
   [[nodiscard]] Reason motion_faults(std::size_t scanner, const SafetyInput& input) noexcept;
   [[nodiscard]] bool answers_late(const MeasuredLatency& measured) const noexcept;
   [[nodiscard]] double unproved_share(const Twist2& twist) const noexcept;

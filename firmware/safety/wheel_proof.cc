@@ -14,29 +14,14 @@ constexpr double kStands_m = 0.0005;    // of the felt way from scan to scan: th
 constexpr double kLongestPair_m = 0.3;  // of a felt way, before a newer scan is kept: people move
 constexpr double kNoFaster_m = 0.015;   // of a felt way that tells that they go no more than kNoFaster times as far
 constexpr double kNoFaster = 2.5;
-constexpr double kProofExplained = 0.5, kProofLeastCompared = 12.0;  // of a fit that tells (MotionModel)
-constexpr double kSure = 4.0, kMatch_m = 0.003;   // standard deviations; of a match, its points apart
-constexpr double kTellsShare = 0.08;              // of the way: a match as sure as that proves it
-constexpr double kProofRough_m = 0.05;            // of errors before a fit
-constexpr double kProofEvidence = 10.0;           // for the seen way against the felt one (MotionModel)
-constexpr int kProofTimes = 2, kProofPeople = 2;  // scans in a row; sectors
+constexpr double kSure = 4.0, kMatch_m = 0.003;  // standard deviations; of a match, its points apart
+constexpr double kTellsShare = 0.08;             // of the way: a match as sure as that proves it
+constexpr double kProofEvidence = 10.0;          // for the seen way against the felt one (MotionModel)
+constexpr int kProofTimes = 2;                   // scans in a row
 
-template <class Ways>
-double longer(const Ways& to, const Ways& from) {
-  return std::max(std::fabs(to.left - from.left), std::fabs(to.right - from.right));
-}
-
-double total(const std::array<double, ScanPair::kSectors>& costs) {
-  double sum = 0.0;
-  for (const double cost : costs) sum += cost;
-  return sum;
-}
-
-/// Without what one or two pedestrians and their shadows say.
-double without_greatest(std::array<double, ScanPair::kSectors> costs) {
-  std::nth_element(costs.begin(), costs.end() - kProofPeople, costs.end());
-  std::fill(costs.end() - kProofPeople, costs.end(), 0.0);
-  return total(costs);
+double longer(const Rolled& to, const Rolled& from) {
+  const Rolled way = to - from;
+  return std::max(std::fabs(way.left_m), std::fabs(way.right_m));
 }
 
 }  // namespace
@@ -56,7 +41,7 @@ double WheelProof::most_mps() const noexcept {
 }
 
 /// At a scan's stamp: the speeds carry the reading there.
-WheelProof::Ways WheelProof::rolled(const WheelState& wheels, Time stamp) const noexcept {
+Rolled WheelProof::rolled(const WheelState& wheels, Time stamp) const noexcept {
   const double later_s = to_seconds(stamp - wheels.stamp), radius = drive_.wheel_radius_m;
   return {radius * (wheels.left_rad + later_s * wheels.left_radps),
           radius * (wheels.right_rad + later_s * wheels.right_radps)};
@@ -68,14 +53,14 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   scan_seen_ = scan.sequence;
   if (!is_new || !std::isfinite(wheels.left_rad) || !std::isfinite(wheels.right_rad))
     return times_against_ >= kProofTimes;
-  const Ways now = rolled(wheels, scan.stamp);
+  const Rolled now = rolled(wheels, scan.stamp);
   if (!began_) began_rolled_ = now;
   rolled_m_ = longer(now, began_rolled_);
   const bool stands = !began_ || longer(now, std::exchange(last_rolled_, now)) < kStands_m;
   const bool usable = pair_.usable(scan);
   const double radius = drive_.wheel_radius_m, left = radius * wheels.left_radps, right = radius * wheels.right_radps;
   if (usable) pair_.sweep(scan, {0.5 * (left + right), (right - left) / drive_.track_width_m});
-  const Ways felt{now.left - kept_rolled_.left, now.right - kept_rolled_.right};
+  const Rolled felt = now - kept_rolled_;
   if (usable && (stands || !pair_.is_kept())) {
     keep(scan, now);
   } else if (usable) {
@@ -88,7 +73,7 @@ bool WheelProof::contradicts(const LaserScan& scan, const WheelState& wheels) no
   return !over_ && times_against_ >= kProofTimes;
 }
 
-void WheelProof::keep(const LaserScan& scan, const Ways& rolled) noexcept {
+void WheelProof::keep(const LaserScan& scan, const Rolled& rolled) noexcept {
   pair_.keep(scan);
   kept_rolled_ = rolled;
   fit_ = {};
@@ -96,32 +81,28 @@ void WheelProof::keep(const LaserScan& scan, const Ways& rolled) noexcept {
   times_against_ = times_for_ = 0;
 }
 
-Pose2 WheelProof::pose_of(const Ways& ways) const noexcept {
-  const double turn = (ways.right - ways.left) / drive_.track_width_m;
-  const Vec2 way = direction(0.5 * turn) * (0.5 * (ways.left + ways.right));
-  return {way.x, way.y, turn};
-}
-
-/// From where the errors are least to begin with: as felt, more, less and backwards, and as it went from scan to scan.
-void WheelProof::match(const LaserScan& scan, const Ways& felt) noexcept {
+/// Matches from the best of six starts: the felt way, three and ten times it, none, backwards, the last motion again.
+void WheelProof::match(const LaserScan& scan, const Rolled& felt) noexcept {
   const Pose2 on = fit_.kept_from_now * (inverse(before_) * fit_.kept_from_now);
-  const auto times = [&](double left, double right) { return pose_of({left * felt.left, right * felt.right}); };
+  const auto times = [&](double left, double right) {
+    return arc_of({left * felt.left_m, right * felt.right_m}, drive_.track_width_m);
+  };
   const std::array starts{times(1.0, 1.0), on, Pose2{}, times(3.0, 3.0), times(10.0, 10.0), times(-1.0, -1.0)};
   Pose2 start = starts[0];
   ScanPair::Errors least = pair_.errors(scan, start);
   for (std::size_t k = 1; k < starts.size(); ++k) {
     const ScanPair::Errors errors = pair_.errors(scan, starts[k]);
-    if (total(pair_.advantage(errors, least, kProofRough_m, false)) <= 0.0) continue;
+    if (ScanPair::total(pair_.advantage(errors, least, ScanPair::kRough_m, false)) <= 0.0) continue;
     least = errors;
     start = starts[k];
   }
   before_ = fit_.kept_from_now;
   fit_ = pair_.fit(scan, start);
   const ScanPair::Errors seen = pair_.errors(scan, fit_.kept_from_now);
-  evidence_ = without_greatest(pair_.advantage(seen, pair_.errors(scan, starts[0]), fit_.noise_m, true));
+  evidence_ = ScanPair::without_greatest(pair_.advantage(seen, pair_.errors(scan, starts[0]), fit_.noise_m, true));
 }
 
-WheelProof::Ways WheelProof::seen() const noexcept {
+Rolled WheelProof::seen() const noexcept {
   const Pose2& moved = fit_.kept_from_now;
   const double middle = dot(direction(0.5 * moved.heading), moved.position());
   const double apart = 0.5 * moved.heading * drive_.track_width_m;
@@ -140,15 +121,15 @@ double WheelProof::seen_std_m() const noexcept {
   return std::isfinite(most) ? std::sqrt(most) + kMatch_m : std::numeric_limits<double>::infinity();
 }
 
-void WheelProof::judge(const Ways& felt) noexcept {
-  if (fit_.explained < kProofExplained || fit_.compared < kProofLeastCompared) return;
-  const Ways seen = this->seen();
-  const double off_m = std::max(std::fabs(seen.left - felt.left), std::fabs(seen.right - felt.right));
-  const double way_m = std::max(std::fabs(felt.left), std::fabs(felt.right)), std_m = seen_std_m();
+void WheelProof::judge(const Rolled& felt) noexcept {
+  if (!fit_.tells()) return;
+  const Rolled seen = this->seen();
+  const double off_m = std::max(std::fabs(seen.left_m - felt.left_m), std::fabs(seen.right_m - felt.right_m));
+  const double way_m = std::max(std::fabs(felt.left_m), std::fabs(felt.right_m)), std_m = seen_std_m();
   const double sure_m = kSure * std_m;
   const bool against = evidence_ > kProofEvidence && off_m - sure_m > kOff_m + kOffShare * way_m;
   times_against_ = against ? times_against_ + 1 : 0;
-  const double seen_m = std::max(std::fabs(seen.left), std::fabs(seen.right));
+  const double seen_m = std::max(std::fabs(seen.left_m), std::fabs(seen.right_m));
   is_no_faster_ = is_no_faster_ || (way_m > kNoFaster_m && seen_m + sure_m < kNoFaster * way_m);
   const bool agree = way_m > kProof_m && std_m < kTellsShare * way_m && off_m < kAgreeShare * way_m;
   times_for_ = agree ? times_for_ + 1 : 0;

@@ -2,6 +2,7 @@
 #include <cstdint>
 
 #include "firmware/safety/scan_pair.h"
+#include "firmware/safety/wheel_travel.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/wheels.h"
 
@@ -36,22 +37,17 @@ class WheelProof {
   [[nodiscard]] double most_mps() const noexcept;
 
  private:
-  /// Ways of the wheels' rims, m.
-  struct Ways {
-    double left = 0.0, right = 0.0;
-  };
-  [[nodiscard]] Ways rolled(const WheelState& wheels, Time stamp) const noexcept;
-  void keep(const LaserScan& scan, const Ways& rolled) noexcept;
-  void match(const LaserScan& scan, const Ways& felt) noexcept;
-  void judge(const Ways& felt) noexcept;
-  [[nodiscard]] Pose2 pose_of(const Ways& ways) const noexcept;
-  [[nodiscard]] Ways seen() const noexcept;
+  [[nodiscard]] Rolled rolled(const WheelState& wheels, Time stamp) const noexcept;
+  void keep(const LaserScan& scan, const Rolled& rolled) noexcept;
+  void match(const LaserScan& scan, const Rolled& felt) noexcept;
+  void judge(const Rolled& felt) noexcept;
+  [[nodiscard]] Rolled seen() const noexcept;
   [[nodiscard]] double seen_std_m() const noexcept;
 
   DriveModel drive_;
   ScanPair pair_;
   std::uint32_t scan_seen_ = 0;
-  Ways kept_rolled_, began_rolled_, last_rolled_;
+  Rolled kept_rolled_, began_rolled_, last_rolled_;
   ScanPair::Fit fit_{};
   Pose2 before_{};         ///< the fit of the scan before
   double evidence_ = 0.0;  ///< natural logarithm of the fit's likelihood over that of the felt way

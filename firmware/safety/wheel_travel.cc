@@ -44,7 +44,7 @@ bool WheelTravel::expected_at(Time stamp, Rolled& rolled) const noexcept {
   const Reading& last = readings_[newest_];
   const Reading& before = readings_[(newest_ + kMostReadings - 1) % kMostReadings];
   if (last.stamp == kNever) return false;
-  if (stamp <= last.stamp) return at(stamp, rolled);
+  if (stamp < last.stamp) return at(stamp, rolled);
   const bool extrapolates = before.stamp != kNever && stamp - last.stamp <= kMostBeyond;
   const double share = extrapolates ? to_seconds(stamp - before.stamp) / to_seconds(last.stamp - before.stamp) : 1.0;
   rolled = between(before.rolled, last.rolled, share);

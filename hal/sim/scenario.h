@@ -83,7 +83,7 @@ struct TrueRobot {
   std::optional<Pose2> robot_from_laser;
 };
 
-/// How the wheels' motion is reported to the robot.
+/// Timing of the simulated wheels' reports.
 struct ReportSpec {
   double period_s = 0.01;
   double late_s = 0.0;  ///< each comes up to so much later, in order, and is stamped as it comes

@@ -6,7 +6,7 @@
 namespace jaywalk::sim {
 namespace {
 
-/// As a scanner does whose packets of a sector are lost, or whose window is dirty there; or one whose diode is dead.
+/// Scanner with lost packets, a dirty window or a dead diode in a sector: its beams there say `says_m`.
 void lose(const BlankedSector& sector, float says_m, LaserScan& scan) noexcept {
   constexpr double kSame_rad = 1e-6;  // single precision's angles: a beam on the sector's rim is in it
   for (std::size_t k = 0; k < scan.beam_count; ++k) {
@@ -60,6 +60,7 @@ void Sensors::sense(World& world) noexcept {
 }
 
 void Sensors::deliver_reports(Time now) noexcept {
+  if (under_way_.empty() || under_way_[0].stamp > now) return;
   FixedVector<WheelState, kMostUnderWay> left;
   for (const WheelState& reading : under_way_) {
     if (reading.stamp <= now)

@@ -54,8 +54,9 @@ class Sensors {
   std::vector<Scanner> scanners_;
   Metronome encoder_beat_, fix_beat_;
   Random fix_noise_, delay_;
-  static constexpr std::size_t kMostUnderWay = 16;
-  FixedVector<WheelState, kMostUnderWay> under_way_;  ///< readings that come late; what does not fit is lost
+  static constexpr std::size_t kMostUnderWay = 256;
+  FixedVector<WheelState, kMostUnderWay>
+      under_way_;  ///< readings that come late; of [robot.reports]: 1 ms, 200 ms late
   WheelState wheels_;
   OutsideFix fix_;
 };

@@ -43,7 +43,7 @@ class World {
   [[nodiscard]] RobotBody body() const noexcept { return {footprint_, plant_.map_from_robot()}; }
   [[nodiscard]] double gap_to(std::span<const MoverTruth> movers) const noexcept;
   void connect_plant() noexcept;
-  /// By the part of the way that falls into this step.
+  /// Moves a carried robot by the part of its way that falls into this step.
   void carry_robot() noexcept;
   void keep_out_of_solids(const Pose2& before) noexcept;
   void move_movers() noexcept;

@@ -23,7 +23,7 @@ struct Footprint {
   [[nodiscard]] double distance_to(Vec2 p_in_robot) const;
 };
 
-/// How often a drive reports its wheels' motion, and how soon it obeys: stated by its maker or measured.
+/// Report period, lateness and response time of a drive: stated by its maker or measured.
 struct DriveTimes {
   double report_s = 0.02;    ///< between two reports
   double late_s = 0.0;       ///< a report may come so much later than its turn
@@ -31,7 +31,7 @@ struct DriveTimes {
 
   /// Age (s) up to which the newest report is no fault: one may be lost, and the next one late.
   [[nodiscard]] double oldest_report_s() const;
-  /// From a command (s) until the newest report of a sound drive shows it obeyed, ramps apart.
+  /// Longest time from a command until a sound drive's newest report shows it obeyed, ramps apart, s.
   [[nodiscard]] double obeyed_within_s() const;
   /// Time (s) by which that is longer than of a drive that reports and obeys as usual, in a loop of period `tick_s`.
   [[nodiscard]] double slower_s(double tick_s) const;

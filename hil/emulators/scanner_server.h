@@ -83,7 +83,7 @@ class ScannerServer {
   /// From now on, for `duration` where it is something that lasts; takes the place of what was ordered before.
   void order(ScannerFault fault, Duration duration = Duration{0});
 
-  /// From now on these beams, or those that look into a sector (rad, counter-clockwise), measure nothing and say
+  /// Makes these beams, or those that look into a sector (rad, counter-clockwise), measure nothing from now on and say
   /// `says_m` (World): infinity as a dead diode may. What else was lost stays so.
   void lose_beams(std::size_t first, std::size_t count, float says_m = 0.0F);
   void lose_sector(double from_rad, double to_rad, float says_m = 0.0F);

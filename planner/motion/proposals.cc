@@ -25,10 +25,10 @@ constexpr int kFollows = static_cast<int>(kFollowShares.size());
 constexpr int kArcs = static_cast<int>(kForward.size() + kBack.size()) * kTurnCount;
 constexpr int kBentForward = static_cast<int>(kForward.size() * kBends.size()) * kTurnCount;
 constexpr int kBentBack = static_cast<int>(kBack.size()) * kTurnCount;
-constexpr int kStraights = 12;                        ///< directions, all round
-constexpr int kBrakes = 6;                            ///< now: for 0.8 to 4 s before it follows, and for good
-constexpr std::array<int, 3> kBrakesAfter{3, 6, 10};  ///< steps of following before it brakes for good
-constexpr int kAllBrakes = kBrakes + static_cast<int>(kBrakesAfter.size());
+constexpr int kStraights = 12;                                       ///< directions, all round
+constexpr std::array<int, 6> kBrakesFor{kSteps, 8, 16, 24, 32, 40};  ///< steps from now, before it follows
+constexpr std::array<int, 3> kBrakesAfter{3, 6, 10};                 ///< steps of following before it brakes for good
+constexpr int kBrakes = static_cast<int>(kBrakesFor.size() + kBrakesAfter.size());
 
 constexpr int kSteerEvery = 3;     ///< steps
 constexpr int kSteerWayEvery = 2;  ///< the same, along a way of poses
@@ -85,7 +85,7 @@ float at(const std::array<float, kTurns.size()>& values, int k) { return values[
 
 int TrajectoryProposals::count() const {
   return constant_ > 0.0F ? 1 + kTurnCount + static_cast<int>(kBends.size()) * kTurnCount
-                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights + kAllBrakes;
+                          : kFollows + 2 * kPauses + kArcs + kBentForward + kBentBack + kStraights + kBrakes;
 }
 
 void TrajectoryProposals::make(int n, Trajectory& out) const noexcept {
@@ -125,12 +125,13 @@ void TrajectoryProposals::brake(int n, Trajectory& out) const noexcept {
   constexpr Command kStop{0.0F, 0.0F, true};
   out.proposal = Proposal::kBrake;
   RobotState robot = s_.start;
-  if (n >= kBrakes) {
+  const auto k = static_cast<std::size_t>(n);
+  if (k >= kBrakesFor.size()) {
     follow_from(robot, 0, s_.body.bounds.speed, out);
-    const int after = kBrakesAfter[static_cast<std::size_t>(n - kBrakes)];
+    const int after = kBrakesAfter[k - kBrakesFor.size()];
     return std::fill(out.commands.begin() + after, out.commands.end(), kStop);
   }
-  const int wait = n == 0 ? kSteps : 8 * n;
+  const int wait = kBrakesFor[k];
   drive_out(robot, 0, wait, kStop, out);
   if (wait < kSteps) follow_from(robot, wait, s_.body.bounds.speed, out);
 }

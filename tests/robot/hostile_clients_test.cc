@@ -78,7 +78,7 @@ class Hostile {
   std::thread thread_;
 };
 
-/// How long each thread of this process has waited for a processor (ms).
+/// Time that each thread of this process has waited for a processor, ms.
 std::map<std::string, double> waits_ms() {
   std::map<std::string, double> waits;
   for (const auto& thread : std::filesystem::directory_iterator("/proc/self/task")) {

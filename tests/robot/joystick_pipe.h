@@ -22,7 +22,7 @@ class JoystickPipe {
   }
   ~JoystickPipe() { std::filesystem::remove(path); }
   void press(std::uint16_t button, bool pressed = true) { write(EV_KEY, button, pressed ? 1 : 0); }
-  /// Of 32767 from the middle to the end; ahead counts down.
+  /// Moves the stick, -32767 to 32767; ahead counts down.
   void push(std::int32_t forward) { write(EV_ABS, ABS_Y, -forward); }
   void write(std::uint16_t type, std::uint16_t code, std::int32_t value) {
     input_event event{};

@@ -1,11 +1,10 @@
 // "Nothing within reach" is a claim, held against the scans before (SAFETY 29).
-#include "firmware/safety/free_claims.h"
-
 #include <cmath>
 #include <functional>
 #include <random>
 #include <vector>
 
+#include "firmware/safety/beam_filter.h"
 #include "tests/safety/driven_robot.h"
 #include "tests/support/catch.h"
 
@@ -19,7 +18,7 @@ constexpr float kFree = std::numeric_limits<float>::infinity();
 /// A scanner of 10 m and 10 Hz on open ground, on a robot whose wheels are 1 m about.
 class Eye {
  public:
-  explicit Eye(bool all_round = false) : model_(p3dx()), claims_(model(all_round), 0) {}
+  explicit Eye(bool all_round = false) : model_(p3dx()), filter_(model(all_round), 0) {}
 
   std::vector<Obstacle> things;
   Pose2 pose{};
@@ -44,7 +43,7 @@ class Eye {
       scan_.range_m[k] = range < 10.0 ? static_cast<float>(range + 0.01 * noise_(random_)) : kFree;
     }
     spoil(scan_);
-    claims_.judge(scan_, wheels_);
+    filter_.filter(scan_, wheels_);
     return scan_;
   }
   [[nodiscard]] int doubted() const {
@@ -70,7 +69,7 @@ class Eye {
 
   RobotModel model_;
   LaserScan scan_{};
-  FreeClaims claims_;
+  BeamFilter filter_;
   WheelState wheels_{};
   Time now_{std::chrono::seconds(1)};
   std::mt19937_64 random_{1};
@@ -166,7 +165,7 @@ TEST_CASE("without a hit for two seconds nothing is believed free, until there i
 
 TEST_CASE("a scan that was judged is left as it is: recordings replay") {
   Eye eye;
-  FreeClaims again(eye.robot(), 0);
+  BeamFilter again(eye.robot(), 0);
   eye.things = {wall_ahead(3.0), {.centre = {1.0, 2.0}, .radius_m = 0.3}};
   std::mt19937_64 random(7);
   for (int k = 0; k < 400; ++k) {
@@ -174,7 +173,7 @@ TEST_CASE("a scan that was judged is left as it is: recordings replay") {
     if (k % 20 == 15) eye.spoil = [](LaserScan&) {};
     LaserScan judged = eye.next(0.02 * std::cos(0.05 * k), 0.05 * std::sin(0.11 * k));
     const auto before = judged.range_m;
-    again.judge(judged, eye.wheels());
+    again.filter(judged, eye.wheels());
     REQUIRE(judged.range_m == before);
   }
 }

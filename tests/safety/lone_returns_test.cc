@@ -1,8 +1,7 @@
 // Drops and dust are no obstacle; what stands there is, at once where it is 2 cm wide or more, by any scanner.
-#include "firmware/safety/lone_returns.h"
-
 #include <optional>
 
+#include "firmware/safety/beam_filter.h"
 #include "hal/sim/random.h"
 #include "hal/sim/walls.h"
 #include "tests/support/allocation_guard.h"
@@ -28,7 +27,7 @@ constexpr Kind kKinds[] = {{"TiM571", 270.0, 811, 15.0},
 /// A P3-DX with one scanner on its axle, in a round hall of 3 m; it drives straight on.
 class Rainy {
  public:
-  explicit Rainy(const Kind& kind, double speed_mps = 0.0) : kind_(kind), speed_mps_(speed_mps), lone_(model_) {}
+  explicit Rainy(const Kind& kind, double speed_mps = 0.0) : kind_(kind), speed_mps_(speed_mps), filter_(model_, 0) {}
 
   /// The next scan as the loop would use it.
   const LaserScan& next(std::optional<sim::Disc> body, double rain = 0.005) {
@@ -43,13 +42,13 @@ class Rainy {
     look(body, rain);
     seen_ = scan_;
     const AllocationGuard guard;
-    lone_.follow(wheels_);
-    lone_.strike_out(seen_);
+    filter_.filter(seen_, wheels_);
     heap_calls += guard.calls();
     return seen_;
   }
   [[nodiscard]] bool is_drop(std::size_t beam) const { return drops_[beam]; }
   [[nodiscard]] const LaserScan& raw() const { return scan_; }
+  [[nodiscard]] const WheelState& wheels() const { return wheels_; }
   std::uint64_t heap_calls = 0;
 
  private:
@@ -76,7 +75,7 @@ class Rainy {
   Kind kind_;
   double speed_mps_, at_s_ = 0.0;
   RobotModel model_ = p3dx();
-  LoneReturns lone_;
+  BeamFilter filter_;
   WheelState wheels_;
   LaserScan scan_, seen_;
   std::array<bool, kMaxBeams> drops_{};
@@ -147,12 +146,12 @@ TEST_CASE("a wire of 6 mm counts from the third scan that shows it, at rest and 
 
 TEST_CASE("a scan as it was recorded is judged as it was") {
   Rainy rainy(kKinds[0]);
-  LoneReturns again(p3dx());
+  BeamFilter again(p3dx(), 0);
   for (int k = 0; k < 20; ++k) {
     const LaserScan& marked = rainy.next({});
     LaserScan replayed = marked;
-    again.strike_out(replayed);
-    again.strike_out(replayed);  // the loop sees a scan for some ticks
+    again.filter(replayed, rainy.wheels());
+    again.filter(replayed, rainy.wheels());  // the loop sees a scan for some ticks
     REQUIRE(std::equal(marked.range_m.begin(), marked.range_m.begin() + marked.beam_count, replayed.range_m.begin()));
   }
 }

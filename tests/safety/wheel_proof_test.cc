@@ -16,7 +16,7 @@ struct Start {
   double took_s = 0.0, way_m = 0.0, fastest_mps = 0.0;
 };
 
-/// From rest until it is accused or may go on, 15 s at most.
+/// Result of a start from rest: until the wheels are accused or proved, 15 s at most.
 Start started(std::uint64_t seed, double wheels_go) {
   trials::TrialRobot robot(seed, trials::Fault::kNone, 0.0, {.proves_wheels = true, .wheels_go = wheels_go});
   Start start;

@@ -79,7 +79,7 @@ class MoverCost {
     cost.hit_share = static_cast<float>(std::popcount(hit_)) / kFutures;
   }
 
-  /// Of the body's fastest point, about.
+  /// Speed of the body's fastest point, m/s, about.
   [[nodiscard]] float rim_mps(const RobotState& r) const noexcept {
     return std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
   }

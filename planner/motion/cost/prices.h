@@ -14,8 +14,8 @@ inline constexpr float kConflict = 200.0F;
 /// Of a long body: as many seconds as waiting would take to cause one, from kLeastConflict to kConflict. Movers are met
 /// at their speeds within kAboutM, over a strip of kMetWidthM.
 inline constexpr float kLeastConflict = 15.0F, kAboutM = 5.0F, kMetWidthM = 1.6F;
-/// Of contact while the robot hardly moves, and from this speed of the body's edge, with a gradient between. The same
-/// for forcing stopped it in people's lanes: 14 of 20 crossings strict, not 15, and no way out from before a wall.
+/// Share of the contact price at rest, and the speed of the body's edge, m/s, from which it is whole; linear between.
+/// The same for forcing stopped the robot in people's lanes (11 of 16 runs strict, not 13).
 inline constexpr float kTouchedSlowly = 0.2F, kTouchedAtMps = 0.6F;
 inline constexpr float kConflictFadesS = 4.0F;  ///< ahead by so much it counts less by a factor e: decided on again
 /// Of a conflict with a mover that has stood for long: should it set out, the robot sees that before it drives on
