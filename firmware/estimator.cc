@@ -40,7 +40,9 @@ Estimator::Estimator(const ControlSetup& setup)
     : sees_given_movers_(setup.sees_given_movers()),
       times_(setup.model.drive.times),
       localizer_(localization_config(setup)),
-      tracker_(perception_config(setup)) {}
+      tracker_(perception_config(setup)) {
+  for (std::size_t k = 0; k < setup.model.lasers().size(); ++k) rests_.push_back({RestWatch(setup.model, k)});
+}
 
 PoseEstimate Estimator::pose_at(Time now) const noexcept {
   constexpr DriveTimes kUsual;
@@ -67,12 +69,34 @@ bool Estimator::update(const TickRecord& t) noexcept {
 bool Estimator::take(const TickRecord& t, const LaserScan& scan) noexcept {
   const bool frozen = frozen_[scan.scanner];
   const bool new_scan = scans_[scan.scanner].is_new(scan.sequence) && !frozen;
-  const LaserScan& seen = frozen ? kNoScan : scan;  // a frozen one shows what was
+  const bool explained = is_explained(scan, t.wheels);
+  const LaserScan& seen = frozen || !explained ? kNoScan : scan;  // a frozen one shows what was
+  const bool in_doubt = pose_.doubtful;
   pose_ = localizer_.update(t.wheels, seen, t.fix, tracker_.still(), tracker_.moving());
   if (sees_given_movers_ && fixes_.is_new(t.fix.sequence)) tracker_.update_given(t.fix);
-  if (!new_scan || pose_.doubtful) return false;
+  if (in_doubt && !pose_.doubtful) end_doubt();
+  if (!new_scan || !explained || pose_.doubtful) return false;
   tracker_.update(scan, localizer_.map_from_robot_at_scan(scan.scanner), localizer_.twist(), t.now);
   return true;
+}
+
+bool Estimator::is_explained(const LaserScan& scan, const WheelState& wheels) noexcept {
+  if (pose_.doubtful) return true;
+  using Says = RestWatch::Says;
+  Rest& own = rests_[scan.scanner];
+  const Says says = own.watch.judge(scan, wheels);
+  if (says != Says::kNothing) own.says = says;
+  // Where another scanner shows the robot standing, this one was moved in its mount.
+  const bool stands = std::ranges::any_of(rests_, [](const Rest& rest) { return rest.says == Says::kStands; });
+  if (says == Says::kMoved && !stands) localizer_.carried();
+  return says != Says::kDoubts && says != Says::kMoved;
+}
+
+void Estimator::end_doubt() noexcept {
+  for (Rest& rest : rests_) {
+    rest.watch.begin_anew();
+    rest.says = RestWatch::Says::kNothing;
+  }
 }
 
 void Estimator::forget_where_stuck(const TickRecord& t) noexcept {

@@ -2,9 +2,11 @@
 // The tick's step "Estimate": where the robot is, what stands around it and what moves.
 #include <array>
 #include <utility>
+#include <vector>
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/tick_record.h"
+#include "firmware/safety/rest_watch.h"
 #include "planner/localization/localizer.h"
 #include "planner/tracking/tracker.h"
 
@@ -47,12 +49,20 @@ class Estimator {
     std::uint32_t last_ = 0;
   };
 
+  /// True where standing explains the scan of a robot at rest. Puts the pose in doubt where it was carried.
+  [[nodiscard]] bool is_explained(const LaserScan& scan, const WheelState& wheels) noexcept;
+  void end_doubt() noexcept;
   /// Of one scanner.
   [[nodiscard]] bool take(const TickRecord& t, const LaserScan& scan) noexcept;
 
   bool sees_given_movers_;  ///< they come with the fix
   DriveTimes times_;
   Localizer localizer_;
+  struct Rest {
+    RestWatch watch;
+    RestWatch::Says says = RestWatch::Says::kNothing;  ///< of its newest scan that said anything
+  };
+  std::vector<Rest> rests_;  ///< of each scanner
   Tracker tracker_;
   PoseEstimate pose_;
   std::array<Fresh, kMostScanners> scans_;

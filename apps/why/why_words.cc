@@ -145,7 +145,7 @@ std::string in_words(Reason reasons) {
        {Reason::kForeignMaster, "another program commands the drives"},
        {Reason::kNotRecorded, "the disk is full (a remark)"},
        {Reason::kSpeedZone, "a zone in the map wants it slower"},
-       {Reason::kPoseDoubtful, "where it is was guessed over a gap"}}};
+       {Reason::kPoseDoubtful, "it was carried, or where it is was guessed over a gap"}}};
   std::string words;
   for (const auto& [bit, said] : kWords) {
     if (has(reasons, bit)) words += (words.empty() ? "" : "; ") + std::string(said);

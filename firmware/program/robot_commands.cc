@@ -33,7 +33,7 @@ constexpr std::array<Footer, 7> kFooters{{
 RunOptions run_options;
 std::filesystem::path socket_path;
 std::vector<std::string> goal;
-bool stop_now = false, as_json = false;
+bool stop_now = false, as_json = false, forced = false;
 
 void add_socket(CLI::App* command) {
   command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
@@ -63,10 +63,11 @@ int say_as_json(const std::string& line) {
 
 /// `order`: what to do with it.
 int say_place(const std::string& order) {
+  const std::string force = forced ? " --force" : "";
   std::string words;
   for (const std::string& word : goal) words += " " + word;
-  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say(order + words);
-  return say(order + " " + words_of(read_goal_order(words)));
+  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say(order + words + force);
+  return say(order + " " + words_of(read_goal_order(words)) + force);
 }
 
 void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
@@ -118,6 +119,7 @@ void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_
       ->delimiter(',')
       ->expected(1, 3)
       ->required();
+  here->add_flag("--force", forced, "Take it although the scan does not fit the map there; the run says so");
   add_socket(here);
   here->callback([&exit_code] { exit_code = say_place("here"); });
   CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");

@@ -66,6 +66,8 @@ class LoopReport {
              "; see to it, then jaywalk reset");
     }
     if (!now.latched && last_.latched) remark("reset; say anew where to go");
+    if (now.place.number != last_.place.number && now.place.why == PlaceAnswer::Why::kForced)
+      remark("a person says by force where the robot is: no scan was held against it");
     if (now.goal_reached && !last_.goal_reached) remark("goal reached");
   }
 

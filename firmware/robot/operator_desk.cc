@@ -87,7 +87,10 @@ std::string OperatorDesk::goals_are_refused(const RunStatus& status) const {
   return "";
 }
 
-std::string OperatorDesk::take_place(std::string_view words) {
+ControlReply OperatorDesk::take_place(std::string_view words) {
+  constexpr std::string_view kForce = " --force";
+  const bool forced = words.ends_with(kForce);
+  if (forced) words.remove_suffix(kForce.size());
   GoalOrder place;
   try {
     const Route route = read_route(words, places_);
@@ -100,8 +103,20 @@ std::string OperatorDesk::take_place(std::string_view words) {
   const RunStatus& status = statuses_.latest();
   if (!status.running) return "refused: the robot is not ready yet; try again\n";
   if (is_stopping(status) || !(status.speed_mps <= kAtRest_mps)) return kStillMoves;
-  wish({.under = status.revoked, .here = Pose2{place.position_in_map.x, place.position_in_map.y, place.heading_rad}});
-  return "there\n";
+  wish({.under = status.revoked,
+        .here = Pose2{place.position_in_map.x, place.position_in_map.y, place.heading_rad},
+        .forced = forced});
+  return ControlReply([this, order = wish_.number, under = status.revoked] { return answer_to_place(order, under); });
+}
+
+std::string OperatorDesk::answer_to_place(std::uint32_t order, std::uint32_t under) {
+  constexpr Duration kLongest = std::chrono::seconds(15), kLook = std::chrono::milliseconds(20);
+  for (const Time limit = clock_.now() + kLongest;; clock_.sleep_until(clock_.now() + kLook)) {
+    const RunStatus now = status();
+    if (now.place.number == order) return words_of(now.place);
+    if (now.revoked != under) return "refused: stopped anew meanwhile; say it again\n";
+    if (clock_.now() > limit) return "refused: the run gives no answer; see jaywalk status\n";
+  }
 }
 
 ControlReply OperatorDesk::take_reset() {
@@ -125,7 +140,8 @@ std::string OperatorDesk::restart_bus_and_reset(std::uint32_t stops) {
 std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
   if (status.speed_mps > kAtRest_mps) return kStillMoves;
   if (has(status.reasons, Reason::kPoseDoubtful) && status.proved) {
-    return "refused: where the robot is was guessed over a gap; say jaywalk here X,Y HEADING, then jaywalk reset\n";
+    return "refused: nobody knows where the robot is: it was carried, or guessed over a gap; say jaywalk here X,Y "
+           "HEADING, then jaywalk reset\n";
   }
   const Reason still = without(status.reasons, kNoFaults | kEndedByReset);
   if (still != Reason::kNone) return "refused: still " + to_string(still) + "; see to it, then jaywalk reset\n";
@@ -160,11 +176,18 @@ OperatorInput OperatorDesk::latest() noexcept {
   if (wish.stops != seen_.stops) permission_.stop();
   const bool given = is_new && permission_.give(wish.orders);
   input_.reset = given && wish.orders.reset;
-  if (given && wish.orders.here) told_place_.tell(*wish.orders.here);
+  if (given && wish.orders.here) {
+    to_check_ = {wish.number, *wish.orders.here, wish.orders.forced};
+    told_under_ = wish.orders.under;
+  }
   told_place_.step(input_.stamp);
   seen_ = wish;
   head_for_goal();
   return input_;
+}
+
+void OperatorDesk::answer_place(const PlaceAnswer& answer) noexcept {
+  if (answer.is_taken() && permission_.revoked() == told_under_) told_place_.tell(answer.map_from_robot);
 }
 
 void OperatorDesk::head_for_goal() noexcept {

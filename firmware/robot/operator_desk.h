@@ -1,6 +1,7 @@
 #pragma once
 #include <functional>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -63,6 +64,9 @@ class OperatorDesk final : public OperatorPanel {
   [[nodiscard]] OperatorInput latest() noexcept override;
   /// Loop's thread: what is permitted.
   [[nodiscard]] Permission& permission() noexcept { return permission_; }
+  /// Loop's thread: a told place, to be held against the map; and the answer.
+  [[nodiscard]] std::optional<ToldPlaceOrder> place_to_check() noexcept { return std::exchange(to_check_, {}); }
+  void answer_place(const PlaceAnswer& answer) noexcept;
   /// Loop's thread: where people say that the robot is.
   [[nodiscard]] PoseSource& told_place() noexcept { return told_place_; }
   /// Loop's thread, after a tick: how it went. Adds what of the status the desk knows: of goals, and by what it stands.
@@ -88,7 +92,9 @@ class OperatorDesk final : public OperatorPanel {
   void head_for_goal() noexcept;
   [[nodiscard]] std::string take_goal(std::string_view words);
   /// It drops the goal: at rest only.
-  [[nodiscard]] std::string take_place(std::string_view words);
+  [[nodiscard]] ControlReply take_place(std::string_view words);
+  /// In a thread that may wait. `under`: revocations when `order` was given.
+  [[nodiscard]] std::string answer_to_place(std::uint32_t order, std::uint32_t under);
   [[nodiscard]] ControlReply take_reset();
   /// In a thread that may wait. `stops`: how many there were when the reset was asked for.
   [[nodiscard]] std::string restart_bus_and_reset(std::uint32_t stops);
@@ -111,6 +117,8 @@ class OperatorDesk final : public OperatorPanel {
   Wish seen_;  ///< the loop's
   Permission permission_;
   ToldPlace told_place_;
+  std::optional<ToldPlaceOrder> to_check_;
+  std::uint32_t told_under_ = 0;  ///< revocations when it was given
   OperatorInput input_;
 };
 

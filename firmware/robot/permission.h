@@ -13,6 +13,7 @@ struct Orders {
   Route route{};            ///< empty: nowhere to go
   bool reset = false;
   std::optional<Pose2> here{};  ///< where the robot is, in the map
+  bool forced = false;          ///< taken without a match
 };
 
 /// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every

@@ -24,7 +24,8 @@ RobotLoop::RobotLoop(LoopRunner& runner, const LoopDevices& devices, OperatorDes
       clock_(clock),
       guard_(guard),
       observer_(observer),
-      period_(runner.setup().tick()) {}
+      period_(runner.setup().tick()),
+      place_check_(runner.setup().model) {}
 
 RobotLoop::~RobotLoop() {
   end();
@@ -140,7 +141,15 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.bus = devices_.bus.health();
   status_.ticks = ticks_.fetch_add(1, std::memory_order_relaxed) + 1;
   status_.stalls = guard_.stalls();
+  check_place(t);
   desk_.tell(status_);
+}
+
+void RobotLoop::check_place(const TickRecord& t) noexcept {
+  if (const std::optional<ToldPlaceOrder> told = desk_.place_to_check()) place_check_.begin(*told);
+  if (!place_check_.step(t, runner_.loop().tracker().still())) return;
+  status_.place = place_check_.answer();
+  desk_.answer_place(status_.place);
 }
 
 /// Where the report cannot follow, its tables lack a tick; the recording has it.

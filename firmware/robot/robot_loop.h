@@ -79,6 +79,8 @@ class RobotLoop {
   void note_times(Time began) noexcept;
   [[nodiscard]] Time next_due(Time due) noexcept;
   void tell(const TickRecord& t) noexcept;
+  /// Holds a told place against the map.
+  void check_place(const TickRecord& t) noexcept;
   void trace(const TickRecord& t) noexcept;
   void disarm(Time due) noexcept;
   /// Of the faster wheel; NaN where its feedback is too old to tell.
@@ -92,6 +94,7 @@ class RobotLoop {
   TickObserver& observer_;
   Duration period_;
   RunStatus status_;
+  PlaceCheck place_check_;
   Traces traces_;
   std::uint32_t plan_traced_ = 0;
   LoopTimes times_;

@@ -5,6 +5,7 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
+#include "firmware/robot/place_check.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
@@ -37,6 +38,7 @@ struct RunStatus {
   std::uint32_t stops_done = 0;         ///< orders to stop that were obeyed to rest, of all that there were
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
+  PlaceAnswer place;                  ///< to the last `here`
   DriveTrouble drive = DriveTrouble::kNone;
   ScannerHealth laser;
   OfOthers<ScannerHealth> other_lasers;

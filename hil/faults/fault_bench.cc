@@ -103,7 +103,7 @@ bool FaultBench::reach_speed() {
 }
 
 FaultResult FaultBench::suffer() {
-  FaultResult result = fault_.in_turn ? wrong_in_turn() : struck_at_speed();
+  FaultResult result = fault_.at_rest_only ? struck_at_rest() : fault_.in_turn ? wrong_in_turn() : struck_at_speed();
   result.fault = &fault_;
   result.drive = kind_;
   result.speed_mps = speed_mps_;
@@ -161,6 +161,21 @@ FaultResult FaultBench::wrong_in_turn() {
   for (const Time end = due_ + std::chrono::seconds(6); due_ < end && asked_mps() < kDriving_mps && !latched_;) tick();
   begin_watch();
   if (fault_.strike != nullptr) fault_.strike(*this);
+  for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();
+  result.reaction = clock_.now() - struck_;
+  endure();
+  result.stop_distance_m = way_m_;
+  return result;
+}
+
+FaultResult FaultBench::struck_at_rest() {
+  FaultResult result;
+  wait(std::chrono::seconds(2));
+  begin_watch();
+  fault_.strike(*this);
+  tick();
+  place_ = robot_->far_end().truth().map_from_robot.position();  // what a person carries it is no way of its own
+  way_m_ = 0.0;
   for (const Time end = due_ + std::chrono::seconds(5); due_ < end && !latched_;) tick();
   result.reaction = clock_.now() - struck_;
   endure();

@@ -39,6 +39,7 @@ struct FaultCase {
   std::optional<sim::FaultKind> miswiring = {};
   void (*at_rest)(FaultBench&) = nullptr;  ///< once the robot stands; may be null
   bool in_turn = false;                    ///< it shows as the robot sets out with a turn; else at speed, straight on
+  bool at_rest_only = false;               ///< it strikes a robot that stands
   double wheels_go = 1.0;                  ///< so many times as far as the file says
   std::optional<std::size_t> of_two = {};  ///< the robot has a second scanner, at its rear; this one fails
   bool claims_free = false;                ///< the scanner has a word for "nothing within reach", as a Hokuyo
@@ -93,6 +94,8 @@ class FaultBench {
   [[nodiscard]] FaultResult struck_at_speed();
   /// Sets out towards a goal for which it has to turn: wrong from the start, or struck as it turns.
   [[nodiscard]] FaultResult wrong_in_turn();
+  /// Struck while it stands armed, without a goal.
+  [[nodiscard]] FaultResult struck_at_rest();
   void begin_watch();
   void endure();
   [[nodiscard]] Duration limit() const noexcept;

@@ -191,6 +191,13 @@ FaultCase wheels_go(const char* name, double times, Duration (*limit)(Duration) 
   return fault;
 }
 
+/// A person lifts the robot as it stands.
+FaultCase carried(const char* name, void (*strike)(FaultBench&)) {
+  FaultCase fault{name, strike, Reason::kPoseDoubtful, shows_for};
+  fault.at_rest_only = true;
+  return fault;
+}
+
 void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
@@ -294,6 +301,18 @@ const std::array kCases{
                     deceive(b, {.repeats = {-0.7, 0.7}});
                   }),
     contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
+    carried("carried_1_m",
+            [](FaultBench& b) {
+              b.robot().far_end().carry({0.8, 0.6, 0.0});
+            }),
+    carried("carried_3_m",
+            [](FaultBench& b) {
+              b.robot().far_end().carry({2.9, -0.8, 0.0});
+            }),
+    carried("turned_by_hand",
+            [](FaultBench& b) {
+              b.robot().far_end().carry({0.0, 0.0, 1.0});
+            }),
     contradiction("counters_stand", [](FaultBench& b) { deceive(b, {.counters_stand = true}); }),
     contradiction(
         "speeds_stand", [](FaultBench& b) { deceive(b, {.speeds_stand = true}); }, changes_for),

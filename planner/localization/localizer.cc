@@ -34,7 +34,7 @@ constexpr double kLostMapFit = 0.7, kFoundMapFit = 0.8, kMapFitWayM = 6.0;
 constexpr double kSubmapKernelM = 0.2, kSubmapIndependentShare = 0.5;
 
 /// The covariance after a step by (dx, dy) in the map: a heading error turns the whole step. P <- F P F^T.
-Eigen::Matrix3d carried(const Eigen::Matrix3d& p, double dx, double dy) {
+Eigen::Matrix3d propagated(const Eigen::Matrix3d& p, double dx, double dy) {
   Eigen::Matrix3d f = Eigen::Matrix3d::Identity();
   f(0, 2) = -dy, f(1, 2) = dx;
   return f * p * f.transpose();
@@ -90,6 +90,8 @@ struct Localizer::State {
   [[nodiscard]] bool match_submap(const Pose2& predicted) noexcept;
   /// What matches put right, to what learns of wheels.
   void learn(const Pose2& predicted, const Pose2& placed) noexcept;
+  /// Forgets what was learnt of the wheels since the last match: a fix tells the place.
+  void begin_anew() noexcept;
   void blend(const OutsideFix& fix) noexcept;
   /// The map_from_odom that puts `odom_from_robot` at `map_from_robot`.
   void correct_to(const Pose2& map_from_robot, const Pose2& odom_from_robot) noexcept {
@@ -139,17 +141,17 @@ void Localizer::State::move_by_wheels(const WheelState& wheels) noexcept {
   twist = odometry.twist();
   const double dx = after.x - before.x, dy = after.y - before.y;
   const OdometryNoise noise = noise_of_unknown_wheels(step);
-  covariance = carried(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  covariance = propagated(covariance, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
   since_last_match =
-      carried(since_last_match, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
-  if_wheels_slipped = carried(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
+      propagated(since_last_match, dx, dy) + of_wheels(noise, odometry_noise.metres(), odometry_noise.turns());
+  if_wheels_slipped = propagated(if_wheels_slipped, dx, dy) + of_wheels(noise, 1.0, 1.0);
   odometry_noise.drove(step);
   radius_bias.drove(step);
   at_last_wheels = covariance;
 }
 
 void Localizer::State::end_silence(const ArcStep& way, const Pose2& map_from_robot, Time stamp) noexcept {
-  doubt.settle();
+  doubt.counted_on();
   covariance += unknown_way(way);
   coasting = {};
   coasting.placed(map_from_robot, stamp);
@@ -257,6 +259,14 @@ void Localizer::State::place_scan(const LaserScan& scan, const EvidenceMap& stil
   if (!odometry.by_wheels()) twist = coasting.twist();
 }
 
+void Localizer::State::begin_anew() noexcept {
+  since_last_match = if_wheels_slipped = at_last_wheels = covariance;
+  odometry.placed();
+  doubt.settle();
+  odometry_noise.begin_anew();
+  radius_bias.begin_anew();
+}
+
 void Localizer::State::blend(const OutsideFix& fix) noexcept {
   if (!is_usable(fix) || !odometry.remembers(fix.stamp)) return;
   const Pose2 odom_from_robot = odometry.at(fix.stamp);
@@ -266,12 +276,8 @@ void Localizer::State::blend(const OutsideFix& fix) noexcept {
   const bool lost = verdict == FixGate::Verdict::kTake;
   const PoseBelief now = lost ? PoseBelief{fix.map_from_robot, covariance_of(fix)} : blended(predicted, fix);
   covariance = now.covariance;
-  since_last_match = if_wheels_slipped = covariance;
-  odometry.placed();
-  doubt.settle();
   if (lost) submap.begin_anew();
-  odometry_noise.begin_anew();
-  radius_bias.begin_anew();
+  begin_anew();
   correct_to(now.map_from_robot, odom_from_robot);
 }
 
@@ -299,6 +305,10 @@ const PoseEstimate& Localizer::update(const WheelState& wheels, const LaserScan&
   s.fix_seen = fix.sequence;
   s.publish();
   return s.estimate;
+}
+
+void Localizer::carried() noexcept {
+  if (state_->config.doubts) state_->doubt.carried();
 }
 
 Pose2 Localizer::map_from_robot_at_scan(std::size_t scanner) const noexcept {

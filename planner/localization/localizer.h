@@ -28,7 +28,7 @@ struct PoseEstimate {
   Pose2 map_from_robot;
   double position_std_m = 0.0;
   double heading_std_rad = 0.0;
-  bool doubtful = false;  ///< it went on unseen for longer than its pose stays good for (PoseDoubt)
+  bool doubtful = false;  ///< nobody knows where it is any more (PoseDoubt)
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.
@@ -45,6 +45,9 @@ class Localizer {
   /// (sequence 0 for ever), and while they are silent, scans alone carry the pose.
   [[nodiscard]] const PoseEstimate& update(const WheelState& wheels, const LaserScan& scan, const OutsideFix& fix,
                                            const EvidenceMap& still, std::span<const Track> moving) noexcept;
+
+  /// Puts the pose in doubt until a fix: the robot was carried.
+  void carried() noexcept;
 
   /// The pose at the stamp of a scanner's newest scan: what the tracker wants.
   [[nodiscard]] Pose2 map_from_robot_at_scan(std::size_t scanner = 0) const noexcept;

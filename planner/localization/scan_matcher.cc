@@ -70,15 +70,20 @@ bool contradicted(const NormalEquations& sum) {
 
 MatchResult ScanMatcher::match(const ScanPoints& scan, const ScanReference& reference,
                                const PoseBelief& predicted) noexcept {
-  MatchResult result{.belief = predicted};
   sample_of(scan, sample_);
-  result.points_used = static_cast<std::uint32_t>(sample_.size());
-  if (sample_.size() < kFewestOnWalls) return result;
+  return match_sample(sample_, reference, predicted);
+}
+
+MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
+                         const PoseBelief& predicted) noexcept {
+  MatchResult result{.belief = predicted};
+  result.points_used = static_cast<std::uint32_t>(sample.size());
+  if (sample.size() < kFewestOnWalls) return result;
   const Eigen::Matrix3d prior = predicted.covariance.inverse();
-  Pose2 pose = correlative_search(predicted, prior, sample_, reference);
+  Pose2 pose = correlative_search(predicted, prior, sample, reference);
   Eigen::Matrix3d information;
   for (int k = 0; k < kMostIterations; ++k) {
-    const NormalEquations walls = normal_equations(sample_, reference, pose);
+    const NormalEquations walls = normal_equations(sample, reference, pose);
     result.known_for_long = walls.on_standing >= kFewestOnWalls;
     result.contradicted = contradicted(walls);
     if (!enough(walls)) return result;

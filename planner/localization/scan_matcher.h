@@ -24,6 +24,10 @@ struct MatchResult {
 /// Every n-th of the scan's points, kMostMatchPoints at most.
 void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
 
+/// Matches points in the robot's frame; the work of ScanMatcher.
+[[nodiscard]] MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
+                                       const PoseBelief& predicted) noexcept;
+
 /// Thread: the loop's. No allocation after construction.
 class ScanMatcher {
  public:

@@ -89,4 +89,12 @@ struct WiredBench {
   Time due{};
 };
 
+/// A line whose answer takes ticks, as `here` does.
+[[nodiscard]] inline std::string say(WiredBench& bench, const std::string& line) {
+  const ControlReply reply = bench.robot.desk().reply_to(line);
+  if (!reply.job) return reply.text;
+  bench.tick(400);
+  return reply.job();
+}
+
 }  // namespace jaywalk::tests

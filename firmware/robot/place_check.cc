@@ -1,0 +1,93 @@
+#include "firmware/robot/place_check.h"
+
+#include <cmath>
+#include <cstdio>
+
+namespace jaywalk {
+namespace {
+
+/// A person's eye on a plan, as ToldPlace has it: within what the match puts right.
+constexpr double kEye_m = 0.13, kEye_rad = 0.1;
+constexpr double kWheelRolled_rad = 0.1;  ///< of a wheel: it does not stand
+
+std::string text_of_place(const Pose2& pose) {
+  char text[80];
+  std::snprintf(text, sizeof text, "%.2f,%.2f %.2f", pose.x, pose.y, pose.heading);
+  return text;
+}
+
+}  // namespace
+
+std::string words_of(const PlaceAnswer& answer) {
+  using Why = PlaceAnswer::Why;
+  const std::string forced = "or here --force, which takes it unseen\n";
+  if (answer.is_taken()) return "there\n";
+  if (answer.why == Why::kMoved) return "refused: the robot moved meanwhile; try again when it stands\n";
+  const std::string better = answer.has_better ? text_of_place(answer.better) : "";
+  if (answer.why == Why::kElsewhere) return "refused: the scan fits much better at " + better + "; say that, " + forced;
+  char share[60];
+  std::snprintf(share, sizeof share, "%.0f %% of it lies on walls", 100.0 * answer.fit);
+  return std::string("refused: the scan does not fit there: ") + share + " of the map; " +
+         (answer.has_better ? "it fits at " + better : "look again where the robot is") + ", " + forced;
+}
+
+void PlaceCheck::begin(const ToldPlaceOrder& order) noexcept {
+  order_ = order;
+  asked_ = true;
+  search_.give_up();
+}
+
+bool PlaceCheck::step(const TickRecord& t, const EvidenceMap& still) noexcept {
+  ended_ = false;
+  if (asked_) {
+    asked_ = false;
+    look(t, still);
+  } else if (search_.is_busy()) {
+    const bool rolled = std::fabs(t.wheels.left_rad - left_rad_) > kWheelRolled_rad ||
+                        std::fabs(t.wheels.right_rad - right_rad_) > kWheelRolled_rad;
+    if (rolled) {
+      search_.give_up();
+      end(PlaceAnswer::Why::kMoved);
+    } else if (search_.step(still)) {
+      decide();
+    }
+  }
+  return ended_;
+}
+
+void PlaceCheck::look(const TickRecord& t, const EvidenceMap& still) noexcept {
+  there_ = other_ = {};
+  if (order_.forced) return end(PlaceAnswer::Why::kForced);
+  left_rad_ = t.wheels.left_rad, right_rad_ = t.wheels.right_rad;
+  sample_ = {};
+  for (const LaserScan& scan : t.scans()) {
+    if (scan.sequence == 0) continue;
+    const Pose2& mount = model_.lasers()[scan.scanner].robot_from_laser;
+    projection_.project(scan, mount, {}, points_);
+    add_sample(points_, mount.position(), model_.lasers().size(), sample_);
+  }
+  there_ = PlaceSearch::matched(sample_, still, order_.map_from_robot, kEye_m, kEye_rad);
+  other_ = PlaceSearch::matched(sample_, still, t.pose.map_from_robot, kEye_m, kEye_rad);
+  if (there_.says_nothing()) return end(other_.is_good() ? PlaceAnswer::Why::kElsewhere : PlaceAnswer::Why::kUnknown);
+  search_.begin(sample_, order_.map_from_robot.position());
+}
+
+void PlaceCheck::decide() noexcept {
+  using Why = PlaceAnswer::Why;
+  if (search_.best().is_clearly_better_than(other_)) other_ = search_.best();
+  if (!there_.fits()) return end(Why::kPoor);
+  end(other_.is_clearly_better_than(there_) ? Why::kElsewhere : Why::kFits);
+}
+
+void PlaceCheck::end(PlaceAnswer::Why why) noexcept {
+  ended_ = true;
+  const bool matched = why != PlaceAnswer::Why::kUnknown && why != PlaceAnswer::Why::kForced;
+  answer_ = {.number = order_.number,
+             .why = why,
+             .map_from_robot = matched ? there_.map_from_robot : order_.map_from_robot,
+             .fit = there_.fit(),
+             .has_better = other_.is_good(),
+             .better = other_.map_from_robot};
+}
+
+}  // namespace jaywalk
