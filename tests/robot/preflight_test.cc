@@ -3,6 +3,9 @@
 #include <sys/stat.h>
 #include <unistd.h>
 
+#include <cmath>
+#include <functional>
+
 #include "drivers/can/link_facts.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/scanner_check.h"
@@ -105,32 +108,49 @@ TEST_CASE("an interface that is no CAN bus is told from one") {
   CHECK(find(parts, "lo")->said.rfind("is no CAN interface", 0) == 0);
 }
 
-TEST_CASE("a scanner that sees the robot's own body is told, for the robot would never drive") {
-  const auto said_of = [](float nearest_m, const Blanking& blanked = {}) {
-    auto port = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
-    RobotFile file = nothing_connected();
-    file.laser.port = port->port();
-    file.laser.first_scan_limit = std::chrono::seconds(20);
-    file.setup.model.laser.blanked = blanked;
-    emulators::SickServer scanner(std::move(port), {}, [&](std::size_t first_beam, std::span<float> range_m) {
-      for (std::size_t k = 0; k < range_m.size(); ++k) range_m[k] = first_beam + k < 3 ? nearest_m : 4.0F;
+namespace {
+
+/// Words on a SICK of 811 beams over 270 degrees whose first three measure `nearest_m`; `believe` changes the file.
+std::string said_of_scanner(float nearest_m, const std::function<void(RobotFile&)>& believe = {}) {
+  auto port = std::make_unique<emulators::TcpServer>(std::uint16_t{0});
+  RobotFile file = nothing_connected();
+  file.laser.port = port->port();
+  file.laser.first_scan_limit = std::chrono::seconds(20);
+  if (believe) believe(file);
+  emulators::SickServer scanner(std::move(port), {}, [&](std::size_t first_beam, std::span<float> range_m) {
+    for (std::size_t k = 0; k < range_m.size(); ++k) range_m[k] = first_beam + k < 3 ? nearest_m : 4.0F;
+  });
+  rig::RealLivingClock clock;
+  clock.live = [&] { scanner.step(clock.now()); };
+  try {
+    return check_scanner(file, clock);
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+TEST_CASE("a scanner whose fan is not the file's, by a step or more, is told") {
+  for (const double steps : {-1.0, 1.0, 0.4}) {
+    const std::string said = said_of_scanner(4.0F, [&](RobotFile& file) {
+      file.setup.model.laser.fov_rad += steps * file.setup.model.laser.fov_rad / 810.0;
     });
-    rig::RealLivingClock clock;
-    clock.live = [&] { scanner.step(clock.now()); };
-    try {
-      return check_scanner(file, clock);
-    } catch (const StartupError& error) {
-      return std::string(error.what());
-    }
-  };
-  const std::string on_it = said_of(0.10F);
+    CAPTURE(steps, said);
+    CHECK((said.find("correct [laser] beams and fov_deg") != std::string::npos) == (std::fabs(steps) > 0.5));
+  }
+}
+
+TEST_CASE("a scanner that sees the robot's own body is told, for the robot would never drive") {
+  const std::string on_it = said_of_scanner(0.10F);
   CHECK(on_it.find("3 of the beams end within the robot's own outline; take away what is before it") !=
         std::string::npos);
   CHECK(on_it.find("[[laser.blanked]] from_deg = -135.3, to_deg = -134.0") != std::string::npos);
   Blanking as_told;
   (void)as_told.push_back({-135.3 * kPi / 180.0, -134.0 * kPi / 180.0});
-  CHECK(said_of(0.10F, as_told).find("outline") == std::string::npos);
-  const std::string before_it = said_of(0.60F);
+  CHECK(said_of_scanner(0.10F, [&](RobotFile& file) { file.setup.model.laser.blanked = as_told; }).find("outline") ==
+        std::string::npos);
+  const std::string before_it = said_of_scanner(0.60F);
   CHECK(before_it.find("811 beams") != std::string::npos);  // a scan was looked at
   CHECK(before_it.find("outline") == std::string::npos);
 }
