@@ -11,12 +11,6 @@ constexpr float kEdgeM = 0.01F;  ///< a range's noise
 constexpr float kNearerM =
     2e-4F;  ///< less is no approach: StopZone's, and single precision a kilometre from the origin
 
-/// What the stop zone allows the outline's edge beside a point `gap_m` away.
-float permitted_rim(float gap_m) {
-  return std::max(gap_m - kEdgeM - Rules::kCreepMargin_m, 0.0F) / (Rules::kMargin_m - Rules::kCreepMargin_m) *
-         Rules::kFull_mps;
-}
-
 bool is_of_a_mover(Vec2 place, std::span<const MoverDisc> movers) {
   return std::any_of(movers.begin(), movers.end(),
                      [&](const MoverDisc& m) { return distance(place, m.centre_in_map) < m.radius_m + kOwnBody_m; });
@@ -73,7 +67,7 @@ float NearReturns::braked_share(const RobotState& robot, const RobotBody& body) 
   if (least >= Rules::kMargin_m + kEdgeM) return 0.0F;
   const float rim = std::fabs(robot.v) + std::fabs(robot.w) * body.rim_m,
               creep = is_beside() && least > nearest_ - Rules::kSwing_m ? Rules::kCreep_mps : 0.0F,
-              may = std::max(permitted_rim(least), creep);
+              may = std::max(Rules::permitted_rim(least - kEdgeM), creep);
   return rim > may ? 1.0F - may / rim : 0.0F;
 }
 

@@ -80,9 +80,17 @@ JAYWALK_CELL void brake_speed(RobotState& s, float target, const MotionBounds& b
   s.accel = 0.0F;
 }
 
+/// Puts `s` where its speeds bring it in `dt` seconds from `from`: by the arc's middle heading.
+JAYWALK_CELL void place_after(const RobotState& from, RobotState& s, float dt) {
+  const cell::Heading middle = cell::heading_at(from.heading + 0.5F * s.w * dt);
+  s.heading = from.heading + s.w * dt;
+  s.x = from.x + s.v * middle.x * dt;
+  s.y = from.y + s.v * middle.y * dt;
+}
+
 /// `dt` seconds on the way to a command: the speed by change_speed() or brake_speed(), the turn with bounded
 /// acceleration. A command that stays is not overshot; one that comes while the robot speeds up past it is, unless it
-/// brakes. To go the other way the speed comes to rest first. The arc is taken at its middle heading.
+/// brakes. To go the other way the speed comes to rest first.
 JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const MotionBounds& bounds, float dt) {
   RobotState s = from;
   const float target = to.v * s.v < 0.0F ? 0.0F : to.v;  // the supervisor holds it at rest in between
@@ -93,10 +101,7 @@ JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const M
     change_speed(s, target, bounds, dt);
   const float turn_step = bounds.turn_accel * dt, turn_left = to.w - s.w;
   s.w += turn_left > turn_step ? turn_step : turn_left < -turn_step ? -turn_step : turn_left;
-  const cell::Heading middle = cell::heading_at(s.heading + 0.5F * s.w * dt);
-  s.heading += s.w * dt;
-  s.x += s.v * middle.x * dt;
-  s.y += s.v * middle.y * dt;
+  place_after(from, s, dt);
   return s;
 }
 

@@ -17,6 +17,7 @@ namespace {
 int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* states, Cost& cost) noexcept {
   TimeCost time(s);
   ComfortCost comfort(s);
+  StopZoneCost stop_zone(s);
   time.begin(cost);
   RobotState robot = s.start;
   KnownBehind behind = s.known_behind;
@@ -25,7 +26,9 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
     const RobotState before = robot;
     const MotionBounds bounds = behind.limited(s.body.bounds);
     const Command command = within(bounds, trajectory.commands[static_cast<std::size_t>(step)]);
-    states[step] = robot = moved(before, command, bounds, kStepS);
+    robot = moved(before, command, bounds, kStepS);
+    stop_zone.limit(before, robot, cost);
+    states[step] = robot;
     behind.drive(robot.v, kStepS);
     if (s.stick == nullptr) comfort.add(before, robot, cost);  // a person turns and speeds up at will
     time.add(robot, cost);
@@ -41,13 +44,12 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
 /// What the states are near to.
 class SurroundingsCost {
  public:
-  explicit SurroundingsCost(const Situation& s) : walls_(s), stop_zone_(s), unseen_(s), movers_(s) {}
+  explicit SurroundingsCost(const Situation& s) : walls_(s), unseen_(s), movers_(s) {}
 
   void add(const RobotState& now, int step, Cost& cost) noexcept {
     const float t = static_cast<float>(step + 1) * kStepS;
     const cell::Heading along = cell::heading_at(now.heading);
-    const float clearance_m = walls_.add(now, along, t, cost);
-    stop_zone_.add(now, clearance_m, t, cost);
+    walls_.add(now, along, t, cost);
     unseen_.add(now, along, cost);
     if (is_of_futures(step)) movers_.add(now, along, (step + 1) / 2, t, cost);
   }
@@ -57,7 +59,6 @@ class SurroundingsCost {
 
  private:
   WallCost walls_;
-  StopZoneCost stop_zone_;
   UnseenCost unseen_;
   MoverCost movers_;
 };

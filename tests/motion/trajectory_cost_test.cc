@@ -4,6 +4,7 @@
 #include <cmath>
 #include <memory>
 
+#include "hal/types/stop_zone_rules.h"
 #include "planner/motion/proposals.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"
@@ -189,17 +190,25 @@ TEST_CASE(
   NearReturns returns;
   returns.update(SeenFrom{&scan, {}}, {}, body, {}, {});
   const auto nobody = std::make_unique<Futures>();
-  const auto braked_at = [&](float speed, const NearReturns& seen) {
+  struct Passed {
+    float braked_s, least_mps;
+  };
+  const auto pass_at = [&](float speed, const NearReturns& seen) {
     Trajectory held;
     held.commands.fill({speed, 0.0F});
-    return trajectory_cost({body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
-        .stop_zone;
+    RobotState driven[kSteps];
+    const Situation s{body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
+    const float braked_s = trajectory_cost(s, held, 1e9F, driven).stop_zone;
+    return Passed{braked_s, std::ranges::min_element(driven, {}, [](const RobotState& r) { return r.v; })->v};
   };
-  CHECK(braked_at(0.6F, returns) > 10.0F);
-  CHECK(braked_at(0.3F, returns) > 1.0F);
-  CHECK(braked_at(0.3F, returns) < braked_at(0.6F, returns));
-  CHECK(braked_at(0.08F, returns) == 0.0F);
-  CHECK(braked_at(0.6F, kNothing) == 0.0F);
+  const float permitted = StopZoneRules<float>::permitted_rim(0.06F);
+  CHECK(pass_at(0.6F, returns).least_mps <= permitted);
+  CHECK(pass_at(0.3F, returns).least_mps <= permitted);
+  CHECK(pass_at(0.3F, returns).braked_s > 0.5F);
+  CHECK(pass_at(0.3F, returns).braked_s < pass_at(0.6F, returns).braked_s);
+  CHECK(pass_at(0.08F, returns).braked_s == 0.0F);
+  CHECK(pass_at(0.6F, kNothing).braked_s == 0.0F);
+  CHECK(pass_at(0.6F, kNothing).least_mps >= 0.599F);
 }
 
 TEST_CASE("in a walker's way already, to drive into the walker costs more than to stand") {

@@ -38,7 +38,8 @@ inline constexpr float kByWall = 0.6F,
                        kByWallM = 0.28F;  ///< the same, farther off; not when steered (decision motion-prices)
 
 // What the supervisor would brake for (stop_zone_cost.h).
-inline constexpr float kStopZone = 40.0F;  ///< all of the speed, at once; by a factor e less each second (0079: map 4)
+/// A m/s near surfaces: 4 and 40 for all of the speed at once gave the same runs within noise (motion-prices).
+inline constexpr float kTakenAway = 4.0F;
 inline constexpr float kBlindRim =
     10.0F;  ///< a m/s that the supervisor would take away, each step (decision motion-prices)
 

@@ -15,8 +15,8 @@ class WallCost {
   explicit WallCost(const Situation& s)
       : s_(s), at_start_(clearance_at(s.start, cell::heading_at(s.start.heading))), clearance_(at_start_) {}
 
-  /// `t`: seconds from now. Returns the clearance, m.
-  float add(const RobotState& now, const cell::Heading& along, float t, Cost& cost) noexcept {
+  /// `t`: seconds from now.
+  void add(const RobotState& now, const cell::Heading& along, float t, Cost& cost) noexcept {
     const float c = clearance_at(now, along);
     // It may always leave what it stands beside, swinging as near as the supervisor lets it.
     using Rules = StopZoneRules<float>;
@@ -28,7 +28,6 @@ class WallCost {
                     (c < 0.0F ? price::kContact : 0.0F);
     }
     if (c < price::kByWallM) cost.clearance += kStepS * paid_share(now) * near_price(c);
-    return c;
   }
 
  private:
@@ -40,10 +39,10 @@ class WallCost {
     return price::kNearWall * close * close + by_wall;
   }
 
-  /// Steered, it passes and stands as near as the person likes: the price is for the way very near, not for the time.
+  /// The price is for the way of the body's edge near surfaces: waiting there gains nothing.
   [[nodiscard]] float paid_share(const RobotState& r) const noexcept {
     const float rim = std::fabs(r.v) + std::fabs(r.w) * s_.body.rim_m;
-    return is_steered() ? std::min(1.0F, rim / s_.body.bounds.speed) : 1.0F;
+    return std::min(1.0F, rim / s_.body.bounds.speed);
   }
 
   [[nodiscard]] float clearance_at(const RobotState& r, const cell::Heading& along) const noexcept {
