@@ -106,7 +106,9 @@ std::vector<RideFigure> ride_figures() {
           {"stood, %", [](const ReportedRun& run) { return 100.0 * run.result.figure("stood_share"); }, 1},
           {"detours, m", plain("detour_m"), 1},
           {"largest acceleration, m/s2", plain("accel_max_mps2"), 2},
+          {"hard brakes a minute", a_minute("hard_brakes"), 1},
           {"jerk p99, m/s3", plain("jerk_p99_mps3"), 2},
+          {"the same but for hard brakes", plain("calm_jerk_p99_mps3"), 2},
           {"largest jerk, m/s3", plain("jerk_max_mps3"), 2},
           {"nearest to a mover, m (5th, least)", plain("min_mover_clearance_m"), 2, true}};
 }

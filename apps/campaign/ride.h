@@ -3,11 +3,16 @@
 
 namespace jaywalk::campaign {
 
+/// Above every model's comfort and below every model's braking; changes are taken over 0.1 s, as Smoothness does.
+inline constexpr double kHardBrake_mps2 = 0.7;
+
 /// How a passenger is driven, from robot.csv.
 struct Ride {
   double steering_reversals = 0.0;  ///< how often the robot turned one way, and then the other
   double speed_reversals = 0.0;     ///< how often it drove one way, and then the other
   double stood_share = 0.0;         ///< of its ticks: slower than 0.05 m/s
+  double hard_brakes = 0.0;         ///< how often it slowed down by more than kHardBrake_mps2
+  double calm_jerk_p99_mps3 = 0.0;  ///< 99th percentile of the jerk without them; NaN where nothing is left
 };
 
 /// Throws StartupError where there is no such table.

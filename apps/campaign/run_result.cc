@@ -50,6 +50,8 @@ void add_figures(const Json& summary, const std::filesystem::path& folder, RunRe
   result.figures["steering_reversals"] = ride.steering_reversals;
   result.figures["speed_reversals"] = ride.speed_reversals;
   result.figures["stood_share"] = ride.stood_share;
+  result.figures["hard_brakes"] = ride.hard_brakes;
+  result.figures["calm_jerk_p99_mps3"] = ride.calm_jerk_p99_mps3;
 }
 
 }  // namespace

@@ -2,9 +2,11 @@
 
 #include <sys/wait.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <csignal>
+#include <cstdio>
 #include <thread>
 
 #include "apps/campaign/run_pool.h"
@@ -82,6 +84,23 @@ TEST_CASE("how a passenger is driven is counted") {
   CHECK(result.figure("stood_share") == 0.5);
   CHECK(result.figure("path_length_m") == 12.5);
   CHECK(std::isnan(result.figure("jerk_p99_mps3")));
+}
+
+TEST_CASE("hard brakes are counted, and the jerk apart from them") {
+  // 0.6 m/s; from 2 s on braked at 1 m/s2 for 0.3 s, from 6 s on slowed at 0.3 m/s2 to rest, at 50 ticks a second.
+  std::string table = "t_s,x_m,y_m,v_mps,w_radps,reasons\n";
+  for (int k = 0; k < 400; ++k) {
+    const double t = 0.02 * k, braked = std::clamp(t - 2.0, 0.0, 0.3), slowed = 0.3 * std::clamp(t - 6.0, 0.0, 1.0);
+    char row[80];
+    std::snprintf(row, sizeof row, "%.6f,1,1,%.6f,0,\n", t, 0.6 - braked - slowed);
+    table += row;
+  }
+  const Folder folder("timeout");
+  folder.write("robot.csv", table);
+  const RunResult result = folder.result();
+  CHECK(result.figure("hard_brakes") == 1.0);
+  // At both ends of the slowing 0.6, 1.2, 1.8, 2.4, 3.0 m/s3 and down again; of about 350 the fourth largest.
+  CHECK(result.figure("calm_jerk_p99_mps3") == Approx(2.4).margin(0.01));
 }
 
 TEST_CASE("a run that crashed or was refused is a result with its reason") {
