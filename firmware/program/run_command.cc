@@ -197,6 +197,8 @@ int run_robot(RunOptions options, const MakeObserver& make_observer) {
       {devices.laser(), devices.drive(), controls.panel(), desk.told_place(), clock, devices.other_lasers()},
       {options.out, options.parts}, *observer, [&](const ControlSetup& setup) {
         ChosenPlanner chosen = make_planner(setup);
+        remark("plans on " + std::string(chosen.planner->backend()) +
+               (chosen.why_not_cuda.empty() ? "" : " (" + chosen.why_not_cuda + ")"));
         chosen.planner = std::make_unique<PlannerThread>(std::move(chosen.planner), map_for(setup), *observer);
         return chosen;
       });

@@ -133,6 +133,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.reasons = t.verdict.reasons;
   status_.faulty_scanners = t.verdict.faulty_scanners;
   status_.plan = t.plan_status;
+  status_.backend = runner_.planner().backend();
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
   status_.drive = t.wheels.trouble;
   status_.laser = devices_.lasers.front()->health();

@@ -34,6 +34,7 @@ struct RunStatus {
   Reason reasons = Reason::kNone;
   std::uint8_t faulty_scanners = 0;     ///< Verdict's
   PlanStatus plan = PlanStatus::kNone;  ///< how the last plan that came went
+  const char* backend = "";             ///< that plans: cpu, cuda
   std::uint32_t revoked = 0;            ///< how often goals and resets were revoked by a stop, a fault or a latch
   std::uint32_t stops_done = 0;         ///< orders to stop that were obeyed to rest, of all that there were
   bool latched = false;

@@ -19,6 +19,7 @@ TEST_CASE(
   CHECK(bench.speed_mps() == 0.0);
   CHECK(bench.last().wheels.stop == StopStage::kSilent);
   const std::string status = bench.robot.desk().obey("status");
+  CHECK(status.find("\nbackend: cpu\n") != std::string::npos);
   CHECK(status.find("\nlatched_by: foreign_master\n") != std::string::npos);
   CHECK(status.find("\nforeign_frame: 000#8002\n") != std::string::npos);
   bench.tick(30);
