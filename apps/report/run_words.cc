@@ -12,6 +12,7 @@
 #include "apps/report/loop_count.h"
 #include "apps/report/moments.h"
 #include "firmware/recording/run_parts.h"
+#include "firmware/safety/reasons.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"
 
@@ -44,25 +45,12 @@ RunRow row_of(const CsvRows& rows) {
 }
 
 /// Why a robot stands: the first of these that its reasons hold. Faults go before limits.
-struct Cause {
-  const char* reason;
-  const char* words;
-};
-constexpr const char* kNoGoal = "it had no goal";
-constexpr std::array<Cause, 7> kCauses{{{"latched", "a fault waited for a reset"},
-                                        {"no_goal", kNoGoal},
-                                        {"touched", "something touched it, or its scanner saw itself"},
-                                        {"stop_zone", "something stood in its way"},
-                                        {"turn_blocked", "no room to turn to the goal's heading"},
-                                        {"plan_stale", "no way was known"},
-                                        {"unwatched", "it could not see where it would have gone"}}};
-constexpr const char* kOwnWish = "it gave way or waited by its own choice";
+constexpr std::array kCauses{Reason::kLatched,     Reason::kNoGoal,    Reason::kTouched,  Reason::kStopZone,
+                             Reason::kTurnBlocked, Reason::kPlanStale, Reason::kUnwatched};
+constexpr const char* kOwnWish = "it gives way or waits by its own choice";
 /// Shorter rests are changes of direction.
 constexpr double kShortestStop_s = 0.5;
 constexpr double kLeastWait_s = 3.0;  ///< of a stop that is told by itself
-/// Reasons that are limits, or say only that a fault is latched.
-constexpr std::array kNoFaults{"stop_zone", "plan_stale", "speed_limit",  "latched",      "unwatched",
-                               "no_goal",   "touched",    "turn_blocked", "not_recorded", "speed_zone"};
 
 std::string often(int times) { return times == 1 ? "once" : std::to_string(times) + " times"; }
 
@@ -71,8 +59,8 @@ bool holds(const RunRow& row, const char* reason) {
 }
 
 std::string cause_of(const RunRow& row) {
-  for (const Cause& cause : kCauses) {
-    if (holds(row, cause.reason)) return cause.words;
+  for (const Reason cause : kCauses) {
+    if (holds(row, row_of(cause).name)) return row_of(cause).says;
   }
   return kOwnWish;
 }
@@ -161,7 +149,7 @@ class Day {
     for (const auto& [cause, seconds] : in_stop_) whole_s += seconds;
     const auto main = std::max_element(in_stop_.begin(), in_stop_.end(),
                                        [](const auto& a, const auto& b) { return a.second < b.second; });
-    if (main != in_stop_.end() && main->first != kNoGoal && whole_s >= kLeastWait_s)
+    if (main != in_stop_.end() && main->first != row_of(Reason::kNoGoal).says && whole_s >= kLeastWait_s)
       waits_.add(stopped_.t_s, whole_s, stopped_.map_from_robot.position(), main->first);
     if (whole_s >= kShortestStop_s) {
       stood_s_ += whole_s;
@@ -184,8 +172,7 @@ class Day {
   }
   void note_faults(const RunRow& row) {
     for (const std::string& reason : row.reasons) {
-      const bool is_fault = std::find(kNoFaults.begin(), kNoFaults.end(), reason) == kNoFaults.end();
-      if (is_fault && (rows_ == 0 || !holds(before_, reason.c_str()))) ++faults_[reason];
+      if (!has(kNoFaults, reason_named(reason)) && (rows_ == 0 || !holds(before_, reason.c_str()))) ++faults_[reason];
     }
   }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
+#include "firmware/safety/reasons.h"
 #include "planner/scan/scan_points.h"
 
 namespace jaywalk::view {
@@ -114,6 +115,14 @@ Ordered ground_of(const KnownMap& known) {
           {"cells", base64_of(cells)}};
 }
 
+/// {"stop_zone": {"says": "something stands in its way", "fault": false}, ...}
+Ordered reasons_in_words() {
+  Ordered reasons = Ordered::object();
+  for (const ReasonRow& row : kReasons)
+    reasons[row.name] = {{"says", row.says}, {"fault", !has(kNoFaults, row.reason)}};
+  return reasons;
+}
+
 }  // namespace
 
 std::string to_json(const HelloScene& hello) {
@@ -131,6 +140,7 @@ std::string to_json(const HelloScene& hello) {
                      {"half_width_m", body.half_width_m},
                      {"max_speed_mps", hello.model.limits.max_speed_mps},
                      {"walls", walls},
+                     {"reasons", reasons_in_words()},
                      {"ground", hello.known == nullptr ? Ordered(nullptr) : ground_of(*hello.known)}});
 }
 

@@ -119,37 +119,9 @@ std::string otherwise(const TickRecord& t, std::span<const Track> tracks, const 
 }  // namespace
 
 std::string in_words(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 26> kWords{
-      {{Reason::kStopZone, "something stands in its way"},
-       {Reason::kScanStale, "the newest scan is too old"},
-       {Reason::kScanInvalid, "the scan cannot be trusted"},
-       {Reason::kWheelsStale, "the wheels' feedback is too old"},
-       {Reason::kPlanStale, "there is no plan that is young enough"},
-       {Reason::kEmergencyStop, "the emergency stop is pressed"},
-       {Reason::kSpeedLimit, "it is faster than is allowed"},
-       {Reason::kMissedTicks, "ticks did not happen"},
-       {Reason::kNotFinite, "what was wanted is no number"},
-       {Reason::kLatched, "an earlier fault waits for a reset"},
-       {Reason::kUnwatched, "nothing watches where it would go"},
-       {Reason::kNoGoal, "it has nowhere to go"},
-       {Reason::kBus, "the drives' bus is unwell"},
-       {Reason::kDrive, "a drive is in trouble"},
-       {Reason::kTurnBlocked, "there is no room to turn at the goal"},
-       {Reason::kScanFrozen, "the same scan comes again and again"},
-       {Reason::kTouched, "something is at its own outline"},
-       {Reason::kWheelsInvalid, "the wheels' feedback is no number"},
-       {Reason::kSightLost, "too many beams prove nothing"},
-       {Reason::kWheelsDisobey, "the wheels do not do what they are told"},
-       {Reason::kMotionMismatch, "the scans show another motion than the wheels feel"},
-       {Reason::kStopUnconfirmed, "the wheels do not confirm a stop"},
-       {Reason::kForeignMaster, "another program commands the drives"},
-       {Reason::kNotRecorded, "the disk is full (a remark)"},
-       {Reason::kSpeedZone, "a zone in the map wants it slower"},
-       {Reason::kPoseDoubtful, "it was carried, or where it is was guessed over a gap"}}};
   std::string words;
-  for (const auto& [bit, said] : kWords) {
-    if (has(reasons, bit)) words += (words.empty() ? "" : "; ") + std::string(said);
-  }
+  for (const ReasonRow& row : kReasons)
+    if (has(reasons, row.reason)) words += (words.empty() ? "" : "; ") + std::string(row.says);
   return words;
 }
 

@@ -1,43 +1,18 @@
 #include "firmware/safety/reasons.h"
 
-#include <array>
-#include <utility>
-
 namespace jaywalk {
 
+Reason reason_named(std::string_view name) noexcept {
+  Reason named = Reason::kNone;
+  for (const ReasonRow& row : kReasons)
+    if (row.name == name) named = row.reason;
+  return named;
+}
+
 std::string to_string(Reason reasons) {
-  constexpr std::array<std::pair<Reason, const char*>, 26> kNames{{{Reason::kStopZone, "stop_zone"},
-                                                                   {Reason::kScanStale, "scan_stale"},
-                                                                   {Reason::kScanInvalid, "scan_invalid"},
-                                                                   {Reason::kScanFrozen, "scan_frozen"},
-                                                                   {Reason::kWheelsStale, "wheels_stale"},
-                                                                   {Reason::kPlanStale, "plan_stale"},
-                                                                   {Reason::kEmergencyStop, "emergency_stop"},
-                                                                   {Reason::kMissedTicks, "missed_ticks"},
-                                                                   {Reason::kSpeedLimit, "speed_limit"},
-                                                                   {Reason::kNotFinite, "not_finite"},
-                                                                   {Reason::kLatched, "latched"},
-                                                                   {Reason::kUnwatched, "unwatched"},
-                                                                   {Reason::kNoGoal, "no_goal"},
-                                                                   {Reason::kBus, "bus"},
-                                                                   {Reason::kDrive, "drive"},
-                                                                   {Reason::kTurnBlocked, "turn_blocked"},
-                                                                   {Reason::kTouched, "touched"},
-                                                                   {Reason::kWheelsInvalid, "wheels_invalid"},
-                                                                   {Reason::kSightLost, "sight_lost"},
-                                                                   {Reason::kWheelsDisobey, "wheels_disobey"},
-                                                                   {Reason::kMotionMismatch, "motion_mismatch"},
-                                                                   {Reason::kStopUnconfirmed, "stop_unconfirmed"},
-                                                                   {Reason::kForeignMaster, "foreign_master"},
-                                                                   {Reason::kNotRecorded, "not_recorded"},
-                                                                   {Reason::kSpeedZone, "speed_zone"},
-                                                                   {Reason::kPoseDoubtful, "pose_doubtful"}}};
   std::string words;
-  for (const auto& [bit, name] : kNames) {
-    if (!has(reasons, bit)) continue;
-    if (!words.empty()) words += '|';
-    words += name;
-  }
+  for (const ReasonRow& row : kReasons)
+    if (has(reasons, row.reason)) words += (words.empty() ? "" : "|") + std::string(row.name);
   return words;
 }
 

@@ -1,6 +1,9 @@
 #pragma once
+#include <algorithm>
+#include <array>
 #include <cstdint>
 #include <string>
+#include <string_view>
 
 namespace jaywalk {
 
@@ -32,7 +35,8 @@ enum class Reason : std::uint32_t {
   kForeignMaster = 1U << 22,    ///< fault, latched: another program commands the drives
   kNotRecorded = 1U << 23,      ///< remark: the disk takes no more of the recording or the tables
   kSpeedZone = 1U << 24,        ///< limit: faster than the zone in the map where the robot is
-  kPoseDoubtful = 1U << 25,     ///< fault, latched: where it is was guessed over a gap for too long
+  kPoseDoubtful = 1U << 25,     ///< fault, latched: it was carried, or guessed over a gap for too long
+  kLast = kPoseDoubtful         ///< the newest
 };
 
 constexpr Reason operator|(Reason a, Reason b) {
@@ -47,11 +51,69 @@ constexpr bool has(Reason set, Reason bit) {
   return (static_cast<std::uint32_t>(set) & static_cast<std::uint32_t>(bit)) != 0;
 }
 
-/// Limits, remarks and states: what is no fault.
-inline constexpr Reason kNoFaults = Reason::kStopZone | Reason::kPlanStale | Reason::kSpeedLimit | Reason::kUnwatched |
-                                    Reason::kNoGoal | Reason::kLatched | Reason::kTurnBlocked | Reason::kTouched |
-                                    Reason::kNotRecorded | Reason::kSpeedZone;
+enum class ReasonKind : std::uint8_t { kRemark, kLimit, kFault, kLatchedFault };
 
+/// A reason's facts: everything that names, explains or judges reasons reads this table.
+struct ReasonRow {
+  Reason reason;
+  const char* name;  ///< in tables and recordings
+  ReasonKind kind;
+  const char* says;  ///< to a person
+};
+/// In the order in which to_string() names them.
+inline constexpr std::array kReasons{
+    ReasonRow{Reason::kStopZone, "stop_zone", ReasonKind::kLimit, "something stands in its way"},
+    ReasonRow{Reason::kScanStale, "scan_stale", ReasonKind::kFault, "the newest scan is too old"},
+    ReasonRow{Reason::kScanInvalid, "scan_invalid", ReasonKind::kFault, "the scan cannot be trusted"},
+    ReasonRow{Reason::kScanFrozen, "scan_frozen", ReasonKind::kFault, "the same scan comes again and again"},
+    ReasonRow{Reason::kWheelsStale, "wheels_stale", ReasonKind::kFault, "the wheels' feedback is too old"},
+    ReasonRow{Reason::kPlanStale, "plan_stale", ReasonKind::kLimit, "no way is known"},
+    ReasonRow{Reason::kEmergencyStop, "emergency_stop", ReasonKind::kLatchedFault, "the emergency stop is pressed"},
+    ReasonRow{Reason::kMissedTicks, "missed_ticks", ReasonKind::kLatchedFault, "the computer was held up"},
+    ReasonRow{Reason::kSpeedLimit, "speed_limit", ReasonKind::kLimit, "it is faster than is allowed"},
+    ReasonRow{Reason::kNotFinite, "not_finite", ReasonKind::kFault, "what was wanted is no number"},
+    ReasonRow{Reason::kLatched, "latched", ReasonKind::kRemark, "a fault waits for a reset"},
+    ReasonRow{Reason::kUnwatched, "unwatched", ReasonKind::kLimit, "it cannot see where it would go"},
+    ReasonRow{Reason::kNoGoal, "no_goal", ReasonKind::kRemark, "it has no goal"},
+    ReasonRow{Reason::kBus, "bus", ReasonKind::kLatchedFault, "the drives' bus is unwell"},
+    ReasonRow{Reason::kDrive, "drive", ReasonKind::kLatchedFault, "a drive is in trouble"},
+    ReasonRow{Reason::kTurnBlocked, "turn_blocked", ReasonKind::kRemark, "no room to turn to the goal's heading"},
+    ReasonRow{Reason::kTouched, "touched", ReasonKind::kLimit, "something touches it, or its scanner sees itself"},
+    ReasonRow{Reason::kWheelsInvalid, "wheels_invalid", ReasonKind::kFault, "the wheels' feedback is no number"},
+    ReasonRow{Reason::kSightLost, "sight_lost", ReasonKind::kFault, "too many beams prove nothing"},
+    ReasonRow{Reason::kWheelsDisobey, "wheels_disobey", ReasonKind::kLatchedFault,
+              "the wheels do not do what they are told"},
+    ReasonRow{Reason::kMotionMismatch, "motion_mismatch", ReasonKind::kLatchedFault,
+              "the scans show another motion than the wheels feel"},
+    ReasonRow{Reason::kStopUnconfirmed, "stop_unconfirmed", ReasonKind::kLatchedFault,
+              "the wheels do not confirm a stop"},
+    ReasonRow{Reason::kForeignMaster, "foreign_master", ReasonKind::kLatchedFault,
+              "another program commands the drives"},
+    ReasonRow{Reason::kNotRecorded, "not_recorded", ReasonKind::kRemark, "the disk is full"},
+    ReasonRow{Reason::kSpeedZone, "speed_zone", ReasonKind::kLimit, "a zone in the map wants it slower"},
+    ReasonRow{Reason::kPoseDoubtful, "pose_doubtful", ReasonKind::kLatchedFault,
+              "it was carried, or where it is was guessed over a gap"}};
+
+[[nodiscard]] constexpr const ReasonRow& row_of(Reason reason) {
+  return *std::find_if(kReasons.begin(), kReasons.end() - 1,
+                       [=](const ReasonRow& row) { return row.reason == reason; });
+}
+
+/// Set of the reasons of a kind.
+constexpr Reason of_kind(ReasonKind kind) {
+  Reason set = Reason::kNone;
+  for (const ReasonRow& row : kReasons)
+    if (row.kind == kind) set |= row.reason;
+  return set;
+}
+inline constexpr Reason kNoFaults = of_kind(ReasonKind::kRemark) | of_kind(ReasonKind::kLimit);
+inline constexpr Reason kAlwaysLatched = of_kind(ReasonKind::kLatchedFault);
+static_assert((kNoFaults | kAlwaysLatched | of_kind(ReasonKind::kFault)) ==
+                  static_cast<Reason>(2 * static_cast<std::uint32_t>(Reason::kLast) - 1),
+              "each reason has a row");
+
+/// kNone where there is none of that name.
+[[nodiscard]] Reason reason_named(std::string_view name) noexcept;
 /// "stop_zone|plan_stale"; empty for none. For reports, never in the loop.
 [[nodiscard]] std::string to_string(Reason reasons);
 /// And which of several scanners have a fault of theirs, by Verdict::faulty_scanners: "scan_stale|scanner_2".

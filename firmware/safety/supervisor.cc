@@ -154,23 +154,20 @@ int Supervisor::missed_in_a_row(Time now) noexcept {
 }
 
 void Supervisor::update_mode(Reason faults, const Twist2& wanted, const SafetyInput& input) noexcept {
-  constexpr Reason kAlways = Reason::kEmergencyStop | Reason::kBus | Reason::kDrive | Reason::kMissedTicks |
-                             Reason::kStopUnconfirmed | Reason::kForeignMaster | Reason::kWheelsDisobey |
-                             Reason::kMotionMismatch | Reason::kPoseDoubtful;
   const bool reset_edge = input.input.reset && !reset_before_;
   reset_before_ = input.input.reset;
   bool seen_all = input.wheels.sequence > 0;
   for (const LaserScan& scan : input.scans) seen_all = seen_all && scan.sequence > 0;
-  mode_ =
-      next_mode(mode_, {.fault = faults != Reason::kNone,
-                        .latches = has(faults, kAlways) || (config_.latches_all && seen_all && faults != Reason::kNone),
-                        .stop_pressed = input.input.emergency_stop,
-                        .reset_edge = reset_edge,
-                        .wants_zero = wanted == Twist2{} && input.input.stick.is_centred(),
-                        .drives_ready = input.wheels.ready,
-                        .has_goal = input.input.wants_motion(),
-                        .at_goal = input.at_goal,
-                        .at_rest = permitted_ == Twist2{}});
+  mode_ = next_mode(
+      mode_, {.fault = faults != Reason::kNone,
+              .latches = has(faults, kAlwaysLatched) || (config_.latches_all && seen_all && faults != Reason::kNone),
+              .stop_pressed = input.input.emergency_stop,
+              .reset_edge = reset_edge,
+              .wants_zero = wanted == Twist2{} && input.input.stick.is_centred(),
+              .drives_ready = input.wheels.ready,
+              .has_goal = input.input.wants_motion(),
+              .at_goal = input.at_goal,
+              .at_rest = permitted_ == Twist2{}});
 }
 
 Twist2 Supervisor::limited(Twist2 twist, const SafetyInput& input, Verdict& verdict) noexcept {

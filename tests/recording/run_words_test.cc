@@ -48,10 +48,10 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
         run.folder().string() +
             ": fault after 10.0 s\n"
             "Drove 4.0 m in 4.0 s (1.00 m/s on average); stood 5.0 s.\n"
-            "      2.0 s, once: a fault waited for a reset\n"
-            "      3.0 s, once: something stood in its way\n"
+            "      2.0 s, once: a fault waits for a reset\n"
+            "      3.0 s, once: something stands in its way\n"
             "Its longest waits:\n"
-            "  at 4.0 s, 4.0, 0.0 m, for 5.0 s: something stood in its way; nobody was near\n"
+            "  at 4.0 s, 4.0, 0.0 m, for 5.0 s: something stands in its way; nobody was near\n"
             "Full turns within 10 m of way or 60 s:\n"
             "  at 1.0 s, 2.0, 0.0 m, for 2.0 s; body 7 was 1.2 m from its middle and walked\n"
             "Way of which more than a third brought it no nearer:\n"
