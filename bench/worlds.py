@@ -20,7 +20,7 @@ KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks ar
     "passages": (walked.passages, "302-303", "failures"),
     "people": (walked.people, "1", "all"),
     "crossings": (crossings.crossings, "501-525", "failures"),
-    "encounters": (encounters.encounters, "811", "failures"),
+    "encounters": (encounters.encounters, "831", "failures"),
     "dynabarn": (walked.dynabarn, "1", "all"),
     "dynabarn_loops": (walked.dynabarn_loops, "701", "failures"),
     "posts": (given.posts, "302-305", "all"),

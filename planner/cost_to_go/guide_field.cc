@@ -6,6 +6,7 @@
 #include <iterator>
 #include <utility>
 
+#include "planner/cost_to_go/pose_price.h"
 #include "planner/field/planning_rules.h"
 
 namespace jaywalk::field {
@@ -32,6 +33,9 @@ constexpr float kBlocked_m = 0.01F;         ///< beyond the inscribed circle
 constexpr float kLastingWeight = 8.0F;      ///< where a body has stood for long: it may leave, a wall does not
 constexpr float kUnseenWeight = 8.0F;       ///< near the robot, what it has not seen yet
 constexpr double kBesideLasting_m = 0.4;
+/// Farther off, out to a gap at which it may pass at 1 m/s (MoverCost, kTooFast): twice the time.
+constexpr float kPoliteWeight = price::kPolite;
+constexpr double kPoliteLasting_m = static_cast<double>(price::kPoliteCoat_m) + 0.2;
 
 /// Then none counts: the robot may leave.
 bool is_in(const KeepOut& zones, Vec2 robot_in_map) {
@@ -183,6 +187,8 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
   });
   for (const MoverDisc& mover : request.movers) {
     if (!mover.lasting) continue;
+    for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kPoliteLasting_m,
+                     [&](std::int32_t c) { add_weight(c, kPoliteWeight); });
     for_each_in_disc(window, box, mover.centre_in_map, mover.radius_m + kBesideLasting_m,
                      [&](std::int32_t c) { add_weight(c, kLastingWeight); });
   }

@@ -69,7 +69,7 @@ void PoseField::open_about(const Pose2& robot, const PoseGuide& guide, Memory& m
 /// Ways past a pedestrian that stands are dear, not closed: it may leave.
 void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept {
   const Place at = place_of(mover.centre_in_map);
-  const double reach_m = body_.circumscribed_radius_m() + mover.radius_m + static_cast<double>(price::kPoseCoat_m);
+  const double reach_m = body_.circumscribed_radius_m() + mover.radius_m + static_cast<double>(price::kPoliteCoat_m);
   const auto cells = static_cast<std::int32_t>(reach_m / static_cast<double>(Lattice::kCell_m)) + 1;
   const auto ci = static_cast<std::int32_t>((at.x - guide.low_x) / Lattice::kCell_m),
              cj = static_cast<std::int32_t>((at.y - guide.low_y) / Lattice::kCell_m);
@@ -81,9 +81,11 @@ void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, M
         const float dx = at.x - p.x, dy = at.y - p.y;
         const Vec2 seen{static_cast<double>(dx * a.x + dy * a.y), static_cast<double>(dy * a.x - dx * a.y)};
         std::uint8_t& rate = memory.rate[static_cast<std::size_t>(Lattice::at(i, j, h))];
-        if (rate == 0 || body_.distance_to(seen) - mover.radius_m >= static_cast<double>(price::kPoseCoat_m)) continue;
+        const auto gap_m = static_cast<float>(body_.distance_to(seen) - mover.radius_m);
+        if (rate == 0 || gap_m >= price::kPoliteCoat_m) continue;
+        const float weight = gap_m < price::kPoseCoat_m ? price::kPoseStanding : price::kPolite;
         rate = static_cast<std::uint8_t>(
-            std::min(255.0F, static_cast<float>(rate) + price::kPoseStanding * static_cast<float>(price::kRateOfOpen)));
+            std::min(255.0F, static_cast<float>(rate) + weight * static_cast<float>(price::kRateOfOpen)));
       }
     }
   }

@@ -11,6 +11,8 @@ inline constexpr float kPoseLeast_m = 0.045F;                   ///< nearer than
 inline constexpr float kPoseNear = 20.0F, kPoseNear_m = 0.15F;  ///< a second more at the edge, and how far that reaches
 inline constexpr float kPoseBy = 0.6F, kPoseBy_m = 0.28F;
 inline constexpr float kPoseStanding = 10.0F, kPoseCoat_m = 0.05F;  ///< so near a pedestrian that stands
+/// Farther off, out to a gap at which it may pass at 1 m/s (MoverCost, kTooFast).
+inline constexpr float kPolite = 2.0F, kPoliteCoat_m = 1.0F;
 /// Beyond the lattice: facing across the way, and twice as much facing back; and so far ahead that is looked for.
 inline constexpr float kFacing_s = 1.3F, kFacing_m = 0.35F;
 

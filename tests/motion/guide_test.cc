@@ -58,6 +58,10 @@ TEST_CASE("a mover that was mapped is no wall; one that has stood for long is wa
   CHECK(masked == Approx(4.0 / 0.6).margin(0.2));
   CHECK(walled > masked + 0.2F);
   CHECK(lasting > masked + 0.2F);
+  // A metre off the way falls faster than in the open: what it costs to pass there is in the field.
+  const Guide& beside = g.towards({0.0, 0.0}, {4.0, 0.0});
+  const auto falls = [&](float y) { return beside.time_to_go(1.8F, y) - beside.time_to_go(2.2F, y); };
+  CHECK(falls(1.1F) > 1.8F * falls(2.0F));
 }
 
 TEST_CASE("what was never seen near the robot is no way while another is not much longer") {

@@ -211,6 +211,31 @@ TEST_CASE(
   CHECK(pass_at(0.6F, kNothing).least_mps >= 0.599F);
 }
 
+TEST_CASE("beside who stands the way costs, and not the time: waiting there gains nothing") {
+  test::Guided ground;
+  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  const RobotBody body = body_of(0.6F);
+  const auto nearness_at = [&](float speed, float walks_mps) {
+    const MoverBelief beside{.id = 1,
+                             .x = 0.3F,
+                             .y = 0.8F,
+                             .vx = walks_mps,
+                             .radius_m = 0.25F,
+                             .usual_mps = 0.4F,
+                             .has_walked = true,
+                             .stood_s = walks_mps > 0.0F ? 0.0F : 1000.0F};
+    const auto futures = std::make_unique<Futures>();
+    futures->draw({&beside, 1}, {}, {}, guide, 1);
+    Trajectory held;
+    held.commands.fill({speed, 0.0F});
+    return trajectory_cost({body, guide, *futures, kNothing, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F}, held, 1e9F)
+        .nearness;
+  };
+  CHECK(nearness_at(0.0F, 0.0F) < 0.02F);
+  CHECK(nearness_at(0.1F, 0.0F) > 0.1F);
+  CHECK(nearness_at(0.0F, 0.1F) > 0.1F);  // who walks comes nearer by itself
+}
+
 TEST_CASE("in a walker's way already, to drive into the walker costs more than to stand") {
   test::Guided ground;
   const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});

@@ -16,7 +16,8 @@ inline constexpr float kZoneSideM = 0.013F;
 struct Interaction {
   std::uint32_t met = 0;  ///< touched, or in the quarter circle before the mover while that walks
   std::uint32_t touched = 0;
-  float nearness = 0.0F;  ///< a sum over futures, m2
+  float nearness = 0.0F;  ///< to those that walk, a sum over futures, m2
+  float beside = 0.0F;    ///< the same of those that stand
   float too_fast = 0.0F;  ///< beside it while it stands: m/s over what is polite, a sum over futures
 };
 
@@ -55,8 +56,10 @@ inline Interaction interaction(const MoverAt& at, float mover_m, bool is_surface
   for (int k = 0; k < kFutures; ++k) {
     touched |= static_cast<std::uint32_t>(hit[k]) << k;
     in_zone |= static_cast<std::uint32_t>(faced[k]) << k;
-    sum.nearness += near[k];
-    sum.too_fast += (at.walks >> k & 1U) != 0 ? 0.0F : fast[k];
+    const bool walks = (at.walks >> k & 1U) != 0;
+    sum.nearness += walks ? near[k] : 0.0F;
+    sum.beside += walks ? 0.0F : near[k];
+    sum.too_fast += walks ? 0.0F : fast[k];
   }
   sum.touched = is_surface ? touched & at.walks : touched;
   sum.met = sum.touched | (in_zone & at.walks);

@@ -61,7 +61,8 @@ class MoverCost {
       const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
       all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
     }
-    all.nearness += with.nearness;
+    // Beside who stands the way counts and not the time: waiting there gains nothing.
+    all.nearness += with.nearness + std::min(1.0F, rim_mps(r) / s_.body.bounds.speed) * with.beside;
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;
   }
 
