@@ -3,7 +3,7 @@
 #include "cuda/cuda_cost_to_go.h"
 #include "cuda/kernels.h"
 #include "cuda/settle_tiles.h"
-#include "planner/cost_to_go/guide_ways.h"
+#include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/cost_to_go/pose_price.h"
 
@@ -52,55 +52,47 @@ struct PoseWays {
       const int pose = at(i + move.di, j + move.dj, to);
       if (rate[pose] == 0) continue;
       const std::uint32_t through =
-          there + price::cost_of(move.cost, here, rate[pose], unseen == nullptr ? 0U : unseen[pose],
-                                 price::unseen_weight(move.gear, move.turn));
+          there + price::cost_of(move, here, rate[pose], unseen == nullptr ? 0U : unseen[pose]);
       own = through < own ? through : own;
     }
     return own;
   }
 };
 
-/// Cells and the steps to sixteen neighbours.
+/// Cells and the steps to sixteen neighbours. Of a node's two numbers the first is its cost.
 struct CellWays {
   using Value = std::uint32_t;
   static constexpr Value kNone = field::kNoWay;
   static constexpr int kTile = 32, kLayers = 1, kReach = 2, kThreads = 512;
-  static constexpr int kNeighbours = 16;
-  field::Grid grid;
-  const std::uint16_t* rate;
+  static constexpr int kRing = field::CellGraph::kRing;
+  std::int32_t cells;  ///< a side
   const Value* robot;
   std::uint32_t beyond;
   Value* cost;
 
-  [[nodiscard]] JAYWALK_CELL int side() const { return grid.side; }
-  [[nodiscard]] __device__ bool holds(int i, int j) const { return grid.holds(i, j); }
-  [[nodiscard]] __device__ int at(int i, int j, int) const { return grid.at(i, j); }
+  [[nodiscard]] JAYWALK_CELL int side() const { return cells; }
+  /// A ring of cells about the grid is not free.
+  [[nodiscard]] __device__ static bool holds(int, int) { return true; }
+  [[nodiscard]] __device__ int at(int i, int j, int) const {
+    return 2 * ((j + kRing) * (cells + 2 * kRing) + i + kRing);
+  }
   [[nodiscard]] __device__ std::uint32_t limit() const {
-    return limit_beyond(robot, beyond, field::StepGraph::kEverywhere);
+    return limit_beyond(robot, beyond, field::CellGraph::kEverywhere);
   }
-  [[nodiscard]] __device__ std::uint32_t rate_at(int i, int j) const { return holds(i, j) ? rate[at(i, j, 0)] : 0; }
+  [[nodiscard]] __device__ std::uint32_t rate(int i, int j) const { return cost[at(i, j, 0) + 1]; }
 
-  /// The k-th neighbour: straight, diagonal, or a knight's move, which passes between two cells.
-  template <class Near>
-  [[nodiscard]] __device__ std::uint32_t through(int i, int j, std::uint32_t here, int k, std::uint32_t most,
-                                                 const Near& near) const {
-    const int a = (k & 1) != 0 ? 1 : -1, b = (k & 2) != 0 ? 1 : -1;
-    const int di = k < 4 ? (k < 2 ? a : 0) : (k < 8 ? a : (k < 12 ? 2 * a : a));
-    const int dj = k < 4 ? (k < 2 ? 0 : a) : (k < 8 ? b : (k < 12 ? b : 2 * b));
-    const std::uint32_t there = near(di, dj, 0), rate_there = rate_at(i + di, j + dj);
-    if (there > most || rate_there == 0) return kNone;
-    if (k >= 8 && (rate_at(i + di / 2, j + dj / 2) == 0 || rate_at(i + di - di / 2, j + dj - dj / 2) == 0))
-      return kNone;
-    return there + (here + rate_there) *
-                       (k < 4 ? field::kStraightLength : (k < 8 ? field::kDiagonalLength : field::kKnightLength));
-  }
   template <class Near>
   [[nodiscard]] __device__ std::uint32_t least(int i, int j, int, std::uint32_t own, std::uint32_t limit,
                                                const Near& near) const {
-    const std::uint32_t here = rate_at(i, j);
-    for (int k = 0; here != 0 && k < kNeighbours; ++k) {
-      const std::uint32_t found = through(i, j, here, k, limit < own ? limit : own, near);
-      own = found < own ? found : own;
+    const std::uint32_t here = rate(i, j);
+    for (int k = 0; here != 0 && k < field::kCellSteps; ++k) {
+      const field::CellStep step = field::cell_step(k);
+      const int di = step.di, dj = step.dj;
+      const std::uint32_t there = near(di, dj, 0), rate_there = rate(i + di, j + dj);
+      if (there > (limit < own ? limit : own) || rate_there == 0) continue;
+      const bool passes = rate(i + di / 2, j + dj / 2) != 0 && rate(i + di - di / 2, j + dj - dj / 2) != 0;
+      const std::uint32_t through = there + step.cost(here, rate_there);
+      own = passes && through < own ? through : own;
     }
     return own;
   }
@@ -114,21 +106,20 @@ void put_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t 
 
 }  // namespace
 
-CudaCostToGo::CudaCostToGo(CudaDevice& device, std::int32_t max_side)
-    : device_(device),
-      nodes_(device.share<std::uint8_t>(kNodes)),
-      radius_(device.share<std::uint8_t>(kMostPoints)),
-      places_(device.share<std::int32_t>(kLooks * kMostPoints)),
-      room_(device.share<std::uint8_t>(PoseLattice::kPoses)),
-      shift_(device.share<std::int8_t>(PoseLattice::kPoses)),
-      pose_rate_(device.share<std::uint8_t>(PoseLattice::kPoses)),
-      unseen_(device.share<std::uint8_t>(PoseLattice::kPoses)),
-      pose_cost_(device.share<std::uint16_t>(PoseLattice::kPoses)),
-      moves_(device.share<PoseMove>(static_cast<std::size_t>(PoseLattice::kHeadings * PoseMoves::kMost))),
-      move_count_(device.share<std::int32_t>(PoseLattice::kHeadings)),
-      cell_rate_(device.share<std::uint16_t>(static_cast<std::size_t>(field::Grid{max_side}.cells()))),
-      cell_cost_(device.share<std::uint32_t>(static_cast<std::size_t>(field::Grid{max_side}.cells()))),
-      waits_(device.share<std::int32_t>(static_cast<std::size_t>(field::Grid{max_side / 8}.cells()))) {}
+CudaCostToGo::CudaCostToGo(int device, std::chrono::milliseconds limit, std::int32_t max_side)
+    : device_(device, limit),
+      nodes_(device_.share<std::uint8_t>(kNodes)),
+      radius_(device_.share<std::uint8_t>(kMostPoints)),
+      places_(device_.share<std::int32_t>(kLooks * kMostPoints)),
+      room_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
+      shift_(device_.share<std::int8_t>(PoseLattice::kPoses)),
+      pose_rate_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
+      unseen_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
+      pose_cost_(device_.share<std::uint16_t>(PoseLattice::kPoses)),
+      moves_(device_.share<PoseMove>(static_cast<std::size_t>(PoseLattice::kHeadings * PoseMoves::kMost))),
+      move_count_(device_.share<std::int32_t>(PoseLattice::kHeadings)),
+      cells_(device_.share<std::uint32_t>(2 * field::CellGraph::size_for(max_side))),
+      waits_(device_.share<std::int32_t>(static_cast<std::size_t>(field::Grid{max_side / 8}.cells()))) {}
 
 template <class Ways>
 bool CudaCostToGo::read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept {
@@ -140,7 +131,7 @@ bool CudaCostToGo::read_settled(const Ways& ways, const Shared<typename Ways::Va
 bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
   constexpr std::int32_t kVisits = PoseLattice::kHeadings * PoseLattice::kSide * PoseLattice::kSide;
   const auto points = static_cast<std::size_t>(look.points);
-  if (points > kMostPoints || !device_.begin()) return false;
+  if (points > kMostPoints || !begins()) return false;
   put_in(device_, nodes_, look.nodes, kNodes);
   put_in(device_, places_, look.places, kLooks * points);
   put_in(device_, radius_, look.radius, points);
@@ -156,7 +147,7 @@ bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
 
 bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
   constexpr std::size_t kPoses = PoseLattice::kPoses;
-  if (!device_.begin()) return false;
+  if (!begins()) return false;
   put_in(device_, pose_rate_, poses.rate, kPoses);
   if (poses.unseen != nullptr) put_in(device_, unseen_, poses.unseen, kPoses);
   put_in(device_, pose_cost_, poses.cost, kPoses);
@@ -176,14 +167,13 @@ bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
 }
 
 bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
-  const field::Grid grid{cells.side};
-  const auto n = static_cast<std::size_t>(grid.cells());
-  if (!device_.begin()) return false;
-  put_in(device_, cell_rate_, cells.rate, n);
-  put_in(device_, cell_cost_, cells.cost, n);
-  const CellWays ways{grid, cell_rate_.device, cell_cost_.device + cells.robot, cells.beyond, cell_cost_.device};
-  if (!read_settled(ways, cell_cost_, n)) return false;
-  std::memcpy(cells.cost, cell_cost_.host, n * sizeof *cells.cost);
+  static_assert(sizeof(field::CellNode) == 2 * sizeof(std::uint32_t));
+  const std::size_t n = 2 * field::CellGraph::size_for(cells.side);
+  if (!begins()) return false;
+  put_in(device_, cells_, &cells.nodes->cost, n);
+  const CellWays ways{cells.side, cells_.device + 2 * cells.robot, cells.beyond, cells_.device};
+  if (!read_settled(ways, cells_, n)) return false;
+  std::memcpy(cells.nodes, cells_.host, n * sizeof(std::uint32_t));
   return true;
 }
 

@@ -55,11 +55,6 @@ void* CudaDevice::pin_bytes(std::size_t bytes) {
   return block;
 }
 
-void CudaDevice::fill_bytes(void* to, const void* from, std::size_t bytes) {
-  must(cudaMemcpyAsync(to, from, bytes, cudaMemcpyDefault, stream_));
-  must(cudaStreamSynchronize(stream_));
-}
-
 bool CudaDevice::begin() noexcept {
   if (!is_ready()) return false;
   (void)cudaSetDevice(device_);  // each thread of the host has its own, at first device 0

@@ -53,12 +53,6 @@ class CudaDevice {
     T* device = take<T>(n);
     return {is_one_memory_ ? device : pin<T>(n), device};
   }
-  /// At the start.
-  template <class T>
-  void fill(T* to, const T* from, std::size_t n) {
-    fill_bytes(to, from, n * sizeof(T));
-  }
-
   /// On a Jetson: one memory, which the host must not touch while a kernel runs.
   [[nodiscard]] bool is_one_memory() const noexcept { return is_one_memory_; }
   /// Whether shared memory may be touched and kernels launched: nothing that was given up still runs, and the device
@@ -113,7 +107,6 @@ class CudaDevice {
  private:
   void* take_bytes(std::size_t bytes);
   void* pin_bytes(std::size_t bytes);
-  void fill_bytes(void* to, const void* from, std::size_t bytes);
   [[nodiscard]] DeviceFailure waited() noexcept;
   [[nodiscard]] bool is_back() noexcept;
 

@@ -3,8 +3,7 @@
 #include <memory>
 #include <string>
 
-#include "planner/field/map_field.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
 
@@ -12,18 +11,14 @@ namespace jaywalk {
 /// longer than this is none to wait for. A plan is then still as old as two scans at 15 Hz at most.
 inline constexpr std::chrono::milliseconds kLongestWait{50};
 
-/// A planner on the CUDA device of that number, from 0: the same stages in the same order as make_cpu_planner's, and
-/// the same bits. Null with one clear line in `why_not` where there is no such device or its driver or memory does not
-/// do. Throws StartupError for a configuration that makes no sense.
+/// A planner on the CUDA device of that number, from 0: times to go settled there, of the same
+/// bits as make_cpu_planner's. Null with one clear line in `why_not` where there is no such device or its driver or
+/// memory does not do. Throws StartupError for a configuration that makes no sense.
 ///
 /// submit() returns when the plan is made: it waits for the device, asleep. What takes longer than `limit` between two
 /// answers of the device is given up: PlanStatus::kBackendFailed, and failure() says why. Thread: the loop's.
 [[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not,
                                                          std::chrono::milliseconds limit = kLongestWait);
-
-/// The same for a map alone.
-[[nodiscard]] std::unique_ptr<field::MapField> make_cuda_map_field(field::CellMap map, int device,
-                                                                   std::string& why_not);
 
 /// Self-test: plans twice across a small room with the device and with the CPU, which takes all kernels. False with one
 /// clear line in `why_not` where there is no such device, it fails, or the bits differ. Takes up to a second where the

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "hal/types/errors.h"
-#include "planner/field/fallback_planner.h"
+#include "planner/cost_to_go/fallback_planner.h"
 
 #ifndef JAYWALK_HAS_CUDA
 #define JAYWALK_HAS_CUDA 0
@@ -22,32 +22,34 @@ std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig&, int, std::strin
   why_not = "cuda: not in this build";
   return nullptr;
 }
-std::unique_ptr<field::MapField> make_cuda_map_field(const field::CellMap&, int, std::string& why_not) {
-  why_not = "cuda: not in this build";
-  return nullptr;
-}
 bool passes_cuda_trial(int, std::string& why_not) { return why_not = "cuda: not in this build", false; }
 bool has_cuda_left_behind() { return false; }
 }  // namespace
 const char* built_backends() { return "cpu"; }
 #endif
 
-namespace {
-[[noreturn]] void refuse_cuda(const std::string& why_not) {
+void refuse_cuda(const std::string& why_not) {
   throw StartupError("--backend " + why_not, "plan on the CPU: --backend cpu, or auto");
 }
-}  // namespace
+
+ChosenPlanner backed(Backend backend, std::unique_ptr<Planner> device, std::unique_ptr<Planner> cpu,
+                     const std::string& why_not_cuda) {
+  if (device) return {std::make_unique<FallbackPlanner>(std::move(device), std::move(cpu)), ""};
+  if (backend == Backend::kCuda) refuse_cuda(why_not_cuda);
+  return {std::move(cpu), JAYWALK_HAS_CUDA ? why_not_cuda : ""};
+}
 
 ChosenPlanner make_planner(const PlannerConfig& config, Backend backend, int device) {
   if (backend == Backend::kCpu) return {make_cpu_planner(config), ""};
   std::string why_not;
   auto planner = passes_cuda_trial(device, why_not) ? make_cuda_planner(config, device, why_not) : nullptr;
-  if (planner) return {std::make_unique<FallbackPlanner>(std::move(planner), make_cpu_planner(config)), ""};
-  if (backend == Backend::kCuda) refuse_cuda(why_not);
-  return {make_cpu_planner(config), JAYWALK_HAS_CUDA ? why_not : ""};
+  return backed(backend, std::move(planner), make_cpu_planner(config), why_not);
 }
 
 ChosenPlanner make_planner(const ControlSetup& setup) {
+  if (setup.make_planner != nullptr) return setup.make_planner(setup);
+  if (setup.mode == PlanMode::kPaper)
+    throw StartupError("mode paper: not in this program", "use the desktop program, jaywalk");
   return make_planner(setup.planner(), setup.backend, setup.device);
 }
 
@@ -58,14 +60,6 @@ std::string tried_backend(Backend backend, int device) {
     return "plans on CUDA device " + std::to_string(device) + ": trial plans have the CPU's bits";
   if (backend == Backend::kCuda) refuse_cuda(why_not);
   return "plans on the CPU (" + why_not + ")";
-}
-
-std::unique_ptr<field::MapField> make_map_field(const field::CellMap& map, Backend backend, int device) {
-  if (backend == Backend::kCpu) return field::make_cpu_map_field(map);
-  std::string why_not;
-  if (auto solver = make_cuda_map_field(map, device, why_not)) return solver;
-  if (backend == Backend::kCuda) refuse_cuda(why_not);
-  return field::make_cpu_map_field(map);
 }
 
 bool has_device_left_behind() { return has_cuda_left_behind(); }

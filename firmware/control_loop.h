@@ -13,10 +13,10 @@
 #include "firmware/safety/latency.h"
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/motion/diff_drive.h"
 #include "planner/motion/motion.h"
 #include "planner/motion/speed_zones.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 

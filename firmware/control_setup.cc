@@ -137,11 +137,9 @@ double ControlSetup::mover_radius_m() const {
 
 PlannerConfig ControlSetup::planner() const {
   PlannerConfig config;
-  config.mode = mode;
   config.cell_m = kCell_m;
   config.side_cells = grid_side_for(start.position(), goal, kCell_m);
   config.body = model.footprint;
-  config.inflation_m = mover_radius_m();
   config.keep_out = keep_out();
   config.known_map = known_map;
   return config;
@@ -149,7 +147,6 @@ PlannerConfig ControlSetup::planner() const {
 
 motion::MotionSetup ControlSetup::motion() const {
   return {.model = model,
-          .to_goal = mode == PlanMode::kPaper ? motion::MotionKind::kPath : motion::MotionKind::kRollouts,
           .constant_speed = keeps_speed(),
           .steering = steering,
           .comfort_distance_m = comfort_distance_m,

@@ -10,13 +10,20 @@
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "hal/types/time.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/mapping/known_map.h"
 #include "planner/motion/make_motion.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 
 enum class Backend { kAuto, kCpu, kCuda };
+
+enum class PlanMode {
+  kFull,   ///< what drives
+  kPaper,  ///< the paper's planner and follower (planner/paper), of the desktop program alone
+};
+
+struct ChosenPlanner;
 
 /// One flat object, as it stands in a recording's head: more fields than a struct has elsewhere.
 struct ControlSetup {
@@ -24,7 +31,8 @@ struct ControlSetup {
   PlanMode mode = PlanMode::kFull;
   bool constant_speed = false;  ///< the paper's constraint; mode paper implies it
   std::string rival{};          ///< name of another planner that decides on motion, for comparisons; empty: none
-  motion::MakeMotion make_motion = motion::make_motion;  ///< by the rival's name; not in a recording
+  motion::MakeMotion make_motion = motion::make_motion;          ///< a rival's, or mode paper's; not in a recording
+  ChosenPlanner (*make_planner)(const ControlSetup&) = nullptr;  ///< mode paper's; null: firmware/backends.h's
   StickUse steering = StickUse::kNone;
   Backend backend = Backend::kAuto;
   bool given_movers = false;  ///< they come with the fix from outside; mode paper implies it

@@ -12,7 +12,7 @@
 #include "firmware/recording/tick_record.h"
 #include "hal/types/geometry.h"
 #include "hal/types/time.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {

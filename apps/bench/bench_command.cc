@@ -15,9 +15,8 @@
 #include "apps/bench/bench_tick.h"
 #include "apps/bench/timing.h"
 #include "apps/jaywalk/progress.h"
-#include "firmware/backends.h"
+#include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 namespace {
@@ -40,16 +39,17 @@ std::array<Track, 8> walkers(double side_m) {
   return tracks;
 }
 
-/// What a plan is made of: of a nearly round body in mode full, or of all others.
+/// What drives, or the paper's.
 enum class PlanOf { kTimeToGo, kPotential };
 
 /// The whole plan under way: robot and eight movers move on from tick to tick. By the time to go they are bodies that
 /// are no walls, half of them such as ways past are preferred to.
 Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats) {
   const std::int32_t side = map.cells.width;
-  PlannerConfig config;
+  paper::PaperConfig config;
   config.side_cells = config.max_side_cells = side;
-  const auto chosen = make_planner(config, backend);
+  const bool by_potential = what == PlanOf::kPotential;
+  const auto chosen = by_potential ? make_paper_planner(config, backend) : make_planner(config, backend);
   Planner& planner = *chosen.planner;
   const double middle_m = side * kCell_m / 2.0;
   EvidenceMap evidence(2 * side, kCell_m, {middle_m, middle_m});
@@ -66,13 +66,12 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
   request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
   std::array<Track, 8> tracks = walkers(side * kCell_m);
   std::array<MoverDisc, tracks.size()> bodies;
-  request.wants_potential = what == PlanOf::kPotential;
-  if (request.wants_potential) {
+  if (by_potential) {
     request.moving = tracks;
   } else {
     request.masked = bodies;
   }
-  const char* const name = request.wants_potential ? "potential, 8 movers" : "plan, 8 movers";
+  const char* const name = by_potential ? "potential, 8 movers" : "plan, 8 movers";
   return time(name, repeats, planner.backend(), [&] {
     constexpr double kScan_s = 1.0 / 15.0;
     request.map_from_robot.x -= request.speed_mps * kScan_s;
@@ -88,7 +87,7 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
 
 /// The same work by the device's own events, as often as its quantiles want.
 template <class Work>
-Timing time_on_device(const char* what, int repeats, const field::MapField& field, const Work& work) {
+Timing time_on_device(const char* what, int repeats, const paper::MapField& field, const Work& work) {
   Distribution took_ms;
   for (int k = 0; k < repeats; ++k) {
     const double before_ms = field.device_ms();
@@ -113,10 +112,10 @@ class Bench {
   }
 
   /// One backend's solver and planner.
-  void measure(const BenchMap& map, field::MapField& field, Backend backend, int repeats,
+  void measure(const BenchMap& map, paper::MapField& field, Backend backend, int repeats,
                const std::vector<Timing>& rivals) {
     field.inflate(kBenchInflation);
-    field::MapQuality quality;
+    paper::MapQuality quality;
     bool certified = true;
     std::vector<Timing> own{time("cold solve", repeats, field.backend(), [&] {
       quality = field.solve_cold(map.goal);
@@ -151,14 +150,14 @@ class Bench {
   [[nodiscard]] const nlohmann::ordered_json& rows() const { return rows_; }
 
  private:
-  static std::string best_neighbours(const field::MapField& field, CellIndex goal) {
-    const std::optional<double> best = field.best_neighbours(goal, field::kMostMultiplications);
+  static std::string best_neighbours(const paper::MapField& field, CellIndex goal) {
+    const std::optional<double> best = field.best_neighbours(goal, paper::kMostMultiplications);
     return best ? std::to_string(100.0 * *best) + " %" : "not counted (too many cells)";
   }
 
   static std::vector<Timing> time_rivals(const BenchMap& map, int repeats) {
     const std::int32_t side = map.cells.width;
-    const auto field = field::make_cpu_map_field(map.cells);
+    const auto field = paper::make_cpu_map_field(map.cells);
     field->inflate(kBenchInflation);
     (void)field->solve_start(map.goal);
     std::vector<std::uint8_t> free;

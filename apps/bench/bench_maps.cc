@@ -95,7 +95,7 @@ BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
     const auto row = fine.cells.wall.begin() + static_cast<std::ptrdiff_t>(j) * fine.cells.width;
     std::copy(row, row + fine.cells.width, map.cells.wall.begin() + static_cast<std::ptrdiff_t>(j) * side);
   }
-  const auto field = field::make_cpu_map_field(map.cells);
+  const auto field = paper::make_cpu_map_field(map.cells);
   field->inflate(kBenchInflation);
   map.goal = {fine.cells.width / 2, fine.cells.height / 2};
   map.start = {fine.cells.width - 12, fine.cells.height - 12};

@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 
 namespace jaywalk {
 
@@ -13,7 +13,7 @@ inline constexpr float kBenchInflation = 3.0F;
 /// A map to measure on, with a goal and a start that are free after inflation.
 struct BenchMap {
   std::string name;
-  field::CellMap cells;
+  paper::CellMap cells;
   CellIndex goal, start;
 };
 

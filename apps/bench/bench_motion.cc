@@ -58,11 +58,8 @@ Timing time_decision(const BenchMap& map, double cell_m, int movers, int repeats
   const auto middle = [cell_m](CellIndex c) { return Vec2{(c.i + 0.5) * cell_m, (c.j + 0.5) * cell_m}; };
   const Vec2 start = middle(map.start), goal = middle(map.goal);
   const Pose2 pose{start.x, start.y, atan2(goal.y - start.y, goal.x - start.x)};
-  planner->submit({.map_from_robot = pose,
-                   .goal_in_map = goal,
-                   .speed_mps = model.limits.max_speed_mps,
-                   .still = &evidence,
-                   .wants_potential = false});
+  planner->submit(
+      {.map_from_robot = pose, .goal_in_map = goal, .speed_mps = model.limits.max_speed_mps, .still = &evidence});
   const auto plan = std::make_unique<Plan>(planner->collect());
   const auto motion = motion::make_motion({.model = model});
   std::vector<Track> tracks = walkers_round(start, movers);

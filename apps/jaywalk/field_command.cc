@@ -9,15 +9,15 @@
 
 #include "apps/bench/timing.h"
 #include "apps/jaywalk/map_cells.h"
-#include "firmware/backends.h"
+#include "apps/rivals/paper_mode.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
 
-using field::MapField;
-using field::MapQuality;
+using paper::MapField;
+using paper::MapQuality;
 
 /// A goal that is not free is replaced by the nearest cell this near.
 constexpr double kGoalRadius_m = 0.5;
@@ -106,7 +106,7 @@ int run_field(const FieldOptions& options) {
   const Timing warm_time = time("warm", kRepeats, solver.backend(), [&] { warm = solver.solve_warm(goal); });
   cold = solve();
   const float reach = solver.reach(goal);
-  const std::optional<double> best = solver.best_neighbours(goal, field::kMostMultiplications);
+  const std::optional<double> best = solver.best_neighbours(goal, paper::kMostMultiplications);
   std::error_code failed;
   std::filesystem::create_directories(options.out, failed);
   write_npy(options.out / "field.npy", map, solver);

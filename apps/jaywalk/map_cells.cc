@@ -15,7 +15,7 @@ namespace {
 constexpr double kDefaultCell_m = 0.1;
 
 void check_size(const std::string& file, double width, double height) {
-  const double most = field::kMostMapCells;
+  const double most = paper::kMostMapCells;
   if (width <= most && height <= most) return;
   throw StartupError(file + ": more than 2048 cells a side", "choose larger cells: --resolution");
 }
@@ -54,11 +54,11 @@ MapCells load_map_cells(const std::filesystem::path& file, std::optional<double>
   require_readable(file, name + ": ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
     if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");
-    return cells_of(sim::load_raster_map(file, field::kMostMapCells).raster);
+    return cells_of(sim::load_raster_map(file, paper::kMostMapCells).raster);
   }
   if (ending == ".png" || ending == ".pgm") {
     if (!cell_m) throw StartupError(name + ": a picture has no scale", "give --resolution, metres a pixel");
-    return cells_of(sim::read_raster(file, {}, *cell_m, field::kMostMapCells));
+    return cells_of(sim::read_raster(file, {}, *cell_m, paper::kMostMapCells));
   }
   if (ending == ".map") return drawn_cells(file, sim::load_aria_map(file), cell_m.value_or(kDefaultCell_m));
   if (ending == ".txt") return drawn_cells(file, sim::load_cylinder_map(file), cell_m.value_or(kDefaultCell_m));

@@ -3,13 +3,13 @@
 #include <optional>
 
 #include "hal/types/geometry.h"
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 
 namespace jaywalk {
 
 /// A map file as square cells.
 struct MapCells {
-  field::CellMap cells;
+  paper::CellMap cells;
   Pose2 map_from_cells;  ///< of the lowest cell's low corner
   double cell_m = 0.0;
 };

@@ -11,7 +11,7 @@
 #include "apps/jaywalk/progress.h"
 #include "apps/jaywalk/shipped_scenarios.h"
 #include "apps/report/run_observer.h"
-#include "apps/rivals/baseline.h"
+#include "apps/rivals/paper_mode.h"
 #include "apps/view/sim_view.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
@@ -83,21 +83,22 @@ std::vector<std::filesystem::path> files_of(const sim::Scenario& scenario, const
 
 ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options) {
   const double cell_m = ControlSetup{}.planner().cell_m;
-  return {.model = scenario.model,
-          .mode = options.mode,
-          .constant_speed = options.constant_speed,
-          .rival = options.rival,
-          .make_motion = baseline::maker_of(options.rival),
-          .steering = scenario.stick ? scenario.stick->steering : StickUse::kNone,
-          .backend = options.backend,
-          .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
-          .device = options.device,
-          .start = scenario.start,
-          .goal = scenario.goal,
-          .goal_tolerance_m = scenario.goal_tolerance_m,
-          .known_map = scenario.map_is_known ? load_known_map(scenario.map_file, cell_m) : nullptr,
-          .zones = scenario.zones,
-          .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
+  ControlSetup setup{.model = scenario.model,
+                     .mode = options.mode,
+                     .constant_speed = options.constant_speed,
+                     .rival = options.rival,
+                     .steering = scenario.stick ? scenario.stick->steering : StickUse::kNone,
+                     .backend = options.backend,
+                     .given_movers = scenario.pose_source.enabled && scenario.pose_source.gives_movers,
+                     .device = options.device,
+                     .start = scenario.start,
+                     .goal = scenario.goal,
+                     .goal_tolerance_m = scenario.goal_tolerance_m,
+                     .known_map = scenario.map_is_known ? load_known_map(scenario.map_file, cell_m) : nullptr,
+                     .zones = scenario.zones,
+                     .comfort_distance_m = profile_of(scenario.comfort).comfort_distance_m};
+  equip(setup);
+  return setup;
 }
 
 /// `Wall`: the report's WallLine or the page's WallPiece.

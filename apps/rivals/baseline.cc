@@ -106,8 +106,7 @@ PlanRequest BaselineMotion::request(const motion::World& world) const noexcept {
           .goal_in_map = world.input.goal_in_map,
           .speed_mps = speed_mps_,
           .still = &world.perceived.still,
-          .masked = memory_.masked(),
-          .wants_potential = false};
+          .masked = memory_.masked()};
 }
 
 motion::MakeMotion maker_of(const std::string& name) noexcept {

@@ -2,7 +2,7 @@
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk::view {
 

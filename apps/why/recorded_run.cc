@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/rivals/baseline.h"
+#include "apps/rivals/paper_mode.h"
 #include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
@@ -39,7 +39,7 @@ RecordedRun::RecordedRun(const std::filesystem::path& run, FilePart place)
     : files_(recordings_of(run)), reader_(std::make_unique<RecordingReader>(files_[0].string(), place)) {
   file_ = is_in_parts() ? run : files_[0];
   setup_ = setup_from_text(reader_->setup(), files_[0].string());
-  setup_.make_motion = baseline::maker_of(setup_.rival);
+  equip(setup_);
   if (!reader_->next(record_))
     throw StartupError(files_[0].string() + ": no whole tick in it", "take an undamaged copy of the recording");
   if (!begins_anew()) return;

@@ -3,10 +3,10 @@
 namespace jaywalk {
 namespace {
 
-std::unique_ptr<Planner> planner_for(const ControlSetup& setup) {
+std::unique_ptr<Planner> planner_for(ControlSetup setup) {
   // The bits are the same wherever it is replayed.
-  const Backend backend = setup.backend == Backend::kCuda ? Backend::kAuto : setup.backend;
-  return make_planner(setup.planner(), backend).planner;
+  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;
+  return make_planner(setup).planner;
 }
 
 }  // namespace

@@ -33,17 +33,17 @@ struct Tally {
 
 void solve(MapKind kind, std::int32_t side, std::uint64_t seed, Tally& tally) {
   MapRandom random(7 * seed + static_cast<std::uint64_t>(kind));
-  const auto field = field::make_cpu_map_field(random_map(kind, side, random));
+  const auto field = paper::make_cpu_map_field(random_map(kind, side, random));
   field->inflate(static_cast<float>(random.below(5)));
   CellIndex goal{random.below(side), random.below(side)};
   if (!field->nearest_free(goal, side)) return;
-  const field::MapQuality cold = field->solve_cold(goal);
+  const paper::MapQuality cold = field->solve_cold(goal);
   if (cold.joined < kLeastJoined) return;
   ++tally.maps;
   tally.cycles += cold.cycles;
   bool arrives = field->reach(goal) == 1.0F;
   tally.cold.values.push_back(field->best_neighbours(goal, kAnyNumber).value());
-  const field::MapQuality warm = field->solve_warm(goal);
+  const paper::MapQuality warm = field->solve_warm(goal);
   arrives = arrives && field->reach(goal) == 1.0F;
   tally.warm.values.push_back(field->best_neighbours(goal, kAnyNumber).value());
   tally.certified += cold.certified && warm.certified ? 1 : 0;

@@ -6,7 +6,7 @@
 namespace jaywalk {
 namespace {
 
-using field::CellMap;
+using paper::CellMap;
 
 CellMap filled(std::int32_t side, std::uint8_t value) {
   return {side, side,

@@ -2,7 +2,7 @@
 // Maps of many kinds, to try the solver where nobody has tuned it. The same bytes on every machine.
 #include <cstdint>
 
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 
 namespace jaywalk {
 
@@ -27,6 +27,6 @@ class MapRandom {
 };
 
 /// `side` x `side` cells.
-[[nodiscard]] field::CellMap random_map(MapKind kind, std::int32_t side, MapRandom& random);
+[[nodiscard]] paper::CellMap random_map(MapKind kind, std::int32_t side, MapRandom& random);
 
 }  // namespace jaywalk

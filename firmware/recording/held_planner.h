@@ -2,7 +2,7 @@
 #include <memory>
 
 #include "firmware/recording/tick_record.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
 

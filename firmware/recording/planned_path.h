@@ -6,7 +6,7 @@
 #include <limits>
 
 #include "hal/types/fixed_vector.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
 

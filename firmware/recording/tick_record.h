@@ -11,8 +11,8 @@
 #include "hal/types/outside_fix.h"
 #include "hal/types/scanners.h"
 #include "hal/types/wheels.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/localization/localizer.h"
-#include "planner/planner.h"
 
 namespace jaywalk {
 

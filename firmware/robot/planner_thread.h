@@ -7,7 +7,7 @@
 #include "firmware/control_setup.h"
 #include "firmware/tick_observer.h"
 #include "hal/mailbox.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
 

@@ -10,7 +10,7 @@
 #include "firmware/safety/reasons.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/wheels.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
 

@@ -2,7 +2,7 @@
 #include <limits>
 #include <vector>
 
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk::faults {
 

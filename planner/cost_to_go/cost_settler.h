@@ -2,10 +2,50 @@
 // The time to go's long work, done elsewhere than by the processor's loops and queues: on a device.
 #include <cstdint>
 
-#include "planner/cost_to_go/pose_look.h"
+#include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/pose_moves.h"
 
 namespace jaywalk::field {
+
+/// Where a body's outline has how much room, by nodes that know how far the nearest surface is: plain values. A pose
+/// stands for the place in its cell, across its heading, at which the body has most room.
+struct PoseLook {
+  static constexpr std::int32_t kSides = 3;    ///< a cell's middle, to the left, to the right
+  static constexpr std::int32_t kPerCell = 4;  ///< nodes
+  static constexpr std::int32_t kMargin = 60;  ///< a body reaches 1.5 m from its axle at most
+  static constexpr std::int32_t kNodes = PoseLattice::kSide * kPerCell + 2 * kMargin, kColumns = kNodes / kPerCell;
+
+  const std::uint8_t* nodes;   ///< every fourth of a row side by side
+  const std::int32_t* places;  ///< of the node of each heading's, side's and point's, for cell (0, 0)
+  const std::uint8_t* radius;  ///< of each point: of a circle within the body; 0: of the outline
+  std::int32_t points;
+  std::uint8_t* room;  ///< by pose
+  std::int8_t* shift;  ///< to the left
+
+  JAYWALK_CELL static std::int8_t shift_of(std::int32_t side) {
+    return static_cast<std::int8_t>(side == 2 ? -1 : side);
+  }
+  JAYWALK_CELL static std::uint8_t left(std::uint8_t node, std::uint8_t radius) {
+    return static_cast<std::uint8_t>((node > radius ? node : radius) - radius);
+  }
+
+  /// Visits a pose: cells run fastest.
+  JAYWALK_CELL void operator()(std::int32_t k) const {
+    const std::int32_t i = k % PoseLattice::kSide, j = k / PoseLattice::kSide % PoseLattice::kSide,
+                       heading = k / (PoseLattice::kSide * PoseLattice::kSide);
+    const std::int32_t pose = PoseLattice::at(i, j, heading), cell = j * kPerCell * kColumns + i;
+    for (std::int32_t side = 0; side < kSides; ++side) {
+      const std::int32_t* at = places + (heading * kSides + side) * points;
+      std::uint8_t least = 255;
+      for (std::int32_t p = 0; p < points; ++p) {
+        const std::uint8_t there = left(nodes[at[p] + cell], radius[p]);
+        least = there < least ? there : least;
+      }
+      if (side > 0 && least <= room[pose]) continue;
+      room[pose] = least, shift[pose] = shift_of(side);
+    }
+  }
+};
 
 /// cost[p] = min(cost[q] + step(p, q)) over the moves p to q of a lattice of poses.
 struct PoseCosts {
@@ -17,21 +57,29 @@ struct PoseCosts {
   std::uint16_t* cost;   ///< what is given, else PoseGuide::kNoWay; then the fixed point, where that is of concern
 };
 
-/// cost[n] = min(cost[c] + step) over sixteen neighbours (guide_ways.h).
+/// cost[n] = min(cost[c] + step) over sixteen neighbours.
 struct CellCosts {
   std::int32_t side;
-  const std::uint16_t* rate;  ///< 0: not free
-  std::int32_t robot;         ///< cell
-  std::uint32_t beyond;       ///< more than the robot's cost: of no concern
-  std::uint32_t* cost;        ///< what is given, else kNoWay; then the fixed point, where that is of concern
+  std::int32_t robot;    ///< node
+  std::uint32_t beyond;  ///< more than the robot's cost: of no concern
+  CellNode* nodes;  ///< CellGraph's; cost: what is given, else kNoWay; then the fixed point, where that is of concern
 };
 
+/// A device for them. Host and device give the same numbers.
 class CostSettler {
  public:
   CostSettler() = default;
   virtual ~CostSettler() = default;
   CostSettler(const CostSettler&) = delete;
   CostSettler& operator=(const CostSettler&) = delete;
+  /// Whether it may be asked (again).
+  [[nodiscard]] virtual bool is_ready() noexcept = 0;
+  /// Since it was ready last; and why, in a few words, empty where it has not.
+  [[nodiscard]] virtual bool has_failed() const noexcept = 0;
+  [[nodiscard]] virtual const char* failure() const noexcept = 0;
+  /// What all of it has taken, by the device's own clock.
+  [[nodiscard]] virtual double took_ms() const noexcept = 0;
+  [[nodiscard]] virtual const char* name() const noexcept = 0;
   /// False: it failed, and nothing has been written.
   [[nodiscard]] virtual bool settle(const PoseCosts& poses) noexcept = 0;
   [[nodiscard]] virtual bool settle(const CellCosts& cells) noexcept = 0;

@@ -16,6 +16,13 @@ constexpr Duration kUpdateEvery = std::chrono::seconds(1);
 /// Of cells beside a wall, and of those that were never seen: a person keeps to the middle of a corridor that is known.
 constexpr std::uint32_t kBesideWall = kRateOfOpenGround * 3 / 2, kUnseen = kRateOfOpenGround * 5 / 2;
 
+/// Calls visit(i, j) for a cell and the eight about it.
+template <class Visit>
+void for_each_about(CellIndex cell, const Visit& visit) {
+  for (std::int32_t j = cell.j - 1; j <= cell.j + 1; ++j)
+    for (std::int32_t i = cell.i - 1; i <= cell.i + 1; ++i) visit(i, j);
+}
+
 std::int32_t floor_of(double cells) noexcept {
   return static_cast<std::int32_t>(std::floor(std::clamp(cells, -5e8, 5e8)));
 }
@@ -33,7 +40,7 @@ FarGuide::FarGuide(double cell_m, std::shared_ptr<const KnownMap> known)
       grid_{side_for(known_.get(), kFine, cell_m_)},
       kinds_(static_cast<std::size_t>(grid_.cells())),
       graph_(grid_.side),
-      repair_(StepGraph::size_for(grid_.side), 2 * StepGraph::size_for(grid_.side)) {
+      repair_(CellGraph::size_for(grid_.side), 2 * CellGraph::size_for(grid_.side)) {
   changed_.resize(kinds_.size());  // touched, not only reserved: no page is to be fetched later
   graph_.take_grid(grid_);
   if (known_)
@@ -56,10 +63,9 @@ std::uint32_t FarGuide::rate(std::int32_t i, std::int32_t j) const noexcept {
   const KnownCell here = kind(i, j);
   if (here == KnownCell::kWall) return 0;
   if (here == KnownCell::kUnknown) return kUnseen;
-  for (std::int32_t dj = -1; dj <= 1; ++dj)
-    for (std::int32_t di = -1; di <= 1; ++di)
-      if (kind(i + di, j + dj) == KnownCell::kWall) return kBesideWall;
-  return kRateOfOpenGround;
+  bool beside_wall = false;
+  for_each_about({i, j}, [&](std::int32_t x, std::int32_t y) { beside_wall |= kind(x, y) == KnownCell::kWall; });
+  return beside_wall ? kBesideWall : kRateOfOpenGround;
 }
 
 /// What was remembered of elsewhere is forgotten; the known map is not.
@@ -87,18 +93,17 @@ void FarGuide::note(CellIndex fine, KnownCell as) noexcept {
 void FarGuide::set(CellIndex cell, KnownCell as) noexcept {
   KnownCell& kind = kinds_[static_cast<std::size_t>(grid_.at(cell.i, cell.j))];
   if (std::exchange(kind, as) == as || !settled_) return;
-  for (std::int32_t dj = -1; dj <= 1; ++dj)
-    for (std::int32_t di = -1; di <= 1; ++di) {
-      if (!grid_.holds(cell.i + di, cell.j + dj)) continue;
-      const std::int32_t n = graph_.at(cell.i + di, cell.j + dj);
-      const std::uint32_t now = rate(cell.i + di, cell.j + dj);
-      if (graph_.rate(n) == now) continue;
-      graph_.set_rate(n, now);
-      if (changed_.size() == changed_.capacity())
-        settled_ = false;
-      else
-        changed_.push_back(n);
-    }
+  for_each_about(cell, [&](std::int32_t i, std::int32_t j) {
+    if (!grid_.holds(i, j)) return;
+    const std::int32_t n = graph_.at(i, j);
+    const std::uint32_t now = rate(i, j);
+    if (graph_.rate(n) == now) return;
+    graph_.set_rate(n, now);
+    if (changed_.size() == changed_.capacity())
+      settled_ = false;
+    else
+      changed_.push_back(n);
+  });
 }
 
 /// Cells of which the evidence map holds all and has seen any.
@@ -125,14 +130,13 @@ void FarGuide::take_over(const EvidenceMap& still) noexcept {
 std::int32_t FarGuide::goal_node(Vec2 goal) const noexcept {
   const CellIndex at = cell_at(goal);
   const std::int32_t last = grid_.side - 1, i = std::clamp(at.i, 0, last), j = std::clamp(at.j, 0, last);
-  std::int32_t best = StepGraph::kNone;
+  std::int32_t best = CellGraph::kNone;
   double least = std::numeric_limits<double>::infinity();
-  for (std::int32_t dj = -1; dj <= 1; ++dj)
-    for (std::int32_t di = -1; di <= 1; ++di) {
-      if (!grid_.holds(i + di, j + dj) || kind(i + di, j + dj) == KnownCell::kWall) continue;
-      const double away = di == 0 && dj == 0 ? 0.0 : distance(middle_of({i + di, j + dj}), goal);
-      if (away < least) least = away, best = graph_.at(i + di, j + dj);
-    }
+  for_each_about({i, j}, [&](std::int32_t x, std::int32_t y) {
+    if (!grid_.holds(x, y) || kind(x, y) == KnownCell::kWall) return;
+    const double away = x == i && y == j ? 0.0 : distance(middle_of({x, y}), goal);
+    if (away < least) least = away, best = graph_.at(x, y);
+  });
   return best;
 }
 
@@ -142,7 +146,7 @@ void FarGuide::settle_anew() noexcept {
     for (std::int32_t i = 0; i < grid_.side; ++i) graph_.set_rate(graph_.at(i, j), rate(i, j));
   graph_.seed(goal_);
   repair_.clear();
-  if (goal_ != StepGraph::kNone) repair_.offer(graph_, goal_, 0);
+  if (goal_ != CellGraph::kNone) repair_.offer(graph_, goal_, 0);
   settled_ = repair_.settle(graph_);
 }
 
@@ -165,22 +169,20 @@ double FarGuide::to_go_m(Vec2 p) const noexcept {
   const CellIndex at = cell_at(p);
   double least = std::numeric_limits<double>::infinity();
   if (!settled_ || !grid_.holds(at.i, at.j) || kind(at.i, at.j) == KnownCell::kWall) return least;
-  for (std::int32_t dj = -1; dj <= 1; ++dj)
-    for (std::int32_t di = -1; di <= 1; ++di) {
-      const std::int32_t n = graph_.at(at.i + di, at.j + dj);
-      if (!graph_.has_way(n)) continue;
-      least =
-          std::min(least, graph_.cost(n) * cell_m_ / kCostsPerCell + distance(p, middle_of({at.i + di, at.j + dj})));
-    }
+  for_each_about(at, [&](std::int32_t i, std::int32_t j) {
+    const std::int32_t n = graph_.at(i, j);
+    if (graph_.has_way(n))
+      least = std::min(least, graph_.cost(n) * cell_m_ / kCostsPerCell + distance(p, middle_of({i, j})));
+  });
   return least;
 }
 
 bool FarGuide::has_way_near(Vec2 p) const noexcept {
   const CellIndex at = cell_at(p);
-  for (std::int32_t dj = -1; settled_ && grid_.holds(at.i, at.j) && dj <= 1; ++dj)
-    for (std::int32_t di = -1; di <= 1; ++di)
-      if (graph_.has_way(graph_.at(at.i + di, at.j + dj))) return true;
-  return false;
+  bool any = false;
+  if (settled_ && grid_.holds(at.i, at.j))
+    for_each_about(at, [&](std::int32_t i, std::int32_t j) { any |= graph_.has_way(graph_.at(i, j)); });
+  return any;
 }
 
 }  // namespace jaywalk::field

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hal/types/time.h"
-#include "planner/cost_to_go/guide_ways.h"
-#include "planner/field/cost_repair.h"
+#include "planner/cost_to_go/cell_graph.h"
+#include "planner/cost_to_go/shortest.h"
 #include "planner/mapping/known_map.h"
 
 namespace jaywalk::field {
@@ -14,7 +14,7 @@ namespace jaywalk::field {
 /// Cells of kFine x kFine of the evidence map's (0.4 m), each a wall where any of those is: openings of twice that are
 /// always found. It begins with the known map, takes over what the evidence map knows, and remembers what has left it.
 /// A square of 512 cells (205 m), or as many as hold the known map, 500 m a side at most; where robot and goal do not
-/// fit, it is laid anew about them. Costs are the fixed point on a StepGraph, and repaired where few cells changed.
+/// fit, it is laid anew about them. Costs are the fixed point on a CellGraph, and repaired where few cells changed.
 ///
 /// Memory in the constructor: 34 bytes a cell, 9 to 53 MB. Thread: the planner's.
 class FarGuide {
@@ -52,10 +52,10 @@ class FarGuide {
   bool laid_ = false, settled_ = false;
   Time updated_ = kNever;
   std::vector<KnownCell> kinds_;
-  StepGraph graph_;
-  CostRepair repair_;
+  CellGraph graph_;
+  Shortest repair_;
   std::vector<std::int32_t> changed_;  ///< nodes whose rate has changed since the last repair
-  std::int32_t goal_ = StepGraph::kNone;
+  std::int32_t goal_ = CellGraph::kNone;
 };
 
 }  // namespace jaywalk::field

@@ -6,8 +6,8 @@
 #include <iterator>
 #include <utility>
 
+#include "planner/cost_to_go/planning_rules.h"
 #include "planner/cost_to_go/pose_price.h"
-#include "planner/field/planning_rules.h"
 
 namespace jaywalk::field {
 namespace {
@@ -59,16 +59,14 @@ TimeToGoField::TimeToGoField(double inscribed_m, double circumscribed_m, std::in
       keep_out_(keep_out_field_ ? keep_out_field_->view() : KeepOut{}),
       surfaces_(max_side),
       row_round_(static_cast<std::size_t>(max_side)),
-      surface_rate_(static_cast<std::size_t>(Grid{max_side}.cells())),
-      rate_(surface_rate_.size()),
+      ground_rate_(static_cast<std::size_t>(Grid{max_side}.cells())),
+      rate_(ground_rate_.size()),
       last_rate_(rate_.size()),
-      keep_out_rate_(keep_out_.known() ? rate_.size() : 0),
       middle_x_m_(row_round_.size()),
       evidence_(row_round_.size()),
       graph_(max_side),
-      repair_(StepGraph::size_for(max_side), 2 * StepGraph::size_for(max_side)),
-      settler_(settler),
-      costs_(settler == nullptr ? 0 : rate_.size()) {
+      repair_(CellGraph::size_for(max_side), 2 * CellGraph::size_for(max_side)),
+      settler_(settler) {
   changed_.resize(rate_.size());  // touched, not only reserved: no page is to be fetched later
   changed_.clear();
 }
@@ -93,7 +91,7 @@ Guide TimeToGoField::settle(const TimeToGoRequest& request, Memory& memory) noex
           memory.surface.data(),
           memory.unseen.data(),
           memory.to_go_s.data(),
-          is_in(keep_out_, request.robot_in_map) ? KeepOut{} : keep_out_};
+          leaves_zone_ ? KeepOut{} : keep_out_};
 }
 
 void TimeToGoField::draw(const Guide& guide, float* seconds) const noexcept {
@@ -149,8 +147,8 @@ bool TimeToGoField::leads_through_unseen(const TimeToGoRequest& request, const C
   std::int32_t i = robot.i, j = robot.j;
   for (double gone = 0.0; gone < kUnseenRadius_m;) {
     std::uint32_t least = kNoWay;
-    StepGraph::Neighbour best{};
-    for (const StepGraph::Neighbour& n : StepGraph::kNeighbours) {
+    CellStep best{};
+    for (const CellStep& n : CellGraph::kSteps) {
       const std::int32_t x = i + n.di, y = j + n.dj;
       if (x < box.i0 || y < box.j0 || x > box.i1 || y > box.j1) continue;
       const std::uint32_t cost = graph_.cost(graph_.at(x, y));
@@ -169,19 +167,18 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
                           const std::uint8_t* unseen) noexcept {
   const Window& window = request.window;
   const auto cells = window.grid().cells();
-  if (!same_ground) std::fill_n(surface_rate_.begin(), cells, std::uint16_t{0});
+  const bool leaves_zone = is_in(keep_out_, request.robot_in_map);
+  const bool anew = std::exchange(leaves_zone_, leaves_zone) != leaves_zone;
+  if (!same_ground) std::fill_n(ground_rate_.begin(), cells, std::uint16_t{0});
   for (std::int32_t i = box.i0; i <= box.i1; ++i) {
     middle_x_m_[static_cast<std::size_t>(i)] = place_of(window.in_map({i + 0.5, 0.0})).x;
   }
   for (std::int32_t j = 0; j < window.side; ++j) {
-    if (!surfaces_.is_new(j)) continue;
-    row_round_[static_cast<std::size_t>(j)] = round_;
-    if (j >= box.j0 && j <= box.j1) weigh_surfaces(window, box, j);
+    if (surfaces_.is_new(j)) row_round_[static_cast<std::size_t>(j)] = round_;
+    if ((anew || surfaces_.is_new(j)) && j >= box.j0 && j <= box.j1) weigh_ground(window, box, j);
   }
-  if (!same_ground && keep_out_.known()) weigh_keep_out(window, box);
   rate_.swap(last_rate_);
-  std::copy_n(surface_rate_.begin(), cells, rate_.begin());
-  if (keep_out_.known()) add_keep_out(window, box, request.robot_in_map);
+  std::copy_n(ground_rate_.begin(), cells, rate_.begin());
   for_each_in_disc(window, box, request.robot_in_map, kUnseenRadius_m, [&](std::int32_t c) {
     if (unseen[c] != 0) add_weight(c, kUnseenWeight);
   });
@@ -194,35 +191,18 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
   }
 }
 
-void TimeToGoField::weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept {
-  const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
-  const Place* surface = surfaces_.surface();
+/// By surfaces and keep-out zones: what is nearer. To a robot in a zone none is closed, or it would have no way out.
+void TimeToGoField::weigh_ground(const Window& window, const CellBox& box, std::int32_t j) noexcept {
+  constexpr auto kInZone = static_cast<std::uint16_t>(kRates * kDearest);
+  const float y = place_of(window.in_map({0.0, j + 0.5})).y;
   for (std::int32_t i = box.i0; i <= box.i1; ++i) {
     const auto c = static_cast<std::size_t>(window.grid().at(i, j));
-    const float dx = surface[c].x - middle_x_m_[static_cast<std::size_t>(i)], dy = surface[c].y - middle_y_m;
-    surface_rate_[c] = rate_at(std::sqrt(dx * dx + dy * dy));
-  }
-}
-
-void TimeToGoField::weigh_keep_out(const Window& window, const CellBox& box) noexcept {
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    const float middle_y_m = place_of(window.in_map({0.0, j + 0.5})).y;
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      keep_out_rate_[static_cast<std::size_t>(window.grid().at(i, j))] =
-          rate_at(keep_out_.distance(middle_x_m_[static_cast<std::size_t>(i)], middle_y_m));
-    }
-  }
-}
-
-/// The dearer of both holds: what is nearer. To a robot in a zone none is closed, or it would have no way out.
-void TimeToGoField::add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept {
-  const auto closed = static_cast<std::uint16_t>(is_in(keep_out_, robot_in_map) ? kRates * kDearest : 0.0F);
-  for (std::int32_t j = box.j0; j <= box.j1; ++j) {
-    for (std::int32_t i = box.i0; i <= box.i1; ++i) {
-      const auto c = static_cast<std::size_t>(window.grid().at(i, j));
-      const std::uint16_t zone = keep_out_rate_[c] == 0 ? closed : keep_out_rate_[c];
-      rate_[c] = rate_[c] == 0 || zone == 0 ? std::uint16_t{0} : std::max(rate_[c], zone);
-    }
+    const Place& surface = surfaces_.surface()[c];
+    const float x = middle_x_m_[static_cast<std::size_t>(i)], dx = surface.x - x, dy = surface.y - y;
+    std::uint16_t& rate = ground_rate_[c] = rate_at(std::sqrt(dx * dx + dy * dy));
+    if (!keep_out_.known() || rate == 0) continue;
+    const std::uint16_t zone = rate_at(keep_out_.distance(x, y));
+    rate = zone == 0 && !leaves_zone_ ? std::uint16_t{0} : std::max(rate, zone == 0 ? kInZone : zone);
   }
 }
 
@@ -236,7 +216,7 @@ void TimeToGoField::add_weight(std::int32_t c, float weight) noexcept {
 std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept {
   const Window& window = request.window;
   const Grid grid = window.grid();
-  if (!window.holds(request.goal_in_map, 0)) return StepGraph::kNone;
+  if (!window.holds(request.goal_in_map, 0)) return CellGraph::kNone;
   std::int32_t best = -1;
   double least = kGoalRadius_m;
   for_each_in_disc(window, box, request.goal_in_map, kGoalRadius_m, [&](std::int32_t c) {
@@ -244,7 +224,7 @@ std::int32_t TimeToGoField::goal_cell(const TimeToGoRequest& request, const Cell
     const double away = distance(window.in_map({c % grid.side + 0.5, c / grid.side + 0.5}), request.goal_in_map);
     if (away < least) least = away, best = c;
   });
-  return best < 0 ? StepGraph::kNone : graph_.at(best % grid.side, best / grid.side);
+  return best < 0 ? CellGraph::kNone : graph_.at(best % grid.side, best / grid.side);
 }
 
 /// For a goal outside every cell of the border, with what is left beyond.
@@ -273,7 +253,7 @@ void TimeToGoField::settle_costs(const TimeToGoRequest& request, const CellBox& 
   graph_.take_grid(request.window.grid());
   const std::int32_t robot = graph_.at(at.i, at.j);
   const std::int32_t goal = goal_cell(request, box), last = std::exchange(goal_, goal);
-  if (certified_ && same_ground && goal != StepGraph::kNone && goal == last &&
+  if (certified_ && same_ground && goal != CellGraph::kNone && goal == last &&
       repair_costs(request.window.grid(), robot))
     return;
   settle_anew(request, box, robot);
@@ -307,26 +287,12 @@ void TimeToGoField::settle_anew(const TimeToGoRequest& request, const CellBox& b
   graph_.seed(goal_);
   graph_.end_beyond(robot, kKeptBeyondRobot);
   repair_.clear();
-  if (goal_ != StepGraph::kNone) repair_.offer(graph_, goal_, 0);
+  if (goal_ != CellGraph::kNone) repair_.offer(graph_, goal_, 0);
   if (!request.window.holds(request.goal_in_map, 0)) seed_border(request, box);
   // Room for two entries a cell has always done.
-  certified_ = settle_elsewhere(grid, graph_.cell_of(robot)) || repair_.settle(graph_);
+  certified_ = (settler_ != nullptr && settler_->settle({grid.side, robot, kKeptBeyondRobot, graph_.nodes()})) ||
+               repair_.settle(graph_);
   graph_.keep_end();
-}
-
-bool TimeToGoField::settle_elsewhere(Grid grid, CellIndex robot) noexcept {
-  if (settler_ == nullptr) return false;
-  for (std::int32_t j = 0; j < grid.side; ++j) {
-    for (std::int32_t i = 0; i < grid.side; ++i)
-      costs_[static_cast<std::size_t>(grid.at(i, j))] = graph_.cost(graph_.at(i, j));
-  }
-  if (!settler_->settle({grid.side, rate_.data(), grid.at(robot.i, robot.j), kKeptBeyondRobot, costs_.data()}))
-    return false;
-  for (std::int32_t j = 0; j < grid.side; ++j) {
-    for (std::int32_t i = 0; i < grid.side; ++i)
-      graph_.cost(graph_.at(i, j)) = costs_[static_cast<std::size_t>(grid.at(i, j))];
-  }
-  return true;
 }
 
 void TimeToGoField::write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept {

@@ -4,13 +4,13 @@
 #include <span>
 #include <vector>
 
+#include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/far_guide.h"
 #include "planner/cost_to_go/guide.h"
-#include "planner/cost_to_go/guide_ways.h"
 #include "planner/cost_to_go/nearest_surfaces.h"
-#include "planner/field/cost_repair.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
+#include "planner/cost_to_go/shortest.h"
 
 namespace jaywalk::field {
 
@@ -51,7 +51,7 @@ class TimeToGoField {
   Guide settle(const TimeToGoRequest& request, Memory& memory) noexcept;
 
   /// What it was settled on, until the next time.
-  [[nodiscard]] const StepGraph& graph() const noexcept { return graph_; }
+  [[nodiscard]] const CellGraph& graph() const noexcept { return graph_; }
   /// Whether the costs are the fixed point: where there is none, there is no way.
   [[nodiscard]] bool is_certified() const noexcept { return certified_; }
   /// For pictures: seconds by cell, NaN where the body's middle cannot be, infinity where no way leads on.
@@ -60,14 +60,11 @@ class TimeToGoField {
  private:
   [[nodiscard]] CellBox box_of(const TimeToGoRequest& request) noexcept;
   void weigh(const TimeToGoRequest& request, const CellBox& box, bool same_ground, const std::uint8_t* unseen) noexcept;
-  void weigh_surfaces(const Window& window, const CellBox& box, std::int32_t j) noexcept;
-  void weigh_keep_out(const Window& window, const CellBox& box) noexcept;
-  void add_keep_out(const Window& window, const CellBox& box, Vec2 robot_in_map) noexcept;
+  void weigh_ground(const Window& window, const CellBox& box, std::int32_t j) noexcept;
   void add_weight(std::int32_t c, float weight) noexcept;
   void settle_costs(const TimeToGoRequest& request, const CellBox& box, bool same_ground) noexcept;
   [[nodiscard]] bool repair_costs(Grid grid, std::int32_t robot) noexcept;
   void settle_anew(const TimeToGoRequest& request, const CellBox& box, std::int32_t robot) noexcept;
-  [[nodiscard]] bool settle_elsewhere(Grid grid, CellIndex robot) noexcept;
   [[nodiscard]] std::int32_t goal_cell(const TimeToGoRequest& request, const CellBox& box) const noexcept;
   void seed_border(const TimeToGoRequest& request, const CellBox& box) noexcept;
   void write(const TimeToGoRequest& request, const CellBox& box, Memory& memory) noexcept;
@@ -78,23 +75,22 @@ class TimeToGoField {
   float blocked_m_, tight_m_, tight_weight_;
   std::shared_ptr<const KeepOutField> keep_out_field_;
   KeepOut keep_out_;
+  bool leaves_zone_ = false;  ///< the robot is in one
   NearestSurfaces surfaces_;
   Window window_;  ///< of the last time
   CellBox box_;
   std::uint64_t round_ = 0;
   std::vector<std::uint64_t> row_round_;         ///< in which a row's surfaces changed last
-  std::vector<std::uint16_t> surface_rate_;      ///< by surfaces alone; 0: not free
+  std::vector<std::uint16_t> ground_rate_;       ///< by surfaces and keep-out zones alone; 0: not free
   std::vector<std::uint16_t> rate_, last_rate_;  ///< with all that is added
   std::vector<std::int32_t> changed_;            ///< cells whose rate is not that of the last time
-  std::vector<std::uint16_t> keep_out_rate_;     ///< by keep-out zones alone; empty where there are none
   std::vector<float> middle_x_m_;                ///< of a row's cells, in the map
   std::vector<std::int8_t> evidence_;            ///< of a row
-  std::int32_t goal_ = StepGraph::kNone;         ///< cell that ways lead to; kNone: none, or many
+  std::int32_t goal_ = CellGraph::kNone;         ///< cell that ways lead to; kNone: none, or many
   bool certified_ = false;
-  StepGraph graph_;
-  CostRepair repair_;
+  CellGraph graph_;
+  Shortest repair_;
   CostSettler* settler_;
-  std::vector<std::uint32_t> costs_;  ///< by cells, as a settler has them; empty without one
 };
 
 }  // namespace jaywalk::field

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "planner/cost_to_go/guide.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/mapping/window.h"
-#include "planner/planner.h"
 
 namespace jaywalk::field {
 

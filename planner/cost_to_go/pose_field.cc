@@ -1,6 +1,7 @@
 #include "planner/cost_to_go/pose_field.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "planner/cost_to_go/nearest_surfaces.h"
@@ -11,9 +12,6 @@ namespace {
 
 using Lattice = PoseLattice;
 
-constexpr std::uint32_t kBucket = price::kLeastCost;  // no move costs less: what a bucket holds is settled in any order
-constexpr std::size_t kBuckets = PoseGuide::kNoWay / kBucket + 1;
-constexpr std::size_t kEntries = 1U << 20;  // five a pose; three were the most that any map took
 constexpr std::uint32_t kBeyond = 4U * static_cast<std::uint32_t>(kPoseCostsPerSecond);
 constexpr std::int32_t kSoon = 20;  // poses of the way
 
@@ -35,6 +33,58 @@ bool turns_into_unseen(const PoseGuide& guide, const PoseWay& way) {
   return false;
 }
 
+constexpr std::size_t kRooms = 256;
+
+/// Of a second where the outline has so much room, in kRateOfOpen; 0 where the body cannot be.
+constexpr std::array<std::uint8_t, kRooms> kRateOfRoom = [] {
+  std::array<std::uint8_t, kRooms> rates{};
+  for (std::size_t k = 0; k < kRooms; ++k) {
+    const float c = static_cast<float>(k) * PoseRoom::kUnit_m;
+    const float near = c < price::kPoseNear_m ? (price::kPoseNear_m - c) / price::kPoseNear_m : 0.0F;
+    const float by = c < price::kPoseBy_m ? (price::kPoseBy_m - c) / price::kPoseBy_m : 0.0F;
+    const float rate = 1.0F + price::kPoseNear * near * near + price::kPoseBy * by;
+    rates[k] = c < price::kPoseLeast_m ? std::uint8_t{0}
+                                       : static_cast<std::uint8_t>(rate * static_cast<float>(price::kRateOfOpen));
+  }
+  return rates;
+}();
+
+constexpr std::int32_t kOpenCells = 6, kOpenTurns = 6;  // about a body that has no way else
+constexpr std::int32_t kUneven = 1;                     // of room: along a straight wall
+constexpr std::uint8_t kDearestPose =
+    static_cast<std::uint8_t>((1.0F + price::kPoseNear) * static_cast<float>(price::kRateOfOpen));
+
+constexpr std::int32_t kRimRings = 3;
+constexpr float kOutward_m = 0.4F, kOutward_s = 0.2F;  // so far out of the square the time must have fallen by so much
+constexpr float kMostRim_s = 100.0F;                   // later than from elsewhere on the rim: none drives there
+constexpr float kInside_m = 0.3F;                      // of the square: the goal is there
+constexpr float kOffGoal = 0.2F;                       // seconds a metre beside the goal
+
+/// The 2-D time at a place of the rim if it falls towards outside, kNoWay_s else.
+float time_outward(const Guide& guide, Place p, std::int32_t out_x, std::int32_t out_y) {
+  const float here = guide.time_to_go(p.x, p.y);
+  if (here >= Guide::kNoWay_s) return here;
+  const auto ox = static_cast<float>(out_x), oy = static_cast<float>(out_y);
+  for (std::int32_t k = -2; k <= 2; ++k) {
+    const float aside = 0.5F * kOutward_m * static_cast<float>(k);
+    const float there = guide.time_to_go(p.x + kOutward_m * ox + aside * oy, p.y + kOutward_m * oy + aside * ox);
+    if (there < here - kOutward_s) return here;
+  }
+  return Guide::kNoWay_s;
+}
+
+/// Visits the cells of the rim, and which way is out.
+template <class Visit>
+void for_each_of_rim(const Visit& visit) {
+  constexpr std::int32_t kLast = Lattice::kSide - 1;
+  for (std::int32_t ring = 0; ring < kRimRings; ++ring) {
+    for (std::int32_t k = 0; k <= kLast; ++k) {
+      visit(k, ring, 0, -1), visit(k, kLast - ring, 0, 1);
+      visit(ring, k, -1, 0), visit(kLast - ring, k, 1, 0);
+    }
+  }
+}
+
 }  // namespace
 
 PoseField::Memory::Memory()
@@ -44,16 +94,13 @@ PoseField::Memory::Memory()
       unseen(Lattice::kPoses),
       shift(Lattice::kPoses) {}
 
-PoseField::PoseField(const Footprint& body, CostSettler* settler)
-    : body_(body), settler_(settler), room_(body, settler), entries_(kEntries), buckets_(kBuckets, -1) {
-  entries_.clear();
-}
+PoseField::PoseField(const Footprint& body, CostSettler* settler, std::size_t entries)
+    : body_(body), settler_(settler), room_(body, settler), queue_(0, entries) {}
 
 PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noexcept {
   const Pose2& robot = request.map_from_robot;
   const Place low = low_corner(request.guide, robot);
   if (!(memory.speeds == request.asked.speeds)) memory.moves.draw(memory.speeds = request.asked.speeds);
-  turn_moves_back(memory.moves);
   PoseGuide guide{.low_x = low.x,
                   .low_y = low.y,
                   .speed_mps = request.asked.speeds.forward,
@@ -67,12 +114,11 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   if (room_.find_unseen(request.guide, low, memory.unseen.data())) guide.unseen = memory.unseen.data();
   weigh(request, guide, memory);
   std::fill(memory.cost.begin(), memory.cost.end(), PoseGuide::kNoWay);
-  entries_.clear();
+  graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, static_cast<float>(robot.heading)), kBeyond);
+  queue_.clear();
   sow_goal(request, guide, memory);
-  if (entries_.empty()) sow_rim(request, guide, memory);
-  settle_costs(
-      guide.pose_at(static_cast<float>(robot.x), static_cast<float>(robot.y), static_cast<float>(robot.heading)), guide,
-      memory);
+  if (queue_.is_empty()) sow_rim(request, guide, memory);
+  settle_costs(guide, memory);
   const auto heading = static_cast<float>(robot.heading);
   guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
   if (guide.known && guide.unseen != nullptr) {
@@ -82,66 +128,120 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   return guide;
 }
 
-void PoseField::turn_moves_back(const PoseMoves& moves) noexcept {
-  back_count_.fill(0);
-  for (std::int32_t from = 0; from < Lattice::kHeadings; ++from) {
-    for (std::int32_t m = 0; m < moves.count[static_cast<std::size_t>(from)]; ++m) {
-      const PoseMove& move = moves.from[static_cast<std::size_t>(from)][static_cast<std::size_t>(m)];
-      const auto to = static_cast<std::size_t>(Lattice::wrapped(from + move.turn));
-      if (static_cast<std::size_t>(back_count_[to]) == back_[to].size()) continue;
-      back_[to][static_cast<std::size_t>(back_count_[to]++)] = {
-          (from - static_cast<std::int32_t>(to)) * Lattice::kPlane - move.dj * Lattice::kStride - move.di, move.cost,
-          price::unseen_weight(move.gear, move.turn)};
+void PoseField::offer(std::int32_t pose, float seconds) noexcept {
+  queue_.offer(graph_, pose, static_cast<std::uint32_t>(seconds * kPoseCostsPerSecond));
+}
+
+void PoseField::settle_costs(const PoseGuide& guide, Memory& memory) noexcept {
+  const std::int32_t robot = graph_.robot();
+  const bool is_settled = (settler_ != nullptr && settler_->settle({guide.rate, guide.unseen, memory.moves, robot,
+                                                                    kBeyond, memory.cost.data()})) ||
+                          queue_.settle(graph_);
+  const std::uint32_t end = is_settled ? graph_.limit() : 0;
+  for (std::uint16_t& cost : memory.cost) cost = cost >= end ? PoseGuide::kNoWay : cost;
+}
+
+void PoseField::weigh(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) const noexcept {
+  for (std::size_t k = 0; k < memory.rate.size(); ++k) memory.rate[k] = kRateOfRoom[memory.room[k]];
+  open_about(request.map_from_robot, guide, memory);
+  for (const MoverDisc& mover : request.movers) {
+    if (mover.lasting) weigh_standing(mover, guide, memory);
+  }
+}
+
+/// A body that stands nearer to something than there is a way may leave: near it, what has no less room is open.
+void PoseField::open_about(const Pose2& robot, const PoseGuide& guide, Memory& memory) const noexcept {
+  const std::int32_t here =
+      guide.pose_at(static_cast<float>(robot.x), static_cast<float>(robot.y), static_cast<float>(robot.heading));
+  const std::int32_t ci = Lattice::i_of(here), cj = Lattice::j_of(here), ch = Lattice::heading_of(here);
+  std::int32_t most = 0;
+  const auto visit_near = [](std::int32_t middle, std::int32_t reach, const auto& visit) {
+    for (std::int32_t k = std::max(middle - reach, 0); k <= std::min(middle + reach, Lattice::kSide - 1); ++k) visit(k);
+  };
+  const auto visit_poses = [&](std::int32_t cells, std::int32_t turns, const auto& visit) {
+    visit_near(cj, cells, [&](std::int32_t j) {
+      visit_near(ci, cells, [&](std::int32_t i) {
+        for (std::int32_t turn = -turns; turn <= turns; ++turn)
+          visit(static_cast<std::size_t>(Lattice::at(i, j, Lattice::wrapped(ch + turn))));
+      });
+    });
+  };
+  visit_poses(1, 1, [&](std::size_t pose) { most = std::max<std::int32_t>(most, memory.room[pose]); });
+  if (kRateOfRoom[static_cast<std::size_t>(most)] != 0) return;
+  visit_poses(kOpenCells, kOpenTurns, [&](std::size_t pose) {
+    if (memory.rate[pose] == 0 && memory.room[pose] + kUneven >= most) memory.rate[pose] = kDearestPose;
+  });
+}
+
+/// Ways past a pedestrian that stands are dear, not closed: it may leave.
+void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept {
+  const Place at = place_of(mover.centre_in_map);
+  const double reach_m = body_.circumscribed_radius_m() + mover.radius_m + static_cast<double>(price::kPoliteCoat_m);
+  const auto cells = static_cast<std::int32_t>(reach_m / static_cast<double>(Lattice::kCell_m)) + 1;
+  const auto ci = static_cast<std::int32_t>((at.x - guide.low_x) / Lattice::kCell_m),
+             cj = static_cast<std::int32_t>((at.y - guide.low_y) / Lattice::kCell_m);
+  for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
+    const cell::Heading a = cell::heading_at(static_cast<float>(h) * Lattice::kStep_rad);
+    for (std::int32_t j = std::max(cj - cells, 0); j <= std::min(cj + cells, Lattice::kSide - 1); ++j) {
+      for (std::int32_t i = std::max(ci - cells, 0); i <= std::min(ci + cells, Lattice::kSide - 1); ++i) {
+        const Place p = guide.middle_of(i, j);
+        const float dx = at.x - p.x, dy = at.y - p.y;
+        const Vec2 seen{static_cast<double>(dx * a.x + dy * a.y), static_cast<double>(dy * a.x - dx * a.y)};
+        std::uint8_t& rate = memory.rate[static_cast<std::size_t>(Lattice::at(i, j, h))];
+        const auto gap_m = static_cast<float>(body_.distance_to(seen) - mover.radius_m);
+        if (rate == 0 || gap_m >= price::kPoliteCoat_m) continue;
+        const float weight = gap_m < price::kPoseCoat_m ? price::kPoseStanding : price::kPolite;
+        rate = static_cast<std::uint8_t>(
+            std::min(255.0F, static_cast<float>(rate) + weight * static_cast<float>(price::kRateOfOpen)));
+      }
     }
   }
 }
 
-void PoseField::offer(std::int32_t pose, std::uint32_t cost, std::uint16_t* costs) noexcept {
-  if (cost >= costs[pose] || entries_.size() == kEntries) return;
-  costs[pose] = static_cast<std::uint16_t>(cost);
-  std::int32_t& first = buckets_[cost / kBucket];
-  entries_.push_back({pose, first});
-  first = static_cast<std::int32_t>(entries_.size()) - 1;
-}
-
-void PoseField::settle_costs(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept {
-  std::uint16_t* costs = memory.cost.data();
-  std::uint32_t last = PoseGuide::kNoWay - 1U;
-  if (settler_ != nullptr && settler_->settle({guide.rate, guide.unseen, memory.moves, robot, kBeyond, costs})) {
-    std::fill(buckets_.begin(), buckets_.end(), -1);
-    if (robot >= 0) last = std::min(last, costs[robot] + kBeyond);
-  } else {
-    last = spread(robot, guide, costs);
-  }
-  for (std::uint16_t& cost : memory.cost) cost = cost > last ? PoseGuide::kNoWay : cost;
-}
-
-std::uint32_t PoseField::spread(std::int32_t robot, const PoseGuide& guide, std::uint16_t* costs) noexcept {
-  std::uint32_t last = PoseGuide::kNoWay - 1U;
-  for (std::size_t b = 0; b < kBuckets; ++b) {
-    while (buckets_[b] >= 0) {
-      const Entry entry = entries_[static_cast<std::size_t>(buckets_[b])];
-      buckets_[b] = entry.next;
-      const std::uint32_t cost = costs[entry.pose];
-      if (cost / kBucket != b || cost > last) continue;  // settled before, or of no concern
-      if (entry.pose == robot) last = std::min(last, cost + kBeyond);
-      relax(entry.pose, cost, guide, costs);
+void PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
+  const Place goal = place_of(request.goal_in_map);
+  constexpr float kMost = Lattice::kCell_m * static_cast<float>(Lattice::kSide) - kInside_m;
+  const float gx = goal.x - guide.low_x, gy = goal.y - guide.low_y;
+  if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return;
+  const PoseRequest& asked = request.asked;
+  const auto cells = static_cast<std::int32_t>(asked.arrives_m / Lattice::kCell_m) + 1;
+  const auto ci = static_cast<std::int32_t>(gx / Lattice::kCell_m),
+             cj = static_cast<std::int32_t>(gy / Lattice::kCell_m);
+  for (std::int32_t j = std::max(cj - cells, 0); j <= std::min(cj + cells, Lattice::kSide - 1); ++j) {
+    for (std::int32_t i = std::max(ci - cells, 0); i <= std::min(ci + cells, Lattice::kSide - 1); ++i) {
+      const Place p = guide.middle_of(i, j);
+      const float away = std::sqrt((p.x - goal.x) * (p.x - goal.x) + (p.y - goal.y) * (p.y - goal.y));
+      if (away > std::max(asked.arrives_m, Lattice::kCell_m)) continue;
+      for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
+        const std::int32_t pose = Lattice::at(i, j, h);
+        const float off = std::fabs(cell::wrapped(static_cast<float>(h) * Lattice::kStep_rad - asked.heading));
+        if (memory.rate[static_cast<std::size_t>(pose)] == 0 || (asked.wants_heading && off >= Lattice::kStep_rad))
+          continue;
+        const float seconds = kOffGoal * away + (asked.wants_heading ? off / asked.speeds.spot : 0.0F);
+        offer(pose, seconds);
+      }
     }
   }
-  return last;
 }
 
-void PoseField::relax(std::int32_t pose, std::uint32_t cost, const PoseGuide& guide, std::uint16_t* costs) noexcept {
-  const auto to = static_cast<std::size_t>(Lattice::heading_of(pose));
-  const std::uint32_t rate = guide.rate[pose], eighths = guide.unseen == nullptr ? 0U : guide.unseen[pose];
-  for (std::int32_t k = 0; k < back_count_[to]; ++k) {
-    const BackMove& move = back_[to][static_cast<std::size_t>(k)];
-    const std::int32_t from = pose + move.offset;
-    if (costs[from] <= cost + move.cost) continue;  // nowhere is less dear than the open
-    const std::uint32_t other = guide.rate[from];
-    if (other == 0) continue;
-    offer(from, cost + price::cost_of(move.cost, rate, other, eighths, move.unseen_weight), costs);
-  }
+void PoseField::sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept {
+  float least = Guide::kNoWay_s;
+  for_each_of_rim([&](std::int32_t i, std::int32_t j, std::int32_t out_x, std::int32_t out_y) {
+    least = std::min(least, time_outward(request.guide, guide.middle_of(i, j), out_x, out_y));
+  });
+  if (least >= Guide::kNoWay_s) return;
+  guide.least_s = least;
+  for_each_of_rim([&](std::int32_t i, std::int32_t j, std::int32_t out_x, std::int32_t out_y) {
+    const Place p = guide.middle_of(i, j);
+    if (time_outward(request.guide, p, out_x, out_y) >= Guide::kNoWay_s) return;
+    for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
+      const std::int32_t pose = Lattice::at(i, j, h);
+      if (memory.rate[static_cast<std::size_t>(pose)] == 0) continue;
+      const cell::Heading along = cell::heading_at(static_cast<float>(h) * Lattice::kStep_rad);
+      const float seconds = std::max(guide.time_beyond(request.guide, p.x, p.y, along) - least, 0.0F);
+      if (seconds < kMostRim_s) offer(pose, seconds);
+    }
+  });
 }
 
 }  // namespace jaywalk::field

@@ -5,9 +5,10 @@
 #include <vector>
 
 #include "planner/cost_to_go/cost_settler.h"
-#include "planner/cost_to_go/pose_guide.h"
+#include "planner/cost_to_go/planner.h"
+#include "planner/cost_to_go/pose_graph.h"
 #include "planner/cost_to_go/pose_room.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/shortest.h"
 
 namespace jaywalk::field {
 
@@ -38,41 +39,27 @@ class PoseField {
     Memory();
   };
 
-  /// `settler`: asked first; where it fails, and without one, costs are settled here.
-  explicit PoseField(const Footprint& body, CostSettler* settler = nullptr);
+  /// `settler`: asked first; where it fails, and without one, costs are settled here, with `entries` in the queue: five
+  /// a pose, three were the most that any map took. Where they are too few no way is known from any pose.
+  explicit PoseField(const Footprint& body, CostSettler* settler = nullptr, std::size_t entries = 1U << 20);
 
   /// Fills `memory` and returns a view of it.
   PoseGuide settle(const PoseFieldRequest& request, Memory& memory) noexcept;
 
  private:
-  struct Entry {
-    std::int32_t pose, next;
-  };
-  /// A move backward: from the pose that it leads to, to where it began.
-  struct BackMove {
-    std::int32_t offset;  ///< of poses
-    std::uint32_t cost, unseen_weight;
-  };
-
   void weigh(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) const noexcept;
   void open_about(const Pose2& robot, const PoseGuide& guide, Memory& memory) const noexcept;
   void weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept;
-  void turn_moves_back(const PoseMoves& moves) noexcept;
   void sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;
-  void offer(std::int32_t pose, std::uint32_t cost, std::uint16_t* costs) noexcept;
-  void settle_costs(std::int32_t robot, const PoseGuide& guide, Memory& memory) noexcept;
-  /// Returns what costs are of concern.
-  [[nodiscard]] std::uint32_t spread(std::int32_t robot, const PoseGuide& guide, std::uint16_t* costs) noexcept;
-  void relax(std::int32_t pose, std::uint32_t cost, const PoseGuide& guide, std::uint16_t* costs) noexcept;
+  void offer(std::int32_t pose, float seconds) noexcept;
+  void settle_costs(const PoseGuide& guide, Memory& memory) noexcept;
 
   Footprint body_;
   CostSettler* settler_;
   PoseRoom room_;
-  std::array<std::array<BackMove, 2 * PoseMoves::kMost>, PoseLattice::kHeadings> back_{};
-  std::array<std::int32_t, PoseLattice::kHeadings> back_count_{};
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> buckets_;
+  PoseGraph graph_;
+  Shortest queue_;
   PoseWay way_;
 };
 

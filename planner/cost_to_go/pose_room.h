@@ -7,7 +7,6 @@
 #include "hal/types/robot_model.h"
 #include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/guide.h"
-#include "planner/cost_to_go/pose_look.h"
 #include "planner/cost_to_go/pose_moves.h"
 
 namespace jaywalk::field {

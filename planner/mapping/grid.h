@@ -1,5 +1,4 @@
 #pragma once
-#include <cstddef>
 #include <cstdint>
 
 #include "planner/cell/cell.h"
@@ -16,13 +15,5 @@ struct Grid {
     return i >= 0 && j >= 0 && i < side && j < side;
   }
 };
-
-/// An executor's memory for a grid's values by rows, with a spare row and a cell at either end: a stage may fetch
-/// what lies beyond the border before it decides not to use it.
-template <class T, class Executor>
-[[nodiscard]] T* take_rows(Executor& executor, std::int32_t side) {
-  const auto spare = static_cast<std::size_t>(side) + 1;
-  return executor.template take<T>(static_cast<std::size_t>(Grid{side}.cells()) + 2 * spare) + spare;
-}
 
 }  // namespace jaywalk::field

@@ -1,6 +1,5 @@
 #pragma once
 // Makes the one Motion that a control loop holds.
-#include <cstdint>
 #include <memory>
 
 #include "hal/types/operator_input.h"
@@ -10,16 +9,9 @@
 
 namespace jaywalk::motion {
 
-/// What kind of motion takes the robot to its goal.
-enum class MotionKind : std::uint8_t {
-  kRollouts,
-  kPath,  ///< along the path at constant speed, as in the paper
-};
-
 struct MotionSetup {
   RobotModel model;
-  MotionKind to_goal = MotionKind::kRollouts;
-  bool constant_speed = false;  ///< one speed from start to goal, never stopping; kPath implies it
+  bool constant_speed = false;  ///< one speed from start to goal, never stopping
   StickUse steering = StickUse::kNone;
   double comfort_distance_m = 1.0;  ///< a pedestrian's middle nearer than this to the body's discs costs
   double goal_tolerance_m = 0.3;
@@ -31,7 +23,7 @@ struct MotionSetup {
 
 /// Throws nothing but std::bad_alloc.
 [[nodiscard]] std::unique_ptr<Motion> make_motion(const MotionSetup& setup);
-/// Makes a motion; another than make_motion(), for comparisons.
+/// Makes a motion; another than make_motion(), for comparisons and for mode paper.
 using MakeMotion = std::unique_ptr<Motion> (*)(const MotionSetup&);
 
 }  // namespace jaywalk::motion

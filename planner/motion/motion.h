@@ -6,7 +6,7 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/scanners.h"
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/scan/seen_from.h"
 
 namespace jaywalk::motion {

@@ -5,8 +5,8 @@
 #include "hal/types/geometry.h"
 #include "hal/types/scanners.h"
 #include "hal/types/stop_zone_rules.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/motion/robot_body.h"
-#include "planner/planner.h"
 #include "planner/scan/seen_from.h"
 
 namespace jaywalk::motion {

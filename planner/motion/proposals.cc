@@ -11,7 +11,7 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr std::uint32_t kPurpose = 3;  ///< of the draws
+constexpr std::uint32_t kProposalPurpose = 3;  ///< of the draws
 
 constexpr std::array<float, 7> kFollowShares{1.0F, 0.833F, 0.667F, 0.5F, 0.333F, 0.167F, 0.0F};  ///< of full speed
 constexpr int kPauses = 4;  ///< waits of 0.8 to 3.2 s before it goes, and as many stops
@@ -232,7 +232,7 @@ void TrajectoryProposals::perturb(const Trajectory& base, std::uint32_t decision
                                   Trajectory& out) const noexcept {
   const MotionBounds& b = s_.body.bounds;
   const auto n = static_cast<std::uint32_t>(number);
-  cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), n});
+  cell::Draws draws({decision, kProposalPurpose, static_cast<std::uint32_t>(round), n});
   const float v_size = (constant_ > 0.0F ? 0.0F : (n & 1U) != 0 ? 0.42F : 0.17F) * b.speed;
   const float w_size = (n & 2U) != 0 ? 0.5F : 0.2F;
   float v_goal = 0.0F, w_goal = 0.0F, v = 0.0F, w = 0.0F;

@@ -94,7 +94,6 @@ PlanRequest RolloutMotion::request(const World& world) const noexcept {
           .speed_mps = setup_.model.limits.max_speed_mps,
           .still = &world.perceived.still,
           .masked = memory_.masked(),
-          .wants_potential = false,
           .poses = poses_asked(world)};
 }
 

@@ -8,19 +8,19 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr std::uint32_t kPurpose = 4;  ///< of the draws
-constexpr float kWeight = 2.0F;        ///< of a second off
+constexpr std::uint32_t kStickPurpose = 4;  ///< of the draws
+constexpr float kWeight = 2.0F;             ///< of a second off
 
 constexpr std::array<float, 5> kStops{0.0F, 3.0F, 6.0F, 10.0F, 15.0F};  ///< steps as asked before it slows down
 constexpr std::array<float, 3> kShares{1.0F, 0.667F, 0.333F};
-constexpr std::array<float, 10> kAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
-                                       -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
+constexpr std::array<float, 10> kStickAside{0.12F,  -0.12F, 0.25F, -0.25F, 0.45F,
+                                            -0.45F, 0.7F,   -0.7F, 1.0F,   -1.0F};  ///< of the fastest turn
 constexpr std::array<float, 4> kAsideSteps{4.0F, 8.0F, 14.0F, 22.0F};
-constexpr std::array<float, 2> kBack{0.0F, 1.0F}, kTurnShares{1.0F, 0.0F};
+constexpr std::array<float, 2> kStickBack{0.0F, 1.0F}, kTurnShares{1.0F, 0.0F};
 constexpr int kStopCount = static_cast<int>(kStops.size()), kShareCount = static_cast<int>(kShares.size());
-constexpr int kStepCount = static_cast<int>(kAsideSteps.size()), kBackCount = static_cast<int>(kBack.size());
+constexpr int kStepCount = static_cast<int>(kAsideSteps.size()), kBackCount = static_cast<int>(kStickBack.size());
 constexpr int kTurnShareCount = static_cast<int>(kTurnShares.size());
-constexpr int kBent = static_cast<int>(kAside.size()) * kStepCount * kBackCount * kTurnShareCount;
+constexpr int kBent = static_cast<int>(kStickAside.size()) * kStepCount * kBackCount * kTurnShareCount;
 
 template <std::size_t N>
 float of(const std::array<float, N>& values, int n) {
@@ -105,16 +105,16 @@ StickShape shape_at(int n, const MotionBounds& bounds) noexcept {
   n %= kBent;
   shape.turn_share = of(kTurnShares, n % kTurnShareCount);
   n /= kTurnShareCount;
-  shape.back = of(kBack, n % kBackCount);
+  shape.back = of(kStickBack, n % kBackCount);
   shape.aside_steps = of(kAsideSteps, n / kBackCount % kStepCount);
-  shape.aside = of(kAside, n / (kBackCount * kStepCount)) * bounds.turn;
+  shape.aside = of(kStickAside, n / (kBackCount * kStepCount)) * bounds.turn;
   return shape;
 }
 
 StickShape perturbed(const StickShape& shape, std::uint32_t decision, int round, int number,
                      const MotionBounds& bounds) noexcept {
   constexpr auto kMost = static_cast<float>(kFollowedSteps);
-  cell::Draws draws({decision, kPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
+  cell::Draws draws({decision, kStickPurpose, static_cast<std::uint32_t>(round), static_cast<std::uint32_t>(number)});
   StickShape out;
   out.share = std::clamp(shape.share + 0.25F * draws.normal(), 0.0F, 1.0F);
   out.turn_share = std::clamp(shape.turn_share + 0.25F * draws.normal(), 0.0F, 1.0F);

@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/cost_to_go/local_ground.h"
+#include "planner/motion/local_ground.h"
 #include "planner/motion/rollout_motion.h"
 
 namespace jaywalk::motion {

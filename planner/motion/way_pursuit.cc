@@ -6,13 +6,13 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr float kLookM = 0.35F;                       // pure pursuit: of the way ahead
-constexpr float kPassedM = 0.03F;                     // ahead of the axle: a pose is passed
-constexpr float kTurnedRad = 0.06F;                   // off: turned
-constexpr float kTurnsWithin = 0.9F;                  // of where it arrives: it turns to the heading wanted there
-constexpr float kGain = 2.0F;                         // rad/s a radian off, on the spot
-constexpr float kTurnShare = 0.8F;                    // of the fastest turn
-constexpr float kSlowing = 0.35F, kLeastMps = 0.03F;  // m/s2, towards a change of gear
+constexpr float kPursuitLookM = 0.35F;  // pure pursuit: of the way ahead
+constexpr float kPassedM = 0.03F;       // ahead of the axle: a pose is passed
+constexpr float kTurnedRad = 0.06F;     // off: turned
+constexpr float kTurnsWithin = 0.9F;    // of where it arrives: it turns to the heading wanted there
+constexpr float kPursuitGain = 2.0F;    // rad/s a radian off, on the spot
+constexpr float kTurnShare = 0.8F;      // of the fastest turn
+constexpr float kPursuitSlowing = 0.35F, kLeastMps = 0.03F;  // m/s2, towards a change of gear
 constexpr float kCloseM = 0.2F;  // nearer than this the circle through a place says little: by heading
 constexpr float kKeepM = 0.055F, kRoomGain = 10.0F, kCreepMps = 0.12F;  // of the outline's edge, by its room
 constexpr std::int32_t kSmallTurn = 2;                                  // poses of a turn that an arc has, too
@@ -44,7 +44,7 @@ bool turns_at_goal(const Situation& s, const RobotState& r) noexcept {
 
 Command turn_to(float heading, const RobotState& r, const MotionBounds& bounds) noexcept {
   const float most = kTurnShare * bounds.turn;
-  return {0.0F, std::clamp(kGain * cell::wrapped(heading - r.heading), -most, most)};
+  return {0.0F, std::clamp(kPursuitGain * cell::wrapped(heading - r.heading), -most, most)};
 }
 
 bool WayPursuit::has_more(const RobotState& r) noexcept {
@@ -70,7 +70,7 @@ bool WayPursuit::is_passed(const RobotState& r, const WayPose& p) const noexcept
   return (p.gear == Gear::kBackward ? -ahead : ahead) < kPassedM;
 }
 
-/// Where the way leaves the circle of kLookM, or the last place of this gear.
+/// Where the way leaves the circle of kPursuitLookM, or the last place of this gear.
 Place WayPursuit::look_ahead(const RobotState& r) const noexcept {
   const auto distance_to = [&](const WayPose& p) {
     return std::sqrt((p.x - r.x) * (p.x - r.x) + (p.y - r.y) * (p.y - r.y));
@@ -79,10 +79,10 @@ Place WayPursuit::look_ahead(const RobotState& r) const noexcept {
   for (std::int32_t k = at_; k <= end_; before = distance_to(pose(k)), ++k) {
     const WayPose& p = pose(k);
     const float d = distance_to(p);
-    if (d < kLookM) continue;
+    if (d < kPursuitLookM) continue;
     if (k == at_) return {p.x, p.y};
     const WayPose& from = pose(k - 1);
-    const float share = (kLookM - before) / std::max(d - before, 1e-3F);
+    const float share = (kPursuitLookM - before) / std::max(d - before, 1e-3F);
     return {from.x + share * (p.x - from.x), from.y + share * (p.y - from.y)};
   }
   return {pose(end_).x, pose(end_).y};
@@ -113,7 +113,7 @@ Command WayPursuit::command(const RobotState& r, float speed) noexcept {
   float v = gear == Gear::kForward ? speed : std::min(b.back, std::max(speed, kLeastMps));
   if (end_ + 1 < way_.count) {
     const float dx = pose(end_).x - r.x, dy = pose(end_).y - r.y;
-    v = std::min(v, std::sqrt(2.0F * kSlowing * std::sqrt(dx * dx + dy * dy)) + kLeastMps);
+    v = std::min(v, std::sqrt(2.0F * kPursuitSlowing * std::sqrt(dx * dx + dy * dy)) + kLeastMps);
   }
   if (size > 1e-3F) v = std::min(v, b.turn / size);
   const float rim_mps = std::max((room_m() - kKeepM) * kRoomGain, kCreepMps);

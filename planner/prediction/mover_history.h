@@ -4,8 +4,8 @@
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/scanners.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/planner.h"
 #include "planner/prediction/occluded_movers.h"
 #include "planner/prediction/pedestrian_model.h"
 #include "planner/scan/seen_from.h"

@@ -6,7 +6,7 @@
 namespace jaywalk::motion {
 namespace {
 
-constexpr std::uint32_t kPurpose = 2;
+constexpr std::uint32_t kOccludedPurpose = 2;
 constexpr int kFewest = 4;             ///< of kFutures left: it is somewhere else
 constexpr float kSureWithinM = 12.0F;  ///< beams farther off pass beside a leg
 constexpr float kBeyondM = 0.2F;       ///< a beam must go on behind a place to show that it is empty
@@ -43,7 +43,7 @@ void OccludedMovers::add(const MoverBelief& belief, const TurningModel& turning,
   if (!movers_.push_back({belief.id, 0.0F, belief.usual_mps})) return;
   PedestrianSample* walkers = of(movers_.size() - 1);
   for (std::uint32_t k = 0; k < kFutures; ++k) {
-    walkers[k] = PedestrianSample::drawn(belief, turning, guide, cell::Draws({0, kPurpose, belief.id, k}));
+    walkers[k] = PedestrianSample::drawn(belief, turning, guide, cell::Draws({0, kOccludedPurpose, belief.id, k}));
   }
 }
 
@@ -91,8 +91,8 @@ void OccludedMovers::update(float dt, const OfEach<SeenFrom>& scans, const Turni
     }
     for (int f = kept; f < kFutures; ++f) {  // the rest copy those left, and draw on their own from here
       walkers[f] = walkers[f % kept];
-      walkers[f].draws =
-          cell::Draws({cell::Draws(walkers[f].draws).bits(), kPurpose, movers_[k].id, static_cast<std::uint32_t>(f)});
+      walkers[f].draws = cell::Draws(
+          {cell::Draws(walkers[f].draws).bits(), kOccludedPurpose, movers_[k].id, static_cast<std::uint32_t>(f)});
     }
   }
 }

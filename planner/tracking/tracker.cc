@@ -5,13 +5,13 @@
 #include <optional>
 #include <vector>
 
-#include "planner/mapping/isolated_obstacles.h"
 #include "planner/mapping/map_entry.h"
 #include "planner/scan/first_scans.h"
 #include "planner/scan/scan_order.h"
 #include "planner/tracking/association.h"
 #include "planner/tracking/entries.h"
 #include "planner/tracking/given_movers.h"
+#include "planner/tracking/isolated_obstacles.h"
 #include "planner/tracking/motion_onset.h"
 #include "planner/tracking/occlusion.h"
 #include "planner/tracking/scene.h"

@@ -22,9 +22,8 @@ namespace {
 /// A settler, and a device newly switched on under it.
 struct Rig {
   explicit Rig(const emulated::Properties& properties)
-      : powered((device().power_on(properties), true)), cuda(0, std::chrono::seconds(30)), settler(cuda, 256) {}
+      : powered((device().power_on(properties), true)), settler(0, std::chrono::seconds(30), 256) {}
   bool powered;
-  CudaDevice cuda;
   CudaCostToGo settler;
 };
 
@@ -126,7 +125,7 @@ TEST_CASE("emulated: a settler whose device fails says so, has written nothing, 
       Chair cpu(ground), gpu(ground, &rig.settler);
       device().order(fault, launch);
       check_same(cpu, gpu, {0.0, 0.0, 0.3}, {2.0, 1.0}, 0.5);
-      if (fault == Fault::kBroken) CHECK(std::string(rig.cuda.failure()) == "the device failed");
+      if (fault == Fault::kBroken) CHECK(std::string(rig.settler.failure()) == "the device failed");
     }
   }
   device().power_on();

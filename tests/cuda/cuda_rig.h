@@ -3,8 +3,8 @@
 #include <memory>
 #include <string>
 
-#include "cuda/cuda_planner.h"
 #include "cuda/emulated/device.h"
+#include "cuda/paper/cuda_paper.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::test {
@@ -14,9 +14,9 @@ inline emulated::Properties properties_of(std::uint64_t seed) {
   return {.integrated = seed % 3 == 0, .not_ready = static_cast<int>(seed % 3), .seed = seed};
 }
 
-inline std::unique_ptr<field::MapField> cuda_field(const field::CellMap& map) {
+inline std::unique_ptr<paper::MapField> cuda_field(const paper::CellMap& map) {
   std::string why_not;
-  auto field = make_cuda_map_field(map, 0, why_not);
+  auto field = paper::make_cuda_map_field(map, 0, why_not);
   INFO(why_not);
   REQUIRE(field != nullptr);
   return field;
@@ -25,6 +25,15 @@ inline std::unique_ptr<field::MapField> cuda_field(const field::CellMap& map) {
 inline std::unique_ptr<Planner> cuda_planner(const PlannerConfig& config) {
   std::string why_not;
   auto planner = make_cuda_planner(config, 0, why_not);
+  INFO(why_not);
+  REQUIRE(planner != nullptr);
+  return planner;
+}
+
+/// The paper's.
+inline std::unique_ptr<Planner> cuda_paper_planner(const paper::PaperConfig& config) {
+  std::string why_not;
+  auto planner = paper::make_cuda_paper_planner(config, 0, why_not);
   INFO(why_not);
   REQUIRE(planner != nullptr);
   return planner;

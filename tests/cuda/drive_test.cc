@@ -6,7 +6,7 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "hal/sim/simulation.h"
-#include "planner/field/fallback_planner.h"
+#include "planner/cost_to_go/fallback_planner.h"
 #include "tests/cuda/cuda_rig.h"
 
 using namespace jaywalk;
@@ -24,9 +24,15 @@ class Drive {
     setup_.mode = mode;
     setup_.start = scenario_.start;
     setup_.goal = scenario_.goal;
-    const PlannerConfig config = setup_.planner();
-    planner_ = make_cpu_planner(config);
-    if (on_device) planner_ = std::make_unique<FallbackPlanner>(cuda_planner(config), std::move(planner_));
+    if (mode == PlanMode::kPaper) {
+      setup_.make_motion = paper::make_motion;
+      const paper::PaperConfig config{setup_.planner(), setup_.mover_radius_m()};
+      planner_ = paper::make_cpu_paper_planner(config);
+      if (on_device) planner_ = std::make_unique<FallbackPlanner>(cuda_paper_planner(config), std::move(planner_));
+    } else {
+      planner_ = make_cpu_planner(setup_.planner());
+      if (on_device) planner_ = std::make_unique<FallbackPlanner>(cuda_planner(setup_.planner()), std::move(planner_));
+    }
     loop_ = std::make_unique<ControlLoop>(setup_, simulation_.hal(), *planner_, recorder_);
   }
 

@@ -2,10 +2,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
+#include <array>
 #include <string>
 #include <thread>
 
-#include "planner/field/fallback_planner.h"
+#include "planner/cost_to_go/fallback_planner.h"
 #include "tests/cuda/cuda_rig.h"
 #include "tests/planner/cuda_parity.h"
 
@@ -16,11 +18,14 @@ using emulated::Fault;
 
 namespace {
 
-/// A robot in a room of 6.4 m that asks for a plan at 15 Hz.
+/// A robot in a room of 6.4 m that asks for a plan at 15 Hz, with times from poses; or for the paper's.
 struct Drive {
-  explicit Drive(const emulated::Properties& properties = {.guarded = true}) {
+  explicit Drive(const emulated::Properties& properties = {.guarded = true}, bool is_paper = false) {
     device().power_on(properties);
-    planner = std::make_unique<FallbackPlanner>(cuda_planner(small_window()), make_cpu_planner(small_window()));
+    planner = std::make_unique<FallbackPlanner>(
+        is_paper ? cuda_paper_planner(small_window()) : cuda_planner(small_window()),
+        is_paper ? paper::make_cpu_paper_planner(small_window()) : make_cpu_planner(small_window()));
+    request.poses.is_asked = true;
   }
   ~Drive() {
     planner.reset();
@@ -61,44 +66,46 @@ TEST_CASE("emulated: each way to fail, early, late and between, is answered by t
     Fault fault;
     const char* backend;
   };
-  const auto launches = [] {
-    Drive drive;
+  const auto launches = [](bool is_paper) {
+    Drive drive({}, is_paper);
     (void)drive.plan();
     return static_cast<int>(device().counts.launches);
-  }();
-  CHECK(launches > 50);
-  const std::size_t points = [] {
-    Drive drive;
+  };
+  const auto points = [](bool is_paper) {
+    Drive drive({.guarded = true}, is_paper);
     device().order(Fault::kRefused);
     return drive.plan().path.size();  // the CPU's
-  }();
+  };
+  const std::array most{launches(false), launches(true)};
+  const std::array path{points(false), points(true)};
+  CHECK(*std::min_element(most.begin(), most.end()) > 16);
   for (const Case& c : {Case{Fault::kRefused, "cpu (cuda: a launch was refused)"},
                         Case{Fault::kBroken, "cpu (cuda: the device failed)"},
                         Case{Fault::kHangs, "cpu (cuda: a kernel did not end in time)"}}) {
-    for (int launch = 0; launch < launches; launch += 1 + launch / 2) {
-      Drive drive({.integrated = launch % 3 == 0, .guarded = true});
-      device().order(c.fault, launch);
-      for (std::uint32_t sequence = 1; sequence <= 3; ++sequence) {
-        const Plan& plan = drive.plan();
-        CHECK(plan.status == PlanStatus::kOk);
-        CHECK(plan.certified);
-        CHECK(plan.path.size() == points);
-        CHECK(plan.sequence == sequence);
-        CHECK(drive.backend() == c.backend);
-        CHECK(drive.planner->view_field().psi.size() == 64 * 64);
+    for (const bool is_paper : {false, true}) {
+      for (int launch = 0; launch < most[is_paper ? 1 : 0]; launch += 1 + launch / 2) {
+        Drive drive({.integrated = launch % 3 == 0, .guarded = true}, is_paper);
+        device().order(c.fault, launch);
+        for (std::uint32_t sequence = 1; sequence <= 3; ++sequence) {
+          const Plan& plan = drive.plan();
+          CHECK(plan.status == PlanStatus::kOk);
+          CHECK(plan.certified);
+          CHECK(plan.path.size() == path[is_paper ? 1 : 0]);
+          CHECK(plan.sequence == sequence);
+          CHECK(drive.backend() == c.backend);
+          CHECK(drive.planner->view_field().psi.size() == 64 * 64);
+        }
+        CHECK(has_cuda_left_behind() == (c.fault == Fault::kHangs));
+        drive.planner.reset();  // ends the test where it waits for what hangs
       }
-      CHECK(has_cuda_left_behind() == (c.fault == Fault::kHangs));
-      drive.planner.reset();  // ends the test where it waits for what hangs
     }
   }
 }
 
-TEST_CASE(
-    "emulated: a plan without a potential asks the device for the time to go, and where nothing changed for nothing") {
+TEST_CASE("emulated: where nothing changed a plan asks the device for no time from cells") {
   Drive drive;
-  drive.request.wants_potential = false;
+  drive.request.poses.is_asked = false;
   CHECK(drive.plan().status == PlanStatus::kOk);
-  CHECK(drive.plan().cycles == 0);
   const std::int64_t launches = device().counts.launches;
   CHECK(launches > 0);
   device().order(Fault::kBroken);
@@ -206,9 +213,9 @@ TEST_CASE("emulated: no device, none of that number, one that fails at the start
 TEST_CASE("emulated: the second device plans, from another thread than the one that made the planner, too") {
   device().power_on({.devices = 2, .guarded = true});
   std::string why;
-  const auto gpu = make_cuda_planner(small_window(), 1, why);
+  const auto gpu = paper::make_cuda_paper_planner(small_window(), 1, why);
   REQUIRE(gpu != nullptr);
-  const auto cpu = make_cpu_planner(small_window());
+  const auto cpu = paper::make_cpu_paper_planner(small_window());
   const EvidenceMap room = evidence_of({"room", 64});
   std::thread([&] { CHECK(check_plan(*cpu, *gpu, across(room))); }).join();
   CHECK(check_plan(*cpu, *gpu, across(room)));

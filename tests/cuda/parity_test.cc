@@ -24,43 +24,39 @@ TestMap boxes(std::int32_t side, std::uint64_t seed) {
   return map;
 }
 
-field::CellMap cells_of(const TestMap& map) { return {map.side, map.side, map.wall}; }
+paper::CellMap cells_of(const TestMap& map) { return {map.side, map.side, map.wall}; }
 
-PlannerConfig window(std::int32_t side) {
-  PlannerConfig config;
+paper::PaperConfig window(std::int32_t side) {
+  paper::PaperConfig config;
   config.side_cells = config.max_side_cells = side;
   return config;
 }
 
-/// Plans of both modes in a window of 6.4 m among six movers.
+/// Plans in a window of 6.4 m among six movers.
 void check_crowd(const emulated::Properties& properties, int ticks) {
   const EvidenceMap map = evidence_of(boxes(64, 3));
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    device().power_on(properties);
-    PlannerConfig config = small_window();
-    config.mode = mode;
-    const auto cpu = make_cpu_planner(config), gpu = cuda_planner(config);
-    std::vector<Track> tracks = crowd();
-    PlanRequest request = across(map);
-    int planned = 0;
-    for (int tick = 0; tick < ticks; ++tick) {
-      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
-      request.moving = tracks;
-      planned += check_plan(*cpu, *gpu, request) ? 1 : 0;
-    }
-    CHECK(planned > 0);
+  device().power_on(properties);
+  const auto cpu = paper::make_cpu_paper_planner(small_window()), gpu = cuda_paper_planner(small_window());
+  std::vector<Track> tracks = crowd();
+  PlanRequest request = across(map);
+  int planned = 0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
+    request.moving = tracks;
+    planned += check_plan(*cpu, *gpu, request) ? 1 : 0;
   }
+  CHECK(planned > 0);
 }
 
 /// A field of 100 cells a side, or of 128.
 void check_seed(std::uint64_t seed) {
   device().power_on(properties_of(seed));
-  const field::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
+  const paper::CellMap map = cells_of(boxes(seed % 5 == 0 ? 128 : 100, seed));
   check_field(map, *cuda_field(map));
   CHECK_FALSE(device().is_stuck);
 }
 
-void check_shape(const field::CellMap& map, std::uint64_t seed) {
+void check_shape(const paper::CellMap& map, std::uint64_t seed) {
   device().power_on(properties_of(seed));
   check_field(map, *cuda_field(map));
 }
@@ -69,14 +65,14 @@ void check_shape(const field::CellMap& map, std::uint64_t seed) {
 
 TEST_CASE("emulated: fields of maps of every shape have the CPU's bytes") {
   std::uint64_t seed = 6;
-  for (const field::CellMap& map : shaped_maps()) check_shape(map, ++seed);
+  for (const paper::CellMap& map : shaped_maps()) check_shape(map, ++seed);
 }
 
 TEST_CASE("emulated: fields have the CPU's bytes in random orders") {
   for (std::uint64_t seed = 1; seed <= 5; ++seed) check_seed(seed);
 }
 
-TEST_CASE("emulated: plans among movers have the CPU's bytes in both modes") {
+TEST_CASE("emulated: the paper's plans among movers have the CPU's bytes") {
   for (std::uint64_t seed = 1; seed <= 2; ++seed) check_crowd(properties_of(seed), 2);
 }
 
@@ -85,7 +81,7 @@ TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and
     emulated::Properties properties = properties_of(seed);
     properties.guarded = true;
     device().power_on(properties);
-    const auto cpu = make_cpu_planner(window(128)), gpu = cuda_planner(window(128));
+    const auto cpu = paper::make_cpu_paper_planner(window(128)), gpu = cuda_paper_planner(window(128));
     check_run(*cpu, *gpu, boxes(128, 2), 2);
   }
 }
@@ -93,9 +89,9 @@ TEST_CASE("emulated: plans across 12.8 m have the CPU's bytes, in one memory and
 TEST_CASE("emulated: plans round a keep-out zone, and out of one, have the CPU's bytes") {
   device().power_on(properties_of(8));
   const MapZone zone{ZoneKind::kKeepOut, {{2.0, 1.0}, {4.0, 1.0}, {4.0, 4.5}, {2.0, 4.5}}, 0.0};
-  PlannerConfig config = small_window();
+  paper::PaperConfig config = small_window();
   config.keep_out = std::make_shared<const KeepOutField>(std::span(&zone, 1));
-  const auto cpu = make_cpu_planner(config), gpu = cuda_planner(config);
+  const auto cpu = paper::make_cpu_paper_planner(config), gpu = cuda_paper_planner(config);
   const EvidenceMap map = evidence_of({"room", 64});
   PlanRequest request = across(map);
   CHECK(check_plan(*cpu, *gpu, request));
@@ -115,7 +111,7 @@ TEST_CASE("emulated: a goal that a mover stands on is approached as on the CPU: 
   request.moving = {&track, 1};
   for (const std::uint64_t seed : {5U, 6U}) {  // two memories, one
     device().power_on(properties_of(seed));
-    const auto cpu = make_cpu_planner(small_window()), gpu = cuda_planner(small_window());
+    const auto cpu = paper::make_cpu_paper_planner(small_window()), gpu = cuda_paper_planner(small_window());
     CHECK(check_plan(*cpu, *gpu, request));
   }
 }
@@ -131,12 +127,12 @@ TEST_CASE("emulated at length: plans among movers in random orders from 20 seeds
 TEST_CASE("emulated at length: fields and plans of 256 and 512 cells a side", "[.large]") {
   for (std::uint64_t seed = 11; seed <= 12; ++seed) {
     device().power_on(properties_of(seed));
-    const auto cpu = make_cpu_planner(window(256)), gpu = cuda_planner(window(256));
+    const auto cpu = paper::make_cpu_paper_planner(window(256)), gpu = cuda_paper_planner(window(256));
     for (const TestMap& map : {open_room(), office(), serpentine(10), clutter(31)}) check_run(*cpu, *gpu, map, 3);
     check_field(cells_of(boxes(512, 9)), *cuda_field(cells_of(boxes(512, 9))));
   }
   device().power_on(properties_of(13));
-  const auto cpu = make_cpu_planner(window(512)), gpu = cuda_planner(window(512));
+  const auto cpu = paper::make_cpu_paper_planner(window(512)), gpu = cuda_paper_planner(window(512));
   check_run(*cpu, *gpu, boxes(512, 4), 2);
 }
 

@@ -45,9 +45,9 @@ class RecordedWay {
 void check_recorded(const RecordedWay& way, const emulated::Properties& properties, std::int32_t side,
                     std::size_t count, std::size_t stride) {
   device().power_on(properties);
-  PlannerConfig config;
+  paper::PaperConfig config;
   config.side_cells = config.max_side_cells = side;
-  const auto cpu = make_cpu_planner(config), gpu = cuda_planner(config);
+  const auto cpu = paper::make_cpu_paper_planner(config), gpu = cuda_paper_planner(config);
   const std::size_t first = way.scans() / 2;
   const Pose2 begin = way.pose_at(first);
   PerceptionConfig seeing;

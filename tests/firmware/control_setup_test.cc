@@ -2,6 +2,7 @@
 
 #include <string>
 
+#include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 
@@ -37,6 +38,15 @@ TEST_CASE("movers come from outside where the setup says so, and in mode paper")
   CHECK(setup.sees_given_movers());
 }
 
+TEST_CASE("mode paper is refused where its planner is not, and plans by it where it is") {
+  ControlSetup setup;
+  setup.mode = PlanMode::kPaper;
+  setup.backend = Backend::kCpu;
+  CHECK_THROWS_AS(make_planner(setup), StartupError);
+  equip(setup);
+  CHECK(make_planner(setup).planner->view_field().of == FieldView::Of::kPotential);
+}
+
 TEST_CASE("blanked sectors are part of a setup's text, and one without them has none") {
   ControlSetup setup;
   CHECK(setup_from_text(to_text(setup), "here").model.laser.blanked.empty());
@@ -61,11 +71,11 @@ TEST_CASE("text that is no setup is refused with its place") {
 TEST_CASE("a robot plans with the circle that holds it, if that is little wider than the one inside it") {
   ControlSetup setup;
   setup.model = p3dx();
-  CHECK(setup.planner().inflation_m == Approx(0.36));  // 0.21 + 0.15; its corners: 0.368 m
+  CHECK(setup.mover_radius_m() == Approx(0.36));  // 0.21 + 0.15; its corners: 0.368 m
   CHECK_FALSE(setup.has_long_body());
   setup.model = wheelchair();
   CHECK(setup.has_long_body());
-  CHECK(setup.planner().inflation_m == Approx(0.475));  // 0.325 + 0.15
-  setup.constant_speed = true;                          // it can neither stop nor back out
+  CHECK(setup.mover_radius_m() == Approx(0.475));  // 0.325 + 0.15
+  setup.constant_speed = true;                     // it can neither stop nor back out
   CHECK_FALSE(setup.has_long_body());
 }

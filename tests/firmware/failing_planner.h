@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 
 namespace jaywalk::test {
 

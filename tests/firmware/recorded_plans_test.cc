@@ -4,14 +4,16 @@
 #include <filesystem>
 #include <vector>
 
+#include "apps/rivals/paper_mode.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recording_stream.h"
-#include "planner/field/grid_planner.h"
+#include "planner/paper/paper.h"
+#include "planner/paper/paper_planner.h"
 #include "tests/firmware/simulated_drive.h"
 #include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 #if JAYWALK_HAS_CUDA
-#include "cuda/cuda_planner.h"
+#include "cuda/paper/cuda_paper.h"
 #endif
 
 using namespace jaywalk;
@@ -54,14 +56,14 @@ class ComparingPlanner final : public Planner {
 };
 
 /// Serial first, then whatever else there is.
-std::vector<std::unique_ptr<Planner>> every_executor(const PlannerConfig& config) {
+std::vector<std::unique_ptr<Planner>> every_executor(const paper::PaperConfig& config) {
   std::vector<std::unique_ptr<Planner>> planners;
-  planners.push_back(make_cpu_planner(config));
-  planners.push_back(
-      std::make_unique<field::GridPlanner<test::ShuffledExecutor>>(config, std::make_unique<test::ShuffledExecutor>()));
+  planners.push_back(paper::make_cpu_paper_planner(config));
+  planners.push_back(std::make_unique<paper::PaperPlanner<test::ShuffledExecutor>>(
+      config, std::make_unique<test::ShuffledExecutor>()));
 #if JAYWALK_HAS_CUDA
   std::string why_not;
-  auto gpu = make_cuda_planner(config, 0, why_not);
+  auto gpu = paper::make_cuda_paper_planner(config, 0, why_not);
   gpu ? planners.push_back(std::move(gpu)) : void(std::printf("not compared with a GPU (%s)\n", why_not.c_str()));
 #endif
   return planners;
@@ -70,12 +72,14 @@ std::vector<std::unique_ptr<Planner>> every_executor(const PlannerConfig& config
 /// Lives through a recording up to the last of `count` requests from the `first` on.
 void check_plans(const std::string& file, int first, int count) {
   RecordingReader reader(file);
-  const ControlSetup setup = setup_from_text(reader.setup(), file);
-  PlannerConfig config = setup.planner();
+  ControlSetup setup = setup_from_text(reader.setup(), file);
+  equip(setup);
+  paper::PaperConfig config{setup.planner(), setup.mover_radius_m()};
+  auto inner = paper::make_cpu_paper_planner(config);
   config.max_side_cells = config.side_cells;
   auto others = every_executor(config);
   const auto executors = static_cast<int>(others.size());
-  ComparingPlanner planner(make_cpu_planner(setup.planner()), std::move(others), first, count);
+  ComparingPlanner planner(std::move(inner), std::move(others), first, count);
   TickRecord recorded;
   RecordedHal devices(recorded);
   Recorder nowhere({});

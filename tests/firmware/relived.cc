@@ -4,7 +4,7 @@
 #include <cstdint>
 #include <cstdio>
 
-#include "firmware/backends.h"
+#include "apps/rivals/paper_mode.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recorder.h"
@@ -19,7 +19,8 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 
 Relived relive(const std::string& file) {
   RecordingReader reader(file);
-  const ControlSetup setup = setup_from_text(reader.setup(), file);
+  ControlSetup setup = setup_from_text(reader.setup(), file);
+  equip(setup);
   TickRecord recorded;
   RecordedHal devices(recorded);
   const ChosenPlanner planner = make_planner(setup);

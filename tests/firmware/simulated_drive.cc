@@ -1,5 +1,7 @@
 #include "tests/firmware/simulated_drive.h"
 
+#include "apps/rivals/paper_mode.h"
+
 namespace jaywalk {
 
 SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, const Edit& edit, PlanMode mode,
@@ -14,6 +16,7 @@ SimulatedDrive::SimulatedDrive(const std::string& name, std::uint64_t seed, cons
   setup_.start = scenario.start;
   setup_.goal = scenario.goal;
   setup_.zones = scenario.zones;
+  equip(setup_);
   if (edit_setup) edit_setup(setup_);
   simulation_ = std::make_unique<sim::Simulation>(scenario, seed);
   planner_ = make_planner(setup_);

@@ -10,10 +10,10 @@ namespace jaywalk::tests {
 
 /// A wheelchair's guides on some ground.
 struct Chair {
-  explicit Chair(const Ground& ground, field::CostSettler* settler = nullptr)
+  explicit Chair(const Ground& ground, field::CostSettler* settler = nullptr, std::size_t entries = 1U << 20)
       : ground_(ground),
         places_(kBody.inscribed_radius_m(), kBody.circumscribed_radius_m(), 256, nullptr, settler),
-        field_(kBody, settler) {}
+        field_(kBody, settler, entries) {}
 
   const PoseGuide& from(const Pose2& robot, Vec2 goal, double heading = kAnyHeading) {
     const field::Window window{{-118, -118}, 256, 0.1};

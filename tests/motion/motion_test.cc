@@ -5,6 +5,7 @@
 
 #include "apps/rivals/baseline.h"
 #include "planner/motion/make_motion.h"
+#include "planner/paper/paper.h"
 #include "tests/motion/ground.h"
 #include "tests/motion/guided.h"
 #include "tests/motion/moment.h"
@@ -15,8 +16,8 @@ using namespace jaywalk::motion;
 
 namespace {
 
-MotionSetup setup_of(MotionKind kind, bool constant_speed = false, StickUse steering = StickUse::kNone) {
-  return {.model = p3dx(), .to_goal = kind, .constant_speed = constant_speed, .steering = steering};
+MotionSetup setup_of(bool constant_speed = false, StickUse steering = StickUse::kNone) {
+  return {.model = p3dx(), .constant_speed = constant_speed, .steering = steering};
 }
 
 /// What a command rests on in that moment.
@@ -31,7 +32,7 @@ TEST_CASE("commands at constant speed rest on the path, and on nothing when a pl
   const tests::Ground ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
-  const auto on_path = make_motion(setup_of(MotionKind::kPath, true));
+  const auto on_path = paper::make_motion(setup_of(true));
   moment.plan.status = PlanStatus::kOk;
   CHECK(rests_on(*on_path, moment) == moment.plan.stamp);
   moment.plan.status = PlanStatus::kNoPath;
@@ -43,7 +44,7 @@ TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
-  const auto motion = make_motion(setup_of(MotionKind::kRollouts, false, StickUse::kShared));
+  const auto motion = make_motion(setup_of(false, StickUse::kShared));
   CHECK(rests_on(*motion, moment) == kNever);  // nothing is decided yet
   moment.input.has_goal = false;
   moment.input.steers = true;
@@ -68,16 +69,14 @@ TEST_CASE(
   moment.tracks = {walker};
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
-  for (const MotionKind kind : {MotionKind::kRollouts, MotionKind::kPath}) {
-    const bool follows = kind == MotionKind::kPath;
-    const auto motion = make_motion(setup_of(kind, follows));
+  for (const bool follows : {false, true}) {
+    const auto motion = (follows ? paper::make_motion : make_motion)(setup_of(follows));
     moment.decide(*motion);
     const PlanRequest request = motion->request(moment.world());
     CHECK(request.stamp == moment.scan.stamp);
     CHECK(request.goal_in_map == Vec2{4.0, 0.0});
     CHECK(request.moving.size() == (follows ? 1 : 0));
     CHECK(request.masked.size() == (follows ? 0 : 1));
-    CHECK(request.wants_potential == follows);
     CHECK((motion->plan_every() > Duration{0}) != follows);
     CHECK((motion->rollouts() != nullptr) != follows);
   }
@@ -91,7 +90,7 @@ TEST_CASE("the time from poses is asked for where corners may swing into somethi
     moment.pose = {at.x, at.y, 0.0};
     moment.go_to(goal);
     moment.plan.guide = ground.towards(at, goal);
-    MotionSetup setup = setup_of(MotionKind::kRollouts, constant);
+    MotionSetup setup = setup_of(constant);
     setup.model = model;
     return make_motion(setup)->request(moment.world()).poses.is_asked;
   };
@@ -104,12 +103,12 @@ TEST_CASE("the time from poses is asked for where corners may swing into somethi
 
 TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it; at constant speed it cannot") {
   const tests::Ground ground;
-  for (const auto& [kind, constant] :
-       {std::pair{MotionKind::kRollouts, false}, {MotionKind::kRollouts, true}, {MotionKind::kPath, true}}) {
+  for (const auto& [make, constant] :
+       {std::pair<MakeMotion, bool>{make_motion, false}, {make_motion, true}, {paper::make_motion, true}}) {
     tests::Moment moment(ground.map());
     moment.go_to({});
     moment.input.goal_heading_rad = 1.0;
-    const auto motion = make_motion(setup_of(kind, constant));
+    const auto motion = make(setup_of(constant));
     moment.drive(*motion, 0.02);
     CHECK(motion->status().turns_at_goal != constant);
     CHECK_FALSE(motion->status().turn_blocked);
@@ -117,7 +116,7 @@ TEST_CASE("at its goal a robot turns to the heading wanted there, whatever broug
 }
 
 TEST_CASE("a planner of others is a motion of its own; without a name it is ours") {
-  const MotionSetup setup = setup_of(MotionKind::kRollouts);
+  const MotionSetup setup = setup_of();
   for (const char* name : {"none", "replan", "dwa", "orca"})
     CHECK(baseline::maker_of(name)(setup)->rollouts() == nullptr);
   CHECK(baseline::maker_of("")(setup)->rollouts() != nullptr);

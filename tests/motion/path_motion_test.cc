@@ -1,6 +1,5 @@
-#include "planner/motion/path_motion.h"
+#include "planner/paper/path_motion.h"
 
-#include "planner/motion/pursuit.h"
 #include "tests/motion/ground.h"
 #include "tests/motion/moment.h"
 #include "tests/support/catch.h"
@@ -23,7 +22,7 @@ Twist2 settled(const Path& path, bool has_goal = true) {
   if (has_goal) moment.go_to({5.0, 0.0});
   RobotModel model = p3dx();
   model.limits.max_speed_mps = 0.6, model.limits.max_turn_radps = 1.5;
-  motion::PathMotion motion({.model = model, .constant_speed = true});
+  paper::PathMotion motion({.model = model, .constant_speed = true});
   for (int k = 0; k < 200; ++k) {
     moment.drive(motion, 0.02);
     moment.pose = {};
@@ -50,16 +49,16 @@ TEST_CASE("at constant speed it never stops, not even to turn round, at a path's
 
 TEST_CASE("of a path's points the nearest is told, of two as near the first") {
   const Path path = line({0, 0}, {5, 0});  // 0.1 m apart
-  CHECK(nearest_point(path, {2.04, 0.7}) == 20);
-  CHECK(nearest_point(path, {9.0, 0.0}) == 50);
+  CHECK(paper::nearest_point(path, {2.04, 0.7}) == 20);
+  CHECK(paper::nearest_point(path, {9.0, 0.0}) == 50);
   Path two;
   REQUIRE((two.push_back({0.0, 1.0}) && two.push_back({0.0, -1.0})));
-  CHECK(nearest_point(two, {0.0, 0.0}) == 0);
+  CHECK(paper::nearest_point(two, {0.0, 0.0}) == 0);
 }
 
 TEST_CASE("looking ahead 0.5 m from beside the middle of a line finds the point 0.5 m on") {
-  const Vec2 p = look_ahead(line({0, 0}, {5, 0}), {2.0, 0.4}, 0.5);
+  const Vec2 p = paper::look_ahead(line({0, 0}, {5, 0}), {2.0, 0.4}, 0.5);
   CHECK(p.x == Approx(2.5));
   CHECK(p.y == Approx(0.0));
-  CHECK(look_ahead(line({0, 0}, {5, 0}), {4.9, 0.0}, 3.0).x == Approx(5.0));
+  CHECK(paper::look_ahead(line({0, 0}, {5, 0}), {4.9, 0.0}, 3.0).x == Approx(5.0));
 }

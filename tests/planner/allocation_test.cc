@@ -5,7 +5,7 @@
 #include <cstdlib>
 #include <vector>
 
-#include "planner/planner.h"
+#include "planner/paper/paper.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
@@ -14,7 +14,7 @@ using namespace jaywalk;
 
 namespace {
 
-/// Forty submissions of every kind: with and without movers and potential, goals outside, a window that doubles.
+/// Forty submissions of every kind: with and without movers, goals outside, a window that doubles.
 void drive(Planner& planner) {
   static const EvidenceMap office = test::evidence_of(test::office());
   static const EvidenceMap wall = [] {
@@ -38,7 +38,7 @@ void drive(Planner& planner) {
     request.still = tick < 15 ? &office : &wall;  // the latter also makes the window double
     request.moving = tick % 2 == 0 ? std::span<const Track>(tracks) : std::span<const Track>();
     request.map_from_robot = {1.0 + 0.1 * tick, 1.0, 0.3};
-    request.wants_potential = tick < 15 || tick % 3 == 0;
+    request.poses.is_asked = tick % 4 == 0;
     request.goal_in_map = tick % 5 == 4 ? Vec2{90.0, 0.0} : Vec2{24.0, 24.0};
     planner.submit(request);
     (void)planner.collect();
@@ -57,17 +57,19 @@ long page_faults() {
   return usage.ru_minflt + usage.ru_majflt;
 }
 
-PlannerConfig growing() {
-  PlannerConfig config;
+/// What drives, or the paper's.
+std::unique_ptr<Planner> growing(bool is_paper) {
+  paper::PaperConfig config;
   config.max_side_cells = 512;
-  return config;
+  return is_paper ? paper::make_cpu_paper_planner(config) : make_cpu_planner(config);
 }
 
 }  // namespace
 
 TEST_CASE("submit and collect allocate nothing, whatever comes of them") {
-  drive(*make_cpu_planner(growing()));  // maps and tracks are made
-  const auto planner = make_cpu_planner(growing());
+  const bool is_paper = GENERATE(false, true);
+  drive(*growing(is_paper));  // maps and tracks are made
+  const auto planner = growing(is_paper);
   const AllocationGuard guard;
   drive(*planner);
   const auto calls = guard.calls();
@@ -79,8 +81,9 @@ TEST_CASE("submit and collect meet no page that was not there: all memory is tou
     std::printf("skipped: sanitizers take memory of their own\n");
     return;
   }
-  drive(*make_cpu_planner(growing()));  // the code's own pages, and the stack's
-  const auto planner = make_cpu_planner(growing());
+  const bool is_paper = GENERATE(false, true);
+  drive(*growing(is_paper));  // the code's own pages, and the stack's
+  const auto planner = growing(is_paper);
   const long before = page_faults();
   drive(*planner);
   CHECK(page_faults() == before);

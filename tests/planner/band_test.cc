@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "bench/field/random_maps.h"
-#include "planner/field/path.h"
+#include "planner/paper/path.h"
 #include "tests/planner/field_rig.h"
 #include "tests/support/catch.h"
 
@@ -28,12 +28,12 @@ struct Shape {
 };
 
 /// Clearance of the cell that holds p.
-double clearance_at(field::Grid grid, const float* clearance, Vec2 p) {
+double clearance_at(paper::Grid grid, const float* clearance, Vec2 p) {
   const auto i = static_cast<std::int32_t>(std::floor(p.x)), j = static_cast<std::int32_t>(std::floor(p.y));
   return grid.holds(i, j) ? static_cast<double>(clearance[grid.at(i, j)]) : 0.0;
 }
 
-Shape shape_of(const Line& line, field::Grid grid, const float* clearance) {
+Shape shape_of(const Line& line, paper::Grid grid, const float* clearance) {
   constexpr int kSamples = 40;
   Shape s;
   for (std::size_t k = 1; k < line.size(); ++k) {
@@ -77,21 +77,21 @@ class Ways {
 
   /// The three shapes of a way from somewhere to somewhere; false where there is none.
   bool draw(std::array<Shape, 3>& shapes) {
-    const field::FieldArrays& a = rig_.arrays();
+    const paper::FieldArrays& a = rig_.arrays();
     const std::int32_t start = free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
-    if (!cell::is_joined(rig_.psi[start])) return false;
-    const std::int32_t count = field::follow(rig_.grid, a.index, start, goal_, {a.points, field::kMaxBandPoints}, 0);
+    if (!cell::is_joined(rig_.psi()[start])) return false;
+    const std::int32_t count = paper::follow(rig_.grid, a.index, start, goal_, points_, 0);
     if (count < 3) return false;
-    a.points[0] = within(start);
-    a.points[count - 1] = within(goal_);
+    points_[0] = within(start);
+    points_[static_cast<std::size_t>(count - 1)] = within(goal_);
     const Line raw = line(count);
-    REQUIRE(rig_.pass.pull(rig_.grid, 1, count));
+    const std::span<paper::Point> band_points(points_.data(), static_cast<std::size_t>(count));
+    paper::pull(rig_.grid, a.clearance, band_points, raw_, 1);
     const Line band = line(count);
     CHECK(band.front() == raw.front());
     CHECK(band.back() == raw.back());
     const field::Window window{{0, 0}, kSide, 0.1};
-    field::resample(window, a.clearance, {a.points, static_cast<std::size_t>(count)}, window.in_map(band.front()),
-                    window.in_map(band.back()), *path_);
+    paper::resample(window, a.clearance, band_points, window.in_map(band.front()), window.in_map(band.back()), *path_);
     Line path;
     for (const Vec2& p : *path_) path.push_back(window.in_cells(p));
     shapes = {shape_of(raw, rig_.grid, a.clearance), shape_of(band, rig_.grid, a.clearance),
@@ -114,11 +114,11 @@ class Ways {
     if (free_.empty()) return false;
     goal_ = free_[static_cast<std::size_t>(random_.below(static_cast<std::int32_t>(free_.size())))];
     rig_.load(map, kInflations[seed % 4], goal_);
-    return rig_.pass.solve(rig_.grid, goal_, field::From::kNothing, rig_.psi).certified;
+    return rig_.pass.solve(rig_.grid, goal_, paper::From::kNothing).certified;
   }
 
  private:
-  cell::Point within(std::int32_t c) {
+  paper::Point within(std::int32_t c) {
     const auto i = static_cast<double>(c % kSide), j = static_cast<double>(c / kSide);
     const double x = random_.unit(), y = random_.unit();
     return {static_cast<float>(i + 0.999 * x), static_cast<float>(j + 0.999 * y)};
@@ -126,13 +126,15 @@ class Ways {
   [[nodiscard]] Line line(std::int32_t count) const {
     Line l;
     for (std::int32_t k = 0; k < count; ++k) {
-      const cell::Point p = rig_.arrays().points[k];
+      const paper::Point p = points_[static_cast<std::size_t>(k)];
       l.push_back({static_cast<double>(p.x), static_cast<double>(p.y)});
     }
     return l;
   }
 
   FieldRig<> rig_{kSide};
+  std::vector<paper::Point> points_ = std::vector<paper::Point>(static_cast<std::size_t>(paper::kMaxBandPoints));
+  std::vector<paper::Point> raw_ = points_;
   Random random_{1};
   std::vector<std::int32_t> free_;
   std::int32_t goal_ = 0;
@@ -171,8 +173,8 @@ TEST_CASE(
 }
 
 TEST_CASE("the cosine of a turn: none, a right angle, back, and none to be had where points coincide") {
-  CHECK(cell::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {3.0F, 0.0F}) == 1.0F);
-  CHECK(cell::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 2.0F}) == 0.0F);
-  CHECK(cell::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}) == -1.0F);
-  CHECK(std::isnan(cell::turn_cosine({0.0F, 0.0F}, {0.0F, 0.0F}, {1.0F, 0.0F})));
+  CHECK(paper::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {3.0F, 0.0F}) == 1.0F);
+  CHECK(paper::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {1.0F, 2.0F}) == 0.0F);
+  CHECK(paper::turn_cosine({0.0F, 0.0F}, {1.0F, 0.0F}, {0.0F, 0.0F}) == -1.0F);
+  CHECK(std::isnan(paper::turn_cosine({0.0F, 0.0F}, {0.0F, 0.0F}, {1.0F, 0.0F})));
 }

@@ -3,7 +3,7 @@
 #include <cstring>
 #include <vector>
 
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 #include "tests/planner/same_bytes.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"

@@ -3,28 +3,28 @@
 #include <memory>
 #include <vector>
 
-#include "planner/field/exact_field.h"
-#include "planner/field/executor.h"
-#include "planner/field/pass.h"
+#include "planner/paper/exact_field.h"
+#include "planner/paper/executor.h"
+#include "planner/paper/pass.h"
 #include "tests/planner/test_maps.h"
 
 namespace jaywalk::test {
 
-template <class Executor = field::SerialExecutor>
+template <class Executor = paper::SerialExecutor>
 struct FieldRig {
   Executor executor;
-  field::Pass<Executor> pass;
-  field::Grid grid;
-  float* psi;
+  paper::Pass<Executor> pass;
+  paper::Grid grid;
 
-  explicit FieldRig(std::int32_t side) : pass(executor, side), grid{side}, psi(pass.take_psi()) {}
+  explicit FieldRig(std::int32_t side) : pass(executor, side), grid{side} {}
 
-  [[nodiscard]] const field::FieldArrays& arrays() const { return pass.arrays(); }
+  [[nodiscard]] const paper::FieldArrays& arrays() const { return pass.shown(); }
+  [[nodiscard]] float* psi() const { return arrays().psi; }
 
   /// Occupants, clearance with `inflation` cells, start field.
   void load(const TestMap& map, float inflation, std::int32_t goal) {
     for (std::size_t c = 0; c < map.wall.size(); ++c) arrays().occupants[c] = map.wall[c];
-    (void)pass.clear(grid, inflation, field::kWall);
+    (void)pass.clear(grid, inflation, paper::kWall);
     (void)pass.start(grid, goal);
   }
 
@@ -32,7 +32,7 @@ struct FieldRig {
   [[nodiscard]] std::vector<double> exact(std::int32_t goal) const {
     std::vector<std::uint8_t> free(static_cast<std::size_t>(grid.cells()));
     for (std::size_t c = 0; c < free.size(); ++c) free[c] = arrays().clearance[c] > 0.0F ? 1 : 0;
-    return field::exact_psi(grid, free.data(), goal);
+    return paper::exact_psi(grid, free.data(), goal);
   }
 };
 

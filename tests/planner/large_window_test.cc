@@ -3,19 +3,19 @@
 #include <vector>
 
 #include "bench/field/random_maps.h"
-#include "planner/field/map_field.h"
-#include "planner/field/multigrid.h"
+#include "planner/paper/map_field.h"
+#include "planner/paper/multigrid.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
 
 namespace {
 
-constexpr std::int32_t kSide = 2 * field::kLargeSide;
+constexpr std::int32_t kSide = 2 * paper::kLargeSide;
 constexpr std::uint8_t kNone = 4;
 
 /// Which of its four neighbours a cell would go to: the lowest, if that is lower than itself.
-std::uint8_t pick(const field::MapField& field, std::int32_t i, std::int32_t j) {
+std::uint8_t pick(const paper::MapField& field, std::int32_t i, std::int32_t j) {
   const CellIndex beside[] = {{i + 1, j}, {i - 1, j}, {i, j + 1}, {i, j - 1}};
   float lowest = field.psi(i, j);
   std::uint8_t picked = kNone;
@@ -27,7 +27,7 @@ std::uint8_t pick(const field::MapField& field, std::int32_t i, std::int32_t j) 
   return picked;
 }
 
-std::vector<std::uint8_t> picks(const field::MapField& field) {
+std::vector<std::uint8_t> picks(const paper::MapField& field) {
   std::vector<std::uint8_t> all;
   for (std::int32_t j = 0; j < kSide; ++j) {
     for (std::int32_t i = 0; i < kSide; ++i) all.push_back(pick(field, i, j));
@@ -51,11 +51,11 @@ double alike(const std::vector<std::uint8_t>& a, const std::vector<std::uint8_t>
 TEST_CASE("in large windows two cycles guide from everywhere, and the next submission finds what they lack") {
   for (const MapKind kind : {MapKind::kRooms, MapKind::kCave, MapKind::kBoxes}) {
     MapRandom random(3);
-    const auto field = field::make_cpu_map_field(random_map(kind, kSide, random));
+    const auto field = paper::make_cpu_map_field(random_map(kind, kSide, random));
     field->inflate(2.0F);
     CellIndex goal{kSide / 2, kSide / 2};
     REQUIRE(field->nearest_free(goal, kSide));
-    const field::MapQuality cold = field->solve_cold(goal);
+    const paper::MapQuality cold = field->solve_cold(goal);
     CHECK(cold.certified);
     CHECK(cold.cycles == 2);
     CHECK(cold.joined > 100000);

@@ -1,5 +1,5 @@
 // Reach and certificate on maps of every kind: random ones, cylinders of BARN worlds, passages that open and close.
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -9,7 +9,7 @@
 #include <sstream>
 #include <string>
 
-#include "planner/field/map_field_on.h"
+#include "planner/paper/map_field_on.h"
 #include "tests/planner/field_rig.h"
 #include "tests/planner/shaped_maps.h"
 #include "tests/planner/shuffled_executor.h"
@@ -21,8 +21,8 @@ using namespace jaywalk::test;
 namespace {
 
 /// Between 1 and `most` cells a side, boxes and single cells thrown in.
-field::CellMap random_map(Random& random, std::int32_t most) {
-  field::CellMap map{1 + random.below(most), 1 + random.below(most), {}};
+paper::CellMap random_map(Random& random, std::int32_t most) {
+  paper::CellMap map{1 + random.below(most), 1 + random.below(most), {}};
   map.wall.assign(static_cast<std::size_t>(map.width * map.height), 0);
   const std::int32_t pieces = random.below(1 + map.width * map.height / 100), longest = 1 + random.below(20);
   for (std::int32_t k = 0; k < pieces; ++k) {
@@ -43,9 +43,9 @@ std::filesystem::path data_folder() {
 }
 
 /// Cells of 5 cm that a cylinder (x y radius a line) covers with their middle.
-field::CellMap barn_map(const std::filesystem::path& file) {
+paper::CellMap barn_map(const std::filesystem::path& file) {
   constexpr double kCell = 0.05;
-  field::CellMap map{110, 220, std::vector<std::uint8_t>(110 * 220, 0)};
+  paper::CellMap map{110, 220, std::vector<std::uint8_t>(110 * 220, 0)};
   std::ifstream in(file);
   for (std::string line; std::getline(in, line);) {
     std::istringstream words(line);
@@ -65,11 +65,11 @@ TEST_CASE("on a thousand random maps of random size descent arrives from every j
   Random random(2026);
   int solved = 0;
   for (int k = 0; k < 1000; ++k) {
-    const auto field = field::make_cpu_map_field(random_map(random, k % 20 == 0 ? 300 : 90));
+    const auto field = paper::make_cpu_map_field(random_map(random, k % 20 == 0 ? 300 : 90));
     field->inflate(static_cast<float>(random.below(3)));
     CellIndex goal{random.below(60), random.below(60)};
     if (!field->nearest_free(goal, 100)) continue;
-    const field::MapQuality cold = field->solve_cold(goal);
+    const paper::MapQuality cold = field->solve_cold(goal);
     CHECK(cold.certified);
     CHECK(field->reach(goal) == 1.0F);
     CHECK(field->solve_warm(goal).certified);
@@ -81,9 +81,9 @@ TEST_CASE("on a thousand random maps of random size descent arrives from every j
 
 TEST_CASE("the start field alone is a mode: it descends from everywhere, and is no harmonic function") {
   const TestMap map = office();
-  const auto field = field::make_cpu_map_field({map.side, map.side, map.wall});
+  const auto field = paper::make_cpu_map_field({map.side, map.side, map.wall});
   field->inflate(3.0F);
-  const field::MapQuality start = field->solve_start({243, 243});
+  const paper::MapQuality start = field->solve_start({243, 243});
   CHECK(start.certified);
   CHECK(start.cycles == 0);
   CHECK(field->best_neighbours({243, 243}, 1e10).value() < 0.96);
@@ -91,26 +91,26 @@ TEST_CASE("the start field alone is a mode: it descends from everywhere, and is 
 }
 
 TEST_CASE("maps of every shape have the same bytes in any visiting order") {
-  std::vector<field::CellMap> maps = shaped_maps();
+  std::vector<paper::CellMap> maps = shaped_maps();
   maps.push_back(large_map());
   Random random(7);
   for (int k = 0; k < 6; ++k) maps.push_back(random_map(random, 120));
-  for (const field::CellMap& map : maps) {
-    field::MapFieldOn<ShuffledExecutor> shuffled(map, std::make_unique<ShuffledExecutor>());
+  for (const paper::CellMap& map : maps) {
+    paper::MapFieldOn<ShuffledExecutor> shuffled(map, std::make_unique<ShuffledExecutor>());
     check_field(map, shuffled);
   }
 }
 
 TEST_CASE("a single cell, a row and a column of cells are solved, and a map of walls has no goal") {
   for (const CellIndex size : {CellIndex{1, 1}, CellIndex{1, 65}, CellIndex{130, 1}}) {
-    const auto field = field::make_cpu_map_field(
+    const auto field = paper::make_cpu_map_field(
         {size.i, size.j, std::vector<std::uint8_t>(static_cast<std::size_t>(size.i * size.j), 0)});
-    const field::MapQuality quality = field->solve_cold({0, 0});
+    const paper::MapQuality quality = field->solve_cold({0, 0});
     CHECK(quality.certified);
     CHECK(quality.joined == size.i * size.j);
     CHECK(field->psi(0, 0) == 0.0F);
   }
-  const auto walls = field::make_cpu_map_field({3, 2, std::vector<std::uint8_t>(6, 1)});
+  const auto walls = paper::make_cpu_map_field({3, 2, std::vector<std::uint8_t>(6, 1)});
   CellIndex goal{1, 1};
   CHECK_FALSE(walls->nearest_free(goal, 10));
 }
@@ -123,7 +123,7 @@ TEST_CASE("on the BARN worlds descent arrives from every joined cell") {
   int worlds = 0;
   for (const auto& entry : std::filesystem::directory_iterator(data_folder() / "barn")) {
     if (entry.path().extension() != ".txt") continue;
-    const auto field = field::make_cpu_map_field(barn_map(entry.path()));
+    const auto field = paper::make_cpu_map_field(barn_map(entry.path()));
     field->inflate(4.0F);
     CellIndex goal{55, 215};
     if (!field->nearest_free(goal, 60)) continue;
@@ -152,17 +152,17 @@ TEST_CASE("in 120 ticks with eight discs that open and close passages fields are
       const std::int32_t i = 61 + 60 * (k % 3), j = 28 + (phase < 200 ? phase : 400 - phase);
       for (std::int32_t dj = -6; dj <= 6; ++dj) {
         for (std::int32_t di = -6; di <= 6; ++di) {
-          if (di * di + dj * dj <= 36) now.at(i + di, j + dj) = field::kWall;
+          if (di * di + dj * dj <= 36) now.at(i + di, j + dj) = paper::kWall;
         }
       }
     }
     rig.load(now, 3.0F, goal);
-    const field::FieldQuality quality =
-        rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
+    const paper::FieldQuality quality =
+        rig.pass.solve(rig.grid, goal, tick > 0 ? paper::From::kLast : paper::From::kNothing);
     CHECK(quality.certified);
     CHECK(quality.joined > 8000);
     if (tick % measured_every != 0) continue;  // the exact field takes a second
-    worst = std::min(worst, field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal));
+    worst = std::min(worst, paper::share_of_best(rig.grid, rig.psi(), rig.exact(goal), goal));
   }
   std::printf("120 ticks: %.3f %% pick the best neighbour, at worst\n", 100.0 * worst);
   CHECK(worst >= 0.98);

@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "tests/planner/field_rig.h"
-#include "tests/planner/one_memory.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -22,27 +21,17 @@ std::uint32_t bits_of(const float* value) {
 
 /// Visits one cell after the other. Of this file alone, so that the stages are compiled as the build says for this
 /// file.
-class Visitor : public OneMemory {
+class Visitor : public paper::SerialExecutor {
  public:
-  template <class Order>
-  void in_one_block(const Order& order) {
-    order(*this);
-  }
-  template <class Stage>
-  void for_each(std::int32_t n, const Stage& stage) {
-    for (std::int32_t k = 0; k < n; ++k) stage(k);
-  }
   template <class Stage>
   void for_each_cell(std::int32_t w, std::int32_t h, const Stage& stage) {
-    for (std::int32_t k = 0; k < w * h; ++k) stage(k % w, k / w);
-  }
-  template <class... Steps>
-  void for_each_row(std::int32_t h, const Steps&... steps) {
-    (for_each_cell(steps.width, h / steps.every, steps.stage), ...);
-  }
-  template <class... Steps>
-  void repeat(std::int32_t n, std::int32_t h, const Steps&... steps) {
-    for (std::int32_t k = 0; k < n; ++k) for_each_row(h, steps...);
+    for (std::int32_t k = 0; k < w * h; ++k) {
+      if constexpr (requires { stage(k, k); }) {
+        stage(k % w, k / w);
+      } else {
+        stage(k);
+      }
+    }
   }
 };
 
@@ -66,11 +55,11 @@ TEST_CASE("psi of a cell that is not free is handed on and never computed, cold,
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
     if (rig.arrays().clearance[c] <= 0.0F) std::memcpy(rig.arrays().start_psi + c, &kSignalling, sizeof kSignalling);
   }
-  for (const field::From from : {field::From::kNothing, field::From::kLast, field::From::kStartOnly}) {
-    const field::FieldQuality quality = rig.pass.solve(rig.grid, goal, from, rig.psi);
+  for (const paper::From from : {paper::From::kNothing, paper::From::kLast, paper::From::kStartOnly}) {
+    const paper::FieldQuality quality = rig.pass.solve(rig.grid, goal, from);
     CHECK(quality.certified);
     CHECK(quality.joined > 2000);
     CHECK(computed(rig, rig.arrays().start_psi) == 0);
-    CHECK(computed(rig, rig.psi) == 0);
+    CHECK(computed(rig, rig.psi()) == 0);
   }
 }

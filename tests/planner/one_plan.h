@@ -1,11 +1,11 @@
 #pragma once
 // A planner of little memory, asked for a plan.
-#include "planner/planner.h"
+#include "planner/paper/paper.h"
 
 namespace jaywalk::test {
 
-inline PlannerConfig small_memory() {
-  PlannerConfig config;
+inline paper::PaperConfig small_memory() {
+  paper::PaperConfig config;
   config.max_side_cells = 256;
   return config;
 }

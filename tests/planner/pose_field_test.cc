@@ -187,6 +187,14 @@ TEST_CASE("a field settled after another has the bytes of a fresh one, and asks 
   CHECK(kept.memory.cost == fresh.memory.cost);
 }
 
+TEST_CASE("a queue that is too small says so: then no way is known, and no cost is told") {
+  const Ground ground = door(0.90);
+  Chair full(ground), small(ground, nullptr, 2000);
+  REQUIRE(full.from({0.6, -1.0, 2.0}, {3.2, 0.1}).known);
+  CHECK_FALSE(small.from({0.6, -1.0, 2.0}, {3.2, 0.1}).known);
+  CHECK(std::count(small.memory.cost.begin(), small.memory.cost.end(), PoseGuide::kNoWay) == PoseLattice::kPoses);
+}
+
 TEST_CASE("to a goal beyond the square the way leads out of it, with the time from there") {
   const Ground ground;
   Chair chair(ground);

@@ -4,9 +4,9 @@
 #include <vector>
 
 #include "bench/field/random_maps.h"
-#include "planner/field/exact_field.h"
-#include "planner/field/nearest_cell.h"
-#include "planner/field/path.h"
+#include "planner/mapping/nearest_cell.h"
+#include "planner/paper/exact_field.h"
+#include "planner/paper/path.h"
 #include "tests/planner/field_rig.h"
 #include "tests/support/catch.h"
 
@@ -16,7 +16,7 @@ using namespace jaywalk::test;
 namespace {
 
 /// psi of the harmonic function in double precision: Gauss-Seidel on u = 1 - phi from 0 until nothing moves.
-std::vector<double> harmonic_reference(const field::Grid& grid, const float* clearance, std::int32_t goal) {
+std::vector<double> harmonic_reference(const paper::Grid& grid, const float* clearance, std::int32_t goal) {
   std::vector<double> u(static_cast<std::size_t>(grid.cells()), 0.0);
   const auto at = [&](std::int32_t i, std::int32_t j) {
     return grid.holds(i, j) ? u[static_cast<std::size_t>(grid.at(i, j))] : 0.0;
@@ -51,13 +51,13 @@ TEST_CASE("the solved potential is the harmonic function to a thousandth, everyw
   rig.load(rooms(), 1.0F, goal);
   const auto reference = harmonic_reference(rig.grid, rig.arrays().clearance, goal);
   for (int tick = 0; tick < 4; ++tick)
-    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
+    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? paper::From::kLast : paper::From::kNothing);
   double worst = 0.0;
   int joined = 0;
   for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
-    if (!cell::is_joined(rig.psi[c])) continue;
+    if (!cell::is_joined(rig.psi()[c])) continue;
     ++joined;
-    worst = std::max(worst, std::fabs(static_cast<double>(rig.psi[c]) - reference[static_cast<std::size_t>(c)]));
+    worst = std::max(worst, std::fabs(static_cast<double>(rig.psi()[c]) - reference[static_cast<std::size_t>(c)]));
   }
   CHECK(joined > 2000);
   CHECK(worst < 1e-3);
@@ -69,14 +69,14 @@ TEST_CASE("certified means that descent arrives from every joined cell, on every
   for (const TestMap& map : {open_room(), office(), serpentine(15), serpentine(10), clutter(4), speckle(4)}) {
     const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(12, 12);
     rig.load(map, 3.0F, goal);
-    const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
+    const paper::FieldQuality cold = rig.pass.solve(rig.grid, goal, paper::From::kNothing);
     CHECK(cold.certified);
-    CHECK(cold.cycles >= field::cold_cycles(rig.grid).least);
-    CHECK(cold.cycles <= field::cold_cycles(rig.grid).most);
-    CHECK(field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data()) == 1.0F);
-    const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
+    CHECK(cold.cycles >= paper::cold_cycles(rig.grid).least);
+    CHECK(cold.cycles <= paper::cold_cycles(rig.grid).most);
+    CHECK(paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, goal, seen.data()) == 1.0F);
+    const paper::FieldQuality warm = rig.pass.solve(rig.grid, goal, paper::From::kLast);
     CHECK(warm.certified);
-    CHECK(warm.cycles <= field::kWarmCycles.most);
+    CHECK(warm.cycles <= paper::kWarmCycles.most);
   }
 }
 
@@ -93,7 +93,7 @@ TEST_CASE("the exact field is the harmonic function, to the last digits, however
   // A row of cells between walls: u falls by e^-k a cell with 2 cosh k = 4, beyond what a double can hold at 540 cells.
   std::vector<std::uint8_t> free(1024 * 1024, 0);
   std::fill_n(free.begin() + 5 * 1024, 1024, 1);
-  const std::vector<double> line = field::exact_psi({1024}, free.data(), 5 * 1024);
+  const std::vector<double> line = paper::exact_psi({1024}, free.data(), 5 * 1024);
   CHECK(line[5 * 1024 + 600] == Approx(600.0 * std::acosh(2.0)).epsilon(1e-12));
 }
 
@@ -102,8 +102,8 @@ TEST_CASE("solved cold, 99.9 percent of cells or more pick the exact field's bes
   for (const TestMap& map : {open_room(), office(), clutter(1), speckle(1), serpentine(15), serpentine(10)}) {
     const std::int32_t goal = map.name[1] == 'e' ? rig.grid.at(12, 6) : rig.grid.at(243, 243);
     rig.load(map, 3.0F, goal);
-    REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
-    const double best = field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal);
+    REQUIRE(rig.pass.solve(rig.grid, goal, paper::From::kNothing).certified);
+    const double best = paper::share_of_best(rig.grid, rig.psi(), rig.exact(goal), goal);
     std::printf("%s: %.3f %% pick the best neighbour\n", map.name.c_str(), 100.0 * best);
     CHECK(best >= 0.999);
   }
@@ -122,10 +122,10 @@ TEST_CASE("in caves with ragged passages 99.9 percent or more pick the best neig
     const std::int32_t goal =
         field::nearest_cell(rig.grid, i, j, 256, [&](std::int32_t c) { return clearance[c] > 0.0F; });
     rig.load(map, inflation, goal);
-    const field::FieldQuality cold = rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
+    const paper::FieldQuality cold = rig.pass.solve(rig.grid, goal, paper::From::kNothing);
     CHECK(cold.certified);
     CHECK(cold.joined > 1000);
-    CHECK(field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal) >= 0.999);
+    CHECK(paper::share_of_best(rig.grid, rig.psi(), rig.exact(goal), goal) >= 0.999);
   }
 }
 
@@ -134,8 +134,8 @@ TEST_CASE("a row of blocks speaks for all cells but those behind a wall inside a
   // lies across a wall: of its three it speaks for those in the lower row, bits 0 and 1.
   const std::vector<float> diagonal{1.0F, 2.0F, 3.0F, 4.0F, 5.0F, 6.0F, 7.0F, 0.0F};
   const std::vector<std::int32_t> ties{15, 3};
-  field::Counted spoken;
-  field::SpokenOfRow{2, diagonal.data(), ties.data(), &spoken}(0, 0);
+  paper::Counted spoken;
+  paper::SpokenOfRow{2, diagonal.data(), ties.data(), &spoken}(0);
   CHECK(spoken.cells == 6);
   CHECK(spoken.joined == 7);
 }
@@ -150,11 +150,11 @@ TEST_CASE(
   }
   const std::int32_t goal = rig.grid.at(12, 6);
   rig.load(map, 3.0F, goal);
-  REQUIRE(rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi).certified);
+  REQUIRE(rig.pass.solve(rig.grid, goal, paper::From::kNothing).certified);
   for (int tick = 0; tick < 4; ++tick) {
-    const field::FieldQuality warm = rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi);
+    const paper::FieldQuality warm = rig.pass.solve(rig.grid, goal, paper::From::kLast);
     CHECK(warm.certified);
-    CHECK(warm.cycles <= field::kWarmCycles.most);
+    CHECK(warm.cycles <= paper::kWarmCycles.most);
     CHECK(warm.joined > 400000);
   }
 }
@@ -163,17 +163,17 @@ TEST_CASE("free cells at the window's border are as right as others: nothing is 
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(20, 30), n = rig.grid.cells();
   std::fill_n(rig.arrays().occupants, n, std::uint8_t{0});
-  for (std::int32_t i = 30; i < 60; ++i) rig.arrays().occupants[rig.grid.at(i, 20)] = field::kWall;
-  (void)rig.pass.clear(rig.grid, 0.0F, field::kWall);
+  for (std::int32_t i = 30; i < 60; ++i) rig.arrays().occupants[rig.grid.at(i, 20)] = paper::kWall;
+  (void)rig.pass.clear(rig.grid, 0.0F, paper::kWall);
   (void)rig.pass.start(rig.grid, goal);
   for (int k = 0; k < 4; ++k) {
-    (void)rig.pass.solve(rig.grid, goal, k > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
+    (void)rig.pass.solve(rig.grid, goal, k > 0 ? paper::From::kLast : paper::From::kNothing);
   }
   const std::vector<double> exact = rig.exact(goal);
   double worst = 0.0;
   for (std::int32_t j = 0; j < 64; ++j) {
     for (const std::int32_t c : {rig.grid.at(0, j), rig.grid.at(63, j), rig.grid.at(j, 0), rig.grid.at(j, 63)}) {
-      worst = std::max(worst, std::fabs(static_cast<double>(rig.psi[c]) - exact[static_cast<std::size_t>(c)]));
+      worst = std::max(worst, std::fabs(static_cast<double>(rig.psi()[c]) - exact[static_cast<std::size_t>(c)]));
     }
   }
   CHECK(worst < 1e-3);
@@ -183,7 +183,7 @@ TEST_CASE("the start field alone picks the best neighbour less often: the compar
   FieldRig<> rig(256);
   const std::int32_t goal = rig.grid.at(243, 243);
   rig.load(office(), 3.0F, goal);
-  CHECK(field::share_of_best(rig.grid, rig.arrays().start_psi, rig.exact(goal), goal) < 0.95);
+  CHECK(paper::share_of_best(rig.grid, rig.arrays().start_psi, rig.exact(goal), goal) < 0.95);
 }
 
 TEST_CASE("solved warm under discs that move, 98 percent or more pick the best neighbour of the field as it is now") {
@@ -194,8 +194,8 @@ TEST_CASE("solved warm under discs that move, 98 percent or more pick the best n
     for (std::int32_t k = 0; k < 8; ++k)
       map.box(20 + 27 * k + tick, 118 + 3 * (k % 4), 26 + 27 * k + tick, 124 + 3 * (k % 4));
     rig.load(map, 3.0F, goal);
-    REQUIRE(rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi).certified);
-    if (tick > 0) CHECK(field::share_of_best(rig.grid, rig.psi, rig.exact(goal), goal) >= 0.98);
+    REQUIRE(rig.pass.solve(rig.grid, goal, tick > 0 ? paper::From::kLast : paper::From::kNothing).certified);
+    if (tick > 0) CHECK(paper::share_of_best(rig.grid, rig.psi(), rig.exact(goal), goal) >= 0.98);
   }
 }
 
@@ -203,14 +203,14 @@ TEST_CASE("a pit breaks the certificate and is counted, and lowers the reach") {
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
-  (void)rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
-  rig.psi[rig.grid.at(10, 10)] -= 5.0F;
-  std::vector<field::Counted> pits(64);
-  rig.executor.for_each_cell(1, 64, field::PitsOfRow{rig.grid, goal, 64, rig.psi, pits.data()});
+  (void)rig.pass.solve(rig.grid, goal, paper::From::kNothing);
+  rig.psi()[rig.grid.at(10, 10)] -= 5.0F;
+  std::vector<paper::Counted> pits(64);
+  rig.executor.for_each_cell(64, 1, paper::PitsOfRow{rig.grid, goal, rig.psi(), pits.data()});
   CHECK(pits[10].cells == 1);
-  rig.executor.for_each_cell(64, 64, field::IndexOfEachCell{rig.grid, rig.psi, rig.arrays().index});
+  rig.executor.for_each_cell(64, 64, paper::IndexOfEachCell{rig.grid, rig.psi(), rig.arrays().index});
   std::vector<std::uint8_t> seen(64 * 64);
-  const float reach = field::share_arriving(rig.grid, rig.psi, rig.arrays().index, goal, seen.data());
+  const float reach = paper::share_arriving(rig.grid, rig.psi(), rig.arrays().index, goal, seen.data());
   CHECK(reach < 1.0F);
   CHECK(reach > 0.0F);
 }
@@ -219,21 +219,19 @@ TEST_CASE("what rounding has levelled is lifted until it descends again, and not
   FieldRig<> rig(64);
   const std::int32_t goal = rig.grid.at(55, 50);
   rig.load(rooms(), 1.0F, goal);
-  (void)rig.pass.solve(rig.grid, goal, field::From::kNothing, rig.psi);
-  const std::vector<float> before(rig.psi, rig.psi + rig.grid.cells());
+  (void)rig.pass.solve(rig.grid, goal, paper::From::kNothing);
+  const std::vector<float> before(rig.psi(), rig.psi() + rig.grid.cells());
   const std::int32_t c = rig.grid.at(10, 10);
-  const float lowest = std::min(std::min(rig.psi[c - 1], rig.psi[c + 1]), std::min(rig.psi[c - 64], rig.psi[c + 64]));
-  rig.psi[c] = lowest;
-  for (const std::int32_t colour : {0, 1}) {
-    std::vector<field::Counted> pits(64);
-    pits[10].cells = 1;
-    rig.executor.for_each_cell(1, 64, field::LiftPitsOfRow{rig.grid, colour, goal, 1, 64, pits.data(), rig.psi});
-  }
-  CHECK(rig.psi[c] > lowest);
-  CHECK(rig.psi[c] == std::nextafter(lowest, 1e9F));
+  const float lowest =
+      std::min(std::min(rig.psi()[c - 1], rig.psi()[c + 1]), std::min(rig.psi()[c - 64], rig.psi()[c + 64]));
+  rig.psi()[c] = lowest;
+  for (const std::int32_t colour : {0, 1})
+    rig.executor.for_each_cell(64, 64, paper::LiftPits{rig.grid, colour, goal, rig.psi()});
+  CHECK(rig.psi()[c] > lowest);
+  CHECK(rig.psi()[c] == std::nextafter(lowest, 1e9F));
   for (std::int32_t n = 0; n < rig.grid.cells(); ++n) {
     if (n != c && cell::is_joined(before[static_cast<std::size_t>(n)])) {
-      CHECK(rig.psi[n] == before[static_cast<std::size_t>(n)]);
+      CHECK(rig.psi()[n] == before[static_cast<std::size_t>(n)]);
     }
   }
 }
@@ -245,10 +243,10 @@ TEST_CASE("a passage that closes under a warm start is noticed: still certified,
   const std::int32_t goal = rig.grid.at(50, 12), start = rig.grid.at(12, 12);
   rig.load(map, 1.0F, goal);
   for (int tick = 0; tick < 5; ++tick)
-    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? field::From::kLast : field::From::kNothing, rig.psi);
-  const float near_way = rig.psi[start];
+    (void)rig.pass.solve(rig.grid, goal, tick > 0 ? paper::From::kLast : paper::From::kNothing);
+  const float near_way = rig.psi()[start];
   map.box(30, 8, 32, 18);
   rig.load(map, 1.0F, goal);
-  for (int tick = 0; tick < 5; ++tick) CHECK(rig.pass.solve(rig.grid, goal, field::From::kLast, rig.psi).certified);
-  CHECK(rig.psi[start] > near_way + 1.0F);
+  for (int tick = 0; tick < 5; ++tick) CHECK(rig.pass.solve(rig.grid, goal, paper::From::kLast).certified);
+  CHECK(rig.psi()[start] > near_way + 1.0F);
 }

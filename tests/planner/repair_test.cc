@@ -4,8 +4,6 @@
 #include <vector>
 
 #include "planner/cost_to_go/guide_field.h"
-#include "planner/field/bucket_queue.h"
-#include "tests/planner/field_rig.h"
 #include "tests/planner/same_bytes.h"
 #include "tests/support/catch.h"
 
@@ -34,7 +32,7 @@ class ChangingRoom {
     for (std::int32_t c = 0; c < kCells; ++c) {
       for (const Disc& disc : discs_) {
         const double dx = c % kSide - disc.x, dy = c / kSide - disc.y;
-        if (dx * dx + dy * dy <= disc.radius * disc.radius) map.wall[static_cast<std::size_t>(c)] = field::kWall;
+        if (dx * dx + dy * dy <= disc.radius * disc.radius) map.wall[static_cast<std::size_t>(c)] = 1;
       }
     }
     map.box(2, 2, 8, 8, 0);  // room for a goal
@@ -52,20 +50,6 @@ class ChangingRoom {
   std::int32_t wall_ = 30;
 };
 
-/// Rates as walls and what is near them give them, with a few changed at random.
-std::vector<std::uint16_t> rates_of(const TestMap& map, Random& random) {
-  std::vector<std::uint16_t> rates;
-  for (std::size_t c = 0; c < map.wall.size(); ++c) {
-    rates.push_back(map.wall[c] != 0 ? std::uint16_t{0} : static_cast<std::uint16_t>(20 + c * 7919 % 900));
-  }
-  for (std::int32_t k = random.below(20); k > 0; --k) {
-    std::uint16_t& rate = rates[static_cast<std::size_t>(random.below(kCells))];
-    rate = static_cast<std::uint16_t>(random.below(3) == 0 ? 0 : 1 + random.below(2696));
-  }
-  rates[4 * kSide + 4] = 30;
-  return rates;
-}
-
 EvidenceMap seen(const TestMap& map, Random& random, std::int32_t unseen) {
   EvidenceMap evidence(128, 0.1, {3.2, 3.2});
   for (std::int32_t c = 0; c < kCells; ++c) {
@@ -82,42 +66,6 @@ EvidenceMap seen(const TestMap& map, Random& random, std::int32_t unseen) {
 }
 
 }  // namespace
-
-TEST_CASE("a repaired start field has the costs of one from nothing, whatever changes") {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    ChangingRoom room(seed);
-    field::BucketQueue kept(kSide, kCells);
-    std::vector<std::uint32_t> repaired(kCells), anew(kCells);
-    for (int tick = 0; tick < 60; ++tick) {
-      const std::vector<std::uint16_t> rates = rates_of(room.next(), room.random());
-      const std::int32_t goal = tick % 20 < 17 ? 4 * kSide + 4 : 5 * kSide + 5;
-      kept.settle({kSide}, goal, rates.data(), repaired.data());
-      field::BucketQueue(kSide, kCells).settle({kSide}, goal, rates.data(), anew.data());
-      REQUIRE(repaired == anew);
-    }
-  }
-}
-
-TEST_CASE("repaired clearance and start field have the bytes of a pass that knows nothing, on part of a grid too") {
-  for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-    ChangingRoom room(seed);
-    FieldRig<> kept(kSide), anew(kSide);
-    const std::int32_t width = seed % 3 == 0 ? 50 : kSide;
-    for (int tick = 0; tick < 60; ++tick) {
-      const TestMap map = room.next();
-      const float inflation = tick % 30 < 25 ? 1.5F : 0.0F;
-      anew.pass.forget();
-      for (FieldRig<>* rig : {&kept, &anew}) {
-        std::copy(map.wall.begin(), map.wall.end(), rig->arrays().occupants);
-        REQUIRE(rig->pass.clear(rig->grid, width, kSide, inflation, field::kWall));
-        REQUIRE(rig->pass.start(rig->grid, 4 * kSide + 4));
-      }
-      REQUIRE(same(kept.arrays().clearance, anew.arrays().clearance, kCells));
-      REQUIRE(same(kept.arrays().cost, anew.arrays().cost, kCells));
-      REQUIRE(same(kept.arrays().start_psi, anew.arrays().start_psi, kCells));
-    }
-  }
-}
 
 TEST_CASE("a repaired guide has the bytes of one from nothing: walls, bodies, robot, goal and window change") {
   for (std::uint64_t seed = 1; seed <= 8; ++seed) {

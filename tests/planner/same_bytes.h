@@ -4,7 +4,8 @@
 #include <memory>
 #include <vector>
 
-#include "planner/field/grid_planner.h"
+#include "planner/paper/paper.h"
+#include "planner/paper/paper_planner.h"
 #include "tests/planner/test_maps.h"
 #include "tests/support/catch.h"
 
@@ -31,8 +32,8 @@ inline std::vector<Track> crowd() {
   return tracks;
 }
 
-inline PlannerConfig small_window() {
-  PlannerConfig config;
+inline paper::PaperConfig small_window() {
+  paper::PaperConfig config;
   config.side_cells = config.max_side_cells = 64;
   config.inflation_m = 0.15;
   config.mover_margin_m = 0.1;
@@ -49,37 +50,32 @@ inline PlanRequest across(const EvidenceMap& still) {
   return request;
 }
 
-/// Marks, bands and whole plans of both modes among walkers, on a map of 64 cells a side that can be crossed.
+/// Marks and whole plans among walkers, on a map of 64 cells a side that can be crossed.
 template <class Executor>
 void check_plans(const TestMap& walls, int ticks) {
   const EvidenceMap map = evidence_of(walls);
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    PlannerConfig config = small_window();
-    config.mode = mode;
-    field::GridPlanner<field::SerialExecutor> serial(config, std::make_unique<field::SerialExecutor>());
-    field::GridPlanner<Executor> other(config, std::make_unique<Executor>());
-    std::vector<Track> tracks = crowd();
-    PlanRequest request = across(map);
-    int planned = 0;
-    for (int tick = 0; tick < ticks; ++tick) {
-      for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
-      request.moving = tracks;
-      serial.submit(request);
-      other.submit(request);
-      const Plan& a = serial.collect();
-      const Plan& b = other.collect();
-      REQUIRE(a.status == b.status);
-      REQUIRE(a.path.size() == b.path.size());
-      CHECK(a.cycles == b.cycles);
-      CHECK(same(serial.arrays().warp, other.arrays().warp, 64 * 64));
-      CHECK(same(serial.arrays().marks, other.arrays().marks, 6));
-      CHECK(same(serial.arrays().occupants, other.arrays().occupants, 64 * 64));
-      CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
-      CHECK(same(serial.view_field().psi.data(), other.view_field().psi.data(), 64 * 64));
-      if (a.status == PlanStatus::kOk) ++planned;
-    }
-    CHECK(planned > 0);
+  paper::PaperPlanner<paper::SerialExecutor> serial(small_window(), std::make_unique<paper::SerialExecutor>());
+  paper::PaperPlanner<Executor> other(small_window(), std::make_unique<Executor>());
+  std::vector<Track> tracks = crowd();
+  PlanRequest request = across(map);
+  int planned = 0;
+  for (int tick = 0; tick < ticks; ++tick) {
+    for (Track& track : tracks) track.position_in_map = track.position_in_map + track.velocity_in_map * 0.066;
+    request.moving = tracks;
+    serial.submit(request);
+    other.submit(request);
+    const Plan& a = serial.collect();
+    const Plan& b = other.collect();
+    REQUIRE(a.status == b.status);
+    REQUIRE(a.path.size() == b.path.size());
+    CHECK(a.cycles == b.cycles);
+    CHECK(same(serial.arrays().marks, other.arrays().marks, 6));
+    CHECK(same(serial.arrays().occupants, other.arrays().occupants, 64 * 64));
+    CHECK(same(a.path.data(), b.path.data(), static_cast<std::int32_t>(a.path.size())));
+    CHECK(same(serial.view_field().psi.data(), other.view_field().psi.data(), 64 * 64));
+    if (a.status == PlanStatus::kOk) ++planned;
   }
+  CHECK(planned > 0);
 }
 
 }  // namespace jaywalk::test

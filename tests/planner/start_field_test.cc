@@ -1,9 +1,7 @@
-#include <algorithm>
+#include <cstring>
 #include <vector>
 
-#include "planner/field/path.h"
 #include "tests/planner/field_rig.h"
-#include "tests/planner/shuffled_executor.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
@@ -12,7 +10,7 @@ using namespace jaywalk::test;
 namespace {
 
 /// Joined cells without a lower 4-neighbour, the goal apart.
-int pits_of(const field::Grid& grid, const float* psi, std::int32_t goal) {
+int pits_of(const paper::Grid& grid, const float* psi, std::int32_t goal) {
   int pits = 0;
   for (std::int32_t c = 0; c < grid.cells(); ++c) {
     if (!cell::is_joined(psi[c]) || c == goal) continue;
@@ -54,25 +52,41 @@ TEST_CASE("a straight corridor costs its rate a cell") {
   map.box(0, 0, 64, 10), map.box(0, 15, 64, 64);
   FieldRig<> rig(64);
   rig.load(map, 0.0F, rig.grid.at(20, 12));
-  CHECK(rig.arrays().rate[rig.grid.at(30, 12)] == 1049);
-  CHECK(rig.arrays().cost[rig.grid.at(30, 12)] == 20 * 1049);
   CHECK(rig.arrays().start_psi[rig.grid.at(30, 12)] == Approx(20.0 * 1049.0 / 4096.0));
 }
 
-TEST_CASE("a queue comes to the costs that asking every neighbour comes to, and one without room to the same") {
+TEST_CASE(
+    "the start field is the one fixed point of its steps: asking every cell of its neighbours comes to the same") {
   FieldRig<> rig(64);
-  FieldRig<ShuffledExecutor> asked(64);
-  const std::int32_t goal = rig.grid.at(10, 10), n = rig.grid.cells();
-  rig.load(office_corner(), 1.0F, goal), asked.load(office_corner(), 1.0F, goal);
-  CHECK(std::equal(rig.arrays().cost, rig.arrays().cost + n, asked.arrays().cost));
-  // Every cell of an open square that is free costs more the farther it is: with no chunk but one a bucket to spare,
-  // a goal in the middle of a wide room runs out of them.
-  FieldRig<> wide(1024);
-  const std::int32_t middle = wide.grid.at(512, 512);
-  wide.load(TestMap("room", 1024), 1.0F, middle);
-  std::vector<std::uint32_t> cost(static_cast<std::size_t>(wide.grid.cells()));
-  field::BucketQueue(1024, 0).settle(wide.grid, middle, wide.arrays().rate, cost.data());
-  CHECK(std::equal(cost.begin(), cost.end(), wide.arrays().cost));
+  const std::int32_t goal = rig.grid.at(10, 10);
+  rig.load(office_corner(), 1.0F, goal);
+  paper::StartField field(64);
+  std::vector<float> psi(64 * 64);
+  REQUIRE(field.settle(rig.grid, goal, rig.arrays().clearance, psi.data()));
+  CHECK(std::memcmp(psi.data(), rig.arrays().start_psi, psi.size() * sizeof(float)) == 0);
+  std::vector<std::uint32_t> cost(psi.size(), field::kNoWay);
+  cost[static_cast<std::size_t>(goal)] = 0;
+  const auto rate = [&](std::int32_t i, std::int32_t j) { return rig.grid.holds(i, j) ? field.rate(i, j) : 0U; };
+  for (bool any = true; any;) {
+    any = false;
+    for (std::int32_t c = 0; c < rig.grid.cells(); ++c) {
+      const std::int32_t i = c % 64, j = c / 64;
+      for (std::int32_t k = 0; k < 9 && rate(i, j) != 0; ++k) {
+        const std::int32_t x = i + k % 3 - 1, y = j + k / 3 - 1;
+        if (k == 4 || rate(x, y) == 0 || rate(x, j) == 0 || rate(i, y) == 0) continue;
+        const std::uint32_t there = cost[static_cast<std::size_t>(rig.grid.at(x, y))];
+        const std::uint32_t step = x == i || y == j
+                                       ? paper::straight_step(rate(x, y), rate(i, j))
+                                       : paper::diagonal_step(rate(x, y), rate(i, j), rate(x, j), rate(i, y));
+        if (there == field::kNoWay || there + step >= cost[static_cast<std::size_t>(c)]) continue;
+        cost[static_cast<std::size_t>(c)] = there + step, any = true;
+      }
+    }
+  }
+  int differ = 0;
+  for (std::int32_t c = 0; c < rig.grid.cells(); ++c)
+    differ += rate(c % 64, c / 64) != 0 && field.cost(c % 64, c / 64) != cost[static_cast<std::size_t>(c)] ? 1 : 0;
+  CHECK(differ == 0);
 }
 
 TEST_CASE("cells behind a closed wall are free and unreachable, walls are neither") {

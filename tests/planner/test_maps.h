@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "planner/field/mark_stages.h"
 #include "planner/mapping/evidence_map.h"
+#include "planner/paper/mark_stages.h"
 
 namespace jaywalk::test {
 
@@ -37,7 +37,7 @@ struct TestMap {
   }
   std::uint8_t& at(std::int32_t i, std::int32_t j) { return wall[static_cast<std::size_t>(j * side + i)]; }
   /// Fills cells [i0, i1) x [j0, j1), clipped.
-  void box(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1, std::uint8_t value = field::kWall) {
+  void box(std::int32_t i0, std::int32_t j0, std::int32_t i1, std::int32_t j1, std::uint8_t value = paper::kWall) {
     for (std::int32_t j = j0 < 0 ? 0 : j0; j < j1 && j < side; ++j) {
       for (std::int32_t i = i0 < 0 ? 0 : i0; i < i1 && i < side; ++i) at(i, j) = value;
     }
@@ -88,7 +88,7 @@ inline TestMap speckle(std::uint64_t seed) {
   TestMap map("speckle " + std::to_string(seed), 256);
   Random random(seed);
   for (std::uint8_t& cell : map.wall) {
-    if (random.below(1000) < 2) cell = field::kWall;
+    if (random.below(1000) < 2) cell = paper::kWall;
   }
   map.box(4, 4, 24, 24, 0), map.box(232, 232, 252, 252, 0);
   return map;

@@ -1,4 +1,4 @@
-// Plans without a potential, as a nearly round body in mode full asks for: status, path and window by the time to go.
+// Plans by the time to go, as what drives asks for: status, path and window.
 #include <array>
 #include <cmath>
 #include <vector>
@@ -12,12 +12,6 @@ using namespace jaywalk;
 using namespace jaywalk::test;
 
 namespace {
-
-PlanRequest time_to_go_on(const EvidenceMap& map, Vec2 from, Vec2 to) {
-  PlanRequest request = request_on(map, from, to);
-  request.wants_potential = false;
-  return request;
-}
 
 double length_of(const Path& path) {
   double sum = 0.0;
@@ -54,29 +48,25 @@ TestMap walled_in(TestMap map, std::int32_t low, std::int32_t high) {
 
 }  // namespace
 
-TEST_CASE("the potential is solved when it is asked for, and else the time to go is all there is") {
-  const auto planner = make_cpu_planner(small_memory());
+TEST_CASE("what drives knows neither potential nor marks; the paper's plan has both, and the same time to go") {
+  const auto planner = make_cpu_planner(small_memory()), papers = paper::make_cpu_paper_planner(small_memory());
   const EvidenceMap map = evidence_of(office());
-  PlanRequest request = time_to_go_on(map, {1.07, 1.04}, {24.31, 24.28});
+  PlanRequest request = request_on(map, {1.07, 1.04}, {24.31, 24.28});
   const std::array walkers{walker({5.0, 5.0}, {0.4, 0.0})};
   request.moving = walkers;
-  const auto plan = [&](bool wants_potential) -> const Plan& {
-    request.wants_potential = wants_potential;
-    return plan_of(*planner, request);
-  };
   for (int round = 0; round < 2; ++round) {
-    const Plan& plain = plan(false);
+    const Plan& plain = plan_of(*planner, request);
     CHECK(plain.status == PlanStatus::kOk);
     CHECK(plain.certified);
     CHECK(plain.cycles == 0);
     CHECK(plain.predictions.empty());
     CHECK(planner->view_field().of == FieldView::Of::kTimeToGo);
-    const Plan& full = plan(true);
+    const Plan& full = plan_of(*papers, request);
     CHECK(full.status == PlanStatus::kOk);
     CHECK(full.cycles > 0);
     CHECK(full.predictions.size() == 1);
-    CHECK(full.guide.known());
-    CHECK(planner->view_field().of == FieldView::Of::kPotential);
+    CHECK(full.guide.time_to_go(5.0F, 5.0F) == plain.guide.time_to_go(5.0F, 5.0F));
+    CHECK(papers->view_field().of == FieldView::Of::kPotential);
   }
 }
 
@@ -85,7 +75,7 @@ TEST_CASE("the path down the time to go leads from robot to goal, 0.2 m from wal
   for (const TestMap& map : {open_room(), office(), clutter(21), clutter(22), speckle(23)}) {
     const EvidenceMap evidence = evidence_of(map);
     const Vec2 from{1.07, 1.04}, to{24.31, 24.28};
-    const Plan& plan = plan_of(*planner, time_to_go_on(evidence, from, to));
+    const Plan& plan = plan_of(*planner, request_on(evidence, from, to));
     REQUIRE(plan.status == PlanStatus::kOk);
     CHECK(plan.path[0] == from);
     CHECK(plan.path.back() == to);
@@ -103,7 +93,7 @@ TEST_CASE("on open ground the path is straight within three per cent, whatever i
   const EvidenceMap map(512, 0.1, {0.0, 0.0});
   for (const double rad : {0.0, 0.2, 0.5, 0.8, 1.3, 2.0, -2.9}) {
     const Vec2 to = direction(rad) * 8.0;
-    CHECK(length_of(plan_of(*planner, time_to_go_on(map, {0.0, 0.0}, to)).path) < 1.03 * 8.0);
+    CHECK(length_of(plan_of(*planner, request_on(map, {0.0, 0.0}, to)).path) < 1.03 * 8.0);
   }
 }
 
@@ -117,7 +107,7 @@ TEST_CASE("there is a path exactly where free cells join robot and goal") {
     map.box(4, 4, 24, 24, 0), map.box(232, 232, 252, 252, 0);
     const EvidenceMap evidence = evidence_of(map);
     const Vec2 from{1.45, 1.45}, to{24.15, 24.15};
-    const Plan& plan = plan_of(*planner, time_to_go_on(evidence, from, to));
+    const Plan& plan = plan_of(*planner, request_on(evidence, from, to));
     CHECK(plan.certified);
     const bool has_way = are_joined(planner->view_field(), from, to);
     CHECK(plan.status == (has_way ? PlanStatus::kOk : PlanStatus::kNoPath));
@@ -136,41 +126,41 @@ TEST_CASE("a body that was mapped and may leave is no wall on the way") {
   const EvidenceMap open = evidence_of(map);
   map.box(126, 128, 130, 130);  // and somebody in it
   const EvidenceMap closed = evidence_of(map);
-  PlanRequest request = time_to_go_on(closed, {5.0, 5.0}, {20.0, 20.0});
-  CHECK(plan_of(*planner, time_to_go_on(open, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kOk);
+  PlanRequest request = request_on(closed, {5.0, 5.0}, {20.0, 20.0});
+  CHECK(plan_of(*planner, request_on(open, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kOk);
   CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
   const std::array bodies{MoverDisc{{12.8, 12.9}, 0.27}};
   request.masked = bodies;
   CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
 }
 
-TEST_CASE("without a potential too a robot by a wall has a path, one deep in it is blocked, an enclosed one has none") {
+TEST_CASE("by the time to go a robot by a wall has a path, one deep in it is blocked, an enclosed one has none") {
   const auto planner = make_cpu_planner(small_memory());
   TestMap map = open_room();
   map.box(100, 100, 140, 140);
   const EvidenceMap block = evidence_of(map), cage = evidence_of(walled_in(open_room(), 20, 80));
-  const Plan& near_wall = plan_of(*planner, time_to_go_on(block, {9.9, 12.0}, {2.0, 12.0}));
+  const Plan& near_wall = plan_of(*planner, request_on(block, {9.9, 12.0}, {2.0, 12.0}));
   REQUIRE(near_wall.status == PlanStatus::kOk);
   CHECK(near_wall.path[0] == Vec2{9.9, 12.0});
-  CHECK(plan_of(*planner, time_to_go_on(block, {12.0, 12.0}, {2.0, 12.0})).status == PlanStatus::kRobotBlocked);
-  CHECK(plan_of(*planner, time_to_go_on(block, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
-  CHECK(plan_of(*planner, time_to_go_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
+  CHECK(plan_of(*planner, request_on(block, {12.0, 12.0}, {2.0, 12.0})).status == PlanStatus::kRobotBlocked);
+  CHECK(plan_of(*planner, request_on(block, {2.0, 12.0}, {12.0, 12.0})).status == PlanStatus::kNoPath);
+  CHECK(plan_of(*planner, request_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
   CHECK(planner->collect().certified);
   // A wall 0.5 m away is no way through it: beyond it there are cells with a way, within kStartRadius_m.
-  CHECK(plan_of(*planner, time_to_go_on(cage, {7.3, 5.0}, {20.0, 5.0})).status == PlanStatus::kNoPath);
+  CHECK(plan_of(*planner, request_on(cage, {7.3, 5.0}, {20.0, 5.0})).status == PlanStatus::kNoPath);
 }
 
-TEST_CASE("without a potential too a goal outside the window is approached by its border") {
+TEST_CASE("by the time to go a goal outside the window is approached by its border") {
   const auto planner = make_cpu_planner(small_memory());
   const EvidenceMap map(1024, 0.1, {0.0, 0.0});
-  const Plan& plan = plan_of(*planner, time_to_go_on(map, {0.0, 0.0}, {60.0, 0.0}));
+  const Plan& plan = plan_of(*planner, request_on(map, {0.0, 0.0}, {60.0, 0.0}));
   REQUIRE(plan.status == PlanStatus::kOk);
   CHECK(plan.path.back().x > 15.0);
   CHECK(std::fabs(plan.path.back().y) < 0.5);
-  CHECK(plan_of(*planner, time_to_go_on(map, {3.0, 3.0}, {3.0, 3.0})).path.back() == Vec2{3.0, 3.0});
+  CHECK(plan_of(*planner, request_on(map, {3.0, 3.0}, {3.0, 3.0})).path.back() == Vec2{3.0, 3.0});
 }
 
-TEST_CASE("without a potential too the window doubles for a way round outside it, and not for a robot walled in") {
+TEST_CASE("by the time to go the window doubles for a way round outside it, and not for a robot walled in") {
   // A wall 31 m long across the 25.6 m window between start and goal; its ends are outside.
   EvidenceMap across(1024, 0.1, {12.8, 12.8});
   for (std::int32_t j = -20; j < 290; ++j)
@@ -178,7 +168,7 @@ TEST_CASE("without a potential too the window doubles for a way round outside it
   PlannerConfig config;
   config.max_side_cells = 512;
   const auto planner = make_cpu_planner(config);
-  const PlanRequest request = time_to_go_on(across, {8.0, 12.8}, {17.6, 12.8});
+  const PlanRequest request = request_on(across, {8.0, 12.8}, {17.6, 12.8});
   for (int k = 0; k < field::kPatience; ++k) CHECK(plan_of(*planner, request).status == PlanStatus::kNoPath);
   CHECK(plan_of(*planner, request).status == PlanStatus::kOk);
   CHECK(planner->view_field().width == 512);
@@ -186,6 +176,6 @@ TEST_CASE("without a potential too the window doubles for a way round outside it
   const EvidenceMap cage = evidence_of(walled_in(open_room(), 20, 80));
   const auto caged = make_cpu_planner(config);
   for (int k = 0; k < 2 * field::kPatience; ++k)
-    CHECK(plan_of(*caged, time_to_go_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
+    CHECK(plan_of(*caged, request_on(cage, {5.0, 5.0}, {20.0, 20.0})).status == PlanStatus::kNoPath);
   CHECK(caged->view_field().width == 256);
 }

@@ -1,6 +1,6 @@
 #include "planner/mapping/window.h"
 
-#include "planner/planner.h"
+#include "planner/cost_to_go/planner.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -11,8 +11,8 @@
 #include "hal/types/geometry.h"
 #include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
+#include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/planner.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {

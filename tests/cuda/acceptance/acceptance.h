@@ -7,8 +7,7 @@
 #include <vector>
 
 #include "bench/field/random_maps.h"
-#include "cuda/cuda_planner.h"
-#include "planner/planner.h"
+#include "cuda/paper/cuda_paper.h"
 
 namespace jaywalk::acceptance {
 
@@ -28,9 +27,9 @@ inline double ms_since(WallClock::time_point begin) {
 class Walk {
  public:
   Walk(std::int32_t side, std::uint64_t seed);
-  /// The request of the next scan: for a path among movers, or for the time to go of a long body.
-  const PlanRequest& step(bool wants_potential);
-  [[nodiscard]] PlannerConfig config(PlanMode mode) const;
+  /// The request of the next scan: for the paper's path among movers, or for the time to go of a long body.
+  const PlanRequest& step(bool is_paper);
+  [[nodiscard]] paper::PaperConfig config() const;
   PlanRequest request;
 
  private:

@@ -5,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "planner/field/fallback_planner.h"
+#include "planner/cost_to_go/fallback_planner.h"
 #include "tests/cuda/acceptance/acceptance.h"
 
 namespace jaywalk::acceptance {
@@ -17,7 +17,7 @@ class Drill {
  public:
   Drill() {
     std::string why;
-    const PlannerConfig config = walk_.config(PlanMode::kFull);
+    const PlannerConfig config = walk_.config();
     auto gpu = make_cuda_planner(config, 0, why);
     expect(gpu != nullptr, "the device is taken " + why);
     if (gpu) planner_ = std::make_unique<FallbackPlanner>(std::move(gpu), make_cpu_planner(config));
@@ -26,7 +26,7 @@ class Drill {
     worst_ms_ = 0.0;
   }
   [[nodiscard]] bool plans() {
-    const PlanRequest& request = walk_.step((++tick_ & 1) != 0);
+    const PlanRequest& request = walk_.step(false);
     const auto begin = WallClock::now();
     planner_->submit(request);
     const PlanStatus status = planner_->collect().status;
@@ -55,7 +55,6 @@ class Drill {
   std::unique_ptr<FallbackPlanner> planner_;
   bool passed_ = true;
   std::string said_;
-  int tick_ = 0;
   double worst_ms_ = 0.0;
 };
 
@@ -99,9 +98,9 @@ int drill(const std::string& name) {
   if (name == "broken") broken(drill);
   if (name == "memory") {
     drill.expect(fill_memory(), "memory is full");
-    drill.expect(!make_cuda_planner(Walk(512, 1).config(PlanMode::kFull), 0, why), why);
+    drill.expect(!make_cuda_planner(Walk(512, 1).config(), 0, why), why);
   }
-  if (name == "number") drill.expect(!make_cuda_planner(Walk(64, 1).config(PlanMode::kFull), 99, why), why);
+  if (name == "number") drill.expect(!make_cuda_planner(Walk(64, 1).config(), 99, why), why);
   return drill.report(name);
 }
 

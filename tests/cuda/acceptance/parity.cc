@@ -4,7 +4,7 @@
 #include <cstring>
 #include <memory>
 
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 #include "tests/cuda/acceptance/acceptance.h"
 
 namespace jaywalk::acceptance {
@@ -26,15 +26,15 @@ bool same(const T* a, const T* b, std::size_t n) {
   return std::memcmp(a, b, n * sizeof(T)) == 0;
 }
 
-void check_field(const field::CellMap& map, const std::string& name, Tally& tally) {
+void check_field(const paper::CellMap& map, const std::string& name, Tally& tally) {
   std::string why;
-  const auto cpu = field::make_cpu_map_field(map), gpu = make_cuda_map_field(map, 0, why);
+  const auto cpu = paper::make_cpu_map_field(map), gpu = paper::make_cuda_map_field(map, 0, why);
   if (!gpu) return tally.differs(name + ": " + why);
   CellIndex goal{map.width / 2, map.height / 2};
   if (!cpu->nearest_free(goal, map.width)) return;
   for (const bool cold : {true, false, false}) {
-    const field::MapQuality a = cold ? cpu->solve_cold(goal) : cpu->solve_warm(goal);
-    const field::MapQuality b = cold ? gpu->solve_cold(goal) : gpu->solve_warm(goal);
+    const paper::MapQuality a = cold ? cpu->solve_cold(goal) : cpu->solve_warm(goal);
+    const paper::MapQuality b = cold ? gpu->solve_cold(goal) : gpu->solve_warm(goal);
     bool is_same = b.certified && a.joined == b.joined && a.cycles == b.cycles;
     for (std::int32_t c = 0; c < map.width * map.height && is_same; ++c) {
       const float x = cpu->psi(c % map.width, c / map.width), y = gpu->psi(c % map.width, c / map.width);
@@ -45,7 +45,7 @@ void check_field(const field::CellMap& map, const std::string& name, Tally& tall
   }
 }
 
-bool is_same_potential(const Planner& cpu, const Planner& gpu, const Plan& a, const Plan& b) {
+bool is_same_field(const Planner& cpu, const Planner& gpu, const Plan& a, const Plan& b) {
   const auto psi_a = cpu.view_field().psi, psi_b = gpu.view_field().psi;
   return a.path.size() == b.path.size() && same(a.path.data(), b.path.data(), a.path.size()) &&
          psi_a.size() == psi_b.size() && same(psi_a.data(), psi_b.data(), psi_a.size());
@@ -58,26 +58,26 @@ bool is_same_time_to_go(const Plan& a, const Plan& b) {
          (a.poses.cost == nullptr || same(a.poses.cost, b.poses.cost, PoseLattice::kPoses));
 }
 
-void check_plans(std::int32_t side, std::uint64_t seed, const Options& options, Tally& tally) {
+/// What drives, or the paper's.
+void check_plans(std::int32_t side, std::uint64_t seed, bool is_paper, const Options& options, Tally& tally) {
   const std::string name = "plan, " + std::to_string(side) + ", seed " + std::to_string(seed);
-  for (const PlanMode mode : {PlanMode::kPaper, PlanMode::kFull}) {
-    Walk walk(side, seed);
-    std::string why;
-    const auto cpu = make_cpu_planner(walk.config(mode));
-    const auto gpu = make_cuda_planner(walk.config(mode), 0, why, options.limit);
-    if (!gpu) return tally.differs(name + ": " + why);
-    for (int tick = 0; tick < options.ticks; ++tick) {
-      const PlanRequest& request = walk.step(tick % 2 == 0);
-      cpu->submit(request), gpu->submit(request);
-      const Plan &a = cpu->collect(), &b = gpu->collect();
-      if (b.status == PlanStatus::kBackendFailed) return tally.differs(name + ": " + gpu->failure());
-      ++tally.plans;
-      tally.paths += a.status == PlanStatus::kOk ? 1 : 0;
-      tally.poses += a.poses.known ? 1 : 0;
-      const bool is_same = a.status == b.status && a.cycles == b.cycles && is_same_time_to_go(a, b) &&
-                           (!request.wants_potential || is_same_potential(*cpu, *gpu, a, b));
-      if (!is_same) tally.differs(name + ", tick " + std::to_string(tick));
-    }
+  Walk walk(side, seed);
+  std::string why;
+  const auto cpu = is_paper ? paper::make_cpu_paper_planner(walk.config()) : make_cpu_planner(walk.config());
+  const auto gpu = is_paper ? paper::make_cuda_paper_planner(walk.config(), 0, why, options.limit)
+                            : make_cuda_planner(walk.config(), 0, why, options.limit);
+  if (!gpu) return tally.differs(name + ": " + why);
+  for (int tick = 0; tick < options.ticks; ++tick) {
+    const PlanRequest& request = walk.step(is_paper);
+    cpu->submit(request), gpu->submit(request);
+    const Plan &a = cpu->collect(), &b = gpu->collect();
+    if (b.status == PlanStatus::kBackendFailed) return tally.differs(name + ": " + gpu->failure());
+    ++tally.plans;
+    tally.paths += a.status == PlanStatus::kOk ? 1 : 0;
+    tally.poses += a.poses.known ? 1 : 0;
+    const bool is_same =
+        a.status == b.status && a.cycles == b.cycles && is_same_time_to_go(a, b) && is_same_field(*cpu, *gpu, a, b);
+    if (!is_same) tally.differs(name + ", tick " + std::to_string(tick));
   }
 }
 
@@ -109,24 +109,22 @@ Walk::Walk(std::int32_t side, std::uint64_t seed)
   request.speed_mps = 0.6;
 }
 
-const PlanRequest& Walk::step(bool wants_potential) {
+const PlanRequest& Walk::step(bool is_paper) {
   for (Track& track : tracks_) track.position_in_map = track.position_in_map + track.velocity_in_map * (1.0 / 15.0);
   request.map_from_robot.x = request.map_from_robot.x < 1.2 ? request.map_from_robot.x + 0.04 : 0.83;
   request.goal_in_map.y = 0.1 * side_ - (request.map_from_robot.x < 1.0 ? 0.85 : 0.95);
   request.stamp += std::chrono::milliseconds(66);
   request.still = &map_;
   request.moving = tracks_;
-  request.wants_potential = wants_potential;
-  request.poses.is_asked = !wants_potential;
+  request.poses.is_asked = !is_paper;
   return request;
 }
 
-PlannerConfig Walk::config(PlanMode mode) const {
-  PlannerConfig config;
+paper::PaperConfig Walk::config() const {
+  paper::PaperConfig config;
   config.side_cells = config.max_side_cells = side_;
   config.inflation_m = 0.15;
   config.mover_margin_m = 0.1;
-  config.mode = mode;
   return config;
 }
 
@@ -140,7 +138,8 @@ int parity(const Options& options) {
       MapRandom random(static_cast<std::uint64_t>(seed));
       const MapKind kind = kMapKinds[seed % 4];
       check_field(random_map(kind, side, random), std::string(name_of(kind)) + ", " + std::to_string(side), tally);
-      check_plans(side, static_cast<std::uint64_t>(seed), options, tally);
+      for (const bool is_paper : {true, false})
+        check_plans(side, static_cast<std::uint64_t>(seed), is_paper, options, tally);
     }
   }
   const bool passed = tally.differ == 0 && tally.fields > 0 && (tally.poses > 0 || options.ticks < 2);

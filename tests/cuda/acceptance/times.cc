@@ -3,7 +3,7 @@
 #include <cstdio>
 #include <memory>
 
-#include "planner/field/map_field.h"
+#include "planner/paper/map_field.h"
 #include "tests/cuda/acceptance/acceptance.h"
 
 namespace jaywalk::acceptance {
@@ -29,7 +29,7 @@ void print_times(const char* name, int repeats, const Work& work, const DeviceTi
               at(clock, 0.99), at(events, 0.5), at(events, 0.99), repeats);
 }
 
-void print_fields(const char* where, field::MapField& field, std::int32_t side, int repeats) {
+void print_fields(const char* where, paper::MapField& field, std::int32_t side, int repeats) {
   CellIndex goal{side / 2, side / 2};
   field.inflate(3.0F);
   if (!field.nearest_free(goal, side)) return;
@@ -39,17 +39,14 @@ void print_fields(const char* where, field::MapField& field, std::int32_t side, 
   print_times((name + "_warm").c_str(), repeats, [&] { (void)field.solve_warm(goal); }, device_ms);
 }
 
-void print_plans(const char* where, Planner& planner, std::int32_t side, int repeats) {
-  for (const bool wants_potential : {true, false}) {
-    Walk walk(side, 4242);
-    double device_ms = 0.0;  // of all plans
-    const auto plan = [&] {
-      planner.submit(walk.step(wants_potential));
-      device_ms += planner.collect().took.device_ms;
-    };
-    const std::string name = std::string(where) + (wants_potential ? "_plan" : "_time_to_go");
-    print_times(name.c_str(), repeats, plan, [&] { return device_ms; });
-  }
+void print_plans(const std::string& name, Planner& planner, std::int32_t side, bool is_paper, int repeats) {
+  Walk walk(side, 4242);
+  double device_ms = 0.0;  // of all plans
+  const auto plan = [&] {
+    planner.submit(walk.step(is_paper));
+    device_ms += planner.collect().took.device_ms;
+  };
+  print_times(name.c_str(), repeats, plan, [&] { return device_ms; });
 }
 
 }  // namespace
@@ -59,16 +56,20 @@ int times(const Options& options) {
   for (std::size_t k = 0; k < options.sides.size(); ++k) {
     const std::int32_t side = options.sides[k];
     MapRandom random(4242);
-    const field::CellMap map = random_map(MapKind::kRooms, side, random);
-    const PlannerConfig config = Walk(side, 4242).config(PlanMode::kPaper);
+    const paper::CellMap map = random_map(MapKind::kRooms, side, random);
+    const paper::PaperConfig config = Walk(side, 4242).config();
     std::string why;
-    const auto gpu = make_cuda_map_field(map, 0, why);
+    const auto gpu = paper::make_cuda_map_field(map, 0, why);
     const auto planner = make_cuda_planner(config, 0, why, options.limit);
-    if (!gpu || !planner) return std::printf("], \"why\": \"%s\"}\n", why.c_str()), 1;
+    const auto papers = paper::make_cuda_paper_planner(config, 0, why, options.limit);
+    if (!gpu || !planner || !papers) return std::printf("], \"why\": \"%s\"}\n", why.c_str()), 1;
     const int repeats = std::max(2, side > 512 ? options.repeats / 5 : options.repeats), few = std::min(repeats, 20);
     std::printf("%s{\"side\": %d", k == 0 ? "" : ", ", side);
-    print_fields("gpu", *gpu, side, repeats), print_fields("cpu", *field::make_cpu_map_field(map), side, few);
-    print_plans("gpu", *planner, side, repeats), print_plans("cpu", *make_cpu_planner(config), side, few);
+    print_fields("gpu", *gpu, side, repeats), print_fields("cpu", *paper::make_cpu_map_field(map), side, few);
+    print_plans("gpu_plan", *papers, side, true, repeats);
+    print_plans("gpu_time_to_go", *planner, side, false, repeats);
+    print_plans("cpu_plan", *paper::make_cpu_paper_planner(config), side, true, few);
+    print_plans("cpu_time_to_go", *make_cpu_planner(config), side, false, few);
     std::printf("}");
   }
   std::printf("]}\n");

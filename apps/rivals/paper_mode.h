@@ -1,0 +1,21 @@
+#pragma once
+// What only the desktop program has: the paper's planner and follower, and the planners of others.
+#include <memory>
+
+#include "firmware/backends.h"
+#include "planner/paper/map_field.h"
+#include "planner/paper/paper.h"
+
+namespace jaywalk {
+
+/// Gives a setup the motion and planner that its mode and rival name. Throws nothing.
+void equip(ControlSetup& setup) noexcept;
+
+/// The potential of a map alone, on the backend that make_planner() would take, without trial and fall-back. Throws
+/// StartupError where kCuda cannot be had.
+[[nodiscard]] std::unique_ptr<paper::MapField> make_map_field(const paper::CellMap& map, Backend backend,
+                                                              int device = 0);
+/// The paper's planner as make_planner() has the one that drives, without trial.
+[[nodiscard]] ChosenPlanner make_paper_planner(const paper::PaperConfig& config, Backend backend, int device = 0);
+
+}  // namespace jaywalk

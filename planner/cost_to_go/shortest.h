@@ -1,0 +1,192 @@
+#pragma once
+// Shortest ways in integer costs by Dial's buckets, and their repair where steps have become dearer, cheaper or none.
+//
+// Costs are the fixed point of cost[n] = min(cost[c] + step(c, n)) over the cells c whose cost is below a limit. No
+// step is free, so the fixed point is unique: what a repair leaves are the costs of a computation from nothing, to the
+// last bit. The repair is Ramalingam and Reps's (1996): what is no longer held up by a lower neighbour is forgotten,
+// and so on; then the cells about all that was forgotten or has changed offer their costs anew.
+//
+// Graph says what the cells and the steps are:
+//   Cost, kBucketShift           an unsigned type; costs of a bucket, as a power of two
+//   cost(n)                      reference; kNoWay where there is none
+//   limit()                      cells at this cost or beyond it are not stepped from
+//   for_each_step(n, may, visit) visit(to, step) for the cells that n may be left for; of a repair the same both ways.
+//                                may(cost, least) is asked first, with what the cell costs now and what the step costs
+//                                at least: most are of no interest, and what a step costs is the dearer question
+// and for repairs:
+//   is_open(n)                   whether n may be passed and its cost is not given
+//   for_each_near(n, visit)      visit(to) for the cells to which a step depends on what n is
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <utility>
+#include <vector>
+
+namespace jaywalk::field {
+
+inline constexpr std::uint32_t kNoWay = 0xffffffffU;
+
+class Shortest {
+ public:
+  /// Takes memory for `entries` that are queued at a time, and for repairs among `cells` cells.
+  Shortest(std::size_t cells, std::size_t entries)
+      : entries_(entries), heads_(kBuckets, kNone), seen_(cells), open_(cells), forgotten_(cells / kWorthwhile) {}
+
+  /// Nothing is queued.
+  void clear() noexcept {
+    if (queued_ > 0) std::fill(heads_.begin(), heads_.end(), kNone);
+    spare_ = kNone;
+    used_ = queued_ = 0;
+    lowest_ = std::numeric_limits<std::uint32_t>::max();
+    full_ = false;
+  }
+
+  /// Gives a cell a lower cost, from which its neighbours' are settled later.
+  template <class Graph>
+  void offer(Graph& graph, std::int32_t n, std::uint32_t cost) noexcept {
+    if (cost >= graph.cost(n)) return;
+    graph.cost(n) = static_cast<typename Graph::Cost>(cost);
+    queue(n, cost >> Graph::kBucketShift);
+  }
+
+  /// Whether nothing is.
+  [[nodiscard]] bool is_empty() const noexcept { return queued_ == 0; }
+  /// From what was offered to the fixed point. False when the queue was full: costs are then not settled.
+  template <class Graph>
+  [[nodiscard]] bool settle(Graph& graph) noexcept {
+    for (std::uint64_t bucket = lowest_; queued_ > 0 && bucket << Graph::kBucketShift < graph.limit(); ++bucket) {
+      drain(graph, static_cast<std::uint32_t>(bucket));
+    }
+    return !full_;
+  }
+
+  /// From the fixed point of other steps to that of these. `changed` cells are not what they were; of those that were
+  /// no way the cost is kNoWay. False when that would take long: costs are then not settled.
+  template <class Graph>
+  [[nodiscard]] bool repair(Graph& graph, std::span<const std::int32_t> changed) noexcept {
+    clear();
+    ++round_;
+    open_count_ = forgotten_count_ = 0;
+    for (const std::int32_t n : changed) {
+      look_at(n);
+      graph.for_each_near(n, [this](std::int32_t to) { look_at(to); });
+    }
+    const std::size_t touched = open_count_;
+    std::size_t next = 0;
+    while (next < open_count_) {
+      if (open_count_ + kMostNear > open_.size() || forgotten_count_ == forgotten_.size()) return false;
+      forget_unless_held_up(graph, open_[next++]);
+    }
+    for (std::size_t k = 0; k < touched; ++k) offer_best(graph, open_[k]);
+    for (std::size_t k = 0; k < forgotten_count_; ++k) offer_best(graph, forgotten_[k]);
+    return settle(graph);
+  }
+
+ private:
+  static constexpr std::int32_t kNone = -1;
+  static constexpr std::size_t kBuckets = 4096;  ///< in a ring; what lies a lap or more ahead waits in its bucket
+  static constexpr std::size_t kMostNear = 16;
+  static constexpr std::size_t kWorthwhile = 5;  ///< more than a fifth of all cells: from nothing is sooner
+
+  struct Entry {
+    std::int32_t cell, next;
+  };
+
+  void look_at(std::int32_t n) noexcept {
+    std::uint32_t& seen = seen_[static_cast<std::size_t>(n)];
+    if (std::exchange(seen, round_) != round_) open_[open_count_++] = n;
+  }
+
+  template <class Graph>
+  void forget_unless_held_up(Graph& graph, std::int32_t n) noexcept {
+    const std::uint32_t old = graph.cost(n);
+    if (!graph.is_open(n) || old == kNoWay || is_held_up(graph, n, old)) return;
+    graph.cost(n) = kNoWay;
+    forgotten_[forgotten_count_++] = n;
+    graph.for_each_step(
+        n, [old](std::uint32_t cost, std::uint32_t least) { return cost >= old + least && cost != kNoWay; },
+        [&](std::int32_t to, std::uint32_t step) {
+          if (graph.cost(to) == old + step) open_[open_count_++] = to;
+        });
+  }
+
+  template <class Graph>
+  [[nodiscard]] static bool is_held_up(const Graph& graph, std::int32_t n, std::uint32_t old) noexcept {
+    const std::uint32_t limit = graph.limit();
+    bool held_up = false;
+    graph.for_each_step(
+        n,
+        [&](std::uint32_t cost, std::uint32_t least) {
+          return !held_up && cost < old && cost + least <= old && cost < limit;
+        },
+        [&](std::int32_t from, std::uint32_t step) { held_up |= graph.cost(from) + step == old; });
+    return held_up;
+  }
+
+  template <class Graph>
+  void offer_best(Graph& graph, std::int32_t n) noexcept {
+    if (!graph.is_open(n)) return;
+    const std::uint32_t limit = graph.limit();
+    std::uint32_t best = kNoWay;
+    graph.for_each_step(
+        n, [&](std::uint32_t cost, std::uint32_t least) { return cost < limit && cost + least < best; },
+        [&](std::int32_t from, std::uint32_t step) { best = std::min(best, graph.cost(from) + step); });
+    offer(graph, n, best);
+  }
+
+  /// What is queued in the bucket meanwhile is stepped from as well.
+  template <class Graph>
+  void drain(Graph& graph, std::uint32_t bucket) noexcept {
+    std::int32_t& head = heads_[bucket % kBuckets];
+    std::int32_t later = kNone;
+    while (head != kNone) {
+      const std::int32_t taken = head;
+      Entry& entry = entries_[static_cast<std::size_t>(taken)];
+      const std::int32_t n = entry.cell;
+      const std::uint32_t cost = graph.cost(n), now = cost >> Graph::kBucketShift;
+      head = entry.next;
+      const bool waits = now > bucket;
+      entry.next = std::exchange(waits ? later : spare_, taken);
+      if (waits) continue;
+      --queued_;
+      if (now != bucket || cost >= graph.limit()) continue;
+      graph.for_each_step(
+          n, [cost](std::uint32_t there, std::uint32_t least) { return there > cost + least; },
+          [&](std::int32_t to, std::uint32_t step) { offer(graph, to, cost + step); });
+    }
+    head = later;
+  }
+
+  void queue(std::int32_t n, std::uint32_t bucket) noexcept {
+    std::int32_t entry = spare_;
+    if (entry != kNone) {
+      spare_ = entries_[static_cast<std::size_t>(entry)].next;
+    } else if (used_ < entries_.size()) {
+      entry = static_cast<std::int32_t>(used_++);
+    } else {
+      full_ = true;
+      return;
+    }
+    std::int32_t& head = heads_[bucket % kBuckets];
+    entries_[static_cast<std::size_t>(entry)] = {n, head};
+    head = entry;
+    if (bucket < lowest_) lowest_ = bucket;
+    ++queued_;
+  }
+
+  std::vector<Entry> entries_;
+  std::vector<std::int32_t> heads_;
+  std::int32_t spare_ = kNone;  ///< first of the entries that have been taken
+  std::size_t used_ = 0, queued_ = 0;
+  std::uint32_t lowest_ = 0;  ///< bucket
+  bool full_ = false;
+
+  std::vector<std::uint32_t> seen_;  ///< in which round a cell was looked at last
+  std::uint32_t round_ = 0;
+  std::vector<std::int32_t> open_, forgotten_;
+  std::size_t open_count_ = 0, forgotten_count_ = 0;
+};
+
+}  // namespace jaywalk::field
