@@ -11,6 +11,8 @@ namespace jaywalk::canopen {
 
 namespace {
 
+constexpr std::uint32_t kNoRemoteFrames = 1U << 30U;  ///< bit of a COB-ID (CiA 301)
+
 /// The low bytes of `value` that the object has.
 std::uint32_t cut(std::uint32_t value, std::uint8_t bytes) noexcept {
   return bytes >= 4 ? value : value & ((1U << (8U * bytes)) - 1U);
@@ -29,18 +31,17 @@ void ArmingProof::poll(Time now) noexcept {
   if (done() || client_.status() == SdoStatus::kBusy) return;
   const ProofItem& item = lines_[at_].item;
   switch (step_) {
-    case Step::kStart: {
-      if (item.demand != ProofDemand::kWritten) return begin_read(now);
-      std::array<std::uint8_t, 4> bytes{};
-      wire::put_little_endian(item.wanted.value, bytes);
-      step_ = Step::kWriting;
-      const auto count = std::min<std::size_t>(item.wanted.bytes, bytes.size());
-      if (!client_.write(item.wanted.address, wire::Bytes(bytes).first(count), now)) conclude(ProofVerdict::kSilent, 0);
-      return;
-    }
+    case Step::kStart:
+      own_bits_ = 0;
+      if (item.demand == ProofDemand::kWritten) return begin_write(now);
+      return begin_read(item.demand == ProofDemand::kIdentifier ? Step::kLooking : Step::kReading, now);
+    case Step::kLooking:
+      if (conclude_failure()) return;
+      own_bits_ = said() & kNoRemoteFrames;
+      return begin_write(now);
     case Step::kWriting:
       read_only_ = client_.status() == SdoStatus::kAbortedByDrive && client_.abort_code() == kAbortReadOnly;
-      if (read_only_ || !conclude_failure()) begin_read(now);
+      if (read_only_ || !conclude_failure()) begin_read(Step::kReading, now);
       return;
     case Step::kReading:
       if (!conclude_failure()) conclude_read();
@@ -48,20 +49,31 @@ void ArmingProof::poll(Time now) noexcept {
   }
 }
 
-void ArmingProof::begin_read(Time now) noexcept {
-  step_ = Step::kReading;
+void ArmingProof::begin_write(Time now) noexcept {
+  const ObjectWrite& wanted = lines_[at_].item.wanted;
+  std::array<std::uint8_t, 4> bytes{};
+  wire::put_little_endian(wanted.value | own_bits_, bytes);
+  step_ = Step::kWriting;
+  const auto count = std::min<std::size_t>(wanted.bytes, bytes.size());
+  if (!client_.write(wanted.address, wire::Bytes(bytes).first(count), now)) conclude(ProofVerdict::kSilent, 0);
+}
+
+void ArmingProof::begin_read(Step step, Time now) noexcept {
+  step_ = step;
   if (!client_.read(lines_[at_].item.wanted.address, now)) conclude(ProofVerdict::kSilent, 0);
 }
 
-void ArmingProof::conclude_read() noexcept {
-  const std::uint8_t bytes = lines_[at_].item.wanted.bytes;
+std::uint32_t ArmingProof::said() const noexcept {
   std::array<std::uint8_t, 4> padded{};
   const auto value = client_.value();
   std::copy_n(value.begin(), std::min(value.size(), padded.size()), padded.begin());
-  const std::uint32_t said = cut(wire::little_endian<std::uint32_t>(padded), bytes);
-  const ProofVerdict verdict = verdict_of(said, value.size() >= bytes);
+  return cut(wire::little_endian<std::uint32_t>(padded), lines_[at_].item.wanted.bytes);
+}
+
+void ArmingProof::conclude_read() noexcept {
+  const ProofVerdict verdict = verdict_of(said(), client_.value().size() >= lines_[at_].item.wanted.bytes);
   if (read_only_ && verdict != ProofVerdict::kProved) return conclude(ProofVerdict::kRefused, kAbortReadOnly);
-  conclude(verdict, said);
+  conclude(verdict, said());
 }
 
 ProofVerdict ArmingProof::verdict_of(std::uint32_t said, bool has_all) const noexcept {
@@ -70,6 +82,7 @@ ProofVerdict ArmingProof::verdict_of(std::uint32_t said, bool has_all) const noe
   if (item.demand == ProofDemand::kAtMost) {
     is_so = std::llabs(static_cast<std::int32_t>(said)) <= static_cast<std::int64_t>(item.wanted.value);
   }
+  if (item.demand == ProofDemand::kIdentifier) is_so = (said & ~kNoRemoteFrames) == item.wanted.value;
   if (item.demand == ProofDemand::kKnown) is_so = true;
   return has_all && is_so ? ProofVerdict::kProved : ProofVerdict::kDiffers;
 }
@@ -120,9 +133,7 @@ std::string describe(const ProofLine& line) {
   const std::string said = hex(line.said, 2 * line.item.wanted.bytes);
   switch (line.verdict) {
     case ProofVerdict::kProved:
-      return what + (line.item.demand == ProofDemand::kWritten || line.item.demand == ProofDemand::kHeld
-                         ? ", reads the same"
-                         : ", reads " + said);
+      return what + (demand_of(line.item) == ": wanted " + said ? ", reads the same" : ", reads " + said);
     case ProofVerdict::kDiffers:
       return what + ", reads " + said + ": NOT PROVED";
     case ProofVerdict::kRefused:

@@ -9,10 +9,11 @@ namespace jaywalk::canopen {
 
 /// What an object is to show.
 enum class ProofDemand : std::uint8_t {
-  kWritten,  ///< the wanted value is written and read back
-  kHeld,     ///< the drive keeps it itself: it is read, and is the wanted value
-  kAtMost,   ///< it is read; a signed number of four bytes, within plus and minus the wanted value
-  kKnown     ///< it is read, to be remembered: any value, or that the drive has no such object
+  kWritten,     ///< the wanted value is written and read back
+  kIdentifier,  ///< likewise, a COB-ID; its bit 30 (no remote frames) is the drive's own, and written as it was read
+  kHeld,        ///< the drive keeps it itself: it is read, and is the wanted value
+  kAtMost,      ///< it is read; a signed number of four bytes, within plus and minus the wanted value
+  kKnown        ///< it is read, to be remembered: any value, or that the drive has no such object
 };
 
 /// One setting that a drive must be shown to have before it may move.
@@ -20,6 +21,7 @@ struct ProofItem {
   ObjectWrite wanted;
   ProofDemand demand = ProofDemand::kWritten;
   const char* what_for = "";
+  bool needed_to_drive = false;  ///< also where stopping need not be proved
 };
 
 enum class ProofVerdict : std::uint8_t {
@@ -55,9 +57,12 @@ class ArmingProof {
   [[nodiscard]] const Lines& lines() const noexcept { return lines_; }
 
  private:
-  enum class Step : std::uint8_t { kStart, kWriting, kReading };
+  enum class Step : std::uint8_t { kStart, kLooking, kWriting, kReading };
 
-  void begin_read(Time now) noexcept;
+  void begin_write(Time now) noexcept;
+  void begin_read(Step step, Time now) noexcept;
+  /// The value that was read, cut to the item's bytes.
+  [[nodiscard]] std::uint32_t said() const noexcept;
   void conclude_read() noexcept;
   [[nodiscard]] ProofVerdict verdict_of(std::uint32_t said, bool has_all) const noexcept;
   void conclude(ProofVerdict verdict, std::uint32_t said) noexcept;
@@ -68,7 +73,8 @@ class ArmingProof {
   Lines lines_;
   std::size_t at_ = 0;
   Step step_ = Step::kStart;
-  bool read_only_ = false;  ///< the drive said so of this item
+  bool read_only_ = false;      ///< the drive said so of this item
+  std::uint32_t own_bits_ = 0;  ///< of this item, the drive's
 };
 
 /// "1016h:1 watching the controller's heartbeat: wanted 00010064h, reads 00000000h: NOT PROVED". Not for the loop.

@@ -94,19 +94,17 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
   conduct(settings);
   const std::size_t behaviours = behaviour_items(setup_.settings).size();  // the first of all
   std::string lacking;
-  bool is_silent = false;
+  const ProofLine* refusing = nullptr;
   std::size_t as_wanted = 0;
   for (std::size_t k = 0; k < settings.lines().size(); ++k) {
     const ProofLine& line = settings.lines()[k];
     if (line.verdict == ProofVerdict::kProved && k < behaviours) ++as_wanted;
     if (line.verdict == ProofVerdict::kProved || line.verdict == ProofVerdict::kDiffers) continue;
-    is_silent = is_silent || line.verdict == ProofVerdict::kSilent;
     lacking += (lacking.empty() ? "" : "; ") + describe(line);
+    const bool is_first = refusing == nullptr || (may_be_allowed(*refusing) && !may_be_allowed(line));
+    if (is_first && !(setup_.allow_unproved && may_be_allowed(line))) refusing = &line;
   }
-  if (!lacking.empty() && !setup_.allow_unproved) {
-    throw StartupError(who + ": " + lacking,
-                       is_silent ? kSilentDrive : "use a drive that has it, or allow_unproved at your own risk");
-  }
+  if (refusing != nullptr) throw StartupError(who + ": " + lacking, remedy_for(*refusing));
   return who + ": CiA 402, profile velocity; " + std::to_string(as_wanted) + " of " + std::to_string(behaviours) +
          " settings stand as arming writes them" + (lacking.empty() ? "" : "; " + lacking);
 }
@@ -157,7 +155,7 @@ WheelState CanopenDriveBase::latest() noexcept {
   watch();
   wheels_.trouble = trouble_;
   wheels_.stop = ladder_.stage();
-  wheels_.ready = is_proved() && !awaits_zero_ && is_enabled();
+  wheels_.ready = is_proved() && !awaits_zero_ && follow_speeds();
   return wheels_;
 }
 
@@ -207,7 +205,7 @@ void CanopenDriveBase::watch() noexcept {
   if (phase_ != Phase::kProved) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
   for (WheelAxis& axis : axes_) {
-    const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh});
+    const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh, setup_.showing});
     if (trouble != DriveTrouble::kNone) latch(trouble);
   }
 }
@@ -225,6 +223,10 @@ void CanopenDriveBase::reset() noexcept {
   ladder_.reset();
 }
 
+bool CanopenDriveBase::follow_speeds() const noexcept {
+  return is_enabled() && axes_[0].follows_speeds() && axes_[1].follows_speeds();
+}
+
 bool CanopenDriveBase::is_enabled() const noexcept {
   return phase_ == Phase::kProved && axes_[0].is_enabled() && axes_[1].is_enabled();
 }
@@ -234,7 +236,7 @@ void CanopenDriveBase::command(const WheelCommand& command) noexcept {
   const bool finite = std::isfinite(command.left_radps) && std::isfinite(command.right_radps);
   const bool is_zero = command.left_radps == 0.0 && command.right_radps == 0.0;
   if (is_zero && is_proved()) awaits_zero_ = false;
-  const bool moves = !awaits_zero_ && is_enabled() && finite;  // both wheels or none
+  const bool moves = !awaits_zero_ && follow_speeds() && finite;  // both wheels or none
   cycle(awaits_zero_ ? DriveGoal::kOff : DriveGoal::kEnabled, is_zero || !finite, moves ? command.left_radps : 0.0,
         moves ? command.right_radps : 0.0);
 }

@@ -22,6 +22,7 @@ struct DriveBaseSetup {
   Duration starting = std::chrono::milliseconds(500);        ///< from NMT start until a drive says it is operational
   Duration silence_limit = std::chrono::milliseconds(150);   ///< a drive that says no heartbeat for so long is lost
   Duration settling = std::chrono::milliseconds(200);        ///< what a drive may take to leave a fault after a reset
+  Duration showing = std::chrono::milliseconds(500);         ///< from enabling until a drive shows its mode (6061h)
   bool allow_unproved = false;  ///< arms although a drive did not prove that it stops by itself
 };
 
@@ -88,6 +89,8 @@ class CanopenDriveBase final : public WiredDrive {
   void send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept;
   void send(const CanFrame& frame) noexcept;
   [[nodiscard]] bool are_at_rest() const noexcept;
+  /// Both drives are enabled and show the mode that takes speeds.
+  [[nodiscard]] bool follow_speeds() const noexcept;
 
   CanBus& bus_;
   Clock& clock_;

@@ -10,6 +10,17 @@ bool is_another(const ProofLine& failed) noexcept {
 
 }  // namespace
 
+const char* remedy_for(const ProofLine& line) noexcept {
+  if (line.verdict == ProofVerdict::kSilent) return kSilentDrive;
+  if (line.item.demand == ProofDemand::kAtMost) return "see why its wheel turns";
+  if (line.item.needed_to_drive) return "use a drive that can be set so: it cannot be driven otherwise";
+  return "use a drive that can prove it, or allow_unproved at your own risk";
+}
+
+bool may_be_allowed(const ProofLine& line) noexcept {
+  return line.verdict != ProofVerdict::kSilent && !line.item.needed_to_drive;
+}
+
 void DriveProof::begin(Time now) noexcept {
   asked_.emplace(bus_, node_, whole_proof(node_, setup_.settings), setup_.answer_timeout);
   state_ = State::kAsking;
@@ -63,7 +74,7 @@ bool DriveProof::is_good(std::size_t line) const noexcept {
   }
   if (now.verdict == ProofVerdict::kProved) return true;
   const bool never_was = before == nullptr || before->verdict != ProofVerdict::kProved;
-  return setup_.allow_unproved && never_was && now.item.demand != ProofDemand::kAtMost;
+  return setup_.allow_unproved && never_was && may_be_allowed(now);
 }
 
 std::vector<std::string> DriveProof::report() const {
@@ -83,10 +94,9 @@ std::string DriveProof::failure() const {
 
 std::string DriveProof::remedy() const {
   const ProofLine* const line = failed_line();
-  if (line == nullptr || line->verdict == ProofVerdict::kSilent) return kSilentDrive;
+  if (line == nullptr) return kSilentDrive;
   if (is_another(*line)) return "start the run anew, and commission the robot if the drive was exchanged";
-  if (line->item.demand == ProofDemand::kAtMost) return "see why its wheel turns";
-  return "use a drive that can prove it, or allow_unproved at your own risk";
+  return remedy_for(*line);
 }
 
 const ProofLine* DriveProof::failed_line() const noexcept {

@@ -10,6 +10,7 @@ namespace {
 
 constexpr std::uint32_t kRequestBase = 0x600, kAnswerBase = 0x580;
 constexpr std::size_t kExpedited = 4, kSegment = 7;
+constexpr std::size_t kAddressed = 4;  ///< bytes of command and address; what follows of an answer may be cut off
 
 // The command byte: a specifier in bits 7 to 5, and beside it what the transfer's step needs (CiA 301).
 constexpr std::uint8_t kAbort = 0x80, kReadRequest = 0x40, kReadSegmentRequest = 0x60, kWriteRequest = 0x20;
@@ -62,14 +63,14 @@ void SdoClient::poll(Time now) noexcept {
 
 void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
   if (status_ != SdoStatus::kBusy || frame.extended || frame.remote || frame.id != kAnswerBase + node_) return;
-  if (frame.size != 8) return abort_here(kAbortLength);
   // What names another object belongs to a transfer that was given up before this one began.
   const bool is_abort = frame.bytes[0] == kAbort;
   const bool names_object = is_abort || phase_ == Phase::kReadStart || phase_ == Phase::kWriteStart;
+  if (frame.size < (names_object ? kAddressed : 1)) return abort_here(kAbortLength);
   if (names_object && !answers_address(frame)) return;
   heard_ = now;
   if (is_abort) {
-    return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(frame.payload().subspan(4)));
+    return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(std::span(frame.bytes).subspan(4)));
   }
   switch (phase_) {
     case Phase::kReadStart:
@@ -87,10 +88,12 @@ void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
 
 void SdoClient::on_read_start(const CanFrame& frame) noexcept {
   if (specifier(frame) != kReadAnswer) return abort_here(kAbortUnknownCommand);
-  const wire::Bytes body = frame.payload().subspan(4);
+  const wire::Bytes body = wire::Bytes(frame.bytes).subspan(kAddressed);
+  const std::size_t came = frame.size - kAddressed;
   if (has(frame, kExpeditedBit)) {
-    const std::size_t unused = has(frame, kSizeBit) ? (frame.bytes[0] >> 2U) & 3U : 0U;
-    if (append(body.first(kExpedited - unused))) finish(SdoStatus::kDone);
+    const std::size_t used = has(frame, kSizeBit) ? kExpedited - ((frame.bytes[0] >> 2U) & 3U) : came;
+    if (used > came || used == 0) return abort_here(kAbortLength);
+    if (append(body.first(used))) finish(SdoStatus::kDone);
     return;
   }
   has_announced_size_ = has(frame, kSizeBit);
@@ -107,8 +110,9 @@ void SdoClient::ask_segment() noexcept {
 void SdoClient::on_read_segment(const CanFrame& frame) noexcept {
   if (specifier(frame) != kReadSegmentAnswer) return abort_here(kAbortUnknownCommand);
   if (has(frame, kToggleBit) != toggle_) return abort_here(kAbortToggle);
-  const std::size_t unused = (frame.bytes[0] >> 1U) & 7U;
-  if (!append(frame.payload().subspan(1, kSegment - unused))) return;
+  const std::size_t used = kSegment - ((frame.bytes[0] >> 1U) & 7U);
+  if (used + 1 > frame.size) return abort_here(kAbortLength);
+  if (!append(frame.payload().subspan(1, used))) return;
   toggle_ = !toggle_;
   if (!has(frame, kLastBit)) return ask_segment();
   if (has_announced_size_ && size_ != announced_size_) return abort_here(kAbortLength);
@@ -141,7 +145,7 @@ void SdoClient::on_write_segment(const CanFrame& frame) noexcept {
 }
 
 bool SdoClient::answers_address(const CanFrame& frame) const noexcept {
-  return wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == address_.index &&
+  return wire::little_endian<std::uint16_t>(wire::Bytes(frame.bytes).subspan(1)) == address_.index &&
          frame.bytes[3] == address_.sub;
 }
 

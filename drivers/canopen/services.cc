@@ -42,7 +42,7 @@ CanFrame heartbeat_frame(std::uint8_t node, NmtState state) noexcept {
 
 std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
   const std::uint8_t node = node_of(frame, kHeartbeatBase);
-  if (node == 0 || frame.size != 1) return std::nullopt;
+  if (node == 0 || frame.size == 0) return std::nullopt;
   const auto state = static_cast<NmtState>(frame.bytes[0]);
   switch (state) {
     case NmtState::kBootUp:

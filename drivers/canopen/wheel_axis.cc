@@ -4,6 +4,7 @@
 #include <array>
 
 #include "drivers/canopen/drive_settings.h"
+#include "drivers/counter_jump.h"
 
 namespace jaywalk::canopen {
 namespace {
@@ -28,7 +29,7 @@ void WheelAxis::take(const ReceivedFrame& received) noexcept {
   const auto heartbeat = decode_heartbeat(frame);
   if (heartbeat && heartbeat->node == setup_.node) take_heartbeat(heartbeat->state, received.stamp);
   if (frame.id == 0x180U + setup_.node) take_status(received);
-  if (frame.id == 0x280U + setup_.node) take_position(frame);
+  if (frame.id == 0x280U + setup_.node) take_position(received);
 }
 
 // A boot-up may be followed by "operational" at once, from a drive that starts itself: it is kept.
@@ -56,13 +57,20 @@ void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
 }
 
 // The position wraps at 32 bits: the difference, as a signed number, is right across the wrap.
-void WheelAxis::take_position(const CanFrame& frame) noexcept {
+void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
   has_twin_ = !positions_.take() || has_twin_;
-  const auto values = unpack(position_mapping_, frame);
+  const auto values = unpack(position_mapping_, received.frame);
   if (!values) return;
   const std::uint32_t raw = (*values)[0];
-  if (has_position_) counts_ += static_cast<std::int32_t>(raw - raw_position_);
+  const std::int32_t counted = has_position_ ? static_cast<std::int32_t>(raw - raw_position_) : 0;
+  if (jumps(counted / setup_.counts_per_rad, feedback_.speed_radps, to_seconds(age(placed_, received.stamp)))) {
+    restarted_ = true;
+    left_network_ = DriveTrouble::kDriveRestarted;
+  } else {
+    counts_ += counted;
+  }
   raw_position_ = raw;
+  placed_ = received.stamp;
   has_position_ = true;
   fresh_position_ = true;
 }
@@ -100,7 +108,20 @@ DriveTrouble WheelAxis::trouble(Time now, const AxisLimits& limits) noexcept {
   const bool was_enabled = was_enabled_ && goal_ == DriveGoal::kEnabled;  // it may leave operation where it is asked to
   was_enabled_ = is_enabled();
   if (!is_enabled()) return was_enabled ? DriveTrouble::kLeftOperation : DriveTrouble::kNone;
-  return mode_ == kProfileVelocityMode ? DriveTrouble::kNone : DriveTrouble::kDriveRestarted;
+  return mode_trouble(now, limits.showing, was_enabled);
+}
+
+DriveTrouble WheelAxis::mode_trouble(Time now, Duration showing, bool was_enabled) noexcept {
+  if (!was_enabled) {
+    enabled_ = now;
+    showed_mode_ = false;
+  }
+  if (follows_speeds()) {
+    showed_mode_ = true;
+    return DriveTrouble::kNone;
+  }
+  if (showed_mode_) return DriveTrouble::kDriveRestarted;
+  return now - enabled_ > showing ? DriveTrouble::kNotProved : DriveTrouble::kNone;
 }
 
 CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {

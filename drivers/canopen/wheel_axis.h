@@ -22,6 +22,7 @@ struct AxisSetup {
 struct AxisLimits {
   Duration silence{0};     ///< without a heartbeat
   Duration unanswered{0};  ///< without process data, from the first SYNC that it did not answer
+  Duration showing{0};     ///< from enabling until it shows its mode
 };
 
 /// What one drive says of itself, frame by frame: network state, power state, mode, speed and position of its wheel;
@@ -50,6 +51,8 @@ class WheelAxis {
 
   [[nodiscard]] const AxisSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
+  /// And shows the mode that takes speeds: 6061h, of many drives only once they are enabled, and late.
+  [[nodiscard]] bool follows_speeds() const noexcept { return is_enabled() && mode_ == kProfileVelocityMode; }
   /// By its last heartbeat.
   [[nodiscard]] bool is_operational() const noexcept { return network_ == NmtState::kOperational; }
   [[nodiscard]] const WheelFeedback& feedback() const noexcept { return feedback_; }
@@ -61,7 +64,8 @@ class WheelAxis {
  private:
   void take_heartbeat(NmtState state, Time stamp) noexcept;
   void take_status(const ReceivedFrame& received) noexcept;
-  void take_position(const CanFrame& frame) noexcept;
+  void take_position(const ReceivedFrame& received) noexcept;
+  [[nodiscard]] DriveTrouble mode_trouble(Time now, Duration showing, bool was_enabled) noexcept;
 
   AxisSetup setup_;
   PdoMapping command_mapping_, status_mapping_, position_mapping_;
@@ -72,13 +76,16 @@ class WheelAxis {
   WheelFeedback feedback_;
   std::uint32_t raw_position_ = 0;
   bool has_position_ = false;
-  bool restarted_ = false;  ///< since begin()
+  Time placed_ = kNever;    ///< of the last position
+  bool restarted_ = false;  ///< since begin(); or its position jumped
   std::int64_t counts_ = 0;
   bool fresh_status_ = false, fresh_position_ = false;
   // What is held against it.
   Time heard_ = kNever, settled_ = kNever, unanswered_since_ = kNever;
   DriveGoal goal_ = DriveGoal::kOff;  ///< asked of it last
   bool was_enabled_ = false, resets_fault_ = false;
+  Time enabled_ = kNever;     ///< since when it was seen to be
+  bool showed_mode_ = false;  ///< since then
   FrameRate heartbeats_, statuses_, positions_;
   bool has_twin_ = false;
   DriveTrouble left_network_ = DriveTrouble::kNone;

@@ -15,6 +15,7 @@ namespace jaywalk::sick {
 }
 
 enum class Cola : std::uint8_t { kA, kB };
+[[nodiscard]] constexpr Cola other(Cola dialect) noexcept { return dialect == Cola::kA ? Cola::kB : Cola::kA; }
 
 /// Cuts a stream into telegrams; after garbage it goes on at the next beginning that holds.
 class ColaStream {
@@ -26,7 +27,8 @@ class ColaStream {
 
   void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
   /// Drops what waits, uncounted: another connection begins.
-  void forget() noexcept {
+  void begin(Cola dialect) noexcept {
+    dialect_ = dialect;
     queue_.clear();
     handed_out_ = 0;
   }

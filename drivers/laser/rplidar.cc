@@ -1,6 +1,12 @@
 #include "drivers/laser/rplidar.h"
 
 namespace jaywalk::rplidar {
+namespace {
+
+/// A turn's last points may lie beyond its end, by less than the widest step between two at the fewest points a turn.
+constexpr double kMostAngle_deg = 370.0;
+
+}  // namespace
 
 std::optional<Descriptor> decode_descriptor(wire::Bytes bytes) noexcept {
   wire::ByteReader reader(bytes);
@@ -19,8 +25,9 @@ std::optional<Node> decode_node(wire::Bytes bytes) noexcept {
   const bool begins = (first & 1U) != 0;
   const bool begins_not = (first & 2U) != 0;
   if (!reader.ok() || begins == begins_not || (angle & 1U) == 0) return std::nullopt;
-  const double angle_deg = (angle >> 1U) / 64.0;
-  if (angle_deg >= 360.0) return std::nullopt;
+  double angle_deg = (angle >> 1U) / 64.0;
+  if (angle_deg >= kMostAngle_deg) return std::nullopt;
+  if (angle_deg >= 360.0) angle_deg -= 360.0;
   return Node{begins, static_cast<std::uint8_t>(first >> 2U), angle_deg, static_cast<float>(range) * 0.00025F};
 }
 

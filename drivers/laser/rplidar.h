@@ -34,7 +34,7 @@ struct Node {
   float range_m = 0.0F;    ///< 0: the measurement is not valid
 };
 
-/// Nothing where the bytes are fewer, their check bits wrong, or the angle more than a turn.
+/// Nothing where the bytes are fewer, their check bits wrong, or the angle more than a turn and 10 degrees.
 [[nodiscard]] std::optional<Node> decode_node(wire::Bytes bytes) noexcept;
 
 }  // namespace jaywalk::rplidar

@@ -19,7 +19,7 @@ std::string_view status_of(std::string_view answer) noexcept {
 }  // namespace
 
 void ScipProtocol::begin() noexcept {
-  step_ = Step::kQuiet;
+  step_ = Step::kDialect;
   asked_ = false;
   stream_.forget();
   device_clock_.forget();
@@ -42,7 +42,7 @@ void ScipProtocol::write_command() noexcept {
     length = std::snprintf(command_.data(), command_.size(), "MD%04u%04u%02u000\n",
                            static_cast<unsigned>(model_.first_step), static_cast<unsigned>(model_.last_step), joined);
   } else {
-    constexpr std::array<const char*, 3> kFixed{"QT", "PP", "BM"};
+    constexpr std::array kFixed{"SCIP2.0", "QT", "PP", "BM"};
     length = std::snprintf(command_.data(), command_.size(), "%s\n", kFixed[static_cast<std::size_t>(step_)]);
   }
   said_ = {command_.data(), static_cast<std::size_t>(length - 1)};
@@ -59,13 +59,23 @@ Heard ScipProtocol::on_answer(std::string_view answer) noexcept {
   const bool of_this = asked_ && answer.substr(0, answer.find('\n')) == said_;
   if (!of_this) return Heard::kAnswer;
   const std::string_view status = status_of(answer);
-  // "02" to BM: the laser is on already.
-  const bool taken = status == "00" || (step_ == Step::kLaserOn && status == "02");
+  // "02" to BM: the laser is on already. A refused SCIP2.0: it speaks that already.
+  const bool taken = step_ == Step::kDialect || status == "00" || (step_ == Step::kLaserOn && status == "02");
   const bool read = step_ != Step::kAsk || decode_model(answer, model_) == Decoding::kScan;
   if (!taken || !read) return Heard::kRefused;
+  go_on();
+  return Heard::kAnswer;
+}
+
+void ScipProtocol::go_on() noexcept {
   asked_ = false;
   step_ = static_cast<Step>(static_cast<int>(step_) + 1);
-  return Heard::kAnswer;
+}
+
+bool ScipProtocol::go_on_unanswered() noexcept {
+  if (step_ != Step::kDialect) return false;
+  go_on();
+  return true;
 }
 
 // What stands before the last repetition of the command is what is left of an answer that was cut off.

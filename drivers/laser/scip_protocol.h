@@ -8,27 +8,31 @@
 
 namespace jaywalk::scip {
 
-/// Makes a Hokuyo of SCIP 2.0 or 2.2 send scans, over TCP (port 10940) or a serial line: stop what it may still be
-/// sending, ask what it is, laser on, all its steps in three characters each for ever. Where it has more steps than a
-/// scan may have beams, it joins neighbours, of which the nearest counts.
+/// Makes a Hokuyo of SCIP 2.0 or 2.2 send scans, over TCP (port 10940) or a serial line: have it speak SCIP 2.0, as a
+/// URG-04LX does not from the start, stop what it may still be sending, ask what it is, laser on, all its steps in
+/// three characters each for ever. Where it has more steps than a scan may have beams, it joins neighbours, of which
+/// the nearest counts.
 class ScipProtocol final : public ScannerProtocol {
  public:
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
+  /// What has spoken SCIP 2.0 ever since need not know the command that chooses it.
+  [[nodiscard]] bool go_on_unanswered() noexcept override;
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
   [[nodiscard]] ProtocolCounts counts() const noexcept override { return {lost_, skipped_ + stream_.lost(), 0, 0}; }
 
  private:
-  enum class Step : std::uint8_t { kQuiet, kAsk, kLaserOn, kScans, kDone };
+  enum class Step : std::uint8_t { kDialect, kQuiet, kAsk, kLaserOn, kScans, kDone };
 
   void write_command() noexcept;
+  void go_on() noexcept;
   [[nodiscard]] Heard on_answer(std::string_view answer) noexcept;
   [[nodiscard]] Heard on_scan(std::string_view answer, Time arrival, LaserScan& scan) noexcept;
   void count_lost(std::uint32_t device_time_ms) noexcept;
 
-  Step step_ = Step::kQuiet;
+  Step step_ = Step::kDialect;
   bool asked_ = false;
   std::array<char, 20> command_{};
   std::string_view said_;  ///< the command without its end, which answers repeat

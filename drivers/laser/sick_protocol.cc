@@ -22,14 +22,21 @@ constexpr std::uint16_t kMostLost = 1000;
 
 SickProtocol::SickProtocol(Cola dialect, const ScannerModel& model) noexcept
     : dialect_(dialect), model_(model), stream_(dialect) {
+  speak(dialect);
+}
+
+void SickProtocol::speak(Cola dialect) noexcept {
+  dialect_ = dialect;
   const auto& commands = dialect == Cola::kA ? kInText : kInBinary;
   for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = {framed(dialect, commands[k]), kWords[k]};
+  stream_.begin(dialect);
 }
 
 void SickProtocol::begin() noexcept {
   at_ = 0;
   asked_ = false;
-  stream_.forget();
+  speak(tried_ && !understood_ ? other(dialect_) : dialect_);
+  tried_ = true;
   device_clock_.forget();
   has_counter_ = false;
 }
@@ -43,6 +50,7 @@ wire::Bytes SickProtocol::to_say(Time) noexcept {
 Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
   const auto body = stream_.next();
   if (!body) return Heard::kNothing;
+  understood_ = true;
   ScanHeader header;
   const Heard heard = heard_of(decode_scan(dialect_, *body, model_, arrival, scan, header));
   if (heard == Heard::kAnswer) return on_answer(text_of(*body));

@@ -3,19 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "drivers/counter_jump.h"
+
 namespace jaywalk {
-
-namespace {
-
-/// Times at which a motor measures position and speed, and those of their messages, differ by so much, s.
-constexpr double kApart_s = 0.02;
-
-/// A position that differs by more from what the speed explains is that of a counter that began anew: some steps of the
-/// coarsest (six Hall states an electrical turn), and the way that a wheel gains with 20 rad/s2, as hard a stop as
-/// drives are set to.
-double jump_rad(double since_s) noexcept { return 0.05 + 0.5 * 20.0 * since_s * since_s; }
-
-}  // namespace
 
 MotorPair::MotorPair(CanBus& bus, Clock& clock, const PairSetup& setup)
     : bus_(bus), clock_(clock), setup_(setup), ladders_{StopLadder(setup.stop), StopLadder(setup.stop)} {
@@ -69,13 +59,10 @@ void MotorPair::note_speed(std::size_t index, Time stamp, double speed_radps) no
 void MotorPair::note_turned(std::size_t index, Time stamp, double turned_rad) noexcept {
   MotorAxis& a = axes_[index];
   const bool continues = a.placed != kNever;
-  const double since_s = continues ? to_seconds(stamp - a.placed) : 0.0;
-  const double explained_rad = a.speed_radps * (since_s + kApart_s);
-  const double nearest_rad = std::clamp(turned_rad, std::min(explained_rad, 0.0), std::max(explained_rad, 0.0));
-  const bool jumps = continues && !(std::fabs(turned_rad - nearest_rad) <= jump_rad(since_s));
-  if (jumps) lose_proof(DriveTrouble::kDriveRestarted);
-  counts_on_ = counts_on_ && continues && !jumps;
-  if (continues && !jumps) a.turned_rad += turned_rad;
+  const bool slipped = continues && jumps(turned_rad, a.speed_radps, to_seconds(stamp - a.placed));
+  if (slipped) lose_proof(DriveTrouble::kDriveRestarted);
+  counts_on_ = counts_on_ && continues && !slipped;
+  if (continues && !slipped) a.turned_rad += turned_rad;
   a.placed = stamp;
   a.fresh_position = true;
 }

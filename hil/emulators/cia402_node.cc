@@ -10,12 +10,14 @@ namespace jaywalk::emulators {
 
 namespace {
 
-constexpr std::uint32_t kPdoOff = 0x80000000;
+constexpr std::uint32_t kPdoOff = 0x80000000, kIdentifier = 0x7FF;
 
 }  // namespace
 
 void Cia402Node::step(Time now) noexcept {
   if (!booted_) boot();
+  if (!is_enabled()) enabled_ = kNever;
+  if (is_enabled() && enabled_ == kNever) enabled_ = now;
   show();
   ReceivedFrame received;
   while (bus_.receive(received)) {
@@ -30,7 +32,7 @@ void Cia402Node::step(Time now) noexcept {
 void Cia402Node::boot() noexcept {
   booted_ = true;
   network_ = starts_by_itself_ ? Network::kOperational : Network::kPreOperational;
-  send(0x700U + node_, 0x00, 1);
+  send(0x700U + node_, 0x00, heartbeat_size_);
 }
 
 void Cia402Node::restart() noexcept {
@@ -113,10 +115,17 @@ void Cia402Node::on_sync() noexcept {
 /// What its objects show of the motor.
 void Cia402Node::show() noexcept {
   const double felt = has_encoder_ ? encoder_velocity_ : velocity_;
-  const double stands_at = has_encoder_ ? encoder_position_ : position_;
+  const double stands_at = (has_encoder_ ? encoder_position_ : position_) + slipped_;
   objects_.set({0x6041, 0}, statusword());
   objects_.set({0x606C, 0}, static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)));
   objects_.set({0x6064, 0}, static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(stands_at))));
+  objects_.set({0x6061, 0}, shown_mode());
+}
+
+std::uint32_t Cia402Node::shown_mode() const noexcept {
+  if (kept_mode_) return *kept_mode_;
+  const bool shows = !mode_delay_ || (enabled_ != kNever && stepped_ - enabled_ >= *mode_delay_);
+  return shows ? objects_.value({0x6060, 0}) : 0;
 }
 
 /// A transmit PDO, as it is mapped.
@@ -132,7 +141,7 @@ void Cia402Node::transmit(std::uint16_t communication, std::uint16_t mapping) no
     word |= static_cast<std::uint64_t>(objects_.value(address)) << bits;
     bits += mapped & 0x3FU;
   }
-  send(id, word, static_cast<std::uint8_t>(bits / 8));
+  send(id & kIdentifier, word, static_cast<std::uint8_t>(bits / 8));
 }
 
 // The transitions that a controlword asks for (CiA 402): bit 0 switch on, 1 voltage, 2 no quick stop, 3 enable, 7
@@ -256,7 +265,7 @@ void Cia402Node::say_heartbeat(Time now) noexcept {
   const auto period = std::chrono::milliseconds(objects_.value({0x1017, 0}));
   if (period.count() == 0 || (said_heartbeat_ != kNever && now - said_heartbeat_ < period)) return;
   said_heartbeat_ = now;
-  send(0x700U + node_, static_cast<std::uint64_t>(network_), 1);
+  send(0x700U + node_, static_cast<std::uint64_t>(network_), heartbeat_size_);
 }
 
 void Cia402Node::send_emergency(std::uint16_t error_code) noexcept {

@@ -1,5 +1,6 @@
 #pragma once
 #include <cstdint>
+#include <optional>
 #include <string_view>
 
 #include "drivers/can/can_bus.h"
@@ -40,6 +41,14 @@ class Cia402Node {
   void start_by_itself() noexcept { starts_by_itself_ = true; }
   /// Its inner loop hangs: it goes on at its last target whatever it is told, but what watches the heartbeat works.
   void hang() noexcept { hangs_ = true; }
+  /// Its mode (6061h) shows in time: from the start, or so long after it was enabled.
+  void show_mode_after_enabling(Duration delay) noexcept { mode_delay_ = delay; }
+  /// Its mode never shows: it stays in another one.
+  void keep_mode(std::uint8_t mode) noexcept { kept_mode_ = mode; }
+  /// Its heartbeats are 8 bytes long, the first of them the state.
+  void pad_heartbeats() noexcept { heartbeat_size_ = 8; }
+  /// Its position is another one at once, as after an index pulse or a slip of its counter.
+  void jump(double counts) noexcept { slipped_ += counts; }
   /// It sends no process data any more, and all else works.
   void lose_feedback() noexcept { reports_ = false; }
   /// No more frames out, as when its cable is pulled; frames in are lost too.
@@ -59,6 +68,7 @@ class Cia402Node {
   void boot() noexcept;
   void on_sync() noexcept;
   void show() noexcept;
+  [[nodiscard]] std::uint32_t shown_mode() const noexcept;
   void transmit(std::uint16_t communication, std::uint16_t mapping) noexcept;
   void obey(std::uint16_t controlword) noexcept;
   void watch_controller(Time now) noexcept;
@@ -84,7 +94,11 @@ class Cia402Node {
   double friction_ = 100.0;  ///< counts/s2: a tenth of the ramp with which it drove last
   double position_ = 0.0;
   bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0;
+  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, slipped_ = 0.0;
+  std::optional<Duration> mode_delay_;
+  std::optional<std::uint8_t> kept_mode_;
+  Time enabled_ = kNever;  ///< since when
+  std::uint8_t heartbeat_size_ = 1;
   Time stepped_ = kNever;
   Time said_heartbeat_ = kNever;
   Time heard_controller_ = kNever;

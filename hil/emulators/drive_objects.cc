@@ -14,17 +14,23 @@ using canopen::ObjectAddress;
 namespace {
 
 constexpr std::uint32_t kNoSuchObject = 0x06020000, kReadOnly = 0x06010002, kWrongLength = 0x06070010,
-                        kUnknownCommand = 0x05040001;
+                        kUnknownCommand = 0x05040001, kOutOfRange = 0x06090030;
+constexpr std::uint32_t kNoRemoteFrames = 1U << 30U;
 
 /// Vendor, product code, revision, serial number.
 constexpr std::array<std::uint32_t, 4> kIdentity{0x2F7, 0x402, 0x10001, 7};
 
 using Indices = std::initializer_list<std::uint16_t>;
 
-CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t command, std::uint32_t word) noexcept {
+bool is_transmit_id(ObjectAddress address) noexcept {
+  return address.sub == 1 && (address.index == 0x1800 || address.index == 0x1801);
+}
+
+CanFrame answer_frame(std::uint8_t node, const CanFrame& request, std::uint8_t command, std::uint32_t word,
+                      std::uint8_t size = 8) noexcept {
   CanFrame frame;
   frame.id = 0x580U + node;
-  frame.size = 8;
+  frame.size = size;
   frame.bytes = request.bytes;  // the object's address stays
   frame.bytes[0] = command;
   wire::put_little_endian(word, std::span(frame.bytes).subspan(4));
@@ -100,6 +106,13 @@ void DriveObjects::lie_about(ObjectAddress address) noexcept {
   if (Object* const object = find(address)) object->lies = true;
 }
 
+void DriveObjects::know_no_remote_frames(bool strict) noexcept {
+  keeps_bit_30_ = true;
+  wants_bit_30_ = strict;
+  for (Object& object : objects_)
+    if (is_transmit_id(object.address)) object.value = object.stored = object.value | kNoRemoteFrames;
+}
+
 void DriveObjects::store() noexcept {
   for (Object& object : objects_) object.stored = object.value;
 }
@@ -116,8 +129,9 @@ std::uint32_t DriveObjects::write(ObjectAddress address, std::uint32_t value, st
   if (object == nullptr) return kNoSuchObject;
   if (!object->writable) return kReadOnly;
   if (object->bytes != bytes) return kWrongLength;
-  if (!object->lies) object->value = value;
-  if (address == ObjectAddress{0x6060, 0} && !object->lies) set({0x6061, 0}, value);
+  const bool lacks_bit_30 = keeps_bit_30_ && is_transmit_id(address) && (value & kNoRemoteFrames) == 0;
+  if (lacks_bit_30 && wants_bit_30_) return kOutOfRange;
+  if (!object->lies) object->value = lacks_bit_30 ? value | kNoRemoteFrames : value;
   return 0;
 }
 
@@ -130,13 +144,14 @@ std::optional<CanFrame> DriveObjects::answer(std::uint8_t node, const CanFrame& 
   if ((command & 0xF3U) == 0x23) {
     const std::uint32_t value = wire::little_endian<std::uint32_t>(frame.payload().subspan(4));
     const std::uint32_t code = write(address, value, 4U - unused);
-    return answer_frame(node, frame, code == 0 ? 0x60 : 0x80, code);
+    return answer_frame(node, frame, code == 0 ? 0x60 : 0x80, code, short_ && code == 0 ? 4 : 8);
   }
   if (command != 0x40) return answer_frame(node, frame, 0x80, kUnknownCommand);
   const Object* const object = find(address);
   if (object == nullptr) return answer_frame(node, frame, 0x80, kNoSuchObject);
   const auto answered = static_cast<std::uint8_t>(0x43U | static_cast<unsigned>((4 - object->bytes) << 2));
-  return answer_frame(node, frame, answered, object->value);
+  return answer_frame(node, frame, answered, object->value,
+                      static_cast<std::uint8_t>(short_ ? 4U + object->bytes : 8U));
 }
 
 }  // namespace jaywalk::emulators

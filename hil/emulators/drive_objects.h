@@ -27,6 +27,11 @@ class DriveObjects {
   void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;
   /// From now on writes are acknowledged and change nothing.
   void lie_about(canopen::ObjectAddress address) noexcept;
+  /// From now on its TPDOs answer no remote frames, as bit 30 of their COB-IDs says: a COB-ID written without that bit
+  /// keeps it or, where it is `strict`, is refused.
+  void know_no_remote_frames(bool strict) noexcept;
+  /// From now on its SDO answers end with their last byte in use.
+  void answer_short() noexcept { short_ = true; }
 
   /// What it holds now is what a restart brings back (1010h).
   void store() noexcept;
@@ -48,6 +53,7 @@ class DriveObjects {
   [[nodiscard]] std::uint32_t write(canopen::ObjectAddress address, std::uint32_t value, std::size_t bytes) noexcept;
 
   FixedVector<Object, 64> objects_;
+  bool keeps_bit_30_ = false, wants_bit_30_ = false, short_ = false;
 };
 
 }  // namespace jaywalk::emulators

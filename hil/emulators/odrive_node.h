@@ -31,6 +31,8 @@ class OdriveNode {
   void mute() noexcept { muted_ = true; }
   /// It forgets everything but its settings, as after a loss of power; its encoder counts from zero again.
   void restart() noexcept;
+  /// Its position is another one at once, as after an index pulse or a slip of its counter.
+  void jump(double turns) noexcept { position_ += turns; }
   /// Goes on with the speed that it was told last; everything else is obeyed.
   void stick() noexcept { stuck_ = true; }
   /// Obeys nothing any more, but everything that it is told feeds its watchdog.

@@ -48,7 +48,7 @@ std::vector<std::uint8_t> RplidarServer::message_of(std::size_t first_beam, std:
                                                     Time) {
   std::vector<std::uint8_t> message;
   for (std::size_t k = 0; k < range_m.size(); ++k) {
-    const auto angle_q6 = static_cast<unsigned>(first_beam + k) * 64U;  // a degree a point
+    const auto angle_q6 = first_q6_ + static_cast<unsigned>(first_beam + k) * 64U;  // a degree a point
     const auto range_q2 = range_m[k] > 0.0F && range_m[k] <= 16.0F ? in_counts(range_m[k], 0.00025) : 0U;
     const bool begins = first_beam + k == 0;
     const unsigned quality = range_q2 > 0 ? 47 : 0;

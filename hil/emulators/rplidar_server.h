@@ -14,6 +14,8 @@ class RplidarServer final : public ScannerServer {
 
   /// It says of itself that it is broken.
   void break_down() noexcept { status_ = 2; }
+  /// Its turns begin at this angle, degrees, and end beyond 360.
+  void begin_turns_at(double angle_deg) noexcept { first_q6_ = static_cast<unsigned>(64.0 * angle_deg); }
 
  private:
   void on_new_peer() override {}
@@ -25,6 +27,7 @@ class RplidarServer final : public ScannerServer {
   std::vector<std::uint8_t> came_in_;
   bool motor_runs_ = false;
   std::uint8_t status_ = 0;
+  unsigned first_q6_ = 0;
 };
 
 }  // namespace jaywalk::emulators

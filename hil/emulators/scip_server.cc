@@ -52,6 +52,11 @@ void ScipServer::on_bytes(wire::Bytes bytes) {
 }
 
 void ScipServer::obey(const std::string& command) {
+  if (!speaks_scip_2_) {
+    speaks_scip_2_ = command == "SCIP2.0";
+    const std::string answered = command + (speaks_scip_2_ ? "\n0\n\n" : "\nE\n\n");
+    return answer({reinterpret_cast<const std::uint8_t*>(answered.data()), answered.size()});
+  }
   if (command == "QT") {
     set_streaming(false);
     laser_on_ = false;

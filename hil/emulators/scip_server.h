@@ -26,6 +26,8 @@ class ScipServer final : public ScannerServer {
  public:
   ScipServer(std::unique_ptr<ByteServer> wire, const ScipModel& model, World world);
 
+  /// It speaks SCIP 1.1 until it hears SCIP2.0, as a URG-04LX.
+  void begin_with_scip_1() noexcept { speaks_scip_2_ = false; }
   /// The laser does not come on any more.
   void break_laser() noexcept { broken_ = true; }
   /// The status that comes in place of each scan, as "0L" for a broken laser; empty: it is well.
@@ -49,6 +51,7 @@ class ScipServer final : public ScannerServer {
   std::uint32_t first_ = 0, last_ = 0, joined_ = 1;
   bool laser_on_ = false;
   bool broken_ = false;
+  bool speaks_scip_2_ = true;
   std::string status_;
 };
 

@@ -29,6 +29,8 @@ class VescNode {
   /// 0: mended.
   void set_fault(std::uint8_t code) noexcept { fault_ = code; }
   void set_travel(std::int32_t sixths) noexcept { position_ = sixths / 6.0; }
+  /// Its tachometer shows another number at once.
+  void jump(double electrical_turns) noexcept { position_ += electrical_turns; }
   /// No more frames out, as when its cable is pulled; frames in are lost too.
   void pull_cable() noexcept { connected_ = false; }
   void plug_cable() noexcept { connected_ = true; }

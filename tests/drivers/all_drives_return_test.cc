@@ -124,6 +124,22 @@ TEST_CASE("a restart at rest that is over before anything is missed is noticed a
   });
 }
 
+TEST_CASE("a position that jumps by 100 rad is trouble, no way, and both drives are proved anew") {
+  for (const std::size_t side : {0U, 1U}) {
+    with_each_kind([side](const DriveKind& kind, DriveBench& bench) {
+      bench.bring_to_two_radps();
+      const double left_rad = bench.wheels.left_rad, right_rad = bench.wheels.right_rad;
+      kind.jump(bench, side);
+      bench.drive(2.0, 2.0, 5);
+      CHECK(bench.drives().trouble() == DriveTrouble::kDriveRestarted);
+      CHECK(bench.wheels.left_rad == Approx(left_rad).margin(0.3));
+      CHECK(bench.wheels.right_rad == Approx(right_rad).margin(0.3));
+      bench.wait(21s);
+      reset_and_drive(kind, bench);
+    });
+  }
+}
+
 // Every boot that a counter or a silence can show: one that takes less than the 150 ms of silence which are allowed,
 // before the wheel ever turned, changes nothing that a VESC tells.
 TEST_CASE("a drive that restarts at rest is noticed however far it had turned, and both are proved anew") {

@@ -33,10 +33,11 @@ TEST_CASE("a heartbeat names its node and state") {
   REQUIRE(beat);
   CHECK(beat->node == 5);
   CHECK(beat->state == NmtState::kPreOperational);
-  CHECK_FALSE(decode_heartbeat(frame(0x705, {0x06})));        // no such state
-  CHECK_FALSE(decode_heartbeat(frame(0x705, {0x05, 0x00})));  // two bytes
-  CHECK_FALSE(decode_heartbeat(frame(0x700, {0x05})));        // node 0
-  CHECK_FALSE(decode_heartbeat(frame(0x780, {0x05})));        // node 128
+  CHECK_FALSE(decode_heartbeat(frame(0x705, {0x06})));                 // no such state
+  CHECK(decode_heartbeat(frame(0x705, {0x05, 0, 0, 0, 0, 0, 0, 0})));  // some drives fill it up
+  CHECK_FALSE(decode_heartbeat(frame(0x705, {})));
+  CHECK_FALSE(decode_heartbeat(frame(0x700, {0x05})));  // node 0
+  CHECK_FALSE(decode_heartbeat(frame(0x780, {0x05})));  // node 128
 }
 
 TEST_CASE("an emergency message tells node, code and class") {

@@ -15,13 +15,13 @@ using namespace std::chrono_literals;
 TEST_CASE("arming writes and reads back every setting of both drives") {
   Bench bench;
   CHECK(bench.armed() == "armed");
-  // 13 settings, 7 + 8 + 6 writes for the three PDOs, standstill and 4 of identity, of two drives.
-  REQUIRE(bench.report.size() == 78);
+  // 12 settings, 7 + 8 + 6 writes for the three PDOs, standstill and 4 of identity, of two drives.
+  REQUIRE(bench.report.size() == 76);
   CHECK(bench.report[0] == "node 5: 1016h:1 watches the controller's heartbeat: wanted 00010064h, reads the same");
-  for (std::size_t k = 0; k < 34; ++k) CHECK(bench.report[k].ends_with(", reads the same"));
-  CHECK(bench.report[34] == "node 5: 606Ch:0 stands: at most 0000012Ch, reads 00000000h");  // 0.3 rad/s
-  CHECK(bench.report[38] == "node 5: 1018h:4 serial number, reads 00000007h");
-  CHECK(bench.report[39].starts_with("node 6: 1016h:1 watches"));
+  for (std::size_t k = 0; k < 33; ++k) CHECK(bench.report[k].ends_with(", reads the same"));
+  CHECK(bench.report[33] == "node 5: 606Ch:0 stands: at most 0000012Ch, reads 00000000h");  // 0.3 rad/s
+  CHECK(bench.report[37] == "node 5: 1018h:4 serial number, reads 00000007h");
+  CHECK(bench.report[38].starts_with("node 6: 1016h:1 watches"));
   CHECK(bench.base.is_proved());
   CHECK(bench.right.objects().value({0x6007, 0}) == 3);
   CHECK(bench.right.objects().value({0x1800, 1}) == 0x186);
@@ -56,7 +56,7 @@ TEST_CASE("a drive without the abort connection option arms only when that is al
   Bench lax(setup);
   lax.left.objects().lack({0x6007, 0});
   CHECK(lax.armed() == "armed");
-  REQUIRE(lax.report.size() == 78);
+  REQUIRE(lax.report.size() == 76);
   CHECK(lax.report[2].ends_with("refused (no such object): NOT PROVED"));
 }
 
@@ -64,7 +64,7 @@ TEST_CASE("an option that a drive keeps as it is proves it where it is the wante
   Bench bench;
   bench.left.objects().fix({0x605E, 0}, 2);
   CHECK(bench.armed() == "armed");
-  REQUIRE(bench.report.size() == 78);
+  REQUIRE(bench.report.size() == 76);
   Bench other;
   other.right.objects().fix({0x605E, 0}, 1);
   CHECK(other.armed().find("node 6: 605Eh:0 brakes at a fault: wanted 0002h, refused (read only): NOT PROVED") == 0);
@@ -81,7 +81,7 @@ TEST_CASE("looking at a drive tells what arming would meet and changes nothing")
     }
   };
   bench.right.objects().set({0x605A, 0}, 2);
-  CHECK(told(1) == "node 6: CiA 402, profile velocity; 1 of 13 settings stand as arming writes them");
+  CHECK(told(1) == "node 6: CiA 402, profile velocity; 1 of 12 settings stand as arming writes them");
   CHECK(told(0).rfind("node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (no such object)", 0) ==
         0);
   CHECK(bench.right.objects().value({0x1016, 1}) == 0);

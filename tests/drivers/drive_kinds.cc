@@ -127,6 +127,7 @@ DriveKind cia402() {
       .need_restart = kUnplugged,
       .disobey = {on<Cia402>([](auto& drive) { drive.hang(); })},
       .fall_quiet = {on<Cia402>([](auto& drive) { drive.lose_feedback(); }), kUnplugged},
+      .jump = on<Cia402>([](auto& drive) { drive.jump(100.0 * Cia402::kPerRad); }),
       .unproved = "node 5: 6007h:0 stops when the controller is lost: wanted 0003h, refused (read only): NOT PROVED",
       .remedy = "use a drive that can prove it, or allow_unproved at your own risk",
       .second_way = second_way<canopen::QuickStopper, 5, 6>,
@@ -164,6 +165,7 @@ DriveKind odrive_axes() {
           .disobey = {on<Odrive>([](auto& drive) { drive.stick(); }), on<Odrive>([](auto& drive) { drive.go_deaf(); })},
           .fall_quiet = {on<Odrive>([](auto& drive) { drive.withhold_estimates(); }),
                          on<Odrive>([](auto& drive) { drive.mute(); }), kUnplugged},
+          .jump = on<Odrive>([](auto& drive) { drive.jump(100.0 * Odrive::kPerRad); }),
           .unproved = "ODrive node 3: watchdog: nothing said 100 ms after the last command: NOT PROVED",
           .remedy =
               "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
@@ -201,6 +203,7 @@ DriveKind vescs() {
           .need_restart = on<Vesc>([](auto& drive) { drive.go_deaf(); }),
           .disobey = {on<Vesc>([](auto& drive) { drive.stick(); }), on<Vesc>([](auto& drive) { drive.go_deaf(); })},
           .fall_quiet = {on<Vesc>([](auto& drive) { drive.mute(); }), kUnplugged},
+          .jump = on<Vesc>([](auto& drive) { drive.jump(100.0 * Vesc::kPerRad); }),
           .unproved = "VESC 23: timeout: wanted 40 to 90 ms, reads 1000 ms, then brakes with 0.0 A: NOT PROVED",
           .remedy =
               "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at "

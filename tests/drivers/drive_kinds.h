@@ -41,6 +41,7 @@ struct DriveKind {
   DriveEvent need_restart;               ///< it stops obeying or talking until it is restarted and plugged in
   std::vector<DriveEvent> disobey;       ///< goes on at its speed when told zero, yet is fed
   std::vector<DriveEvent> fall_quiet;    ///< tells its speed no more
+  DriveEvent jump;                       ///< its position is another one at once, by 100 rad of the wheel
   std::string unproved, remedy;          ///< what arming says where the left drive lost its watch
   std::unique_ptr<EmergencyBrake> (*second_way)(CanBus& bus);
   std::string foreign;              ///< how arming names another master

@@ -86,9 +86,12 @@ TEST_CASE("a point of an RPLIDAR is an angle in 64ths of a degree and quarters o
   CHECK(point->quality == 15);
   CHECK(point->angle_deg == 45.5);
   CHECK(point->range_m == Approx(1.25));
-  CHECK_FALSE(decode_node(Octets{0x3F, 0xC1, 0x16, 0x88, 0x13}));  // begins and does not
-  CHECK_FALSE(decode_node(Octets{0x3E, 0xC0, 0x16, 0x88, 0x13}));  // check bit
-  CHECK_FALSE(decode_node(Octets{0x3E, 0x01, 0xB4, 0x88, 0x13}));  // 180 x 128 / 64 = 360 degrees
+  CHECK_FALSE(decode_node(Octets{0x3F, 0xC1, 0x16, 0x88, 0x13}));         // begins and does not
+  CHECK_FALSE(decode_node(Octets{0x3E, 0xC0, 0x16, 0x88, 0x13}));         // check bit
+  const auto beyond = decode_node(Octets{0x3E, 0x41, 0xB4, 0x88, 0x13});  // 180 x 128 / 64 + 1/2 = 360.5 degrees
+  REQUIRE(beyond);
+  CHECK(beyond->angle_deg == 0.5);
+  CHECK_FALSE(decode_node(Octets{0x3E, 0x01, 0xC0, 0x88, 0x13}));  // 384 degrees
   CHECK_FALSE(decode_node(Octets{0x3E, 0xC1, 0x16, 0x88}));
 }
 

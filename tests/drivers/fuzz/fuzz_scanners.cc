@@ -68,7 +68,7 @@ void fuzz_sick(wire::Bytes bytes) {
   const std::size_t which = (choice >> 1U) & 1U;
   const sick::Cola dialect = which == 0 ? sick::Cola::kA : sick::Cola::kB;
   if ((choice & 1U) == 0) return check_scan(decode_scan(dialect, bytes, {}, kArrival, scan, header), scan);
-  streams[which].forget();
+  streams[which].begin(dialect);
   streams[which].append(bytes);
   while (const auto body = streams[which].next()) {
     check_scan(decode_scan(dialect, *body, {}, kArrival, scan, header), scan);
