@@ -38,6 +38,7 @@ struct RunStatus {
   bool latched = false;
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
   DriveTrouble drive = DriveTrouble::kNone;
+  DriveFault drive_fault;
   ScannerHealth laser;
   OfOthers<ScannerHealth> other_lasers;
   CanHealth bus;

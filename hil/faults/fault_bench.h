@@ -41,7 +41,8 @@ struct FaultCase {
   bool in_turn = false;                    ///< it shows as the robot sets out with a turn; else at speed, straight on
   double wheels_go = 1.0;                  ///< so many times as far as the file says
   std::optional<std::size_t> of_two = {};  ///< the robot has a second scanner, at its rear; this one fails
-  bool claims_free = false;                ///< the scanner has a word for "nothing within reach", as a Hokuyo
+  void (*from_start)(FaultBench&) = nullptr;  ///< before the drives are armed; may be null
+  bool claims_free = false;                   ///< the scanner has a word for "nothing within reach", as a Hokuyo
 };
 
 struct FaultResult {
