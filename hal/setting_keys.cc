@@ -16,16 +16,26 @@ std::string shortest(double value) {
 const SettingKey* look_up(const std::vector<SettingKey>& keys, const std::string& section, const std::string& key) {
   for (const SettingKey& row : keys)
     if (row.section == section && row.key == key) return &row;
-  return nullptr;
+  const std::size_t end = section.find(':');
+  return end == std::string::npos ? nullptr : look_up(keys, section.substr(0, end), key);
 }
 
 }  // namespace
 
 const SettingKey& FileKeys::find(const std::string& section, const std::string& key) const {
   const SettingKey* row = look_up(keys, section, key);
-  if (row == nullptr) row = look_up(keys, section.substr(0, section.find(':')), key);
   if (row == nullptr) throw std::logic_error(std::string(title) + ": no key " + section + "." + key + " in its table");
   return *row;
+}
+
+bool FileKeys::has(const std::string& section, const std::string& key) const {
+  return look_up(keys, section, key) != nullptr;
+}
+
+std::string FileKeys::choice_with(const std::string& section, const std::string& key) const {
+  for (const SettingKey& row : keys)
+    if (row.key == key && row.section.starts_with(section + ":")) return row.section.substr(section.size() + 1);
+  return "";
 }
 
 std::string joined(const std::vector<std::string>& words) {

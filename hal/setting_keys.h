@@ -37,6 +37,9 @@ struct FileKeys {
   /// The key of `section`, or else of the section without its ":kind". Throws std::logic_error where there is none: a
   /// parser asks for what the table does not have.
   [[nodiscard]] const SettingKey& find(const std::string& section, const std::string& key) const;
+  [[nodiscard]] bool has(const std::string& section, const std::string& key) const;
+  /// The choice of `section` ("vesc" of "drive:vesc") that has this key; empty where none has.
+  [[nodiscard]] std::string choice_with(const std::string& section, const std::string& key) const;
 };
 
 /// "0.1 to 100", "true or false", "p3dx, wheelchair": what may be written.

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <cstdint>
 #include <exception>
+#include <regex>
 #include <sstream>
 
 #include "hal/nearest_word.h"
@@ -80,6 +81,17 @@ void refuse_texts_of_several_lines(const std::filesystem::path& file, const std:
   }
 }
 
+/// A decimal comma where a number stands alone, which TOML has no word for.
+void refuse_decimal_comma(const std::filesystem::path& file, const std::string& text, std::size_t number) {
+  std::istringstream stream(text);
+  std::string line;
+  for (std::size_t k = 0; k < number && std::getline(stream, line); ++k) continue;
+  static const std::regex kComma("^[^\"'\\[#]*=\\s*([-+]?[0-9]+),([0-9]+)\\s*(#.*)?$");
+  std::smatch found;
+  if (std::regex_match(line, found, kComma))
+    throw StartupError(place(file, number) + "a number with a comma", "write " + found[1].str() + "." + found[2].str());
+}
+
 toml::value parse(const std::filesystem::path& file) {
   const std::string text = whole_text(file, file.string() + ": ", "give the path of a TOML file");
   refuse_deep_nesting(file, text);
@@ -88,6 +100,7 @@ toml::value parse(const std::filesystem::path& file) {
     std::istringstream stream(text);
     return toml::parse(stream, file.string());
   } catch (const toml::syntax_error& e) {
+    refuse_decimal_comma(file, text, line_of_mistake(e));
     throw StartupError(place(file, line_of_mistake(e)) + cause_in(e.what()), "write valid TOML");
   } catch (const std::exception& e) {  // a date or number that does not exist
     throw StartupError(place(file, 0) + cause_in(e.what()), "write valid TOML");
@@ -138,8 +151,19 @@ const toml::value* TomlTable::find(const std::string& key) {
 
 const toml::value& TomlTable::need(const std::string& key) {
   const toml::value* node = find(key);
-  if (node == nullptr) refuse(key, "is missing", "add it");
+  if (node == nullptr) {
+    refuse_misspelt(key);
+    refuse(key, "is missing", "add it");
+  }
   return *node;
+}
+
+void TomlTable::refuse_misspelt(const std::string& key) const {
+  for (const auto& [other, value] : table_->as_table()) {
+    const bool is_known = keys_->has(section_, other) || !keys_->choice_with(name_, other).empty();
+    const std::string meant = is_known ? "" : did_you_mean(other, {key}, "");
+    if (!meant.empty()) refuse(printable(other), "is not a known key", meant);
+  }
 }
 
 bool TomlTable::needs(const std::string& key) const {
@@ -309,9 +333,11 @@ void TomlTable::finish() const {
     const bool earlier = unknown.empty() || here < line || (here == line && key < unknown);
     if (asked_.count(key) == 0 && earlier) line = here, unknown = key;
   }
-  if (!unknown.empty())
-    refuse(printable(unknown), "is not a known key",
-           did_you_mean(unknown, {asked_.begin(), asked_.end()}, "remove it or correct its spelling"));
+  if (unknown.empty()) return;
+  if (const std::string kind = keys_->choice_with(name_, unknown); !kind.empty())
+    refuse(unknown, "is not a known key of this kind, but of \"" + kind + "\"", "remove it, or choose that one");
+  refuse(printable(unknown), "is not a known key",
+         did_you_mean(unknown, {asked_.begin(), asked_.end()}, "remove it or correct its spelling"));
 }
 
 }  // namespace jaywalk

@@ -78,6 +78,10 @@ class TomlTable {
   void finish() const;
   /// "FILE:LINE: " of `key`, or of the table where the key is absent: how a complaint about it begins.
   [[nodiscard]] std::string place_of(const std::string& key) const;
+  /// Refuses the whole file where it has `key`, which files of another kind have.
+  void refuse_other_file(const std::string& key, const std::string& cause, const std::string& remedy) const {
+    if (table_->contains(key)) refuse(key, cause, remedy);
+  }
   /// Throws StartupError at that place.
   [[noreturn]] void refuse(const std::string& key, const std::string& cause, const std::string& remedy) const;
 
@@ -85,6 +89,8 @@ class TomlTable {
   const SettingKey& row(const std::string& key) const { return keys_->find(section_, key); }
   const toml::value* find(const std::string& key);
   const toml::value& need(const std::string& key);
+  /// Throws where a key of the table that the file does not know looks like `key`.
+  void refuse_misspelt(const std::string& key) const;
   /// As `find`, but one that is needed must be there.
   const toml::value* find_unless_needed(const std::string& key);
   [[nodiscard]] std::string title(const std::string& key) const;

@@ -31,9 +31,18 @@ Format format_of(const std::filesystem::path& file) {
   return begins(kZstdMagic) ? Format::kZstd : Format::kNone;
 }
 
-/// Files of the folder itself: names in metadata.yaml lead nowhere else.
+/// Files of the folder itself: names in metadata.yaml lead nowhere else. One that was packed or unpacked by hand since
+/// is meant by its other name.
 std::filesystem::path inside(const std::filesystem::path& folder, const std::string& name) {
-  return folder / std::filesystem::path(name).filename();
+  const std::filesystem::path file = folder / std::filesystem::path(name).filename();
+  if (std::filesystem::exists(file)) return file;
+  std::filesystem::path other = file;
+  if (file.extension() == ".zstd") {
+    other.replace_extension();
+  } else {
+    other += ".zstd";
+  }
+  return std::filesystem::exists(other) ? other : file;
 }
 
 /// The files that a rosbag2 folder's list names; none where it is empty, as loss of power leaves it.
@@ -86,15 +95,18 @@ class UnpackedFile {
   std::filesystem::path path_;
 };
 
-void read_file(const std::filesystem::path& file, const BagSink& sink) {
+/// Returns what was left out, as read_bag().
+std::string read_file(const std::filesystem::path& file, const BagSink& sink) {
   require_readable(file, file.string() + ": ", "give a recording");
   switch (format_of(file)) {
     case Format::kMcap:
       return read_mcap(file, sink);
     case Format::kRos1:
-      return read_ros1_bag(file, sink);
+      read_ros1_bag(file, sink);
+      return "";
     case Format::kSqlite:
-      return read_sqlite_bag(file, sink);
+      read_sqlite_bag(file, sink);
+      return "";
     case Format::kZstd: {
       const UnpackedFile unpacked(file);
       if (format_of(unpacked.path()) == Format::kZstd) break;
@@ -125,7 +137,7 @@ std::vector<std::filesystem::path> in_order(const std::vector<std::filesystem::p
   for (const std::filesystem::path& part : parts) {
     std::vector<Time> logged;
     try {
-      read_file(part, [&](const BagMessage& message) { logged.push_back(message.logged); });
+      (void)read_file(part, [&](const BagMessage& message) { logged.push_back(message.logged); });
     } catch (const StartupError& error) {
       left_out += "left out: " + std::string(error.what()) + "\n";
       continue;
@@ -161,7 +173,7 @@ std::string read_bag(const std::filesystem::path& path, const BagSink& sink) {
     }
     if (files.empty()) throw StartupError(path.string() + ": no recording in this folder", "give a ROS 2 bag's folder");
   }
-  for (const std::filesystem::path& file : files) read_file(file, whole);
+  for (const std::filesystem::path& file : files) left_out += read_file(file, whole);
   return left_out;
 }
 

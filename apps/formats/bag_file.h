@@ -26,13 +26,13 @@ using BagSink = std::function<void(const BagMessage&)>;
 
 /// Every message of a ROS type in the file or folder, in its order; messages that rosbag2 packed one by one come
 /// unpacked. The parts of a folder without a list of them (metadata.yaml is written last) come by the middle one of
-/// their messages' times, equal ones by their names in natural order. A damaged part of several is left out there;
-/// returns what was left out, a line each. Throws StartupError with place, cause and remedy for what cannot be read, is
-/// cut short or damaged: all check sums that a format has are checked.
+/// their messages' times, equal ones by their names in natural order. A damaged part of several is left out there, and
+/// so is what a cut MCAP file lacks; returns what was left out, a line each. Throws StartupError with place, cause and
+/// remedy for what cannot be read or is damaged: all check sums that a format has are checked.
 [[nodiscard]] std::string read_bag(const std::filesystem::path& path, const BagSink& sink);
 
 /// The single formats; read_bag() tells them apart.
-void read_mcap(const std::filesystem::path& file, const BagSink& sink);
+[[nodiscard]] std::string read_mcap(const std::filesystem::path& file, const BagSink& sink);
 void read_ros1_bag(const std::filesystem::path& file, const BagSink& sink);
 void read_sqlite_bag(const std::filesystem::path& file, const BagSink& sink);
 

@@ -81,6 +81,7 @@ class Collector {
     if constexpr (requires { read->stamp; }) {
       if (read->stamp == Time{}) read->stamp = message.logged;
       read->number = number;
+      read->logged = message.logged;
     }
     list.push_back(std::move(*read));
   }
@@ -196,6 +197,43 @@ void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector
   (void)scans.settle_times(place);
 }
 
+/// Whether most of it has an orientation: none without one leads anywhere.
+bool has_orientation(const std::vector<OdometryMessage>& messages) {
+  const auto without =
+      std::ranges::count_if(messages, [](const OdometryMessage& said) { return std::isnan(said.pose.heading); });
+  return 2 * without <= static_cast<std::ptrdiff_t>(messages.size());
+}
+
+/// Median time from a message's stamp until it was recorded; there is one message at least.
+template <class Message>
+Duration usual_delay(const std::vector<Message>& messages) {
+  std::vector<Duration> delays;
+  for (const Message& message : messages) delays.push_back(message.logged - message.stamp);
+  const auto middle = delays.begin() + static_cast<std::ptrdiff_t>(delays.size() / 2);
+  std::ranges::nth_element(delays, middle);
+  return *middle;
+}
+
+/// Time by which the odometry's clock is behind that of the scans, by when both were recorded; 0 where what remains is
+/// the way of the messages: a scan is recorded a sweep after its stamp, or at once.
+Duration clock_lag(const std::vector<ScanMessage>& scans, const std::vector<OdometryMessage>& odometry,
+                   double rate_hz) {
+  constexpr Duration kWay = std::chrono::milliseconds(50);
+  const Duration lag = usual_delay(odometry) - usual_delay(scans);
+  const Duration sweep = duration_from_seconds(rate_hz > 0.0 ? 1.0 / rate_hz : 0.0);
+  return lag > kWay || lag < -kWay - sweep ? lag : Duration{0};
+}
+
+void use_times_of_recording(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& scans,
+                            std::vector<OdometryMessage>& odometry) {
+  if (odometry.empty()) return;
+  const Duration lag = clock_lag(scans, odometry, log.laser().rate_hz);
+  if (lag == Duration{0}) return;
+  for (OdometryMessage& message : odometry) message.stamp += lag;
+  log.add_remark(name + formatted(": its clock is %.3f s behind", to_seconds(lag)) +
+                 " that of the scans, by the times of recording, which count");
+}
+
 void add_odometry(sim::RecordedLog& log, const std::string& name, const std::vector<OdometryMessage>& messages) {
   sim::LogPlace place{name, 0, "message"};
   sim::LogOdometry odometry(log);
@@ -251,9 +289,13 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   add_scans(log, scan_name, scans, mount.upside_down);
   require_scans(log, scan_name, "a laser");
   sim::fit_beams(log, scan_name);
-  if (!odom_topic.empty()) {
-    add_odometry(log, odom_name, found.odometry.at(odom_topic));
+  if (!odom_topic.empty() && has_orientation(found.odometry.at(odom_topic))) {
+    std::vector<OdometryMessage>& odometry = found.odometry.at(odom_topic);
+    use_times_of_recording(log, odom_name, scans, odometry);
+    add_odometry(log, odom_name, odometry);
     if (!log.odometry.empty()) compare_times(log, odom_name);
+  } else if (!odom_topic.empty()) {
+    log.add_remark(odom_name + ": left out: its orientations are no quaternions (0 0 0 0, or an angle in their place)");
   }
   log.sweep = sweep_of(log, scan_name, scans);
   sim::remark_gaps(log, scan_name);
@@ -261,7 +303,7 @@ sim::RecordedLog load_bag(const std::filesystem::path& path, const BagOptions& o
   const Pose2& p = log.robot_from_laser;
   std::snprintf(at, sizeof at, "laser at %.3f,%.3f,%.4f (", p.x, p.y, p.heading);
   log.add_remark(file + ": scans of " + shown(scan_topic) +
-                 (odom_topic.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " +
+                 (log.odometry.empty() ? ", no odometry" : ", odometry of " + shown(odom_topic)) + ", " +
                  without_minus_zero(at) + source + ")");
   return log;
 }

@@ -38,15 +38,15 @@ class McapFile {
   explicit McapFile(const std::filesystem::path& path) : file_(path, kMcapRemedy) {
     const std::uint64_t ends = kMcapMagic.size();
     if (file_.read(0, ends) != kMcapMagic) file_.refuse(0, "no MCAP file");
-    if (file_.size() < 2 * ends || file_.read(file_.size() - ends, ends) != kMcapMagic)
-      file_.refuse(file_.size(), "the file is cut short: it does not end as MCAP files do");
+    is_cut_ = file_.size() < 2 * ends || file_.read(file_.size() - ends, ends) != kMcapMagic;
     crc_ = crc_of(kMcapMagic);
     next_ = ends;
   }
 
-  /// The next record's head; false at the end of the data.
+  /// The next record's head; false at the end of the data, and where a file that was cut has no whole one left.
   bool next() {
     at_ = next_;
+    if (is_cut_ && !is_whole()) return false;
     const std::string head = file_.read(at_, kRecordHead);
     LittleEndian in(head);
     op_ = in.number<std::uint8_t>();
@@ -55,6 +55,11 @@ class McapFile {
     next_ = at_ + kRecordHead + bytes_;
     if (op_ == kFooter) refuse("the footer comes before the end of the data");
     return op_ != kDataEnd;
+  }
+  /// It does not end as MCAP files do: the recorder was killed, or the disk was full.
+  [[nodiscard]] bool is_cut() const { return is_cut_; }
+  [[nodiscard]] std::string cut_at() const {
+    return file_.name() + ": byte " + std::to_string(at_) + ": the file is cut short here";
   }
   [[nodiscard]] std::uint8_t op() const { return op_; }
   [[nodiscard]] std::uint64_t begin() const { return at_ + kRecordHead; }
@@ -72,7 +77,15 @@ class McapFile {
   [[noreturn]] void refuse(const std::string& cause) const { file_.refuse(at_, cause); }
 
  private:
+  [[nodiscard]] bool is_whole() {
+    const std::uint64_t left = file_.size() - at_;
+    if (left < kRecordHead) return false;
+    const std::string head = file_.read(at_, kRecordHead);
+    return LittleEndian(std::string_view(head).substr(1)).u64() <= left - kRecordHead;
+  }
+
   ByteFile file_;
+  bool is_cut_ = false;
   std::uint64_t at_ = 0, next_ = 0, bytes_ = 0;
   std::uint8_t op_ = 0;
   std::uint32_t crc_ = 0;
@@ -143,11 +156,21 @@ class McapMessages {
 
 }  // namespace
 
-void read_mcap(const std::filesystem::path& path, const BagSink& sink) {
+std::string read_mcap(const std::filesystem::path& path, const BagSink& sink) {
   McapFile file(path);
-  McapMessages messages(file, sink);
+  std::size_t passed = 0;
+  const BagSink counting = [&](const BagMessage& message) {
+    ++passed;
+    sink(message);
+  };
+  McapMessages messages(file, counting);
   while (file.next()) messages.take(file.op(), file.body());
-  file.check_data_end();
+  if (!file.is_cut()) {
+    file.check_data_end();
+    return "";
+  }
+  if (passed == 0) file.refuse("the file is cut short, and no message is whole");
+  return file.cut_at() + ": the " + std::to_string(passed) + " whole messages before count\n";
 }
 
 Attachment find_attachment(const std::filesystem::path& path, std::string_view name) {

@@ -8,6 +8,8 @@ namespace {
 
 constexpr std::size_t kCovarianceBytes = 36 * sizeof(double);
 constexpr std::size_t kLeastTransformBytes = 60;
+/// A quaternion's length may be so far off 1 by rounding; one that is farther off never was one.
+constexpr double kOffLength = 0.1;
 
 struct Header {
   Time stamp = kNever;
@@ -28,17 +30,24 @@ Header read_header(WireReader& in, Wire wire) {
   return header;
 }
 
-SpatialFrame read_frame(WireReader& in) {
+struct ReadFrame {
+  SpatialFrame frame;
+  double length = 1.0;  ///< of its quaternion
+};
+
+ReadFrame read_frame(WireReader& in) {
   const double x = in.f64(), y = in.f64(), z = in.f64();
   Eigen::Vector4d xyzw;
   for (int k = 0; k < 4; ++k) xyzw[k] = in.f64();
-  if (xyzw.allFinite()) return spatial_frame(x, y, z, xyzw);
+  if (xyzw.allFinite()) return {spatial_frame(x, y, z, xyzw), xyzw.norm()};
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
-  return spatial_frame(kNone, kNone, kNone, {0.0, 0.0, 0.0, 1.0});
+  return {spatial_frame(kNone, kNone, kNone, {0.0, 0.0, 0.0, 1.0})};
 }
 
-Pose2 in_the_plane(const SpatialFrame& frame) {
-  return {frame.translation().x(), frame.translation().y(), heading_of(frame)};
+Pose2 in_the_plane(const ReadFrame& read) {
+  const Eigen::Vector3d at = read.frame.translation();
+  const bool turns = std::fabs(read.length - 1.0) < kOffLength;
+  return {at.x(), at.y(), turns ? heading_of(read.frame) : std::numeric_limits<double>::quiet_NaN()};
 }
 
 }  // namespace
@@ -80,7 +89,7 @@ std::optional<std::vector<TransformMessage>> read_transforms(std::string_view by
   for (TransformMessage& transform : transforms) {
     transform.parent = read_header(in, wire).frame;
     transform.child = in.text();
-    transform.parent_from_child = read_frame(in);
+    transform.parent_from_child = read_frame(in).frame;
   }
   return in.ok() ? std::optional(std::move(transforms)) : std::nullopt;
 }

@@ -22,15 +22,17 @@ struct ScanMessage {
   std::vector<float> range_m;
   Pose2 frame_from_scan;   ///< where its origin lies; sensor_msgs has it in the frame's
   std::size_t number = 0;  ///< of its topic's messages, from 1
+  Time logged = kNever;    ///< when it was recorded
 };
 
 /// nav_msgs/Odometry, its pose and twist in the plane.
 struct OdometryMessage {
   Time stamp = kNever;
   std::string child_frame;
-  Pose2 pose;
+  Pose2 pose;  ///< its heading is NaN where the quaternion is none: 0 0 0 0, or an angle in place of one
   Twist2 twist;
   std::size_t number = 0;  ///< of its topic's messages, from 1
+  Time logged = kNever;    ///< when it was recorded
 };
 
 /// One of tf2_msgs/TFMessage.

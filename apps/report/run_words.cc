@@ -188,10 +188,16 @@ class Day {
   std::map<std::string, int> faults_;  ///< how often each began
 };
 
-/// The run's; no object where there is none.
-nlohmann::json summary_of(const std::filesystem::path& folder) {
-  std::ifstream in(folder / "summary.json");
+/// No object where there is none.
+nlohmann::json json_of(const std::filesystem::path& file) {
+  std::ifstream in(file);
   return nlohmann::json::parse(in, nullptr, false);
+}
+
+/// What a drive said of its fault in the end; nothing where none did.
+std::string drive_fault_of(const nlohmann::json& devices) {
+  const std::string fault = devices.is_object() ? devices.value("drive_fault", "") : "";
+  return fault.empty() ? "" : "Its drives: " + fault + ".\n";
 }
 
 /// "reached after 40.2 s", or that it has no summary.
@@ -234,7 +240,7 @@ void note_tracks(const std::filesystem::path& table, const Note& note) {
 
 std::string run_words(const std::filesystem::path& folder) {
   const std::vector<std::filesystem::path> parts = parts_of(folder);
-  const nlohmann::json summary = summary_of(folder);
+  const nlohmann::json summary = json_of(folder / "summary.json");
   Day day(summary);
   for (const std::filesystem::path& place : parts.empty() ? std::vector{folder} : parts) {
     if (!parts.empty() && place == parts.back() && has_nothing(place / "robot.csv")) break;
@@ -248,6 +254,7 @@ std::string run_words(const std::filesystem::path& folder) {
   });
   const int before = parts.empty() ? 0 : part_number(parts.front()) - 1;
   return folder.string() + ": " + outcome_of(summary) + "\n" + gone_of(before, day) + day.words() +
+         drive_fault_of(json_of(folder / "devices.json")) +
          (before > 0 && !steering_of(summary).empty() ? "Of the whole run: " : "") + steering_of(summary);
 }
 

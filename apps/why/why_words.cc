@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "apps/why/why_decision.h"
+#include "drivers/drive_fault_words.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {
@@ -100,7 +101,7 @@ std::string permitted(const TickRecord& t) {
   const Twist2& p = t.verdict.permitted;
   if (t.verdict.reasons == Reason::kNone) return "It was permitted: all of that.\n";
   return formatted("It was permitted: %.2f m/s and %.2f rad/s, because ", p.v_mps, p.w_radps) +
-         in_words(t.verdict.reasons) + ".\n";
+         in_words(t.verdict.reasons) + (t.wheels.fault.is_told() ? "; " + describe(t.wheels.fault) : "") + ".\n";
 }
 
 std::string otherwise(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model) {

@@ -33,16 +33,18 @@ void ArmingProof::poll(Time now) noexcept {
   switch (step_) {
     case Step::kStart:
       own_bits_ = 0;
-      if (item.demand == ProofDemand::kWritten) return begin_write(now);
-      return begin_read(item.demand == ProofDemand::kIdentifier ? Step::kLooking : Step::kReading, now);
-    case Step::kLooking:
-      if (conclude_failure()) return;
-      own_bits_ = said() & kNoRemoteFrames;
-      return begin_write(now);
-    case Step::kWriting:
-      read_only_ = client_.status() == SdoStatus::kAbortedByDrive && client_.abort_code() == kAbortReadOnly;
-      if (read_only_ || !conclude_failure()) begin_read(Step::kReading, now);
+      return item.demand == ProofDemand::kWritten || item.demand == ProofDemand::kIdentifier ? begin_write(now)
+                                                                                             : begin_read(now);
+    case Step::kWriting: {
+      const bool refused = client_.status() == SdoStatus::kAbortedByDrive;
+      if (refused && item.demand == ProofDemand::kIdentifier && own_bits_ == 0) {
+        own_bits_ = kNoRemoteFrames;
+        return begin_write(now);
+      }
+      read_only_ = refused && client_.abort_code() == kAbortReadOnly;
+      if (read_only_ || !conclude_failure()) begin_read(now);
       return;
+    }
     case Step::kReading:
       if (!conclude_failure()) conclude_read();
       return;
@@ -58,8 +60,8 @@ void ArmingProof::begin_write(Time now) noexcept {
   if (!client_.write(wanted.address, wire::Bytes(bytes).first(count), now)) conclude(ProofVerdict::kSilent, 0);
 }
 
-void ArmingProof::begin_read(Step step, Time now) noexcept {
-  step_ = step;
+void ArmingProof::begin_read(Time now) noexcept {
+  step_ = Step::kReading;
   if (!client_.read(lines_[at_].item.wanted.address, now)) conclude(ProofVerdict::kSilent, 0);
 }
 

@@ -10,7 +10,8 @@ namespace jaywalk::canopen {
 /// What an object is to show.
 enum class ProofDemand : std::uint8_t {
   kWritten,     ///< the wanted value is written and read back
-  kIdentifier,  ///< likewise, a COB-ID; its bit 30 (no remote frames) is the drive's own, and written as it was read
+  kIdentifier,  ///< likewise, a COB-ID: its bit 30 (no remote frames) is the drive's own, and written where it is
+                ///< refused
   kHeld,        ///< the drive keeps it itself: it is read, and is the wanted value
   kAtMost,      ///< it is read; a signed number of four bytes, within plus and minus the wanted value
   kKnown        ///< it is read, to be remembered: any value, or that the drive has no such object
@@ -57,10 +58,10 @@ class ArmingProof {
   [[nodiscard]] const Lines& lines() const noexcept { return lines_; }
 
  private:
-  enum class Step : std::uint8_t { kStart, kLooking, kWriting, kReading };
+  enum class Step : std::uint8_t { kStart, kWriting, kReading };
 
   void begin_write(Time now) noexcept;
-  void begin_read(Step step, Time now) noexcept;
+  void begin_read(Time now) noexcept;
   /// The value that was read, cut to the item's bytes.
   [[nodiscard]] std::uint32_t said() const noexcept;
   void conclude_read() noexcept;
@@ -74,7 +75,7 @@ class ArmingProof {
   std::size_t at_ = 0;
   Step step_ = Step::kStart;
   bool read_only_ = false;      ///< the drive said so of this item
-  std::uint32_t own_bits_ = 0;  ///< of this item, the drive's
+  std::uint32_t own_bits_ = 0;  ///< of this item, as the drive wants them
 };
 
 /// "1016h:1 watching the controller's heartbeat: wanted 00010064h, reads 00000000h: NOT PROVED". Not for the loop.

@@ -111,6 +111,7 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
 
 void CanopenDriveBase::begin_proof() noexcept {
   trouble_ = DriveTrouble::kNone;
+  fault_ = {};
   foreign_.reset();
   ladder_.reset();
   awaits_zero_ = true;
@@ -154,6 +155,7 @@ WheelState CanopenDriveBase::latest() noexcept {
   if (is_proving()) follow_proof();
   watch();
   wheels_.trouble = trouble_;
+  wheels_.fault = fault_;
   wheels_.stop = ladder_.stage();
   wheels_.ready = is_proved() && !awaits_zero_ && follow_speeds();
   return wheels_;
@@ -168,7 +170,9 @@ void CanopenDriveBase::take(const ReceivedFrame& received) noexcept {
     if (phase_ == Phase::kProving) proofs_[k].on_frame(received);
     // Before that it tells of what was: that it missed the heartbeat.
     const bool tells = phase_ == Phase::kProved && emergency && emergency->error_code != 0;
-    if (tells && emergency->node == axes_[k].setup().node) latch(DriveTrouble::kEmergency);
+    if (!tells || emergency->node != axes_[k].setup().node) continue;
+    note({DriveFaultKind::kEmergency, emergency->node, emergency->error_code});
+    latch(DriveTrouble::kEmergency);
   }
   publish(received.stamp);
 }
@@ -206,8 +210,13 @@ void CanopenDriveBase::watch() noexcept {
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
   for (WheelAxis& axis : axes_) {
     const DriveTrouble trouble = axis.trouble(now(), {setup_.silence_limit, setup_.stop.fresh, setup_.showing});
+    if (trouble == DriveTrouble::kNotProved) note({DriveFaultKind::kMode, axis.setup().node, axis.mode()});
     if (trouble != DriveTrouble::kNone) latch(trouble);
   }
+}
+
+void CanopenDriveBase::note(const DriveFault& fault) noexcept {
+  if (!fault_.is_told()) fault_ = fault;
 }
 
 // The first trouble is the one worth knowing: the others follow from it. A proof that is under way is over.

@@ -83,6 +83,8 @@ class CanopenDriveBase final : public WiredDrive {
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
+  /// What a drive tells: the first is the one worth knowing.
+  void note(const DriveFault& fault) noexcept;
 
   /// A cycle on the bus, as far as the stop has come.
   void cycle(DriveGoal goal, bool stopping, double left_radps, double right_radps) noexcept;
@@ -103,6 +105,7 @@ class CanopenDriveBase final : public WiredDrive {
   bool counts_on_ = true;          ///< both angles, since the last reading
   std::uint64_t frames_lost_ = 0;  ///< when its operation began last
   DriveTrouble trouble_ = DriveTrouble::kNone;
+  DriveFault fault_;
   std::optional<CanFrame> foreign_;
   Phase phase_ = Phase::kUnproved;
   Time began_ = kNever;  ///< this phase

@@ -53,6 +53,8 @@ class WheelAxis {
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
   /// And shows the mode that takes speeds: 6061h, of many drives only once they are enabled, and late.
   [[nodiscard]] bool follows_speeds() const noexcept { return is_enabled() && mode_ == kProfileVelocityMode; }
+  /// As 6061h shows it.
+  [[nodiscard]] std::uint8_t mode() const noexcept { return mode_; }
   /// By its last heartbeat.
   [[nodiscard]] bool is_operational() const noexcept { return network_ == NmtState::kOperational; }
   [[nodiscard]] const WheelFeedback& feedback() const noexcept { return feedback_; }

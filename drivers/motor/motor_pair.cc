@@ -17,6 +17,7 @@ WheelState MotorPair::latest() noexcept {
   receive();
   watch();
   wheels_.trouble = trouble_;
+  wheels_.fault = fault_;
   wheels_.stop = stop_;
   wheels_.ready = proved_ && armed_ && !awaits_zero_ && trouble_ == DriveTrouble::kNone && is_enabled();
   return wheels_;
@@ -96,13 +97,24 @@ void MotorPair::lose_proof(DriveTrouble trouble) noexcept {
   proved_ = false;
 }
 
-void MotorPair::report_fault(DriveTrouble trouble) noexcept {
-  if (armed_ && !awaits_zero_ && clock_.now() > settled_) latch(trouble);
+void MotorPair::report_fault(DriveTrouble trouble, const DriveFault& fault) noexcept {
+  if (!armed_ || awaits_zero_ || clock_.now() <= settled_) return;
+  note(fault);
+  latch(trouble);
+}
+
+void MotorPair::note(const DriveFault& fault) noexcept {
+  if (!fault_.is_told() || fault_.kind == DriveFaultKind::kVescStill) fault_ = fault;
+}
+
+void MotorPair::withdraw(DriveFaultKind kind, std::uint8_t node) noexcept {
+  if (fault_.kind == kind && fault_.node == node) fault_ = {};
 }
 
 void MotorPair::reset() noexcept {
   if (!armed_ || proving_) return;  // a proof that is under way goes on
   trouble_ = DriveTrouble::kNone;
+  fault_ = {};
   foreign_.reset();
   stop_ = StopStage::kNone;
   awaits_zero_ = true;

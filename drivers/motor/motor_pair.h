@@ -63,7 +63,7 @@ class MotorPair : public WiredDrive {
   virtual ProofResult continue_proof(std::size_t axis) noexcept = 0;
   /// What the motor said in its proof, in a line. Start-up only, and so are these.
   [[nodiscard]] virtual std::string proof_line(std::size_t axis) const = 0;
-  [[nodiscard]] virtual std::string proof_remedy() const = 0;
+  [[nodiscard]] virtual std::string proof_remedy(std::size_t axis) const = 0;
   /// Why a motor does not show itself, and what to do.
   [[nodiscard]] virtual StartupError absence(std::size_t axis) const = 0;
 
@@ -81,7 +81,11 @@ class MotorPair : public WiredDrive {
   /// how far the wheel turned since the message before: the first one after a return tells nothing;
   void note_turned(std::size_t index, Time stamp, double turned_rad) noexcept;
   /// that something is wrong, which counts once the motor had time to forget what was before it was enabled;
-  void report_fault(DriveTrouble trouble) noexcept;
+  void report_fault(DriveTrouble trouble, const DriveFault& fault) noexcept;
+  /// what it tells about that: the first is the one worth knowing, unless it was only seen from here;
+  void note(const DriveFault& fault) noexcept;
+  /// that it was wrong;
+  void withdraw(DriveFaultKind kind, std::uint8_t node) noexcept;
   /// a frame that only another master sends.
   void note_foreign(const CanFrame& frame) noexcept;
   /// Whether its torque is on and it follows speeds.
@@ -114,6 +118,7 @@ class MotorPair : public WiredDrive {
   WheelState wheels_;
   bool counts_on_ = false;  ///< both angles, since the last reading
   DriveTrouble trouble_ = DriveTrouble::kNone;
+  DriveFault fault_;
   StopStage stop_ = StopStage::kNone;
   bool armed_ = false, awaits_zero_ = true;
   bool proved_ = false, proving_ = false, both_shown_ = false;

@@ -68,7 +68,8 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
   wire::ByteReader reader(frame.payload());
   switch (frame.id & 0x1FU) {
     case kHeartbeat: {
-      const Heartbeat heartbeat{reader.little<std::uint32_t>(), reader.little<std::uint8_t>()};
+      const Heartbeat heartbeat{reader.little<std::uint32_t>(), reader.little<std::uint8_t>(),
+                                reader.little<std::uint8_t>()};
       return reader.ok() ? std::optional(Message{node, heartbeat}) : std::nullopt;
     }
     case kGetError: {

@@ -32,6 +32,7 @@ inline constexpr std::uint32_t kWatchdogExpired05 = 0x00000800;
 struct Heartbeat {
   std::uint32_t active_errors = 0;
   std::uint8_t axis_state = 0;  ///< AxisState where it is one of those
+  std::uint8_t procedure = 0;   ///< how the last change of state went: ProcedureResult
 };
 
 struct EncoderEstimates {

@@ -28,7 +28,7 @@ std::string OdriveBase::who(std::size_t index) const {
 
 std::string OdriveBase::inspect(std::size_t side) {
   await_motor(side);
-  return who(side) + "heartbeat and encoder estimates; errors " + in_hex(seen_[side].errors) +
+  return who(side) + "heartbeat and encoder estimates; errors " + error_words(seen_[side].errors) +
          "; whether its watchdog lets go is seen at arming, which takes torque";
 }
 
@@ -45,17 +45,15 @@ void OdriveBase::begin_proof(std::size_t index) noexcept {
 
 ProofResult OdriveBase::continue_proof(std::size_t index) noexcept {
   const Seen& seen = seen_[index];
-  const AxisReport report{axis(index).heard, seen.expired, seen.errors, seen.state, axis(index).speed_radps};
+  const AxisReport report{axis(index).heard, seen.expired,   seen.errors,
+                          seen.state,        seen.procedure, axis(index).speed_radps};
   for (const CanFrame& frame : proofs_[index].step(clock().now(), report)) send(frame);
   return proofs_[index].result();
 }
 
 std::string OdriveBase::proof_line(std::size_t index) const { return who(index) + proofs_[index].line(); }
 
-std::string OdriveBase::proof_remedy() const {
-  return "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
-         "allow_unproved at your own risk";
-}
+std::string OdriveBase::proof_remedy(std::size_t index) const { return proofs_[index].remedy(); }
 
 void OdriveBase::take(const ReceivedFrame& received) noexcept {
   for (const AxisSetup& axis_setup : setup_.axes) {
@@ -82,10 +80,12 @@ void OdriveBase::take_heartbeat(std::size_t index, const Heartbeat& heartbeat, T
   if (expired && seen.expired == kNever) seen.expired = stamp;
   seen.errors = heartbeat.active_errors;
   seen.state = heartbeat.axis_state;
+  seen.procedure = heartbeat.procedure;
   note_heard(index, stamp);
   note_obeys(index, heartbeat.axis_state == kClosedLoop && heartbeat.active_errors == 0);
-  if ((heartbeat.active_errors & kEstopRequested) != 0) report_fault(DriveTrouble::kEmergency);
-  if (heartbeat.active_errors != 0) report_fault(DriveTrouble::kDriveFault);
+  const DriveFault fault{DriveFaultKind::kOdrive, setup_.axes[index].node, heartbeat.active_errors};
+  if ((heartbeat.active_errors & kEstopRequested) != 0) report_fault(DriveTrouble::kEmergency, fault);
+  if (heartbeat.active_errors != 0) report_fault(DriveTrouble::kDriveFault, fault);
 }
 
 void OdriveBase::take_estimates(std::size_t index, const EncoderEstimates& estimates, Time stamp) noexcept {

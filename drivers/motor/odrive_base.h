@@ -43,7 +43,8 @@ class OdriveBase final : public MotorPair {
   struct Seen {
     std::uint32_t errors = 0;
     std::uint8_t state = 0;  ///< AxisState where it is one of those
-    Time expired = kNever;   ///< its watchdog, by its heartbeats
+    std::uint8_t procedure = 0;
+    Time expired = kNever;  ///< its watchdog, by its heartbeats
     FrameRate heartbeats = {};
     float position_turns = 0.0F;
   };
@@ -56,7 +57,7 @@ class OdriveBase final : public MotorPair {
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
-  [[nodiscard]] std::string proof_remedy() const override;
+  [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
   [[nodiscard]] std::string who(std::size_t index) const;
 

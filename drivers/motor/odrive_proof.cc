@@ -3,6 +3,8 @@
 #include <cmath>
 #include <cstdio>
 
+#include "drivers/drive_fault_words.h"
+
 namespace jaywalk::odrive {
 
 namespace {
@@ -12,12 +14,17 @@ constexpr Duration kFeeding = std::chrono::milliseconds(10);  ///< well within a
 constexpr double kStill_radps = 0.05;                         ///< noise of an encoder at rest
 constexpr double kHeld_radps = 0.3;  ///< and of one whose motor is held: 3 cm/s at a wheel of 0.1 m
 
-}  // namespace
-
 std::string in_hex(std::uint32_t number) {
   std::array<char, 16> text{};
   std::snprintf(text.data(), text.size(), "%08Xh", static_cast<unsigned>(number));
   return text.data();
+}
+
+}  // namespace
+
+std::string error_words(std::uint32_t errors) {
+  const std::string words = odrive_error_words(errors);
+  return in_hex(errors) + (words.empty() ? "" : " (" + words + ")");
 }
 
 void WatchdogProof::begin(std::uint8_t node, const ProofLimits& limits, Time now) noexcept {
@@ -36,6 +43,7 @@ void WatchdogProof::enter(Stage stage, Time now) noexcept {
 std::span<const CanFrame> WatchdogProof::step(Time now, const AxisReport& axis) noexcept {
   due_count_ = 0;
   errors_ = axis.errors;
+  procedure_ = axis.procedure;
   const bool held = stage_ == Stage::kClose || stage_ == Stage::kWithhold;
   if (held && std::fabs(axis.speed_radps) > kHeld_radps) {
     finish(ProofResult::kFailed, Verdict::kTurns);
@@ -64,7 +72,8 @@ void WatchdogProof::clear(Time now, const AxisReport& axis) noexcept {
     fed_ = now;
     return enter(Stage::kClose, now);
   }
-  if (now - since_ > kAnswerLimit) return finish(ProofResult::kFailed, Verdict::kDoesNotClear);
+  if (now - since_ > kAnswerLimit)
+    return finish(ProofResult::kFailed, was_heard(axis) ? Verdict::kDoesNotClear : Verdict::kSilent);
   feed(now);
 }
 
@@ -73,7 +82,8 @@ void WatchdogProof::close(Time now, const AxisReport& axis) noexcept {
     add(set_velocity(node_, 0.0F));
     return enter(Stage::kWithhold, now);
   }
-  if (now - since_ > kAnswerLimit) return finish(ProofResult::kFailed, Verdict::kDoesNotClose);
+  if (now - since_ > kAnswerLimit)
+    return finish(ProofResult::kFailed, was_heard(axis) ? Verdict::kDoesNotClose : Verdict::kSilent);
   feed(now);
 }
 
@@ -83,6 +93,7 @@ void WatchdogProof::withhold(Time now, const AxisReport& axis) noexcept {
   const bool expired_as_05 = !expired && axis.heard > since_ && (axis.errors & kWatchdogExpired05) != 0;
   if (expired_as_05 && axis.state != kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kOldFirmware);
   if (!expired && after_ < limits_.watchdog_most) return;
+  if (!was_heard(axis)) return finish(ProofResult::kFailed, Verdict::kSilent);
   if (!expired) return finish(ProofResult::kUnproved, Verdict::kNothingSaid);
   if (axis.state == kClosedLoop) return finish(ProofResult::kUnproved, Verdict::kHoldsOn);
   if (after_ < limits_.watchdog_least) return finish(ProofResult::kUnproved, Verdict::kHasty);
@@ -108,12 +119,15 @@ std::string WatchdogProof::line() const {
   const std::string said = " " + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(after_).count()) +
                            " ms after the last command";
   switch (verdict_) {
+    case Verdict::kSilent:
+      return "no heartbeat any more: NOT PROVED";
     case Verdict::kDoesNotClear:
-      return "errors " + in_hex(errors_) + " that do not clear: NOT PROVED";
+      return "errors " + error_words(errors_) + " that do not clear: NOT PROVED";
     case Verdict::kTurns:
       return "turns, which it must not for the proof: NOT PROVED";
     case Verdict::kDoesNotClose:
-      return "does not go to closed loop, errors " + in_hex(errors_) + ": NOT PROVED";
+      return "does not go to closed loop, errors " + error_words(errors_) + ", procedure result " +
+             std::to_string(procedure_) + " (" + odrive_procedure_words(procedure_) + "): NOT PROVED";
     case Verdict::kNothingSaid:
       return "watchdog: nothing said" + said + ": NOT PROVED";
     case Verdict::kOldFirmware:
@@ -129,6 +143,22 @@ std::string WatchdogProof::line() const {
       break;
   }
   return "watchdog: expired" + said;
+}
+
+std::string WatchdogProof::remedy() const {
+  switch (verdict_) {
+    case Verdict::kSilent:
+      return "see to its cable, its power and its node";
+    case Verdict::kDoesNotClear:
+      return "see to what its errors name";
+    case Verdict::kTurns:
+      return "see why its wheel turns";
+    case Verdict::kDoesNotClose:
+      return "see to what it names, and calibrate it anew, with odrivetool";
+    default:
+      return "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
+             "allow_unproved at your own risk";
+  }
 }
 
 }  // namespace jaywalk::odrive

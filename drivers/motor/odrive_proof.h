@@ -14,7 +14,8 @@ struct AxisReport {
   Time heard = kNever;    ///< of its heartbeat
   Time expired = kNever;  ///< of the first heartbeat with the watchdog's error; kNever while it has none
   std::uint32_t errors = 0;
-  std::uint8_t state = 0;  ///< AxisState where it is one of those
+  std::uint8_t state = 0;      ///< AxisState where it is one of those
+  std::uint8_t procedure = 0;  ///< ProcedureResult
   double speed_radps = 0.0;
 };
 
@@ -36,11 +37,14 @@ class WatchdogProof {
   [[nodiscard]] ProofResult result() const noexcept { return result_; }
   /// "watchdog: expired 66 ms after the last command"; allocates.
   [[nodiscard]] std::string line() const;
+  /// What to do where it is not proved; allocates.
+  [[nodiscard]] std::string remedy() const;
 
  private:
   enum class Stage : std::uint8_t { kBegin, kClear, kClose, kWithhold, kDone };
   enum class Verdict : std::uint8_t {
     kNone,
+    kSilent,
     kDoesNotClear,
     kTurns,
     kDoesNotClose,
@@ -51,6 +55,8 @@ class WatchdogProof {
     kLate
   };
 
+  /// It was heard since this stage began.
+  [[nodiscard]] bool was_heard(const AxisReport& axis) const noexcept { return axis.heard > since_; }
   void clear(Time now, const AxisReport& axis) noexcept;
   void close(Time now, const AxisReport& axis) noexcept;
   void withhold(Time now, const AxisReport& axis) noexcept;
@@ -67,12 +73,13 @@ class WatchdogProof {
   ProofResult result_ = ProofResult::kFailed;
   Verdict verdict_ = Verdict::kNone;
   std::uint32_t errors_ = 0;
+  std::uint8_t procedure_ = 0;
   Duration after_{};  ///< from the last command to what was seen then
   std::array<CanFrame, 4> due_;
   std::size_t due_count_ = 0;
 };
 
-/// "01000000h".
-[[nodiscard]] std::string in_hex(std::uint32_t number);
+/// "01000000h (watchdog expired)", "00000000h".
+[[nodiscard]] std::string error_words(std::uint32_t errors);
 
 }  // namespace jaywalk::odrive

@@ -54,7 +54,7 @@ std::vector<std::string> MotorPair::judge_proofs() const {
     if (results_[k] == ProofResult::kAbsent) throw absence(k);
     if (results_[k] == ProofResult::kUnderWay) continue;
     report.push_back(proof_line(k));
-    if (!accepts(results_[k])) throw StartupError(report.back(), proof_remedy());
+    if (!accepts(results_[k])) throw StartupError(report.back(), proof_remedy(k));
   }
   if (trouble_ != DriveTrouble::kNone) {
     throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");

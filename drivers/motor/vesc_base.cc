@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 #include "hal/types/errors.h"
 
@@ -11,7 +12,12 @@ namespace jaywalk::vesc {
 namespace {
 
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(500);
+constexpr const char* kMinimumErpm =
+    "; its minimum ERPM cannot be read: set it to 0 (VESC Tool, Motor Settings, PID Controllers)";
 constexpr double kMostBrake_a = 200.0;  ///< more than any VESC has
+/// Electrical turns told, of which a motor that follows shows a sixth: 2 cm of a hub motor of 15 pole pairs, less than
+/// by which wheels disobey (FeltMotion).
+constexpr double kStill_turns = 0.5;
 
 std::int32_t to_erpm(double speed_radps, double electrical_turns_per_rad) noexcept {
   constexpr double kMost = 1e6;  // more than any motor has
@@ -47,7 +53,8 @@ std::string VescBase::inspect(std::size_t side) {
   begin_proof(side);
   ProofResult result = ProofResult::kUnderWay;
   while ((result = continue_proof(side)) == ProofResult::kUnderWay) pass_time();
-  if (result != ProofResult::kPassed && !setup_.allow_unproved) throw StartupError(proof_line(side), proof_remedy());
+  if (result != ProofResult::kPassed && !setup_.allow_unproved)
+    throw StartupError(proof_line(side), proof_remedy(side));
   return proof_line(side);
 }
 
@@ -84,18 +91,17 @@ std::string VescBase::proof_line(std::size_t index) const {
   const auto in_ms = [](Duration d) {
     return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
   };
-  std::array<char, 120> text{};
+  std::array<char, 200> text{};
   std::snprintf(text.data(), text.size(), "timeout: wanted %d to %d ms, reads %u ms, then brakes with %.1f A%s",
                 in_ms(setup_.timeout_least), in_ms(setup_.timeout_most),
                 static_cast<unsigned>(seen.settings->timeout_ms), seen.settings->brake_current_a,
-                is_proved_by(*seen.settings) ? "" : ": NOT PROVED");
+                is_proved_by(*seen.settings) ? kMinimumErpm : ": NOT PROVED");
   return who(index) + text.data();
 }
 
-std::string VescBase::proof_remedy() const {
-  for (const Seen& seen : seen_)
-    if (seen.asked != kNever && !seen.answered)
-      return "see to its cable, its power and its controller number; firmware 3.0 and newer answers";
+std::string VescBase::proof_remedy(std::size_t index) const {
+  if (!seen_[index].answered)
+    return "see to its cable, its power and its controller number; firmware 3.0 and newer answers";
   return "set timeout and timeout brake current (App Settings, General) with VESC Tool, or allow_unproved at your own "
          "risk";
 }
@@ -157,7 +163,7 @@ bool VescBase::take_fault(const Fault& fault) noexcept {
     if (fault.from != setup_.axes[k].controller || seen_[k].open_asks == 0) continue;
     --seen_[k].open_asks;
     seen_[k].fault = fault.code;
-    if (fault.code != 0) report_fault(DriveTrouble::kDriveFault);
+    if (fault.code != 0) report_fault(DriveTrouble::kDriveFault, {DriveFaultKind::kVesc, fault.from, fault.code});
     return true;
   }
   return false;
@@ -174,9 +180,27 @@ void VescBase::send_order(std::size_t index, MotorOrder order, double speed_radp
   } else if (order == MotorOrder::kNetworkStop && brake_a > 0.0) {
     send(set_brake_current(axis_setup.controller, static_cast<std::int32_t>(1000.0 * brake_a)));
   } else {
-    send(set_erpm(axis_setup.controller, to_erpm(speed_radps, axis_setup.electrical_turns_per_rad)));
+    const std::int32_t erpm = to_erpm(speed_radps, axis_setup.electrical_turns_per_rad);
+    hold_to_speed(index, order == MotorOrder::kRun, erpm);
+    send(set_erpm(axis_setup.controller, erpm));
   }
   ask_for_fault(index);
+}
+
+void VescBase::hold_to_speed(std::size_t index, bool runs, std::int32_t erpm) noexcept {
+  Seen& seen = seen_[index];
+  const std::uint8_t controller = setup_.axes[index].controller;
+  const Time now = clock().now();
+  const double erpm_told = std::fabs(static_cast<double>(erpm));
+  if (seen.travel != std::exchange(seen.stood_at, seen.travel)) {
+    seen.told_turns = 0.0;
+    withdraw(DriveFaultKind::kVescStill, controller);
+  } else if (runs && seen.told != kNever) {
+    seen.told_turns += erpm_told / 60.0 * to_seconds(now - seen.told);
+  }
+  seen.told = runs ? now : kNever;
+  if (runs && seen.told_turns > kStill_turns)
+    note({DriveFaultKind::kVescStill, controller, static_cast<std::uint32_t>(erpm_told)});
 }
 
 void VescBase::ask_for_fault(std::size_t index) noexcept {

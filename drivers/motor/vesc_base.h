@@ -34,8 +34,9 @@ struct BaseSetup {
 /// hold a timeout within the limit and a current that brakes when it has run out. That is what it was told, not what it
 /// does; a VESC cannot be made to show that. They must send status messages 1 and 5 (numbers 9 and 27) by themselves,
 /// and tell their fault code when asked, once a command. A VESC has no state that says "enabled": it obeys while it
-/// speaks, has no fault, and was armed. One that does not obey speed zero is told to brake with the current that was
-/// read back.
+/// speaks, has no fault, and was armed. Told less than its minimum ERPM it lets its motor go; where that stands among
+/// its settings differs from firmware to firmware, so it is not read back. One that does not obey speed zero is told to
+/// brake with the current that was read back.
 class VescBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
@@ -51,6 +52,10 @@ class VescBase final : public MotorPair {
     std::uint32_t open_asks = 0;  ///< for its fault code, without an answer so far
     std::uint8_t fault = 0;
     bool torque_on = false;  ///< it was told to follow speeds
+    // Since its motor turned last.
+    std::uint32_t stood_at = 0;  ///< travel
+    double told_turns = 0.0;     ///< electrical
+    Time told = kNever;
   };
 
   void take(const ReceivedFrame& received) noexcept override;
@@ -61,13 +66,15 @@ class VescBase final : public MotorPair {
   [[nodiscard]] bool is_awaited(std::size_t index, Time stamp) const noexcept;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   void ask_for_fault(std::size_t index) noexcept;
+  /// Its motor is told to turn: one that does not is below its minimum ERPM, or blocked.
+  void hold_to_speed(std::size_t index, bool runs, std::int32_t erpm) noexcept;
   /// A VESC forgets a fault by itself after a time.
   void send_reset(std::size_t) noexcept override {}
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
   [[nodiscard]] bool is_proved_by(const StopSettings& settings) const noexcept;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
-  [[nodiscard]] std::string proof_remedy() const override;
+  [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
   [[nodiscard]] std::string who(std::size_t index) const;
 

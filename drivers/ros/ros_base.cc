@@ -33,7 +33,8 @@ std::string RosBase::inspect(std::size_t side) {
   begin_proof(side);
   ProofResult result = ProofResult::kUnderWay;
   while ((result = continue_proof(side)) == ProofResult::kUnderWay) pass_time();
-  if (result == ProofResult::kFailed || !setup_.allow_unproved) throw StartupError(proof_line(side), proof_remedy());
+  if (result == ProofResult::kFailed || !setup_.allow_unproved)
+    throw StartupError(proof_line(side), proof_remedy(side));
   return proof_line(side);
 }
 
@@ -118,13 +119,11 @@ std::string RosBase::proof_line(std::size_t index) const {
   return text.data();
 }
 
-std::string RosBase::proof_remedy() const {
-  for (const Shown& shown : shown_) {
-    if (shown.began == kNever) continue;
-    if (shown.listeners == 0) return "start the node that drives the base, in this domain, or correct [drive] command";
-    if (shown.fastest_radps > setup_.stop.tolerance_radps) return "see why the base moves, or its odometry says so";
-    if (!is_often_enough(shown)) return times_remedy(shown);
-  }
+std::string RosBase::proof_remedy(std::size_t index) const {
+  const Shown& shown = shown_[index];
+  if (shown.listeners == 0) return "start the node that drives the base, in this domain, or correct [drive] command";
+  if (shown.fastest_radps > setup_.stop.tolerance_radps) return "see why the base moves, or its odometry says so";
+  if (!is_often_enough(shown)) return times_remedy(shown);
   return "see that the base's own timeout for commands (cmd_vel_timeout) is short, and write allow_unproved = true";
 }
 

@@ -49,7 +49,7 @@ class RosBase final : public MotorPair {
   [[nodiscard]] bool is_often_enough(const Shown& shown) const noexcept;
   [[nodiscard]] std::string times_remedy(const Shown& shown) const;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
-  [[nodiscard]] std::string proof_remedy() const override;
+  [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
 
   BaseSetup setup_;

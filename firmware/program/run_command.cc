@@ -9,6 +9,7 @@
 #include <thread>
 
 #include "drivers/can/restart_link.h"
+#include "drivers/drive_fault_words.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/out_folder.h"
 #include "firmware/robot/armed_mark.h"
@@ -61,6 +62,7 @@ class LoopReport {
   void tell(const RunStatus& now) const {
     if (now.latched && (!last_.latched || now.latched_by != last_.latched_by)) {
       std::string drive = now.drive == DriveTrouble::kNone ? "" : " (" + std::string(name(now.drive)) + ")";
+      if (now.drive_fault.is_told()) drive += " (" + describe(now.drive_fault) + ")";
       if (now.foreign_frame) drive += " (" + to_text(*now.foreign_frame) + ")";
       remark("stopped by " + to_string(now.latched_by, now.faulty_scanners) + drive +
              "; see to it, then jaywalk reset");

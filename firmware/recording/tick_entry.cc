@@ -22,6 +22,7 @@ struct Put {
   void operator()(const Time& value) { sink.number(static_cast<std::int64_t>(value.time_since_epoch().count())); }
   void operator()(const PlanStatus& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const DriveTrouble& value) { sink.number(static_cast<std::uint8_t>(value)); }
+  void operator()(const DriveFaultKind& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const StopStage& value) { sink.number(static_cast<std::uint8_t>(value)); }
   void operator()(const Reason& value) { sink.number(static_cast<std::uint32_t>(value)); }
   std::uint32_t count(std::size_t size) {
@@ -47,6 +48,9 @@ struct Get {
   }
   void operator()(DriveTrouble& value) {
     value = static_cast<DriveTrouble>(up_to(static_cast<std::uint8_t>(kLastDriveTrouble)));
+  }
+  void operator()(DriveFaultKind& value) {
+    value = static_cast<DriveFaultKind>(up_to(static_cast<std::uint8_t>(kLastDriveFaultKind)));
   }
   void operator()(Reason& value) {
     std::uint32_t bits = 0;
@@ -121,6 +125,7 @@ void transfer_rest(Archive& ar, Record& r) {
   ar(r.now);
   ar(r.wheels.stamp), ar(r.wheels.sequence), ar(r.wheels.left_rad), ar(r.wheels.right_rad);
   ar(r.wheels.left_radps), ar(r.wheels.right_radps), ar(r.wheels.trouble);
+  ar(r.wheels.fault.kind), ar(r.wheels.fault.node), ar(r.wheels.fault.code);
   ar(r.wheels.stop), ar(r.wheels.ready);
   ar(r.input.stamp), ar(r.input.has_goal);
   transfer_point(ar, r.input.goal_in_map);

@@ -12,7 +12,7 @@
 namespace jaywalk {
 
 /// Of the fields and their order; no other version is read.
-inline constexpr std::uint32_t kRecordingVersion = 6;
+inline constexpr std::uint32_t kRecordingVersion = 7;
 
 /// Most bytes that an encoded record takes: every beam, mover and point of a path in use (the change of a step between
 /// places of 32 bits has 34), and room for the rest.

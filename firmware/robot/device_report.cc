@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "drivers/drive_fault_words.h"
 #include "hal/text_file.h"
 
 namespace jaywalk {
@@ -47,6 +48,7 @@ void write_devices(const std::filesystem::path& folder, const DriveWiring& drive
   json["laser"] = json_of(last.laser);
   for (const ScannerHealth& laser : last.other_lasers) json["other_lasers"].push_back(json_of(laser));
   json["drive"] = name(last.drive);
+  json["drive_fault"] = describe(last.drive_fault);
   json["latched_by"] = to_string(last.latched_by);
   json["ticks"] = last.ticks;
   json["missed_ticks"] = last.missed_ticks;

@@ -27,19 +27,29 @@ LaserWiring read_wiring(TomlTable& table) {
     wiring.infinity_is_free = table.boolean("infinity_is_free");
     return wiring;
   }
+  if (table.has("host") && table.has("device"))
+    table.refuse("device", "stands beside host", "keep the one by which this scanner is connected");
   const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
   if (serial) {
-    if (table.has("host") && !table.has("device"))
+    if (table.has("host"))
       table.refuse("host", "is for scanners on the network", "give the serial line of this one as device");
     wiring.device = table.text("device");
     wiring.baud = static_cast<std::uint32_t>(table.integer("baud", choice.baud));
   } else {
-    if (table.has("device") && !table.has("host"))
+    if (table.has("device"))
       table.refuse("device", "is for scanners on a serial line", "give the address of this one as host");
     wiring.host = table.text("host");
     wiring.port = static_cast<std::uint16_t>(table.integer("port", choice.port));
   }
   return wiring;
+}
+
+void require_own_address(TomlTable& table, const LaserWiring& wiring, const std::vector<LaserWiring>& before) {
+  for (const LaserWiring& other : before) {
+    if (wiring.host == other.host && wiring.port == other.port && wiring.device == other.device)
+      table.refuse(wiring.host.empty() ? "device" : "host", "is another scanner's already",
+                   "give each its own address");
+  }
 }
 
 RealtimeWishes read_realtime(TomlTable table) {
@@ -107,6 +117,7 @@ NamedPlace read_place(TomlTable& table, const std::vector<NamedPlace>& before, c
 RobotFile load_robot_file(const std::filesystem::path& path) {
   const TomlFile file(path, robot_file_keys());
   TomlTable root = file.root();
+  root.refuse_other_file("robot", "is of a scenario: this is no robot file", "run it by jaywalk sim");
   RobotFile robot;
   ControlSetup& setup = robot.setup;
   setup.wired = true;
@@ -127,9 +138,11 @@ RobotFile load_robot_file(const std::filesystem::path& path) {
   setup.rate_hz = root.number("rate_hz");
   std::vector<LaserWiring> wirings;
   read_lasers(root.table_or_tables("laser"), setup.model, [&](TomlTable& laser, LaserModel&) {
-    wirings.push_back(read_wiring(laser));
-    if (wirings.size() > 1 && wirings.back().kind == ScannerKind::kDds)
+    const LaserWiring wiring = read_wiring(laser);
+    if (!wirings.empty() && wiring.kind == ScannerKind::kDds)
       laser.refuse("kind", "brings the first scanner alone", "write that [[laser]] first, and wire the others");
+    require_own_address(laser, wiring, wirings);
+    wirings.push_back(wiring);
   });
   robot.laser = wirings.front();
   robot.other_lasers.assign(wirings.begin() + 1, wirings.end());

@@ -3,6 +3,8 @@
 #include <cmath>
 #include <sstream>
 
+#include "drivers/drive_fault_words.h"
+
 namespace jaywalk {
 namespace {
 
@@ -38,7 +40,7 @@ std::string describe(const RunStatus& status) {
   out << "\nreasons: " << to_string(status.reasons, status.faulty_scanners) << "\nplan: " << name_of(status.plan)
       << "\nbackend: " << status.backend << "\ngoals_left: " << status.goals_left
       << "\nlatched_by: " << to_string(status.latched_by) << "\ndrive: " << name(status.drive)
-      << "\ndrives_proved: " << (status.proved ? "yes" : "no")
+      << "\ndrive_fault: " << describe(status.drive_fault) << "\ndrives_proved: " << (status.proved ? "yes" : "no")
       << "\nforeign_frame: " << (status.foreign_frame ? to_text(*status.foreign_frame) : "");
   put(out, "laser", status.laser);
   for (std::size_t k = 0; k < status.other_lasers.size(); ++k)

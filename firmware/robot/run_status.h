@@ -41,6 +41,7 @@ struct RunStatus {
   Reason latched_by = Reason::kNone;  ///< since the last reset, one that was revoked among them
   PlaceAnswer place;                  ///< to the last `here`
   DriveTrouble drive = DriveTrouble::kNone;
+  DriveFault drive_fault;
   ScannerHealth laser;
   OfOthers<ScannerHealth> other_lasers;
   CanHealth bus;

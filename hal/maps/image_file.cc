@@ -12,7 +12,7 @@ namespace {
 constexpr std::int64_t kMostPixels = 3'000'000'000;  // 500 m a side in cells of 1 cm are 2,500 million
 
 [[noreturn]] void refuse_picture(const std::filesystem::path& file, const std::string& cause) {
-  throw StartupError(file.string() + ": " + cause, "use a whole PNG or PGM picture");
+  throw StartupError(file.string() + ": " + cause, "use a whole PNG, PGM or BMP picture");
 }
 
 std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
@@ -21,7 +21,8 @@ std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
   const std::string kind(magic, 2);
   if (kind == "P2" || kind == "P5") return pgm_rows(file);
   if (kind == "\x89P") return png_rows(file);
-  refuse_picture(file, "neither PNG nor PGM");
+  if (kind == "BM") return bmp_rows(file);
+  refuse_picture(file, "neither PNG nor PGM nor BMP");
 }
 
 }  // namespace

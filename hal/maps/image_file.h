@@ -14,8 +14,8 @@ struct Pixel {
   bool opaque = true;
 };
 
-/// A PNG (of any kind) or PGM (P2, P5, 8 or 16 bit) picture, read a row at a time: a map of gigapixels takes a row's
-/// memory.
+/// A PNG (of any kind), PGM (P2, P5, 8 or 16 bit) or BMP (uncompressed) picture, read a row at a time: a map of
+/// gigapixels takes a row's memory.
 class ImageFile {
  public:
   /// Throws StartupError "FILE: cause; remedy" for anything else, or more than 3,000 million pixels.

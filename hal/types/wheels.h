@@ -2,6 +2,7 @@
 #include <cstdint>
 #include <string_view>
 
+#include "hal/types/drive_fault.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
@@ -49,6 +50,7 @@ struct WheelState {
   double left_radps = 0.0;
   double right_radps = 0.0;
   DriveTrouble trouble = DriveTrouble::kNone;
+  DriveFault fault = {};  ///< what a drive tells of it
   StopStage stop = StopStage::kNone;
   bool ready = true;  ///< both drives follow commands; of drives on wires: proved, enabled, and without trouble
 };

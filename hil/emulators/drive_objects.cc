@@ -110,7 +110,7 @@ void DriveObjects::know_no_remote_frames(bool strict) noexcept {
   keeps_bit_30_ = true;
   wants_bit_30_ = strict;
   for (Object& object : objects_)
-    if (is_transmit_id(object.address)) object.value = object.stored = object.value | kNoRemoteFrames;
+    if (is_transmit_id(object.address) && !strict) object.value = object.stored = object.value | kNoRemoteFrames;
 }
 
 void DriveObjects::store() noexcept {

@@ -27,8 +27,8 @@ class DriveObjects {
   void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;
   /// From now on writes are acknowledged and change nothing.
   void lie_about(canopen::ObjectAddress address) noexcept;
-  /// From now on its TPDOs answer no remote frames, as bit 30 of their COB-IDs says: a COB-ID written without that bit
-  /// keeps it or, where it is `strict`, is refused.
+  /// From now on its TPDOs answer no remote frames: bit 30 of their COB-IDs stays set whatever is written or, where it
+  /// is `strict`, one written without is refused.
   void know_no_remote_frames(bool strict) noexcept;
   /// From now on its SDO answers end with their last byte in use.
   void answer_short() noexcept { short_ = true; }

@@ -44,7 +44,7 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
       return disarm(kEstop);
     case 0x07:
       if (word == 1) state_ = 1;
-      if (word == 8 && errors_ == 0) state_ = 8;
+      if (word == 8 && errors_ == 0 && procedure_ == 0) state_ = 8;
       return;
     case 0x0B:
       control_mode_ = word;
@@ -100,7 +100,8 @@ void OdriveNode::move(double seconds) noexcept {
 }
 
 void OdriveNode::say(Time now) noexcept {
-  if (is_due(said_heartbeat_, kHeartbeatPeriod, now)) send(0x01, errors_, state_);
+  if (is_due(said_heartbeat_, kHeartbeatPeriod, now))
+    send(0x01, errors_, state_ | static_cast<std::uint32_t>(procedure_) << 8U);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
   const double position = has_encoder_ ? encoder_position_ - encoder_zero_ : position_;
   send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position)),

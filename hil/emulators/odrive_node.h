@@ -37,6 +37,8 @@ class OdriveNode {
   void stick() noexcept { stuck_ = true; }
   /// Obeys nothing any more, but everything that it is told feeds its watchdog.
   void go_deaf() noexcept { deaf_ = true; }
+  /// It never goes to closed loop, and says why by this procedure result.
+  void refuse_closed_loop(std::uint8_t procedure) noexcept { procedure_ = procedure; }
   /// It has no encoder messages, as it comes from the factory.
   void withhold_estimates() noexcept { estimates_ = false; }
 
@@ -67,7 +69,7 @@ class OdriveNode {
   std::uint32_t expired_ = 0x01000000;  ///< the error of its watchdog
   std::uint32_t lasting_error_ = 0;
   std::uint32_t errors_ = 0;
-  std::uint8_t state_ = 1;
+  std::uint8_t state_ = 1, procedure_ = 0;
   std::uint32_t control_mode_ = 3;  ///< position, as it comes from the factory
   double target_ = 0.0;
   double velocity_ = 0.0;

@@ -112,7 +112,8 @@ void VescNode::send_settings(std::uint8_t to) {
 
 void VescNode::move(double seconds) noexcept {
   const double before = erpm_;
-  const Mode mode = fault_ != 0 ? Mode::kCurrent : mode_;
+  const bool lets_go = mode_ == Mode::kSpeed && std::fabs(target_erpm_) < minimum_erpm_;
+  const Mode mode = fault_ != 0 || lets_go ? Mode::kCurrent : mode_;
   const double target = mode == Mode::kSpeed ? target_erpm_ : 0.0;
   erpm_ = ramped(erpm_, target, (mode == Mode::kCurrent ? kRollOut_erpm_per_s : kRamp_erpm_per_s) * seconds);
   position_ += 0.5 * (before + erpm_) / 60.0 * seconds;

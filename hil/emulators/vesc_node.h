@@ -36,6 +36,8 @@ class VescNode {
   void plug_cable() noexcept { connected_ = true; }
   /// No more frames out; it goes on hearing and obeying.
   void mute() noexcept { muted_ = true; }
+  /// As it comes from the factory: 900. Told less, 0 too, it lets its motor go.
+  void set_minimum_erpm(double erpm) noexcept { minimum_erpm_ = erpm; }
   /// It forgets everything but its settings, as after a loss of power; its tachometer counts from zero again.
   void restart() noexcept;
   /// Goes on with the speed that it was told last; currents are obeyed.
@@ -72,7 +74,7 @@ class VescNode {
        muted_ = false;
   std::uint8_t fault_ = 0;
   Mode mode_ = Mode::kCurrent;
-  double target_erpm_ = 0.0;
+  double target_erpm_ = 0.0, minimum_erpm_ = 0.0;
   double erpm_ = 0.0;
   double position_ = 0.0;  ///< electrical turns
   bool has_encoder_ = false;

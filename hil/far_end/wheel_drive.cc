@@ -1,6 +1,7 @@
 #include "hil/far_end/wheel_drive.h"
 
 #include <algorithm>
+#include <cmath>
 
 #include "hil/emulators/cia402_node.h"
 #include "hil/emulators/odrive_node.h"
@@ -46,6 +47,13 @@ class NodeDrive final : public WheelDrive {
     } else {
       node_.mute();
     }
+  }
+  void show_mode_late(Duration delay) noexcept override {
+    if constexpr (std::is_same_v<Node, Cia402Node>) node_.show_mode_after_enabling(delay);
+  }
+  void let_go_below(double speed_radps) noexcept override {
+    if constexpr (std::is_same_v<Node, VescNode>)
+      node_.set_minimum_erpm(60.0 * speed_radps * std::fabs(units_per_rad_));
   }
   [[nodiscard]] emulators::DriveObjects* objects() noexcept override {
     if constexpr (std::is_same_v<Node, Cia402Node>) return &node_.objects();

@@ -51,6 +51,7 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
   const auto is_silent = [](const auto& laser) { return laser->latest().sequence == 0; };
   while (std::ranges::any_of(robot_->lasers(), is_silent) && clock_.now() < Time{std::chrono::seconds(10)})
     clock_.sleep_until(clock_.now() + std::chrono::milliseconds(1));
+  if (fault.from_start != nullptr) fault.from_start(*this);
   static_cast<void>(robot_->drive().arm());
   due_ = clock_.now();
 }

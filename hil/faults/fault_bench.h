@@ -42,7 +42,8 @@ struct FaultCase {
   bool at_rest_only = false;               ///< it strikes a robot that stands
   double wheels_go = 1.0;                  ///< so many times as far as the file says
   std::optional<std::size_t> of_two = {};  ///< the robot has a second scanner, at its rear; this one fails
-  bool claims_free = false;                ///< the scanner has a word for "nothing within reach", as a Hokuyo
+  void (*from_start)(FaultBench&) = nullptr;  ///< before the drives are armed; may be null
+  bool claims_free = false;                   ///< the scanner has a word for "nothing within reach", as a Hokuyo
 };
 
 struct FaultResult {

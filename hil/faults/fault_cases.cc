@@ -40,6 +40,8 @@ Duration repeats_for(Duration) noexcept { return 67ms + 500ms; }
 /// Wheels that go less far than they say look like slip for long (docs/explanation/safety.md).
 Duration slips_for(Duration) noexcept { return 4s; }
 
+/// Told 0.03 m/s in the first way after arming (WheelProof), a wheel that stands is 6 mm/s outside what is tolerated.
+Duration in_first_way(Duration) noexcept { return 6s; }
 /// Speeds that stand show where they change.
 Duration changes_for(Duration) noexcept { return 1s; }
 /// A tenth of a second in each: until it is more than a sound drive's, and then a change of speed that shows it: at
@@ -198,6 +200,25 @@ FaultCase carried(const char* name, void (*strike)(FaultBench&)) {
   return fault;
 }
 
+/// Drives that show their mode 30 ms after they were enabled, as some makers' do: the robot comes up to speed.
+FaultCase mode_shown_late() {
+  FaultCase fault{"mode_shown_late", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); },
+                  Reason::kEmergencyStop, at_once};
+  fault.from_start = [](FaultBench& b) { b.left_drive().show_mode_late(30ms), b.right_drive().show_mode_late(30ms); };
+  return of_cia402(fault);
+}
+
+/// VESCs whose minimum ERPM is more than the robot's fastest speed asks for: no wheel turns.
+FaultCase below_minimum_erpm() {
+  constexpr double kOverAll_radps = 15.0;  // 1.4 m/s
+  FaultCase fault = contradiction("below_minimum_erpm", nullptr, in_first_way);
+  fault.only = DriveKind::kVesc;
+  fault.from_start = [](FaultBench& b) {
+    b.left_drive().let_go_below(kOverAll_radps), b.right_drive().let_go_below(kOverAll_radps);
+  };
+  return fault;
+}
+
 void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
@@ -300,6 +321,8 @@ const std::array kCases{
                   [](FaultBench& b) {
                     deceive(b, {.repeats = {-0.7, 0.7}});
                   }),
+    mode_shown_late(),
+    below_minimum_erpm(),
     contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
     carried("carried_1_m",
             [](FaultBench& b) {

@@ -39,12 +39,12 @@ RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std
   const std::string scans = scanners.claims_free ? "\"hokuyo\"\nbeams = 1081\nrange_m = 30.0\n" : "\"sick-cola-b\"\n";
   const std::string scanner = "[[laser]]\nhost = \"127.0.0.1\"\nkind = " + scans;
   write_text(folder / "model.toml", model_text(speed_mps), kOtherOut);
-  write_text(folder / "robot.toml",
-             std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
-                 "\n" + scanner + (scanners.second ? scanner + "mount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
-                 "[drive]\nkind = \"" + name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" +
-                 drive_keys(kind),
-             kOtherOut);
+  write_text(
+      folder / "robot.toml",
+      std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) + "\n" +
+          scanner + (scanners.second ? scanner + "port = 2113\nmount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
+          "[drive]\nkind = \"" + name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind),
+      kOtherOut);
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;

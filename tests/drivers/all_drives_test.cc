@@ -4,6 +4,7 @@
 #include <cmath>
 #include <limits>
 
+#include "drivers/drive_fault_words.h"
 #include "tests/drivers/drive_kinds.h"
 
 using namespace jaywalk;
@@ -101,6 +102,7 @@ TEST_CASE("a fault of one drive stops both until a reset and a command of zero")
       bench.drive(2.0, 2.0, kind.stop_ticks);
       CHECK(bench.drives().trouble() == kind.fault);
       CHECK(bench.wheels.trouble == kind.fault);  // the loop reads it there
+      if (side == 1) CHECK(describe(bench.wheels.fault) == kind.broken);
       CHECK(bench.wheel_radps(1 - side) == 0.0);
       bench.drive(0.0, 0.0, 120);  // zero alone does not do
       kind.mend(bench, side);
@@ -114,6 +116,7 @@ TEST_CASE("a fault of one drive stops both until a reset and a command of zero")
       CHECK(bench.drives().trouble() == DriveTrouble::kNone);
       bench.drive(2.0, 2.0, 50);
       bench.require_two_radps();
+      CHECK_FALSE(bench.wheels.fault.is_told());
     });
   }
 }

@@ -116,6 +116,7 @@ DriveKind cia402() {
       .noticed = 0ms,
       .brakes_itself = true,
       .fault = DriveTrouble::kEmergency,
+      .broken = "node 6: emergency 2310h (continuous over-current)",
       .break_down = on<Cia402>([](auto& drive) { drive.raise_fault(0x2310); }),
       .mend = [](DriveBench&, std::size_t) {},
       .lose_watch = on<Cia402>([](auto& drive) {
@@ -157,6 +158,7 @@ DriveKind odrive_axes() {
           .noticed = 170ms,       // 150 ms and a tick
           .brakes_itself = false,
           .fault = DriveTrouble::kDriveFault,
+          .broken = "ODrive node 4: error 00001000h (current limit)",
           .break_down = on<Odrive>([](auto& drive) { drive.set_lasting_error(0x1000); }),  // too much current
           .mend = on<Odrive>([](auto& drive) { drive.set_lasting_error(0); }),
           .lose_watch = on<Odrive>([](auto& drive) { drive.set_watchdog(0ms); }),
@@ -196,6 +198,7 @@ DriveKind vescs() {
           .noticed = 170ms,
           .brakes_itself = true,
           .fault = DriveTrouble::kDriveFault,
+          .broken = "VESC 24: fault 3 (gate driver)",
           .break_down = on<Vesc>([](auto& drive) { drive.set_fault(3); }),
           .mend = on<Vesc>([](auto& drive) { drive.set_fault(0); }),
           .lose_watch = on<Vesc>([](auto& drive) { drive.set_timeout(1000, 0.0F); }),

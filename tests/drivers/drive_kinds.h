@@ -36,6 +36,7 @@ struct DriveKind {
   Duration noticed;    ///< most until a drive that tells nothing is noticed, beside what a stop has
   bool brakes_itself;  ///< its watch over the controller brakes; otherwise it takes the torque away
   DriveTrouble fault;  ///< what break_down() is called
+  std::string broken;  ///< how its fault is told; of the right drive
   DriveEvent break_down, mend;
   DriveEvent lose_watch, restore_watch;  ///< over the controller, in a way that its proof must find
   DriveEvent need_restart;               ///< it stops obeying or talking until it is restarted and plugged in

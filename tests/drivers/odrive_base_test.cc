@@ -68,7 +68,26 @@ TEST_CASE("an ODrive that is not there or tells too little or is broken is not a
   CHECK(blind.armed().starts_with("ODrive node 3: no encoder estimates; "));
   tests::OdriveBench broken;
   broken.left.set_lasting_error(0x200);  // the battery is low
-  CHECK(broken.armed().starts_with("ODrive node 3: errors 00000200h that do not clear: NOT PROVED; "));
+  CHECK(broken.armed().starts_with(
+      "ODrive node 3: errors 00000200h (DC bus under-voltage) that do not clear: NOT PROVED; see to"));
+}
+
+TEST_CASE(
+    "an ODrive that does not go to closed loop is told with its procedure result, and its watchdog is left alone") {
+  tests::OdriveBench bench;
+  bench.right.refuse_closed_loop(11);
+  CHECK(
+      bench.armed() ==
+      "ODrive node 4: does not go to closed loop, errors 00000000h, procedure result 11 (timeout): NOT PROVED; see to "
+      "what it names, and calibrate it anew, with odrivetool");
+}
+
+TEST_CASE("an ODrive whose cable is pulled in its proof is a matter of cable and power") {
+  tests::OdriveBench bench;
+  bench.clock.meanwhile = [&bench] {
+    if (bench.left.is_enabled()) bench.left.pull_cable();
+  };
+  CHECK(bench.armed() == "ODrive node 3: no heartbeat any more: NOT PROVED; see to its cable, its power and its node");
 }
 
 TEST_CASE("ODrives let go when the controller dies") {

@@ -4,6 +4,7 @@
 #include <limits>
 #include <string>
 
+#include "drivers/drive_fault_words.h"
 #include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;
@@ -64,13 +65,16 @@ TEST_CASE("a VESC arms when its timeout and brake current were read back") {
   tests::VescBench bench;
   REQUIRE(bench.armed() == "armed");
   REQUIRE(bench.report.size() == 2);
-  CHECK(bench.report[0] == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
-  CHECK(bench.report[1] == "VESC 24: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
+  CHECK(bench.report[0] ==
+        "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A; its minimum ERPM cannot be read: "
+        "set it to 0 (VESC Tool, Motor Settings, PID Controllers)");
+  CHECK(bench.report[1].starts_with("VESC 24: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A; "));
 }
 
 TEST_CASE("looking at a VESC reads its settings back and sends no speed") {
   tests::VescBench bench;
-  CHECK(bench.base.inspect(0) == "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A");
+  CHECK(bench.base.inspect(0).starts_with(
+      "VESC 23: timeout: wanted 40 to 90 ms, reads 90 ms, then brakes with 10.0 A; its minimum ERPM"));
   CHECK(bench.left.heard_controller() == kNever);
   bench.right.set_timeout(1000, 0.0F);
   CHECK_THROWS_AS(bench.base.inspect(1), StartupError);
@@ -100,6 +104,22 @@ TEST_CASE("a VESC without timeout or without brake or without a sound answer is 
   tests::VescBench blind;
   blind.left.withhold_travel();
   CHECK(blind.armed().starts_with("VESC 23: no status message 5; "));
+}
+
+TEST_CASE("a VESC that is told less than its minimum ERPM is named with that, and no more once it turns") {
+  tests::VescBench bench;
+  bench.left.set_minimum_erpm(900.0);  // 0.6 rad/s
+  REQUIRE(bench.armed() == "armed");
+  bench.drive(0.0, 0.0, 10);
+  bench.drive(0.5, 0.5, 10);
+  CHECK(bench.left.erpm() == 0.0);
+  CHECK(bench.wheels.fault == DriveFault{DriveFaultKind::kVescStill, 23, 750});
+  CHECK(describe(bench.wheels.fault) ==
+        "VESC 23: told 750 ERPM, and its motor does not turn: blocked, or its minimum ERPM lies above; set that to 0 "
+        "(VESC Tool, Motor Settings, PID Controllers)");
+  bench.drive(2.0, 2.0, 20);
+  CHECK_FALSE(bench.wheels.fault.is_told());
+  CHECK(bench.base.trouble() == DriveTrouble::kNone);
 }
 
 TEST_CASE("wheel angles go on where a VESC's travel wraps") {

@@ -13,14 +13,14 @@ namespace {
 
 using namespace tests;
 
-/// Why it was refused; empty where it was read.
+/// Why it was refused, or what of it was left out; empty where it was read.
 std::string refusal(const std::string& file) {
   try {
-    (void)load_bag(file, {});
+    const std::string told = load_bag(file, {}).complaint();
+    return told.find("cut short") == std::string::npos ? "" : told;
   } catch (const StartupError& error) {
     return error.what();
   }
-  return "";
 }
 
 struct Format {
@@ -41,7 +41,7 @@ std::vector<Format> formats(const Scratch& scratch) {
           {"d.bag", ros1_bag_of(made_drive(true), "", ros1_index(9, 180) + std::string(50, '\x01'))}};
 }
 
-TEST_CASE("a recording that was cut anywhere is refused, with the file's name and a remedy") {
+TEST_CASE("a recording that was cut anywhere is refused with a remedy, or told, with the file's name") {
   const Scratch scratch;
   std::mt19937 random(1);
   for (const auto& [name, bytes] : formats(scratch)) {
@@ -50,7 +50,7 @@ TEST_CASE("a recording that was cut anywhere is refused, with the file's name an
       const std::string said = refusal(scratch.write(name, bytes.substr(0, random() % bytes.size())));
       INFO(name << ": " << said);
       CHECK(said.find(name) != std::string::npos);
-      CHECK(said.find("; ") != std::string::npos);
+      CHECK((said.find("; ") != std::string::npos || said.find("messages before count") != std::string::npos));
     }
   }
 }

@@ -97,12 +97,12 @@ TEST_CASE("noise, an empty file and another version are refused by name") {
   CHECK(read_all(scratch.write("empty.jwr", "")).error.find("too short") != std::string::npos);
   CHECK(read_all(scratch.write("noise.jwr", std::string(500, 'x'))).error.find("not a recording") != std::string::npos);
   CHECK_FALSE(read_all(scratch.path("missing.jwr")).error.empty());
-  for (const int version : {5, 7}) {
+  for (const int version : {6, 8}) {
     std::string other = good_recording(scratch, 1);
     other[8] = static_cast<char>(version);
     CHECK(read_all(scratch.write("other.jwr", other)).error ==
           scratch.path("other.jwr") + ": byte 8: format version " + std::to_string(version) +
-              ", this program reads 6 alone; replay it with the jaywalk that recorded it");
+              ", this program reads 7 alone; replay it with the jaywalk that recorded it");
   }
 }
 

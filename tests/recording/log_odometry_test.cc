@@ -40,4 +40,27 @@ TEST_CASE("odometry that is set anew on its way goes on from where the robot is"
   CHECK(log.complaint().find("odom.txt: 1 line left out, the first is line 3: it jumps") != std::string::npos);
 }
 
+TEST_CASE("odometry of a CSV file is read by the names of its columns, which are told, or by their order") {
+  const Scratch scratch;
+  const std::string scans = scratch.write("scan.txt", "100" + kRest + "100.5" + kRest);
+  const auto with = [&](const std::string& odometry) {
+    return load_scan_odom(scans, scratch.write("odom.csv", odometry));
+  };
+  // As our own robot.csv of a real run has it: the world's truth is not known.
+  const RecordedLog own = with(
+      "t_s,x_m,y_m,heading_rad,est_x_m,est_y_m,est_heading_rad,reasons\n"
+      "99.0,,,,1.0,2.0,0.5,\n101.0,,,,1.5,2.0,0.5,stop_zone\n");
+  REQUIRE(own.odometry.size() == 2);
+  CHECK(own.odometry[1].pose == Pose2{1.5, 2.0, 0.5});
+  CHECK(own.complaint().find("of its columns t_s, est_x_m, est_y_m, est_heading_rad are taken") != std::string::npos);
+  for (const char* text : {"t,x,y,theta\n99,1,2,0.5\n101,1.5,2,0.5\n", "99, 1, 2, 0.5\n101, 1.5, 2, 0.5\n",
+                           "99 1 2 0.5\n101 1.5 2 0.5\n", "theta,y,x,time\n0.5,2,1,99\n0.5,2,1.5,101\n"}) {
+    const RecordedLog log = with(text);
+    REQUIRE(log.odometry.size() == 2);
+    CHECK(log.odometry[1].pose == Pose2{1.5, 2.0, 0.5});
+    CHECK_FALSE(log.odometry[1].twist);
+  }
+  CHECK_THROWS_WITH(with("t,x,theta\n99,1,0\n"), Catch::Contains("no column for the position in it; name columns"));
+}
+
 }  // namespace jaywalk::sim

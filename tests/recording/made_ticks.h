@@ -30,7 +30,9 @@ inline void fill(TickRecord& r, std::uint32_t n) {
   r.scan.range_m[2] = std::numeric_limits<float>::infinity();
   r.scan.range_m[3] = -0.0F;
   r.scan.range_m[4] = std::numeric_limits<float>::denorm_min();
-  r.wheels = {Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, StopStage::kSilent, false};
+  r.wheels = {
+      Time{Duration{11}}, n + 1, x, x * 2, x * 3, x * 4, DriveTrouble::kDriveSilent, {DriveFaultKind::kVesc, 23, n},
+      StopStage::kSilent, false};
   r.input = {Time{Duration{12}}, true, {x * 5, x * 6},   x * 7, x * 18, x * 19, n % 2 == 1,
              n % 2 == 0,         true, {x * 20, -x * 21}};
   if (n % 7 == 3) r.input.goal_heading_rad = kAnyHeading;
@@ -97,8 +99,8 @@ inline void fill(TickRecord& r, std::uint32_t n) {
          a.wheels.stamp == b.wheels.stamp && a.wheels.sequence == b.wheels.sequence &&
          a.wheels.left_rad == b.wheels.left_rad && a.wheels.right_rad == b.wheels.right_rad &&
          a.wheels.left_radps == b.wheels.left_radps && a.wheels.right_radps == b.wheels.right_radps &&
-         a.wheels.trouble == b.wheels.trouble && a.wheels.stop == b.wheels.stop && a.wheels.ready == b.wheels.ready &&
-         a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
+         a.wheels.trouble == b.wheels.trouble && a.wheels.fault == b.wheels.fault && a.wheels.stop == b.wheels.stop &&
+         a.wheels.ready == b.wheels.ready && a.input.stamp == b.input.stamp && a.input.has_goal == b.input.has_goal &&
          a.input.goal_in_map == b.input.goal_in_map && a.input.goal_tolerance_m == b.input.goal_tolerance_m &&
          std::bit_cast<std::uint64_t>(a.input.goal_heading_rad) ==
              std::bit_cast<std::uint64_t>(b.input.goal_heading_rad) &&

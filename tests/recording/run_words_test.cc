@@ -31,6 +31,14 @@ TEST_CASE("a run by the stick says for how long, and how much of the wish was gr
         std::string::npos);
 }
 
+TEST_CASE("a run that a drive's fault ended tells node, code and meaning") {
+  const Scratch run;
+  run.write("robot.csv", kHeader + row(0.0, 0.0, 5.0, "") + row(1.0, 1.0, 0.0, "drive|latched"));
+  run.write("devices.json", R"json({"drive_fault": "node 5: emergency 2310h (continuous over-current)"})json");
+  CHECK(run_words(run.folder())
+            .ends_with("  drive, once\nIts drives: node 5: emergency 2310h (continuous over-current).\n"));
+}
+
 TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latched fault for 2 s") {
   const Scratch run;
   std::string table = kHeader;

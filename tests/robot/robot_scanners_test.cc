@@ -48,6 +48,12 @@ TEST_CASE("[[laser]] once is [laser], and each further one is a scanner with a w
   CHECK(robot.setup.model.lasers()[1].range_max_m == 10.0);  // like the first
   CHECK(refusal(with("[laser]", "[[laser]]") + "[[laser]]\nkind = \"hokuyo\"\nhost = \"10.0.0.3\"\n")
             .find("laser.mount is missing") != std::string::npos);
+  const auto second = [](const std::string& port) {
+    return refusal(with("[laser]", "[[laser]]") + "[[laser]]\nkind = \"sick-cola-b\"\nhost = \"10.0.0.2\"\n" + port +
+                   "mount = [-0.2, 0.0, 3.14]\n");
+  };
+  CHECK(second("") == "17: laser.host is another scanner's already; give each its own address");
+  CHECK(second("port = 2113\n") == "loaded");
 }
 
 TEST_CASE("of several scanners the first alone may come from ROS 2") {

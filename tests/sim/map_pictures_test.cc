@@ -57,6 +57,42 @@ std::vector<std::uint16_t> greys(const std::string& file) {
 
 }  // namespace
 
+namespace {
+
+std::string low_first(std::uint32_t v, int bytes) {
+  std::string text;
+  for (int k = 0; k < bytes; ++k) text += static_cast<char>(v >> (8 * k));
+  return text;
+}
+
+/// Two rows, the lower one first; `lines` are padded to four bytes.
+std::string bmp(std::uint32_t width, int bits, const std::string& palette, const std::string& lines, bool from_top) {
+  const auto begin = static_cast<std::uint32_t>(54 + palette.size());
+  return "BM" + low_first(0, 8) + low_first(begin, 4) + low_first(40, 4) + low_first(width, 4) +
+         low_first(from_top ? 0xFFFFFFFEU : 2U, 4) + low_first(1, 2) + low_first(static_cast<std::uint32_t>(bits), 2) +
+         low_first(0, 16) + low_first(static_cast<std::uint32_t>(palette.size() / 4), 4) + low_first(0, 4) + palette +
+         lines;
+}
+
+}  // namespace
+
+TEST_CASE("a BMP is read as map_saver writes it, with a palette or in colour, from the bottom or from the top") {
+  const Scratch scratch;
+  const auto greys_of = [&](const std::string& bytes) { return greys(scratch.write("m.bmp", bytes)); };
+  const std::string palette{'\0', '\0', '\0', '\0', '\x33', '\x33', '\x33', '\0'};
+  const std::vector<std::uint16_t> walls{0, 0x3333, 0x3333, 0x3333};
+  CHECK(greys_of(bmp(2, 8, palette, std::string("\1\1\0\0\0\1\0\0", 8), false)) == walls);
+  CHECK(greys_of(bmp(2, 8, palette, std::string("\0\1\0\0\1\1\0\0", 8), true)) == walls);
+  CHECK(greys_of(bmp(2, 1, palette, std::string("\xC0\0\0\0\x40\0\0\0", 8), false)) == walls);
+  const std::string colours(
+      "\x33\x33\x33\x66\x33\0\0\0"
+      "\0\0\0\x33\x33\x33\0\0",
+      16);
+  CHECK(greys_of(bmp(2, 24, "", colours, false)) == walls);
+  CHECK_THROWS_WITH(greys_of(bmp(2, 24, "", "\1", false)), Catch::Contains("m.bmp: the picture is cut short"));
+  CHECK_THROWS_WITH(greys_of(bmp(2, 16, "", colours, false)), Catch::Contains("m.bmp: a BMP of 16 bits a pixel"));
+}
+
 // Walls of mean 80 of 255 have an occupancy of 0.686, over 0.65: of 67 to 85 all are walls, and 205 is 0.196.
 TEST_CASE("a wall is what map_server calls one, whatever the kind of PNG") {
   const std::string shades = {80, static_cast<char>(205), static_cast<char>(254), 0};

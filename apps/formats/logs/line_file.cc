@@ -20,6 +20,16 @@ void LineFile::split() {
   words_.clear();
   constexpr std::string_view kBlank = " \t\r";
   const std::string_view text = lines_.text();
+  if (has_commas()) {
+    for (std::size_t begin = 0; begin <= text.size();) {
+      const std::size_t end = std::min(text.find(',', begin), text.size());
+      const std::string_view field = text.substr(begin, end - begin);
+      const std::size_t first = std::min(field.find_first_not_of(kBlank), field.size());
+      words_.push_back(field.substr(first, field.find_last_not_of(kBlank) + 1 - first));
+      begin = end + 1;
+    }
+    return;
+  }
   std::size_t begin = text.find_first_not_of(kBlank);
   while (begin != std::string_view::npos) {
     const std::size_t end = std::min(text.find_first_of(kBlank, begin), text.size());
@@ -31,7 +41,7 @@ void LineFile::split() {
 bool LineFile::next() {
   while (lines_.next()) {
     split();
-    if (!words_.empty() && words_.front().front() != '#') return true;
+    if (!words_.empty() && !words_.front().starts_with('#')) return true;
   }
   return false;
 }

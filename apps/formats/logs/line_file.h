@@ -8,7 +8,8 @@
 
 namespace jaywalk::sim {
 
-/// Words are separated by spaces and tabs; lines that are empty or begin with '#' are skipped.
+/// Words are separated by spaces and tabs, or by commas where the line has one: then they may be empty. Lines that are
+/// empty or begin with '#' are skipped.
 class LineFile {
  public:
   /// Throws StartupError when the file cannot be read.
@@ -26,6 +27,7 @@ class LineFile {
   /// Word `i` as seconds that fit the time line. Throws StartupError where it is not.
   [[nodiscard]] double seconds(std::size_t i) const;
 
+  [[nodiscard]] bool has_commas() const { return lines_.text().find(',') != std::string::npos; }
   [[nodiscard]] std::size_t line() const { return lines_.line(); }
   [[nodiscard]] std::string name() const { return lines_.name(); }
   [[nodiscard]] LogPlace place() const { return {name(), line()}; }

@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "apps/formats/logs/log_times.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -15,6 +16,7 @@ constexpr double kFarthestRange = 1000.0;  // m
 constexpr double kFarForRobots = 100.0;    // m; what means "nothing" may be more, the same for each beam
 constexpr std::size_t kLeastFar = 30;      // ranges: fewer are chance
 constexpr double kFarthestPlace = 1e6;     // m
+constexpr double kFarthestInMapM = 1e5, kFarthestOnEarthM = 4e7;  // places in maps (TomlTable); around the Earth
 constexpr float kTurn = static_cast<float>(2.0 * kPi);
 constexpr double kFastest = 1000.0;                     // m/s, rad/s
 constexpr double kJumpM = 0.5, kFastestDriveMps = 5.0;  // farther in the time: odometry that was set anew
@@ -111,7 +113,14 @@ std::optional<Pose2> sound_pose(const Pose2& pose) {
 }
 
 void LogOdometry::add(const OdometryPose& said, const LogPlace& place) {
-  const std::optional<Pose2> pose = sound_pose(said.pose);
+  const Vec2 at = said.pose.position();
+  if (!origin_ && norm(at) < kFarthestOnEarthM) {
+    origin_ = norm(at) > kFarthestInMapM ? at : Vec2{};
+    if (*origin_ != Vec2{})
+      log_.add_remark(place.file + formatted(": positions are relative to the first, %.1f, %.1f m", at.x, at.y));
+  }
+  const Vec2 near = at - origin_.value_or(Vec2{});
+  const std::optional<Pose2> pose = sound_pose({near.x, near.y, said.pose.heading});
   if (!pose) return log_.refuse(place, kNoPose);
   const Twist2 twist = said.twist.value_or(Twist2{});
   if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest) {

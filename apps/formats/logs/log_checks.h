@@ -55,6 +55,7 @@ class LogOdometry {
   explicit LogOdometry(RecordedLog& log) : log_(log) {}
 
   /// A pose as the recording says it. One that is none is left out and counted, so is one with a speed that is none.
+  /// Where the first lies farther off than a map may reach, as by UTM, all are taken relative to it.
   void add(const OdometryPose& said, const LogPlace& place);
   /// Appends the poses to the log, without those that have wrong stamps (judge_times) or stamps over an hour from the
   /// scans. A pose farther from the last than a robot drives begins the odometry anew there. Where no speed is a
@@ -71,6 +72,7 @@ class LogOdometry {
     std::size_t number = 0;
   };
   RecordedLog& log_;
+  std::optional<Vec2> origin_;
   std::vector<Said> said_, without_speed_;
   Pose2 here_from_said_;  ///< from the frame of the poses at hand to that of the first
 };

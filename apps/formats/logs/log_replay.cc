@@ -59,6 +59,7 @@ class ReplayDrive final : public DriveBase {
     return seen_ == 0 ? WheelState{} : trail_[seen_ - 1];
   }
   void command(const WheelCommand& /*ignored*/) noexcept override {}
+  [[nodiscard]] const std::vector<WheelState>& trail() const noexcept { return trail_; }
 
  private:
   std::vector<WheelState> trail_;
@@ -126,6 +127,11 @@ Time LogReplay::start_time() const noexcept { return state_->log.scans.front().s
 Time LogReplay::end_time() const noexcept { return state_->log.scans.back().stamp; }
 Pose2 LogReplay::start_pose() const noexcept { return pose_at(state_->log.odometry, start_time()).value_or(Pose2{}); }
 std::optional<Pose2> LogReplay::last_pose() const noexcept { return pose_at(state_->log.odometry, end_time()); }
+DriveModel LogReplay::drive() const {
+  DriveModel drive = nominal_drive();
+  drive.times = report_times(state_->drive.trail());
+  return drive;
+}
 const RecordedLog& LogReplay::log() const noexcept { return state_->log; }
 
 }  // namespace jaywalk::sim

@@ -32,8 +32,8 @@ class LogReplay {
   [[nodiscard]] Pose2 start_pose() const noexcept;
   /// Where the recording says that it was at end_time(); nothing without odometry.
   [[nodiscard]] std::optional<Pose2> last_pose() const noexcept;
-  /// The drive that the replayed wheel angles belong to.
-  [[nodiscard]] DriveModel drive() const { return nominal_drive(); }
+  /// The drive that the replayed wheel angles belong to, and how often it reports.
+  [[nodiscard]] DriveModel drive() const;
   [[nodiscard]] const RecordedLog& log() const noexcept;
 
  private:

@@ -1,3 +1,7 @@
+#include <algorithm>
+#include <array>
+#include <cctype>
+
 #include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/line_clock.h"
 #include "apps/formats/logs/recorded_log.h"
@@ -120,16 +124,82 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path) {
   return true;
 }
 
+/// Which words of a line of odometry are time, x, y, heading, v and w.
+struct OdometryColumns {
+  std::vector<std::size_t> at{0, 1, 2, 3};  ///< four of them where it has no speeds
+};
+
+constexpr std::array<std::array<std::string_view, 5>, 4> kColumnNames{
+    {{"t_s", "t", "time", "timestamp", "stamp"},
+     {"est_x_m", "x_m", "x", "px", "pos_x"},
+     {"est_y_m", "y_m", "y", "py", "pos_y"},
+     {"est_heading_rad", "heading_rad", "theta", "yaw", "heading"}}};
+
+/// By the names in the first line; our own robot.csv has the estimate beside the world's truth, and that counts.
+OdometryColumns named_columns(RecordedLog& log, const LineFile& file) {
+  OdometryColumns columns;
+  std::string told;
+  for (std::size_t k = 0; k < kColumnNames.size(); ++k) {
+    const auto* const name = std::ranges::find_if(kColumnNames[k], [&](std::string_view one) {
+      return std::ranges::find(file.words(), one) != file.words().end();
+    });
+    if (name == kColumnNames[k].end())
+      file.refuse("no column for the " +
+                      std::string(k == 0   ? "time"
+                                  : k == 3 ? "heading"
+                                           : "position") +
+                      " in it",
+                  "name columns t,x,y,theta");
+    columns.at[k] = static_cast<std::size_t>(std::ranges::find(file.words(), *name) - file.words().begin());
+    told += (told.empty() ? "" : ", ") + std::string(*name);
+  }
+  log.add_remark(file.name() + ": of its columns " + told + " are taken");
+  return columns;
+}
+
+/// Without names: t x y yaw, and v w where the lines have six words.
+OdometryColumns counted_columns(RecordedLog& log, const LineFile& file) {
+  OdometryColumns columns;
+  if (file.words().size() == 6) columns.at = {0, 1, 2, 3, 4, 5};
+  if (file.has_commas()) log.add_remark(file.name() + ": its columns are taken as time, x, y, heading");
+  return columns;
+}
+
+/// Whether the first line names columns: one of them is a time, or it is of a CSV file and begins with a letter.
+bool names_columns(const LineFile& file) {
+  const auto is_time = [](std::string_view word) {
+    return std::ranges::find(kColumnNames[0], word) != kColumnNames[0].end();
+  };
+  const std::string_view first = file.words().front();
+  return std::ranges::any_of(file.words(), is_time) ||
+         (file.has_commas() && !first.empty() && std::isalpha(static_cast<unsigned char>(first.front())) != 0);
+}
+
 void read_odometry(RecordedLog& log, const std::filesystem::path& path) {
   LineFile file(path);
   LogOdometry odometry(log);
+  std::optional<OdometryColumns> columns;
+  std::size_t words = 0;
   while (file.next()) {
-    if (file.words().size() == 6) {
-      const Twist2 twist{file.number(4), file.number(5)};
-      odometry.add({time_from_seconds(file.seconds(0)), pose_at(file, 1), twist}, file.place());
-    } else {
-      log.refuse(file.place(), kWrongLength);
+    if (!columns) {
+      const bool is_named = names_columns(file);
+      words = file.words().size();
+      if (!is_named && words != 4 && words != 6) {
+        log.refuse(file.place(), kWrongLength);
+        continue;
+      }
+      columns = is_named ? named_columns(log, file) : counted_columns(log, file);
+      if (is_named) continue;
     }
+    if (file.words().size() != words) {
+      log.refuse(file.place(), kWrongLength);
+      continue;
+    }
+    const auto number = [&](std::size_t k) { return file.number(columns->at[k]); };
+    std::optional<Twist2> twist;
+    if (columns->at.size() == 6) twist = Twist2{number(4), number(5)};
+    odometry.add({time_from_seconds(file.seconds(columns->at[0])), {number(1), number(2), number(3)}, twist},
+                 file.place());
   }
   odometry.settle(file.place());
   if (log.odometry.empty()) throw StartupError(file.name() + ": no odometry in it", "give lines 't x y yaw v w'");

@@ -1,5 +1,6 @@
 #include "apps/formats/logs/wheel_trail.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 
@@ -118,6 +119,19 @@ std::vector<WheelState> filled_in(const std::vector<WheelState>& trail) {
     filled.back().sequence = static_cast<std::uint32_t>(filled.size());
   }
   return filled;
+}
+
+DriveTimes report_times(const std::vector<WheelState>& trail) {
+  constexpr double kLongestReport_s = 0.25, kLatest_s = 0.2;
+  DriveTimes times;
+  std::vector<double> periods_s;
+  for (std::size_t k = 1; k < trail.size(); ++k) periods_s.push_back(to_seconds(trail[k].stamp - trail[k - 1].stamp));
+  if (periods_s.empty()) return times;
+  std::sort(periods_s.begin(), periods_s.end());
+  const double middle_s = std::min(periods_s[periods_s.size() / 2], kLongestReport_s);
+  times.report_s = std::max(times.report_s, middle_s);
+  times.late_s = std::clamp(periods_s[periods_s.size() * 19 / 20] - times.report_s, 0.0, kLatest_s);
+  return times;
 }
 
 }  // namespace jaywalk::sim
