@@ -70,7 +70,7 @@ TEST_CASE("a ROS scan has the model's beams, the nearer hit of two, the one besi
   CHECK_FALSE(std::isnan(coarser->range_m[3]));
 }
 
-TEST_CASE("a ROS scan is stamped at its first beam; its sweep is one period at most") {
+TEST_CASE("a ROS scan is stamped at its first beam, its sweep is one period at most") {
   ScanFeed feed(laser_of(5));
   ScanMessage scan = half_turn({1, 2, 3, 4, 5});
   const auto stamp_s = [&](Duration arrival) {

@@ -122,7 +122,7 @@ TEST_CASE("with ranges that scatter by 5 cm the goal is reached as well") {
   CHECK(drive.truth().contacts == 0);
 }
 
-TEST_CASE("mode paper keeps one speed from start to goal; its verdicts are recorded and not applied") {
+TEST_CASE("mode paper keeps one speed from start to goal, its verdicts are recorded and not applied") {
   const auto press_the_button = [](sim::Scenario& scenario) {
     scenario.wanderers.clear();
     scenario.pose_source.enabled = true;

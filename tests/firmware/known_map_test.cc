@@ -70,7 +70,7 @@ TEST_CASE("a robot that knows what an earlier run saw is placed on it by its sca
   CHECK(with.error_m < 0.02);
 }
 
-TEST_CASE("a known map is part of a setup's text; text that holds no map is refused") {
+TEST_CASE("a known map is part of a setup's text, text that holds no map is refused") {
   ControlSetup setup;
   setup.known_map = known("door");
   const ControlSetup back = setup_from_text(to_text(setup), "here");

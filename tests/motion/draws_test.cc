@@ -28,7 +28,7 @@ TEST_CASE("what is drawn depends on what it is drawn for alone") {
   }
 }
 
-TEST_CASE("normal draws have mean 0 and variance 1; waits have the mean of their rate") {
+TEST_CASE("normal draws have mean 0 and variance 1, waits have the mean of their rate") {
   cell::Draws draws({1, 2, 3, 4});
   double sum = 0.0, squares = 0.0, waits = 0.0;
   constexpr int kCount = 20000;

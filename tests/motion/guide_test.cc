@@ -47,7 +47,7 @@ TEST_CASE("a gap that the inscribed circle fits is a way, a narrower one is none
   }
 }
 
-TEST_CASE("a mover that was mapped is no wall; one that has stood for long is walked round where there is room") {
+TEST_CASE("a mover that was mapped is no wall, one that has stood for long is walked round where there is room") {
   test::Guided g;
   g.wall({1.8, -0.2}, {2.2, -0.2}).wall({1.8, 0.2}, {2.2, 0.2}).wall({1.8, -0.2}, {1.8, 0.2});
   const float walled = g.towards({0.0, 0.0}, {4.0, 0.0}).time_to_go(0.0F, 0.0F);
@@ -82,7 +82,7 @@ TEST_CASE("what was never seen near the robot is no way while another is not muc
   CHECK(g.towards({0.0, 0.0}, {2.0, 0.0}).through_unseen);  // now there is none
 }
 
-TEST_CASE("a goal outside the window draws towards it; one walled in has no way") {
+TEST_CASE("a goal outside the window draws towards it, one walled in has no way") {
   test::Guided far;
   const Guide& out = far.towards({0.0, 0.0}, {200.0, 0.0});
   CHECK(out.time_to_go(1.0F, 0.0F) < out.time_to_go(0.0F, 0.0F) - 1.0F);

@@ -90,7 +90,7 @@ TEST_CASE("the way to the goal leads round a keep-out zone, and what walks may w
   CHECK(body.clearance(guide, -0.5F, 0.0F, {1.0F, 0.0F}) == Approx(0.45 - 0.1248 - 0.2289).margin(1e-3));
 }
 
-TEST_CASE("a robot in a keep-out zone has a way out of it; from outside none leads in") {
+TEST_CASE("a robot in a keep-out zone has a way out of it, from outside none leads in") {
   Zoned zoned(box({-3.0, -2.0}, {1.0, 2.0}));
   const Guide& inside = zoned.from({0.0, 0.0});
   bool came_out = false, went_back = false;

@@ -39,7 +39,7 @@ TEST_CASE("commands at constant speed rest on the path, and on nothing when a pl
   CHECK(rests_on(*on_path, moment) == kNever);
 }
 
-TEST_CASE("roll-outs rest on the older of the scan decided on and the plan; by a stick on the scan alone") {
+TEST_CASE("roll-outs rest on the older of the scan decided on and the plan, by a stick on the scan alone") {
   const tests::Ground ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
@@ -101,7 +101,7 @@ TEST_CASE("the time from poses is asked for where corners may swing into somethi
   CHECK_FALSE(asks(p3dx(), beside, goal, true));
 }
 
-TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it; at constant speed it cannot") {
+TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it, at constant speed it cannot") {
   const tests::Ground ground;
   for (const auto& [make, constant] :
        {std::pair<MakeMotion, bool>{make_motion, false}, {make_motion, true}, {paper::make_motion, true}}) {
@@ -115,7 +115,7 @@ TEST_CASE("at its goal a robot turns to the heading wanted there, whatever broug
   }
 }
 
-TEST_CASE("a planner of others is a motion of its own; without a name it is ours") {
+TEST_CASE("a planner of others is a motion of its own, without a name it is ours") {
   const MotionSetup setup = setup_of();
   for (const char* name : {"none", "replan", "dwa", "orca"})
     CHECK(baseline::maker_of(name)(setup)->rollouts() == nullptr);

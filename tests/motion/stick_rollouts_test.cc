@@ -82,7 +82,7 @@ TEST_CASE("away from everything a stick's wish is granted whole, turns and all")
   }
 }
 
-TEST_CASE("full ahead is the robot's fastest, by either mode; half the stick is half of it") {
+TEST_CASE("full ahead is the robot's fastest, by either mode, half the stick is half of it") {
   const tests::Ground open;
   Ride ride(open, p3dx());
   ride.stick = {1.0, 0.0};
@@ -134,7 +134,7 @@ TEST_CASE("a wall ahead is never touched, however long the stick is pushed") {
   }
 }
 
-TEST_CASE("it steers round a post that it would clip, and on; one straight ahead it stands before") {
+TEST_CASE("it steers round a post that it would clip, and on, one straight ahead it stands before") {
   tests::Ground ground;
   ground.wall({2.5, 0.1}, {2.5, 0.35});
   Ride ride(ground, p3dx());
@@ -225,7 +225,7 @@ TEST_CASE("a stick that is no number asks for nothing") {
   CHECK(stick_command({-1.0, 0.5}, bounds).w == Approx(0.6F));
 }
 
-TEST_CASE("to stand in place of full speed costs some three seconds; the wish itself costs none") {
+TEST_CASE("to stand in place of full speed costs some three seconds, the wish itself costs none") {
   // At 0.6 m/s: 0.06 m, 0.12 m ... 1.8 m off, 0.93 m on average, times 2 over 0.6 m/s: 3.1 s.
   const MotionBounds bounds{
       .speed = 0.6F, .back = 0.3F, .turn = 1.2F, .turn_accel = 2.0F, .accel = 0.5F, .slowing = 0.8F, .jerk = 0.75F};

@@ -105,7 +105,7 @@ TEST_CASE("a sweep of a driving robot is put right") {
 }
 
 TEST_CASE(
-    "beams without a return are projected to a given range and corrected for motion; unknown beams are left out") {
+    "beams without a return are projected to a given range and corrected for motion, unknown beams are left out") {
   LaserScan scan = three_beams();
   scan.sweep = duration_from_seconds(0.2);
   scan.range_m = {0.0F, std::numeric_limits<float>::infinity(), 10.0F};

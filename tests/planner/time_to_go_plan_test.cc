@@ -48,7 +48,7 @@ TestMap walled_in(TestMap map, std::int32_t low, std::int32_t high) {
 
 }  // namespace
 
-TEST_CASE("what drives knows neither potential nor marks; the paper's plan has both, and the same time to go") {
+TEST_CASE("what drives knows neither potential nor marks, the paper's plan has both, and the same time to go") {
   const auto planner = make_cpu_planner(small_memory()), papers = paper::make_cpu_paper_planner(small_memory());
   const EvidenceMap map = evidence_of(office());
   PlanRequest request = request_on(map, {1.07, 1.04}, {24.31, 24.28});

@@ -18,7 +18,7 @@ TEST_CASE("CARMEN beams of 180 and 181 are one degree apart and begin at the rig
 }
 
 TEST_CASE(
-    "where scans lie beside what the ODOM lines say, those are of another frame and left out; an arc is not beside") {
+    "where scans lie beside what the ODOM lines say, those are of another frame and left out, an arc is not beside") {
   const Scratch scratch;
   // Half a metre a scan straight ahead, an ODOM line half way; from the 18th scan on each is `beside_m` off, to the
   // left.

@@ -14,7 +14,7 @@ using std::filesystem::exists;
 
 Time at(std::uint32_t n) { return Time{Duration{20'000'000LL * n}}; }
 
-TEST_CASE("the oldest part goes before the next is made; without parts a run lies in its own folder") {
+TEST_CASE("the oldest part goes before the next is made, without parts a run lies in its own folder") {
   const Scratch run;
   RunParts parts(run.folder(), {.bytes = 1'000'000, .parts = 3});
   for (int number = 1; number <= 5; ++number) {
@@ -41,7 +41,7 @@ TEST_CASE("a folder that is called like a part and holds no recording is refused
   CHECK(run.read("part-000001/thesis.tex") == "years of work");
 }
 
-TEST_CASE("parts are those after the last gap, by number and not by name; other folders are none") {
+TEST_CASE("parts are those after the last gap, by number and not by name, other folders are none") {
   const Scratch run;
   for (const char* const name :
        {"part-000001", "part-000003", "part-999999", "part-1000000", "part-", "part-x", "part-7x", "parts"})

@@ -12,7 +12,7 @@
 namespace jaywalk {
 namespace {
 
-TEST_CASE("a run that ended in order leaves no mark; one that was killed while armed does, for the same robot alone") {
+TEST_CASE("a run that ended in order leaves no mark, one that was killed while armed does, for the same robot alone") {
   const Scratch scratch;
   {
     ArmedMark run(scratch.path(""), "can0");

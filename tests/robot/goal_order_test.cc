@@ -38,7 +38,7 @@ TEST_CASE("a heading of up to a turn is the same one between -pi and pi") {
   CHECK(complaint_about("0 0 -90").rfind("goto: HEADING -90 is out of range; give radians", 0) == 0);
 }
 
-TEST_CASE("names of places make a route in the order to go; one that is not there is refused with what was meant") {
+TEST_CASE("names of places make a route in the order to go, one that is not there is refused with what was meant") {
   const std::vector<NamedPlace> places{{"kitchen", {{4.0, 1.5}, 1.57}}, {"hall", {{-1.0, 2.0}}}};
   const Route route = read_route("hall kitchen hall", places);
   REQUIRE(route.size() == 3);

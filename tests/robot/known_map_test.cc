@@ -105,7 +105,7 @@ TEST_CASE("points behind a wall do not count: they fit best half a turn off, whe
   CHECK(distance(located("map1", pose).position(), pose.position()) < 0.15);
 }
 
-TEST_CASE("a place that has a twin is refused, and so is a scan of another place; both say what to give") {
+TEST_CASE("a place that has a twin is refused, and so is a scan of another place, both say what to give") {
   // The hall of crossing.yaml is the same turned by half a turn about (10, 7).
   const std::string twin = refusal("crossing", {10.0, 7.0, 0.4});
   CHECK(twin.find("robot.toml: the scan fits at [") == 0);

@@ -21,7 +21,7 @@ TEST_CASE("a goal that was asked for is the loop's until somebody says stop") {
   CHECK_FALSE(bench.desk.latest().emergency_stop);
 }
 
-TEST_CASE("a route is driven goal by goal; a stop or a fault drops the rest of it") {
+TEST_CASE("a route is driven goal by goal, a stop or a fault drops the rest of it") {
   tests::HandClock clock;
   OperatorDesk desk(clock, {}, [] { return std::string(); },
                     {{"a", {{1.0, 0.0}}}, {"b", {{2.0, 0.0}}}, {"c", {{3.0, 0.0}}}});

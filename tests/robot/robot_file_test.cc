@@ -22,7 +22,7 @@ TEST_CASE("places have names of their own, with a heading or without") {
   CHECK(refusal(two + "[[places]]\nname = \"far\"\nat = [1e300, 0]\n").find("at") != std::string::npos);
 }
 
-TEST_CASE("zones are the controller's; a place in a keep-out zone is refused") {
+TEST_CASE("zones are the controller's, a place in a keep-out zone is refused") {
   const std::string zoned =
       std::string(kGood) + "[[zones]]\nkind = \"keep_out\"\npoints = [[3, 0], [5, 0], [5, 3], [3, 3]]\n";
   REQUIRE(load(zoned).setup.zones.size() == 1);

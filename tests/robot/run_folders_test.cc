@@ -25,14 +25,14 @@ std::filesystem::path run_of(const Scratch& all, int at_s, std::size_t bytes, co
   return folder.path();
 }
 
-TEST_CASE("a run's folder is named after its start; a second one of that second gets a number") {
+TEST_CASE("a run's folder is named after its start, a second one of that second gets a number") {
   const Scratch all;
   CHECK(run_of(all, 0, 1).filename() == "2026-11-24T20-15-00Z");
   CHECK(run_of(all, 0, 1).filename() == "2026-11-24T20-15-00Z-2");
   CHECK(run_of(all, 1, 1).filename() == "2026-11-24T20-15-01Z");
 }
 
-TEST_CASE("the oldest runs give way, by number and by size; what is not a run stays") {
+TEST_CASE("the oldest runs give way, by number and by size, what is not a run stays") {
   const Scratch all;
   std::filesystem::create_directories(all.path("runs/notes"));
   const auto first = run_of(all, 0, 100), second = run_of(all, 1, 100), third = run_of(all, 2, 100);

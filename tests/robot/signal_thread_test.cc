@@ -58,7 +58,7 @@ int hears(int signal) {
 }  // namespace
 
 TEST_CASE(
-    "SIGINT, SIGTERM and SIGHUP are heard by a thread of their own; nohup and a reader that is gone end nothing") {
+    "SIGINT, SIGTERM and SIGHUP are heard by a thread of their own, nohup and a reader that is gone end nothing") {
   for (const int signal : {SIGINT, SIGTERM, SIGHUP}) CHECK(outcome_of([signal] { return hears(signal); }) == 0);
   CHECK(outcome_of([] {
           ::signal(SIGHUP, SIG_IGN);

@@ -83,7 +83,7 @@ TEST_CASE("a blanked sector is unwatched, whatever its beams say, and what is lo
   CHECK(at(beside, 20.0, 0.48, laser) == Sight::kUnwatched);
 }
 
-TEST_CASE("where no beam measured all is lost; without directions nothing is watched") {
+TEST_CASE("where no beam measured all is lost, without directions nothing is watched") {
   LaserScan scan = scan_without(0, 360);
   CHECK(at(scan, 20.0, 0.1) == Sight::kLost);
   scan.angle_step_rad = std::nanf("");

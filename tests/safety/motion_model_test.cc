@@ -170,7 +170,7 @@ TEST_CASE("swapped wheels and a mirrored scanner are told within half a second o
   }
 }
 
-TEST_CASE("wheels that spin while the robot stands are told within half a second; half of their grip is slip") {
+TEST_CASE("wheels that spin while the robot stands are told within half a second, half of their grip is slip") {
   for (const auto& [left, right] : {std::pair{0.0, 0.0}, {0.0, 1.0}, {1.0, 0.0}}) {
     Bench spinning{.walls = room(), .wiring = {.left = left, .right = right}};
     CHECK(spinning.told_after(1.0, 0.3, 0.3) < 0.5);

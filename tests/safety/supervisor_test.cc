@@ -176,7 +176,7 @@ TEST_CASE("more than a third of the beams ahead lost for longer than a second is
   CHECK_FALSE(has(bench.ticks(51, {}).reasons, Reason::kSightLost));
 }
 
-TEST_CASE("two beams are no scanner; one that finds nothing in reach is") {
+TEST_CASE("two beams are no scanner, one that finds nothing in reach is") {
   Bench bench;
   bench.scan.range_m.fill(0.0F);
   CHECK(has(bench.tick({0.5, 0.0}).reasons, Reason::kScanInvalid));

@@ -64,7 +64,7 @@ TEST_CASE("too many zones or corners, and zones of places far from each other, a
              "s.toml:11: zones.points lies more than 400 m from another keep-out zone"));
 }
 
-TEST_CASE("a goal in a keep-out zone, or too near for the body, is refused; a start is not") {
+TEST_CASE("a goal in a keep-out zone, or too near for the body, is refused, a start is not") {
   // The goal is (8, 8); a P3-DX has an inscribed circle of 0.19 m, and 0.05 m are kept.
   CHECK(says(message(keep_out("[[7, 7], [9, 7], [9, 9], [7, 9]]")), "s.toml:5: the goal lies in a keep-out zone"));
   CHECK(

@@ -35,7 +35,7 @@ TEST_CASE("normal numbers have mean 0, variance 1, and 4.55 percent lie beyond t
   CHECK(beyond / 1e5 == Approx(0.0455).margin(0.002));   // three times sqrt(0.0455 / 100000) = 0.0007
 }
 
-TEST_CASE("seed, purpose and index each give another stream; the same three give the same") {
+TEST_CASE("seed, purpose and index each give another stream, the same three give the same") {
   Random a(1, Purpose::kRange), same(1, Purpose::kRange), seed(2, Purpose::kRange), purpose(1, Purpose::kSlip),
       index(1, Purpose::kRange, 1);
   const double first = a.uniform();

@@ -140,7 +140,7 @@ TEST_CASE("the panel shows the goal") {
   CHECK_FALSE(input.emergency_stop);
 }
 
-TEST_CASE("a wall stops the robot; pushing on is one contact, coming back another") {
+TEST_CASE("a wall stops the robot, pushing on is one contact, coming back another") {
   const Scratch scratch;
   Simulation sim(in_room(scratch), 1);
   drive(sim, 6.0, 6.0, 12.0);  // 0.585 m/s for the 4.79 m to the wall

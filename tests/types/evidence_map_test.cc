@@ -99,7 +99,7 @@ TEST_CASE("a map that follows another has all of it, whatever has been added, hi
   CHECK(follower.evidence({30, 30}) == 50);
 }
 
-TEST_CASE("what a map tells of a cell is believed; where its surface lies the first hit says") {
+TEST_CASE("what a map tells of a cell is believed, where its surface lies the first hit says") {
   EvidenceMap map(64, 0.1, {0.0, 0.0});
   map.tell({0, 0}, 40, {0.09, 0.05});
   map.tell({1, 0}, -40, {0.15, 0.05});

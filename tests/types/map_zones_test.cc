@@ -28,7 +28,7 @@ TEST_CASE("a zone's corners may go round either way") {
   CHECK(signed_distance(turned, {3.0, 0.5}) == Approx(1.0));
 }
 
-TEST_CASE("kept out is what lies in a keep-out zone or too near one; a speed zone keeps nothing out") {
+TEST_CASE("kept out is what lies in a keep-out zone or too near one, a speed zone keeps nothing out") {
   const std::vector<MapZone> zones{kEll, {ZoneKind::kSpeed, {{5, 0}, {6, 0}, {6, 1}}, 0.3}};
   CHECK(is_kept_out(zones, {0.5, 0.5}, 0.0));
   CHECK(is_kept_out(zones, {2.2, 0.5}, 0.25));

@@ -144,7 +144,7 @@ TEST_CASE("a ROS 2 robot's scans and odometry reach the rings, in the model's be
                  [&] { return (listeners = bench.next_state(ros::kListeners)) && listeners->bytes[0] == 1; }));
 }
 
-TEST_CASE("wheel orders are a Twist; silence and an alarm are zero, and then nothing") {
+TEST_CASE("wheel orders are a Twist, silence and an alarm are zero, and then nothing") {
   Bench bench;
   std::vector<TwistSample> all;
   REQUIRE(repeat([&] { bench.order(3.0F, 5.0F); }, [&] { return !(all = bench.commands()).empty(); }));

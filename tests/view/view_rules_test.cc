@@ -43,7 +43,7 @@ TEST_CASE("a run wants its token for the page and any WebSocket, on 127.0.0.1 to
   CHECK(judge(socket("/ws"), kSimulation).service == Service::kSocket);
 }
 
-TEST_CASE("a stop is a POST and wants no token from this machine; from others it does") {
+TEST_CASE("a stop is a POST and wants no token from this machine, from others it does") {
   CHECK(judge(request("POST", "/stop"), kRun).service == Service::kStop);
   CHECK(judge(request("GET", "/stop"), kRun).status == 405);
   CHECK(judge(request("POST", "/stop", false), kNetwork).status == 403);

@@ -53,7 +53,7 @@ TEST_CASE("a stop takes back a goal and a reset that wait, and none that follows
   CHECK_FALSE(stopped.reset);
 }
 
-TEST_CASE("the page's stop stays pressed until its reset, at rest; no goal counts before", "[stop]") {
+TEST_CASE("the page's stop stays pressed until its reset, at rest, no goal counts before", "[stop]") {
   struct GoesToOne final : OperatorPanel {
     [[nodiscard]] OperatorInput latest() noexcept override {
       OperatorInput input;
