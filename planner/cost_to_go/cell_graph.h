@@ -37,7 +37,8 @@ JAYWALK_CELL constexpr CellStep cell_step(std::int32_t k) {
   return {k < 12 ? 2 * a : a, k < 12 ? b : 2 * b, kKnightLength};
 }
 
-/// Half of what a straight step among such cells costs, a unit of its length (0: not free), and what the way costs.
+/// Cost of the way from a cell; half of what a straight step among such cells costs, a unit of its length (0: not
+/// free).
 struct CellNode {
   std::uint32_t cost, rate;
 };
