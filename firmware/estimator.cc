@@ -84,6 +84,10 @@ bool Estimator::is_explained(const LaserScan& scan, const WheelState& wheels) no
   if (pose_.doubtful) return true;
   using Says = RestWatch::Says;
   Rest& own = rests_[scan.scanner];
+  if (frozen_[scan.scanner]) {  // what it repeats was seen elsewhere
+    own.watch.begin_anew();
+    return true;
+  }
   const Says says = own.watch.judge(scan, wheels);
   if (says != Says::kNothing) own.says = says;
   // Where another scanner shows the robot standing, this one was moved in its mount.
