@@ -65,7 +65,7 @@ TEST_CASE("by the stick, shared or by hand, the robot drives while its dead man 
     CHECK(bench.speed_mps() >= 0.4);
     CHECK(bench.robot.desk().obey("status").find("state: steered\n") != std::string::npos);
     joystick.push(0);
-    bench.tick(120);
+    bench.tick(160);
     CHECK(bench.speed_mps() == 0.0);
     joystick.push(32767);
     bench.tick(100);
