@@ -5,18 +5,16 @@
 #include <cmath>
 #include <vector>
 
+#include "planner/localization/place_lattice.h"
+
 namespace jaywalk {
 namespace {
 
-constexpr std::int32_t kStepCells = 2;
-constexpr int kHeadings = 90;                       ///< in a turn
-constexpr std::size_t kCoarsePoints = 60;           ///< of the sample
-constexpr std::int32_t kRoughly = 3;                ///< cells: what half a coarse step moves points 8 m off
-constexpr int kFineSteps = 6;                       ///< of 5 cm to each side
-constexpr int kFineTurns = 5;                       ///< of a degree
-constexpr std::size_t kKept = 400, kLookedAt = 40;  ///< coarse poses; of these, apart from each other, closely
-constexpr double kApart_m = 1.0, kApart_rad = 0.52;
-constexpr double kBeforeEnd_m = 0.3, kStep_m = 0.05;   ///< a wall this much nearer than the point hides it
+constexpr std::size_t kCoarsePoints = 60;              ///< of the sample
+constexpr int kFineSteps = 6;                          ///< of 5 cm to each side
+constexpr int kFineTurns = 5;                          ///< of a degree
+constexpr std::size_t kKept = 400, kLookedAt = 40;     ///< coarse poses; of these, apart from each other, closely
+constexpr double kStep_m = 0.05;                       ///< along a beam
 constexpr std::uint8_t kOnWall = 10, kBesideWall = 9;  ///< tenths of a point's worth
 
 struct Scored {
@@ -47,19 +45,13 @@ class Worth {
     const Transform2 to_map(pose);
     const Vec2 laser = to_map * laser_in_robot;
     std::uint32_t sum = 0;
-    for (const Vec2& point : sample) sum += hides(laser, to_map * point) ? 0U : at(to_map * point);
+    const auto is_wall = [this](Vec2 place) { return at(place) == kOnWall; };
+    for (const Vec2& point : sample)
+      sum += is_hidden(laser, to_map * point, kStep_m, is_wall) ? 0U : at(to_map * point);
     return static_cast<double>(sum) / (kOnWall * std::max(static_cast<double>(sample.size()), 1.0));
   }
 
  private:
-  /// Whether a wall lies between.
-  [[nodiscard]] bool hides(Vec2 laser, Vec2 point) const {
-    const double range = distance(laser, point);
-    const Vec2 along = (point - laser) * (1.0 / std::max(range, kStep_m));
-    for (double gone = kStep_m; gone < range - kBeforeEnd_m; gone += kStep_m)
-      if (at(laser + along * gone) == kOnWall) return true;
-    return false;
-  }
   void mark(std::int32_t i, std::int32_t j, std::int32_t beside) {
     for (std::int32_t y = std::max(j - beside, 0); y <= std::min(j + beside, map_.height - 1); ++y) {
       for (std::int32_t x = std::max(i - beside, 0); x <= std::min(i + beside, map_.width - 1); ++x) {
@@ -79,17 +71,13 @@ class Worth {
   std::vector<std::uint8_t> worth_;
 };
 
-bool are_apart(const Pose2& a, const Pose2& b) {
-  return distance(a.position(), b.position()) > kApart_m || std::fabs(wrap_angle(a.heading - b.heading)) > kApart_rad;
-}
-
 bool is_better(const Scored& a, const Scored& b) { return a.share > b.share; }
 
 /// The best of `poses`, best first, that are apart from each other.
 std::vector<Scored> best_apart(const std::vector<Scored>& poses) {
   std::vector<Scored> chosen;
   for (const Scored& one : poses) {
-    const auto is_near = [&one](const Scored& better) { return !are_apart(one.pose, better.pose); };
+    const auto is_near = [&one](const Scored& better) { return !are_places_apart(one.pose, better.pose); };
     if (std::none_of(chosen.begin(), chosen.end(), is_near)) chosen.push_back(one);
     if (chosen.size() == kLookedAt) break;
   }
@@ -100,20 +88,20 @@ std::vector<Scored> best_apart(const std::vector<Scored>& poses) {
 std::vector<Scored> look_everywhere(const KnownMap& map, const Worth& worth, const MatchSample& sample) {
   const std::size_t stride = sample.size() / kCoarsePoints + 1;
   std::vector<Scored> kept;
-  for (std::int32_t j = 0; j < map.height; j += kStepCells) {
-    for (std::int32_t i = 0; i < map.width; i += kStepCells) {
+  for (std::int32_t j = 0; j < map.height; j += kLatticeCells) {
+    for (std::int32_t i = 0; i < map.width; i += kLatticeCells) {
       if (map.at({map.low.i + i, map.low.j + j}) != KnownCell::kFree) continue;
       const Vec2 p{(map.low.i + i + 0.5) * map.cell_m, (map.low.j + j + 0.5) * map.cell_m};
       Scored best, other;  // of each place: the best heading, and the best that is another
-      std::array<Scored, kHeadings> all;
-      for (int k = 0; k < kHeadings; ++k) {
-        const Pose2 pose{p.x, p.y, wrap_angle(2.0 * kPi * k / kHeadings)};
+      std::array<Scored, kLatticeHeadings> all;
+      for (int k = 0; k < kLatticeHeadings; ++k) {
+        const Pose2 pose{p.x, p.y, wrap_angle(2.0 * kPi * k / kLatticeHeadings)};
         all[static_cast<std::size_t>(k)] = {pose, worth.share(sample, stride, pose)};
       }
       for (const Scored& one : all)
         if (one.share > best.share) best = one;
       for (const Scored& one : all)
-        if (one.share > other.share && are_apart(one.pose, best.pose)) other = one;
+        if (one.share > other.share && are_places_apart(one.pose, best.pose)) other = one;
       kept.push_back(best);
       kept.push_back(other);
       if (kept.size() < 16 * kKept) continue;
@@ -144,7 +132,7 @@ Scored looked_at_closely(const Worth& worth, const MatchSample& sample, const Sc
 }  // namespace
 
 GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample, Vec2 laser_in_robot) {
-  const Worth roughly(map, kRoughly), worth(map, 1);
+  const Worth roughly(map, kNearCells), worth(map, 1);
   std::vector<Scored> found;
   for (const Scored& coarse : best_apart(look_everywhere(map, roughly, sample)))
     found.push_back(looked_at_closely(worth, sample, coarse));
@@ -153,7 +141,7 @@ GlobalMatch search_everywhere(const KnownMap& map, const MatchSample& sample, Ve
   const Scored best = *std::min_element(found.begin(), found.end(), is_better);
   GlobalMatch match{best.pose, best.share, std::nullopt, 0.0};
   for (const Scored& other : found) {
-    if (are_apart(other.pose, best.pose) && other.share > match.other_share)
+    if (are_places_apart(other.pose, best.pose) && other.share > match.other_share)
       match.other = other.pose, match.other_share = other.share;
   }
   return match;

@@ -4,27 +4,20 @@
 #include <array>
 #include <cmath>
 
+#include "planner/localization/place_lattice.h"
+
 namespace jaywalk {
 namespace {
 
-constexpr std::int32_t kLatticeCells = 2, kNearCells = 3;  ///< cells; the second: what half a step moves points 8 m off
-constexpr int kLatticeHeadings = 90;                       ///< in a turn
-constexpr std::size_t kLatticePoints = 80;                 ///< of the sample
+constexpr std::size_t kLatticePoints = 80;  ///< of the sample
 constexpr std::int32_t kRowsDrawn = 64;
-constexpr double kPlacesApart_m = 1.0, kPlacesApart_rad = 0.52;
 constexpr double kLattice_m = 0.15, kLattice_rad = 0.06;  ///< standard deviations of a coarse pose
-constexpr double kBeforePoint_m = 0.3;                    ///< a wall this much nearer than the point hides it
 /// A good place: of the points known, and of these on walls; people stand before the others. Better by kClearly: the
 /// map contradicts a smaller share of the points (robot_tests "[carried]"). Places that it knows little of contradict
 /// nothing.
 constexpr double kPlaceKnown = 0.5, kPlaceFits = 0.7, kSaysNothing = 0.3, kClearly = 0.1;
 
 double worth_of_place(const PlaceFit& place) { return 2.0 * place.on_walls - place.known; }
-
-bool are_places_apart(const Pose2& a, const Pose2& b) {
-  return distance(a.position(), b.position()) > kPlacesApart_m ||
-         std::fabs(wrap_angle(a.heading - b.heading)) > kPlacesApart_rad;
-}
 
 bool is_near_wall(const EvidenceMap& map, CellIndex cell) {
   for (std::int32_t j = -1; j <= 1; ++j)
@@ -33,21 +26,15 @@ bool is_near_wall(const EvidenceMap& map, CellIndex cell) {
   return false;
 }
 
-bool is_hidden_from(const EvidenceMap& map, Vec2 laser, Vec2 point) {
-  const double range = distance(laser, point), step = map.cell_m();
-  const Vec2 along = (point - laser) * (1.0 / std::max(range, step));
-  for (double gone = step; gone < range - kBeforePoint_m; gone += step)
-    if (map.occupied(map.cell_at(laser + along * gone))) return true;
-  return false;
-}
-
 PlaceFit fit_at(const SeenSample& sample, const EvidenceMap& map, const Pose2& pose) {
   const Transform2 to_map(pose);
+  const auto is_wall = [&map](Vec2 place) { return map.occupied(map.cell_at(place)); };
   std::size_t on_walls = 0, known = 0;
   for (std::size_t k = 0; k < sample.points.size(); ++k) {
     const Vec2 point = to_map * sample.points[k];
     const CellIndex cell = map.cell_at(point);
-    const bool hidden = is_hidden_from(map, to_map * sample.lasers[k], point), on = !hidden && is_near_wall(map, cell);
+    const bool hidden = is_hidden(to_map * sample.lasers[k], point, map.cell_m(), is_wall),
+               on = !hidden && is_near_wall(map, cell);
     on_walls += on ? 1U : 0U;
     known += on || hidden || map.seen_free(cell) ? 1U : 0U;
   }

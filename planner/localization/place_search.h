@@ -14,7 +14,7 @@ struct SeenSample {
 /// Adds one of `scanners` scanners' points: every n-th, so that all of them find room.
 void add_sample(const ScanPoints& scan, Vec2 laser_in_robot, std::size_t scanners, SeenSample& to) noexcept;
 
-/// How well a sample fits the map from a pose.
+/// Fit of a sample to the map from a pose.
 struct PlaceFit {
   Pose2 map_from_robot;
   double on_walls = 0.0;  ///< share of the points: walls are there, and none before them
@@ -33,9 +33,8 @@ struct PlaceFit {
 /// Search for the place, within kReach_m of another, from which a scan was taken.
 ///
 /// Correlative search over the cells that were seen free, all headings, in steps of two cells and four degrees; the
-/// best that lie apart are matched closely (ScanMatcher) and judged by what the laser could see from there (Thrun,
-/// Burgard, Fox: Probabilistic Robotics, 2005, 6.3). One part of it a call, a millisecond or two: for the tick.
-/// Thread: the loop's. The constructor allocates 2 MB.
+/// best that lie apart are matched closely (ScanMatcher) and judged by what the laser could see from there (is_hidden).
+/// One part of it a call, a millisecond or two: for the tick. Thread: the loop's. The constructor allocates 2 MB.
 class PlaceSearch {
  public:
   static constexpr double kReach_m = 12.8;
@@ -47,7 +46,7 @@ class PlaceSearch {
   [[nodiscard]] bool is_busy() const noexcept { return stage_ != Stage::kIdle; }
   /// The next part, on the same map as the part before. True when that was the last.
   bool step(const EvidenceMap& map) noexcept;
-  /// Then: the best place; without points on walls where there is none.
+  /// The best place after the last part; no points on walls: there is none.
   [[nodiscard]] const PlaceFit& best() const noexcept { return best_; }
 
   /// The best match about a pose known to these standard deviations, and how well it fits.
