@@ -6,7 +6,7 @@
 
 namespace jaywalk {
 
-/// What make() returns; null with one clear line in `why_not` where there is no such device or it does not serve.
+/// Returns make()'s result on a device. Null, and the reason in `why_not`, without such a device or where it fails.
 template <class Make>
 auto on_device(int device, std::string& why_not, const Make& make) -> decltype(make()) {
   int devices = 0;

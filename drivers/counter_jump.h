@@ -4,7 +4,7 @@
 
 namespace jaywalk {
 
-/// Whether a wheel's counter jumped: it restarted or slipped, and the way it tells is none.
+/// True where a wheel's counter jumped, by a restart or a slip: the difference is no way.
 ///
 /// `turned_rad` since the position before, `since_s` ago, of a wheel that turns with `speed_radps`. Allowed beyond what
 /// the speed explains: some steps of the coarsest counter (six Hall states an electrical turn), the way that a wheel

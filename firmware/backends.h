@@ -25,7 +25,7 @@ struct ChosenPlanner {
 /// cannot be had.
 [[nodiscard]] ChosenPlanner backed(Backend backend, std::unique_ptr<Planner> device, std::unique_ptr<Planner> cpu,
                                    const std::string& why_not_cuda);
-/// For a device that was asked for and cannot be had.
+/// Throws StartupError: a device was asked for and cannot be had.
 [[noreturn]] void refuse_cuda(const std::string& why_not);
 
 /// Tries what make_planner() would take, and says in a few words what that is. Throws StartupError like it.

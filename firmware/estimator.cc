@@ -84,13 +84,13 @@ bool Estimator::is_explained(const LaserScan& scan, const WheelState& wheels) no
   if (pose_.doubtful) return true;
   using Says = RestWatch::Says;
   Rest& own = rests_[scan.scanner];
-  if (frozen_[scan.scanner]) {  // what it repeats was seen elsewhere
+  if (frozen_[scan.scanner]) {  // it repeats a scan of another place
     own.watch.begin_anew();
     return true;
   }
   const Says says = own.watch.judge(scan, wheels);
   if (says != Says::kNothing) own.says = says;
-  // Where another scanner shows the robot standing, this one was moved in its mount.
+  // Another scanner shows the robot standing: this one was moved in its mount.
   const bool stands = std::ranges::any_of(rests_, [](const Rest& rest) { return rest.says == Says::kStands; });
   if (says == Says::kMoved && !stands) localizer_.carried();
   return says != Says::kDoubts && says != Says::kMoved;

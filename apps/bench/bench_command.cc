@@ -39,7 +39,7 @@ std::array<Track, 8> walkers(double side_m) {
   return tracks;
 }
 
-/// What drives, or the paper's.
+/// Planner to measure: that of the robot, or the paper's.
 enum class PlanOf { kTimeToGo, kPotential };
 
 /// The whole plan under way: robot and eight movers move on from tick to tick. By the time to go they are bodies that

@@ -197,7 +197,7 @@ void add_scans(sim::RecordedLog& log, const std::string& name, const std::vector
   (void)scans.settle_times(place);
 }
 
-/// Whether most of it has an orientation: none without one leads anywhere.
+/// True where most messages have an orientation; the others are left out.
 bool has_orientation(const std::vector<OdometryMessage>& messages) {
   const auto without =
       std::ranges::count_if(messages, [](const OdometryMessage& said) { return std::isnan(said.pose.heading); });

@@ -194,7 +194,7 @@ nlohmann::json json_of(const std::filesystem::path& file) {
   return nlohmann::json::parse(in, nullptr, false);
 }
 
-/// What a drive said of its fault in the end; nothing where none did.
+/// Last fault that a drive reported, as a line; empty without one.
 std::string drive_fault_of(const nlohmann::json& devices) {
   const std::string fault = devices.is_object() ? devices.value("drive_fault", "") : "";
   return fault.empty() ? "" : "Its drives: " + fault + ".\n";

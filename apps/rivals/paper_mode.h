@@ -1,5 +1,5 @@
 #pragma once
-// What only the desktop program has: the paper's planner and follower, and the planners of others.
+// Mode paper and the rival planners, of the desktop program alone.
 #include <memory>
 
 #include "firmware/backends.h"
@@ -15,7 +15,7 @@ void equip(ControlSetup& setup) noexcept;
 /// StartupError where kCuda cannot be had.
 [[nodiscard]] std::unique_ptr<paper::MapField> make_map_field(const paper::CellMap& map, Backend backend,
                                                               int device = 0);
-/// The paper's planner as make_planner() has the one that drives, without trial.
+/// The paper's planner on the backend that make_planner() would take, without trial.
 [[nodiscard]] ChosenPlanner make_paper_planner(const paper::PaperConfig& config, Backend backend, int device = 0);
 
 }  // namespace jaywalk

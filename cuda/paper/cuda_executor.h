@@ -9,7 +9,7 @@ namespace jaywalk::paper {
 
 inline constexpr int kSumThreads = 512;
 
-/// By one block: what stages have counted, in all.
+/// Sum of the rows' counts, by one block.
 static __global__ void __launch_bounds__(kSumThreads) add_up(const Counted* counted, std::int32_t n, Counted* sum) {
   __shared__ std::int32_t cells, joined;
   if (threadIdx.x == 0) cells = joined = 0;
@@ -24,7 +24,7 @@ static __global__ void __launch_bounds__(kSumThreads) add_up(const Counted* coun
 
 class CudaExecutor {
  public:
-  /// As CudaDevice.
+  /// `limit`: longest wait for the device, as CudaDevice has it.
   CudaExecutor(int device, std::chrono::milliseconds limit) : device_(device, limit), sum_(device_.share<Counted>(1)) {}
 
   template <class T>

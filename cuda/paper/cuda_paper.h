@@ -10,12 +10,12 @@
 
 namespace jaywalk::paper {
 
-/// As make_cuda_planner().
+/// The paper's planner on a device; null and `why_not` as make_cuda_planner() has them.
 [[nodiscard]] std::unique_ptr<Planner> make_cuda_paper_planner(const PaperConfig& config, int device,
                                                                std::string& why_not,
                                                                std::chrono::milliseconds limit = kLongestWait);
 
-/// The same for a map alone.
+/// Potential of a map alone, likewise.
 [[nodiscard]] std::unique_ptr<MapField> make_cuda_map_field(CellMap map, int device, std::string& why_not);
 
 }  // namespace jaywalk::paper

@@ -7,9 +7,8 @@ namespace jaywalk {
 
 /// Token bucket that detects two devices with the same number by the rate of a frame that only one device may send.
 ///
-/// The bucket fills at one and a half times the due rate: a device's clock may be fast, and CAN repeats a frame whose
-/// last bit was disturbed (ISO 11898-1). Two devices send at twice the due rate and empty its three tokens with the
-/// fourth pair.
+/// The bucket fills at 1.5 times the due rate. A device's clock may be fast, and CAN repeats a frame after a disturbed
+/// last bit (ISO 11898-1). Two devices send at twice the due rate: their fourth pair finds the bucket empty.
 class FrameRate {
  public:
   /// Adds tokens for frames that became due, such as one with each SYNC.

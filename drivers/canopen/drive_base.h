@@ -83,7 +83,7 @@ class CanopenDriveBase final : public WiredDrive {
   void publish(Time stamp) noexcept;
   void watch() noexcept;
   void latch(DriveTrouble trouble) noexcept;
-  /// What a drive tells: the first is the one worth knowing.
+  /// Keeps the first fault that a drive reports; later ones follow from it.
   void note(const DriveFault& fault) noexcept;
 
   /// A cycle on the bus, as far as the stop has come.

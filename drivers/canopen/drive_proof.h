@@ -9,11 +9,11 @@
 
 namespace jaywalk::canopen {
 
-/// For a drive that does not answer, or no longer.
+/// Remedy for a drive that does not answer, or no longer.
 inline constexpr const char* kSilentDrive = "see to its cable, its power, its node number and the bus's bit rate";
-/// What to do about a line that is not proved.
+/// Remedy for a line that is not proved.
 [[nodiscard]] const char* remedy_for(const ProofLine& line) noexcept;
-/// Whether allow_unproved arms the drive all the same: it is about stopping, and the drive answered that it cannot.
+/// True where allow_unproved may arm the drive: the line is about stopping, and the drive answered that it cannot.
 [[nodiscard]] bool may_be_allowed(const ProofLine& line) noexcept;
 
 struct DriveProofSetup {

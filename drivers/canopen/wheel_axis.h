@@ -51,11 +51,11 @@ class WheelAxis {
 
   [[nodiscard]] const AxisSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
-  /// And shows the mode that takes speeds: 6061h, of many drives only once they are enabled, and late.
+  /// Enabled, and in the mode that takes speeds. Many drives show their mode (6061h) only once enabled, and late.
   [[nodiscard]] bool follows_speeds() const noexcept { return is_enabled() && mode_ == kProfileVelocityMode; }
-  /// As 6061h shows it.
+  /// Value of 6061h.
   [[nodiscard]] std::uint8_t mode() const noexcept { return mode_; }
-  /// By its last heartbeat.
+  /// True by its last heartbeat.
   [[nodiscard]] bool is_operational() const noexcept { return network_ == NmtState::kOperational; }
   [[nodiscard]] const WheelFeedback& feedback() const noexcept { return feedback_; }
   [[nodiscard]] double turned_rad() const noexcept;  ///< since start, unwrapped

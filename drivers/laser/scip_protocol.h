@@ -17,7 +17,7 @@ class ScipProtocol final : public ScannerProtocol {
   void begin() noexcept override;
   [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
   [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
-  /// What has spoken SCIP 2.0 ever since need not know the command that chooses it.
+  /// True at SCIP2.0, the command that chooses the protocol: scanners that always speak it may not know the command.
   [[nodiscard]] bool go_on_unanswered() noexcept override;
   void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
   [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;

@@ -37,7 +37,7 @@ class WatchdogProof {
   [[nodiscard]] ProofResult result() const noexcept { return result_; }
   /// "watchdog: expired 66 ms after the last command"; allocates.
   [[nodiscard]] std::string line() const;
-  /// What to do where it is not proved; allocates.
+  /// Remedy where it is not proved; allocates.
   [[nodiscard]] std::string remedy() const;
 
  private:

@@ -3,8 +3,8 @@
 
 namespace jaywalk {
 
-/// Where a person says that the robot is, once it is held against the map (PlaceCheck): the only fixes of a robot
-/// without a localisation system outside it. Thread: the loop's.
+/// Fixes from a person's word on where the robot is, once PlaceCheck has taken it: the only ones of a robot without a
+/// localisation system outside it. Thread: the loop's.
 class ToldPlace final : public PoseSource {
  public:
   // A person's eye on a plan; within what a scan matcher puts right (correlative_search.cc).

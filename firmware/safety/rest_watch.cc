@@ -8,7 +8,7 @@ namespace {
 
 /// A wheel's rim at rest: a Hall sensor's count of a VESC is 2 mm.
 constexpr double kRolls_m = 0.005;
-/// From the last reading that rolled to the first scan of the rest: what a body sways after a stop.
+/// Time from the last reading that rolled to the first scan of the rest: a body sways after a stop.
 constexpr Duration kSettles = std::chrono::milliseconds(200);
 /// Smallest move: more than a scanner shakes in its mount, and what the localizer's match puts right by itself.
 constexpr double kMove_m = 0.1, kMove_rad = 0.06;

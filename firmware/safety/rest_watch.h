@@ -33,11 +33,11 @@ class RestWatch {
 
   /// Once a tick, with the newest scan and reading.
   [[nodiscard]] Says judge(const LaserScan& scan, const WheelState& wheels) noexcept;
-  /// Where the robot is now is known anew: its rest begins with the next scan.
+  /// Begins the rest anew with the next scan: the robot's place is known.
   void begin_anew() noexcept;
 
  private:
-  /// How much of what two scans show could be compared, as a sum of weights (ScanPair), and the share of it that fits.
+  /// Sum of the weights (ScanPair) of the points that two scans could compare, and the share of it that fits.
   struct Agreement {
     double compared = 0.0, explained = 0.0;
   };

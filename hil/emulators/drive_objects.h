@@ -27,10 +27,10 @@ class DriveObjects {
   void fix(canopen::ObjectAddress address, std::uint32_t value) noexcept;
   /// From now on writes are acknowledged and change nothing.
   void lie_about(canopen::ObjectAddress address) noexcept;
-  /// From now on its TPDOs answer no remote frames: bit 30 of their COB-IDs stays set whatever is written or, where it
-  /// is `strict`, one written without is refused.
+  /// Makes its TPDOs answer no remote frames: bit 30 of their COB-IDs stays set whatever is written; `strict`: a write
+  /// without it is refused.
   void know_no_remote_frames(bool strict) noexcept;
-  /// From now on its SDO answers end with their last byte in use.
+  /// Shortens its SDO answers to the bytes in use.
   void answer_short() noexcept { short_ = true; }
 
   /// What it holds now is what a restart brings back (1010h).

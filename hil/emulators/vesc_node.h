@@ -36,7 +36,7 @@ class VescNode {
   void plug_cable() noexcept { connected_ = true; }
   /// No more frames out; it goes on hearing and obeying.
   void mute() noexcept { muted_ = true; }
-  /// As it comes from the factory: 900. Told less, 0 too, it lets its motor go.
+  /// Minimum ERPM, 900 from the factory: at a lower command, 0 too, it lets its motor go.
   void set_minimum_erpm(double erpm) noexcept { minimum_erpm_ = erpm; }
   /// It forgets everything but its settings, as after a loss of power; its tachometer counts from zero again.
   void restart() noexcept;

@@ -33,9 +33,9 @@ class WheelDrive {
   virtual void stick() noexcept = 0;
   /// It obeys, and says nothing of its wheel any more.
   virtual void lose_feedback() noexcept = 0;
-  /// Of a CiA 402 drive: it shows its mode so long after it was enabled.
+  /// Delays the mode that a CiA 402 drive shows after it is enabled.
   virtual void show_mode_late(Duration delay) noexcept = 0;
-  /// Of a VESC: told to turn the wheel slower than this, it lets its motor go.
+  /// Sets the wheel's speed below which a VESC lets its motor go.
   virtual void let_go_below(double speed_radps) noexcept = 0;
   /// What a CiA 402 drive can be told to lie about or to lack; null of others.
   [[nodiscard]] virtual emulators::DriveObjects* objects() noexcept = 0;

@@ -200,7 +200,7 @@ FaultCase carried(const char* name, void (*strike)(FaultBench&)) {
   return fault;
 }
 
-/// Drives that show their mode 30 ms after they were enabled, as some makers' do: the robot comes up to speed.
+/// Drives that report their mode 30 ms after enabling, as some makers' do. The robot comes up to speed.
 FaultCase mode_shown_late() {
   FaultCase fault{"mode_shown_late", [](FaultBench& b) { (void)b.robot().desk().obey("stop now"); },
                   Reason::kEmergencyStop, at_once};
@@ -208,7 +208,7 @@ FaultCase mode_shown_late() {
   return of_cia402(fault);
 }
 
-/// VESCs whose minimum ERPM is more than the robot's fastest speed asks for: no wheel turns.
+/// VESCs with a minimum ERPM above the robot's fastest speed: no wheel turns.
 FaultCase below_minimum_erpm() {
   constexpr double kOverAll_radps = 15.0;  // 1.4 m/s
   FaultCase fault = contradiction("below_minimum_erpm", nullptr, in_first_way);

@@ -38,7 +38,7 @@ class AnsweringPlanner : public Planner {
  protected:
   /// Fills a plan that holds nothing yet; the status counts as returned.
   [[nodiscard]] virtual PlanStatus answer(const PlanRequest& request, Plan& plan) noexcept = 0;
-  /// What a device has taken so far, by its own clock.
+  /// Time that a device has taken so far, ms, by its own clock.
   [[nodiscard]] virtual double device_ms() const noexcept { return 0.0; }
 
   /// Numbers of the two plans, for what belongs to each: the one being made, and the one that was collected.

@@ -7,8 +7,8 @@
 
 namespace jaywalk::field {
 
-/// Where a body's outline has how much room, by nodes that know how far the nearest surface is: plain values. A pose
-/// stands for the place in its cell, across its heading, at which the body has most room.
+/// Nodes at which the room of a body's outline is read, by each one's distance to the nearest surface: plain values. A
+/// pose stands for the place in its cell, across its heading, with the most room.
 struct PoseLook {
   static constexpr std::int32_t kSides = 3;    ///< a cell's middle, to the left, to the right
   static constexpr std::int32_t kPerCell = 4;  ///< nodes
@@ -72,12 +72,12 @@ class CostSettler {
   virtual ~CostSettler() = default;
   CostSettler(const CostSettler&) = delete;
   CostSettler& operator=(const CostSettler&) = delete;
-  /// Whether it may be asked (again).
+  /// True where it may be asked, again after a failure.
   [[nodiscard]] virtual bool is_ready() noexcept = 0;
-  /// Since it was ready last; and why, in a few words, empty where it has not.
+  /// True where it has failed since it was ready last; failure() says why, empty where it has not.
   [[nodiscard]] virtual bool has_failed() const noexcept = 0;
   [[nodiscard]] virtual const char* failure() const noexcept = 0;
-  /// What all of it has taken, by the device's own clock.
+  /// Time that it has taken in all, ms, by the device's own clock.
   [[nodiscard]] virtual double took_ms() const noexcept = 0;
   [[nodiscard]] virtual const char* name() const noexcept = 0;
   /// False: it failed, and nothing has been written.

@@ -191,7 +191,7 @@ void TimeToGoField::weigh(const TimeToGoRequest& request, const CellBox& box, bo
   }
 }
 
-/// By surfaces and keep-out zones: what is nearer. To a robot in a zone none is closed, or it would have no way out.
+/// Weights by the nearer of surface and keep-out zone. A robot in a zone has none closed, or it would have no way out.
 void TimeToGoField::weigh_ground(const Window& window, const CellBox& box, std::int32_t j) noexcept {
   constexpr auto kInZone = static_cast<std::uint16_t>(kRates * kDearest);
   const float y = place_of(window.in_map({0.0, j + 0.5})).y;

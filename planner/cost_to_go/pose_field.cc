@@ -35,7 +35,7 @@ bool turns_into_unseen(const PoseGuide& guide, const PoseWay& way) {
 
 constexpr std::size_t kRooms = 256;
 
-/// Of a second where the outline has so much room, in kRateOfOpen; 0 where the body cannot be.
+/// Price of a second by the outline's room, in 1/kRateOfOpen; 0: the body cannot be there.
 constexpr std::array<std::uint8_t, kRooms> kRateOfRoom = [] {
   std::array<std::uint8_t, kRooms> rates{};
   for (std::size_t k = 0; k < kRooms; ++k) {

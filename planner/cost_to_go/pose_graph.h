@@ -9,15 +9,15 @@
 
 namespace jaywalk::field {
 
-/// What Shortest wants of a graph, over the arrays of a PoseGuide.
+/// Graph of a PoseGuide's poses, for Shortest.
 class PoseGraph {
  public:
   using Cost = std::uint16_t;
   static constexpr std::uint32_t kBucketShift = 4;  ///< 16 costs: no move costs less, in no order
   static_assert(price::kLeastCost == 1U << kBucketShift);
 
-  /// From now on those of `guide`, to which `costs` belong. Ways end where they cost `more` than that of pose `robot`;
-  /// where there is none (negative), nowhere.
+  /// Takes the arrays of `guide` and their `costs`. Ways end `more` beyond the cost of pose `robot`, nowhere where that
+  /// is negative.
   void lay(const PoseGuide& guide, Cost* costs, std::int32_t robot, std::uint32_t more) noexcept {
     rate_ = guide.rate, unseen_ = guide.unseen, costs_ = costs, robot_ = robot, more_ = more;
     turn_moves_back(*guide.moves);
@@ -43,7 +43,7 @@ class PoseGraph {
   }
 
  private:
-  /// From the pose that it leads to, to where it began.
+  /// Move backward: from the pose that it leads to.
   struct Move {
     std::int32_t offset;  ///< of poses
     std::uint32_t cost, unseen_weight;

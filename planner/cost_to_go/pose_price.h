@@ -24,7 +24,7 @@ JAYWALK_CELL constexpr std::uint32_t unseen_weight(Gear gear, std::int32_t turn)
   return gear == Gear::kForward ? 1U : turn != 0 ? 30U : 2U;
 }
 
-/// Of a move between two poses.
+/// Cost of a move between two poses.
 JAYWALK_CELL constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_t rate, std::uint32_t other_rate,
                                              std::uint32_t unseen_eighths, std::uint32_t unseen_weight) {
   const std::uint32_t cost =
@@ -32,7 +32,7 @@ JAYWALK_CELL constexpr std::uint32_t cost_of(std::uint32_t in_open, std::uint32_
   return cost < kLeastCost ? kLeastCost : cost;
 }
 
-/// The same of a move from a pose to one with room.
+/// Cost of `move` between two poses.
 JAYWALK_CELL constexpr std::uint32_t cost_of(const PoseMove& move, std::uint32_t rate, std::uint32_t other_rate,
                                              std::uint32_t unseen_eighths) {
   return cost_of(move.cost, rate, other_rate, unseen_eighths, unseen_weight(move.gear, move.turn));

@@ -51,9 +51,9 @@ class Shortest {
     queue(n, cost >> Graph::kBucketShift);
   }
 
-  /// Whether nothing is.
+  /// True where nothing is queued.
   [[nodiscard]] bool is_empty() const noexcept { return queued_ == 0; }
-  /// From what was offered to the fixed point. False when the queue was full: costs are then not settled.
+  /// Settles the offers to the fixed point. False when the queue was full: costs are then not settled.
   template <class Graph>
   [[nodiscard]] bool settle(Graph& graph) noexcept {
     for (std::uint64_t bucket = lowest_; queued_ > 0 && bucket << Graph::kBucketShift < graph.limit(); ++bucket) {
@@ -62,8 +62,8 @@ class Shortest {
     return !full_;
   }
 
-  /// From the fixed point of other steps to that of these. `changed` cells are not what they were; of those that were
-  /// no way the cost is kNoWay. False when that would take long: costs are then not settled.
+  /// Mends the fixed point after steps of the `changed` cells have changed; closed ones have the cost kNoWay. False
+  /// when that would take long: costs are then not settled.
   template <class Graph>
   [[nodiscard]] bool repair(Graph& graph, std::span<const std::int32_t> changed) noexcept {
     clear();

@@ -34,7 +34,7 @@ FieldView TimeToGoPlanner::view_field() const {
           .psi = drawn_};
 }
 
-/// What a device that failed has not settled is settled here; the failure is told all the same.
+/// Settles on the CPU what a failed device has not; the status tells the failure all the same.
 PlanStatus TimeToGoPlanner::answer(const PlanRequest& request, Plan& plan) noexcept {
   if (device_ && !device_->is_ready()) return PlanStatus::kBackendFailed;
   const PlanStatus status = plan_by_times(request, plan);

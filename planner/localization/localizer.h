@@ -28,7 +28,7 @@ struct PoseEstimate {
   Pose2 map_from_robot;
   double position_std_m = 0.0;
   double heading_std_rad = 0.0;
-  bool doubtful = false;  ///< nobody knows where it is any more (PoseDoubt)
+  bool doubtful = false;  ///< the pose is lost (PoseDoubt)
 };
 
 /// Thread: the loop's. The constructor allocates; update() never does, and never throws.

@@ -3,26 +3,25 @@
 
 namespace jaywalk {
 
-/// Whether the pose is still good: not after a gap, a stall of the program or wheels that were silent, since coasting
-/// is a guess; once what it may be off by is more than a scan matcher sorts out, a wall that fits is as likely a wrong
-/// one. Nor where the robot was carried.
+/// Doubt about the pose: after a stall of the program or silent wheels, and after the robot was carried.
 ///
-/// It ends with wheels whose angles count on from before a gap, or with a fix: a carried robot that looked for its
-/// place on the map by itself found wrong ones that fit, 7 and 11 m off. Until then nothing is matched or mapped.
+/// Coasting over a gap is a guess. The scan matcher may choose a wrong wall once the guess may be off by more than its
+/// window. Wheel angles that count on from before a gap end that doubt; a fix ends either. A search of the map does
+/// not: for a carried robot it found wrong places that fit, 7 and 11 m off. In doubt nothing is matched or mapped.
 /// Thread: the loop's.
 class PoseDoubt {
  public:
-  /// It went on as guessed.
+  /// Adds the variance of a guessed step.
   void coasted(const Coasting::Step& step) noexcept;
   /// A scan was found in the map.
   void matched() noexcept {
     if (!is_doubtful()) settle();
   }
-  /// It was lifted, pushed or turned by hand: its wheels do not know.
+  /// Begins the doubt of a robot that was lifted, pushed or turned by hand; its wheels did not turn.
   void carried() noexcept { carried_ = true; }
-  /// Its way through the gap is known after all.
+  /// Ends the doubt of a gap: the wheels counted through it.
   void counted_on() noexcept { position_var_ = heading_var_ = 0.0, doubtful_ = false; }
-  /// Where it is now is known.
+  /// Ends all doubt: the pose is known.
   void settle() noexcept { *this = {}; }
 
   [[nodiscard]] bool is_doubtful() const noexcept { return doubtful_ || carried_; }

@@ -70,7 +70,7 @@ bool WayPursuit::is_passed(const RobotState& r, const WayPose& p) const noexcept
   return (p.gear == Gear::kBackward ? -ahead : ahead) < kPassedM;
 }
 
-/// Where the way leaves the circle of kPursuitLookM, or the last place of this gear.
+/// Place at which the way leaves the circle of kPursuitLookM, or the last one of this gear.
 Place WayPursuit::look_ahead(const RobotState& r) const noexcept {
   const auto distance_to = [&](const WayPose& p) {
     return std::sqrt((p.x - r.x) * (p.x - r.x) + (p.y - r.y) * (p.y - r.y));

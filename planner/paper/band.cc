@@ -44,7 +44,7 @@ class Band {
  private:
   [[nodiscard]] Point& at(std::int32_t k) const noexcept { return p_[static_cast<std::size_t>(k)]; }
 
-  /// By its neighbours' tension and by what is near: the whole way, half, or a quarter of it, and else not at all.
+  /// Moves by its neighbours' tension and the clearance force: the whole way, half, a quarter of it, or not at all.
   void move(std::int32_t k, float reach) noexcept {
     const Point here = at(k);
     const Point force = clearance_force(clearance(cell_of(here.x), cell_of(here.y)), slope(here), reach);

@@ -49,7 +49,7 @@ inline constexpr std::int32_t kMaxBandPoints = 16384;
 /// Pulls the band taut; points before `first` and the last stay. Points in cells from the window's low corner; `raw`
 /// has room for as many.
 ///
-/// What a move keeps, whatever the force:
+/// Invariants of a move, whatever the force:
 /// - Free cells: all cells of the box that two neighbouring points span are free, so the segment between is in free
 ///   cells. The raw path begins so, since its diagonal steps lie between two free cells.
 /// - No turning back: the sharpest turn, at the point and at its neighbours, is at most 45 degrees, or no sharper than

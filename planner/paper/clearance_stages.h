@@ -1,5 +1,5 @@
 #pragma once
-// How far every cell is from what is not free: exact Euclidean distance, columns first, then rows.
+// Exact Euclidean distance of every cell to the nearest one that is not free: columns first, then rows.
 #include <cmath>
 
 #include "planner/cell/clearance.h"
@@ -68,7 +68,7 @@ struct ClearanceOfRow {
   std::int32_t width, height;  ///< cells of the grid that count; what lies beyond is outside
   const std::int32_t* rows_away;
   float inflation;                   ///< cells
-  std::int32_t *envelope, *stretch;  ///< columns whose obstacle is the nearest of some stretch; where each begins
+  std::int32_t *envelope, *stretch;  ///< columns of the lower envelope; first cell of each one's stretch
   float* clearance;
 
   JAYWALK_CELL void operator()(std::int32_t j) const {

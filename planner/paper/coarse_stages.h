@@ -5,15 +5,15 @@
 
 namespace jaywalk::paper {
 
-/// What blocks have beside a level's equations.
+/// Arrays of blocks beside a level's equations.
 struct BlockArrays {
   float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side
-  /// Which of its cells it speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1); kOpenEast, kOpenNorth. May be
+  /// Cells that a block speaks for: bits 0 to 3 for (0, 0), (1, 0), (0, 1), (1, 1); kOpenEast, kOpenNorth. May be
   /// read beyond the border (take_rows).
   std::int32_t* ties;
 };
 
-/// Whether a block is coupled to the next one east or north of it.
+/// Bits of `ties`: coupled to the next block east, north.
 inline constexpr std::int32_t kOpenEast = 16, kOpenNorth = 32;
 
 /// Builds the equations of blocks from their four cells each.
@@ -74,7 +74,7 @@ struct CoarsenBlock {
   }
 };
 
-/// For how many of the blocks below, those that have an equation, a row of blocks speaks.
+/// Count of the blocks below with an equation for which a row of blocks speaks.
 struct SpokenOfRow {
   std::int32_t side;         ///< blocks a row
   const float* diagonal;     ///< of those below

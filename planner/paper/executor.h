@@ -41,7 +41,7 @@ template <class T, class Executor>
   return executor.template take<T>(static_cast<std::size_t>(Grid{side}.cells()) + 2 * spare) + spare;
 }
 
-/// What a stage counts in a row.
+/// Counts of a stage in a row.
 struct Counted {
   std::int32_t cells = 0;   ///< those that it looks for
   std::int32_t joined = 0;  ///< those that it looks at

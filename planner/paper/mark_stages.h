@@ -35,7 +35,7 @@ JAYWALK_CELL float horizon(float radius, float speed, float cap_s) {
   return radius >= speed * cap_s ? cap_s : radius / speed;
 }
 
-/// What stands in a cell: a set of bits.
+/// Occupants of a cell: a set of bits.
 enum Occupant : std::uint8_t { kWall = 1, kMover = 2 };
 
 /// A track in the window's units.
@@ -53,7 +53,7 @@ struct Warping {
   float process_noise;  ///< cells^2/s^3
 };
 
-/// Where a mover is expected at its horizon.
+/// Expected place of a mover at its horizon.
 struct Mark {
   float x, y, radius, horizon_s;
 };

@@ -46,8 +46,8 @@ class Multigrid {
 
  private:
   static constexpr std::int32_t kCoarsestSweeps = 8;  ///< settles 4 x 4 blocks
-  static constexpr std::int32_t kBulkyDepth = 3;      ///< whose blocks are 8 cells wide
-  /// Of the blocks below that have an equation, those that a level above these speaks for, at least, where it is used.
+  static constexpr std::int32_t kBulkyDepth = 3;      ///< of the level with blocks 8 cells wide
+  /// Least share of the blocks below, of those with an equation, for which a level in use speaks.
   /// (Open ground, rooms, boxes: 0.85 to 1. Corridors of 1.5 m: 0.78, with 0.5 on the next level.)
   static constexpr float kSpokenShare = 0.8F;
   /// A cycle that has tilted less than a 128th of the cells by more than a hundredth has found their directions: the
@@ -145,8 +145,9 @@ class Multigrid {
     for_each_cell(coarse, RestrictToBlock{fine, coarse, blocks});
   }
 
-  /// Whether this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie across
-  /// walls, and what they find for one passage is wrong in the next. The level and all above it are then left out.
+  /// True where this level's blocks speak for enough of those below. Large ones in narrow passages do not: they lie
+  /// across walls, and what they find for one passage is wrong in the next. The level and all above it are then left
+  /// out.
   bool speaks_for_most(std::int32_t depth) noexcept {
     const std::int32_t side = levels_[depth].grid.side;
     executor_.for_each_cell(side, 1, SpokenOfRow{side, levels_[depth - 1].diagonal, blocks_[depth].ties, counted_});
@@ -154,7 +155,7 @@ class Multigrid {
     return static_cast<float>(spoken.cells) >= kSpokenShare * static_cast<float>(spoken.joined);
   }
 
-  /// Whether the last cycle has found hardly anything new.
+  /// True where the last cycle has found hardly anything new.
   bool is_settled() noexcept {
     const Level& cells = levels_[0];
     executor_.for_each_cell(cells.grid.side, 1, TiltedOfRow{cells.grid, kTilt, cells.x, counted_});

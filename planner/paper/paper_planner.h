@@ -41,7 +41,7 @@ class PaperPlanner final : public AnsweringPlanner {
   [[nodiscard]] const char* backend() const noexcept override { return executor_->name(); }
   [[nodiscard]] const char* failure() const noexcept override { return executor_->failure(); }
 
-  /// What the stages of the last submission left behind. For tests.
+  /// Arrays after the last submission. For tests.
   [[nodiscard]] const FieldArrays& arrays() const noexcept { return pass_.shown(); }
 
  private:
@@ -130,7 +130,7 @@ class PaperPlanner final : public AnsweringPlanner {
     return nearest_cell(grid, wanted.i, wanted.j, cells(radius), [this](std::int32_t c) { return flood_.holds(c); });
   }
 
-  /// Whether a mover's mark keeps this cell from being free.
+  /// True where a mover's mark keeps this cell from being free.
   [[nodiscard]] bool has_mover_near(CellIndex at) const noexcept {
     return nearest_cell(window().grid(), at.i, at.j, cells(config_.inflation_m),
                         [this](std::int32_t c) { return (pass_.shown().occupants[c] & kMover) != 0; }) != kNoCell;
@@ -183,7 +183,7 @@ class PaperPlanner final : public AnsweringPlanner {
     return PlanStatus::kOk;
   }
 
-  /// Of walls alone: movers go away.
+  /// Grows the window where walls alone keep the goal away: movers go.
   void consider_growing(const PlanRequest& request) noexcept {
     const Grid grid = window().grid();
     if (!window_.can_grow() || !pass_.clear(grid, inflation(), kWall)) return;

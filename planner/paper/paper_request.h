@@ -1,5 +1,5 @@
 #pragma once
-// From a request in the map to the stages' units, and the paper's rules of thumb, each with its reason.
+// A request in the stages' units, and the paper's rules of thumb, each with its reason.
 #include <array>
 #include <span>
 
@@ -11,8 +11,7 @@ namespace jaywalk::paper {
 
 using field::Window;
 
-/// The same for a goal beside which a mover is marked as field::kGoalRadius_m: it will move on, the robot may come
-/// closer.
+/// Radius as field::kGoalRadius_m, of a goal beside a marked mover: it will move on, the robot may come closer.
 inline constexpr double kGoalRadiusBesideMover_m = 2.0;
 /// About a robot in a keep-out zone, beyond the way to the nearest edge: room for its body to leave through.
 inline constexpr double kWayOut_m = 1.0;
@@ -44,7 +43,7 @@ void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* o
 /// stays open.
 void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot_in_map, std::uint8_t* occupants) noexcept;
 
-/// Adds as movers all that is of those who stand; of numbers within reason.
+/// Marks the cells of standing pedestrians as occupied by movers. Places that are no numbers are left out.
 void fetch_standing(const Window& window, std::span<const StandingPedestrian> standing,
                     std::uint8_t* occupants) noexcept;
 

@@ -15,14 +15,14 @@ namespace jaywalk::paper {
 using field::kNoCell;
 using field::nearest_cell;
 
-/// What a solution begins from.
+/// Start of a solution.
 enum class From : std::uint8_t {
   kLast,       ///< the last one, which must have been on the same cells with the same goal
   kNothing,    ///< the start field
   kStartOnly,  ///< the start field, and leave it at that
 };
 
-/// How the potential came out.
+/// Quality of a potential.
 struct FieldQuality {
   bool done = false;  ///< the executor has not failed
   bool certified = false;
@@ -38,8 +38,8 @@ struct FieldQuality {
   if (grid.side > kLargeSide) return {2, 2};
   return grid.side > 256 ? Cycles{3, 4} : Cycles{3, 5};
 }
-/// From the last submission's field: one where nothing has changed since, a second where the first has found something
-/// (docs/explanation/algorithm.md).
+/// Cycles from the last submission's field: one where nothing has changed since, a second where the first has found
+/// more (docs/explanation/algorithm.md).
 inline constexpr Cycles kWarmCycles{1, 2};
 
 /// Cells within `radius` of (i, j).
@@ -47,7 +47,7 @@ struct Disc {
   std::int32_t i, j, radius;
 };
 
-/// What stages and host both read and write, by cells, by movers.
+/// Arrays that stages and host both read and write, by cells, by movers.
 struct FieldArrays {
   std::uint8_t *occupants, *index;
   Mover* movers;
@@ -98,7 +98,7 @@ class Pass {
   bool clear(Grid grid, float inflation, std::uint8_t wanted) noexcept {
     return clear(grid, grid.side, grid.side, inflation, wanted);
   }
-  /// The same where only the lowest width x height cells count.
+  /// Clearance of the lowest width x height cells alone.
   bool clear(Grid grid, std::int32_t width, std::int32_t height, float inflation, std::uint8_t wanted) noexcept {
     started_ = kNoCell;
     if (!executor_.begin()) return false;
@@ -119,7 +119,7 @@ class Pass {
     return started_ == goal;
   }
 
-  /// From clearance to the potential and its index matrix, if the goal can be reached from near the robot.
+  /// Solves the potential and its index matrix from the clearance, if the goal can be reached from near the robot.
   FieldQuality solve(Grid grid, std::int32_t goal, From from, const Disc& robot) noexcept {
     const auto is_joined = [this](std::int32_t c) { return cell::is_joined(host_.start_psi[c]); };
     FieldQuality quality;

@@ -11,7 +11,7 @@
 
 namespace jaywalk::paper {
 
-/// What a cell takes of each neighbour.
+/// Share that a cell takes of each neighbour.
 struct Couplings {
   float east, west, north, south;
 };
@@ -29,7 +29,7 @@ JAYWALK_CELL float coupling(float psi_here, float psi_neighbour, bool neighbour_
   return neighbour_exists ? a : 0.0F;
 }
 
-/// What the neighbour takes of this cell, given what this cell takes of it: exp(d)/4 one way is exp(-d)/4
+/// Share that the neighbour takes of this cell, by the share that this cell takes of it: exp(d)/4 one way is exp(-d)/4
 /// the other.
 JAYWALK_CELL float coupling_back(float coupling_there) {
   const float a = 0.0625F / (coupling_there > 0.0F ? coupling_there : 1.0F);
@@ -72,7 +72,7 @@ struct Fill {
   JAYWALK_CELL void operator()(std::int32_t c) const { x[c] = value; }
 };
 
-/// What each cell of a level takes of its neighbours.
+/// Couplings of a level's cells.
 struct CouplingArrays {
   float *east, *west, *north, *south;
 
@@ -89,7 +89,7 @@ struct Level {
   float *psi, *source, *x;  ///< x may be read beyond the border (take_rows)
   float* diagonal;          ///< what a block's equation was divided by; cells' are not divided
 
-  /// What a cell would relax to. Beyond the border the coupling is 0 and the value finite.
+  /// Value to which a cell would relax. Beyond the border the coupling is 0 and the value finite.
   [[nodiscard]] JAYWALK_CELL float relaxed(std::int32_t c) const {
     return paper::relaxed(couplings.at(c), x[c + 1], x[c - 1], x[c + grid.side], x[c - grid.side], source[c]);
   }
@@ -186,8 +186,8 @@ struct RebaseCouplings {
   }
 };
 
-/// How many cells of a row a cycle has tilted: those whose v differs from their eastern or northern neighbour's by more
-/// than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
+/// Count of the cells of a row that a cycle has tilted: those whose v differs from their eastern or northern
+/// neighbour's by more than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
 struct TiltedOfRow {
   Grid grid;
   float tilt;
@@ -208,7 +208,7 @@ struct TiltedOfRow {
   }
 
  private:
-  /// From a neighbour that has an equation, that is v > 0.
+  /// True where it differs from a neighbour with an equation (v > 0).
   JAYWALK_CELL static bool differs(float here, float there, float most) {
     return (there > 0.0F) & ((there - here > most) | (here - there > most));
   }
@@ -225,7 +225,7 @@ struct RebasePsi {
   }
 };
 
-/// What the potential came to above the start field, by cell: where the next submission's solver begins. A
+/// Potential above the start field, by cell: where the next submission's solver begins. A
 /// cell that is covered for a while keeps what it had, so that a mover passing leaves no scar.
 struct KeepCorrection {
   const float *start, *psi;
@@ -296,7 +296,7 @@ struct Step {
   std::int32_t di, dj;
 };
 
-/// Where an entry of the index matrix leads: 0-3 straight, 4-7 diagonal, kHere and above nowhere.
+/// Step of an entry of the index matrix: 0-3 straight, 4-7 diagonal, kHere and above nowhere.
 inline constexpr std::uint8_t kHere = 8;
 JAYWALK_CELL Step step_of(std::uint8_t index) {
   const std::int32_t k = index & 3;

@@ -9,7 +9,7 @@
 
 namespace jaywalk::paper {
 
-// What a step of the start field costs, from half the costs (`rate`) of the cells that it touches. Integers, so that
+// Cost of a step of the start field, from half the costs (`rate`) of the cells that it touches. Integers, so that
 // the dearest and the cheapest way are the same whatever the order.
 
 /// Between two cells side by side.

@@ -57,7 +57,7 @@ long page_faults() {
   return usage.ru_minflt + usage.ru_majflt;
 }
 
-/// What drives, or the paper's.
+/// `is_paper`: the paper's planner, else the robot's.
 std::unique_ptr<Planner> growing(bool is_paper) {
   paper::PaperConfig config;
   config.max_side_cells = 512;

@@ -46,7 +46,7 @@ TEST_CASE("odometry of a CSV file is read by the names of its columns, which are
   const auto with = [&](const std::string& odometry) {
     return load_scan_odom(scans, scratch.write("odom.csv", odometry));
   };
-  // As our own robot.csv of a real run has it: the world's truth is not known.
+  // A robot.csv of a real run: the world's truth is not known.
   const RecordedLog own = with(
       "t_s,x_m,y_m,heading_rad,est_x_m,est_y_m,est_heading_rad,reasons\n"
       "99.0,,,,1.0,2.0,0.5,\n101.0,,,,1.5,2.0,0.5,stop_zone\n");

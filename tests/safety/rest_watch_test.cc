@@ -27,7 +27,7 @@ struct Standing {
     watch = RestWatch(model);
     tick(1.0);
   }
-  /// So long, a scan every 80 ms; what it says worst meanwhile.
+  /// Lives for `time_s` with a scan every 80 ms; returns the worst answer.
   Says tick(double time_s) {
     Says worst = Says::kNothing;
     for (const double end_s = now_s + time_s; now_s < end_s;) {

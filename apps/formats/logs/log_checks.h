@@ -55,7 +55,7 @@ class LogOdometry {
   explicit LogOdometry(RecordedLog& log) : log_(log) {}
 
   /// A pose as the recording says it. One that is none is left out and counted, so is one with a speed that is none.
-  /// Where the first lies farther off than a map may reach, as by UTM, all are taken relative to it.
+  /// Poses in UTM or the like, farther off than a map may reach, are taken relative to the first.
   void add(const OdometryPose& said, const LogPlace& place);
   /// Appends the poses to the log, without those that have wrong stamps (judge_times) or stamps over an hour from the
   /// scans. A pose farther from the last than a robot drives begins the odometry anew there. Where no speed is a

@@ -135,7 +135,7 @@ constexpr std::array<std::array<std::string_view, 5>, 4> kColumnNames{
      {"est_y_m", "y_m", "y", "py", "pos_y"},
      {"est_heading_rad", "heading_rad", "theta", "yaw", "heading"}}};
 
-/// By the names in the first line; our own robot.csv has the estimate beside the world's truth, and that counts.
+/// Columns by their names in the first line. The estimate counts in a robot.csv, which has the world's truth beside it.
 OdometryColumns named_columns(RecordedLog& log, const LineFile& file) {
   OdometryColumns columns;
   std::string told;
@@ -165,7 +165,7 @@ OdometryColumns counted_columns(RecordedLog& log, const LineFile& file) {
   return columns;
 }
 
-/// Whether the first line names columns: one of them is a time, or it is of a CSV file and begins with a letter.
+/// True where the first line names columns: one is a time, or a CSV file's line begins with a letter.
 bool names_columns(const LineFile& file) {
   const auto is_time = [](std::string_view word) {
     return std::ranges::find(kColumnNames[0], word) != kColumnNames[0].end();

@@ -38,8 +38,8 @@ struct OdometryPose {
 /// were recorded seldom turned all the same, and scans between ask where they were.
 [[nodiscard]] std::vector<WheelState> filled_in(const std::vector<WheelState>& trail);
 
-/// How often such a trail reports: the middle period, and how much later one in twenty comes; a loop's period at least,
-/// and no longer than a base may have (report_ms, report_late_ms): what stays away longer is a gap.
+/// Times of a trail's reports: the median period, and the 95th percentile of lateness beyond it. At least a loop's
+/// period, at most what a base may have (report_ms, report_late_ms); longer silence is a gap.
 [[nodiscard]] DriveTimes report_times(const std::vector<WheelState>& trail);
 
 }  // namespace jaywalk::sim

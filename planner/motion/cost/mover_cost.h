@@ -61,7 +61,8 @@ class MoverCost {
       const Place before = disc_at(s_.start, cell::heading_at(s_.start.heading), of.disc);
       all.touched |= nearer(with.touched, disc, at, before, s_.futures.at(0, of.mover));
     }
-    // Beside who stands the way counts and not the time: waiting there gains nothing. A long body waits farther off.
+    // Nearness to standing movers is paid by the metre, so that waiting gains nothing; by a long body by the second,
+    // so that it waits farther off.
     const float way = s_.is_long() ? 1.0F : std::min(1.0F, rim_mps(r) / s_.body.bounds.speed);
     all.nearness += with.nearness + way * with.beside;
     if (!s_.futures.is_newcomer(of.mover)) all.too_fast += with.too_fast;

@@ -58,7 +58,7 @@ bool is_same_time_to_go(const Plan& a, const Plan& b) {
          (a.poses.cost == nullptr || same(a.poses.cost, b.poses.cost, PoseLattice::kPoses));
 }
 
-/// What drives, or the paper's.
+/// `is_paper`: by the paper's planner, else by the robot's.
 void check_plans(std::int32_t side, std::uint64_t seed, bool is_paper, const Options& options, Tally& tally) {
   const std::string name = "plan, " + std::to_string(side) + ", seed " + std::to_string(seed);
   Walk walk(side, seed);
