@@ -4,6 +4,7 @@
     bench/scores.py out/movers                            tracks and poses against the truth, means; wants keep = "all"
     bench/scores.py out/posts --nobody                    where nobody is: every track that moves is false
     bench/scores.py out/barn --barn ../shared/data/barn   the benchmark's own score
+    bench/scores.py out/encounters --encounters           by robot and top speed
 
 BARN's score is success x OT / clip(T, 2 OT, 8 OT), with OT the benchmark's planned path at 2 m/s; 0.5 is perfect.
 """
@@ -74,6 +75,36 @@ def barn_cells(runs, folder):
     return [str(sum(s > 0 for s in scores)), str(sum(s >= 0.5 for s in scores)), f"{sum(scores) / len(scores):.3f}"]
 
 
+def at_share(values, share):
+    """The smallest value that at least that share of all do not exceed."""
+    return sorted(values)[max(math.ceil(share * len(values)) - 1, 0)]
+
+
+ENCOUNTERS = ["strict", "touched while driving", "run into at rest", "with a loop", "way over shortest: median, 95 %", "lost, s", "hard brakes a minute"]
+
+
+def encounter_cells(runs):
+    """Ways and times of the runs that arrived; a scenario's name ends with the top speed in dm/s (bench/world_kinds/encounters.py)."""
+    results = [(json.loads((run / "run.json").read_text()), int(planned["scenario"].rsplit("_", 1)[1]) / 10) for run, planned in runs]
+    figures = [result["figures"] for result, _ in results]
+    arrived = [(result["figures"], mps) for result, mps in results if result["outcome"] in ("reached", "forced_mover")]
+    ways = [f["path_length_m"] / f["static_shortest_path_m"] for f, _ in arrived]
+    lost = [f["duration_s"] - f["static_shortest_path_m"] / mps for f, mps in arrived]
+    driving = sum(f["contacts_caused"] > 0 for f in figures)
+    minutes = sum(f["duration_s"] for f in figures) / 60
+    counts = [sum(r["outcome"] == "reached" for r, _ in results), driving, sum(f["contacts"] > 0 for f in figures) - driving, sum(f["loops"] > 0 for f in figures)]
+    brakes = sum(f["hard_brakes"] for f in figures) / minutes
+    return [str(count) for count in counts] + [f"{at_share(ways, 0.5):.2f}, {at_share(ways, 0.95):.2f}", f"{at_share(lost, 0.5):.1f}", f"{brakes:.1f}"]
+
+
+def by_robot_and_speed(rows):
+    regrouped = {}
+    for run, planned in (one for runs in rows.values() for one in runs):
+        model = re.search(r"robot\.model (\w+)", planned["row"])[1]
+        regrouped.setdefault(f"{model}, {int(planned['scenario'].rsplit('_', 1)[1]) / 10} m/s", []).append((run, planned))
+    return regrouped
+
+
 def rows_of(campaign):
     """Experiment and row: folder and plan of each run that is finished and was driven."""
     rows = {}
@@ -95,6 +126,7 @@ def arguments():
     parser.add_argument("--nobody", action="store_true", help="no movers were there")
     parser.add_argument("--radius", default="0.27", help="of movers where the campaign does not set it, m (default: 0.27)")
     parser.add_argument("--barn", type=pathlib.Path, help="folder of BARN's path_lengths.csv")
+    parser.add_argument("--encounters", action="store_true", help="encounters, by robot and top speed")
     parser.add_argument("--track-bench", type=pathlib.Path, default=TRACK_BENCH, help="another build's jaywalk_track_bench")
     parser.add_argument("--jobs", type=int, default=2)
     options = parser.parse_args()
@@ -105,11 +137,14 @@ def arguments():
 def main():
     options = arguments()
     rows = rows_of(options.campaign)
-    head = ["reached", "perfect", "score"] if options.barn else [*options.figures, "pose off at worst, mean and greatest"]
+    head = ["reached", "perfect", "score"] if options.barn else ENCOUNTERS if options.encounters else [*options.figures, "pose off at worst, mean and greatest"]
+    rows = by_robot_and_speed(rows) if options.encounters else rows
     lines = [f"| | runs | {' | '.join(head)} |", f"|{'---|' * (len(head) + 2)}"]
     for name, runs in rows.items():
         if options.barn:
             cells = barn_cells(runs, options.barn)
+        elif options.encounters:
+            cells = encounter_cells(runs)
         else:
             figures = all_of(lambda run: track_figures(run[0], run[1]["command"], options), runs, options.jobs)
             cells = track_cells(figures, options)
