@@ -50,7 +50,7 @@ struct KernelBench {
     }
   }
   void bring_to_two_radps() {
-    CHECK(base.arm().size() == 78);
+    CHECK(base.arm().size() == 76);
     drive(0.0, 10);
     drive(2.0, 50);
     REQUIRE(left.velocity() == Approx(2000.0));
