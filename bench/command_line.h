@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/program/command_words.h"
+#include "firmware/program/parse_message.h"
 
 namespace jaywalk::bench {
 

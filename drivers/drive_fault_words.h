@@ -1,7 +1,7 @@
 #pragma once
 #include <string>
 
-#include "hal/types/drive_fault.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 

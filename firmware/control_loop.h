@@ -14,9 +14,9 @@
 #include "firmware/safety/supervisor.h"
 #include "hal/hal.h"
 #include "planner/cost_to_go/planner.h"
-#include "planner/motion/diff_drive.h"
 #include "planner/motion/motion.h"
 #include "planner/motion/speed_zones.h"
+#include "planner/motion/twist_ramp.h"
 
 namespace jaywalk {
 

@@ -12,7 +12,7 @@
 #include "hal/types/time.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/known_map.h"
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 
 namespace jaywalk {
 

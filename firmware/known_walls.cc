@@ -1,6 +1,6 @@
 #include "firmware/known_walls.h"
 
-#include "planner/mapping/surfaces_near.h"
+#include "planner/mapping/evidence_map.h"
 
 namespace jaywalk {
 

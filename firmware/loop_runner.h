@@ -9,10 +9,10 @@
 
 #include "firmware/backends.h"
 #include "firmware/control_loop.h"
-#include "firmware/recording/out_folder.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/recording/run_folders.h"
 #include "firmware/recording/run_parts.h"
-#include "firmware/tick_observer.h"
+#include "firmware/run_sample.h"
 
 namespace jaywalk {
 

@@ -2,7 +2,7 @@
 
 #include <cmath>
 
-#include "hal/nearest_word.h"
+#include "hal/shown_text.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk {

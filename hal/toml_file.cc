@@ -7,7 +7,6 @@
 #include <regex>
 #include <sstream>
 
-#include "hal/nearest_word.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/toml_settings.h"

@@ -6,7 +6,6 @@
 #include <sstream>
 #include <vector>
 
-#include "hal/nearest_word.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

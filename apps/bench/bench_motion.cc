@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "hal/types/robot_model.h"
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 
 namespace jaywalk {
 namespace {

@@ -9,8 +9,8 @@
 #include "apps/dds/dds_entities.h"
 #include "apps/dds/ring_holder.h"
 #include "apps/formats/ros_robot.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_file.h"
-#include "firmware/robot/steady_clock.h"
 
 namespace jaywalk::dds {
 

@@ -9,8 +9,8 @@
 
 #include "apps/setup/robot_setup.h"
 #include "firmware/program/run_command.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_file.h"
-#include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

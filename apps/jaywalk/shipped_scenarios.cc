@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <vector>
 
-#include "hal/nearest_word.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

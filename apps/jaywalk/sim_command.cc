@@ -19,7 +19,7 @@
 #include "firmware/safety/zone_check.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
-#include "hal/types/rest.h"
+#include "hal/types/wheels.h"
 
 namespace jaywalk {
 namespace {

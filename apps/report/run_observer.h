@@ -5,7 +5,7 @@
 #include "apps/formats/run_exporter.h"
 #include "apps/report/run_picture.h"
 #include "apps/report/run_report.h"
-#include "firmware/tick_observer.h"
+#include "firmware/run_sample.h"
 
 namespace jaywalk {
 

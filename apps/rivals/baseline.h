@@ -4,7 +4,7 @@
 #include <string>
 
 #include "planner/cost_to_go/guide.h"
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 #include "planner/motion/robot_motion.h"
 #include "planner/prediction/mover_history.h"
 #include "planner/tracking/track.h"

@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_devices.h"
-#include "firmware/robot/steady_clock.h"
 
 namespace jaywalk {
 

@@ -16,6 +16,7 @@ constexpr double kTolerance = 0.1;   ///< of counts a turn
 constexpr double kLeastShare = 0.3;  ///< of the turn felt, or the robot did not move
 constexpr double kClearly = 0.9;     ///< a misfit that is less than this of another
 constexpr int kOffMountSteps = 3;    ///< of 5 degrees
+constexpr int kOffAxleSteps = 3;     ///< of 5 cm
 
 const char* side_name(std::size_t side) { return side == 0 ? "left" : "right"; }
 
@@ -150,34 +151,62 @@ CheckedPart check_counts(const SideMotion& seen, std::size_t side, double track_
   return {std::string(side_name(side)) + " counts", well, said};
 }
 
-/// The scanner's heading on the robot that explains the scans best, beside what the file says.
+/// Misfit of all nudges, m, as the wheels have them, with the scanner at `mount`.
+double misfit_at(const std::vector<Nudge>& nudges, const DriveModel& drive, std::size_t scanner, const Pose2& mount) {
+  double sum_m = 0.0;
+  for (const Nudge& nudge : nudges) {
+    const double felt = felt_m(nudge, drive);
+    const double turn = (nudge.side == 0 ? -felt : felt) / drive.track_width_m;
+    sum_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
+  }
+  return sum_m;
+}
+
+/// A step off the file's mount, and the misfit there.
+struct MountStep {
+  int step = 0;
+  double misfit_m = 0.0;
+};
+
+/// The step from -`steps` to `steps` that explains the scans best; 0 where none does so clearly.
+template <class MountAt>
+MountStep best_step(int steps, const std::vector<Nudge>& nudges, const DriveModel& drive, std::size_t scanner,
+                    const MountAt& mount_at) {
+  const MountStep at_file{0, misfit_at(nudges, drive, scanner, mount_at(0))};
+  MountStep best = at_file;
+  for (int k = -steps; k <= steps; ++k) {
+    const double sum_m = misfit_at(nudges, drive, scanner, mount_at(k));
+    if (sum_m < best.misfit_m) best = {k, sum_m};
+  }
+  return best.misfit_m > kClearly * at_file.misfit_m ? at_file : best;
+}
+
+/// The scanner's heading, or its place ahead of the axle, that explains the scans better than the file's. The robot
+/// turns about the axle's middle: a frame elsewhere shows as a scanner elsewhere.
 CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
-  constexpr double kBetween_rad = 5.0 * kPi / 180.0;
-  constexpr int kSteps = 9;  // to 45 degrees either way
-  double at_file_m = 0.0, least_m = std::numeric_limits<double>::infinity();
-  int best = 0;
-  for (int k = -kSteps; k <= kSteps; ++k) {
-    Pose2 mount = model.lasers()[scanner].robot_from_laser;
-    mount.heading = wrap_angle(mount.heading + k * kBetween_rad);
-    double sum_m = 0.0;
-    for (const Nudge& nudge : nudges) {
-      const double felt = felt_m(nudge, model.drive);
-      const double turn = (nudge.side == 0 ? -felt : felt) / model.drive.track_width_m;
-      sum_m += misfit_with(nudge, scanner, turn, 0.5 * felt, mount);
-    }
-    if (k == 0) at_file_m = sum_m;
-    if (sum_m < least_m) least_m = sum_m, best = k;
-  }
-  const bool well = std::abs(best) < kOffMountSteps || least_m > kClearly * at_file_m;
-  char said[120];
-  if (well) {
-    std::snprintf(said, sizeof said, "it looks where the file says, as far as %d degrees can be told",
-                  5 * kOffMountSteps);
-  } else {
+  const Pose2& file = model.lasers()[scanner].robot_from_laser;
+  const MountStep turned = best_step(9, nudges, model.drive, scanner, [&](int k) {  // to 45 degrees either way
+    return Pose2{file.x, file.y, wrap_angle(file.heading + k * 5.0 * kPi / 180.0)};
+  });
+  const MountStep ahead = best_step(12, nudges, model.drive, scanner, [&](int k) {  // to 0.6 m
+    return Pose2{file.x + 0.05 * k, file.y, file.heading};
+  });
+  char said[160];
+  const bool is_turned = std::abs(turned.step) >= kOffMountSteps && turned.misfit_m <= ahead.misfit_m;
+  const bool is_off = !is_turned && std::abs(ahead.step) >= kOffAxleSteps;
+  if (is_turned) {
     std::snprintf(said, sizeof said, "it is turned by about %d degrees more than the file says; correct [laser] mount",
-                  5 * best);
+                  5 * turned.step);
+  } else if (is_off) {
+    std::snprintf(said, sizeof said,
+                  "it lies about %.2f m farther %s the drive axle than the file says; correct [laser] mount, whose x "
+                  "begins at the axle",
+                  0.05 * std::abs(ahead.step), ahead.step > 0 ? "ahead of" : "behind");
+  } else {
+    std::snprintf(said, sizeof said, "it is where the file says, as far as %d degrees and %.2f m can be told",
+                  5 * kOffMountSteps, 0.05 * kOffAxleSteps);
   }
-  return {"scanner's mount", well, said};
+  return {"scanner's mount", !is_turned && !is_off, said};
 }
 
 /// What one scanner's scans show.
@@ -186,8 +215,13 @@ std::vector<CheckedPart> judge_scans(const std::vector<Nudge>& nudges, const Rob
   if (!seen[0].matched || !seen[1].matched)
     return {{"scans", false, "do not tell the motion; go to where walls stand on two sides, and nothing moves"}};
   const double track_m = model.drive.track_width_m;
-  std::vector<CheckedPart> checks{check_sides(signs_of(seen[0], track_m), signs_of(seen[1], track_m))};
-  if (!checks.back().is_well) return checks;
+  const Signs left = signs_of(seen[0], track_m), right = signs_of(seen[1], track_m);
+  std::vector<CheckedPart> checks{check_sides(left, right)};
+  if (!checks.back().is_well) {
+    const bool way_alone = left.turn == 1 && right.turn == 1 && left.way + right.way > -2;  // a wrong place hides it
+    const CheckedPart mount = check_mount(nudges, model, scanner);
+    return way_alone && !mount.is_well ? std::vector<CheckedPart>{mount} : checks;
+  }
   for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
   checks.push_back(check_mount(nudges, model, scanner));
   return checks;

@@ -6,7 +6,7 @@
 
 #include "firmware/control_loop.h"
 #include "firmware/recording/tick_record.h"
-#include "firmware/robot/ring.h"
+#include "firmware/robot/signal_thread.h"
 #include "planner/prediction/futures.h"
 
 namespace jaywalk::view {

@@ -1,10 +1,11 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <span>
 #include <string>
 #include <vector>
 
-#include "hal/nearest_word.h"
 #include "hal/shown_text.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 
@@ -30,5 +31,30 @@ inline std::string parse_message(const CLI::App* app, const CLI::Error& error) {
   return app->get_name() + ": " + printable(error.what()) + "; see " + app->get_name() + " " +
          (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
 }
+
+/// Throws StartupError for a word of the command line that is empty, or an option that ends in "=": the parser would
+/// read a number as 0, from a shell's unset variable, say.
+inline void refuse_empty_words(int argc, const char* const* argv) {
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool option_of_nothing = word.rfind("--", 0) == 0 && word.back() == '=';
+    if (!word.empty() && !option_of_nothing) continue;
+    const std::string place = option_of_nothing ? " behind " + shown(word)
+                              : k > 1           ? " behind " + shown(argv[k - 1])
+                                                : "";
+    throw StartupError("a word of the command line is empty" + place, "give a value, or leave it out");
+  }
+}
+
+/// What stands under a command's help.
+struct Footer {
+  const char* command;
+  const char* example;  ///< without the program's name
+  const char* zero;     ///< meaning of exit code 0
+  const char* one;      ///< of exit code 1; "-": there is none
+};
+
+/// Under each command's help: an example, and what its exit code says. The program's own help shows the first.
+void add_footers(CLI::App& app, std::span<const Footer> footers);
 
 }  // namespace jaywalk

@@ -7,10 +7,8 @@
 #include <vector>
 
 #include "firmware/backends.h"
-#include "firmware/program/command_words.h"
 #include "firmware/program/parse_message.h"
 #include "firmware/program/standard_streams.h"
-#include "hal/nearest_word.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

@@ -9,9 +9,8 @@
 #include <string>
 #include <vector>
 
-#include "firmware/program/choice_option.h"
-#include "firmware/program/help_footers.h"
-#include "firmware/program/parts_option.h"
+#include "firmware/program/options.h"
+#include "firmware/program/parse_message.h"
 #include "firmware/program/run_command.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"

@@ -7,7 +7,7 @@
 #include "firmware/recording/run_folders.h"
 #include "firmware/recording/run_parts.h"
 #include "firmware/robot/robot_file.h"
-#include "firmware/tick_observer.h"
+#include "firmware/run_sample.h"
 
 namespace jaywalk {
 

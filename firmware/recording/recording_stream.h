@@ -16,7 +16,7 @@
 #include "firmware/recording/append_file.h"
 #include "firmware/recording/tick_entry.h"
 #include "firmware/recording/tick_record.h"
-#include "hal/gzip_file.h"
+#include "hal/text_file.h"
 
 namespace jaywalk {
 

@@ -1,11 +1,14 @@
 #pragma once
 // All that crossed the HAL in one tick and what was made of it: the tick's only local state, and
 // enough to live through the tick again.
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <limits>
 
-#include "firmware/recording/planned_path.h"
 #include "firmware/safety/reaction.h"
-#include "firmware/safety/verdict.h"
+#include "firmware/safety/reasons.h"
+#include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/outside_fix.h"
@@ -15,6 +18,35 @@
 #include "planner/localization/localizer.h"
 
 namespace jaywalk {
+
+// A plan's path as recordings and messages have it: in whole millimetres.
+
+/// A place in the map, mm; within +-2,147 km.
+struct PointMm {
+  std::int32_t x = 0, y = 0;
+  bool operator==(const PointMm&) const = default;
+};
+
+[[nodiscard]] inline PointMm in_mm(Vec2 p) noexcept {
+  const auto whole = [](double metres) {
+    constexpr double kMost = std::numeric_limits<std::int32_t>::max();
+    return static_cast<std::int32_t>(std::clamp(std::floor(metres * 1000.0 + 0.5), -kMost, kMost));
+  };
+  return {whole(p.x), whole(p.y)};
+}
+[[nodiscard]] inline Vec2 in_metres(PointMm p) noexcept { return {p.x / 1000.0, p.y / 1000.0}; }
+
+struct PlannedPath {
+  Time stamp = kNever;                            ///< of the scan that the plan rests on
+  FixedVector<PointMm, kMaxPathPoints> points{};  ///< from the robot to the goal; empty: no path
+};
+
+/// The path of `plan`; none unless its status is kOk. Finite points, as a plan has them.
+inline void keep_path(const Plan& plan, PlannedPath& path) noexcept {
+  path.stamp = plan.stamp;
+  path.points.clear();
+  for (const Vec2& point : plan.path) static_cast<void>(path.points.push_back(in_mm(point)));  // as many as there fit
+}
 
 /// All that crosses the HAL and the supervisor in a tick, as it is recorded: more fields than a struct has elsewhere.
 struct TickRecord {

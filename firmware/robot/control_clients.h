@@ -15,6 +15,17 @@
 
 namespace jaywalk {
 
+enum class StopWords : std::uint8_t { kNone, kStop, kStopNow };
+
+/// Returns the strongest stop in any line of `text`.
+///
+/// A line is a stop where its first letters are "stop" or "halt", in either case, whatever stands before and after
+/// them. "emergency", "estop" and "e-stop", and "now" in the line, stop at once.
+[[nodiscard]] StopWords stop_in(std::string_view text) noexcept;
+
+/// Without the blanks, and the ends of lines, round it.
+[[nodiscard]] std::string_view trimmed(std::string_view line) noexcept;
+
 /// What a line is answered. What takes longer than a moment is a job: it runs in a thread of its own, and its return
 /// value is the answer.
 struct ControlReply {
@@ -30,7 +41,7 @@ struct ControlReply {
 /// its sender time and nobody else: kMostAccepted connections, kMostAnswers answers. When all places or descriptors are
 /// taken, the process with most of them loses its oldest client.
 ///
-/// A stop (stop_words.h) is answered as soon as it is read, before all else, and is not counted: in the round that is
+/// A stop (stop_in()) is answered as soon as it is read, before all else, and is not counted: in the round that is
 /// under way when it comes, or the next. It need not be a client's first line, nor have an end where its client has.
 /// A descriptor is kept in reserve for it. Thread: one.
 class ControlClients {

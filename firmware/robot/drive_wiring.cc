@@ -4,8 +4,7 @@
 #include <array>
 #include <cmath>
 
-#include "firmware/robot/distinct_keys.h"
-#include "firmware/robot/topic_key.h"
+#include "firmware/robot/robot_file_keys.h"
 
 namespace jaywalk {
 namespace {

@@ -2,9 +2,9 @@
 
 #include <cmath>
 
-#include "firmware/robot/stop_words.h"
+#include "firmware/robot/control_clients.h"
 #include "hal/types/errors.h"
-#include "hal/types/rest.h"
+#include "hal/types/wheels.h"
 
 namespace jaywalk {
 namespace {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "firmware/control_setup.h"
-#include "firmware/tick_observer.h"
+#include "firmware/run_sample.h"
 #include "hal/mailbox.h"
 #include "planner/cost_to_go/planner.h"
 

@@ -142,7 +142,7 @@ double unwatched_ahead(const RobotFile& robot) {
   double unwatched = 0.0, all = 0.0;
   for (double x = from_m; x <= to_m; x += kStep_m) {
     for (double y = -model.footprint.half_width_m; y <= model.footprint.half_width_m; y += kStep_m) {
-      unwatched += lookout.at(seen, {x, y}) == Sight::kUnwatched ? 1.0 : 0.0;
+      unwatched += lookout.at(seen, {x, y}) == Coverage::kUnwatched ? 1.0 : 0.0;
       all += 1.0;
     }
   }

@@ -4,6 +4,8 @@
 #include <string>
 #include <vector>
 
+#include "hal/hal.h"
+
 namespace jaywalk {
 
 /// What the loop's thread asks of the kernel.
@@ -43,5 +45,13 @@ struct PageFaults {
   }
 };
 [[nodiscard]] PageFaults page_faults() noexcept;
+
+/// CLOCK_MONOTONIC: nanoseconds since boot, never set back. Any thread.
+class SteadyClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override;
+  /// An absolute wake-up: however long the last tick took, the next is not put off.
+  void sleep_until(Time wake) noexcept override;
+};
 
 }  // namespace jaywalk

@@ -3,11 +3,9 @@
 #include <algorithm>
 #include <cctype>
 
-#include "firmware/robot/distinct_keys.h"
 #include "firmware/robot/known_map_file.h"
 #include "firmware/robot/plausible_robot.h"
 #include "firmware/robot/robot_file_keys.h"
-#include "firmware/robot/topic_key.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"

@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "drivers/wire/thread_without_signals.h"
-#include "hal/types/rest.h"
+#include "hal/types/wheels.h"
 
 namespace jaywalk {
 namespace {

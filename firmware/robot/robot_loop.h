@@ -10,14 +10,14 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/laser/scanner_connection.h"
+#include "firmware/log_histogram.h"
 #include "firmware/loop_runner.h"
-#include "firmware/loop_times.h"
+#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
-#include "firmware/robot/reset_gate.h"
-#include "firmware/robot/ring.h"
+#include "firmware/robot/signal_thread.h"
 #include "firmware/robot/stall_guard.h"
-#include "firmware/tick_observer.h"
+#include "firmware/run_sample.h"
 
 namespace jaywalk {
 

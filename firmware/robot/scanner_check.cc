@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "firmware/robot/robot_devices.h"
-#include "firmware/safety/sight_loss.h"
+#include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
 #include "hal/types/errors.h"
 

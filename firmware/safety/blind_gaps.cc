@@ -12,6 +12,9 @@ constexpr double kAhead_rad = kPi / 3.0;
 constexpr double kRim_rad = 1e-6;  // as blank() has it: a beam on a sector's rim is in it
 constexpr double kInfinity_m = std::numeric_limits<double>::infinity();
 
+constexpr std::uint32_t kShare = 2, kShareAhead = 3;  // one in so many
+constexpr Duration kLongestAhead = std::chrono::seconds(1);
+
 }  // namespace
 
 void BlindGaps::update(const LaserScan& scan) noexcept {
@@ -59,7 +62,7 @@ void BlindGaps::judge_beams(const LaserScan& scan) noexcept {
 }
 
 void BlindGaps::find_gaps() noexcept {
-  std::fill_n(gap_.begin(), beams_, Gap{kInfinity_m, Sight::kProven});
+  std::fill_n(gap_.begin(), beams_, Gap{kInfinity_m, Coverage::kProven});
   nearest_lost_m_ = kInfinity_m;
   const double step = std::fabs(step_rad_);
   const auto measured = [](Beam beam) { return beam == Beam::kMeasured; };
@@ -87,13 +90,13 @@ void BlindGaps::mark(std::size_t from, std::size_t count, double half_rad) noexc
   const double near_m = std::max(0.0, middle_m - kPostRadius_m);
   for (std::size_t k = from; k < from + count; ++k) {
     const bool lost = beam_[k % beams_] == Beam::kLost || beam_[(k + 1) % beams_] == Beam::kLost;
-    gap_[k % beams_] = {near_m, lost ? Sight::kLost : Sight::kUnwatched};
+    gap_[k % beams_] = {near_m, lost ? Coverage::kLost : Coverage::kUnwatched};
     if (lost) nearest_lost_m_ = std::min(nearest_lost_m_, near_m);
   }
 }
 
-Sight BlindGaps::at(Vec2 place) const noexcept {
-  if (beams_ == 0) return Sight::kUnwatched;
+Coverage BlindGaps::at(Vec2 place) const noexcept {
+  if (beams_ == 0) return Coverage::kUnwatched;
   const double past_first = wrap_angle(atan2(place.y, place.x) - first_rad_) * (step_rad_ < 0.0 ? -1.0 : 1.0);
   const double turned = past_first < 0.0 ? past_first + 2.0 * kPi : past_first;
   const double beams = turned / std::fabs(step_rad_);
@@ -103,22 +106,32 @@ Sight BlindGaps::at(Vec2 place) const noexcept {
     // Half a beam's width beyond the last beam and before the first is seen as they are.
     const bool at_last = beams < static_cast<double>(beams_) - 0.5,
                at_first = 2.0 * kPi / std::fabs(step_rad_) - beams < 0.5;
-    if (!all_round_ && !at_last && !at_first) return Sight::kUnwatched;
+    if (!all_round_ && !at_last && !at_first) return Coverage::kUnwatched;
     interval = at_first && !at_last ? 0 : intervals - 1;
   }
   const Gap& gap = gap_[interval];
-  return dot(place, place) < gap.near_m * gap.near_m ? Sight::kProven : gap.sight;
+  return dot(place, place) < gap.near_m * gap.near_m ? Coverage::kProven : gap.coverage;
 }
 
 Lookout::Lookout(const OfEach<Pose2>& robot_from_lasers) {
   for (const Pose2& mount : robot_from_lasers) laser_from_robot_.emplace_back(inverse(mount));
 }
 
-Sight Lookout::at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept {
-  Sight best = Sight::kUnwatched;
-  for (std::size_t k = 0; k < laser_from_robot_.size() && best != Sight::kProven; ++k)
+Coverage Lookout::at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept {
+  Coverage best = Coverage::kUnwatched;
+  for (std::size_t k = 0; k < laser_from_robot_.size() && best != Coverage::kProven; ++k)
     best = std::min(best, gaps[k].at(laser_from_robot_[k] * place));  // in the enumeration's order
   return best;
+}
+
+bool SightLoss::is_lost(const BeamCounts& counts, Time now) noexcept {
+  if (kShareAhead * counts.lost_ahead <= counts.ahead) {
+    lost_ahead_since_ = kNever;
+  } else if (lost_ahead_since_ == kNever) {
+    lost_ahead_since_ = now;
+  }
+  const bool ahead = lost_ahead_since_ != kNever && now - lost_ahead_since_ > kLongestAhead;
+  return ahead || kShare * counts.lost > counts.lost + counts.measured;
 }
 
 }  // namespace jaywalk

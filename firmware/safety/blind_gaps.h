@@ -5,11 +5,12 @@
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
 
 /// What a scan says of a place.
-enum class Sight : std::uint8_t {
+enum class Coverage : std::uint8_t {
   kProven,     ///< a post of 70 mm there would cut a beam that measured
   kLost,       ///< it would not: beams that should measure there did not
   kUnwatched,  ///< the laser never looks there: outside its field of view, or a blanked sector
@@ -35,7 +36,7 @@ class BlindGaps {
   void update(const LaserScan& scan) noexcept;
 
   /// Of a place in the laser's frame.
-  [[nodiscard]] Sight at(Vec2 place_in_laser) const noexcept;
+  [[nodiscard]] Coverage at(Vec2 place_in_laser) const noexcept;
   [[nodiscard]] const BeamCounts& counts() const noexcept { return counts_; }
   /// How near the laser something can be hidden by lost beams; +infinity where nothing can.
   [[nodiscard]] double nearest_lost_m() const noexcept { return nearest_lost_m_; }
@@ -54,7 +55,7 @@ class BlindGaps {
   enum class Beam : std::uint8_t { kMeasured, kLost, kBlanked };
   struct Gap {
     double near_m;  ///< from here on something can hide
-    Sight sight;
+    Coverage coverage;
   };
 
   void learn_directions(const LaserScan& scan) noexcept;
@@ -81,10 +82,21 @@ class Lookout {
  public:
   explicit Lookout(const OfEach<Pose2>& robot_from_lasers);
   /// `gaps`: of each scanner.
-  [[nodiscard]] Sight at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
+  [[nodiscard]] Coverage at(const OfEach<BlindGaps>& gaps, Vec2 place) const noexcept;
 
  private:
   std::vector<Transform2> laser_from_robot_;
+};
+
+/// Whether so many beams prove nothing that the scanner has to be seen to (SAFETY 17): more than half of those that it
+/// should measure, at once; more than a third of those within 60 degrees of the way ahead, for longer than a second.
+class SightLoss {
+ public:
+  /// Once a tick.
+  [[nodiscard]] bool is_lost(const BeamCounts& counts, Time now) noexcept;
+
+ private:
+  Time lost_ahead_since_ = kNever;
 };
 
 }  // namespace jaywalk

@@ -6,7 +6,7 @@
 #include "firmware/safety/felt_motion.h"
 #include "firmware/safety/reasons.h"
 #include "firmware/safety/scan_pair.h"
-#include "firmware/safety/wheel_travel.h"
+#include "firmware/safety/wheel_proof.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "hal/types/geometry.h"
+
 namespace jaywalk {
 
 /// Why the supervisor permits less than was wanted, or nothing is wanted. A set of bits.
@@ -118,5 +120,15 @@ static_assert((kNoFaults | kAlwaysLatched | of_kind(ReasonKind::kFault)) ==
 [[nodiscard]] std::string to_string(Reason reasons);
 /// And which of several scanners have a fault of theirs, by Verdict::faulty_scanners: "scan_stale|scanner_2".
 [[nodiscard]] std::string to_string(Reason reasons, std::uint8_t faulty_scanners);
+
+/// What the supervisor permits this tick, and why it is not what was wanted.
+struct Verdict {
+  Twist2 permitted;
+  Reason reasons = Reason::kNone;
+  double gap_m = 0.0;                ///< free way ahead in the direction of travel, +inf when nothing is in it
+  std::uint8_t faulty_scanners = 0;  ///< of several, bit k: a fault of scans is scanner k's
+
+  [[nodiscard]] bool is_faulty(std::size_t scanner) const noexcept { return ((faulty_scanners >> scanner) & 1U) != 0; }
+};
 
 }  // namespace jaywalk

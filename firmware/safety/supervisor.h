@@ -5,14 +5,13 @@
 #include <vector>
 
 #include "firmware/safety/blind_gaps.h"
+#include "firmware/safety/latency.h"
 #include "firmware/safety/modes.h"
 #include "firmware/safety/motion_model.h"
 #include "firmware/safety/reaction.h"
-#include "firmware/safety/scan_timing.h"
-#include "firmware/safety/sight_loss.h"
+#include "firmware/safety/reasons.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/unseen_walls.h"
-#include "firmware/safety/verdict.h"
 #include "firmware/safety/watch.h"
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/laser_scan.h"

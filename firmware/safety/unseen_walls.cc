@@ -71,7 +71,7 @@ void UnseenWalls::update(const OfEach<LaserScan>& scans, const OfEach<BlindGaps>
 }
 
 void UnseenWalls::add(const OfEach<BlindGaps>& gaps, Vec2 point) noexcept {
-  const bool counts = footprint_.distance_to(point) > 0.0 && lookout_.at(gaps, point) == Sight::kUnwatched;
+  const bool counts = footprint_.distance_to(point) > 0.0 && lookout_.at(gaps, point) == Coverage::kUnwatched;
   if (counts) (void)points_.push_back(point);
 }
 

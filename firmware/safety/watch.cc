@@ -47,7 +47,7 @@ double Watch::unwatched_mps(const OfEach<BlindGaps>& gaps, const Twist2& twist, 
     const Vec2 beyond = rim.on_body + rim.outward * margin_m_;
     bool unwatched = false;
     for (std::size_t k = 0; k <= path.steps() && !unwatched; k += kEveryStep)
-      unwatched = lookout_.at(gaps, path.place_of(k, beyond)) == Sight::kUnwatched;
+      unwatched = lookout_.at(gaps, path.place_of(k, beyond)) == Coverage::kUnwatched;
     if (unwatched) fastest = speed;
   }
   return fastest;
@@ -65,7 +65,7 @@ double Watch::way_to_lost_m(const OfEach<BlindGaps>& gaps, const Twist2& twist, 
     const Vec2 grown = rim.on_body + rim.outward * margin_m;
     for (std::size_t k = 1; k < first; ++k) {
       const Vec2 place = path.place_of(k, grown);
-      if (!held_free(place) && lookout_.at(gaps, place) == Sight::kLost) first = k;
+      if (!held_free(place) && lookout_.at(gaps, place) == Coverage::kLost) first = k;
     }
   }
   return first > path.steps() ? kNever_m : static_cast<double>(first - 1) * SweptPath::kStep_m;

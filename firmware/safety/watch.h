@@ -2,7 +2,7 @@
 #include <vector>
 
 #include "firmware/safety/blind_gaps.h"
-#include "firmware/safety/swept_path.h"
+#include "firmware/safety/stop_zone.h"
 
 namespace jaywalk {
 

@@ -3,7 +3,7 @@
 #include <array>
 #include <fstream>
 
-#include "hal/maps/image_rows.h"
+#include "hal/maps/image_file.h"
 
 namespace jaywalk::sim {
 namespace {

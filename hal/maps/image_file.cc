@@ -3,7 +3,6 @@
 #include <fstream>
 #include <string>
 
-#include "hal/maps/image_rows.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {

@@ -1,6 +1,6 @@
 #include <fstream>
 
-#include "hal/maps/image_rows.h"
+#include "hal/maps/image_file.h"
 
 namespace jaywalk::sim {
 namespace {

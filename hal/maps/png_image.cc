@@ -4,7 +4,7 @@
 #include <csetjmp>
 #include <cstdio>
 
-#include "hal/maps/image_rows.h"
+#include "hal/maps/image_file.h"
 
 namespace jaywalk::sim {
 namespace {

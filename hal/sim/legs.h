@@ -1,7 +1,7 @@
 #pragma once
 #include <array>
 
-#include "hal/maps/shapes.h"
+#include "hal/maps/wall_map.h"
 #include "hal/sim/simulation.h"
 
 namespace jaywalk::sim {

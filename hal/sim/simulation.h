@@ -7,7 +7,7 @@
 #include <string>
 
 #include "hal/hal.h"
-#include "hal/maps/shapes.h"
+#include "hal/maps/wall_map.h"
 #include "hal/sim/scenario.h"
 
 namespace jaywalk::sim {

@@ -1,4 +1,5 @@
 #pragma once
+#include <cstdint>
 #include <stdexcept>
 #include <string>
 
@@ -19,6 +20,28 @@ class StartupError : public std::runtime_error {
     }
     return text;
   }
+};
+
+/// Kind of number by which a drive says what is wrong with it, or that says what is wrong with it.
+enum class DriveFaultKind : std::uint8_t {
+  kNone,
+  kEmergency,  ///< CANopen: error code of an emergency message
+  kMode,       ///< CiA 402: mode shown (6061h) where it is not the one wanted
+  kOdrive,     ///< active errors, a bit each
+  kVesc,       ///< fault code
+  kVescStill   ///< electrical turns a minute that a VESC was told, and its motor did not turn
+};
+/// The last of them, for checks of what is read.
+inline constexpr DriveFaultKind kLastDriveFaultKind = DriveFaultKind::kVescStill;
+
+/// First fault that a drive told since its drive base was proved.
+struct DriveFault {
+  DriveFaultKind kind = DriveFaultKind::kNone;
+  std::uint8_t node = 0;   ///< its number on the bus
+  std::uint32_t code = 0;  ///< as `kind` says
+
+  [[nodiscard]] bool is_told() const noexcept { return kind != DriveFaultKind::kNone; }
+  bool operator==(const DriveFault&) const = default;
 };
 
 }  // namespace jaywalk

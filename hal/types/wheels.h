@@ -1,8 +1,10 @@
 #pragma once
+#include <cmath>
 #include <cstdint>
 #include <string_view>
 
-#include "hal/types/drive_fault.h"
+#include "hal/types/errors.h"
+#include "hal/types/geometry.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
@@ -61,5 +63,12 @@ struct WheelCommand {
   double left_radps = 0.0;
   double right_radps = 0.0;
 };
+
+/// Below these speeds the robot is at rest: more than encoders scatter by, less than any drive is asked for.
+inline constexpr double kAtRest_mps = 0.01, kAtRest_radps = 0.02;
+
+[[nodiscard]] inline bool is_at_rest(const Twist2& twist) {
+  return std::fabs(twist.v_mps) < kAtRest_mps && std::fabs(twist.w_radps) < kAtRest_radps;
+}
 
 }  // namespace jaywalk

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "firmware/robot/steady_clock.h"
+#include "firmware/robot/realtime.h"
 
 namespace jaywalk::rig {
 

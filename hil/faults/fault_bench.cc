@@ -6,7 +6,7 @@
 
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/errors.h"
-#include "hal/types/rest.h"
+#include "hal/types/wheels.h"
 #include "hil/faults/matrix_files.h"
 
 namespace jaywalk::faults {

@@ -10,7 +10,6 @@
 
 #include "drivers/can/socketcan.h"
 #include "firmware/robot/realtime.h"
-#include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
 #include "hil/plant/orders.h"
 #include "hil/plant/plant_log.h"

@@ -15,7 +15,7 @@
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/keep_out.h"
 #include "planner/mapping/known_map.h"
-#include "planner/tracking/standing_pedestrian.h"
+#include "planner/tracking/standing.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {

@@ -3,7 +3,7 @@
 #include <memory>
 #include <vector>
 
-#include "planner/cost_to_go/answering_planner.h"
+#include "planner/cost_to_go/fallback_planner.h"
 #include "planner/cost_to_go/guide_field.h"
 #include "planner/cost_to_go/pose_field.h"
 #include "planner/mapping/nearest_cell.h"

@@ -3,6 +3,7 @@
 #include <Eigen/Core>
 
 #include "hal/types/geometry.h"
+#include "planner/localization/coasting.h"
 
 namespace jaywalk {
 
@@ -22,5 +23,34 @@ struct PoseBelief {
 /// Normalised innovation squared: the squared Mahalanobis distance of two poses, chi-squared of three where
 /// `covariance` is that of their difference (Bar-Shalom and others 2001, 5.4.2).
 [[nodiscard]] double nis(const Pose2& from, const Pose2& to, const Eigen::Matrix3d& covariance) noexcept;
+
+/// Doubt about the pose: after a stall of the program or silent wheels, and after the robot was carried.
+///
+/// Coasting over a gap is a guess. The scan matcher may choose a wrong wall once the guess may be off by more than its
+/// window. Wheel angles that count on from before a gap end that doubt; a fix ends either. A search of the map does
+/// not: for a carried robot it found wrong places that fit, 7 and 11 m off. In doubt nothing is matched or mapped.
+/// Thread: the loop's.
+class PoseDoubt {
+ public:
+  /// Adds the variance of a guessed step.
+  void coasted(const Coasting::Step& step) noexcept;
+  /// A scan was found in the map.
+  void matched() noexcept {
+    if (!is_doubtful()) settle();
+  }
+  /// Begins the doubt of a robot that was lifted, pushed or turned by hand; its wheels did not turn.
+  void carried() noexcept { carried_ = true; }
+  /// Ends the doubt of a gap: the wheels counted through it.
+  void counted_on() noexcept { position_var_ = heading_var_ = 0.0, doubtful_ = false; }
+  /// Ends all doubt: the pose is known.
+  void settle() noexcept { *this = {}; }
+
+  [[nodiscard]] bool is_doubtful() const noexcept { return doubtful_ || carried_; }
+
+ private:
+  double position_var_ = 0.0, heading_var_ = 0.0;  ///< of what was guessed since the last match, m^2 and rad^2
+  bool doubtful_ = false;                          ///< these are too great
+  bool carried_ = false;
+};
 
 }  // namespace jaywalk

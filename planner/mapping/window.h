@@ -1,7 +1,7 @@
 #pragma once
 #include "hal/types/geometry.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/mapping/grid.h"
+#include "planner/mapping/nearest_cell.h"
 
 namespace jaywalk::field {
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/types/stop_zone_rules.h"
+#include "hal/types/robot_model.h"
 
 namespace jaywalk::motion {
 namespace {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/types/rest.h"
+#include "hal/types/wheels.h"
 
 namespace jaywalk::motion {
 namespace {

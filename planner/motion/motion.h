@@ -1,13 +1,16 @@
 #pragma once
 // Motion's door: from what the robot knows to the twist that it wants. The supervisor decides what becomes of that.
 #include <limits>
+#include <memory>
 #include <span>
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
+#include "hal/types/robot_model.h"
 #include "hal/types/scanners.h"
 #include "planner/cost_to_go/planner.h"
-#include "planner/scan/seen_from.h"
+#include "planner/mapping/keep_out.h"
+#include "planner/scan/line_of_sight.h"
 
 namespace jaywalk::motion {
 
@@ -56,7 +59,7 @@ struct MotionStatus {
 class GoalRollouts;
 
 /// Decides how the robot moves. One object drives from start to end; make_motion() makes it. A new kind of motion
-/// implements this, and has one line there (make_motion.h).
+/// implements this, and has one line in make_motion().
 ///
 /// Memory in the constructor: no call allocates, throws or waits. Thread: the loop's.
 class Motion {
@@ -76,5 +79,24 @@ class Motion {
   /// For pictures: the decisions over sampled futures on the way to a goal; null where nothing is rolled out.
   [[nodiscard]] virtual const GoalRollouts* rollouts() const noexcept { return nullptr; }
 };
+
+// Makes the one Motion that a control loop holds.
+
+struct MotionSetup {
+  RobotModel model;
+  bool constant_speed = false;  ///< one speed from start to goal, never stopping
+  StickUse steering = StickUse::kNone;
+  double comfort_distance_m = 1.0;  ///< a pedestrian's middle nearer than this to the body's discs costs
+  double goal_tolerance_m = 0.3;
+  double tick_s = 0.02;
+  std::shared_ptr<const KeepOutField> keep_out = {};  ///< null: no such zones
+
+  [[nodiscard]] KeepOut keep_out_zones() const noexcept { return keep_out ? keep_out->view() : KeepOut{}; }
+};
+
+/// Throws nothing but std::bad_alloc.
+[[nodiscard]] std::unique_ptr<Motion> make_motion(const MotionSetup& setup);
+/// Makes a motion; another than make_motion(), for comparisons and for mode paper.
+using MakeMotion = std::unique_ptr<Motion> (*)(const MotionSetup&);
 
 }  // namespace jaywalk::motion

@@ -3,11 +3,11 @@
 #include <span>
 
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 #include "hal/types/scanners.h"
-#include "hal/types/stop_zone_rules.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/motion/robot_body.h"
-#include "planner/scan/seen_from.h"
+#include "planner/scan/line_of_sight.h"
 
 namespace jaywalk::motion {
 

@@ -1,7 +1,7 @@
 #pragma once
 #include <memory>
 
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 #include "planner/motion/trajectory_cost.h"
 #include "planner/prediction/mover_history.h"
 

@@ -3,8 +3,8 @@
 
 #include "hal/types/trig.h"
 #include "planner/cost_to_go/pose_guide.h"
+#include "planner/motion/blind_rim.h"
 #include "planner/motion/cost/prices.h"
-#include "planner/motion/known_behind.h"
 #include "planner/motion/near_returns.h"
 #include "planner/motion/robot_body.h"
 #include "planner/motion/stick_proposals.h"

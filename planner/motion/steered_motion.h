@@ -1,7 +1,7 @@
 #pragma once
 #include <utility>
 
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 #include "planner/motion/stick_rollouts.h"
 
 namespace jaywalk::motion {

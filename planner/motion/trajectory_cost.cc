@@ -2,12 +2,9 @@
 
 #include <algorithm>
 
-#include "planner/motion/cost/comfort_cost.h"
+#include "planner/motion/cost/ground_cost.h"
 #include "planner/motion/cost/mover_cost.h"
-#include "planner/motion/cost/stop_zone_cost.h"
-#include "planner/motion/cost/time_cost.h"
-#include "planner/motion/cost/unseen_cost.h"
-#include "planner/motion/cost/wall_cost.h"
+#include "planner/motion/cost/ride_cost.h"
 
 namespace jaywalk::motion {
 namespace {

@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "planner/cell/cell.h"
-#include "planner/mapping/grid.h"
+#include "planner/mapping/nearest_cell.h"
 
 // Tells the compiler what holds for every stage: visits do not depend on one another, so they may go side by side.
 #if defined(__GNUC__) && !defined(__clang__)

@@ -2,7 +2,7 @@
 // The paper's door: the planner and the follower of mode paper.
 #include <memory>
 
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 #include "planner/paper/paper_request.h"
 
 namespace jaywalk::paper {

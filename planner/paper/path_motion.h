@@ -1,5 +1,5 @@
 #pragma once
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 #include "planner/motion/twist_ramp.h"
 
 namespace jaywalk::paper {

@@ -8,8 +8,8 @@
 #include "planner/mapping/evidence_map.h"
 #include "planner/prediction/occluded_movers.h"
 #include "planner/prediction/pedestrian_model.h"
-#include "planner/scan/seen_from.h"
-#include "planner/tracking/standing_pedestrian.h"
+#include "planner/scan/line_of_sight.h"
+#include "planner/tracking/standing.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::motion {

@@ -7,7 +7,7 @@
 #include "hal/types/scanners.h"
 #include "planner/prediction/futures.h"
 #include "planner/prediction/pedestrian_model.h"
-#include "planner/scan/seen_from.h"
+#include "planner/scan/line_of_sight.h"
 
 namespace jaywalk::motion {
 

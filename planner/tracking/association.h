@@ -1,5 +1,6 @@
 #pragma once
 // Which detection is which target's, and where that says the target is.
+#include "planner/scan/segments.h"
 #include "planner/tracking/observation.h"
 #include "planner/tracking/target.h"
 
@@ -19,5 +20,10 @@ bool observe(const Track& track, const Appearance& known, Detections& detections
 /// the track that it becomes. False, and nothing changes, when the detection is sparse and has no fellow.
 [[nodiscard]] bool observe_new(Detections& detections, std::size_t index, std::uint32_t becomes_track_id,
                                Observation& out) noexcept;
+
+/// Cuts segments where one known target ends and the next begins: pedestrians that pass so near that no jump parts
+/// them. A segment is cut that begins on one and ends on another, one of which moves at least, and that is about as
+/// wide as both.
+void split_detections(const Targets& targets, const PointsInMap& in_map, Segments& segments) noexcept;
 
 }  // namespace jaywalk

@@ -5,7 +5,7 @@
 #include <cstddef>
 
 #include "hal/types/trig.h"
-#include "planner/scan/visible_arc.h"
+#include "planner/scan/line_of_sight.h"
 
 namespace jaywalk {
 namespace {

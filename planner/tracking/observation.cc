@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "hal/types/trig.h"
-#include "planner/scan/visible_arc.h"
+#include "planner/scan/line_of_sight.h"
 
 namespace jaywalk {
 namespace {

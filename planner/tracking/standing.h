@@ -1,12 +1,22 @@
 #pragma once
 // Pedestrians that stand: as wide as a pedestrian, though the map has no more of them than shins.
 #include "hal/types/fixed_vector.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/scan/line_of_sight.h"
-#include "planner/tracking/standing_pedestrian.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
+
+/// A pedestrian that stands, for all that is known: the disc is its body, though a laser at the height of shins sees
+/// but those.
+struct StandingPedestrian {
+  Vec2 position_in_map;
+  double radius_m = 0.0;
+  Time last_seen = kNever;  ///< it, or something that stood in its place
+  Time since = kNever;      ///< known to stand there
+};
 
 using StandingPedestrians = FixedVector<StandingPedestrian, kMaxTracks>;
 

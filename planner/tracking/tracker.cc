@@ -7,9 +7,8 @@
 
 #include "planner/mapping/map_entry.h"
 #include "planner/scan/first_scans.h"
-#include "planner/scan/scan_order.h"
+#include "planner/scan/scan_points.h"
 #include "planner/tracking/association.h"
-#include "planner/tracking/entries.h"
 #include "planner/tracking/given_movers.h"
 #include "planner/tracking/isolated_obstacles.h"
 #include "planner/tracking/motion_onset.h"

@@ -9,7 +9,7 @@
 #include "hal/types/scanners.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/known_map.h"
-#include "planner/tracking/standing_pedestrian.h"
+#include "planner/tracking/standing.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/tracking/kalman.h"
+#include "planner/tracking/imm_filter.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {

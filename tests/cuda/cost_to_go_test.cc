@@ -15,7 +15,7 @@ using namespace jaywalk::test;
 using emulated::device;
 using emulated::Fault;
 using tests::Chair;
-using tests::Ground;
+using tests::WalledGround;
 
 namespace {
 
@@ -28,8 +28,8 @@ struct Rig {
 };
 
 /// Walls of a metre here and there, none of them about the origin.
-Ground scattered(std::uint64_t seed) {
-  Ground ground;
+WalledGround scattered(std::uint64_t seed) {
+  WalledGround ground;
   Random random(seed);
   for (int k = 0; k < 14; ++k) {
     const Vec2 from{6.0 * random.unit() - 3.0, 6.0 * random.unit() - 3.0};
@@ -58,7 +58,7 @@ TEST_CASE("emulated: times from cells and from poses are the processor's on rand
   int known = 0;
   for (std::uint64_t seed = 1; seed <= 6; ++seed) {
     Rig rig({.integrated = seed % 3 == 0, .guarded = true, .seed = seed});
-    Ground ground = scattered(seed);
+    WalledGround ground = scattered(seed);
     for (int j = -30; seed % 2 == 0 && j < 30; ++j) {
       for (int i = 12; i < 40; ++i) ground.forget({i, j});
     }
@@ -121,7 +121,7 @@ TEST_CASE("emulated: a settler whose device fails says so, has written nothing, 
   for (const Fault fault : {Fault::kRefused, Fault::kBroken}) {
     for (const int launch : {0, 3, 12}) {  // of 8 or more over cells, and as many over poses
       Rig rig({.guarded = true, .seed = 2});
-      const Ground ground = scattered(5);
+      const WalledGround ground = scattered(5);
       Chair cpu(ground), gpu(ground, &rig.settler);
       device().order(fault, launch);
       check_same(cpu, gpu, {0.0, 0.0, 0.3}, {2.0, 1.0}, 0.5);

@@ -10,7 +10,7 @@ namespace jaywalk::tests {
 
 /// A wheelchair's guides on some ground.
 struct Chair {
-  explicit Chair(const Ground& ground, field::CostSettler* settler = nullptr, std::size_t entries = 1U << 20)
+  explicit Chair(const WalledGround& ground, field::CostSettler* settler = nullptr, std::size_t entries = 1U << 20)
       : ground_(ground),
         places_(kBody.inscribed_radius_m(), kBody.circumscribed_radius_m(), 256, nullptr, settler),
         field_(kBody, settler, entries) {}
@@ -52,7 +52,7 @@ struct Chair {
   field::PoseField::Memory memory;
 
  private:
-  const Ground& ground_;
+  const WalledGround& ground_;
   field::TimeToGoField places_;
   field::TimeToGoField::Memory place_memory_{256};
   field::PoseField field_;

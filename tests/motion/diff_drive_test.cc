@@ -1,7 +1,6 @@
-#include "planner/motion/diff_drive.h"
-
 #include <limits>
 
+#include "planner/motion/twist_ramp.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

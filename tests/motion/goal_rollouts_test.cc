@@ -277,7 +277,7 @@ TEST_CASE("the same drive is the same to the bit") {
 }
 
 TEST_CASE("without a decision for half a second it stops") {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
   moment.driven = {0.5, 0.3};

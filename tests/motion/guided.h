@@ -6,7 +6,7 @@
 
 namespace jaywalk::test {
 
-/// Ground that was seen from (-4, -4) to (6, 6), walls drawn on it, and the guide of a P3-DX-like body there.
+/// WalledGround that was seen from (-4, -4) to (6, 6), walls drawn on it, and the guide of a P3-DX-like body there.
 class Guided {
  public:
   Guided& wall(Vec2 from, Vec2 to) {
@@ -31,7 +31,7 @@ class Guided {
   std::vector<MoverDisc> movers;
 
  private:
-  tests::Ground ground_;
+  tests::WalledGround ground_;
   field::TimeToGoField field_{0.210, 0.3685, 256};
   field::TimeToGoField::Memory memory_{256};
   Guide guide_;

@@ -3,7 +3,7 @@
 #include <memory>
 
 #include "planner/cost_to_go/guide_field.h"
-#include "planner/motion/body_discs.h"
+#include "planner/motion/robot_body.h"
 #include "planner/motion/speed_zones.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"
@@ -33,7 +33,7 @@ struct Zoned {
   }
 
   std::shared_ptr<const KeepOutField> field;
-  tests::Ground ground;
+  tests::WalledGround ground;
   field::TimeToGoField guides{0.210, 0.3685, 256, field};
   field::TimeToGoField::Memory memory{256};
   Guide guide;

@@ -4,7 +4,6 @@
 #include <utility>
 
 #include "apps/rivals/baseline.h"
-#include "planner/motion/make_motion.h"
 #include "planner/paper/paper.h"
 #include "tests/motion/ground.h"
 #include "tests/motion/guided.h"
@@ -29,7 +28,7 @@ Time rests_on(Motion& motion, const tests::Moment& moment) {
 }  // namespace
 
 TEST_CASE("commands at constant speed rest on the path, and on nothing when a plan has none") {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
   const auto on_path = paper::make_motion(setup_of(true));
@@ -40,7 +39,7 @@ TEST_CASE("commands at constant speed rest on the path, and on nothing when a pl
 }
 
 TEST_CASE("roll-outs rest on the older of the scan decided on and the plan, by a stick on the scan alone") {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   tests::Moment moment(ground.map());
   moment.go_to({4.0, 0.0});
   moment.plan.status = PlanStatus::kOk;
@@ -60,7 +59,7 @@ TEST_CASE("roll-outs rest on the older of the scan decided on and the plan, by a
 
 TEST_CASE(
     "roll-outs ask for plans rarely and past pedestrians, a path's follower with each scan and with them marked") {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   tests::Moment moment(ground.map());
   Track walker;
   walker.id = 1;
@@ -102,7 +101,7 @@ TEST_CASE("the time from poses is asked for where corners may swing into somethi
 }
 
 TEST_CASE("at its goal a robot turns to the heading wanted there, whatever brought it, at constant speed it cannot") {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   for (const auto& [make, constant] :
        {std::pair<MakeMotion, bool>{make_motion, false}, {make_motion, true}, {paper::make_motion, true}}) {
     tests::Moment moment(ground.map());

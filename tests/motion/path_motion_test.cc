@@ -16,7 +16,7 @@ Path line(Vec2 from, Vec2 to) {
 
 /// Twist after so many ticks along a path from standstill, the robot held where it is.
 Twist2 settled(const Path& path, bool has_goal = true) {
-  const tests::Ground ground;
+  const tests::WalledGround ground;
   tests::Moment moment(ground.map());
   moment.plan.path = path;
   if (has_goal) moment.go_to({5.0, 0.0});

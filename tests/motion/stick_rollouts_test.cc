@@ -24,7 +24,7 @@ MotionSetup setup_of(const RobotModel& model, bool assisted = true) {
 /// A robot that does what it is told.
 class Ride {
  public:
-  Ride(const tests::Ground& ground, const RobotModel& model, bool assisted = true)
+  Ride(const tests::WalledGround& ground, const RobotModel& model, bool assisted = true)
       : footprint_(model.footprint), moment_(ground.map()), shared_(setup_of(model, assisted)) {
     moment_.input.steers = true;
     moment_.tracks.reserve(1);
@@ -69,7 +69,7 @@ class Ride {
 }  // namespace
 
 TEST_CASE("away from everything a stick's wish is granted whole, turns and all") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   for (const RobotModel& model : {p3dx(), wheelchair()}) {
     Ride ride(open, model), by_hand(open, model, false);
     for (const Stick stick : {Stick{1.0, 0.0}, Stick{0.5, 0.3}, Stick{0.0, -0.6}, Stick{-0.5, 0.0}}) {
@@ -83,7 +83,7 @@ TEST_CASE("away from everything a stick's wish is granted whole, turns and all")
 }
 
 TEST_CASE("full ahead is the robot's fastest, by either mode, half the stick is half of it") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   Ride ride(open, p3dx());
   ride.stick = {1.0, 0.0};
   ride.run(3.0);
@@ -97,7 +97,7 @@ TEST_CASE("full ahead is the robot's fastest, by either mode, half the stick is 
 }
 
 TEST_CASE("a stick in the middle brings the robot to rest at once, on its arc") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   Ride ride(open, p3dx());
   ride.stick = {1.0, 0.25};  // 0.3 rad/s: a circle of 2 m
   ride.run(2.5);
@@ -116,7 +116,7 @@ TEST_CASE("a stick in the middle brings the robot to rest at once, on its arc") 
 TEST_CASE("a wall ahead is never touched, however long the stick is pushed") {
   for (const RobotModel& model : {p3dx(), wheelchair()}) {
     for (const double slant : {0.0, 0.5, 1.0}) {
-      tests::Ground ground;
+      tests::WalledGround ground;
       ground.wall({3.0 - 2.5 * slant, -2.5}, {3.0 + 2.5 * slant, 2.5});
       Ride ride(ground, model);
       ride.stick = {1.0, 0.0};
@@ -135,14 +135,14 @@ TEST_CASE("a wall ahead is never touched, however long the stick is pushed") {
 }
 
 TEST_CASE("it steers round a post that it would clip, and on, one straight ahead it stands before") {
-  tests::Ground ground;
+  tests::WalledGround ground;
   ground.wall({2.5, 0.1}, {2.5, 0.35});
   Ride ride(ground, p3dx());
   ride.stick = {1.0, 0.0};
   ride.run(9.0);
   CHECK(ride.pose.x > 3.5);
   CHECK(std::fabs(ride.pose.y) < 1.5);
-  tests::Ground other;
+  tests::WalledGround other;
   other.wall({2.5, -0.15}, {2.5, 0.15});
   Ride straight(other, p3dx());
   straight.stick = {1.0, 0.0};
@@ -152,7 +152,7 @@ TEST_CASE("it steers round a post that it would clip, and on, one straight ahead
 }
 
 TEST_CASE("it does not drive into somebody who comes") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   for (const RobotModel& model : {p3dx(), wheelchair()}) {
     Ride ride(open, model);
     ride.stick = {1.0, 0.0};
@@ -170,7 +170,7 @@ TEST_CASE("it does not drive into somebody who comes") {
 }
 
 TEST_CASE("in a walker's way already, with nothing left to lose by that, it still stops before it touches the walker") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   for (const RobotModel& model : {p3dx(), wheelchair()}) {
     for (const double aside : {0.0, 0.2}) {
       Ride ride(open, model);
@@ -186,7 +186,7 @@ TEST_CASE("in a walker's way already, with nothing left to lose by that, it stil
 }
 
 TEST_CASE("through a door by a hand that trembles: the turn that is asked for now is not asked for to the end") {
-  tests::Ground ground;
+  tests::WalledGround ground;
   ground.wall({2.5, -3.0}, {2.5, -0.35}).wall({2.5, 0.55}, {2.5, 3.0});  // 0.90 m, its middle 0.10 m to the left
   for (const double turn : {-0.3, -0.2, 0.2, 0.3}) {
     for (const double hold_s : {0.3, 0.5, 0.8, 1.2}) {
@@ -203,7 +203,7 @@ TEST_CASE("through a door by a hand that trembles: the turn that is asked for no
 }
 
 TEST_CASE("half a second without a decision stops it") {
-  const tests::Ground open;
+  const tests::WalledGround open;
   tests::Moment moment(open.map());
   moment.input.steers = true;
   moment.input.stick = {1.0, 0.0};
@@ -237,7 +237,7 @@ TEST_CASE("to stand in place of full speed costs some three seconds, the wish it
 }
 
 TEST_CASE("an outline is as far from a wall as the body, ahead, beside and at its corners") {
-  tests::Ground ground;
+  tests::WalledGround ground;
   ground.wall({2.0, -2.0}, {2.0, 2.0});
   LocalGround local;
   const Guide& guide = local.update(ground.map(), {0.0, 0.0}, {});

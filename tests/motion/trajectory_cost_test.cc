@@ -4,7 +4,7 @@
 #include <cmath>
 #include <memory>
 
-#include "hal/types/stop_zone_rules.h"
+#include "hal/types/robot_model.h"
 #include "planner/motion/proposals.h"
 #include "tests/motion/guided.h"
 #include "tests/support/catch.h"

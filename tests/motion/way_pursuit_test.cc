@@ -9,7 +9,7 @@
 using namespace jaywalk;
 using namespace jaywalk::motion;
 using tests::Chair;
-using tests::Ground;
+using tests::WalledGround;
 
 namespace {
 
@@ -54,7 +54,7 @@ Followed follow(Chair& chair, const Pose2& start, Vec2 goal, double heading = kA
 }  // namespace
 
 TEST_CASE("along its way a wheelchair comes through a door of 0.90 m, and stands at the goal as wanted") {
-  const Ground ground = Ground().wall({2.03, -3.9}, {2.03, -0.45}).wall({2.03, 0.45}, {2.03, 3.9});
+  const WalledGround ground = WalledGround().wall({2.03, -3.9}, {2.03, -0.45}).wall({2.03, 0.45}, {2.03, 3.9});
   for (const double y : {-0.8, 0.0, 0.8}) {
     Chair chair(ground);
     const Followed done = follow(chair, {0.6, y, 0.7}, {3.2, 0.1}, -0.5);
@@ -66,11 +66,11 @@ TEST_CASE("along its way a wheelchair comes through a door of 0.90 m, and stands
 }
 
 TEST_CASE("along its way it comes out of a dead end, and backs no faster than it may") {
-  const Ground ground = Ground()
-                            .wall({1.0, -0.6}, {1.0, 0.6})
-                            .wall({-3.9, -0.6}, {1.0, -0.6})
-                            .wall({-1.5, 0.6}, {1.0, 0.6})
-                            .wall({-1.5, 0.6}, {-1.5, 4.0});
+  const WalledGround ground = WalledGround()
+                                  .wall({1.0, -0.6}, {1.0, 0.6})
+                                  .wall({-3.9, -0.6}, {1.0, -0.6})
+                                  .wall({-1.5, 0.6}, {1.0, 0.6})
+                                  .wall({-1.5, 0.6}, {-1.5, 4.0});
   Chair chair(ground);
   const Followed done = follow(chair, {0.0, 0.0, 0.0}, {-2.6, 2.0});
   CHECK(done.steps < 400);

@@ -1,5 +1,4 @@
-#include "planner/tracking/kalman.h"
-
+#include "planner/tracking/imm_filter.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

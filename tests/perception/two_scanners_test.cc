@@ -3,7 +3,7 @@
 #include <set>
 
 #include "planner/localization/localizer.h"
-#include "planner/scan/scan_order.h"
+#include "planner/scan/scan_points.h"
 #include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"

@@ -1,8 +1,7 @@
-#include "planner/scan/visible_arc.h"
-
 #include <cmath>
 
 #include "hal/types/trig.h"
+#include "planner/scan/line_of_sight.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 

@@ -11,20 +11,20 @@
 
 using namespace jaywalk;
 using tests::Chair;
-using tests::Ground;
+using tests::WalledGround;
 
 namespace {
 
 const Footprint kChair = wheelchair().footprint;
 
 /// A wall along x = 2.03 with a door about y = 0.
-Ground door(double width_m) {
-  return Ground().wall({2.03, -3.9}, {2.03, -0.5 * width_m}).wall({2.03, 0.5 * width_m}, {2.03, 3.9});
+WalledGround door(double width_m) {
+  return WalledGround().wall({2.03, -3.9}, {2.03, -0.5 * width_m}).wall({2.03, 0.5 * width_m}, {2.03, 3.9});
 }
 
 /// A corridor of 1.2 m along x, closed at x = 1 and open to the left beyond x = -2.
-Ground dead_end() {
-  return Ground()
+WalledGround dead_end() {
+  return WalledGround()
       .wall({1.0, -0.6}, {1.0, 0.6})
       .wall({-3.9, -0.6}, {1.0, -0.6})
       .wall({-1.5, 0.6}, {1.0, 0.6})
@@ -75,7 +75,7 @@ std::vector<std::uint16_t> settled_in_order(const PoseGuide& guide, std::uint32_
 }  // namespace
 
 TEST_CASE("in the open a pose costs its way, and facing elsewhere costs the turn") {
-  const Ground ground;
+  const WalledGround ground;
   Chair chair(ground);
   REQUIRE(chair.from({0.0, 0.0, kPi}, {2.0, 0.0}).known);
   // It arrives 0.15 m before the goal: 1.85 m at 0.6 m/s, in cells of 0.1 m.
@@ -89,7 +89,7 @@ TEST_CASE("in the open a pose costs its way, and facing elsewhere costs the turn
 }
 
 TEST_CASE("a goal with a heading is reached when that is, and turned for on the spot where there is room") {
-  const Ground ground;
+  const WalledGround ground;
   Chair chair(ground);
   REQUIRE(chair.from({0.0, 0.0, 0.0}, {0.05, 0.05}, kPi / 2.0).known);
   CHECK(chair.seconds(0.05, 0.05, kPi / 2.0) < 0.2F);
@@ -103,7 +103,7 @@ TEST_CASE("a goal with a heading is reached when that is, and turned for on the 
 }
 
 TEST_CASE("a body passes a door that is narrower than it is long, lengthwise, and none narrower than its room") {
-  const Ground wide = door(0.90), narrow = door(0.66);
+  const WalledGround wide = door(0.90), narrow = door(0.66);
   Chair chair(wide);
   for (const double y : {-1.0, 0.0, 1.0}) {
     for (const double heading : {-1.0, 0.0, 1.0, 3.0}) {
@@ -128,8 +128,9 @@ TEST_CASE("a door at any angle is passed") {
   for (int k = 0; k < 24; ++k) {
     const double angle = 2.0 * kPi * k / 24.0 + 0.04;
     const Vec2 along = direction(angle + kPi / 2.0), middle = direction(angle) * 1.4;
-    const Ground ground =
-        Ground().wall(middle + along * 0.45, middle + along * 2.2).wall(middle - along * 0.45, middle - along * 2.2);
+    const WalledGround ground = WalledGround()
+                                    .wall(middle + along * 0.45, middle + along * 2.2)
+                                    .wall(middle - along * 0.45, middle - along * 2.2);
     Chair chair(ground);
     const Vec2 goal = direction(angle) * 2.6;
     chair.from({0.0, 0.0, angle + 1.5}, goal);
@@ -139,7 +140,7 @@ TEST_CASE("a door at any angle is passed") {
 }
 
 TEST_CASE("out of a dead end that it cannot turn in a body backs") {
-  const Ground ground = dead_end();
+  const WalledGround ground = dead_end();
   Chair chair(ground);
   REQUIRE(chair.from({0.0, 0.0, 0.0}, {-2.6, 2.0}).known);
   const PoseWay way = chair.way({0.0, 0.0, 0.0});
@@ -150,12 +151,12 @@ TEST_CASE("out of a dead end that it cannot turn in a body backs") {
 
 TEST_CASE("the costs are one fixed point, in whatever order they are settled") {
   // A room of 3.2 m by 2.4 m with a pillar: so few poses that each may be relaxed again and again.
-  const Ground ground = Ground()
-                            .wall({-1.2, -1.2}, {2.0, -1.2})
-                            .wall({2.0, -1.2}, {2.0, 1.2})
-                            .wall({2.0, 1.2}, {-1.2, 1.2})
-                            .wall({-1.2, 1.2}, {-1.2, -1.2})
-                            .wall({0.5, 0.9}, {0.5, 0.92});
+  const WalledGround ground = WalledGround()
+                                  .wall({-1.2, -1.2}, {2.0, -1.2})
+                                  .wall({2.0, -1.2}, {2.0, 1.2})
+                                  .wall({2.0, 1.2}, {-1.2, 1.2})
+                                  .wall({-1.2, 1.2}, {-1.2, -1.2})
+                                  .wall({0.5, 0.9}, {0.5, 0.92});
   Chair chair(ground);
   REQUIRE(chair.from({-0.4, -0.5, 1.0}, {1.0, 0.2}, 0.5).known);
   const std::vector<std::uint16_t> once = settled_in_order(chair.poses, 1), again = settled_in_order(chair.poses, 2);
@@ -176,7 +177,7 @@ TEST_CASE("the costs are one fixed point, in whatever order they are settled") {
 }
 
 TEST_CASE("a field settled after another has the bytes of a fresh one, and asks nothing of the heap") {
-  const Ground ground = door(0.90);
+  const WalledGround ground = door(0.90);
   Chair kept(ground), fresh(ground);
   kept.from({0.6, -1.0, 2.0}, {3.2, 0.1}, 1.0);
   const AllocationGuard guard;
@@ -188,7 +189,7 @@ TEST_CASE("a field settled after another has the bytes of a fresh one, and asks 
 }
 
 TEST_CASE("a queue that is too small says so: then no way is known, and no cost is told") {
-  const Ground ground = door(0.90);
+  const WalledGround ground = door(0.90);
   Chair full(ground), small(ground, nullptr, 2000);
   REQUIRE(full.from({0.6, -1.0, 2.0}, {3.2, 0.1}).known);
   CHECK_FALSE(small.from({0.6, -1.0, 2.0}, {3.2, 0.1}).known);
@@ -196,7 +197,7 @@ TEST_CASE("a queue that is too small says so: then no way is known, and no cost 
 }
 
 TEST_CASE("to a goal beyond the square the way leads out of it, with the time from there") {
-  const Ground ground;
+  const WalledGround ground;
   Chair chair(ground);
   REQUIRE(chair.from({-2.0, 0.0, 0.0}, {5.0, 0.0}).known);
   CHECK(chair.seconds(-2.0, 0.0, 0.0) == Approx(7.0 / 0.6).margin(1.0));
@@ -205,7 +206,7 @@ TEST_CASE("to a goal beyond the square the way leads out of it, with the time fr
 }
 
 TEST_CASE("past a pedestrian that stands the way is dear, and not closed") {
-  const Ground ground = door(1.6);
+  const WalledGround ground = door(1.6);
   Chair chair(ground);
   chair.from({0.6, 0.0, 0.0}, {3.2, 0.0});
   const float free = chair.seconds(0.6, 0.0, 0.0);
@@ -215,14 +216,14 @@ TEST_CASE("past a pedestrian that stands the way is dear, and not closed") {
 }
 
 TEST_CASE("a way that soon turns or backs into what was never seen says so") {
-  Ground ground = dead_end();
+  WalledGround ground = dead_end();
   for (int j = -6; j < 6; ++j) {
     for (int i = -40; i < -7; ++i) ground.forget({i, j});
   }
   Chair chair(ground);
   REQUIRE(chair.from({0.0, 0.0, 0.0}, {-2.6, 2.0}).known);
   CHECK(chair.poses.through_unseen);
-  const Ground seen = dead_end();
+  const WalledGround seen = dead_end();
   Chair other(seen);
   REQUIRE(other.from({0.0, 0.0, 0.0}, {-2.6, 2.0}).known);
   CHECK_FALSE(other.poses.through_unseen);

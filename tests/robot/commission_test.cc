@@ -133,6 +133,15 @@ TEST_CASE("a model whose wheel is a fifth larger, and a mount that is turned by 
   CHECK(says(faults_of(turned.commission()), "correct [laser] mount"));
 }
 
+TEST_CASE("a mount whose x does not begin at the axle is refused, ahead and behind") {
+  for (const double off_m : {0.2, -0.25}) {
+    Bench off("robot", std::nullopt, [off_m](RobotFile& file) { file.setup.model.laser.robot_from_laser.x -= off_m; });
+    const std::string said = faults_of(off.commission());
+    CAPTURE(off_m, said);
+    CHECK(says(said, off_m > 0.0 ? "m farther ahead of the drive axle" : "m farther behind the drive axle"));
+  }
+}
+
 TEST_CASE("each of two scanners is judged by what it sees, and told by its name") {
   Bench well("two_scanners", std::nullopt);
   const std::vector<CheckedPart> checks = well.commission();

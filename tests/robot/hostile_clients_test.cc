@@ -15,7 +15,7 @@
 
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_desk.h"
-#include "firmware/robot/steady_clock.h"
+#include "firmware/robot/realtime.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

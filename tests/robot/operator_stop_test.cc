@@ -1,5 +1,5 @@
 // Orders to stop at the desk: what counts after them, and from when on.
-#include "firmware/robot/said_goals.h"
+#include "firmware/robot/goal_order.h"
 #include "tests/robot/desk_bench.h"
 #include "tests/support/catch.h"
 

@@ -8,8 +8,8 @@
 
 #include "drivers/can/link_facts.h"
 #include "firmware/robot/control_socket.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/scanner_check.h"
-#include "firmware/robot/steady_clock.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
 #include "hil/emulators/sick_server.h"

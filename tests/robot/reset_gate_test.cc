@@ -1,5 +1,4 @@
-#include "firmware/robot/reset_gate.h"
-
+#include "firmware/robot/operator_controls.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

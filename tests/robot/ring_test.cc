@@ -1,7 +1,6 @@
-#include "firmware/robot/ring.h"
-
 #include <thread>
 
+#include "firmware/robot/signal_thread.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

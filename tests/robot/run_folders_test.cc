@@ -3,7 +3,6 @@
 #include <fstream>
 #include <iterator>
 
-#include "firmware/recording/out_folder.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"

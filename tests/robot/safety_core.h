@@ -6,11 +6,11 @@
 #include <string>
 
 #include "drivers/can/in_process_bus.h"
+#include "firmware/robot/operator_controls.h"
 #include "firmware/robot/operator_desk.h"
-#include "firmware/robot/reset_gate.h"
 #include "firmware/safety/supervisor.h"
-#include "hal/types/rest.h"
-#include "planner/motion/diff_drive.h"
+#include "hal/types/wheels.h"
+#include "planner/motion/twist_ramp.h"
 #include "tests/drivers/drive_plant.h"
 #include "tests/drivers/watched_port.h"
 

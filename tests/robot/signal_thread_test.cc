@@ -8,7 +8,7 @@
 #include <chrono>
 #include <string>
 
-#include "firmware/robot/stderr_relay.h"
+#include "firmware/robot/service_manager.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -26,7 +26,7 @@ LaserScan scan_without(int first_lost, int lost, int beams = 360, double turns =
   return scan;
 }
 
-Sight at(const LaserScan& scan, double way_deg, double range_m, const LaserModel& laser = p3dx().laser) {
+Coverage at(const LaserScan& scan, double way_deg, double range_m, const LaserModel& laser = p3dx().laser) {
   BlindGaps gaps(laser);
   gaps.update(scan);
   return gaps.at(direction(way_deg * kDeg) * range_m);
@@ -37,12 +37,12 @@ Sight at(const LaserScan& scan, double way_deg, double range_m, const LaserModel
 TEST_CASE("a post of 70 mm hides behind five lost beams of a degree from 0.67 m on: 0.035 / sin 3 deg") {
   const LaserScan scan = scan_without(198, 5);  // 18 to 22 degrees; their neighbours at 17 and 23
   // Its middle from 0.6688 m on, its front 35 mm before that.
-  CHECK(at(scan, 20.0, 0.63) == Sight::kProven);
-  CHECK(at(scan, 20.0, 0.64) == Sight::kLost);
-  CHECK(at(scan, 17.1, 3.0) == Sight::kLost);
-  CHECK(at(scan, 22.9, 3.0) == Sight::kLost);
-  CHECK(at(scan, 16.9, 3.0) == Sight::kProven);
-  CHECK(at(scan, 23.1, 3.0) == Sight::kProven);
+  CHECK(at(scan, 20.0, 0.63) == Coverage::kProven);
+  CHECK(at(scan, 20.0, 0.64) == Coverage::kLost);
+  CHECK(at(scan, 17.1, 3.0) == Coverage::kLost);
+  CHECK(at(scan, 22.9, 3.0) == Coverage::kLost);
+  CHECK(at(scan, 16.9, 3.0) == Coverage::kProven);
+  CHECK(at(scan, 23.1, 3.0) == Coverage::kProven);
   BlindGaps gaps(p3dx().laser);
   gaps.update(scan);
   CHECK(gaps.nearest_lost_m() == Approx(0.6338).epsilon(1e-3));
@@ -53,39 +53,39 @@ TEST_CASE("a post of 70 mm hides behind five lost beams of a degree from 0.67 m 
 TEST_CASE("a gap over the seam of a scan all round is one gap, whichever way the scanner turns") {
   for (const double turns : {1.0, -1.0}) {
     const LaserScan scan = scan_without(-3, 5, 360, turns);
-    CHECK(at(scan, 180.0 - turns * 1.0, 0.63) == Sight::kProven);
-    CHECK(at(scan, 180.0 - turns * 1.0, 0.64) == Sight::kLost);
-    CHECK(at(scan, -179.0, 1.0) == Sight::kLost);
-    CHECK(at(scan, 90.0, 5.0) == Sight::kProven);
+    CHECK(at(scan, 180.0 - turns * 1.0, 0.63) == Coverage::kProven);
+    CHECK(at(scan, 180.0 - turns * 1.0, 0.64) == Coverage::kLost);
+    CHECK(at(scan, -179.0, 1.0) == Coverage::kLost);
+    CHECK(at(scan, 90.0, 5.0) == Coverage::kProven);
   }
 }
 
 TEST_CASE("a gap at the rim of the view has one neighbour, and beyond the rim nothing watches") {
   const LaserScan scan = scan_without(0, 3, 181);  // -90.5 to 89.5 degrees; lost as far as -87.5
   // 0.035 / sin 3 deg, as for six degrees between two neighbours.
-  CHECK(at(scan, -89.0, 0.63) == Sight::kProven);
-  CHECK(at(scan, -89.0, 0.64) == Sight::kLost);
-  CHECK(at(scan, -92.0, 0.3) == Sight::kUnwatched);
-  CHECK(at(scan, 180.0, 0.3) == Sight::kUnwatched);
-  CHECK(at(scan, 91.0, 0.3) == Sight::kUnwatched);
-  CHECK(at(scan, 88.0, 3.0) == Sight::kProven);
+  CHECK(at(scan, -89.0, 0.63) == Coverage::kProven);
+  CHECK(at(scan, -89.0, 0.64) == Coverage::kLost);
+  CHECK(at(scan, -92.0, 0.3) == Coverage::kUnwatched);
+  CHECK(at(scan, 180.0, 0.3) == Coverage::kUnwatched);
+  CHECK(at(scan, 91.0, 0.3) == Coverage::kUnwatched);
+  CHECK(at(scan, 88.0, 3.0) == Coverage::kProven);
 }
 
 TEST_CASE("a blanked sector is unwatched, whatever its beams say, and what is lost beside it is lost") {
   LaserModel laser = p3dx().laser;
   (void)laser.blanked.push_back({17.5 * kDeg, 22.5 * kDeg});
-  CHECK(at(scan_without(0, 0), 20.0, 1.0, laser) == Sight::kUnwatched);
-  CHECK(at(scan_without(0, 0), 20.0, 0.6, laser) == Sight::kProven);
-  CHECK(at(scan_without(198, 5), 20.0, 1.0, laser) == Sight::kUnwatched);
+  CHECK(at(scan_without(0, 0), 20.0, 1.0, laser) == Coverage::kUnwatched);
+  CHECK(at(scan_without(0, 0), 20.0, 0.6, laser) == Coverage::kProven);
+  CHECK(at(scan_without(198, 5), 20.0, 1.0, laser) == Coverage::kUnwatched);
   const LaserScan beside = scan_without(203, 2);  // 23 and 24 degrees: with the sector 8 degrees from 17 to 25
-  CHECK(at(beside, 24.0, 0.45, laser) == Sight::kProven);
-  CHECK(at(beside, 24.0, 0.48, laser) == Sight::kLost);
-  CHECK(at(beside, 20.0, 0.48, laser) == Sight::kUnwatched);
+  CHECK(at(beside, 24.0, 0.45, laser) == Coverage::kProven);
+  CHECK(at(beside, 24.0, 0.48, laser) == Coverage::kLost);
+  CHECK(at(beside, 20.0, 0.48, laser) == Coverage::kUnwatched);
 }
 
 TEST_CASE("where no beam measured all is lost, without directions nothing is watched") {
   LaserScan scan = scan_without(0, 360);
-  CHECK(at(scan, 20.0, 0.1) == Sight::kLost);
+  CHECK(at(scan, 20.0, 0.1) == Coverage::kLost);
   scan.angle_step_rad = std::nanf("");
-  CHECK(at(scan, 20.0, 0.1) == Sight::kUnwatched);
+  CHECK(at(scan, 20.0, 0.1) == Coverage::kUnwatched);
 }

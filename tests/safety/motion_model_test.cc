@@ -37,7 +37,7 @@ struct Bench {
   Pose2 pose{};
   double now_s = 0.0;
   MotionModel motion{model};
-  double mount_turned = 0.0;
+  double mount_turned = 0.0, mount_ahead_m = 0.0;
   bool frozen = false;  ///< that was said last
   std::function<void(LaserScan&)> spoil = [](LaserScan&) {};
   LaserScan scan{};
@@ -71,7 +71,7 @@ struct Bench {
     scan.angle_step_rad = static_cast<float>(laser.fov_rad / (laser.beams - 1));
     scan.range_min_m = 0.05F;
     scan.range_max_m = 25.0F;
-    Pose2 eye = pose * laser.robot_from_laser;
+    Pose2 eye = pose * Pose2{mount_ahead_m, 0.0, 0.0} * laser.robot_from_laser;
     eye.heading += mount_turned;
     for (std::size_t k = 0; k < scan.beam_count; ++k) {
       const double angle = wiring.mirrored ? -scan.angle_rad(k) : scan.angle_rad(k);
@@ -295,6 +295,29 @@ TEST_CASE("a mount turned by 15 degrees, wheels that go 1.3 times as far and ran
       for (float& range : scan.range_m) range *= static_cast<float>(gain);
     };
     CHECK(ranges.told_after(2.0, 0.4, 0.4) < 0.9);
+  }
+}
+
+TEST_CASE("a scanner 0.12 m off its place ahead of the axle is told by a turn, 0.25 m by bends; 3 cm are not") {
+  const auto bends = [](Bench& bench) {
+    double s = 0.0;
+    for (int k = 0; k < 4; ++k) {
+      const double told_s = bench.told_after(2.0, k % 2 == 0 ? 0.2 : 0.3, k % 2 == 0 ? 0.3 : 0.2);
+      if (!std::isinf(told_s)) return s + told_s;
+      s += 2.0;
+    }
+    return std::numeric_limits<double>::infinity();
+  };
+  for (const double ahead_m : {0.12, -0.12, 0.15, 0.25}) {
+    Bench turns{.walls = room(), .mount_ahead_m = ahead_m};
+    CHECK(turns.told_after(8.0, -0.08, 0.08) < 3.0);  // half a radian a second
+  }
+  Bench driven{.walls = room(), .mount_ahead_m = 0.25};
+  CHECK(bends(driven) < 2.0);
+  for (const double ahead_m : {0.03, -0.03}) {
+    Bench bench{.walls = room(), .mount_ahead_m = ahead_m};
+    CHECK(std::isinf(bench.told_after(20.0, -0.08, 0.08)));
+    CHECK(std::isinf(bends(bench)));
   }
 }
 

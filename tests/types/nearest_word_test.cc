@@ -1,5 +1,3 @@
-#include "hal/nearest_word.h"
-
 #include "hal/shown_text.h"
 #include "tests/support/catch.h"
 

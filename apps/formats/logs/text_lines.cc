@@ -3,7 +3,6 @@
 #include <array>
 #include <string_view>
 
-#include "hal/gzip_file.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 

@@ -30,21 +30,21 @@ inline constexpr float kNearMover = 0.15F;       ///< a square metre within the 
 inline constexpr float kTooFast = 4.0F;
 inline constexpr float kPoliteMps = 0.2F;
 
-// Surfaces (wall_cost.h).
+// Surfaces (ground_cost.h).
 inline constexpr float kContact = 500.0F, kNearContact = 1000.0F;  ///< each step in a surface; nearer than kContactM
 inline constexpr float kContactM = 0.03F;                          ///< pose and map err
 inline constexpr float kNearWall = 4.0F, kNearWallM = 0.15F;       ///< a second at full speed, at the body's edge
 inline constexpr float kByWall = 0.6F,
                        kByWallM = 0.28F;  ///< the same, farther off; not when steered (decision motion-prices)
 
-// What the supervisor would brake for (stop_zone_cost.h).
+// What the supervisor would brake for (ground_cost.h).
 /// A m/s that it takes away near surfaces. The former price, 40 s for all of the speed at once, gave the same runs
 /// within noise (paired: 11 runs of maps, 6 rooms, 8 worlds of posts, 4 doors, 24 encounters).
 inline constexpr float kTakenAway = 4.0F;
 inline constexpr float kBlindRim =
     10.0F;  ///< a m/s that the supervisor would take away, each step (decision motion-prices)
 
-// Ground that was never seen (unseen_cost.h).
+// Ground that was never seen (ground_cost.h).
 inline constexpr float kUnseen = 40.0F;            ///< a second, with all of the rim
 inline constexpr float kUnseenFadesM = 0.6F;       ///< after driving on so far it has been seen, most likely
 inline constexpr float kUnseenDared = 0.15F;       ///< a second, where the only way leads there,
@@ -54,7 +54,7 @@ inline constexpr float kUnseenTurnedLong = 30.0F;  ///< with a long body
 /// standing pedestrian to 0.40 m (passage.toml, seed 2; 0.5 m wanted).
 inline constexpr float kStoodOnM = 0.5F;
 
-// Comfort (comfort_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (decision motion-prices).
+// Comfort (ride_cost.h); 16 movers, maps 1 to 4, seeds 9001 to 9005 (decision motion-prices).
 inline constexpr float kAccel = 2.0F, kTurnAccel = 2.0F;  ///< a squared change of m/s, rad/s in a step
 /// A squared rad/s, m/s2, each step. kTurning 0.03 changed nothing beyond noise: 3 runs with a loop, not 2, of 32 (maps
 /// 1 to 4, 16 movers, seeds 9301 to 9308).
@@ -67,7 +67,7 @@ inline constexpr float kReversal = 1.5F;
 /// Changes of speed and side are worth so much way: a faster robot drives it sooner.
 inline constexpr float kPricedAtMps = 0.6F;
 
-// Time (time_cost.h).
+// Time (ride_cost.h).
 inline constexpr float kImpatience =
     0.25F;  ///< a second until it gets on, for each that it has not (decision motion-prices)
 inline constexpr float kMostStoodS =

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "firmware/backends.h"
+#include "firmware/recording/run_parts.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -40,6 +41,18 @@ inline void add_backend(CLI::App& command, Backend& chosen, int& device) {
                       {{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}, "Who plans");
   command.add_option("--device", device, "Number of the GPU that plans, as CUDA counts them from 0")
       ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+}
+
+/// --part-bytes and --keep-parts.
+inline void add_parts(CLI::App& command, PartsKept& kept) {
+  command
+      .add_option("--part-bytes", kept.bytes,
+                  "Recording and tables in parts of at most so many bytes, 200000 or more; 0: whole")
+      ->type_name("UINT")
+      ->capture_default_str();
+  command.add_option("--keep-parts", kept.parts, "How many parts are kept, the one that is written among them")
+      ->check(CLI::Range(2, 1'000'000))
       ->capture_default_str();
 }
 

@@ -1,4 +1,4 @@
-#include "firmware/program/help_footers.h"
+#include "firmware/program/parse_message.h"
 
 #include <string>
 

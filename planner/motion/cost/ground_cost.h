@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "hal/types/stop_zone_rules.h"
+#include "hal/types/robot_model.h"
 #include "planner/cell/exp_log.h"
 #include "planner/motion/cost/prices.h"
 #include "planner/motion/situation.h"
@@ -67,6 +67,61 @@ class WallCost {
 
   const Situation& s_;
   float at_start_, clearance_;
+};
+
+/// Parts of the body where nothing was ever seen.
+class UnseenCost {
+ public:
+  explicit UnseenCost(const Situation& s) : s_(s) {}
+
+  void add(const RobotState& r, const cell::Heading& along, Cost& cost) noexcept {
+    if (r.v > 0.0F) driven_m_ += r.v * kStepS;
+    int parts = 0;
+    for (const Place& p : s_.body.rim) {
+      const float x = r.x + p.x * along.x - p.y * along.y, y = r.y + p.x * along.y + p.y * along.x;
+      parts += !(s_.is_long() && stood_on(x, y)) && s_.guide.is_unseen(x, y) ? 1 : 0;
+    }
+    if (parts == 0) return;
+    const bool is_dared = s_.goes_by_poses() ? s_.poses->through_unseen : s_.guide.through_unseen;
+    const float turned = s_.is_long() ? price::kUnseenTurnedLong : price::kUnseenTurned;
+    const float price = is_dared ? price::kUnseenDared + turned * std::fabs(r.w)
+                                 : price::kUnseen * cell::exp(-driven_m_ / price::kUnseenFadesM);
+    cost.unseen += price * kStepS * static_cast<float>(parts) * 0.125F;
+  }
+
+ private:
+  /// What a long body stands on and turns over now counts as seen.
+  [[nodiscard]] bool stood_on(float x, float y) const noexcept {
+    const float dx = x - s_.start.x, dy = y - s_.start.y;
+    return dx * dx + dy * dy < price::kStoodOnM * price::kStoodOnM;
+  }
+
+  const Situation& s_;
+  float driven_m_ = 0.0F;  ///< forward
+};
+
+/// The supervisor's part in a trajectory: it slows the robot near surfaces that the last scan hit, and where the laser
+/// does not look.
+class StopZoneCost {
+ public:
+  explicit StopZoneCost(const Situation& s) : s_(s) {}
+
+  /// Slows a step from `before` to `now` as the supervisor will, near what the map may not have.
+  void limit(const RobotState& before, RobotState& now, Cost& cost) noexcept {
+    cost.stop_zone += price::kBlindRim * s_.body.blind.too_fast(now.v, now.w);
+    const float rim_mps = std::fabs(now.v) + std::fabs(now.w) * s_.body.rim_m;
+    if (foreseen_ == 0 || rim_mps < kRestsMps) return;
+    --foreseen_;
+    const float share = s_.returns.braked_share(now, s_.body);
+    if (share <= 0.0F) return;
+    cost.stop_zone += price::kTakenAway * share * rim_mps;
+    now.v *= 1.0F - share, now.w *= 1.0F - share, now.accel = 0.0F;
+    place_after(before, now, kStepS);
+  }
+
+ private:
+  const Situation& s_;
+  int foreseen_ = static_cast<int>(NearReturns::kForS / kStepS);  ///< moving steps, as far as the last scan reaches
 };
 
 }  // namespace jaywalk::motion

@@ -1,4 +1,4 @@
-#include "planner/motion/make_motion.h"
+#include "planner/motion/motion.h"
 
 #include <utility>
 

@@ -7,6 +7,29 @@
 
 namespace jaywalk::motion {
 
+/// Changes of speed and of turning, braking, turning itself, driving backward, and turning to the other side than last.
+class ComfortCost {
+ public:
+  explicit ComfortCost(const Situation& s)
+      : turned_(s.turned), change_share_(std::min(1.0F, price::kPricedAtMps / s.body.bounds.speed)) {}
+
+  void add(const RobotState& before, const RobotState& now, Cost& cost) noexcept {
+    const float dv = now.v - before.v, dw = now.w - before.w, side = now.v * now.w;
+    cost.comfort += change_share_ * (price::kAccel * dv * dv + price::kTurnAccel * dw * dw) +
+                    price::kTurning * now.w * now.w + price::kSideways * side * side;
+    const float bite = now.braked - before.braked;
+    cost.comfort += price::kBrake * bite * bite;
+    if (now.v < -0.01F) cost.comfort += price::kBackward;
+    const float turns = turned_side(now.w, turned_);
+    if (turns * turned_ < 0.0F) cost.comfort += change_share_ * price::kReversal;
+    turned_ = turns;
+  }
+
+ private:
+  float turned_;  ///< to this side it turned last
+  float change_share_;
+};
+
 /// The time that a trajectory takes, and from its end to the goal; and what it costs not to get on. Waiting for a while
 /// may look best again and again: the longer the time to go has not fallen below the least so far, the dearer are all
 /// seconds beside movers, standing, circling and backing off alike; with no pedestrian about, those until it falls
