@@ -15,6 +15,7 @@ from world_kinds.folder import Folder
 
 KINDS = {  # what writes it, its seeds by default, what stays of runs: tracks are scored with all of them
     "doors": (drawn.doors, "101-140", "failures"),
+    "ahead": (drawn.ahead, "5701-5750", "failures"),
     "headings": (drawn.headings, "5601-5650", "failures"),
     "rooms": (drawn.rooms, "601-700", "failures"),
     "passages": (walked.passages, "302-303", "failures"),

@@ -19,11 +19,18 @@ EvidenceMap trial_room() {
   return room;
 }
 
+template <class Value>
+bool are_same(const Value* a, const Value* b, std::size_t count) {
+  return std::memcmp(a, b, count * sizeof(Value)) == 0;
+}
+
 bool are_same(const Plan& a, const Plan& b) {
   constexpr auto kCells = static_cast<std::size_t>(kTrialSide) * kTrialSide;
+  constexpr auto kPoses = static_cast<std::size_t>(PoseLattice::kPoses);
   return a.guide.side == kTrialSide && b.guide.side == kTrialSide && a.poses.known && b.poses.known &&
-         std::memcmp(a.guide.to_go_s, b.guide.to_go_s, kCells * sizeof(float)) == 0 &&
-         std::memcmp(a.poses.cost, b.poses.cost, PoseLattice::kPoses * sizeof(std::uint16_t)) == 0;
+         are_same(a.guide.to_go_s, b.guide.to_go_s, kCells) && are_same(a.poses.cost, b.poses.cost, kPoses) &&
+         are_same(a.poses.rate, b.poses.rate, kPoses) && are_same(a.poses.room, b.poses.room, kPoses) &&
+         are_same(a.poses.shift, b.poses.shift, kPoses);
 }
 
 /// Two plans, with times from cells and from poses, past a body that stands nearer in the second.
@@ -58,10 +65,16 @@ std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int devi
 }
 
 bool passes_cuda_trial(int device, std::string& why_not) {
+  auto settler =
+      on_device(device, why_not, [&] { return std::make_unique<CudaCostToGo>(device, kLongestTrial, kTrialSide); });
+  return settler && passes_trial(std::move(settler), why_not);
+}
+
+bool passes_trial(std::unique_ptr<field::CostSettler> settler, std::string& why_not) {
   PlannerConfig config;
   config.side_cells = config.max_side_cells = kTrialSide;
-  const auto tried = make_cuda_planner(config, device, why_not, kLongestTrial);
-  return tried && plans_the_same(*tried, *make_cpu_planner(config), why_not);
+  field::TimeToGoPlanner tried(config, std::move(settler));
+  return plans_the_same(tried, *make_cpu_planner(config), why_not);
 }
 
 bool has_cuda_left_behind() { return CudaDevice::has_left_behind(); }

@@ -3,6 +3,7 @@
 #include <memory>
 #include <string>
 
+#include "planner/cost_to_go/cost_settler.h"
 #include "planner/cost_to_go/planner.h"
 
 namespace jaywalk {
@@ -20,10 +21,13 @@ inline constexpr std::chrono::milliseconds kLongestWait{50};
 [[nodiscard]] std::unique_ptr<Planner> make_cuda_planner(const PlannerConfig& config, int device, std::string& why_not,
                                                          std::chrono::milliseconds limit = kLongestWait);
 
-/// Self-test: plans twice across a small room with the device and with the CPU, which takes all kernels. False with one
-/// clear line in `why_not` where there is no such device, it fails, or the bits differ. Takes up to a second where the
-/// driver has to compile for the device.
+/// Self-test: plans twice across a small room with the device and with the CPU, which takes all kernels that drive.
+/// False with one clear line in `why_not` where there is no such device, it fails, or a bit of what it computes
+/// differs: times to go, costs of poses, their rates, rooms and shifts. Takes up to a second where the driver has to
+/// compile.
 [[nodiscard]] bool passes_cuda_trial(int device, std::string& why_not);
+/// The same of whatever settles costs.
+[[nodiscard]] bool passes_trial(std::unique_ptr<field::CostSettler> settler, std::string& why_not);
 
 /// Whether a kernel that was given up may still run. The process must then end by std::_Exit: exit() would wait for it
 /// in the driver.

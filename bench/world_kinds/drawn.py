@@ -5,6 +5,7 @@ import random
 BORDER_M, FROM_SIDE_M = 0.1, 1.3
 CLEAR_M = 1.15  # from a box to the start, the goal and the door
 DOORS_M = (9.0, 7.0)
+AHEAD_FRONT_M = {"p3dx": 0.21, "wheelchair": 0.75}  # of the body, from the axle
 WALL_TURNS_DEG = 45.0  # at most
 
 
@@ -52,6 +53,21 @@ def headings(to, options):
         robot = {"start": rounded(*start), "goal": rounded(*goal), "max_speed_mps": 0.6}
         scenarios.append(to.scenario(f"headings_{seed}", to.bare_map("bare", *DOORS_M), robot, laser=None, seed=seed))
     to.experiment("headings", scenarios, settings={"robot.model": ["p3dx", "wheelchair"]})
+
+
+def ahead(to, options):
+    """A goal 2 to 5 m ahead with the heading that leads there; of even seeds a wall half a metre before the body at the
+    goal. It gets there without driving past."""
+    scenarios = []
+    for seed in options.seeds:
+        rng = random.Random(seed)
+        way, aside = rng.uniform(2.0, 5.0), rng.uniform(-0.3, 0.3)
+        for model, front_m in AHEAD_FRONT_M.items():
+            room_m = front_m + 0.5 if seed % 2 == 0 else 6.0
+            world = to.bare_map(f"{model}_{room_m}", 8.0 + room_m, 6.0)
+            robot = {"model": model, "start": rounded(8.0 - way, 3.0 + aside, 0.0), "goal": [8.0, 3.0, 0.0], "max_speed_mps": 0.6}
+            scenarios.append(to.scenario(f"ahead_{model}_{seed}", world, robot, laser=None, seed=seed, timeout_s=60.0))
+    to.experiment("ahead", scenarios)
 
 
 def drawn_room(rng):

@@ -23,7 +23,7 @@ namespace jaywalk {
 enum class PlanStatus : std::uint8_t {
   kNone,           ///< nothing was planned yet
   kOk,             ///< `path` leads to the goal
-  kNoPath,         ///< the goal cannot be reached through free cells
+  kNoPath,         ///< no way through free cells, or no room for the body as it is to stand at the goal
   kRobotBlocked,   ///< the robot's own cell is not free and no free cell is near
   kBadRequest,     ///< a pose or goal that is not finite
   kBackendFailed,  ///< the executor could not run

@@ -116,8 +116,8 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   std::fill(memory.cost.begin(), memory.cost.end(), PoseGuide::kNoWay);
   graph_.lay(guide, memory.cost.data(), guide.pose_at(here.x, here.y, static_cast<float>(robot.heading)), kBeyond);
   queue_.clear();
-  sow_goal(request, guide, memory);
-  if (queue_.is_empty()) sow_rim(request, guide, memory);
+  guide.goal_closed = !sow_goal(request, guide, memory) && request.asked.wants_heading;
+  if (queue_.is_empty() && !guide.goal_closed) sow_rim(request, guide, memory);
   settle_costs(guide, memory);
   const auto heading = static_cast<float>(robot.heading);
   guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
@@ -198,15 +198,16 @@ void PoseField::weigh_standing(const MoverDisc& mover, const PoseGuide& guide, M
   }
 }
 
-void PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
+bool PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept {
   const Place goal = place_of(request.goal_in_map);
   constexpr float kMost = Lattice::kCell_m * static_cast<float>(Lattice::kSide) - kInside_m;
   const float gx = goal.x - guide.low_x, gy = goal.y - guide.low_y;
-  if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return;
+  if (!(gx > kInside_m && gy > kInside_m && gx < kMost && gy < kMost)) return true;
   const PoseRequest& asked = request.asked;
   const auto cells = static_cast<std::int32_t>(asked.arrives_m / Lattice::kCell_m) + 1;
   const auto ci = static_cast<std::int32_t>(gx / Lattice::kCell_m),
              cj = static_cast<std::int32_t>(gy / Lattice::kCell_m);
+  bool has_room = false;
   for (std::int32_t j = std::max(cj - cells, 0); j <= std::min(cj + cells, Lattice::kSide - 1); ++j) {
     for (std::int32_t i = std::max(ci - cells, 0); i <= std::min(ci + cells, Lattice::kSide - 1); ++i) {
       const Place p = guide.middle_of(i, j);
@@ -215,13 +216,15 @@ void PoseField::sow_goal(const PoseFieldRequest& request, const PoseGuide& guide
       for (std::int32_t h = 0; h < Lattice::kHeadings; ++h) {
         const std::int32_t pose = Lattice::at(i, j, h);
         const float off = std::fabs(cell::wrapped(static_cast<float>(h) * Lattice::kStep_rad - asked.heading));
-        if (memory.rate[static_cast<std::size_t>(pose)] == 0 || (asked.wants_heading && off >= Lattice::kStep_rad))
-          continue;
+        if (asked.wants_heading && off >= Lattice::kStep_rad) continue;
+        has_room = has_room || kRateOfRoom[memory.room[static_cast<std::size_t>(pose)]] != 0;
+        if (memory.rate[static_cast<std::size_t>(pose)] == 0) continue;
         const float seconds = kOffGoal * away + (asked.wants_heading ? off / asked.speeds.spot : 0.0F);
         offer(pose, seconds);
       }
     }
   }
+  return has_room;
 }
 
 void PoseField::sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept {

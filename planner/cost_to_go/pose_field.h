@@ -50,7 +50,8 @@ class PoseField {
   void weigh(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) const noexcept;
   void open_about(const Pose2& robot, const PoseGuide& guide, Memory& memory) const noexcept;
   void weigh_standing(const MoverDisc& mover, const PoseGuide& guide, Memory& memory) const noexcept;
-  void sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
+  /// False where the goal lies in the square, but no pose wanted there has room.
+  bool sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;
   void offer(std::int32_t pose, float seconds) noexcept;
   void settle_costs(const PoseGuide& guide, Memory& memory) noexcept;

@@ -26,6 +26,7 @@ struct PoseGuide {
   static constexpr std::uint16_t kNoWay = 65535;
 
   bool known = false;           ///< there is a way from the robot
+  bool goal_closed = false;     ///< as the heading there is wanted, the body has no room at the goal
   bool through_unseen = false;  ///< that soon backs or turns into what was never seen
   float low_x = 0.0F, low_y = 0.0F;
   float least_s = 0.0F;  ///< added to all costs

@@ -68,9 +68,11 @@ PlanStatus TimeToGoPlanner::plan_by_times(const PlanRequest& request, Plan& plan
   plan.certified = cells_.is_certified();
   plan.reach = plan.certified ? 1.0F : 0.0F;
   const TimeToGoPath path(cells_, asked);
-  const PlanStatus status = path.status();
+  const bool is_closed = path.status() == PlanStatus::kOk && plan.poses.goal_closed;
+  const PlanStatus status = is_closed ? PlanStatus::kNoPath : path.status();
   if (status == PlanStatus::kOk) path.draw(plan.path);
-  window_.note_walled_off(status == PlanStatus::kNoPath && window_.can_grow() && path.is_walled_off(flood_));
+  window_.note_walled_off(status == PlanStatus::kNoPath && !is_closed && window_.can_grow() &&
+                          path.is_walled_off(flood_));
   return status;
 }
 

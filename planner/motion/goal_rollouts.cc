@@ -15,6 +15,7 @@ constexpr double kStopWithin = 2.0 / 3.0;          ///< of the tolerance
 constexpr double kStandWithin = 0.9;               ///< the same, where it has come to rest already
 constexpr float kArriveWithin = 0.8F;  ///< the same: a roll-out has arrived. With a heading wanted it must come nearer:
 constexpr float kTurnWithin = 0.6F;
+constexpr float kFacesShare = 1.0F / 3.0F;                    ///< of the heading's tolerance: it turns so near
 constexpr float kTurnBlocked_s = 5.0F;                        ///< without progress, at the goal
 constexpr Duration kGuideHoldsFor = std::chrono::seconds(1);  ///< as the supervisor's longest age of a plan
 
@@ -55,13 +56,18 @@ void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
 }
 
 bool GoalRollouts::is_there(const World& world) const noexcept {
-  const double to_goal_m = distance(world.map_from_robot.position(), world.input.goal_in_map);
   if (setup_.constant_speed) return false;
-  if (!world.input.wants_heading()) return to_goal_m < setup_.goal_tolerance_m * kStopWithin;
+  const RobotState now = now_in(world);
+  const auto rests_within = [&](double share) {
+    const auto within_m = static_cast<float>(share * setup_.goal_tolerance_m);
+    return rests_near(now, static_cast<float>(world.input.goal_in_map.x), static_cast<float>(world.input.goal_in_map.y),
+                      within_m, stands_there_ ? within_m : kRestsBefore_m, body_.bounds);
+  };
+  if (!world.input.wants_heading()) return rests_within(kStopWithin);
   const double off_rad = std::fabs(world.input.heading_error_rad(world.map_from_robot));
   // Once it stands there, a pose that sways within the tolerances moves nothing.
   const double within = stands_there_ ? 1.0 : is_at_rest(world.driven) ? kStandWithin : kStopWithin;
-  return to_goal_m < setup_.goal_tolerance_m * within && off_rad < world.input.goal_heading_tolerance_rad * within;
+  return rests_within(within) && off_rad < world.input.goal_heading_tolerance_rad * within;
 }
 
 bool GoalRollouts::is_to_decide(const World& world, const Intent& intent, const Guide& ground) noexcept {
@@ -76,6 +82,8 @@ void GoalRollouts::choose(const World& world, const Guide& guide) noexcept {
   decision_.known_behind = known_behind_;
   decision_.wants_heading = !setup_.constant_speed && world.input.wants_heading();
   decision_.goal_heading = decision_.wants_heading ? static_cast<float>(world.input.goal_heading_rad) : 0.0F;
+  decision_.faces_rad =
+      std::min(price::kFacesRad, kFacesShare * static_cast<float>(world.input.goal_heading_tolerance_rad));
   const PoseGuide& poses = world.plan.poses;
   Situation situation = this->situation(guide, poses);
   note_progress(situation, world.now);
@@ -107,6 +115,7 @@ Situation GoalRollouts::situation(const Guide& guide, const PoseGuide& poses) co
           setup_.constant_speed ? nullptr : &poses,
           decision_.goal_heading,
           decision_.wants_heading,
+          decision_.faces_rad,
           body_.is_long && !setup_.constant_speed ? conflict_price() : price::kConflict,
           decision_.known_behind};
 }

@@ -105,4 +105,25 @@ JAYWALK_CELL RobotState moved(const RobotState& from, const Command& to, const M
   return s;
 }
 
+/// Way in which the robot comes to rest within the bounds of comfort, m: what it has of acceleration goes by their
+/// jerk, then it slows down and lets go likewise.
+JAYWALK_CELL float stopping_way(const RobotState& s, const MotionBounds& bounds) {
+  const float speed = std::fabs(s.v), accel = s.v < 0.0F ? -s.accel : s.accel, j = bounds.jerk;
+  const float top = speed + 0.5F * accel * accel / j, full = bounds.slowing * bounds.slowing / j;
+  const float until = accel / j * (speed + accel * accel / (3.0F * j));
+  const float after = top < full ? top * std::sqrt(top / j) : 0.5F * top * (top / bounds.slowing + bounds.slowing / j);
+  return until + after;
+}
+
+/// Whether the robot, slowed from now on, comes to rest within `within_m` of the goal, less than `before_m` before the
+/// place on its way that is nearest to it.
+JAYWALK_CELL bool rests_near(const RobotState& s, float goal_x, float goal_y, float within_m, float before_m,
+                             const MotionBounds& bounds) {
+  const cell::Heading along = cell::heading_at(s.heading);
+  const float way = s.v < 0.0F ? -stopping_way(s, bounds) : stopping_way(s, bounds);
+  const float dx = goal_x - s.x - way * along.x, dy = goal_y - s.y - way * along.y;
+  const float ahead = s.v < 0.0F ? -dx * along.x - dy * along.y : dx * along.x + dy * along.y;
+  return dx * dx + dy * dy < within_m * within_m && (s.v == 0.0F || ahead < before_m);
+}
+
 }  // namespace jaywalk::motion

@@ -19,18 +19,6 @@ Seen seen_in(const World& world, const OfEach<SeenFrom>& scans, const Guide& gro
           ground};
 }
 
-/// Where the robot will be when the wheels follow what is decided now.
-RobotState start_in(const World& world, const MotionBounds& bounds) noexcept {
-  const Pose2& here = world.map_from_robot;
-  const RobotState now{static_cast<float>(here.x),
-                       static_cast<float>(here.y),
-                       static_cast<float>(here.heading),
-                       static_cast<float>(world.driven.v_mps),
-                       static_cast<float>(world.driven.w_radps),
-                       0.0F};
-  return moved(now, {now.v, now.w}, bounds, kLagS);
-}
-
 }  // namespace
 
 RolloutMotion::RolloutMotion(const MotionSetup& setup)
@@ -51,7 +39,9 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   if (!is_to_decide(world, intent, ground)) return;
   ++decision_.number;
   futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), ground, decision_.number);
-  decision_.start = start_in(world, body_.bounds);
+  RobotState now = now_in(world);
+  now.accel = 0.0F;
+  decision_.start = moved(now, {now.v, now.w}, body_.bounds, kLagS);  // as the wheels follow what is decided now
   decision_.start.accel = accel_;
   decision_.start.braked = braked_;
   place_unseen_walls(world);
@@ -59,6 +49,16 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   choose(world, ground);
   decision_.at = world.now;
   decision_.seen = world.scan.stamp;
+}
+
+RobotState RolloutMotion::now_in(const World& world) const noexcept {
+  const Pose2& here = world.map_from_robot;
+  return {static_cast<float>(here.x),
+          static_cast<float>(here.y),
+          static_cast<float>(here.heading),
+          static_cast<float>(world.driven.v_mps),
+          static_cast<float>(world.driven.w_radps),
+          accel_};
 }
 
 /// The supervisor supposes them where no laser looks; the robot may back or turn into them.

@@ -22,8 +22,8 @@ struct Decision {
   KnownBehind known_behind;
   StallState stall;
   bool wants_heading = false;
-  float goal_heading = 0.0F;
-  bool went_on = false;  ///< `last` was tried: what was left of the decision before
+  float goal_heading = 0.0F, faces_rad = price::kFacesRad;  ///< within so much of it, it is reached
+  bool went_on = false;                                     ///< `last` was tried: what was left of the decision before
   Trajectory last;
 };
 
@@ -58,6 +58,8 @@ class RolloutMotion : public Motion {
   [[nodiscard]] Command command_at(Time now) const noexcept;
   /// Whether the last decision still holds, so that what is left of it may be gone on with.
   [[nodiscard]] bool holds(Time now) const noexcept { return decision_.at != kNever && now - decision_.at < kHoldsFor; }
+  /// Where the robot is and how it moves, its acceleration as it was sent.
+  [[nodiscard]] RobotState now_in(const World& world) const noexcept;
   [[nodiscard]] float tick_s() const noexcept { return static_cast<float>(setup_.tick_s); }
 
   MotionSetup setup_;

@@ -13,6 +13,9 @@
 
 namespace jaywalk::motion {
 
+/// So much before the nearest place to the goal the robot may come to rest, m: it slows down so much too early.
+inline constexpr float kRestsBefore_m = 0.06F;
+
 /// What the trajectories of one decision have in common; each term of the cost reads its part: more fields than a
 /// struct has elsewhere.
 struct Situation {
@@ -29,6 +32,7 @@ struct Situation {
   const PoseGuide* poses = nullptr;     ///< null: the heading counts nowhere
   float goal_heading = 0.0F;            ///< wanted at the goal, where `wants_heading`
   bool wants_heading = false;
+  float faces_rad = price::kFacesRad;         ///< so near to it the heading is reached
   float conflict_price_s = price::kConflict;  ///< of being in a mover's way
   KnownBehind known_behind = {};              ///< at the start
 
@@ -39,12 +43,17 @@ struct Situation {
     const float dx = goal.x - at.x, dy = goal.y - at.y;
     return dx * dx + dy * dy < arrives_within_m * arrives_within_m;
   }
+  /// Whether it stands at the goal once it has slowed down.
+  [[nodiscard]] bool rests_at_goal(const RobotState& now) const noexcept {
+    return rests_near(now, goal.x, goal.y, arrives_within_m, kRestsBefore_m, body.bounds);
+  }
   /// From the heading wanted at the goal, rad.
   [[nodiscard]] float off_heading(float heading) const noexcept {
     return std::fabs(cell::wrapped(goal_heading - heading));
   }
   /// Seconds; Guide::kNoWay_s or more: there is no way.
   [[nodiscard]] float time_to_go(const RobotState& at) const noexcept {
+    if (poses != nullptr && poses->goal_closed) return Guide::kNoWay_s;
     const float there =
         goes_by_poses() ? poses->time_to_go(guide, at.x, at.y, at.heading) : guide.time_to_go(at.x, at.y);
     const bool turns = wants_heading && there < Guide::kNoWay_s && !(goes_by_poses() && poses->covers(goal.x, goal.y));

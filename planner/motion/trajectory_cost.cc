@@ -9,8 +9,8 @@
 namespace jaywalk::motion {
 namespace {
 
-/// Rolls a trajectory out until it arrives or ends, at the price of the driving alone; returns how many states that
-/// are.
+/// Rolls a trajectory out until it stands at the goal or ends, at the price of the driving alone; returns how many
+/// states that are. Arrived it slows down, and neither its time nor its comfort counts any more.
 int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* states, Cost& cost) noexcept {
   TimeCost time(s);
   ComfortCost comfort(s);
@@ -18,22 +18,27 @@ int roll_out(const Situation& s, const Trajectory& trajectory, RobotState* state
   time.begin(cost);
   RobotState robot = s.start;
   KnownBehind behind = s.known_behind;
+  bool arrived = false;
   const int last = s.stick != nullptr ? kStickSteps : kSteps;
   for (int step = 0; step < last; ++step) {
     const RobotState before = robot;
     const MotionBounds bounds = behind.limited(s.body.bounds);
-    const Command command = within(bounds, trajectory.commands[static_cast<std::size_t>(step)]);
+    const Command wanted = trajectory.commands[static_cast<std::size_t>(step)];
+    const Command command = arrived ? Command{} : within(bounds, wanted);
     robot = moved(before, command, bounds, kStepS);
     stop_zone.limit(before, robot, cost);
     states[step] = robot;
     behind.drive(robot.v, kStepS);
+    if (arrived) {
+      if (robot.v == 0.0F) return step + 1;
+      continue;
+    }
     if (s.stick == nullptr) comfort.add(before, robot, cost);  // a person turns and speeds up at will
     time.add(robot, cost);
-    if (time.is_there(robot)) {
-      cost.time -= price::kArrivedEarly;
-      return step + 1;
-    }
+    arrived = time.is_there(robot);
+    if (arrived) cost.time -= price::kArrivedEarly;
   }
+  if (arrived) return last;
   cost.time += s.stick != nullptr ? seconds_off(*s.stick, states, s.body.bounds) : time.price_to_go(robot);
   return last;
 }

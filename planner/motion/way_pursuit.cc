@@ -38,8 +38,8 @@ void WayPursuit::join_small_turns() noexcept {
 }
 
 bool turns_at_goal(const Situation& s, const RobotState& r) noexcept {
-  const float dx = s.goal.x - r.x, dy = s.goal.y - r.y, within = kTurnsWithin * s.arrives_within_m;
-  return s.wants_heading && dx * dx + dy * dy < within * within;
+  const float within = kTurnsWithin * s.arrives_within_m;
+  return s.wants_heading && rests_near(r, s.goal.x, s.goal.y, within, within, s.body.bounds);
 }
 
 Command turn_to(float heading, const RobotState& r, const MotionBounds& bounds) noexcept {

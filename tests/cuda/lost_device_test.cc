@@ -7,6 +7,7 @@
 #include <string>
 #include <thread>
 
+#include "cuda/cuda_cost_to_go.h"
 #include "planner/cost_to_go/fallback_planner.h"
 #include "tests/cuda/cuda_rig.h"
 #include "tests/planner/cuda_parity.h"
@@ -186,6 +187,51 @@ TEST_CASE("emulated: the trial is passed by a device that serves") {
   CHECK(passes_cuda_trial(0, why));
   CHECK(why.empty());
   device().power_on();
+}
+
+namespace {
+
+/// The emulated device, with one bit wrong in one of its answers.
+struct WrongBit final : field::CostSettler {
+  enum class In { kNone, kPoses, kCells, kRoom, kShift };
+  explicit WrongBit(In wrong) : in(wrong) {}
+  bool is_ready() noexcept override { return settler.is_ready(); }
+  bool has_failed() const noexcept override { return settler.has_failed(); }
+  const char* failure() const noexcept override { return settler.failure(); }
+  double took_ms() const noexcept override { return settler.took_ms(); }
+  const char* name() const noexcept override { return settler.name(); }
+  bool settle(const field::PoseCosts& poses) noexcept override {
+    const bool done = settler.settle(poses);
+    if (in == In::kPoses) poses.cost[poses.robot] ^= 1U;
+    return done;
+  }
+  bool settle(const field::CellCosts& cells) noexcept override {
+    const bool done = settler.settle(cells);
+    if (in == In::kCells) cells.nodes[cells.robot].cost ^= 1U;
+    return done;
+  }
+  bool find(const field::PoseLook& look) noexcept override {
+    const bool done = settler.find(look);
+    if (in == In::kRoom) look.room[0] ^= 1U;
+    if (in == In::kShift) look.shift[PoseLattice::kPoses - 1] ^= 1;
+    return done;
+  }
+
+  In in;
+  CudaCostToGo settler{0, std::chrono::seconds(30), 128};
+};
+
+}  // namespace
+
+TEST_CASE("emulated: one wrong bit in a cost of a cell or a pose, in a room or a shift, and the trial is not passed") {
+  device().power_on();
+  using In = WrongBit::In;
+  for (const In wrong : {In::kNone, In::kPoses, In::kCells, In::kRoom, In::kShift}) {
+    CAPTURE(static_cast<int>(wrong));
+    std::string why;
+    CHECK(passes_trial(std::make_unique<WrongBit>(wrong), why) == (wrong == In::kNone));
+    CHECK(why == (wrong == In::kNone ? "" : "cuda: a trial plan has other bits than the CPU's"));
+  }
 }
 
 TEST_CASE("emulated: no device, none of that number, one that fails at the start: the trial is not passed, and why") {

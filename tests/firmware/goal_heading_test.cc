@@ -45,6 +45,70 @@ TEST_CASE("a wheelchair turns to look back where it came from") {
   check_arrives("dead_end", wheelchair(), 0.0, 90.0);
 }
 
+namespace {
+
+/// How a robot comes to a goal `ahead_m` before the door's room's far wall, which is its heading too.
+struct Coming {
+  double past_m = -1.0;  ///< it went beyond the goal
+  int reversals = 0;
+  bool arrived = false;
+};
+
+Coming come_to(const RobotModel& model, double from_wall_m, double start_y) {
+  constexpr double kWall_m = 8.4;
+  const double goal_x = kWall_m - from_wall_m;
+  SimulatedDrive drive("door", 1, [&](sim::Scenario& s) {
+    s.model = model;
+    s.start = {5.0, start_y, 0.0};
+    s.goal = {goal_x, 2.6};
+    s.goal_heading_rad = 0.0;
+  });
+  Coming coming;
+  double gear = 1.0;
+  coming.arrived = drive.drive(20.0, [&](const TickRecord& t) {
+    const double v = drive.truth().twist.v_mps;
+    coming.past_m = std::max(coming.past_m, drive.truth().map_from_robot.x - goal_x);
+    if (std::fabs(v) > 0.02 && v * gear < 0.0) ++coming.reversals, gear = -gear;
+    return is_there(drive, t.input);
+  });
+  CHECK(drive.truth().contacts == 0);
+  return coming;
+}
+
+}  // namespace
+
+TEST_CASE("a goal with its heading straight ahead is not driven past, a wall half a metre before the body or none") {
+  for (const RobotModel& model : {p3dx(), wheelchair()}) {
+    for (const double room_m : {0.5, 1.0}) {
+      for (const double start_y : {2.6, 2.4}) {
+        CAPTURE(model.name, room_m, start_y);
+        const Coming coming = come_to(model, model.footprint.front_m + room_m, start_y);
+        CHECK(coming.arrived);
+        CHECK(coming.past_m < 0.15);
+        CHECK(coming.reversals <= 1);
+      }
+    }
+  }
+}
+
+TEST_CASE("where the body has no room as it is to stand at the goal, the robot stands and the plan has no path") {
+  SimulatedDrive drive("door", 1, [](sim::Scenario& s) {
+    s.start = {5.0, 2.6, 0.0};
+    s.goal = {8.0, 2.6};
+    s.goal_heading_rad = 0.0;
+  });
+  double fastest = 0.0;
+  PlanStatus status = PlanStatus::kNone;
+  drive.drive(8.0);  // it may leave the wall behind it
+  drive.drive(20.0, [&](const TickRecord& t) {
+    fastest = std::max(fastest, std::fabs(drive.truth().twist.v_mps));
+    status = t.plan_status;
+    return false;
+  });
+  CHECK(fastest < 0.05);
+  CHECK(status == PlanStatus::kNoPath);
+}
+
 TEST_CASE("a wheelchair that is to look out of a dead end that it cannot turn in backs out, turns and backs in") {
   SimulatedDrive drive("dead_end", 1, [](sim::Scenario& s) {
     s.start = {3.0, 2.6, 0.0};

@@ -178,7 +178,7 @@ TEST_CASE("who has stood for long is a surface as wide as a person, though the m
 TEST_CASE(
     "the supervisor's braking is foreseen: slowly past a place 6 cm beside the way, whatever the map holds of it") {
   test::Guided ground;
-  const Guide& guide = ground.wall({-1.0, 0.4}, {0.5, 0.4}).towards({0.0, 0.0}, {4.0, 0.0});
+  const Guide& guide = ground.wall({-1.0, 0.4}, {0.5, 0.4}).towards({0.0, 0.0}, {5.6, 0.0});
   const RobotBody body = body_of(0.6F);
   LaserScan scan;
   scan.beam_count = 3;
@@ -197,7 +197,7 @@ TEST_CASE(
     Trajectory held;
     held.commands.fill({speed, 0.0F});
     RobotState driven[kSteps];
-    const Situation s{body, guide, *nobody, seen, {.v = speed}, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
+    const Situation s{body, guide, *nobody, seen, {.v = speed}, {5.6F, 0.0F}, 0.0F, {}, 0.24F};
     const float braked_s = trajectory_cost(s, held, 1e9F, driven).stop_zone;
     return Passed{braked_s, std::ranges::min_element(driven, {}, [](const RobotState& r) { return r.v; })->v};
   };
@@ -273,10 +273,10 @@ struct Oncoming {
   }
 
   test::Guided ground;
-  const Guide& guide = ground.towards({0.0, 0.0}, {4.0, 0.0});
+  const Guide& guide = ground.towards({0.0, 0.0}, {5.6, 0.0});
   RobotBody body = robot_body(p3dx().footprint, p3dx().limits, p3dx().laser, 1.0);
   std::unique_ptr<Futures> futures = std::make_unique<Futures>();
-  Situation situation{body, guide, *futures, kNothing, {.v = 0.6F}, {4.0F, 0.0F}, 0.0F, {}, 0.24F};
+  Situation situation{body, guide, *futures, kNothing, {.v = 0.6F}, {5.6F, 0.0F}, 0.0F, {}, 0.24F};
 };
 
 }  // namespace

@@ -45,7 +45,7 @@ Followed follow(Chair& chair, const Pose2& start, Vec2 goal, double heading = kA
     done.slowest = std::min(done.slowest, robot.v);
     const float dx = robot.x - s.goal.x, dy = robot.y - s.goal.y;
     const bool faces = !s.wants_heading || std::fabs(cell::wrapped(robot.heading - s.goal_heading)) < 0.05F;
-    if (dx * dx + dy * dy < 0.04F && faces) break;
+    if (dx * dx + dy * dy < 0.22F * 0.22F && faces) break;  // 0.9 of 0.24
   }
   done.end = robot;
   return done;

@@ -78,8 +78,9 @@ inline constexpr float kArrivedEarly = 0.5F;  ///< taken back at the goal
 /// So far ahead and back the guide is asked for what facing away costs: 2 s at most. At 3 s 17 of 20 runs (decision
 /// motion-prices).
 inline constexpr float kFacingM = 0.35F;
-inline constexpr float kFacesRad = 0.05F, kFacesRadps = 0.15F;  ///< off the heading wanted at the goal, turning: there
-inline constexpr float kTurnAtGoalRadps = 0.6F;                 ///< on the spot, as a passenger likes it
-inline constexpr float kMostTimeToGoS = 500.0F;                 ///< where no way is known
+inline constexpr float kFacesRad = 0.05F,
+                       kFacesRadps = 0.15F;      ///< off the heading wanted at the goal, at most; turning: there
+inline constexpr float kTurnAtGoalRadps = 0.6F;  ///< on the spot, as a passenger likes it
+inline constexpr float kMostTimeToGoS = 500.0F;  ///< where no way is known
 
 }  // namespace jaywalk::motion::price

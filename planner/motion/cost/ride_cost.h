@@ -55,10 +55,9 @@ class TimeCost {
   }
 
   [[nodiscard]] bool is_there(const RobotState& now) const noexcept {
-    if (!s_.is_at_goal(now)) return false;
+    if (!s_.rests_at_goal(now)) return false;
     // A robot that turns past the heading has yet to turn back.
-    return !s_.wants_heading ||
-           (s_.off_heading(now.heading) < price::kFacesRad && std::fabs(now.w) < price::kFacesRadps);
+    return !s_.wants_heading || (s_.off_heading(now.heading) < s_.faces_rad && std::fabs(now.w) < price::kFacesRadps);
   }
 
  private:
