@@ -148,17 +148,15 @@ std::vector<Episode> loops_of(double radius_m, double turned_deg, double stands_
   return count.loops();
 }
 
-TEST_CASE("a loop is a net turn by 340 degrees within 10 m of way or 60 s, whatever the plan said") {
+TEST_CASE("a loop is a net turn by 340 degrees within 10 m of way, whatever the plan said") {
   for (const double side : {1.0, -1.0}) {
     CHECK(loops_of(0.5, side * 339.0).empty());
     CHECK(loops_of(0.5, side * 341.0).size() == 1);
     CHECK(loops_of(0.5, side * 679.0).size() == 1);
     CHECK(loops_of(0.5, side * 685.0).size() == 2);
-    CHECK(loops_of(0.0, side * 341.0).size() == 1);         // on the spot
-    CHECK(loops_of(1.5, side * 341.0, 90.0).size() == 1);   // 8.9 m: a stand amid it changes nothing
-    CHECK(loops_of(2.5, side * 341.0).size() == 1);         // 14.9 m in 14.9 s
-    CHECK(loops_of(2.5, side * 1000.0, 90.0).size() == 2);  // the stand parts it: 500 degrees before and after
-    CHECK(loops_of(2.5, side * 400.0, 90.0).empty());
+    CHECK(loops_of(0.0, side * 341.0).size() == 1);        // on the spot
+    CHECK(loops_of(1.5, side * 341.0, 90.0).size() == 1);  // 8.9 m: a stand amid it changes nothing
+    CHECK(loops_of(2.5, side * 1000.0).empty());           // 14.9 m a turn: the way itself may turn so
   }
   const std::vector<Episode> one = loops_of(0.5, 345.0);
   REQUIRE(one.size() == 1);
