@@ -12,7 +12,6 @@
 #include "apps/bench/bench_maps.h"
 #include "apps/bench/bench_motion.h"
 #include "apps/bench/bench_rivals.h"
-#include "apps/bench/bench_tick.h"
 #include "apps/bench/timing.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/formats/cdr_writer.h"
+#include "apps/formats/little_endian.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::dds {

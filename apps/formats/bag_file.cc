@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "apps/formats/byte_file.h"
-#include "apps/formats/unpacking.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 

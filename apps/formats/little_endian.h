@@ -2,6 +2,7 @@
 // Reads and writes packed little-endian records of numbers and texts.
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace jaywalk::exchange {
@@ -37,6 +38,42 @@ class LittleEndian {
  private:
   std::string_view bytes_;
   bool ok_ = true;
+};
+
+// OMG's Common Data Representation (CDR, XCDR1, little endian), as ROS 2 writes messages.
+
+/// Numbers stand at multiples of their size, counted from behind the encapsulation's four bytes.
+class CdrWriter {
+ public:
+  template <class T>
+  CdrWriter& number(T value) {
+    bytes_.resize(kHead + (bytes_.size() - kHead + sizeof(T) - 1) / sizeof(T) * sizeof(T));
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof raw);  // all our machines are little-endian
+    bytes_.append(raw, sizeof raw);
+    return *this;
+  }
+  CdrWriter& f64(double value) { return number(value); }
+  CdrWriter& f32(double value) { return number(static_cast<float>(value)); }
+  CdrWriter& u32(std::size_t value) { return number(static_cast<std::uint32_t>(value)); }
+  CdrWriter& i32(std::int64_t value) { return number(static_cast<std::int32_t>(value)); }
+  CdrWriter& u8(unsigned value) { return number(static_cast<std::uint8_t>(value)); }
+  CdrWriter& text(std::string_view text) {
+    u32(text.size() + 1);
+    bytes_.append(text).push_back('\0');
+    return *this;
+  }
+  /// Bytes behind their count.
+  CdrWriter& bytes(std::string_view raw) {
+    u32(raw.size());
+    bytes_.append(raw);
+    return *this;
+  }
+  [[nodiscard]] const std::string& message() const { return bytes_; }
+
+ private:
+  static constexpr std::size_t kHead = 4;
+  std::string bytes_{"\0\1\0\0", kHead};
 };
 
 }  // namespace jaywalk::exchange

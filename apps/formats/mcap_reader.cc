@@ -5,7 +5,6 @@
 #include "apps/formats/byte_file.h"
 #include "apps/formats/little_endian.h"
 #include "apps/formats/mcap_format.h"
-#include "apps/formats/unpacking.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::exchange {

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cstring>
 
+#include "apps/formats/byte_file.h"
 #include "apps/formats/mcap_format.h"
-#include "apps/formats/unpacking.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {

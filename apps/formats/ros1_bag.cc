@@ -9,7 +9,6 @@
 #include "apps/formats/bag_file.h"
 #include "apps/formats/byte_file.h"
 #include "apps/formats/little_endian.h"
-#include "apps/formats/unpacking.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

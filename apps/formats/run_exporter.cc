@@ -4,7 +4,7 @@
 #include <fstream>
 #include <string>
 
-#include "apps/formats/ros_schemas.h"
+#include "apps/formats/ros_messages.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

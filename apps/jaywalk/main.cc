@@ -22,7 +22,6 @@
 #include "firmware/program/options.h"
 #include "firmware/program/parse_message.h"
 #include "firmware/program/program.h"
-#include "firmware/program/robot_commands.h"
 #include "hal/comfort.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"

@@ -20,7 +20,6 @@
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/loop_runner.h"
-#include "firmware/recording/held_planner.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/run_parts.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/rivals/way_down.h"
 #include "planner/motion/trajectory.h"
 
 namespace jaywalk::baseline {
@@ -40,6 +39,15 @@ motion::RobotState state_of(const motion::World& world) noexcept {
 template <BaselineMotion::Decide deciding>
 std::unique_ptr<motion::Motion> make(const motion::MotionSetup& setup) {
   return std::make_unique<BaselineMotion>(deciding, setup);
+}
+
+constexpr float kAhead_m = 0.5F;
+constexpr int kDownDirections = 48;
+constexpr float kArc_s = 0.5F;  ///< T: an arc's time
+
+float goal_distance(const Scene& scene) noexcept {
+  const float dx = scene.goal.x - scene.now.x, dy = scene.goal.y - scene.now.y;
+  return std::sqrt(dx * dx + dy * dy);
 }
 
 }  // namespace
@@ -115,6 +123,35 @@ motion::MakeMotion maker_of(const std::string& name) noexcept {
   if (name == "dwa") return make<dwa>;
   if (name == "orca") return make<orca>;
   return motion::make_motion;
+}
+
+cell::Heading way_down(const Scene& scene) noexcept {
+  const float left_m = goal_distance(scene);
+  cell::Heading best{};
+  if (left_m > 1e-3F) best = {(scene.goal.x - scene.now.x) / left_m, (scene.goal.y - scene.now.y) / left_m};
+  if (left_m < kAhead_m || !scene.guide.known()) return best;
+  float least = Guide::kNoWay_s;
+  for (int k = 0; k < kDownDirections; ++k) {
+    const cell::Heading d = cell::heading_at(2.0F * cell::kPiF * static_cast<float>(k) / kDownDirections);
+    const float x = scene.now.x + kAhead_m * d.x, y = scene.now.y + kAhead_m * d.y;
+    const float middle = scene.guide.distance(scene.now.x + 0.5F * kAhead_m * d.x, scene.now.y + 0.5F * kAhead_m * d.y);
+    const float to_go = scene.guide.time_to_go(x, y);
+    if (middle > 0.8F * scene.radius && to_go < least) least = to_go, best = d;
+  }
+  return best;
+}
+
+float speed_to_goal(const Scene& scene) noexcept {
+  return std::min(scene.bounds.speed, std::sqrt(scene.bounds.slowing * goal_distance(scene)));
+}
+
+motion::Command driven_along(const Scene& scene, cell::Heading direction, float speed) noexcept {
+  const float off = cell::wrapped(cell::angle_of(direction.x, direction.y) - scene.now.heading);
+  const float w = std::clamp(off / kArc_s, -scene.bounds.turn, scene.bounds.turn);
+  if (std::fabs(off) > 0.5F * cell::kPiF) return {0.0F, w};
+  if (std::fabs(off) < 0.05F) return {speed, w};
+  const cell::Heading at = cell::heading_at(off);
+  return {std::min(speed * off * at.y / (2.0F * (1.0F - at.x)), scene.bounds.speed), w};
 }
 
 }  // namespace jaywalk::baseline

@@ -2,7 +2,6 @@
 #include <cmath>
 
 #include "apps/rivals/baseline.h"
-#include "apps/rivals/way_down.h"
 
 namespace jaywalk::baseline {
 namespace {

@@ -5,7 +5,7 @@
 #include <thread>
 #include <vector>
 
-#include "apps/formats/ros_schemas.h"
+#include "apps/formats/ros_messages.h"
 
 namespace jaywalk {
 namespace {

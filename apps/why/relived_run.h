@@ -6,7 +6,6 @@
 #include "apps/why/recorded_run.h"
 #include "firmware/backends.h"
 #include "firmware/control_loop.h"
-#include "firmware/recording/held_planner.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recorder.h"
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/formats/logs/text_lines.h"
+#include "apps/formats/logs/line_file.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

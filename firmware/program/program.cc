@@ -1,14 +1,25 @@
 #include "firmware/program/program.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <array>
 #include <csignal>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <sstream>
 #include <string>
 #include <vector>
 
 #include "firmware/backends.h"
+#include "firmware/program/options.h"
 #include "firmware/program/parse_message.h"
-#include "firmware/program/standard_streams.h"
+#include "firmware/program/run_command.h"
+#include "firmware/robot/control_socket.h"
+#include "firmware/robot/goal_order.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
@@ -46,6 +57,86 @@ int parse_and_run(CLI::App& app, int argc, char** argv, const AddCommands& add_c
   return exit_code;
 }
 
+constexpr std::array<Footer, 7> kFooters{{
+    {"run", "run deploy/config/wheelchair.toml", "ended without a fault", "a fault stopped it"},
+    {"check", "check deploy/config/wheelchair.toml", "all is well", "something is not"},
+    {"goto", "goto 4.0,1.5 1.57", "the run goes", "it refuses"},
+    {"here", "here 4.0,1.5 1.57", "the run takes it", "it refuses"},
+    {"stop", "stop --now", "the run stops", "it refuses"},
+    {"reset", "reset", "the run may move again", "it refuses"},
+    {"status", "status --json", "the run answered", "it refuses"},
+}};
+
+RunOptions run_options;
+std::filesystem::path socket_path;
+std::vector<std::string> goal;
+bool stop_now = false, as_json = false, forced = false;
+
+void add_socket(CLI::App* command) {
+  command->add_option("--socket", socket_path, "The run's control socket (default: $JAYWALK_SOCKET, or the usual one)");
+}
+
+/// Prints what the run answers; 1 where it refuses.
+int say(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  const bool refused = answer.starts_with("refused");
+  std::fputs(answer.c_str(), refused ? stderr : stdout);
+  return refused ? 1 : 0;
+}
+
+/// The answer's lines "key: value" as one object.
+int say_as_json(const std::string& line) {
+  const std::string answer = ask(socket_path.empty() ? default_control_socket() : socket_path, line);
+  if (answer.starts_with("refused")) return std::fputs(answer.c_str(), stderr), 1;
+  nlohmann::ordered_json json;
+  std::istringstream lines(answer);
+  for (std::string said; std::getline(lines, said);) {
+    const std::size_t colon = said.find(": ");
+    if (colon != std::string::npos) json[said.substr(0, colon)] = said.substr(colon + 2);
+  }
+  std::printf("%s\n", json.dump(1).c_str());
+  return 0;
+}
+
+/// `order`: what to do with it.
+int say_place(const std::string& order) {
+  const std::string force = forced ? " --force" : "";
+  std::string words;
+  for (const std::string& word : goal) words += " " + word;
+  if (!goal.empty() && std::all_of(goal.begin(), goal.end(), is_place_name)) return say(order + words + force);
+  return say(order + " " + words_of(read_goal_order(words)) + force);
+}
+
+void add_run(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
+  CLI::App* run = app.add_subcommand("run", "Run the controller on a robot until it is interrupted");
+  run->add_option("robot", run_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
+  add_backend(*run, run_options.backend, run_options.device);
+  run->add_option("--out", run_options.out, "Folder for what the run leaves")->capture_default_str();
+  run->add_flag("--save-map", run_options.save_map, "Save what the robot saw: map.yaml and map.pgm (map_server)");
+  run->add_option("--runs", run_options.runs, "Folder in which each run gets one of its own, instead of --out");
+  run->add_option("--keep-runs", run_options.kept.runs, "How many runs are kept below --runs, this one included")
+      ->check(CLI::Range(1, 100'000))
+      ->capture_default_str();
+  run->add_option("--keep-bytes", run_options.kept.bytes, "How much past runs below --runs may take, in bytes")
+      ->capture_default_str();
+  add_parts(*run, run_options.parts);
+  run->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  run->add_flag("--uncommissioned", run_options.uncommissioned,
+                "Start although this robot was never commissioned, or differently wired");
+  run->add_flag("--allow-no-realtime", run_options.allow_no_realtime,
+                "Start although the kernel refuses real-time priority or locked memory");
+  run->callback([&exit_code, &make_observer] { exit_code = run_robot(run_options, make_observer); });
+}
+
+void add_check(CLI::App& app, int& exit_code) {
+  CLI::App* check = app.add_subcommand("check", "Look at everything that a run needs; nothing moves");
+  check->add_option("robot", run_options.robot, "Robot file (TOML; docs/tutorial/first-real-robot.md)")->required();
+  check->add_option("--socket", run_options.control_socket, "Control socket (default: the file's)");
+  add_backend(*check, run_options.backend, run_options.device);
+  check->add_flag("--json", run_options.json, "As JSON: a list of part, ok, state (ok, warn, fail), said");
+  check->callback([&exit_code] { exit_code = check_robot(run_options); });
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_commands) {
@@ -65,6 +156,52 @@ int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_com
   }
   if (has_device_left_behind()) std::fflush(nullptr), std::_Exit(code);
   return code;
+}
+
+void add_robot_commands(CLI::App& app, int& exit_code, const MakeObserver& make_observer) {
+  add_run(app, exit_code, make_observer);
+  add_check(app, exit_code);
+  CLI::App* go = app.add_subcommand("goto", "Tell a run where to go");
+  go->add_option(
+        "goal", goal,
+        "X,Y [HEADING] in the map (m, rad; any heading where none is given), or names of places, one after the other")
+      ->delimiter(',')
+      ->expected(1, static_cast<int>(Route::capacity()))
+      ->required();
+  add_socket(go);
+  go->callback([&exit_code] { exit_code = say_place("goto"); });
+  CLI::App* here = app.add_subcommand("here", "Tell a run that stands where it is");
+  here->add_option("place", goal, "X,Y HEADING in the map (m, rad), or the name of a place that has one")
+      ->delimiter(',')
+      ->expected(1, 3)
+      ->required();
+  here->add_flag("--force", forced, "Take it although the scan does not fit the map there; the run says so");
+  add_socket(here);
+  here->callback([&exit_code] { exit_code = say_place("here"); });
+  CLI::App* stop = app.add_subcommand("stop", "Tell a run to stop where it is");
+  stop->add_flag("--now", stop_now, "As an emergency: brake hard, and latch until a reset");
+  add_socket(stop);
+  stop->callback([&exit_code] { exit_code = say(stop_now ? "stop now" : "stop"); });
+  CLI::App* reset = app.add_subcommand("reset", "After a fault that stopped a run: let it move again");
+  add_socket(reset);
+  reset->callback([&exit_code] { exit_code = say("reset"); });
+  CLI::App* status = app.add_subcommand("status", "Ask a run how it goes");
+  add_socket(status);
+  status->add_flag("--json", as_json, "As JSON: an object with a text for each line");
+  status->callback([&exit_code] { exit_code = as_json ? say_as_json("status") : say("status"); });
+  add_footers(app, kFooters);
+}
+
+void open_standard_streams() {
+  int file = 0;
+  do file = ::open("/dev/null", O_RDWR);
+  while (file >= 0 && file <= STDERR_FILENO);
+  if (file > STDERR_FILENO) ::close(file);
+}
+
+void require_heard() {
+  if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
+  throw StartupError("standard output: not all of it was taken", "free some space where it goes");
 }
 
 }  // namespace jaywalk

@@ -1,6 +1,5 @@
 // jaywalk_robot: what runs on a board. It leaves the recording; `jaywalk replay` makes tables and pictures of it.
 #include "firmware/program/program.h"
-#include "firmware/program/robot_commands.h"
 
 int main(int argc, char** argv) {
   using namespace jaywalk;

@@ -9,9 +9,9 @@
 #include "planner/localization/odometry.h"
 #include "planner/localization/odometry_noise.h"
 #include "planner/localization/pose_belief.h"
+#include "planner/localization/scan_matcher.h"
 #include "planner/localization/slip_detector.h"
 #include "planner/localization/submap.h"
-#include "planner/localization/track_mask.h"
 #include "planner/scan/scan_points.h"
 
 namespace jaywalk {

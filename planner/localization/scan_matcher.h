@@ -6,11 +6,22 @@
 // wall nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not
 // tell, as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
 // nothing.
+#include <span>
+
 #include "planner/localization/correlative_search.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/scan/scan_points.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
+
+// Which of a scan's points tell nothing of walls: they lie on a track that moves.
+
+/// Drops the points within a hand of where each of `moving` should be at `stamp`, as seen from `map_from_robot`. Ground
+/// that people walk on is free in the map: among many of them a scan would seem to contradict it, though the few walls
+/// in between say where the robot is.
+void mask_moving_tracks(std::span<const Track> moving, const Pose2& map_from_robot, Time stamp,
+                        ScanPoints& points) noexcept;
 
 struct MatchResult {
   bool matched = false;       ///< false: too little of the scan lies on known walls; the belief is the prediction

@@ -3,7 +3,7 @@
 #include <utility>
 
 #include "planner/motion/goal_rollouts.h"
-#include "planner/motion/steered_motion.h"
+#include "planner/motion/stick_rollouts.h"
 
 namespace jaywalk::motion {
 

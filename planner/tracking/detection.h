@@ -4,7 +4,7 @@
 
 #include "hal/types/fixed_vector.h"
 #include "planner/mapping/ground.h"
-#include "planner/scan/segments.h"
+#include "planner/scan/scan_points.h"
 
 namespace jaywalk {
 

@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "planner/tracking/imm_filter.h"
-#include "planner/tracking/update.h"
+#include "planner/tracking/target.h"
 
 namespace jaywalk {
 namespace {

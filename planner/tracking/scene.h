@@ -3,7 +3,7 @@
 #include <span>
 
 #include "planner/mapping/map_entry.h"
-#include "planner/scan/segments.h"
+#include "planner/scan/scan_points.h"
 #include "planner/scan/self_mask.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/target.h"

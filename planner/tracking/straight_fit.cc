@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "planner/tracking/target_parts.h"
+#include "planner/tracking/target.h"
 
 namespace jaywalk {
 namespace {

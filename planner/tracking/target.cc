@@ -1,5 +1,11 @@
 #include "planner/tracking/target.h"
 
+#include <algorithm>
+#include <cmath>
+
+#include "planner/tracking/imm_filter.h"
+#include "planner/tracking/tuning.h"
+
 namespace jaywalk {
 namespace {
 
@@ -9,6 +15,41 @@ constexpr double kFirstSpeedStd = 1.0;  // m/s an axis: people walk at 1.3 m/s
 bool matters_less(const Target& a, const Target& b, Vec2 robot) {
   if (a.appearance.on_wall != b.appearance.on_wall) return a.appearance.on_wall;
   return distance(a.estimate.track.position_in_map, robot) > distance(b.estimate.track.position_in_map, robot);
+}
+
+constexpr double kGivenAccelStd = 0.5;  // m/s2: the paper's movers keep their speed and seldom turn
+constexpr double kFreeGain = 0.3;       // of the running mean of how free the ground under a target was
+constexpr double kNoiseGain = 0.075;    // a scan: a second teaches how noisy a target is
+constexpr double kMostNoise = 25.0;     // times the variance expected, or as small a part of it
+constexpr double kMostNis = 16.0;       // that one scan teaches: more is another's position
+
+/// Steers the measurement noise to where the normalised innovation squared is 2 on average, whatever the target is: a
+/// disc is seen to a centimetre, a pair of legs sways.
+void learn_noise(double& noise, double nis) {
+  const double wanted = 0.5 * std::min(nis, kMostNis) - 1.0;
+  noise = std::clamp(noise * (1.0 + kNoiseGain * wanted), 1.0 / kMostNoise, kMostNoise);
+}
+
+void learn_size(Appearance& appearance, double& radius_m, const Observation& seen) {
+  radius_m += kMeanGain * (seen.radius_m - radius_m);
+  appearance.legs_share += kMeanGain * ((seen.two_legs ? 1.0 : 0.0) - appearance.legs_share);
+  double& arc_m = appearance.arc_m;
+  if (appearance.on_legs()) arc_m = 0.0;
+  if (seen.arc_m > 0.0) arc_m += (arc_m > 0.0 ? kMeanGain : 1.0) * (seen.arc_m - arc_m);
+}
+
+/// Where both legs are seen their middle may be known to a centimetre. That says nothing of one leg alone: for a step
+/// it stands on the ground, and a filter that believed it so well would stop the pedestrian.
+double noise_of(double noise, const Observation& seen) { return seen.lone_leg ? std::max(noise, 1.0) : noise; }
+
+void correct_track(Estimate& estimate, double& noise, const Observation& seen) {
+  Track& track = estimate.track;
+  const double late_s = estimate.late_by(seen.late_s);
+  const double smeared_m = norm(track.velocity_in_map) * estimate.late_by(seen.late_std_s);
+  const double std_m = seen.std_m * std::sqrt(noise_of(noise, seen)) + smeared_m;
+  track.nis = gate_distance2(track, seen.position_in_map, std_m, late_s);
+  learn_noise(noise, track.nis);
+  estimate.filter.correct(track, seen.position_in_map, std_m, late_s);
 }
 
 }  // namespace
@@ -59,6 +100,55 @@ void admit(Targets& targets, const Target& newcomer, Vec2 robot) noexcept {
     targets.swap_remove(least);
   }
   (void)targets.push_back(newcomer);  // there is room now
+}
+
+double step_seconds(Time from, Time to) noexcept {
+  if (from == kNever || to <= from) return 0.0;
+  return std::min(to_seconds(to - from), kForeseenS);
+}
+
+void predict_to(Estimate& estimate, bool given, Time stamp) noexcept {
+  Track& track = estimate.track;
+  const double dt = step_seconds(track.stamp, stamp);
+  if (given) {
+    predict(track, dt, kGivenAccelStd);
+  } else {
+    estimate.filter.predict(track, dt);
+  }
+  // A clock set back by less than a second goes on from there: filters that waited for it would take what they see as
+  // seen at once.
+  track.stamp = given ? std::max(track.stamp, stamp) : stamp;
+}
+
+void note_seen(Estimate& estimate, Appearance& appearance, const Observation& seen) noexcept {
+  estimate.off_std_m = seen.off_std_m;
+  estimate.late_s = seen.late_s;
+  appearance.outline_in_map = seen.outline_in_map;
+  appearance.beams = seen.beams;
+  appearance.whole = seen.whole;
+  appearance.hidden_side = seen.hidden_side;
+  appearance.on_wall = seen.on_wall;
+  appearance.edge_m = seen.edge_m;
+}
+
+void update_with(Target& target, const Observation& seen, const Pose2& map_from_laser, Time now) noexcept {
+  auto& [estimate, appearance, onset, existence] = target;
+  Track& track = estimate.track;
+  move_all(estimate, onset, seen.was_off);
+  correct_track(estimate, appearance.noise, seen);
+  learn_size(appearance, track.radius_m, seen);
+  track.hits += 1;
+  existence.misses = 0;
+  existence.looked_through_s = 0.0;
+  const bool after_a_gap = to_seconds(now - track.last_seen) > kPauseS;
+  if (after_a_gap) onset.positions.clear();
+  track.last_seen = now;
+  onset.positions.add(now, {seen.position_in_map, seen.width_m, seen.spacing_m, seen.whole});
+  note_seen(estimate, appearance, seen);
+  if (after_a_gap && !track.moving)  // what stood elsewhere may be another
+    anchor_here(onset, track.position_in_map, appearance, map_from_laser, now);
+  onset.free_share += std::max(kFreeGain, 1.0 / track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - onset.free_share);
+  estimate.as_seen = track;
 }
 
 }  // namespace jaywalk

@@ -1,8 +1,106 @@
 #pragma once
+#include <cstdint>
+
 #include "hal/types/fixed_vector.h"
-#include "planner/tracking/target_parts.h"
+#include "planner/tracking/observation.h"
+#include "planner/tracking/detection.h"
+#include "planner/tracking/imm_filter.h"
+#include "planner/tracking/straight_fit.h"
+#include "planner/tracking/track.h"
 
 namespace jaywalk {
+
+// What the tracker knows of a target, in four parts: a rule is given only those that it reads.
+
+/// Where the target is and how fast it moves.
+struct Estimate {
+  Track track;
+  Track as_seen;  ///< the track as it was when a scan saw it last
+  ImmFilter filter;
+  Vec2 still_at;  ///< m in the map: near there the track has been since Track::still_since
+  /// How far its middle may be from where it is seen, m an axis, scan after scan: its width is known to half a beam's
+  /// spacing, or not at all. A filter of positions follows what is seen and cannot tell; it is added to what is
+  /// published, as a bias that is considered and not estimated (Schmidt 1966).
+  double off_std_m = 0.0;
+  double late_s = 0.0;  ///< when it was seen last, after that scan's stamp
+
+  /// How long after the track's stamp a detection was measured, `after_s` after its scan's. A moving track is brought
+  /// to the scan's stamp; one not known to move is where it is seen, whenever that is.
+  [[nodiscard]] double late_by(double after_s) const { return track.moving ? after_s : 0.0; }
+};
+
+/// What the last detection looked like, and what many of them say of its size.
+struct Appearance {
+  double noise = 1.0;       ///< variance of its position, in units of what its kind of observation should have
+  double arc_m = 0.0;       ///< running mean of half its width where it was seen whole; 0: never, or only its legs
+  double legs_share = 0.0;  ///< running mean: how many of the detections were two legs apart
+  bool whole = false;       ///< nothing hid either side of it
+  int hidden_side = 0;      ///< Detection::hidden_side
+  bool on_wall = false;     ///< it stood where walls stand
+  double edge_m = 0.0;      ///< how well its free side was seen, behind something wider than legs; 0: not so
+  Outline outline_in_map;   ///< some of its points
+  BeamRun beams;            ///< that ended on it
+
+  /// Nothing hid its first beams' side.
+  [[nodiscard]] bool low_seen() const { return whole || hidden_side > 0; }
+  /// Nor its last beams'.
+  [[nodiscard]] bool high_seen() const { return whole || hidden_side < 0; }
+  /// Two legs that pass each other are as wide as a body now and then, and no arc of one.
+  [[nodiscard]] bool on_legs() const { return legs_share > kOnLegs; }
+  [[nodiscard]] bool steadily_seen() const { return noise < kSolidNoise; }
+  /// As wide as people and robots are, and seen to stay where it should be as solid things do.
+  [[nodiscard]] bool solid() const { return as_wide_as_a_body(arc_m) && steadily_seen(); }
+
+  static constexpr double kSolidNoise = 1.5;  ///< legs and corners that change places have more
+  static constexpr double kOnLegs = 0.25;     ///< chosen: most detections of a pedestrian show two legs, of a disc none
+};
+
+/// What tells whether the target started moving.
+struct OnsetHistory {
+  PositionHistory positions;
+  double free_share = 0.0;        ///< running mean: share of the detections on ground that was free before
+  Time anchored = kNever;         ///< since when it is watched for going away from the anchor
+  Vec2 anchor_in_map;             ///< where it was then
+  Outline anchor_outline;         ///< points of it that were seen there, in the map
+  bool anchor_low_seen = false;   ///< nothing hid its first beams' side there
+  bool anchor_high_seen = false;  ///< nor its last beams'
+  Vec2 anchor_in_laser;           ///< the anchor, seen from where the robot's first laser was then
+  Time slow_since = kNever;       ///< since when a moving track has been below kStoppedMps; kNever: it is not
+  std::uint32_t onsets = 0;       ///< scans in a row that saw it start moving
+
+  /// It was seen where nothing stood before, most of the time.
+  [[nodiscard]] bool came_to_free_space() const { return free_share > kMostlyFree; }
+
+  static constexpr double kMostlyFree = 0.7;
+};
+
+/// Whether there is such a target, and of which kind.
+struct Existence {
+  bool given = false;          ///< named by an outside system; the laser does not judge it
+  std::uint32_t given_id = 0;  ///< that system's own name for it
+  Time born = kNever;
+  double seen_share = 1.0;        ///< running mean: share of the scans that saw it
+  double looked_through_s = 0.0;  ///< for how long beams have passed through where it should be
+  std::uint32_t misses = 0;       ///< scans in a row that did not see it, from the first of its finder's on
+  std::size_t finder = 0;         ///< the scanner that saw it last
+  bool scan_counts = true;        ///< the newest scan is a hit or a miss of it; that of another scanner may be neither
+  bool maybe_pedestrian = false;  ///< it moved, or stood on two legs: it may be a pedestrian from then on
+  bool settled = false;           ///< stands for good: its points may become walls
+
+  /// Seen often enough to be published.
+  [[nodiscard]] bool confirmed(const Track& track) const { return given || track.hits >= 3; }
+};
+
+/// What rules about its motion read.
+struct MotionEvidence {
+  const Estimate& estimate;
+  const Appearance& appearance;
+  const OnsetHistory& onset;
+
+  [[nodiscard]] Vec2 position() const { return estimate.track.position_in_map; }
+  /// From the anchor to where it is, in the map.
+  [[nodiscard]] Vec2 way() const { return position() - onset.anchor_in_map; }
+};
 
 /// A track with what the tracker alone needs to know of it.
 struct Target {
@@ -30,5 +128,21 @@ void move_all(Estimate& estimate, OnsetHistory& onset, Vec2 by_m) noexcept;
 /// Adds `newcomer`. When there are kMaxTracks already, the one farthest from the robot goes, of those that stand where
 /// walls stand if there are any; and that may be the newcomer.
 void admit(Targets& targets, const Target& newcomer, Vec2 robot_in_map) noexcept;
+
+// A target from one scan to the next: predicted, then corrected by what the scan shows of it.
+
+/// From one scan or report to the next, s: 0 where there was none before or time went back, and 1 at most, since those
+/// farther apart tell no velocity.
+[[nodiscard]] double step_seconds(Time from, Time to) noexcept;
+
+/// Moves a target on to where it should be at `stamp`, by its filter or, where it is `given` from outside, as the
+/// paper's movers go on. A stamp before its own changes nothing.
+void predict_to(Estimate& estimate, bool given, Time stamp) noexcept;
+
+/// `target`, predicted to `now`, was seen: corrects its track and what is known of it besides.
+void update_with(Target& target, const Observation& seen, const Pose2& map_from_laser, Time now) noexcept;
+
+/// What is kept of how a target was seen last, and nothing else.
+void note_seen(Estimate& estimate, Appearance& appearance, const Observation& seen) noexcept;
 
 }  // namespace jaywalk

@@ -15,8 +15,8 @@
 #include "planner/tracking/occlusion.h"
 #include "planner/tracking/scene.h"
 #include "planner/tracking/standing.h"
+#include "planner/tracking/target.h"
 #include "planner/tracking/tuning.h"
-#include "planner/tracking/update.h"
 
 namespace jaywalk {
 namespace {

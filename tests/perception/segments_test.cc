@@ -1,9 +1,8 @@
-#include "planner/scan/segments.h"
-
 #include <memory>
 #include <utility>
 
 #include "planner/mapping/ground.h"
+#include "planner/scan/scan_points.h"
 #include "planner/tracking/detection.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"

@@ -1,8 +1,7 @@
-#include "planner/localization/track_mask.h"
-
 #include <array>
 #include <memory>
 
+#include "planner/localization/scan_matcher.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

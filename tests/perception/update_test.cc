@@ -1,5 +1,4 @@
-#include "planner/tracking/update.h"
-
+#include "planner/tracking/target.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -3,7 +3,7 @@
 #include <atomic>
 #include <thread>
 
-#include "firmware/recording/held_planner.h"
+#include "firmware/recording/recorded_hal.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 

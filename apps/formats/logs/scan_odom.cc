@@ -3,7 +3,7 @@
 #include <cctype>
 
 #include "apps/formats/logs/beam_fit.h"
-#include "apps/formats/logs/line_clock.h"
+#include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/logs/scan_lines.h"
 #include "hal/types/errors.h"
