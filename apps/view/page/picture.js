@@ -14,7 +14,7 @@ function trace(pen, points) { points.forEach((p, i) => i ? pen.lineTo(...to_scre
 function line(pen, points, colour, width) {
   pen.beginPath();
   trace(pen, points);
-  pen.strokeStyle = colour; pen.lineWidth = width; pen.stroke();
+  pen.strokeStyle = colour; pen.lineWidth = width; pen.lineJoin = 'round'; pen.stroke();
 }
 function disc(pen, x, y, radius_m, fill, edge) {
   pen.beginPath();
