@@ -95,7 +95,7 @@ std::string success_chart(const std::vector<SuccessLine>& lines) {
 }
 
 std::string turn_chart(const std::vector<TurnBars>& all) {
-  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 60.0, kTenfolds = 4.0;
+  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 80.0, kTenfolds = 4.0;
   constexpr std::size_t kAcross = 4;
   const double panel = kBar * static_cast<double>(kTurnBins), cell = panel + kGap;
   const std::size_t rows = (all.size() + kAcross - 1) / kAcross;

@@ -6,22 +6,32 @@ namespace {
 
 constexpr const char* kHead = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>";
 constexpr const char* kStyle =
-    "</title>\n<meta name=\"viewport\" content=\"width=device-width, "
-    "initial-scale=1\">\n<style>\n:root{color-scheme:light "
-    "dark}\nbody{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:break-word}\n"
-    ".cards{display:flex;flex-wrap:wrap;gap:1rem}.cards div{border:1px solid #8886;border-radius:.5rem;padding:.6rem "
-    "1rem;min-width:8rem}.cards b{display:block;font-size:1.6rem}\n"
-    "table{border-collapse:collapse;margin:.5rem 0 1.5rem}\nth,td{padding:.2rem .7rem;border-bottom:1px solid "
-    "#8886;text-align:right}\ntable{font-size:.85rem}th{cursor:pointer;vertical-align:bottom}\nth:first-child,td:first-"
-    "child{text-align:left}\ncode{background:#8883;"
-    "padding:.1rem "
-    ".3rem;overflow-wrap:anywhere}\nfigure{margin:1rem "
-    "0}\nfigure "
-    "svg{max-width:100%;height:auto;background:#fff}\n.wide{overflow-x:auto}\n.failures{display:grid;grid-template-"
-    "columns:repeat(auto-fill,"
-    "minmax(min(22rem,100%),1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid "
-    "#8886;background:#fff}\n@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) "
-    "hue-rotate(180deg)}}\n</style>\n</head>\n<body>\n";
+    R"(</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+:root{color-scheme:light dark}
+body{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:break-word}
+.cards{display:flex;flex-wrap:wrap;gap:1rem}
+.cards div{border:1px solid #8886;border-radius:.5rem;padding:.6rem 1rem;min-width:8rem}
+.cards b{display:block;font-size:1.6rem}
+table{border-collapse:collapse;margin:.5rem 0 1.5rem;font-size:.85rem}
+th,td{padding:.2rem .7rem;border-bottom:1px solid #8886;text-align:right}
+th{cursor:pointer;vertical-align:bottom}
+th:first-child,td:first-child{text-align:left}
+details table{font-size:.7rem}
+details th,details td{padding:.15rem .25rem}
+details td:first-child{overflow-wrap:anywhere}
+code{background:#8883;padding:.1rem .3rem;overflow-wrap:anywhere}
+figure{margin:1rem 0}
+figure svg{max-width:100%;height:auto;background:#fff}
+.wide{overflow-x:auto}
+.failures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(22rem,100%),1fr));gap:1.5rem}
+.failures img{width:100%;border:1px solid #8886;background:#fff}
+@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) hue-rotate(180deg)}}
+</style>
+</head>
+<body>
+)";
 
 /// A click on a head sorts by its column, another one the other way; what is no number comes last.
 constexpr const char* kSorting = R"(<script>

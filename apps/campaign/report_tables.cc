@@ -6,6 +6,7 @@
 
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::campaign {
 namespace {
@@ -225,7 +226,8 @@ std::string difference(const ReportedRow& from, const ReportedRow& to, const Fig
   }
   if (differences.size() < kFewestPairs) return "-";
   const double middle = mean(differences), half = half_interval(differences);
-  return fixed(middle, digits) + " (" + fixed(middle - half, digits) + " to " + fixed(middle + half, digits) + "), " +
+  return without_minus_zero(fixed(middle, digits) + " (" + fixed(middle - half, digits) + " to " +
+                            fixed(middle + half, digits) + "), ") +
          std::to_string(differences.size());
 }
 
