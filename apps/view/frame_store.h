@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "firmware/safety/reasons.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk::view {
 
