@@ -22,6 +22,8 @@ class WiredDrive : public DriveBase {
   [[nodiscard]] virtual std::string inspect(std::size_t side) = 0;
   /// Also in latest().trouble.
   [[nodiscard]] virtual DriveTrouble trouble() const noexcept = 0;
+  /// Whether a drive that was heard says nothing now, whatever the trouble: a loose plug, no power.
+  [[nodiscard]] virtual bool is_silent() const noexcept { return false; }
   /// A person's reset edge, while the wheels stand: forgets the trouble. Where there was one, both drives are proved
   /// anew, whole, before they get torque; that goes on with latest() and command() until is_proved() or the next
   /// trouble.

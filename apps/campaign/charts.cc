@@ -38,9 +38,13 @@ double x_of(double movers) {
 
 double y_of(double share) { return kTop + kHigh * (1.0 - share); }
 
-std::string dot(double movers, double share, const std::string& colour, bool open) {
+/// What a pointer on an element is told.
+std::string hover(const std::string& text) { return "<title>" + as_markup(text) + "</title>"; }
+
+std::string dot(double movers, double share, const std::string& colour, bool open, const std::string& said) {
   return "<circle cx=\"" + fixed(x_of(movers), 1) + "\" cy=\"" + fixed(y_of(share), 1) + "\" r=\"5\" fill=\"" +
-         (open ? "#fff" : colour) + "\" stroke=\"" + colour + "\" stroke-width=\"2\"/>\n";
+         (open ? "#fff" : colour) + "\" stroke=\"" + colour + "\" stroke-width=\"2\">" +
+         hover(said + ", " + fixed(movers, 0) + " movers: " + fixed(100.0 * share, 1) + " %") + "</circle>\n";
 }
 
 std::string success_axes() {
@@ -66,7 +70,8 @@ std::string line_through(const SuccessLine& line, const std::string& colour) {
     if (before != nullptr)
       out += line_of(x_of(before->movers), y_of(share_of(*before)), x, y_of(share_of(point)), colour, 2.0);
     out += line_of(x, y_of(interval.low), x, y_of(interval.high), colour) +
-           dot(point.movers, share_of(point), colour, false);
+           dot(point.movers, share_of(point), colour, false,
+               line.name + ", " + std::to_string(point.good) + " of " + std::to_string(point.runs));
     before = &point;
   }
   return out;
@@ -84,13 +89,13 @@ std::string success_chart(const std::vector<SuccessLine>& lines) {
     out += line_through(lines[k], colour) + line_of(kLeft, y - 4.0, kLeft + 24.0, y - 4.0, colour, 2.0) +
            text_at(kLeft + 32.0, y, lines[k].name, "start");
   }
-  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.percent / 100.0, "#111", true);
+  for (const PaperPoint& point : kPaper) out += dot(point.movers, point.percent / 100.0, "#111", true, "the paper");
   return out + text_at(kLeft + 12.0, y, "o", "middle") +
          text_at(kLeft + 32.0, y, "the paper, on its own maps", "start") + "</svg>\n";
 }
 
 std::string turn_chart(const std::vector<TurnBars>& all) {
-  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 30.0, kTenfolds = 4.0;
+  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 80.0, kTenfolds = 4.0;
   constexpr std::size_t kAcross = 4;
   const double panel = kBar * static_cast<double>(kTurnBins), cell = panel + kGap;
   const std::size_t rows = (all.size() + kAcross - 1) / kAcross;
@@ -102,7 +107,15 @@ std::string turn_chart(const std::vector<TurnBars>& all) {
       const double share = all[k].shares[bin];
       const double high = share > 0.0 ? kPanelHigh * std::max(0.02, 1.0 + std::log10(share) / kTenfolds) : 0.0;
       out += "<rect x=\"" + fixed(x + kBar * static_cast<double>(bin), 1) + "\" y=\"" + fixed(foot - high, 1) +
-             "\" width=\"" + fixed(kBar - 1.0, 1) + "\" height=\"" + fixed(high, 1) + "\" fill=\"#0a6e8a\"/>\n";
+             "\" width=\"" + fixed(kBar - 1.0, 1) + "\" height=\"" + fixed(high, 1) + "\" fill=\"#0a6e8a\">" +
+             hover(std::to_string(10 * bin) + " to " + std::to_string(10 * bin + 10) +
+                   " degrees: " + fixed(100.0 * share, 2) + " %") +
+             "</rect>\n";
+    }
+    for (int tenfold = 0; tenfold <= 4; tenfold += 2) {
+      const double y = foot - kPanelHigh * (1.0 - tenfold / kTenfolds);
+      out += line_of(x - 4.0, y, x, y, "#333") +
+             text_at(x - 6.0, y + 4.0, fixed(100.0 * std::pow(10.0, -tenfold), tenfold == 4 ? 2 : 0) + " %", "end");
     }
     out += line_of(x, foot, x + panel, foot, "#333") + text_at(x, foot + 14.0, "0") +
            text_at(x + panel, foot + 14.0, "180") + text_at(x + panel / 2.0, foot + 30.0, all[k].name);

@@ -6,19 +6,43 @@ namespace {
 
 constexpr const char* kHead = "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n<title>";
 constexpr const char* kStyle =
-    "</title>\n<meta name=\"viewport\" content=\"width=device-width, "
-    "initial-scale=1\">\n<style>\n:root{color-scheme:light "
-    "dark}\nbody{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:anywhere}\n"
-    "table{border-collapse:collapse;margin:.5rem 0 1.5rem}\nth,td{padding:.2rem .7rem;border-bottom:1px solid "
-    "#8886;text-align:right;white-space:nowrap}\nth:first-child,td:first-child{text-align:left}\ncode{background:#8883;"
-    "padding:.1rem "
-    ".3rem;overflow-wrap:anywhere}\nfigure{margin:1rem "
-    "0}\nfigure "
-    "svg{max-width:100%;height:auto;background:#fff}\n.wide{overflow-x:auto}\n.failures{display:grid;grid-template-"
-    "columns:repeat(auto-fill,"
-    "minmax(min(22rem,100%),1fr));gap:1.5rem}\n.failures img{width:100%;border:1px solid "
-    "#8886;background:#fff}\n@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) "
-    "hue-rotate(180deg)}}\n</style>\n</head>\n<body>\n";
+    R"(</title>
+<meta name="viewport" content="width=device-width, initial-scale=1">
+<style>
+:root{color-scheme:light dark}
+body{font:16px/1.5 sans-serif;max-width:75rem;margin:2rem auto;padding:0 1rem;overflow-wrap:break-word}
+.cards{display:flex;flex-wrap:wrap;gap:1rem}
+.cards div{border:1px solid #8886;border-radius:.5rem;padding:.6rem 1rem;min-width:8rem}
+.cards b{display:block;font-size:1.6rem}
+table{border-collapse:collapse;margin:.5rem 0 1.5rem;font-size:.85rem}
+th,td{padding:.2rem .7rem;border-bottom:1px solid #8886;text-align:right}
+th{cursor:pointer;vertical-align:bottom}
+th:first-child,td:first-child{text-align:left}
+details table{font-size:.7rem}
+details th,details td{padding:.15rem .25rem}
+details td:first-child{overflow-wrap:anywhere}
+code{background:#8883;padding:.1rem .3rem;overflow-wrap:anywhere}
+figure{margin:1rem 0}
+figure svg{max-width:100%;height:auto;background:#fff}
+.wide{overflow-x:auto}
+.failures{display:grid;grid-template-columns:repeat(auto-fill,minmax(min(22rem,100%),1fr));gap:1.5rem}
+.failures img{width:100%;border:1px solid #8886;background:#fff}
+@media(prefers-color-scheme:dark){figure svg,.failures img{filter:invert(.9) hue-rotate(180deg)}}
+</style>
+</head>
+<body>
+)";
+
+/// A click on a head sorts by its column, another one the other way; what is no number comes last.
+constexpr const char* kSorting = R"(<script>
+document.querySelectorAll('th').forEach(head => head.onclick = () => {
+  const [first, ...rows] = head.closest('table').rows, down = head.dataset.down = head.dataset.down ? '' : '1';
+  const text = row => row.cells[head.cellIndex].textContent, number = row => parseFloat(text(row));
+  rows.sort((a, b) => isNaN(number(a)) - isNaN(number(b)) || (down ? 1 : -1) * (number(a) - number(b) || text(a).localeCompare(text(b))));
+  first.after(...rows);
+});
+</script>
+)";
 
 /// RFC 4648.
 std::string base64(const std::string& bytes) {
@@ -57,19 +81,42 @@ std::string csv_of(const ReportTable& table) {
   return out;
 }
 
-std::string table_of(const ReportTable& table) {
+/// Letters and digits of a title, words apart by '_'.
+std::string file_name(const std::string& title) {
+  std::string out;
+  for (const char c : title) {
+    const bool is_word = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+    if (is_word)
+      out += c;
+    else if (!out.empty() && out.back() != '_')
+      out += '_';
+  }
+  return out;
+}
+
+/// `folders`: the first cells link to folders of the campaign's.
+std::string table_of(const ReportTable& table, bool folders = false) {
   std::string out = "<h3>" + as_markup(table.title) + "</h3>\n<div class=\"wide\"><table>\n" + cells(table.head, "th");
-  for (const auto& row : table.rows) out += cells(row, "td");
-  return out + "</table></div>\n<p><a download=\"" + as_markup(table.title) + ".csv\" href=\"data:text/csv;base64," +
+  for (const auto& row : table.rows) {
+    std::string line = cells(row, "td");
+    if (const std::string name = as_markup(row[0]); folders)
+      line.replace(line.find(name), name.size(), "<a href=\"../" + name + "/\">" + name + "</a>");
+    out += line;
+  }
+  return out + "</table></div>\n<p><a download=\"" + file_name(table.title) + ".csv\" href=\"data:text/csv;base64," +
          base64(csv_of(table)) + "\">CSV</a></p>\n";
 }
 
-std::string runs_of(const std::vector<ReportRun>& runs) {
-  std::string out = "<h2>All runs</h2>\n<details><summary>" + std::to_string(runs.size()) + " runs</summary>\n<ul>\n";
-  for (const ReportRun& run : runs)
-    out += "<li><a href=\"../" + as_markup(run.folder) + "/\">" + as_markup(run.folder) +
-           "</a>: " + as_markup(run.outcome) + "</li>\n";
-  return out + "</ul></details>\n";
+std::string runs_of(const ReportTable& runs) {
+  return "<details><summary>" + std::to_string(runs.rows.size()) + " runs, a row each</summary>\n" +
+         table_of(runs, true) + "</details>\n";
+}
+
+std::string cards_of(const std::vector<ReportCard>& cards) {
+  std::string out = "<div class=\"cards\">\n";
+  for (const ReportCard& card : cards)
+    out += "<div><b>" + as_markup(card.figure) + "</b>" + as_markup(card.what) + "</div>\n";
+  return out + "</div>\n";
 }
 
 std::string section_of(const ReportSection& section) {
@@ -95,13 +142,12 @@ std::string failure_of(const ReportFailure& failure) {
 
 std::string html_of(const ReportPage& page) {
   std::string out = kHead + as_markup(page.title) + kStyle + "<h1>" + as_markup(page.title) + "</h1>\n<p>" +
-                    as_markup(page.text) + "</p>\n";
+                    as_markup(page.text) + "</p>\n" + cards_of(page.cards);
   for (const ReportSection& section : page.sections) out += section_of(section);
   out += runs_of(page.runs) + "<h2>Failures</h2>\n";
-  if (page.failures.empty()) return out + "<p>None.</p>\n</body>\n</html>\n";
-  out += "<div class=\"failures\">\n";
+  out += page.failures.empty() ? "<p>None.</p>\n<div>\n" : "<div class=\"failures\">\n";
   for (const ReportFailure& failure : page.failures) out += failure_of(failure);
-  return out + "</div>\n</body>\n</html>\n";
+  return out + "</div>\n" + kSorting + "</body>\n</html>\n";
 }
 
 }  // namespace jaywalk::campaign

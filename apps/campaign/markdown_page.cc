@@ -44,6 +44,8 @@ std::string failure_of(const ReportFailure& failure, std::size_t number) {
 
 std::string markdown_of(const ReportPage& page) {
   std::string out = "# " + page.title + "\n\n" + page.text + "\n\n";
+  for (const ReportCard& card : page.cards) out += "- **" + card.figure + "** " + card.what + "\n";
+  out += "\n";
   for (const ReportSection& section : page.sections) out += section_in_markdown(section);
   out += "## Failures\n\n";
   if (page.failures.empty()) return out + "None.\n";

@@ -110,6 +110,8 @@ ReportPage CampaignReport::page() const {
   page.text +=
       " Success is the strict rule: the goal reached in time, nothing touched, no mover made to turn by the robot. "
       "Intervals are Wilson's, of 95 %.";
+  page.cards = cards_of(tables_);
+  page.runs = runs_table(tables_);
   const std::vector<SuccessLine> lines = success_lines(tables_);
   if (!lines.empty())
     page.sections.push_back({"Success against movers",
@@ -119,7 +121,6 @@ ReportPage CampaignReport::page() const {
   for (const ReportedTables& tables : tables_) page.sections.push_back(section_of(tables));
   for (const ReportedTables& tables : tables_) {
     for (const ReportedRow& row : tables.rows) {
-      for (const ReportedRun& run : row.runs) page.runs.push_back({run.run->folder, run.result.outcome});
       for (const ReportedRun& run : row.runs)
         if (!run.result.success) page.failures.push_back(failure_of(run));
     }

@@ -56,5 +56,11 @@ class CampaignReport {
 
 /// The tables of one experiment.
 [[nodiscard]] std::vector<ReportTable> tables_of(const ReportedTables& experiment);
+/// Settings against the first that differs in one option or key alone, over runs of the same scenario and seed; no
+/// table where there are none.
+[[nodiscard]] std::vector<ReportTable> paired_tables(const ReportedTables& experiment);
+/// A row a run.
+[[nodiscard]] ReportTable runs_table(const std::vector<ReportedTables>& all);
+[[nodiscard]] std::vector<ReportCard> cards_of(const std::vector<ReportedTables>& all);
 
 }  // namespace jaywalk::campaign

@@ -33,18 +33,19 @@ struct ReportSection {
   std::vector<ReportChart> charts;
 };
 
-/// A run that is finished.
-struct ReportRun {
-  std::string folder;   ///< below the campaign's
-  std::string outcome;  ///< "reached"
+/// A figure that is read first.
+struct ReportCard {
+  std::string figure;  ///< "94.0 %"
+  std::string what;
 };
 
 struct ReportPage {
   std::string title;
   std::string text;
+  std::vector<ReportCard> cards;
   std::vector<ReportSection> sections;
   std::vector<ReportFailure> failures;
-  std::vector<ReportRun> runs;
+  ReportTable runs;  ///< those that are finished; the first cell is the folder below the campaign's
 };
 
 /// One file that needs no other: charts, pictures and tables to download are in it. Its links to the runs' folders hold

@@ -2,15 +2,19 @@
 #include <array>
 #include <cmath>
 #include <functional>
+#include <optional>
 
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk::campaign {
 namespace {
 
-constexpr std::size_t kMostColumns = 12;  // of tables by scenario: drawn worlds are more, and have none
 using Figure = std::function<double(const ReportedRun&)>;
+
+constexpr std::size_t kFewestPairs = 5;   // of a comparison
+constexpr std::size_t kMostColumns = 12;  // of tables by scenario: drawn worlds are more, and have none
 
 std::size_t count_if(const std::vector<ReportedRun>& runs, const std::function<bool(const RunResult&)>& holds) {
   return static_cast<std::size_t>(
@@ -198,6 +202,35 @@ ReportTable turn_table(const ReportedTables& tables) {
   return table;
 }
 
+/// Which axis alone tells two rows apart; none where it is another world: movers and maps are not paired.
+std::optional<std::size_t> axis_between(const ReportedExperiment& experiment, const ReportedRow& a,
+                                        const ReportedRow& b) {
+  std::optional<std::size_t> axis;
+  for (std::size_t k = 0; k < a.values.size(); ++k) {
+    if (a.values[k] == b.values[k]) continue;
+    if (axis || experiment.axes[k].starts_with("movers.") || experiment.axes[k].starts_with("map.")) return {};
+    axis = k;
+  }
+  return axis;
+}
+
+/// "4.1 (2.0 to 6.2), 20 pairs": of `to` less `from`, runs with the same scenario and seed.
+std::string difference(const ReportedRow& from, const ReportedRow& to, const Figure& figure, int digits) {
+  std::vector<double> differences;
+  for (const ReportedRun& a : from.runs) {
+    const auto same = std::ranges::find_if(to.runs, [&](const ReportedRun& b) {
+      return b.run->scenario == a.run->scenario && b.run->seed == a.run->seed;
+    });
+    if (same == to.runs.end()) continue;
+    if (const double change = figure(*same) - figure(a); std::isfinite(change)) differences.push_back(change);
+  }
+  if (differences.size() < kFewestPairs) return "-";
+  const double middle = mean(differences), half = half_interval(differences);
+  return without_minus_zero(fixed(middle, digits) + " (" + fixed(middle - half, digits) + " to " +
+                            fixed(middle + half, digits) + "), ") +
+         std::to_string(differences.size());
+}
+
 }  // namespace
 
 std::vector<ReportTable> tables_of(const ReportedTables& tables) {
@@ -208,7 +241,70 @@ std::vector<ReportTable> tables_of(const ReportedTables& tables) {
   if (few) all.push_back(by_scenario(tables, "Path length by scenario, m, mean of runs that arrived", length_cell));
   all.push_back(turn_table(tables));
   for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
+  for (ReportTable& table : paired_tables(tables)) all.push_back(std::move(table));
   return all;
+}
+
+std::vector<ReportTable> paired_tables(const ReportedTables& tables) {
+  ReportTable table{"Pairs of the same seeds: mean difference (95 % interval), pairs", {"", "success, % of runs"}, {}};
+  for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
+  const Figure success = [](const ReportedRun& run) { return run.result.success ? 100.0 : 0.0; };
+  for (auto to_row = tables.rows.begin(); to_row != tables.rows.end(); ++to_row) {
+    const ReportedRow& to = *to_row;
+    const auto from = std::find_if(tables.rows.begin(), to_row, [&](const ReportedRow& a) {
+      return axis_between(*tables.experiment, a, to).has_value();
+    });
+    if (from == to_row) continue;
+    const std::string whole = difference(*from, to, success, 1);
+    if (whole == "-") continue;
+    std::vector<std::string> cells{to.name + ", less " + from->name, whole};
+    for (const RideFigure& figure : ride_figures())
+      cells.push_back(difference(*from, to, of_arrived(figure.of), figure.digits));
+    table.rows.push_back(cells);
+  }
+  return table.rows.empty() ? std::vector<ReportTable>() : std::vector<ReportTable>{table};
+}
+
+ReportTable runs_table(const std::vector<ReportedTables>& all) {
+  ReportTable table{"All runs", {"run", "outcome", "time, s", "way, m"}, {}};
+  for (const RideFigure& figure : ride_figures()) table.head.emplace_back(figure.name);
+  for (const char* head : {"touched while driving", "movers made to turn", "loops"}) table.head.emplace_back(head);
+  for (const ReportedTables& tables : all) {
+    for (const ReportedRow& row : tables.rows) {
+      for (const ReportedRun& run : row.runs) {
+        const auto of = [&](const char* name, int digits) { return fixed(run.result.figure(name), digits); };
+        std::vector<std::string> cells{run.run->folder, run.result.outcome, of("duration_s", 1),
+                                       of("path_length_m", 1)};
+        for (const RideFigure& figure : ride_figures()) cells.push_back(fixed(figure.of(run), figure.digits));
+        for (const char* name : {"contacts_caused", "forced_movers", "loops"}) cells.push_back(of(name, 0));
+        table.rows.push_back(cells);
+      }
+    }
+  }
+  return table;
+}
+
+std::vector<ReportCard> cards_of(const std::vector<ReportedTables>& all) {
+  std::size_t runs = 0, good = 0, touched = 0, looped = 0;
+  std::vector<double> lost_s, nearest_m;
+  for (const ReportedTables& tables : all) {
+    for (const ReportedRow& row : tables.rows) {
+      for (const ReportedRun& run : row.runs) {
+        ++runs, good += run.result.success ? 1U : 0U;
+        touched += run.result.figure("contacts_caused") > 0.0 ? 1U : 0U;
+        looped += run.result.figure("loops") > 0.0 ? 1U : 0U;
+        lost_s.push_back(of_arrived(time_lost_s)(run));
+        nearest_m.push_back(run.result.figure("min_mover_clearance_m"));
+      }
+    }
+  }
+  const Interval interval = wilson(good, runs);
+  return {{std::to_string(good) + " of " + std::to_string(runs),
+           "succeeded: " + fixed(100.0 * interval.low, 0) + " to " + fixed(100.0 * interval.high, 0) + " % (95 %)"},
+          {std::to_string(touched), "runs touched something while driving"},
+          {std::to_string(looped), "runs with a loop"},
+          {fixed(median(lost_s), 1) + " s", "lost against the shortest way, median of arrived runs"},
+          {fixed(quantile(nearest_m, 0.05), 2) + " m", "to the nearest mover, 5th percentile"}};
 }
 
 }  // namespace jaywalk::campaign

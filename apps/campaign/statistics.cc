@@ -38,6 +38,16 @@ double quantile(std::vector<double> values, double share) {
   return values[std::clamp<std::size_t>(rank, 1, values.size()) - 1];
 }
 
+double half_interval(const std::vector<double>& values) {
+  constexpr double z = 1.96;
+  const double n = static_cast<double>(values.size()), middle = mean(values), free = n - 1.0;
+  double squares = 0.0;
+  for (const double value : values) squares += (value - middle) * (value - middle);
+  const double t = z + (z * z * z + z) / (4.0 * free) +
+                   (5.0 * std::pow(z, 5) + 16.0 * std::pow(z, 3) + 3.0 * z) / (96.0 * free * free);
+  return t * std::sqrt(squares / free / n);
+}
+
 double mean(const std::vector<double>& values) {
   double sum = 0.0, count = 0.0;
   for (const double value : values) {

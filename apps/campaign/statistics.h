@@ -19,6 +19,8 @@ struct Interval {
 [[nodiscard]] double median(std::vector<double> values);
 /// The smallest value that at least `share` of all do not exceed (nearest rank); NaN of none. NaN are left out.
 [[nodiscard]] double quantile(std::vector<double> values, double share);
+/// Half of the 95 % interval of the mean of two values or more (Student's t, by Cornish and Fisher's expansion).
+[[nodiscard]] double half_interval(const std::vector<double>& values);
 [[nodiscard]] double mean(const std::vector<double>& values);
 
 /// With so many digits behind the point, whatever the locale; "-" for NaN.

@@ -1,6 +1,7 @@
 #include "apps/formats/ros_messages.h"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdio>
 #include <limits>
@@ -32,8 +33,11 @@ void pose(CdrWriter& out, const Pose2& p) {
   vector(out, p.x, p.y, 0.0);
   rotation(out, p.heading);
 }
-void zeros(CdrWriter& out, int count) {
-  for (int k = 0; k < count; ++k) out.f64(0.0);
+/// Variances along x and y (m2, m2/s2) and about z (rad2, rad2/s2), as large as filters expect of wheels; what wheels
+/// do not measure is unknown.
+void covariance(CdrWriter& out) {
+  constexpr std::array kVariances{1e-3, 1e-3, 1e6, 1e6, 1e6, 0.03};
+  for (std::size_t k = 0; k < 36; ++k) out.f64(k % 7 == 0 ? kVariances[k / 7] : 0.0);
 }
 void twist(CdrWriter& out, const Twist2& t) {
   vector(out, t.v_mps, 0.0, 0.0);
@@ -182,10 +186,10 @@ std::string odometry(const RobotFrames& frames, const WheelState& wheels, const 
   header(out, time, "odom");
   out.text("base_link");
   pose(out, frames.odom_from_robot);
-  zeros(out, 36);
+  covariance(out);
   const double left = drive.wheel_radius_m * wheels.left_radps, right = drive.wheel_radius_m * wheels.right_radps;
   twist(out, {0.5 * (left + right), (right - left) / drive.track_width_m});
-  zeros(out, 36);
+  covariance(out);
   return out.message();
 }
 
@@ -271,6 +275,7 @@ std::string occupancy(const EvidenceMap& map, Time time) {
       any = true;
     }
   }
+  if (!any) return "";
   std::string cells;
   for (std::int32_t j = low.j; j <= high.j; ++j) {
     for (std::int32_t i = low.i; i <= high.i; ++i) cells += static_cast<char>(state({i, j}));

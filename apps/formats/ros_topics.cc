@@ -105,7 +105,9 @@ bool RosTopics::is_map_due(Time now, std::uint32_t wanted) const {
 }
 
 void RosTopics::add_map(const EvidenceMap& map, Time now) {
-  push_(kMap, wall(now), occupancy(map, wall(now)));
+  std::string message = occupancy(map, wall(now));
+  if (message.empty()) return;
+  push_(kMap, wall(now), std::move(message));
   mapped_ = now;
 }
 

@@ -98,6 +98,7 @@ void add_sim(CLI::App& app, int& exit_code) {
   sim->add_flag("--mcap", sim_options.mcap, "Leave run.mcap as well, as export would");
   sim->add_flag("--json", sim_options.json, "Print the summary, in place of a line");
   add_view(*sim, sim_options.view);
+  sim->add_flag("--until-arrived", sim_options.until_arrived, "End at the first arrival, watched or not");
   sim->callback([&exit_code] { exit_code = run_sim(sim_options); });
 }
 

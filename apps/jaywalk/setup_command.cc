@@ -55,7 +55,11 @@ int set_up() {
   const bool asks = answers_path.empty();
   if (asks && ::isatty(STDIN_FILENO) == 0)
     throw StartupError("setup: nobody is there to be asked", "give --answers FILE: keys of ROBOT.toml that you know");
-  SetupAnswers answers(asks ? std::nullopt : std::optional(answers_path), asks ? &std::cin : nullptr, &std::cout);
+  const std::filesystem::path kept = out_path.string() + ".answers";
+  if (asks && std::filesystem::exists(kept))
+    std::printf("Going on with %s, from an earlier setup; remove it to be asked everything.\n", kept.c_str());
+  SetupAnswers answers(asks ? std::nullopt : std::optional(answers_path), asks ? &std::cin : nullptr, &std::cout,
+                       asks ? kept : "");
   SteadyClock clock;
   std::fputs("Looking for drives, scanners and joysticks; nothing moves.\n", stderr);
   const std::unique_ptr<Surroundings> machine = this_machine(clock);
@@ -67,6 +71,7 @@ int set_up() {
     if (!model.empty()) std::filesystem::remove(model);
     throw;
   }
+  std::filesystem::remove(kept);
   std::printf("%s is written%s.\n", out_path.c_str(), model.empty() ? "" : (", and " + model.string()).c_str());
   RunOptions options;
   options.robot = out_path;

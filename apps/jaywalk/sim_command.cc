@@ -129,10 +129,10 @@ OperatorInput with_goal(const OperatorInput& input) {
   return wanted;
 }
 
-/// How a run ends, empty while it goes on. A mover that was forced does not end it: the goal may still be worth
-/// reaching.
-/// A stop that waits for a reset does: nobody is there to press it.
-std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied) {
+/// How a run ends, empty while it goes on; its time to arrive counts from `set_out`. A mover that was forced does not
+/// end it: the goal may still be worth reaching. A stop that waits for a reset does: nobody is there to press it.
+std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied,
+                    Time set_out) {
   if (truth.contacts > 0) return "collision";
   const bool waits_for_reset = has(t.verdict.reasons, Reason::kLatched) && !t.input.emergency_stop;
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
@@ -141,8 +141,10 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
       (!wanted.wants_heading() || is_at_rest(truth.twist))) {
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
   }
-  return to_seconds(t.now) >= scenario.timeout_s ? "timeout" : "";
+  return to_seconds(t.now - set_out) >= scenario.timeout_s ? "timeout" : "";
 }
+
+bool has_arrived(const std::string& ended) { return ended == "reached" || ended == "forced_mover"; }
 
 /// A run to a goal that no way leads to would only end by its timeout, without a word of why.
 void remark_unreachable(const sim::Scenario& scenario, const sim::Simulation& simulation) {
@@ -202,13 +204,17 @@ int run_sim(SimOptions options) {
   Progress progress;
   TruthForReport truth_for_report;
   std::string ended;
+  Time set_out{};
   const Interruption interruption;
   const auto began = std::chrono::steady_clock::now();
   while (ended.empty()) {
     const TickRecord& t = runner.step();
     runner.report(&truth_for_report.of(simulation.truth()));
     tell(progress, scenario, simulation.truth());
-    ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict());
+    ended = outcome(scenario, simulation.truth(), t, runner.setup().applies_verdict(), set_out);
+    const bool may_go_on = view && !options.until_arrived && !interruption.came() && view->is_watched();
+    if (may_go_on && (has_arrived(ended) || !t.input.has_goal)) set_out = t.now;
+    if (may_go_on && has_arrived(ended)) ended.clear();
     if (ended.empty() && interruption.came()) ended = "interrupted";
     if (view) view->follow(runner, ended, interruption);
     if (options.realtime && !view) std::this_thread::sleep_until(began + t.now.time_since_epoch());

@@ -28,6 +28,7 @@ struct SimOptions {
   bool mcap = false;                           ///< leave run.mcap as well
   bool json = false;                           ///< print the summary, in place of a line
   std::optional<view::ViewAddress> view = {};  ///< serve the live page there
+  bool until_arrived = false;                  ///< with it too: ends at the first arrival
 };
 
 /// The whole controller on the simulated robot; the scenario may be the name of one that comes with the program

@@ -45,6 +45,7 @@ std::string Moments::words(const std::string& title) const {
                   moment.speed_mps > kWalks_mps ? "walked" : "stood");
     text += std::string(moment.id != 0 ? line : "; nobody was near") + "\n";
   }
+  if (moments_.size() > kMostLines) text += "  and " + std::to_string(moments_.size() - kMostLines) + " shorter\n";
   return text.empty() ? "" : title + "\n" + text;
 }
 

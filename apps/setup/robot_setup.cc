@@ -40,6 +40,24 @@ std::string listed(const FoundDrives& drives) {
   return words;
 }
 
+std::string in_words(const BusFinding& finding) {
+  return finding.interface + ", " + kDriveKinds[static_cast<std::size_t>(*finding.drives.kind)].kind + ": " +
+         listed(finding.drives);
+}
+
+/// Without quotes.
+std::string text_in(const std::string& literal) { return literal.substr(1, literal.size() - 2); }
+
+std::string model_complaint(const std::string& value) {
+  if (value == literal(kMeasured)) return "";
+  try {
+    static_cast<void>(robot_model(text_in(value)));
+    return "";
+  } catch (const StartupError& error) {
+    return error.what();
+  }
+}
+
 class Setup {
  public:
   Setup(Surroundings& machine, SetupAnswers& answers, Clock& clock)
@@ -52,6 +70,7 @@ class Setup {
       if (answers_.given_text(table, "kind") == "dds")
         throw StartupError("setup: looks for devices on wires, not for the topics of a ROS 2 robot",
                            "begin with deploy/config/ros2-control-base.toml");
+    look_around();
     draft_model();
     draft_drives();
     draft_scanners();
@@ -61,10 +80,21 @@ class Setup {
   }
 
  private:
+  /// Before anything is asked: what is there.
+  void look_around() {
+    for (const std::string& interface : interfaces()) look_at(interface);
+    answers_.say("Found: " +
+                 (drives_.empty() ? "no drives" + (seen_.empty() ? ": no CAN interface" : ": " + seen_) : ""));
+    for (const BusFinding& found : drives_) answers_.say("  " + in_words(found));
+    scanners_ = find_scanners(places(laser_section(0)), clock_);
+    answers_.say(scanners_.empty() ? "Found: no scanner" : "Found:");
+    for (const FoundScanner& found : scanners_) answers_.say("  scanner " + describe(found));
+    for (const std::string& joystick : machine_.joysticks()) answers_.say("Found: joystick " + joystick);
+  }
   /// One that is measured here lies in a file of its own, the rest of it as the P3-DX has it.
   void draft_model() {
     const bool may_measure = answers_.asks() && !answers_.given("", "model");
-    answers_.settle(draft_, "", "model", may_measure ? literal(kMeasured) : "");
+    answers_.settle(draft_, "", "model", may_measure ? literal(kMeasured) : "", "", model_complaint);
     if (!may_measure || draft_.value("", "model") != literal(kMeasured)) return;
     const RobotModel like = p3dx();
     std::string text = "# Measured by a person; what is not was taken from the P3-DX: see to it.\n";
@@ -92,32 +122,41 @@ class Setup {
     draft_.set_model(text);
   }
   void draft_drives() {
-    std::vector<BusFinding> findings;
-    std::string seen;
-    for (const std::string& interface : interfaces()) look_at(interface, findings, seen);
-    if (findings.empty())
-      throw StartupError("setup: no drives were found" + (seen.empty() ? ": no CAN interface" : ": " + seen),
-                         "see to power, wires and bit rate; the drives' maker says how their numbers are set");
+    if (drives_.empty()) return draft_absent_drives();
     std::vector<std::string> words;
-    for (const BusFinding& finding : findings) words.push_back(finding.interface + ", " + listed(finding.drives));
-    const BusFinding& chosen = findings[answers_.choose("drives", words)];
-    enter_drives(chosen);
+    for (const BusFinding& finding : drives_) words.push_back(in_words(finding));
+    enter_drives(drives_[answers_.choose("drives", words)]);
+  }
+  /// A file for drives that are somewhere else, or off: as a person knows them.
+  void draft_absent_drives() {
+    if (!answers_.asks() && answers_.given_text("drive", "kind").empty())
+      throw StartupError("setup: no drives were found" + (seen_.empty() ? ": no CAN interface" : ": " + seen_),
+                         "see to power, wires and bit rate, or answer drive.kind, can, left_node and right_node");
+    draft_.remark("No drive answered" + (seen_.empty() ? ": no CAN interface." : ": " + seen_));
+    answers_.settle(draft_, "drive", "kind", literal(kDriveKinds[0].kind));
+    const std::string kind = draft_.value("drive", "kind");
+    const auto keys = std::ranges::find_if(kDriveKinds, [&](const auto& each) { return literal(each.kind) == kind; });
+    if (keys == kDriveKinds.end())
+      throw StartupError("setup: drive.kind is answered as " + kind, "choose cia402, odrive or vesc");
+    answers_.take_kind(keys->kind);
+    answers_.settle(draft_, "drive", "can", literal("can0"), "a guess");
+    draft_wheels(*keys, "", "");
   }
   [[nodiscard]] std::vector<std::string> interfaces() {
     const std::string named = answers_.given_text("drive", "can");
     return named.empty() ? machine_.can_interfaces() : std::vector{named};
   }
-  void look_at(const std::string& interface, std::vector<BusFinding>& findings, std::string& seen) {
+  void look_at(const std::string& interface) {
     std::string said = interface + ": no drive answers";
     try {
       const std::unique_ptr<CanBus> bus = machine_.open_bus(interface);
       FoundDrives drives = find_drives(*bus, clock_);
       if (!drives.remark.empty()) draft_.remark(said = interface + ": " + drives.remark);
-      if (drives.kind) return findings.push_back({interface, std::move(drives)});
+      if (drives.kind) return drives_.push_back({interface, std::move(drives)});
     } catch (const StartupError& error) {
       said = error.what();
     }
-    seen += (seen.empty() ? "" : "; ") + said;
+    seen_ += (seen_.empty() ? "" : "; ") + said;
   }
   void enter_drives(const BusFinding& finding) {
     const FoundDrives& drives = finding.drives;
@@ -135,9 +174,12 @@ class Setup {
     const auto number = [&](std::size_t k) { return is_pair ? std::to_string(int{drives.nodes[k].node}) : ""; };
     if (drives.nodes.size() < 2)
       throw StartupError("setup: " + finding.interface + " has one drive, " + listed(drives), "connect both");
+    draft_wheels(keys, number(0), number(1));
+  }
+  void draft_wheels(const DriveKindKeys& keys, const std::string& left, const std::string& right) {
     constexpr const char* kGuess = "found; which side it is on shows jaywalk commission";
-    answers_.settle(draft_, "drive", "left_node", number(0), kGuess);
-    answers_.settle(draft_, "drive", "right_node", number(1), kGuess);
+    answers_.settle(draft_, "drive", "left_node", left, kGuess);
+    answers_.settle(draft_, "drive", "right_node", right, kGuess);
     answers_.settle(draft_, "drive", keys.scale);
     answers_.settle(draft_, "drive", "left_reversed", "false", "a guess; jaywalk commission shows it");
     answers_.settle(draft_, "drive", "right_reversed", "true",
@@ -176,24 +218,47 @@ class Setup {
     while (count < answers_.scanners() || (others_answer_ && answers_.agrees("Has the robot a further scanner?")));
   }
   void draft_scanner(const std::string& section) {
-    std::vector<FoundScanner> scanners = find_scanners(places(section), clock_);
+    const bool is_first = section == laser_section(0);
+    std::vector<FoundScanner> scanners = is_first ? scanners_ : find_scanners(places(section), clock_);
     std::erase_if(scanners, [this](const FoundScanner& each) { return taken_.contains(place_of(each)); });
     others_answer_ = scanners.size() > 1;
     std::vector<std::string> words;
     for (const FoundScanner& scanner : scanners) words.push_back(describe(scanner));
     for (const std::string& word : words) draft_.remark("scanner " + word);
     if (scanners.empty()) {
-      draft_.remark("No scanner answered.");
-      answers_.settle(draft_, section, "kind");
-      if (!answers_.given(section, "host") && !answers_.given(section, "device"))
-        throw StartupError("setup: no scanner was found",
-                           "see to its power and address, or name laser.host or .device");
+      draft_absent_scanner(section);
     } else {
-      enter_scanner(section, scanners[answers_.choose("scanner", words)]);
+      enter_scanner(section, scanners[answers_.choose(section, words)]);
     }
-    const bool is_first = section == laser_section(0);
     if (!is_first || answers_.asks() || answers_.given(section, "mount"))
       answers_.settle(draft_, section, "mount", is_first ? "[0.0, 0.0, 0.0]" : "");
+  }
+  /// A person may know where it is, and it may answer there.
+  void draft_absent_scanner(const std::string& section) {
+    answers_.settle(draft_, section, "kind", "", "", [](const std::string& kind) {
+      return kind == literal("dds") ? "for a ROS 2 robot begin with deploy/config/ros2-control-base.toml" : "";
+    });
+    const bool is_placed = answers_.given(section, "host") || answers_.given(section, "device");
+    if (!is_placed && !answers_.asks())
+      throw StartupError("setup: no scanner was found", "see to its power and address, or name laser.host or .device");
+    const ScannerMake& make = *std::ranges::find_if(scanner_makes(), [&](const ScannerMake& each) {
+      return literal(std::string(each.name)) == draft_.value(section, "kind");
+    });
+    ScannerPlace place;
+    place.kinds = {make.kind};
+    if (!is_placed && make.port != 0 && (make.baud == 0 || answers_.agrees("Is the scanner on the network?"))) {
+      answers_.settle(draft_, section, "host");
+      answers_.settle(draft_, section, "port", std::to_string(make.port));
+      place.host = text_in(draft_.value(section, "host"));
+      place.port = static_cast<std::uint16_t>(std::stoul(draft_.value(section, "port")));
+    } else if (!is_placed) {
+      answers_.settle(draft_, section, "device");
+      place.device = text_in(draft_.value(section, "device"));
+    }
+    const std::vector<FoundScanner> found = is_placed ? std::vector<FoundScanner>{} : find_scanners({place}, clock_);
+    if (!found.empty()) return answers_.say("Found: scanner " + describe(found[0])), enter_scanner(section, found[0]);
+    answers_.say("No scanner answers there yet.");
+    draft_.remark("No scanner answered.");
   }
   void enter_scanner(const std::string& section, const FoundScanner& scanner) {
     taken_.insert(place_of(scanner));
@@ -232,6 +297,9 @@ class Setup {
   SetupAnswers& answers_;
   Clock& clock_;
   RobotDraft draft_;
+  std::vector<BusFinding> drives_;
+  std::string seen_;  ///< on interfaces without drives
+  std::vector<FoundScanner> scanners_;
   std::set<std::string> taken_;  ///< places of the scanners in the draft
   bool others_answer_ = false;   ///< a scanner was found that the draft does not have
 };

@@ -1,12 +1,15 @@
 #include "apps/setup/setup_answers.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdlib>
+#include <fstream>
 #include <istream>
 #include <ostream>
 
 #include "firmware/robot/robot_file_keys.h"
+#include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -44,8 +47,12 @@ std::string title(const SettingKey& row, const std::string& section) {
 
 }  // namespace
 
-SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to)
-    : from_(from), to_(to) {
+SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to,
+                           std::filesystem::path kept)
+    : from_(from), to_(to), kept_(std::move(kept)) {
+  std::ifstream in(kept_);
+  for (std::string question, answer; std::getline(in, question, '\t') && std::getline(in, answer);)
+    earlier_.emplace_back(question, answer);
   if (!file) return;
   name_ = file->string();
   file_ = std::make_unique<TomlFile>(*file, robot_file_keys());
@@ -55,6 +62,26 @@ SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std
   if (root.has("laser"))
     for (const TomlTable& laser : root.table_or_tables("laser")) tables_.emplace(laser_section(scanners_++), laser);
   tables_.emplace("", root);
+  const toml::value raw = toml::parse(*file);
+  for (const auto& [section, table] : tables_) {
+    if (section.empty())
+      refuse_unknown(section, raw);
+    else if (const toml::value& inner = raw.at(section_in_file(section)); inner.is_table())
+      refuse_unknown(section, inner);
+  }
+}
+
+void SetupAnswers::refuse_unknown(const std::string& section, const toml::value& raw) {
+  std::vector<std::string> known;
+  for (const SettingKey& row : robot_file_keys().keys)
+    if (row.section == section || row.section.starts_with(section + ":")) known.push_back(row.key);
+  for (const auto& [key, value] : raw.as_table())
+    if (std::ranges::find(known, key) == known.end())
+      table(section)->refuse(key, "is not a known key", did_you_mean(key, known, "remove it or correct its spelling"));
+}
+
+void SetupAnswers::say(const std::string& found) const {
+  if (asks()) *to_ << found << "\n";
 }
 
 TomlTable* SetupAnswers::table(const std::string& section) {
@@ -78,33 +105,52 @@ void SetupAnswers::take_kind(const std::string& kind) {
 }
 
 void SetupAnswers::settle(RobotDraft& draft, const std::string& section, const std::string& key,
-                          const std::string& suggestion, const std::string& note) {
+                          const std::string& suggestion, const std::string& note, const Check& check) {
   if (const auto known = given(section, key)) return draft.set(section, key, *known, "as answered");
   const SettingKey& row = robot_key(section_in_file(section), key, section == "drive" ? kind_ : "");
-  if (asks()) return draft.set(section, key, ask(row, section, suggestion), "as answered");
+  if (asks()) return draft.set(section, key, ask(row, section, suggestion, check), "as answered");
   if (suggestion.empty())
     throw StartupError("setup: " + title(row, section) + " cannot be seen: " + row.meaning,
                        "put it into " + name_ + ", as ROBOT.toml has it");
   draft.set(section, key, suggestion, note);
 }
 
-std::string SetupAnswers::line() {
+std::string SetupAnswers::line(const std::string& question) {
+  const auto earlier = std::ranges::find(earlier_, question, &Answer::first);
+  if (earlier != earlier_.end()) {
+    std::string said = earlier->second;
+    earlier_.erase(earlier);
+    *to_ << said << " (as answered before)\n";
+    return said;
+  }
   std::string said;
   to_->flush();
   if (!std::getline(*from_, said))
-    throw StartupError("setup: the answers end here", "answer all questions, or give --answers FILE");
+    throw StartupError("setup: the answers end here",
+                       kept_.empty() ? "answer all questions, or give --answers FILE"
+                                     : "run it again: " + kept_.string() + " has what was answered");
   return said;
 }
 
-std::string SetupAnswers::ask(const SettingKey& row, const std::string& section, const std::string& suggestion) {
+void SetupAnswers::keep(const std::string& question, const std::string& answer) {
+  said_.emplace_back(question, answer);
+  if (kept_.empty()) return;
+  std::ofstream out(kept_);
+  for (const auto* answers : {&said_, &earlier_})
+    for (const auto& [asked, said] : *answers) out << asked << '\t' << said << '\n';
+}
+
+std::string SetupAnswers::ask(const SettingKey& row, const std::string& section, const std::string& suggestion,
+                              const Check& check) {
   const std::string unit = row.unit[0] == '\0' ? "" : std::string(" ") + row.unit;
   for (;;) {
     *to_ << title(row, section) << ": " << row.meaning << " (" << allowed(row) << unit << ")"
          << (suggestion.empty() ? "" : " [" + suggestion + "]") << ": ";
-    const std::string said = line();
-    if (said.empty() && !suggestion.empty()) return suggestion;
-    if (const auto value = understood(row, said)) return *value;
-    *to_ << "not one of these: " << allowed(row) << "\n";
+    const std::string said = line(title(row, section));
+    const auto value = said.empty() && !suggestion.empty() ? suggestion : understood(row, said);
+    const std::string complaint = !value ? "not one of these: " + allowed(row) : check ? check(*value) : "";
+    if (complaint.empty()) return keep(title(row, section), said), *value;
+    *to_ << complaint << "\n";
   }
 }
 
@@ -113,16 +159,20 @@ std::size_t SetupAnswers::choose(const std::string& what, const std::vector<std:
   for (std::size_t k = 0; k < among.size(); ++k) *to_ << "  " << k + 1 << "  " << among[k] << "\n";
   for (;;) {
     *to_ << what << ": which of these (1 to " << among.size() << ")? ";
-    const std::string said = line();
-    const unsigned long number = std::strtoul(said.c_str(), nullptr, 10);
-    if (number >= 1 && number <= among.size()) return number - 1;
+    const std::string said = line(what);
+    const auto named = std::ranges::find(among, said);
+    const std::size_t number = named != among.end() ? static_cast<std::size_t>(named - among.begin()) + 1
+                                                    : std::strtoul(said.c_str(), nullptr, 10);
+    if (number >= 1 && number <= among.size()) return keep(what, among[number - 1]), number - 1;
   }
 }
 
 bool SetupAnswers::agrees(const std::string& question) {
   if (!asks()) return false;
   *to_ << question << " [yes/no] ";
-  return line() == "yes";
+  const std::string said = line(question);
+  keep(question, said);
+  return said == "yes";
 }
 
 void SetupAnswers::take_tables(RobotDraft& draft, TomlTable& parent, const std::string& section,

@@ -59,7 +59,9 @@ std::string FrameStore::past(std::size_t most) const {
     char row[96];
     std::snprintf(row, sizeof row, "%s[%.2f,%.3f,%.3f,%.3f,\"", k == 0 ? "" : ",", strip.t_s, strip.wanted_mps,
                   strip.permitted_mps, strip.speed_mps);
-    text += row + to_string(strip.reasons) + "\"]";
+    text += row + to_string(strip.reasons);
+    std::snprintf(row, sizeof row, "\",%.2f,%.2f]", strip.at.x, strip.at.y);
+    text += row;
   }
   return text + "]}";
 }

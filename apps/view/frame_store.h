@@ -9,12 +9,14 @@
 #include <vector>
 
 #include "firmware/safety/reasons.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk::view {
 
 /// What of a tick the page's strip shows.
 struct StripTick {
   double t_s = 0.0, wanted_mps = 0.0, permitted_mps = 0.0, speed_mps = 0.0;
+  Vec2 at{};  ///< where the robot is, in the map
   Reason reasons = Reason::kNone;
 };
 
@@ -33,8 +35,8 @@ class FrameStore {
 
   /// {"kind":"then","frame":...,"field":...}; empty where that tick is not kept. `field` null where there is none.
   [[nodiscard]] std::string then(std::uint64_t tick) const;
-  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, speed, reasons], ...]}: every Nth tick kept, `most` at
-  /// most.
+  /// {"kind":"past","step":N,"ticks":[[t, wanted, permitted, speed, reasons, x, y], ...]}: every Nth tick kept, `most`
+  /// at most.
   [[nodiscard]] std::string past(std::size_t most) const;
 
  private:

@@ -106,6 +106,7 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
                 .wanted_mps = t.wanted.v_mps,
                 .permitted_mps = t.verdict.permitted.v_mps,
                 .speed_mps = snapshot.twist.v_mps,
+                .at = t.pose.map_from_robot.position(),
                 .reasons = t.verdict.reasons},
                head);
   }
@@ -114,18 +115,18 @@ void LiveView::show(const view::ViewSnapshot& snapshot, const std::string& ended
   server_->push(ended.empty() ? view::MessageKind::kFrame : view::MessageKind::kEnd, head + scene_ + "}");
 }
 
-void LiveView::stay(bool until_told, const Interruption& interruption) const {
-  auto seen = std::chrono::steady_clock::now();
-  if (!until_told && viewers() == 0) return;
+bool LiveView::is_watched() {
+  const auto now = std::chrono::steady_clock::now();
+  if (viewers() > 0) seen_ = now;
+  return now - seen_ <= kGone;
+}
+
+void LiveView::stay(bool until_told, const Interruption& interruption) {
+  if (!until_told && !is_watched()) return;
   std::fprintf(stderr, "jaywalk: the run is over; its page stays until %sCtrl-C\n",
                until_told ? "" : "it is closed, or ");
   server_->push(view::MessageKind::kHello, hello_.substr(0, hello_.size() - 1) + R"(,"over":true})");
-  while (!interruption.came()) {
-    std::this_thread::sleep_for(kLookEvery);
-    const auto now = std::chrono::steady_clock::now();
-    if (viewers() > 0) seen = now;
-    if (!until_told && now - seen > kGone) return;
-  }
+  while (!interruption.came() && (until_told || is_watched())) std::this_thread::sleep_for(kLookEvery);
 }
 
 }  // namespace jaywalk

@@ -42,11 +42,13 @@ class LiveView {
 
   [[nodiscard]] std::string url() const { return server_->url(); }
   [[nodiscard]] int viewers() const noexcept { return server_->viewers(); }
+  /// Whether a client is connected, or was some seconds ago: a page may be loaded anew.
+  [[nodiscard]] bool is_watched();
   /// Whether a client subscribes to messages: these want every tick.
   [[nodiscard]] bool has_subscribers() const noexcept { return server_->wanted() != 0; }
   /// The run is over: goes on to serve what was kept until all viewers have been gone for some seconds, or for as long
   /// as `until_told`, or until an interruption.
-  void stay(bool until_told, const Interruption& interruption) const;
+  void stay(bool until_told, const Interruption& interruption);
 
  private:
   void answer(std::string_view text, const view::Reply& reply);
@@ -62,7 +64,7 @@ class LiveView {
   std::uint32_t scans_shown_ = 0, plan_shown_ = 0;  ///< TickRecord::scan_count(); the plan's sequence
   std::uint64_t tick_ = 0, field_ = 0;
   Time field_shown_ = kNever;
-  std::chrono::steady_clock::time_point pushed_{};
+  std::chrono::steady_clock::time_point pushed_{}, seen_{};
   std::unique_ptr<view::ViewServer> server_;
   exchange::RosTopics topics_;
   PlannedPath path_;  ///< of the newest plan

@@ -19,8 +19,10 @@ class SimView {
   void begin(const std::string& title, std::span<const view::WallPiece> walls);
   /// After a tick: shows it, waits for the wall clock, and while the page has paused the run. `ended`: the outcome.
   void follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption);
+  /// Whether a client that may give the next goal is connected.
+  [[nodiscard]] bool is_watched() { return takes_goals_ && live_.is_watched(); }
   /// After the run: see LiveView::stay.
-  void stay(const Interruption& interruption) const { live_.stay(false, interruption); }
+  void stay(const Interruption& interruption) { live_.stay(false, interruption); }
 
  private:
   /// Thread: the page's.

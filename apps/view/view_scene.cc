@@ -79,6 +79,13 @@ Ordered path_of(const Path& path) {
   return out;
 }
 
+Ordered chosen_of(const ViewSnapshot& snapshot) {
+  Ordered out = Ordered::array();
+  for (const Place& p : snapshot.chosen)
+    if (snapshot.has_chosen) out.push_back({cm(p.x), cm(p.y)});
+  return out;
+}
+
 Ordered zone_of(const ShownStopZone::Outlines& zone) {
   Ordered out = Ordered::array();
   for (const Corners& corners : zone) {
@@ -154,6 +161,7 @@ std::string to_json(const ViewSnapshot& snapshot, const OfEach<LaserModel>& lase
                      {"standing", standing},
                      {"futures", futures_of(movers)},
                      {"expected", movers.empty() ? expected_of(snapshot.plan) : Ordered::array()},
+                     {"chosen", chosen_of(snapshot)},
                      {"path", path_of(snapshot.plan.path)}});
 }
 
@@ -171,6 +179,7 @@ std::string frame_head(const FrameScene& frame) {
               {"gap_m", mm(t.verdict.gap_m)},
               {"reasons", to_string(t.verdict.reasons, t.verdict.faulty_scanners)},
               {"zone", zone_of(frame.zone)},
+              {"arrived", t.input.has_goal && t.input.is_reached_at(pose)},
               {"ended", frame.ended}};
   if (t.input.has_goal)
     out["goal"] = {mm(t.input.goal_in_map.x), mm(t.input.goal_in_map.y), mm(t.input.goal_heading_rad)};

@@ -36,7 +36,12 @@ void take(ViewSnapshot& into, const TickRecord& record, const ControlLoop& loop)
   into.plan = loop.plan();
   into.movers.clear();
   const motion::GoalRollouts* rollouts = loop.motion().rollouts();
+  into.has_chosen = rollouts != nullptr && rollouts->decision().at != kNever;
   if (rollouts == nullptr) return;
+  for (std::size_t k = 0; k < into.chosen.size(); ++k) {
+    const motion::RobotState& s = rollouts->decision().driven[k * kChosenStep];
+    into.chosen[k] = {s.x, s.y};
+  }
   const motion::Futures& futures = rollouts->futures();
   for (std::size_t mover = 0; mover < futures.movers(); ++mover) {
     if (futures.is_surface(mover)) continue;

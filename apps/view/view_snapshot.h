@@ -7,6 +7,7 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/tick_record.h"
 #include "firmware/robot/signal_thread.h"
+#include "planner/motion/trajectory.h"
 #include "planner/prediction/futures.h"
 
 namespace jaywalk::view {
@@ -15,6 +16,9 @@ namespace jaywalk::view {
 inline constexpr std::size_t kShownFutures = 8;
 /// Now and in 1, 2, 3 and 4 s.
 inline constexpr std::array<int, 5> kShownSteps{0, 5, 10, 15, 20};
+
+/// Of the chosen trajectory's steps every fifth is shown.
+inline constexpr std::size_t kChosenStep = 5;
 
 /// Where one mover is in the sampled futures, m in the map.
 struct ShownMover {
@@ -30,7 +34,9 @@ struct ViewSnapshot {
   Twist2 twist;  ///< as the wheels say, or the scans
   FixedVector<Track, kMaxTracks> tracks;
   FixedVector<StandingPedestrian, kMaxTracks> standing;
-  FixedVector<ShownMover, motion::kMostMovers> movers;  ///< that walk or may; none without motion over futures
+  FixedVector<ShownMover, motion::kMostMovers> movers;       ///< that walk or may; none without motion over futures
+  std::array<Place, motion::kSteps / kChosenStep> chosen{};  ///< trajectory decided on, m in the map
+  bool has_chosen = false;
   Plan plan;
 };
 

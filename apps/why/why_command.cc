@@ -29,10 +29,12 @@ constexpr double kShown_m = 8.0;  // to each side of the robot
 struct Past {
   DrivenWay driven;
   TrailBook bodies;
+  Resolve resolve;
 
   void add(const RelivedRun& run) {
     const TickRecord& t = run.last();
     driven.add(t.now, t.pose.map_from_robot);
+    if (const motion::GoalRollouts* motion = run.loop().motion().rollouts()) resolve.note(motion->decision());
     for (const Track& track : run.loop().tracker().tracks())
       bodies.add(track.id, t.now, track.position_in_map, track.radius_m, track.moving);
   }
@@ -72,16 +74,15 @@ Past relive(RelivedRun& run, double until_s) {
 }
 
 /// The last decision and the time to go that it rests on, in the place of the path.
-void show_decision(const RelivedRun& run, PictureScene& scene) {
-  const motion::GoalRollouts* motion = run.loop().motion().rollouts();
-  if (motion == nullptr || motion->decision().at == kNever || !run.loop().plan().guide.known()) return;
-  scene.decision = scene_of(*motion, motion->alternatives(run.loop().plan()));
+void show_decision(const RelivedRun& run, const Weighed& weighed, PictureScene& scene) {
+  if (weighed.alternatives.empty() || !run.loop().plan().guide.known()) return;
+  scene.decision = scene_of(*run.loop().motion().rollouts(), weighed.alternatives);
   if (!scene.moment) scene.moment = PlanMoment{run.last().now, run.last().pose.map_from_robot, {}, {}, {}, {}};
   scene.moment->band.clear();
   scene.moment->field = raster_of(run.planner().view_field());
 }
 
-PictureScene scene_of(const RelivedRun& run, const Past& past) {
+PictureScene scene_of(const RelivedRun& run, const Past& past, const Weighed& weighed) {
   const TickRecord& t = run.last();
   const ControlLoop& loop = run.loop();
   const auto tracks = loop.tracker().tracks();
@@ -98,12 +99,18 @@ PictureScene scene_of(const RelivedRun& run, const Past& past) {
   scene.occupied = occupied_cells(loop.tracker().still(), scene.driven, kShown_m);
   scene.cell_m = loop.tracker().still().cell_m();
   scene.moment = moment.moment();
-  show_decision(run, scene);
+  show_decision(run, weighed, scene);
   if (t.input.has_goal) scene.goal = t.input.goal_in_map;
   scene.footprint = run.setup().model.footprint;
   const Vec2 here = t.pose.map_from_robot.position(), reach{kShown_m, kShown_m};
   scene.extent = {here - reach, here + reach};
   return scene;
+}
+
+Weighed weighed_by(const RelivedRun& run, const Past& past) {
+  const motion::GoalRollouts* motion = run.loop().motion().rollouts();
+  if (motion == nullptr || motion->decision().at == kNever) return {};
+  return {past.resolve, motion->alternatives(run.loop().plan())};
 }
 
 /// Returns the picture, or nothing where none can be drawn.
@@ -123,12 +130,10 @@ int run_why(const WhyOptions& options) {
   RelivedRun run(recorded);
   if (!std::isfinite(options.at_s)) throw StartupError("T_S: no time", "give seconds");
   const Past past = relive(run, options.at_s);
-  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past), options.out);
-  const motion::GoalRollouts* motion = run.loop().motion().rollouts();
-  if (motion != nullptr && motion->decision().at != kNever) {
-    write_alternatives(motion->alternatives(run.loop().plan()), (options.out / "why.csv").string());
-  }
-  std::fputs(why_words(run.last(), run.loop(), run.setup().model).c_str(), stdout);
+  const Weighed weighed = weighed_by(run, past);
+  const std::optional<std::filesystem::path> drawn = save(scene_of(run, past, weighed), options.out);
+  if (!weighed.alternatives.empty()) write_alternatives(weighed.alternatives, (options.out / "why.csv").string());
+  std::fputs(why_words(run.last(), run.loop(), run.setup().model, weighed).c_str(), stdout);
   std::fputs(run.remarks().c_str(), stderr);
   if (drawn) std::printf("See %s\n", drawn->c_str());
   return 0;

@@ -2,11 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cstdio>
+#include <cmath>
 #include <set>
 #include <utility>
 
 #include "apps/report/csv_file.h"
+#include "hal/shown_text.h"
 
 namespace jaywalk {
 namespace {
@@ -15,19 +16,71 @@ constexpr float kWorthSaying_s = 0.05F;
 
 /// The terms beside the time, in the order of the table's columns.
 std::array<std::pair<const char*, float>, 7> terms_of(const motion::Cost& cost) {
-  return {{{"of meeting somebody", cost.conflict},
-           {"of touching", cost.touch},
-           {"of being braked", cost.stop_zone},
-           {"near walls", cost.clearance},
-           {"over unseen ground", cost.unseen},
-           {"near people", cost.nearness},
-           {"of comfort", cost.comfort}}};
+  return {{{"getting in somebody's way", cost.conflict},
+           {"touching a wall", cost.touch},
+           {"being braked", cost.stop_zone},
+           {"passing close to walls", cost.clearance},
+           {"ground that it cannot see", cost.unseen},
+           {"being close to people", cost.nearness},
+           {"a rough ride", cost.comfort}}};
 }
 
-std::string seconds(float value, const char* what) {
-  char words[64];
-  std::snprintf(words, sizeof words, "%.1f s %s", static_cast<double>(value), what);
-  return words;
+using Driven = std::array<motion::RobotState, motion::kSteps>;
+
+/// A mover's nearest place to the robot's outline, in any of its futures.
+struct NearestPlace {
+  double gap_m = 1e9, at_s = 0.0;
+};
+NearestPlace nearest_on(const Driven& driven, const motion::Futures& futures, std::size_t mover,
+                        const Footprint& footprint) {
+  NearestPlace best;
+  for (int step = 1; step < motion::kFutureSteps; ++step) {  // a step for two of the robot's
+    const motion::RobotState& r = driven[static_cast<std::size_t>(2 * step - 1)];
+    const Pose2 pose{static_cast<double>(r.x), static_cast<double>(r.y), static_cast<double>(r.heading)};
+    const Transform2 robot_from_map = Transform2(inverse(pose));
+    const motion::MoverAt& at = futures.at(step, mover);
+    for (int k = 0; k < motion::kFutures; ++k) {
+      const Vec2 place{static_cast<double>(at.x[k]), static_cast<double>(at.y[k])};
+      const double gap_m = footprint.distance_to(robot_from_map * place) - static_cast<double>(futures.radius(mover));
+      if (gap_m < best.gap_m) best = {gap_m, step * static_cast<double>(motion::kFutureStepS)};
+    }
+  }
+  return best;
+}
+
+/// Name of a mover: "body 7" where it is tracked.
+std::string name_of(const motion::Futures& futures, std::size_t mover, std::span<const Track> tracks) {
+  constexpr double kSame_m = 0.5;
+  const motion::MoverAt& now = futures.at(0, mover);
+  const Vec2 place{static_cast<double>(now.mid_x), static_cast<double>(now.mid_y)};
+  const auto off_m = [&](const Track& track) { return distance(track.position_in_map, place); };
+  const auto near = std::ranges::min_element(tracks, {}, off_m);
+  return near != tracks.end() && off_m(*near) < kSame_m ? "body " + std::to_string(near->id)
+                                                        : std::string("somebody out of sight");
+}
+
+/// The mover that may come nearest.
+std::string met_in_words(const Driven& driven, const motion::Futures& futures, const BodiesAbout& around) {
+  NearestPlace met;
+  std::size_t who = 0;
+  for (std::size_t m = 0; m < futures.movers(); ++m) {
+    const NearestPlace nearest = nearest_on(driven, futures, m, around.footprint);
+    if (nearest.gap_m < met.gap_m) met = nearest, who = m;
+  }
+  if (met.gap_m > 1e8) return "";
+  const std::string name = name_of(futures, who, around.tracks);
+  return name + (met.gap_m <= 0.0 ? " could run into it" : formatted(" could come within %.1f m", met.gap_m)) +
+         formatted(" in %.1f s", met.at_s);
+}
+
+std::string in_words(const motion::Cost& cost, const Driven& driven, const motion::Futures& futures,
+                     const BodiesAbout& around) {
+  std::string words = formatted("%.1f s to the goal", static_cast<double>(cost.time)), more;
+  for (const auto& [what, value] : terms_of(cost))
+    if (value >= kWorthSaying_s)
+      more += (more.empty() ? ", plus " : ", ") + formatted("%.1f s for %s", static_cast<double>(value), what);
+  const std::string met = cost.conflict + cost.nearness >= kWorthSaying_s ? met_in_words(driven, futures, around) : "";
+  return words + more + (met.empty() ? "" : " (" + met + ")");
 }
 
 Vec2 place_of(const motion::RobotState& s) { return {static_cast<double>(s.x), static_cast<double>(s.y)}; }
@@ -95,14 +148,26 @@ DecisionScene scene_of(const motion::GoalRollouts& motion, const std::vector<mot
   return scene;
 }
 
-const char* name_of(motion::Proposal proposal) { return names_of(proposal).second; }
+std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve, const BodiesAbout& around) {
+  const motion::Decision& decision = motion.decision();
+  const double since_s = to_seconds(decision.at - resolve.at);
+  return std::string("to ") + names_of(resolve.proposal).second +
+         (since_s > 0.0 ? formatted(", as decided %.1f s before", since_s) : "") + ": " +
+         in_words(decision.cost, decision.driven, motion.futures(), around);
+}
 
-std::string in_words(const motion::Cost& cost) {
-  std::string words = seconds(cost.time, "to the goal");
-  for (const auto& [what, value] : terms_of(cost)) {
-    if (value >= kWorthSaying_s) words += ", " + seconds(value, what);
-  }
-  return words;
+std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                               const std::vector<motion::Alternative>& alternatives, const BodiesAbout& around) {
+  const auto next = std::ranges::find_if(alternatives, [&](const motion::Alternative& a) {
+    return a.trajectory.proposal != motion::Proposal::kLast && a.trajectory.proposal != resolve.proposal;
+  });
+  if (next == alternatives.end()) return "";
+  const double more_s = static_cast<double>(next->cost.total() - motion.decision().cost.total());
+  return std::string("to ") + names_of(next->trajectory.proposal).second +
+         (std::fabs(more_s) < kWorthSaying_s ? " is as good: "
+          : more_s > 0.0                     ? formatted(" would have cost %.1f s more: ", more_s)
+                         : formatted(" is better by %.1f s, too little for a change of mind: ", -more_s)) +
+         in_words(next->cost, next->driven, motion.futures(), around);
 }
 
 void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file) {

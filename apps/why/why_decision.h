@@ -1,4 +1,5 @@
 #pragma once
+#include <span>
 #include <string>
 #include <vector>
 
@@ -7,11 +8,32 @@
 
 namespace jaywalk {
 
-/// "follow the way": what a trajectory proposals, as a person says it.
-[[nodiscard]] const char* name_of(motion::Proposal proposal);
+/// A decision that was gone on with since: what it proposed, and when it was made.
+struct Resolve {
+  motion::Proposal proposal = motion::Proposal::kFollow;
+  Time at = kNever;
 
-/// "12.3 s to the goal, 0.4 s of comfort": a cost and its terms worth saying.
-[[nodiscard]] std::string in_words(const motion::Cost& cost);
+  /// After each tick.
+  void note(const motion::Decision& decision) {
+    if (decision.trajectory.proposal != motion::Proposal::kLast && decision.at != at)
+      *this = {decision.trajectory.proposal, decision.at};
+  }
+};
+
+/// Tracked bodies, and the robot's own outline.
+struct BodiesAbout {
+  std::span<const Track> tracks;
+  Footprint footprint;
+};
+
+/// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
+/// come within 0.3 m in 1.8 s)".
+[[nodiscard]] std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                                          const BodiesAbout& around);
+/// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
+[[nodiscard]] std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                                             const std::vector<motion::Alternative>& alternatives,
+                                             const BodiesAbout& around);
 
 /// The decision as a picture shows it. Throws nothing but std::bad_alloc.
 [[nodiscard]] DecisionScene scene_of(const motion::GoalRollouts& motion,

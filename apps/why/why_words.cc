@@ -6,7 +6,6 @@
 #include <utility>
 #include <vector>
 
-#include "apps/why/why_decision.h"
 #include "drivers/drive_fault_words.h"
 #include "hal/shown_text.h"
 
@@ -21,17 +20,19 @@ std::string side(double rad) {
   return degrees < 5.0 ? "straight ahead" : formatted("%.0f degrees to the %s", degrees, rad > 0.0 ? "left" : "right");
 }
 
-/// Where a track is nearest to the robot's middle if both go on as they do: a robot on a bend is stepped along it.
+/// Where a track is nearest to the robot's outline if both go on as they do: a robot on a bend is stepped along it.
 struct Meeting {
   double gap_m = 0.0, at_s = 0.0;
 };
-Meeting nearest(const Track& track, const Pose2& from, const Twist2& twist) {
+Meeting nearest(const Track& track, const Pose2& from, const Twist2& twist, const Footprint& footprint) {
   Meeting best{1e9, 0.0};
   for (double t = 0.0; t <= kLookAhead_s; t += 0.1) {
     const double turned = twist.w_radps * t;
     const Vec2 along = direction(from.heading + 0.5 * turned);
     const Vec2 robot = from.position() + along * (twist.v_mps * t);
-    const double gap = distance(robot, track.position_in_map + track.velocity_in_map * t) - track.radius_m;
+    const Transform2 robot_from_map = Transform2(inverse(Pose2{robot.x, robot.y, from.heading + turned}));
+    const Vec2 then = track.position_in_map + track.velocity_in_map * t;
+    const double gap = footprint.distance_to(robot_from_map * then) - track.radius_m;
     if (gap < best.gap_m) best = {gap, t};
   }
   return best;
@@ -65,35 +66,39 @@ std::string saw(const TickRecord& t, std::span<const Track> tracks) {
 }
 
 /// The mover that comes nearest if everybody goes on at these speeds.
-const Track* first_met(std::span<const Track> tracks, const Pose2& from, const Twist2& twist) {
+const Track* first_met(std::span<const Track> tracks, const Pose2& from, const Twist2& twist,
+                       const Footprint& footprint) {
   const Track* met = nullptr;
+  double least_m = 0.0;
   for (const Track& track : tracks) {
     if (!track.moving) continue;
-    if (met == nullptr || nearest(track, from, twist).gap_m < nearest(*met, from, twist).gap_m) met = &track;
+    const double gap_m = nearest(track, from, twist, footprint).gap_m;
+    if (met == nullptr || gap_m < least_m) met = &track, least_m = gap_m;
   }
   return met;
 }
 
-std::string expected(const TickRecord& t, std::span<const Track> tracks) {
-  const Pose2& here = t.pose.map_from_robot;
-  const Track* met = first_met(tracks, here, t.verdict.permitted);
-  if (met == nullptr) return "It expected: nobody who walks.\n";
-  const Meeting meeting = nearest(*met, here, t.verdict.permitted);
-  const Vec2 off = met->position_in_map - here.position();
-  return formatted(
-      "It expected: body %u, %.1f m off, %s, walks %.2f m/s; as both go now it comes to %.2f m of the robot's middle "
-      "in %.1f s.\n",
-      met->id, norm(off), side(wrap_angle(std::atan2(off.y, off.x) - here.heading)).c_str(), norm(met->velocity_in_map),
-      meeting.gap_m, meeting.at_s);
+std::string in_words(const Meeting& meeting) {
+  if (meeting.at_s == 0.0) return meeting.gap_m > 0.0 ? "comes no nearer" : "is beside the robot already";
+  return (meeting.gap_m > 0.0 ? formatted("comes to %.1f m of the robot", meeting.gap_m) : "runs into the robot") +
+         formatted(" in %.1f s", meeting.at_s);
 }
 
-std::string wanted(const TickRecord& t, const ControlLoop& loop) {
+std::string expected(const TickRecord& t, const BodiesAbout& around) {
+  const Pose2& here = t.pose.map_from_robot;
+  const Track* met = first_met(around.tracks, here, t.verdict.permitted, around.footprint);
+  if (met == nullptr) return "It expected: nobody who walks.\n";
+  const Vec2 off = met->position_in_map - here.position();
+  return formatted("It expected: body %u, %.1f m off, %s, walks %.2f m/s; as both go now it %s.\n", met->id, norm(off),
+                   side(wrap_angle(std::atan2(off.y, off.x) - here.heading)).c_str(), norm(met->velocity_in_map),
+                   in_words(nearest(*met, here, t.verdict.permitted, around.footprint)).c_str());
+}
+
+std::string wanted(const TickRecord& t, const ControlLoop& loop, const Weighed& weighed, const BodiesAbout& around) {
   std::string words = formatted("It wanted: %.2f m/s and to turn %.2f rad/s", t.wanted.v_mps, t.wanted.w_radps);
   if (!t.input.has_goal) return words + "; it has no goal.\n";
-  if (const motion::GoalRollouts* motion = loop.motion().rollouts(); motion && motion->decision().at != kNever) {
-    const motion::Decision& decision = motion->decision();
-    words += std::string(", to ") + name_of(decision.trajectory.proposal) + "; it counted " + in_words(decision.cost);
-  }
+  if (!weighed.alternatives.empty())
+    words += ", " + chosen_in_words(*loop.motion().rollouts(), weighed.resolve, around);
   return words + ".\n";
 }
 
@@ -104,17 +109,17 @@ std::string permitted(const TickRecord& t) {
          in_words(t.verdict.reasons) + (t.wheels.fault.is_told() ? "; " + describe(t.wheels.fault) : "") + ".\n";
 }
 
-std::string otherwise(const TickRecord& t, std::span<const Track> tracks, const RobotModel& model) {
+std::string otherwise(const TickRecord& t, const ControlLoop& loop, const RobotModel& model, const Weighed& weighed,
+                      const BodiesAbout& around) {
   const double braking_m = t.wanted.v_mps * t.wanted.v_mps / (2.0 * model.limits.brake_mps2);
   if (has(t.verdict.reasons, Reason::kStopZone) && std::isfinite(t.verdict.gap_m))
     return formatted("Otherwise: at %.2f m/s it needs %.2f m to brake, and %.2f m are free.\n",
                      std::fabs(t.wanted.v_mps), braking_m, t.verdict.gap_m);
-  const Twist2 on{model.limits.max_speed_mps, 0.0};
-  const Track* met = first_met(tracks, t.pose.map_from_robot, on);
-  if (met == nullptr) return "Otherwise: nobody would have been met.\n";
-  const Meeting meeting = nearest(*met, t.pose.map_from_robot, on);
-  return formatted("Otherwise: straight on at %.2f m/s body %u would have come to %.2f m of its middle in %.1f s.\n",
-                   on.v_mps, met->id, meeting.gap_m, meeting.at_s);
+  const std::string next =
+      t.input.has_goal && !weighed.alternatives.empty()
+          ? next_best_in_words(*loop.motion().rollouts(), weighed.resolve, weighed.alternatives, around)
+          : "";
+  return "Otherwise: " + (next.empty() ? "nothing else was weighed" : next) + ".\n";
 }
 
 }  // namespace
@@ -126,11 +131,12 @@ std::string in_words(Reason reasons) {
   return words;
 }
 
-std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model) {
+std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,
+                      const Weighed& weighed) {
   const auto tracks = loop.tracker().tracks();
-  const std::span<const Track> all(tracks.begin(), tracks.size());
-  return doing(tick, model.drive) + saw(tick, all) + expected(tick, all) + wanted(tick, loop) + permitted(tick) +
-         otherwise(tick, all, model);
+  const BodiesAbout around{{tracks.begin(), tracks.size()}, model.footprint};
+  return doing(tick, model.drive) + saw(tick, around.tracks) + expected(tick, around) +
+         wanted(tick, loop, weighed, around) + permitted(tick) + otherwise(tick, loop, model, weighed, around);
 }
 
 }  // namespace jaywalk

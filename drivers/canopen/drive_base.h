@@ -58,6 +58,10 @@ class CanopenDriveBase final : public WiredDrive {
   [[nodiscard]] std::optional<CanFrame> foreign_frame() const noexcept override { return foreign_; }
   /// A person's reset edge: forgets the trouble and, where there was one, begins the proof of both drives; the drives
   /// are enabled again at the next command of zero after it. A proof that is under way goes on.
+  [[nodiscard]] bool is_silent() const noexcept override {
+    return axes_[0].is_silent(clock_.now(), setup_.silence_limit) ||
+           axes_[1].is_silent(clock_.now(), setup_.silence_limit);
+  }
   void reset() noexcept override;
   [[nodiscard]] bool is_enabled() const noexcept override;
   /// Wheels that still turn are braked first.

@@ -44,6 +44,10 @@ class WheelAxis {
   [[nodiscard]] bool has_twin() const noexcept { return has_twin_; }
   /// What is wrong with it by what it said since begin().
   [[nodiscard]] DriveTrouble trouble(Time now, const AxisLimits& limits) noexcept;
+  /// Whether its heartbeat is late. Booted up anew it may have none before it is set up.
+  [[nodiscard]] bool is_silent(Time now, Duration limit) const noexcept {
+    return network_ != NmtState::kBootUp && heard_ != kNever && age(heard_, now) > limit;
+  }
   /// Process data for one cycle. A fault that is there after begin() is reset once.
   [[nodiscard]] CanFrame target(DriveGoal goal, double wanted_radps) noexcept;
   /// The quick stop as an SDO request, which a drive takes that takes no process data (Pre-operational).

@@ -76,7 +76,6 @@ void MotorPair::note_foreign(const CanFrame& frame) noexcept {
 void MotorPair::watch() noexcept {
   if (!armed_) return;
   if (!bus_watch_.is_well(bus_.health())) latch(DriveTrouble::kBusUnwell);
-  const auto is_late = [&](Time stamp) { return stamp != kNever && age(stamp, clock_.now()) > setup_.silence_limit; };
   for (MotorAxis& a : axes_) {
     if (is_late(a.heard) || is_late(a.felt) || is_late(a.placed)) lose_proof(DriveTrouble::kDriveSilent);
     if (a.was_enabled && !a.obeys) lose_proof(DriveTrouble::kLeftOperation);

@@ -41,6 +41,7 @@ class MotorPair : public WiredDrive {
   /// A speed that is not finite counts as zero for both.
   void command(const WheelCommand& command) noexcept override;
   [[nodiscard]] DriveTrouble trouble() const noexcept override { return trouble_; }
+  [[nodiscard]] bool is_silent() const noexcept override { return is_late(axes_[0].heard) || is_late(axes_[1].heard); }
   void reset() noexcept override;
   [[nodiscard]] bool is_enabled() const noexcept override;
   [[nodiscard]] bool is_proved() const noexcept override { return proved_; }
@@ -98,6 +99,10 @@ class MotorPair : public WiredDrive {
   [[nodiscard]] bool accepts(ProofResult result) const noexcept;
   void publish(Time stamp) noexcept;
   void watch() noexcept;
+  /// Whether what comes regularly came too long ago.
+  [[nodiscard]] bool is_late(Time stamp) const noexcept {
+    return stamp != kNever && age(stamp, clock_.now()) > setup_.silence_limit;
+  }
   void latch(DriveTrouble trouble) noexcept;
   void lose_proof(DriveTrouble trouble) noexcept;
   void prove() noexcept;

@@ -124,6 +124,8 @@ ControlReply OperatorDesk::take_reset() {
   const RunStatus& status = statuses_.latest();
   if (is_stopping(status) && status.bus.state != CanState::kBusOff) return kStillMoves;
   if (!status.latched) return "nothing to reset\n";
+  if (status.bus.state != CanState::kBusOff && status.drive_is_silent)
+    return "refused: still drive: one says nothing; see to its cable and power, then jaywalk reset\n";
   if (status.bus.state != CanState::kBusOff) return reset_at_rest(status);
   // First of all: off the bus nobody knows how fast the wheels are.
   return ControlReply([this, before = wish_.stops] { return restart_bus_and_reset(before); });

@@ -137,6 +137,7 @@ void RobotLoop::tell(const TickRecord& t) noexcept {
   status_.latched = has(t.verdict.reasons, Reason::kLatched);
   status_.drive = t.wheels.trouble;
   status_.drive_fault = t.wheels.fault;
+  status_.drive_is_silent = devices_.drive.is_silent();
   status_.laser = devices_.lasers.front()->health();
   status_.other_lasers.clear();
   for (const auto& laser : devices_.lasers.subspan(1)) (void)status_.other_lasers.push_back(laser->health());

@@ -42,6 +42,7 @@ struct RunStatus {
   PlaceAnswer place;                  ///< to the last `here`
   DriveTrouble drive = DriveTrouble::kNone;
   DriveFault drive_fault;
+  bool drive_is_silent = false;  ///< WiredDrive's
   ScannerHealth laser;
   OfOthers<ScannerHealth> other_lasers;
   CanHealth bus;

@@ -69,7 +69,7 @@ inline constexpr std::array kReasons{
     ReasonRow{Reason::kScanInvalid, "scan_invalid", ReasonKind::kFault, "the scan cannot be trusted"},
     ReasonRow{Reason::kScanFrozen, "scan_frozen", ReasonKind::kFault, "the same scan comes again and again"},
     ReasonRow{Reason::kWheelsStale, "wheels_stale", ReasonKind::kFault, "the wheels' feedback is too old"},
-    ReasonRow{Reason::kPlanStale, "plan_stale", ReasonKind::kLimit, "no way is known"},
+    ReasonRow{Reason::kPlanStale, "plan_stale", ReasonKind::kLimit, "no way is known, or the plan is too old"},
     ReasonRow{Reason::kEmergencyStop, "emergency_stop", ReasonKind::kLatchedFault, "the emergency stop is pressed"},
     ReasonRow{Reason::kMissedTicks, "missed_ticks", ReasonKind::kLatchedFault, "the computer was held up"},
     ReasonRow{Reason::kSpeedLimit, "speed_limit", ReasonKind::kLimit, "it is faster than is allowed"},

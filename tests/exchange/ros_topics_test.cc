@@ -2,6 +2,7 @@
 #include "apps/formats/ros_topics.h"
 
 #include <cmath>
+#include <cstring>
 #include <map>
 #include <memory>
 
@@ -11,6 +12,8 @@
 
 namespace jaywalk::exchange {
 namespace {
+
+using namespace std::chrono_literals;
 
 constexpr Duration kWall = std::chrono::seconds(1'700'000'000);
 
@@ -55,10 +58,23 @@ TEST_CASE("map, odom, base_link and laser stand in one another as REP 105 has it
   CHECK(odometry->child_frame == "base_link");
   CHECK(odometry->pose.x == Approx(0.49));
   CHECK(odometry->pose.y == Approx(0.0).margin(1e-9));
+  double variance_about_z = 0.0;  // of the twist: the last of all
+  std::memcpy(&variance_about_z, told.messages[kOdom].back().data() + told.messages[kOdom].back().size() - 8, 8);
+  CHECK(variance_about_z == 0.03);
   REQUIRE(told.messages[kTfStatic].size() == 1);
   const auto fixed = read_transforms(told.messages[kTfStatic].front(), Wire::kCdr);
   REQUIRE((fixed && fixed->size() == 1));
   CHECK((fixed->at(0).parent == "base_link" && fixed->at(0).child == "laser"));
+}
+
+TEST_CASE("the first map is told once something of it is known") {
+  Told told;
+  EvidenceMap map(64, 0.1, {0.0, 0.0});
+  told.topics.add_map(map, Time{1s});
+  CHECK(told.messages[kMap].empty());
+  map.add({2, 3}, EvidenceMap::kMax);
+  told.topics.add_map(map, Time{1s});
+  CHECK(told.messages[kMap].size() == 1);
 }
 
 TEST_CASE("all stamps are the wall clock's where it is known") {

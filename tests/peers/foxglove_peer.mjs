@@ -11,7 +11,7 @@ import WebSocket from "ws";
 const [jaywalk, scenario, out] = process.argv.slice(2);
 const topics = ["/scan", "/points", "/odom", "/tf", "/map", "/plan", "/goal_pose", "/tracks", "/diagnostics", "/cmd_vel", "/tf_static"];
 const fail = (what) => { console.log(`FAILED: ${what}`); process.exit(1); };
-const run = spawn(jaywalk, ["sim", scenario, "--view", "--out", out], { stdio: ["ignore", "pipe", "inherit"] });
+const run = spawn(jaywalk, ["sim", scenario, "--view", "--until-arrived", "--out", out], { stdio: ["ignore", "pipe", "inherit"] });
 process.on("exit", () => run.kill("SIGKILL"));
 const exited = new Promise((done) => run.on("exit", done));
 const address = await new Promise((found) => createInterface(run.stdout).on("line", (line) => {

@@ -72,6 +72,7 @@ TEST_CASE("a moving picture is XML without a script, and repeats") {
   // Five movers, the robot's place and heading, its way, the clock.
   CHECK(count(svg, "repeatCount=\"indefinite\"") == 9);
   CHECK(svg == svg_of(scene));
+  CHECK(count(svg, "<text font-size=\"22\"") == 5);  // each mover has its number
 }
 
 TEST_CASE("the robot ends where the run ended, at the goal's side of the map") {

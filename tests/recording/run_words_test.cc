@@ -68,6 +68,17 @@ TEST_CASE("a run in words: 4 m in 4 s, 3 s before something in its way, a latche
             "Faults:\n  scan_stale, once\n");
 }
 
+TEST_CASE("of many loops the longest are told, and how many there are besides") {
+  const Scratch run;
+  std::string table = kHeader, at = "0.5", lasted = "0.2";
+  for (int k = 0; k < 15; ++k) table += row(k, k, 5.0, "");
+  for (int k = 1; k < 12; ++k) at += "," + std::to_string(k) + ".5", lasted += ",0.3";
+  run.write("robot.csv", table);
+  run.write("summary.json",
+            R"({"outcome": "reached", "loops_at_s": [)" + at + R"(], "loops_for_s": [)" + lasted + "]}");
+  CHECK(run_words(run.folder()).find("nobody was near\n  and 2 shorter\n") != std::string::npos);
+}
+
 TEST_CASE("a robot that creeps at less than 5 cm/s stands, one that turns on the spot does not") {
   const Scratch run;
   std::string table = kHeader;

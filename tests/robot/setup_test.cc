@@ -271,8 +271,8 @@ TEST_CASE("an answer that ROBOT.toml does not know, or that is out of its range,
   EmulatedMachine machine("odrive_hokuyo");
   const std::string well = with_port(kRobots[1], machine);
   const auto refused_as = [&](const std::string& text) {
-    SetupAnswers known(machine.answers(text), nullptr, nullptr);
     try {
+      SetupAnswers known(machine.answers(text), nullptr, nullptr);
       static_cast<void>(draft_robot(machine, known, machine.clock));
     } catch (const StartupError& error) {
       return std::string(error.what());
@@ -280,6 +280,13 @@ TEST_CASE("an answer that ROBOT.toml does not know, or that is out of its range,
     return std::string("it was drafted");
   };
   CHECK(says(refused_as(well + "colour = 3\n"), "answers.toml:9: drive.colour is not a known key"));
+  // Before anything that it would have told is missed.
+  CHECK(says(
+      refused_as("model = \"p3dx\"\n[drive]\nmotor_turns_per_weel_turn = 10\n"),
+      "answers.toml:3: drive.motor_turns_per_weel_turn is not a known key; did you mean motor_turns_per_wheel_turn?"));
+  CHECK(says(refused_as("[laser]\nhots = \"here\"\n"),
+             "answers.toml:2: laser.hots is not a known key; did you mean host?"));
+  CHECK(says(refused_as("[drives]\n"), "answers.toml:1: drives is not a known key; did you mean drive?"));
   CHECK(says(refused_as(well + "left_node = 500\n"), "answers.toml:9: drive.left_node is 500; choose a value from"));
   CHECK(says(refused_as(well + "kind = \"vesc\"\n"), "drive.kind is answered as vesc, and vcan0 has odrive"));
   CHECK(says(refused_as(well + "[[places]]\nat = [1, 2]\nplan = 3\n"), "places.plan is not a known key"));

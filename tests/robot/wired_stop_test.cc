@@ -126,3 +126,25 @@ TEST_CASE("a reset while the cause of a stop still shows is refused by its name"
   bench.tick(5);
   CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
 }
+
+TEST_CASE("a reset is refused while a drive is unplugged, and taken once its plug is back", "[stop]") {
+  for (const char* robot : {"robot", "odrive_hokuyo", "vesc_ld19"}) {
+    CAPTURE(robot);
+    Bench bench(robot);
+    bench.tick(25);
+    CHECK(say(bench, kGoal) == "going\n");
+    bench.tick(100);
+    bench.robot.far_end().drive(1).pull_cable();
+    bench.tick(100);
+    CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+    CHECK(say(bench, "reset") ==
+          "refused: still drive: one says nothing; see to its cable and power, then jaywalk reset\n");
+    bench.tick(5);
+    CHECK(has(bench.last().verdict.reasons, Reason::kLatched));
+    bench.robot.far_end().drive(1).plug_cable();
+    bench.tick(100);
+    CHECK(say(bench, "reset") == "reset\n");
+    bench.tick(300);
+    CHECK_FALSE(has(bench.last().verdict.reasons, Reason::kLatched));
+  }
+}

@@ -139,6 +139,7 @@ TEST_CASE("any tick that was kept comes back with its scene and its field") {
              .wanted_mps = 0.25,
              .permitted_mps = 0.125,
              .speed_mps = 0.5,
+             .at = {1.5, -2.0},
              .reasons = Reason::kNoGoal | Reason::kStopZone},
             "{\"tick\":0,\"scene\":");
   store.add_field("{\"f\":2}");
@@ -148,8 +149,9 @@ TEST_CASE("any tick that was kept comes back with its scene and its field") {
   CHECK(store.then(2).empty());
   CHECK(
       store.past(9) ==
-      R"({"kind":"past","step":1,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal"],[1.00,0.000,0.000,0.000,""]]})");
-  CHECK(store.past(1) == R"({"kind":"past","step":2,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal"]]})");
+      R"({"kind":"past","step":1,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal",1.50,-2.00],[1.00,0.000,0.000,0.000,"",0.00,0.00]]})");
+  CHECK(store.past(1) ==
+        R"({"kind":"past","step":2,"ticks":[[0.50,0.250,0.125,0.500,"stop_zone|no_goal",1.50,-2.00]]})");
 }
 
 TEST_CASE("a PoseStamped in JSON is a goal where it turns in the plane of the map") {

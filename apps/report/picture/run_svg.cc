@@ -173,9 +173,11 @@ class Drawing {
   void body(const Trail& trail) {
     const std::vector<Vec2> way = playback_.positions(trail);
     const auto place = [&](Vec2 p) { return pair(to_sheet_(p)); };
-    out_ += "<circle r=\"" + whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1))) + "\" fill=\"" +
-            svg::hex(colour_of(trail.id)) + "\" transform=\"translate(" + place(way.back()) + ")\">" +
-            moved(way, place) + shown_while(playback_.stay(trail)) + "</circle>\n";
+    const std::string radius = whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1)));
+    out_ += "<g transform=\"translate(" + place(way.back()) + ")\">" + moved(way, place) +
+            shown_while(playback_.stay(trail)) + "<circle r=\"" + radius + "\" fill=\"" +
+            svg::hex(colour_of(trail.id)) + "\"/><text font-size=\"22\" x=\"" + radius + "\">" +
+            std::to_string(trail.id) + "</text></g>\n";
   }
 
   /// Bodies that come and go are invisible before and after.
@@ -188,7 +190,7 @@ class Drawing {
            "\" keyTimes=\"" + times + "\"" + dur();
   }
 
-  /// A bar that grows with the time, and how long the run was.
+  /// A bar that grows with the time, its seconds, and how long the run was.
   void clock() {
     const double wide = to_sheet_.size().x;
     const double y = kDrawingCorner.y + to_sheet_.size().y;
@@ -199,6 +201,9 @@ class Drawing {
     out_ += "<rect x=\"20\" y=\"" + whole(y + 8.0) + "\" width=\"" + whole(wide) + "\" height=\"8\" fill=\"" +
             svg::hex(ink::kFaint) + "\"><animate attributeName=\"width\" values=\"0;" + whole(wide) + "\"" + dur() +
             "</rect>\n<text x=\"20\" y=\"" + whole(y + 48.0) + "\">" + words + "</text>\n";
+    for (const double share : {0.5, 0.75, 1.0})
+      out_ += "<text x=\"" + whole(20.0 + share * wide) + "\" y=\"" + whole(y + 48.0) + "\" text-anchor=\"end\">" +
+              whole(share * playback_.lasts_s()) + " s</text>\n";
   }
 
   const PictureScene& scene_;

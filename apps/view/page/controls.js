@@ -39,7 +39,7 @@ function show_card(which) {
   for (const name of ['legend', 'keys']) element(name).hidden = name !== which || !element(name).hidden;
   element('keys').innerHTML = kKeys.map(([key, what]) => `<kbd>${key}</kbd><span>${what}</span>`).join('') +
     '<kbd>tap</kbd><span>propose a goal; drag: with a heading</span><kbd>wheel, pinch</kbd><span>zoom</span><kbd>Shift and drag, two fingers</kbd><span>move the map</span>';
-  element('legend').innerHTML = kLegend.map(([names, what, height]) => {
+  element('legend').innerHTML = legend().map(([names, what, height]) => {
     const colours = [names].flat().map(name => ink(name).includes(',') ? `rgb(${ink(name)})` : ink(name));
     return `<i class="swatch" style="background:linear-gradient(90deg,${colours.join(',')},${colours[colours.length - 1]});height:${height || '12px'}"></i><span>${what}</span>`;
   }).join('');

@@ -4,7 +4,7 @@ const kMostStrip = 4000, kAsksAgain_ms = 1000;
 let field = null;
 const frames = new Map();  // by tick
 const fields = new Map();  // by number
-let past = [];             // [tick, t, wanted, permitted, speed, reasons] for the strip, in order
+let past = [];             // [tick, t, wanted, permitted, speed, reasons, x, y] for strip and trail, in order
 let first = 0, newest = -1, shown = -1;
 let follows = true, plays = false, asked = -1, asked_at = 0;
 
@@ -20,7 +20,7 @@ function take_frame(frame) {
   newest = frame.tick;
   over = frame.ended !== '';
   paused = false;
-  past.push([frame.tick, frame.t, frame.wanted[0], frame.permitted[0], frame.speed, frame.reasons]);
+  past.push([frame.tick, frame.t, frame.wanted[0], frame.permitted[0], frame.speed, frame.reasons, frame.pose[0], frame.pose[1]]);
   if (past.length > kMostStrip) past = past.filter((_, i) => i % 2 === 0);
   if (follows) shown = newest;
   hear_stops(frame);
@@ -52,6 +52,7 @@ function nearest(tick) {
   for (const frame of frames.values()) if (!best || Math.abs(frame.tick - tick) < Math.abs(best.tick - tick)) best = frame;
   return best;
 }
+const is_replay = () => hello && !hello.takes_goals && !hello.takes_pauses;
 const is_local = () => hello && (over || !hello.takes_pauses);  // Pause and Play are the page's own
 function choose(tick) {
   shown = Math.max(first, Math.min(newest, tick));

@@ -5,16 +5,16 @@ function ink(name) {
   return inks.get(name);
 }
 const tint = (name, alpha) => `rgba(${ink(name)},${alpha})`;
-const kLegend = [
-  ['wall', 'walls known before', '2px'], ['hit', 'where beams end, at the time of the scan', '4px'], [['near', 'far'], 'way to the goal: light is near it; pale was never seen; grey is not free'],
+const legend = () => [
+  ['wall', hello.walls.length ? 'walls of the world' : 'walls known before', '2px'], ['hit', 'where beams end, at the time of the scan', '4px'], [['near', 'far'], 'way to the goal: light is near it; pale was never seen; grey is not free'],
   ['mover', 'moving: number, its sampled futures, where it may be in 2 and 4 s'], ['still', 'does not move'], ['pedestrian', 'a standing pedestrian', '3px'],
-  ['path', 'path and goal; dashed: a goal proposed', '3px'], ['robot', 'the robot', '3px'], ['zone', 'its stop zone', '2px']];
+  ['path', 'path and goal; dashed: a goal proposed', '3px'], ['trail', 'way driven', '2px'], ['chosen', 'trajectory chosen, for 6 s', '4px'], ['robot', 'the robot', '3px'], ['zone', 'its stop zone', '2px']];
 
 function trace(pen, points) { points.forEach((p, i) => i ? pen.lineTo(...to_screen(p[0], p[1])) : pen.moveTo(...to_screen(p[0], p[1]))); }
 function line(pen, points, colour, width) {
   pen.beginPath();
   trace(pen, points);
-  pen.strokeStyle = colour; pen.lineWidth = width; pen.stroke();
+  pen.strokeStyle = colour; pen.lineWidth = width; pen.lineJoin = 'round'; pen.stroke();
 }
 function disc(pen, x, y, radius_m, fill, edge) {
   pen.beginPath();
@@ -64,8 +64,8 @@ function draw_goal(pen, [x, y, heading]) {
   disc(pen, x, y, 0.3, tint('goal', 0.25), ink('path'));
   if (heading !== null && heading !== undefined) line(pen, [[x, y], [x + Math.cos(heading), y + Math.sin(heading)]], ink('path'), 3);
 }
-function draw_raster(pen, raster) {
-  pen.imageSmoothingEnabled = false;
+function draw_raster(pen, raster, smooth) {
+  pen.imageSmoothingEnabled = smooth; pen.imageSmoothingQuality = 'high';
   pen.drawImage(raster.picture, ...to_screen(raster.x, raster.y + raster.height_m), raster.width_m * view.scale, raster.height_m * view.scale);
 }
 
@@ -74,8 +74,8 @@ function draw_map(frame) {
   if (!drag || !view) aim(frame);
   const pen = map.getContext('2d'), scene = frame.scene;
   pen.fillStyle = ink('page'); pen.fillRect(0, 0, map.width, map.height);
-  if (hello.ground) draw_raster(pen, known_ground());
-  if (frame.field) draw_raster(pen, frame.field);
+  if (hello.ground) draw_raster(pen, known_ground(), false);
+  if (frame.field) draw_raster(pen, frame.field, true);
   pen.beginPath();
   for (const w of hello.walls) trace(pen, [[w[0], w[1]], [w[2], w[3]]]);
   pen.strokeStyle = ink('wall'); pen.lineWidth = 2; pen.stroke();
@@ -83,7 +83,8 @@ function draw_map(frame) {
   for (let i = 0; i < scene.hits.length; i += 2) { const [x, y] = to_screen(scene.hits[i], scene.hits[i + 1]); pen.rect(x - 1, y - 1, 2.5, 2.5); }
   pen.fillStyle = ink('hit'); pen.fill();
   draw_tracks(pen, scene, scale);
-  if (frame.goal) { line(pen, scene.path, ink('path'), 3); draw_goal(pen, frame.goal); }
+  line(pen, past.filter(row => row[1] <= frame.t).map(row => [row[6], row[7]]), ink('trail'), 2 * scale);
+  if (frame.goal) { line(pen, scene.path, ink('path'), 3); draw_goal(pen, frame.goal); line(pen, scene.chosen, ink('chosen'), 4 * scale); }
   draw_robot(pen, frame);
   draw_proposal(pen);
   draw_scale(pen, scale);
@@ -100,7 +101,7 @@ function draw() {
   if (!hello || !frame) return;
   draw_map(frame);
   draw_strip(frame);
-  const why = frame.ended ? 'ended: ' + frame.ended : words_of(frame.reasons);
+  const why = frame.ended ? 'ended: ' + frame.ended : words_of(frame.reasons) || (frame.arrived && Math.abs(frame.speed) < 0.01 ? 'arrived: tap the next goal' : '');
   element('said').textContent = `${frame.t.toFixed(2)} s \u00B7 ${speed_of(frame.speed)}, wanted ${frame.wanted[0].toFixed(2)}, permitted ${frame.permitted[0].toFixed(2)}` +
     (why ? ` \u00B7 ${why}` : '');
 }

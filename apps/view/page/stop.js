@@ -39,6 +39,8 @@ function stop_alarm() {
 function show_stop() {
   const button = element('stop'), frame = frames.get(newest);
   if (stop && stop.heard === null && !stop.taken && !over && performance.now() - stop.sent > kAgain_ms) send_stop(stop);
+  button.hidden = !hello || !hello.takes_goals || over;
+  if (over) element('undo').hidden = true;
   element('reset').hidden = !frame || !hello.takes_goals || over || !is_latched(frame);
   const moves = frame && Math.abs(frame.speed) > 0.01;
   button.className = !stop ? '' : stop.heard !== null ? 'heard' : stop_alarm() ? 'unheard' : 'waits';

@@ -36,7 +36,6 @@ function take_hello(message) {
   hello = message;
   over = message.over === true;
   element('title').textContent = document.title = message.title;
-  element('stop').hidden = !message.takes_goals;
   ground_picture = null;
   if (message.keeps_ticks) order({past: true});
 }
@@ -61,7 +60,9 @@ function show_state() {
   element('alarm').hidden = !alarm;
   element('alarm').textContent = alarm;
   state.className = is_old() ? 'bad' : '';
-  state.textContent = over ? (is_lost() ? 'ended, program gone' : 'ended') : is_lost() ? (hello ? 'lost' : 'connecting') : silent_ms() > kSilent_ms ? 'frozen' : paused ? 'paused' : follows ? 'live' : 'earlier';
+  element('end').hidden = !over || is_replay();
+  element('end').textContent = `Ended: ${frame && frame.ended || 'see the program'}. ${is_lost() ? 'Its program has ended, too.' : 'The time axis shows any moment.'}`;
+  state.textContent = hello && is_replay() && !is_lost() ? 'replay' : over ? (is_lost() ? 'ended, program gone' : 'ended') : is_lost() ? (hello ? 'lost' : 'connecting') : silent_ms() > kSilent_ms ? 'frozen' : paused ? 'paused' : follows ? 'live' : 'earlier';
   show_stop();
 }
 setInterval(() => {
