@@ -33,27 +33,41 @@ void print(const FaultResult& row) {
               row.stop_distance_m, row.latched ? "latched" : "-", row.why_not.c_str());
 }
 
-constexpr std::size_t kKinds = 3;  // of drives
+constexpr std::size_t kKinds = 5;  // of drives
 using Rows = std::span<const FaultResult>;
 
-/// What a line says of a fault: the slowest reaction of all drives, and each drive's ways to rest from all speeds.
+struct Reaction {
+  Duration slowest{0}, limit{0};
+};
+
+std::string in_words(const Reaction& reaction) {
+  char times[40];
+  std::snprintf(times, sizeof times, "%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
+  return reaction.limit == Duration{0} ? "-" : times;
+}
+
+/// What a line says of a fault: the slowest reaction of the drives on CAN and of a Pioneer, and each drive's ways to
+/// rest from all speeds.
 std::string figures_of(Rows rows) {
-  Duration slowest{0}, longest{0};
+  std::array<Reaction, 2> reactions;  // on CAN, of a Pioneer
   std::array<std::string, kKinds> ways;
   bool ok = true;
   for (const FaultResult& row : rows) {
-    slowest = std::max(slowest, row.reaction);
-    longest = std::max(longest, row.limit);
+    Reaction& reaction = reactions.at(row.drive == DriveKind::kPioneer ? 1 : 0);
+    reaction.slowest = std::max(reaction.slowest, row.reaction);
+    reaction.limit = std::max(reaction.limit, row.limit);
     ok = ok && row.why_not.empty();
     std::string& way = ways.at(static_cast<std::size_t>(row.drive));
     char metres[20];
     std::snprintf(metres, sizeof metres, "%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
     way += metres;
   }
-  char times[40];
-  std::snprintf(times, sizeof times, " | %.0f/%.0f", in_ms(slowest), in_ms(longest));
-  std::string figures = times;
-  for (const std::string& way : ways) figures += " | " + (way.empty() ? "-" : way);
+  std::string figures = " | " + in_words(reactions[0]);
+  for (const DriveKind kind : {DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer}) {
+    if (kind == DriveKind::kPioneer) figures += " | " + in_words(reactions[1]);
+    const std::string& way = ways.at(static_cast<std::size_t>(kind));
+    figures += " | " + (way.empty() ? "-" : way);
+  }
   return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
 }
 
@@ -61,11 +75,11 @@ constexpr const char* kMatrixHead = R"(# Fault matrix
 
 Generated: `faults.md` of `jaywalk faults`. A simulated robot with emulated drives and an emulated SICK drives down a hall;
 front and rear faults are of one with a second SICK. *Reaction*: the slowest of all runs, and its limit. *To rest*: metres
-from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. All wait for a reset but those marked. Single runs:
-[faults.csv](outputs.md#fault-matrix).
+from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. A Pioneer reports every 100 ms. All wait for a reset but
+those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
 
-fault | reaction/limit, ms | to rest: cia402 | odrive | vesc
----|---|---|---|---
+fault | reaction/limit, ms | to rest: cia402 | odrive | vesc | reaction: pioneer | to rest
+---|---|---|---|---|---|---
 )";
 
 /// docs/reference/fault-matrix.md: faults with the same figures share a line.

@@ -52,7 +52,7 @@ class ArcosBase final : public MotorPair {
   struct Compared {
     const char* name;
     int least, most, shown;
-    std::string remedy;
+    const char* remedy;
     [[nodiscard]] bool is_well() const noexcept { return shown >= least && shown <= most; }
   };
 

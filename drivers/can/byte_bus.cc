@@ -23,10 +23,7 @@ SendResult ByteBus::send(const CanFrame& frame) noexcept {
 bool ByteBus::receive(ReceivedFrame& received) noexcept {
   if (waiting_.empty()) refill();
   if (waiting_.empty()) return false;
-  const std::size_t taken = std::min<std::size_t>(waiting_.size(), received.frame.bytes.size());
-  in_frames(waiting_.first(taken), [&received](const CanFrame& frame) { received.frame = frame; });
-  waiting_ = waiting_.subspan(taken);
-  received.stamp = read_;
+  received = {first_frame(waiting_), read_};
   return true;
 }
 

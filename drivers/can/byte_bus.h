@@ -10,15 +10,19 @@
 
 namespace jaywalk {
 
-/// Hands bytes on as frames of up to eight.
+/// The first of `bytes`, up to eight, as a frame; they are taken off.
+[[nodiscard]] inline CanFrame first_frame(wire::Bytes& bytes) noexcept {
+  CanFrame frame;
+  frame.size = static_cast<std::uint8_t>(std::min(bytes.size(), frame.bytes.size()));
+  std::copy_n(bytes.begin(), frame.size, frame.bytes.begin());
+  bytes = bytes.subspan(frame.size);
+  return frame;
+}
+
+/// Hands bytes on as frames.
 template <class Take>
 void in_frames(wire::Bytes bytes, Take take) noexcept {
-  while (!bytes.empty()) {
-    CanFrame frame{.size = static_cast<std::uint8_t>(std::min<std::size_t>(bytes.size(), 8))};
-    std::copy_n(bytes.begin(), frame.size, frame.bytes.begin());
-    bytes = bytes.subspan(frame.size);
-    take(frame);
-  }
+  while (!bytes.empty()) take(first_frame(bytes));
 }
 
 /// A serial line or TCP connection as a bus with two places: its frames carry bytes of the stream. One that is lost is

@@ -122,6 +122,11 @@ FaultCase rolling_out(RollsOut which, FaultCase fault) {
   return fault;
 }
 
+FaultCase of_bus(FaultCase fault) {
+  fault.of_bus = true;
+  return fault;
+}
+
 FaultCase of_cia402(FaultCase fault) {
   fault.only = DriveKind::kCia402;
   return fault;
@@ -219,6 +224,23 @@ FaultCase below_minimum_erpm() {
   return fault;
 }
 
+/// A Pioneer's stop button, which its board tells in its next report.
+FaultCase stop_button() {
+  FaultCase fault{"stop_button", [](FaultBench& b) { b.left_drive().press_stop(); }, Reason::kDrive, at_once};
+  fault.only = DriveKind::kPioneer;
+  return fault;
+}
+
+/// A Pioneer as it comes from the factory, armed because its robot file allows that: its watchdog takes two seconds.
+FaultCase factory_watchdog() {
+  FaultCase fault{"factory_watchdog", [](FaultBench& b) { b.hold_up(Duration::max()); }, Reason::kNone,
+                  [](Duration tick) noexcept -> Duration { return 2s + at_once(tick); }, Outcome::kDead};
+  fault.only = DriveKind::kPioneer;
+  fault.allow_unproved = true;
+  fault.from_start = [](FaultBench& b) { b.left_drive().set_watchdog(2s); };
+  return fault;
+}
+
 void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
@@ -248,10 +270,11 @@ const std::array kCases{
     rolling_out(RollsOut::kMotors,
                 {"bus_refuses_frames", [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); }, Reason::kBus,
                  by_themselves}),
-    rolling_out(RollsOut::kMotors, {"bus_off", [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
-                                    Reason::kBus, by_themselves}),
-    FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, Reason::kBus,
-              at_once},
+    of_bus(rolling_out(RollsOut::kMotors,
+                       {"bus_off", [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
+                        Reason::kBus, by_themselves})),
+    of_bus({"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, Reason::kBus,
+            at_once}),
     rolling_out(RollsOut::kMotors,
                 {"interface_down", [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); }, Reason::kBus,
                  by_themselves}),
@@ -286,12 +309,14 @@ const std::array kCases{
     network("network_stopped", [](FaultBench& b) { tell_network(b, 0x02); }),
     of_cia402({"foreign_heartbeat", [](FaultBench& b) { b.say_as_stranger(foreign_heartbeat()); },
                Reason::kForeignMaster, at_once}),
-    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
-              Reason::kForeignMaster, at_once},
-    rolling_out(RollsOut::kMotors, {"twin_left", [](FaultBench& b) { b.add_twin(0); },
-                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
-    rolling_out(RollsOut::kMotors, {"twin_right", [](FaultBench& b) { b.add_twin(1); },
-                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    of_bus({"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
+            Reason::kForeignMaster, at_once}),
+    of_bus(
+        rolling_out(RollsOut::kMotors, {"twin_left", [](FaultBench& b) { b.add_twin(0); },
+                                        Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback})),
+    of_bus(
+        rolling_out(RollsOut::kMotors, {"twin_right", [](FaultBench& b) { b.add_twin(1); },
+                                        Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback})),
     restarts_at_rest("restarts_at_rest_left", [](FaultBench& b) { restart_at_rest(b, b.left_drive()); }),
     restarts_at_rest("restarts_at_rest_right", [](FaultBench& b) { restart_at_rest(b, b.right_drive()); }),
     miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
@@ -323,6 +348,8 @@ const std::array kCases{
                   }),
     mode_shown_late(),
     below_minimum_erpm(),
+    stop_button(),
+    factory_watchdog(),
     contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
     carried("carried_1_m",
             [](FaultBench& b) {

@@ -166,12 +166,13 @@ class ArcosBench : public DriveBench {
             .mm_per_rad = {100.0, 100.0},
             .track_mm = 900.0 / kPi,
             .ticks_per_mm = 128,
-            .motion = {1000, 500, 600, 250},
-            .stop = {.brake_radps2 = 8.0, .tolerance_radps = 0.5}};
+            .motion = {2000, 800, 600, 250},
+            .stop = {.brake_radps2 = 15.0, .tolerance_radps = 0.5}};
   }
   explicit ArcosBench(const arcos::BaseSetup& setup = ArcosBench::setup())
       : board(bus.port(1), 900.0 / kPi), base(port, clock, setup) {
     board.set_cycle(20);
+    board.limit_ramps(2000, 800);
     clock.plant = [this](Time now) { board.step(now); };
   }
 

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "drivers/can/byte_bus.h"
 #include "drivers/canopen/quick_stopper.h"
 
 using namespace std::chrono_literals;
@@ -235,10 +236,14 @@ std::unique_ptr<DriveBench> make_arcos(const BenchChanges& changes) {
   return bench;
 }
 
-/// What looks like the beginning of a packet, one time in four.
+/// What looks like the beginning of a packet, or is one that the board obeys, each one time in eight.
 CanFrame random_to_arcos(RandomBytes& random) {
   CanFrame made = with_random_bytes(frame(0, {}), random);
-  if (random.below(4) == 0) made.bytes[0] = 0xFA, made.bytes[1] = 0xFB;
+  const std::size_t kind = random.below(8);
+  if (kind == 0) made.bytes[0] = 0xFA, made.bytes[1] = 0xFB;
+  if (kind != 1) return made;
+  constexpr std::array kWords{arcos::Command::kPulse, arcos::Command::kClose, arcos::Command::kEmergencyStop};
+  in_frames(arcos::packet_of({kWords[random.below(3)]}).on_line(), [&made](const CanFrame& all) { made = all; });
   return made;
 }
 
@@ -246,16 +251,16 @@ DriveKind arcos_boards() {
   return {.name = "Pioneer",
           .make = make_arcos,
           .reserved_id = {},
-          .brake_radps2 = 8.0,
+          .brake_radps2 = 15.0,
           .tolerance_radps = 0.5,
-          .travelled_rad = 1.76,  // 0.2 s of ramp are 0.2 rad, 0.78 s more at 2 rad/s 1.56, less a tick to hear it
+          .travelled_rad = 1.9,  // 0.1 s of ramp are 0.1 rad, 0.9 s more at 2 rad/s 1.8
           .enabling_ticks = 12,
           .stop_ticks = 40,  // without torque it rolls out: 0.67 s
           .proof_ticks = 70,
           .absent_ticks = 30,  // of 3 s
           .given_up_ticks = 160,
           .disarm_ticks = 2,
-          .own_stop = 282ms,  // 100 ms of watchdog, 200 ms of ramp, two steps, less the tick since the last word
+          .own_stop = 182ms,  // the last word was 20 ms ago; 100 ms of watchdog, 100 ms of ramp, two steps
           .noticed = 170ms,
           .brakes_itself = true,
           .fault = DriveTrouble::kDriveFault,
@@ -266,13 +271,13 @@ DriveKind arcos_boards() {
           .lose_watch = on_board([](auto& board, std::size_t) { board.set_watchdog(2000); }),
           .restore_watch = on_board([](auto& board, std::size_t) { board.set_watchdog(100); }),
           .need_restart = on_board([](auto& board, std::size_t side) { board.go_deaf(side); }),
-          .disobey = {on_board([](auto& board, std::size_t side) { board.stick(side); }),
-                      on_board([](auto& board, std::size_t side) { board.go_deaf(side); })},
+          .disobey = {on_board([](auto& board, std::size_t side) { board.go_deaf(side); }),
+                      on_board([](auto& board, std::size_t side) { board.stick(side); })},
           .fall_quiet = {on_board([](auto& board, std::size_t) { board.mute(); }), kUnplugged},
           .jump = on_board([](auto& board, std::size_t side) { board.jump(side, 10000.0); }),
           .unproved =
-              "line: Pioneer p3dx-sh, SipCycle 20, TicksMM 128, TransAccel 1000, TransDecel 1000, RotAccel 500, "
-              "RotDecel 500, TransVelMax 600, RotVelMax 250, Watchdog 2000 (wanted 40 to 100): NOT PROVED",
+              "line: Pioneer p3dx-sh, SipCycle 20, TicksMM 128, TransAccel 2000, TransDecel 2000, RotAccel 800, "
+              "RotDecel 800, TransVelMax 600, RotVelMax 250, Watchdog 2000 (wanted 40 to 100): NOT PROVED",
           .remedy = "set Watchdog in the board's FLASH (ARCOScfg), or allow_unproved at your own risk",
           .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
             return std::make_unique<arcos::Stopper>(bus);
