@@ -40,34 +40,42 @@ struct Reaction {
   Duration slowest{0}, limit{0};
 };
 
+/// Of a Pioneer, or of all others.
+Reaction reaction_in(Rows rows, bool of_pioneer) {
+  Reaction found;
+  for (const FaultResult& row : rows) {
+    if ((row.drive == DriveKind::kPioneer) != of_pioneer) continue;
+    found = {std::max(found.slowest, row.reaction), std::max(found.limit, row.limit)};
+  }
+  return found;
+}
+
 std::string in_words(const Reaction& reaction) {
   char times[40];
   std::snprintf(times, sizeof times, "%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
-  return reaction.limit == Duration{0} ? "-" : times;
+  return times;
 }
 
-/// What a line says of a fault: the slowest reaction of the drives on CAN and of a Pioneer, and each drive's ways to
-/// rest from all speeds.
+/// What a line says of a fault: the slowest reaction of all drives, and of a Pioneer where its limit is another; each
+/// drive's ways to rest from all speeds.
 std::string figures_of(Rows rows) {
-  std::array<Reaction, 2> reactions;  // on CAN, of a Pioneer
   std::array<std::string, kKinds> ways;
-  bool ok = true;
   for (const FaultResult& row : rows) {
-    Reaction& reaction = reactions.at(row.drive == DriveKind::kPioneer ? 1 : 0);
-    reaction.slowest = std::max(reaction.slowest, row.reaction);
-    reaction.limit = std::max(reaction.limit, row.limit);
-    ok = ok && row.why_not.empty();
     std::string& way = ways.at(static_cast<std::size_t>(row.drive));
     char metres[20];
     std::snprintf(metres, sizeof metres, "%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
     way += metres;
   }
-  std::string figures = " | " + in_words(reactions[0]);
+  const Reaction others = reaction_in(rows, false), pioneer = reaction_in(rows, true);
+  const bool one = others.limit == pioneer.limit || std::min(others.limit, pioneer.limit) == Duration{0};
+  std::string figures =
+      " | " + (one ? in_words({std::max(others.slowest, pioneer.slowest), std::max(others.limit, pioneer.limit)})
+                   : in_words(others) + ", " + in_words(pioneer));
   for (const DriveKind kind : {DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer}) {
-    if (kind == DriveKind::kPioneer) figures += " | " + in_words(reactions[1]);
     const std::string& way = ways.at(static_cast<std::size_t>(kind));
     figures += " | " + (way.empty() ? "-" : way);
   }
+  const bool ok = std::ranges::all_of(rows, [](const FaultResult& row) { return row.why_not.empty(); });
   return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
 }
 
@@ -75,11 +83,11 @@ constexpr const char* kMatrixHead = R"(# Fault matrix
 
 Generated: `faults.md` of `jaywalk faults`. A simulated robot with emulated drives and an emulated SICK drives down a hall;
 front and rear faults are of one with a second SICK. *Reaction*: the slowest of all runs, and its limit. *To rest*: metres
-from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. A Pioneer reports every 100 ms. All wait for a reset but
-those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
+from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts; a Pioneer, whose reactions come second where its limit
+differs, reports every 100 ms. All wait for a reset but those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
 
-fault | reaction/limit, ms | to rest: cia402 | odrive | vesc | reaction: pioneer | to rest
----|---|---|---|---|---|---
+fault | reaction/limit, ms | to rest: cia402 | odrive | vesc | pioneer
+---|---|---|---|---|---
 )";
 
 /// docs/reference/fault-matrix.md: faults with the same figures share a line.

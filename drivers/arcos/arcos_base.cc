@@ -83,9 +83,18 @@ void ArcosBase::send_order(std::size_t index, MotorOrder order, double speed_rad
   orders_[index] = order;
   wanted_radps_[index] = speed_radps;
   ++ordered_;
-  if (order != MotorOrder::kOff) return;
-  note_obeys(index, false);
+  if (order == MotorOrder::kOff) leave_operation();
+}
+
+void ArcosBase::leave_operation() noexcept {
+  for (std::size_t k = 0; k < 2; ++k) note_obeys(k, false);
   enabled_ = kNever;
+}
+
+/// Of the board; an hour where it has none.
+Duration ArcosBase::watchdog() const noexcept {
+  if (!settings_ || settings_->watchdog_ms == 0) return std::chrono::hours(1);
+  return std::chrono::milliseconds(settings_->watchdog_ms);
 }
 
 /// One board: where a wheel is told nothing more, the other one is not either.
@@ -98,8 +107,9 @@ std::optional<Word> ArcosBase::word_for(MotorOrder order) noexcept {
   if (order == MotorOrder::kOff) return motors_on_ ? std::optional(Word{Command::kEnable, 0}) : std::nullopt;
   if (order == MotorOrder::kNetworkStop) return Word{Command::kEmergencyStop};
   const Time now = clock().now();
-  const auto watchdog = std::chrono::milliseconds(settings_ ? settings_->watchdog_ms : 0);
-  const bool after_gap = age(sent_, now) >= 3 * watchdog / 4;
+  const Duration silent = age(sent_, now);
+  const bool after_gap = silent >= 3 * watchdog() / 4;
+  if (silent >= watchdog()) leave_operation();
   if (order == MotorOrder::kHold && said_.command == Command::kStop && !after_gap) {
     if (enabled_ == kNever) enabled_ = now;
     return Word{Command::kEnable, 1};

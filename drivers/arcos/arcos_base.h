@@ -34,7 +34,7 @@ struct BaseSetup {
 ///
 /// Commands are at least 5 ms apart: each tick tells one word, that of speed and turn which is farther from what was
 /// told, or STOP for zero. The board's watchdog stops the wheels, and **the board goes on with its old command when
-/// talk resumes**: the first word after any gap is STOP.
+/// talk resumes**: the first word after any gap is STOP, and one that tripped the watchdog is trouble.
 ///
 /// Arming proof, before the first command and after every return: a new connection (SYNC), ramps and tops set; then
 /// type, cycle, watchdog, ticks, ramps and tops are read back and compared. It must report as often as stated, stand,
@@ -63,6 +63,9 @@ class ArcosBase final : public MotorPair {
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   /// A stop button is released by hand, and a stall ends by itself.
   void send_reset(std::size_t) noexcept override {}
+  /// Its motors follow no speeds any more, by an order or because its watchdog tripped.
+  void leave_operation() noexcept;
+  [[nodiscard]] Duration watchdog() const noexcept;
   void say_orders() noexcept;
   [[nodiscard]] std::optional<Word> word_for(MotorOrder order) noexcept;
   void say(const Word& word) noexcept;

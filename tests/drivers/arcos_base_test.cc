@@ -12,7 +12,7 @@ using Bench = tests::ArcosBench;
 
 namespace {
 
-constexpr std::uint8_t kSpeed = 11, kTurn = 21, kStop = 29;
+constexpr std::uint8_t kStop = 29;
 
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 
@@ -54,7 +54,19 @@ TEST_CASE("after a gap in which a Pioneer's watchdog tripped the first word is S
   bench.drive(2.0, -2.0, 1);
   REQUIRE(bench.board.commands().size() == heard + 1);
   CHECK(bench.board.commands().back() == kStop);
+  bench.drive(2.0, -2.0, 50);
   CHECK(bench.is_at_rest());
+  CHECK(bench.drives().trouble() == DriveTrouble::kLeftOperation);
+}
+
+TEST_CASE("a Pioneer without a watchdog drives where that is allowed") {
+  arcos::BaseSetup setup = Bench::setup();
+  setup.allow_unproved = true;
+  Bench bench(setup);
+  bench.board.set_watchdog(0);
+  bench.bring_to_two_radps();
+  bench.wait(5s);
+  bench.require_two_radps();
 }
 
 TEST_CASE("an emulated Pioneer whose watchdog tripped goes on with its old command at any word") {
