@@ -6,11 +6,15 @@ using namespace std::chrono_literals;
 
 namespace {
 
+/// Looks along the hall: facing the near walls alone an LMS200's coarse scans contradict true wheels (safety.md).
+constexpr Pose2 kStart{2.0, 3.0, 0.3};
+
 struct PioneerBench {
-  PioneerBench(bool over_tcp, double rate_hz, bool allow_unproved = false)
+  PioneerBench(bool over_tcp, int rate_hz)
       : folder(std::filesystem::temp_directory_path() / ("jaywalk_pioneer_" + std::to_string(::getpid()))),
         period(duration_from_seconds(1.0 / rate_hz)),
-        robot(file(over_tcp, rate_hz, allow_unproved), world(), 3, clock, {folder, {}, nullptr, true}) {
+        wiring(file(over_tcp, rate_hz)),
+        robot(wiring, world(), 3, clock, {folder, {}, nullptr, true}) {
     clock.live = [this] {
       robot.step_far_end();
       robot.laser().step();
@@ -19,23 +23,25 @@ struct PioneerBench {
   }
   ~PioneerBench() { std::filesystem::remove_all(folder); }
 
-  [[nodiscard]] RobotFile file(bool over_tcp, double rate_hz, bool allow_unproved) {
+  [[nodiscard]] RobotFile file(bool over_tcp, int rate_hz) const {
+    const std::string shipped = std::string(JAYWALK_EXAMPLES) + "/pioneer-p3dx-arcos";
     std::filesystem::create_directories(folder);
-    RobotFile wiring = load_robot_file(std::string(JAYWALK_EXAMPLES) + "/pioneer-p3dx-arcos.toml");
-    wiring.setup.backend = Backend::kCpu;
-    wiring.setup.rate_hz = rate_hz;
-    wiring.setup.start = {2.0, 3.0, 1.2};
-    wiring.laser.device = folder / "scanner";
-    wiring.drive.line.device = folder / "board";
-    if (over_tcp) wiring.drive.line.host = "127.0.0.1";
-    wiring.drive.arcos.allow_unproved = allow_unproved;
-    model = wiring.setup.model;
-    return wiring;
+    std::filesystem::copy(shipped + ".model.toml", folder);
+    std::ofstream(folder / "robot.toml") << "rate_hz = " << rate_hz << ".0\n" << tests::text_of(shipped + ".toml");
+    RobotFile made = load_robot_file(folder / "robot.toml");
+    made.setup.backend = Backend::kCpu;
+    made.setup.start = kStart;
+    made.laser.device = folder / "scanner";
+    made.drive.line.device = folder / "board";
+    made.drive.arcos.name = "board";
+    if (over_tcp) made.drive.line.host = "127.0.0.1";
+    return made;
   }
   [[nodiscard]] sim::Scenario world() const {
     sim::Scenario hall = sim::load_scenario(std::string(JAYWALK_RIG) + "/drive/hall.toml");
-    hall.model = model;
+    hall.model = wiring.setup.model;
     hall.model.laser.noise_m = 0.01;
+    hall.start = kStart;
     return hall;
   }
   void tick() {
@@ -63,7 +69,7 @@ struct PioneerBench {
   std::filesystem::path folder;
   Duration period;
   rig::HandLivingClock clock;
-  RobotModel model;
+  RobotFile wiring;
   rig::InProcessRobot robot;
   Time due{};
 };
@@ -72,7 +78,7 @@ struct PioneerBench {
 
 TEST_CASE("a Pioneer with an LMS200 drives from start to goal over a pseudo terminal and over TCP, at 50 and 20 Hz") {
   for (const bool over_tcp : {false, true}) {
-    const double rate_hz = over_tcp ? 20.0 : 50.0;
+    const int rate_hz = over_tcp ? 20 : 50;
     CAPTURE(over_tcp, rate_hz);
     PioneerBench bench(over_tcp, rate_hz);
     const std::vector<std::string> report = bench.arm();
@@ -93,7 +99,7 @@ TEST_CASE("a Pioneer with an LMS200 drives from start to goal over a pseudo term
 }
 
 TEST_CASE("a Pioneer of which a line is torn stops, and a reset has it drive again once the line is back") {
-  PioneerBench bench(true, 50.0);
+  PioneerBench bench(true, 50);
   static_cast<void>(bench.arm());
   for (int k = 0; k < 50; ++k) bench.tick();
   REQUIRE(bench.robot.desk().obey("goto 9 8") == "going\n");
@@ -105,14 +111,14 @@ TEST_CASE("a Pioneer of which a line is torn stops, and a reset has it drive aga
   CHECK(bench.robot.far_end().rim_speed() == 0.0);
   CHECK(bench.robot.desk().obey("reset").rfind("refused", 0) != 0);
   for (int k = 0; k < 200; ++k) bench.tick();
-  INFO(bench.status());
   CHECK(bench.robot.desk().obey("goto 9 8") == "going\n");
-  for (int k = 0; k < 200; ++k) bench.tick();
-  CHECK(bench.robot.far_end().rim_speed() > 0.05);
+  for (int k = 0; k < 1000 && bench.robot.far_end().rim_speed() < 0.05; ++k) bench.tick();
+  INFO(bench.status());
+  CHECK(bench.robot.far_end().rim_speed() >= 0.05);
 }
 
 TEST_CASE("a Pioneer that nobody answers for is refused with its line and a remedy") {
-  PioneerBench bench(false, 50.0);
+  PioneerBench bench(false, 50);
   bench.robot.far_end().drive(0).pull_cable();
   CHECK(bench.refusal().find("board: no Pioneer answers; switch it on") != std::string::npos);
   bench.robot.far_line()->wire().set_present(false);
