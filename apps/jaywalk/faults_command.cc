@@ -69,11 +69,11 @@ std::string figures_of(Rows rows) {
   const Reaction others = reaction_in(rows, false), pioneer = reaction_in(rows, true);
   const bool one = others.limit == pioneer.limit || std::min(others.limit, pioneer.limit) == Duration{0};
   std::string figures =
-      " | " + (one ? in_words({std::max(others.slowest, pioneer.slowest), std::max(others.limit, pioneer.limit)})
-                   : in_words(others) + ", " + in_words(pioneer));
+      "|" + (one ? in_words({std::max(others.slowest, pioneer.slowest), std::max(others.limit, pioneer.limit)})
+                 : in_words(others) + ", " + in_words(pioneer));
   for (const DriveKind kind : {DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer}) {
     const std::string& way = ways.at(static_cast<std::size_t>(kind));
-    figures += " | " + (way.empty() ? "-" : way);
+    figures += "|" + (way.empty() ? "-" : way);
   }
   const bool ok = std::ranges::all_of(rows, [](const FaultResult& row) { return row.why_not.empty(); });
   return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
@@ -86,9 +86,11 @@ front and rear faults are of one with a second SICK. *Reaction*: the slowest of 
 from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts; a Pioneer, whose reactions come second where its limit
 differs, reports every 100 ms. All wait for a reset but those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
 
-fault | reaction/limit, ms | to rest: cia402 | odrive | vesc | pioneer
+fault|reaction/limit, ms|to rest: cia402|odrive|vesc|pioneer
 ---|---|---|---|---|---
 )";
+
+constexpr std::size_t kLongestLine = 155;
 
 /// docs/reference/fault-matrix.md: faults with the same figures share a line.
 std::string markdown(const std::vector<FaultResult>& rows) {
@@ -97,7 +99,9 @@ std::string markdown(const std::vector<FaultResult>& rows) {
     while (end < rows.size() && rows[end].fault == rows[first].fault) ++end;
     const std::string figures = figures_of(Rows(rows).subspan(first, end - first));
     const std::string name = rows[first].fault->name;
-    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& l) { return l.second == figures; });
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& line) {
+      return line.second == figures && line.first.size() + name.size() + figures.size() < kLongestLine;
+    });
     if (same == lines.end())
       lines.emplace_back(name, figures);
     else
