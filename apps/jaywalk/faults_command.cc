@@ -90,7 +90,7 @@ fault|reaction/limit, ms|to rest: cia402|odrive|vesc|pioneer
 ---|---|---|---|---|---
 )";
 
-constexpr std::size_t kLongestLine = 155;
+constexpr std::size_t kLongestRow = 155;
 
 /// docs/reference/fault-matrix.md: faults with the same figures share a line.
 std::string markdown(const std::vector<FaultResult>& rows) {
@@ -100,7 +100,7 @@ std::string markdown(const std::vector<FaultResult>& rows) {
     const std::string figures = figures_of(Rows(rows).subspan(first, end - first));
     const std::string name = rows[first].fault->name;
     const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& line) {
-      return line.second == figures && line.first.size() + name.size() + figures.size() < kLongestLine;
+      return line.second == figures && line.first.size() + name.size() + figures.size() < kLongestRow;
     });
     if (same == lines.end())
       lines.emplace_back(name, figures);
