@@ -2,11 +2,10 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <string_view>
+#include <utility>
 
 #include "drivers/can/byte_bus.h"
-#include "hal/shown_text.h"
 
 namespace jaywalk::arcos {
 
