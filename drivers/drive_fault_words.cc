@@ -5,6 +5,7 @@
 #include <cstdio>
 #include <span>
 
+#include "drivers/arcos/arcos.h"
 #include "drivers/canopen/services.h"
 
 namespace jaywalk {
@@ -109,8 +110,20 @@ constexpr std::array kOdriveProcedures{"success",
                                        "not calibrated",
                                        "does not converge"};
 
+constexpr std::array kArcosFaults{
+    CodeMeaning{arcos::kLeftStall, "left wheel stalled"}, CodeMeaning{arcos::kRightStall, "right wheel stalled"},
+    CodeMeaning{arcos::kStopButton, "stop button pressed"}, CodeMeaning{arcos::kMotorStall, "E_stall"}};
+
 const char* word_at(std::span<const char* const> words, std::size_t index) {
   return index < words.size() ? words[index] : "not known";
+}
+
+/// Of each bit that is set, joined by "; ".
+std::string words_of(std::span<const CodeMeaning> meanings, std::uint32_t bits) {
+  std::string words;
+  for (const CodeMeaning& meaning : meanings)
+    if ((bits & meaning.code) != 0) words += (words.empty() ? "" : "; ") + std::string(meaning.words);
+  return words;
 }
 
 std::string emergency_words(std::uint32_t code) {
@@ -127,12 +140,9 @@ std::string coded(const char* format, std::uint32_t number) {
 
 }  // namespace
 
-std::string odrive_error_words(std::uint32_t errors) {
-  std::string words;
-  for (const CodeMeaning& error : kOdriveErrors)
-    if ((errors & error.code) != 0) words += (words.empty() ? "" : "; ") + std::string(error.words);
-  return words;
-}
+std::string odrive_error_words(std::uint32_t errors) { return words_of(kOdriveErrors, errors); }
+
+std::string arcos_fault_words(std::uint32_t faults) { return words_of(kArcosFaults, faults); }
 
 std::string odrive_procedure_words(std::uint8_t result) { return word_at(kOdriveProcedures, result); }
 
@@ -152,6 +162,8 @@ std::string describe(const DriveFault& fault) {
       return "VESC " + node + "told " + number +
              " ERPM, and its motor does not turn: blocked, or its minimum ERPM lies above; set that to 0 (VESC Tool, "
              "Motor Settings, PID Controllers)";
+    case DriveFaultKind::kArcos:
+      return "Pioneer: " + arcos_fault_words(fault.code);
     case DriveFaultKind::kNone:
       break;
   }

@@ -33,27 +33,49 @@ void print(const FaultResult& row) {
               row.stop_distance_m, row.latched ? "latched" : "-", row.why_not.c_str());
 }
 
-constexpr std::size_t kKinds = 3;  // of drives
+constexpr std::size_t kKinds = 5;  // of drives
 using Rows = std::span<const FaultResult>;
 
-/// What a line says of a fault: the slowest reaction of all drives, and each drive's ways to rest from all speeds.
-std::string figures_of(Rows rows) {
-  Duration slowest{0}, longest{0};
-  std::array<std::string, kKinds> ways;
-  bool ok = true;
+struct Reaction {
+  Duration slowest{0}, limit{0};
+};
+
+/// Of a Pioneer, or of all others.
+Reaction reaction_in(Rows rows, bool of_pioneer) {
+  Reaction found;
   for (const FaultResult& row : rows) {
-    slowest = std::max(slowest, row.reaction);
-    longest = std::max(longest, row.limit);
-    ok = ok && row.why_not.empty();
+    if ((row.drive == DriveKind::kPioneer) != of_pioneer) continue;
+    found = {std::max(found.slowest, row.reaction), std::max(found.limit, row.limit)};
+  }
+  return found;
+}
+
+std::string in_words(const Reaction& reaction) {
+  char times[40];
+  std::snprintf(times, sizeof times, "%.0f/%.0f", in_ms(reaction.slowest), in_ms(reaction.limit));
+  return times;
+}
+
+/// What a line says of a fault: the slowest reaction of all drives, and of a Pioneer where its limit is another; each
+/// drive's ways to rest from all speeds.
+std::string figures_of(Rows rows) {
+  std::array<std::string, kKinds> ways;
+  for (const FaultResult& row : rows) {
     std::string& way = ways.at(static_cast<std::size_t>(row.drive));
     char metres[20];
     std::snprintf(metres, sizeof metres, "%s%.2f", way.empty() ? "" : "/", row.stop_distance_m);
     way += metres;
   }
-  char times[40];
-  std::snprintf(times, sizeof times, " | %.0f/%.0f", in_ms(slowest), in_ms(longest));
-  std::string figures = times;
-  for (const std::string& way : ways) figures += " | " + (way.empty() ? "-" : way);
+  const Reaction others = reaction_in(rows, false), pioneer = reaction_in(rows, true);
+  const bool one = others.limit == pioneer.limit || std::min(others.limit, pioneer.limit) == Duration{0};
+  std::string figures =
+      "|" + (one ? in_words({std::max(others.slowest, pioneer.slowest), std::max(others.limit, pioneer.limit)})
+                 : in_words(others) + ", " + in_words(pioneer));
+  for (const DriveKind kind : {DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer}) {
+    const std::string& way = ways.at(static_cast<std::size_t>(kind));
+    figures += "|" + (way.empty() ? "-" : way);
+  }
+  const bool ok = std::ranges::all_of(rows, [](const FaultResult& row) { return row.why_not.empty(); });
   return (rows.front().latched ? "" : " (not latched)") + figures + (ok ? "\n" : " **not ok**\n");
 }
 
@@ -61,12 +83,14 @@ constexpr const char* kMatrixHead = R"(# Fault matrix
 
 Generated: `faults.md` of `jaywalk faults`. A simulated robot with emulated drives and an emulated SICK drives down a hall;
 front and rear faults are of one with a second SICK. *Reaction*: the slowest of all runs, and its limit. *To rest*: metres
-from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts. All wait for a reset but those marked. Single runs:
-[faults.csv](outputs.md#fault-matrix).
+from the fault, at 0.3/0.6/1.2 m/s. An ODrive that lets go coasts; a Pioneer, whose reactions come second where its limit
+differs, reports every 100 ms. All wait for a reset but those marked. Single runs: [faults.csv](outputs.md#fault-matrix).
 
-fault | reaction/limit, ms | to rest: cia402 | odrive | vesc
----|---|---|---|---
+fault|reaction/limit, ms|to rest: cia402|odrive|vesc|pioneer
+---|---|---|---|---|---
 )";
+
+constexpr std::size_t kLongestRow = 155;
 
 /// docs/reference/fault-matrix.md: faults with the same figures share a line.
 std::string markdown(const std::vector<FaultResult>& rows) {
@@ -75,7 +99,9 @@ std::string markdown(const std::vector<FaultResult>& rows) {
     while (end < rows.size() && rows[end].fault == rows[first].fault) ++end;
     const std::string figures = figures_of(Rows(rows).subspan(first, end - first));
     const std::string name = rows[first].fault->name;
-    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& l) { return l.second == figures; });
+    const auto same = std::find_if(lines.begin(), lines.end(), [&](const auto& line) {
+      return line.second == figures && line.first.size() + name.size() + figures.size() < kLongestRow;
+    });
     if (same == lines.end())
       lines.emplace_back(name, figures);
     else

@@ -37,10 +37,7 @@ std::unique_ptr<wire::Link> link_of(const ScannerSetup& setup, const ScannerMake
   if (!on_network && kind.baud == 0) {
     throw StartupError(setup.device + ": " + std::string(kind.name) + " is not on a serial line", "give its host");
   }
-  std::unique_ptr<wire::Endpoint> endpoint;
-  if (on_network) endpoint = std::make_unique<wire::TcpEndpoint>(setup.host, setup.port == 0 ? kind.port : setup.port);
-  if (!on_network) endpoint = std::make_unique<wire::SerialEndpoint>(setup.device, baud);
-  return std::make_unique<wire::ByteLink>(std::move(endpoint));
+  return wire::make_byte_link(setup.host, setup.port == 0 ? kind.port : setup.port, setup.device, baud);
 }
 
 std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uint32_t baud) {

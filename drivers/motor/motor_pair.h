@@ -37,6 +37,7 @@ struct PairSetup {
 class MotorPair : public WiredDrive {
  public:
   std::vector<std::string> arm() override;
+  [[nodiscard]] std::string inspect(std::size_t side) override;
   [[nodiscard]] WheelState latest() noexcept override;
   /// A speed that is not finite counts as zero for both.
   void command(const WheelCommand& command) noexcept override;
@@ -58,6 +59,8 @@ class MotorPair : public WiredDrive {
   virtual void send_order(std::size_t axis, MotorOrder order, double speed_radps) noexcept = 0;
   /// What makes the motor forget its fault.
   virtual void send_reset(std::size_t axis) noexcept = 0;
+  /// Has motors show themselves that do not by themselves: once a cycle until they do; `anew`: when that begins.
+  virtual void wake(bool /*anew*/) noexcept {}
   /// Begins the proof of one motor, which shows itself and stands by then.
   virtual void begin_proof(std::size_t axis) noexcept = 0;
   /// Carries it on by what is due; once a cycle.

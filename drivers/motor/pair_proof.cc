@@ -66,10 +66,22 @@ bool MotorPair::accepts(ProofResult result) const noexcept {
   return result == ProofResult::kPassed || (result == ProofResult::kUnproved && setup_.allow_unproved);
 }
 
+std::string MotorPair::inspect(std::size_t side) {
+  await_motor(side);
+  begin_proof(side);
+  ProofResult result = ProofResult::kUnderWay;
+  while ((result = continue_proof(side)) == ProofResult::kUnderWay) pass_time();
+  if (!accepts(result)) throw StartupError(proof_line(side), proof_remedy(side));
+  return proof_line(side);
+}
+
 void MotorPair::await_motor(std::size_t index) {
   axes_[index].forget();
-  const Time began = clock_.now();
-  while (!axes_[index].shows_itself() && clock_.now() - began < setup_.answer_limit) pass_time();
+  wake(true);
+  for (const Time began = clock_.now(); !axes_[index].shows_itself() && clock_.now() - began < setup_.answer_limit;) {
+    wake(false);
+    pass_time();
+  }
   if (!axes_[index].shows_itself()) throw absence(index);
 }
 
@@ -85,11 +97,13 @@ void MotorPair::begin_proofs() noexcept {
   results_ = {};
   proofs_began_ = clock_.now();
   for (MotorAxis& a : axes_) a.forget();
+  wake(true);
 }
 
 /// One motor after the other, once both show themselves.
 void MotorPair::continue_proofs() noexcept {
   if (both_shown_) return finish_proof(continue_proof(under_proof_));
+  wake(false);
   const bool late = clock_.now() - proofs_began_ > setup_.answer_limit;
   for (under_proof_ = 0; under_proof_ < axes_.size(); ++under_proof_) {
     if (!axes_[under_proof_].shows_itself()) return late ? finish_proof(ProofResult::kAbsent) : void();

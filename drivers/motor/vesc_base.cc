@@ -48,16 +48,6 @@ std::string VescBase::who(std::size_t index) const {
   return "VESC " + std::to_string(setup_.axes[index].controller) + ": ";
 }
 
-std::string VescBase::inspect(std::size_t side) {
-  await_motor(side);
-  begin_proof(side);
-  ProofResult result = ProofResult::kUnderWay;
-  while ((result = continue_proof(side)) == ProofResult::kUnderWay) pass_time();
-  if (result != ProofResult::kPassed && !setup_.allow_unproved)
-    throw StartupError(proof_line(side), proof_remedy(side));
-  return proof_line(side);
-}
-
 StartupError VescBase::absence(std::size_t index) const {
   return {who(index) + (axis(index).heard == kNever ? "no status message 1" : "no status message 5"),
           "see that it has power, and switch on status messages 1 and 5 at 50 Hz or more with VESC Tool"};

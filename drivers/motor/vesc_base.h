@@ -41,7 +41,6 @@ class VescBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   VescBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
-  [[nodiscard]] std::string inspect(std::size_t side) override;
 
  private:
   struct Seen {

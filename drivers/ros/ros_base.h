@@ -3,6 +3,7 @@
 #include <string>
 
 #include "drivers/motor/motor_pair.h"
+#include "drivers/motor/shown_reports.h"
 #include "drivers/ros/ros_bus.h"
 
 namespace jaywalk::ros {
@@ -28,32 +29,20 @@ class RosBase final : public MotorPair {
  public:
   /// `bus` and `clock` outlive it. Throws StartupError where the setup cannot be.
   RosBase(CanBus& bus, Clock& clock, const BaseSetup& setup);
-  [[nodiscard]] std::string inspect(std::size_t side) override;
 
  private:
-  /// What a wheel showed in its proof.
-  struct Shown {
-    int readings = 0;
-    Time read = kNever;  ///< the newest
-    Duration longest{};  ///< between two
-    double fastest_radps = 0.0;
-    int listeners = 0;
-    Time began = kNever;
-  };
-
   void take(const ReceivedFrame& received) noexcept override;
   void send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept override;
   void send_reset(std::size_t) noexcept override {}
   void begin_proof(std::size_t index) noexcept override;
   ProofResult continue_proof(std::size_t index) noexcept override;
-  [[nodiscard]] bool is_often_enough(const Shown& shown) const noexcept;
-  [[nodiscard]] std::string times_remedy(const Shown& shown) const;
   [[nodiscard]] std::string proof_line(std::size_t index) const override;
   [[nodiscard]] std::string proof_remedy(std::size_t index) const override;
   [[nodiscard]] StartupError absence(std::size_t index) const override;
 
   BaseSetup setup_;
-  std::array<Shown, 2> shown_;
+  std::array<ShownReports, 2> shown_;
+  std::array<int, 2> listened_{};  ///< nodes, in its proof
   std::array<std::uint32_t, 2> angles_{};
   std::array<bool, 2> torque_on_{};
   int listeners_ = 0;

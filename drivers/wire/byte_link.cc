@@ -55,4 +55,10 @@ void ByteLink::wait(Duration most) noexcept {
   static_cast<void>(::poll(&waited, state_ == State::kClosed ? 0 : 1, ms));
 }
 
+std::unique_ptr<Link> make_byte_link(const std::string& host, std::uint16_t port, const std::string& device,
+                                     std::uint32_t baud) {
+  if (host.empty()) return std::make_unique<ByteLink>(std::make_unique<SerialEndpoint>(device, baud));
+  return std::make_unique<ByteLink>(std::make_unique<TcpEndpoint>(host, port));
+}
+
 }  // namespace jaywalk::wire

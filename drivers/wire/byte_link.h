@@ -50,4 +50,8 @@ class ByteLink final : public Link {
   State state_ = State::kClosed;
 };
 
+/// A link to `host` and `port`, or, where `host` is empty, to the serial line `device`. Throws StartupError.
+[[nodiscard]] std::unique_ptr<Link> make_byte_link(const std::string& host, std::uint16_t port,
+                                                   const std::string& device, std::uint32_t baud);
+
 }  // namespace jaywalk::wire

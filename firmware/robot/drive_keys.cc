@@ -16,6 +16,18 @@ void add_axes(std::vector<SettingKey>& keys, const std::string& kind, double lef
   keys.push_back({"drive:" + kind, "right_node", kInteger, kNodes, "", left_node + 1.0, "the right drive's"});
 }
 
+/// Of a base that reports at its own rate.
+void add_reports(std::vector<SettingKey>& keys, const std::string& kind, const Otherwise& period) {
+  keys.push_back({"drive:" + kind, "report_ms", kNumber, {1.0, 250.0}, "ms", period, "between two of its reports"});
+  keys.push_back({"drive:" + kind,
+                  "report_late_ms",
+                  kNumber,
+                  {0.0, 200.0},
+                  "ms",
+                  1e3 * DriveTimes{}.late_s,
+                  "so much later than its turn a report may come"});
+}
+
 }  // namespace
 
 std::vector<SettingKey> drive_keys() {
@@ -28,7 +40,7 @@ std::vector<SettingKey> drive_keys() {
        "",
        kNeeded,
        "what the motor controllers speak",
-       {"cia402", "odrive", "vesc", "dds"}},
+       {"cia402", "odrive", "vesc", "dds", "pioneer"}},
       {"drive", "can", kText, {}, "", kNeeded, "the CAN interface, \"can0\" say"},
       {"drive", "left_reversed", kBoolean, {}, "", false, "the left motor looks the other way"},
       {"drive", "right_reversed", kBoolean, {}, "", false, "the right motor looks the other way"},
@@ -72,22 +84,21 @@ std::vector<SettingKey> drive_keys() {
   const ros::BaseSetup base;
   keys.push_back({"drive:dds", "odometry", kText, {}, "", "/odom", "its nav_msgs/Odometry"});
   keys.push_back({"drive:dds", "command", kText, {}, "", "/cmd_vel", "where it takes commands"});
-  keys.push_back({"drive:dds",
-                  "report_ms",
-                  kNumber,
-                  {1.0, 250.0},
-                  "ms",
-                  "the loop's period",
-                  "between two messages of its odometry"});
-  keys.push_back({"drive:dds",
-                  "report_late_ms",
-                  kNumber,
-                  {0.0, 200.0},
-                  "ms",
-                  1e3 * DriveTimes{}.late_s,
-                  "so much later than its turn a message may come"});
+  add_reports(keys, "dds", "the loop's period");
   keys.push_back({"drive:dds", "stamped", kBoolean, {}, "", base.stamped, "as TwistStamped"});
   keys.push_back({"drive:dds", "reliable", kBoolean, {}, "", base.reliable, "lost odometry is sent again"});
+  keys.push_back({"drive:pioneer", "device", kText, {}, "", kNeeded, "\"/dev/ttyUSB0\" say, of one on a serial line"});
+  keys.push_back({"drive:pioneer", "baud", kInteger, {9600.0, 115200.0}, "bit/s", "the maker's", "its HostBaud"});
+  keys.push_back({"drive:pioneer", "host", kText, {}, "", kNeeded, "address, of one on the network"});
+  keys.push_back({"drive:pioneer", "port", kInteger, {1.0, 65535.0}, "", "the maker's", "TCP port: 8101"});
+  keys.push_back({"drive:pioneer",
+                  "ticks_per_mm",
+                  kInteger,
+                  {1.0, 65535.0},
+                  "",
+                  kNeeded,
+                  "its TicksMM: encoder counts a millimetre, 128 of a P3-DX"});
+  add_reports(keys, "pioneer", 100.0);
   return keys;
 }
 

@@ -15,6 +15,11 @@ constexpr std::size_t kMostLetters = 16;  ///< IFNAMSIZ: of a network interface'
 /// 6085h then covers limits.brake_mps2.
 constexpr double kRampOverBrake = 1.5;
 
+// Pioneer 3 Operations Manual: from the factory.
+constexpr std::uint16_t kArcosPort = 8101;
+constexpr std::uint32_t kArcosBaud = 9600;
+constexpr double kArcosCycle_s = 0.1;
+
 std::uint8_t read_node(TomlTable& table, const std::string& key) {
   return static_cast<std::uint8_t>(table.integer(key));
 }
@@ -38,12 +43,17 @@ std::array<double, 2> read_radii(TomlTable& table, const DriveModel& model) {
           table.number("right_wheel_radius_m", model.wheel_radius_m)};
 }
 
-/// What a radian of a wheel as large as the model's is in the drive's own unit, `key` of them a turn; negative for a
-/// motor that is reversed. A larger wheel turns less for the same way.
-std::array<double, 2> read_scales(TomlTable& table, const std::string& key, const DriveModel& model) {
-  const double per_rad = table.number(key) / (2.0 * kPi);
+/// What a radian of a wheel as large as the model's is in the drive's own unit, `per_rad` of them a radian of its own.
+/// A larger wheel turns less for the same way.
+std::array<double, 2> scaled(TomlTable& table, double per_rad, const DriveModel& model) {
   std::array<double, 2> scales = read_radii(table, model);
   for (double& scale : scales) scale = per_rad * model.wheel_radius_m / scale;
+  return scales;
+}
+
+/// The same of `key` units a turn; negative for a motor that is reversed.
+std::array<double, 2> read_scales(TomlTable& table, const std::string& key, const DriveModel& model) {
+  std::array<double, 2> scales = scaled(table, table.number(key) / (2.0 * kPi), model);
   if (table.boolean("left_reversed")) scales[0] = -scales[0];
   if (table.boolean("right_reversed")) scales[1] = -scales[1];
   return scales;
@@ -104,14 +114,14 @@ double seconds_of(TomlTable& table, const char* key, double otherwise_s) {
   return 1e-3 * table.number(key, 1e3 * otherwise_s);
 }
 
-/// A CANopen drive answers the loop's SYNC, and ODrive and VESC report by themselves at 50 Hz or more; a ROS 2 base
-/// says how often it does.
+/// A CANopen drive answers the loop's SYNC, and ODrive and VESC report by themselves at 50 Hz or more; of a ROS 2 base
+/// and a Pioneer the file says how often they do.
 DriveTimes read_times(TomlTable& table, DriveKind kind, Duration tick) {
   DriveTimes times;
   times.response_s = seconds_of(table, "response_ms", times.response_s);
   if (kind == DriveKind::kCia402) times.report_s = std::max(times.report_s, to_seconds(tick));
-  if (kind != DriveKind::kDds) return times;
-  times.report_s = seconds_of(table, "report_ms", to_seconds(tick));
+  if (kind != DriveKind::kDds && kind != DriveKind::kPioneer) return times;
+  times.report_s = seconds_of(table, "report_ms", kind == DriveKind::kDds ? to_seconds(tick) : kArcosCycle_s);
   times.late_s = seconds_of(table, "report_late_ms", times.late_s);
   return times;
 }
@@ -125,6 +135,25 @@ ros::BaseSetup read_ros(TomlTable& table, Duration tick, const DriveTimes& times
           .allow_unproved = table.boolean("allow_unproved"),
           .tick = tick,
           .times = times};
+}
+
+arcos::BaseSetup read_arcos(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
+  constexpr double kDegrees = 180.0 / kPi, kMost = 32767.0;
+  const double ramp_mmps2 = kRampOverBrake * 1000.0 * model.limits.brake_mps2;
+  const double track_mm = 1000.0 * model.drive.track_width_m;
+  const auto whole = [](double value) { return static_cast<std::int16_t>(std::fmin(std::ceil(value), kMost)); };
+  arcos::BaseSetup base;
+  base.mm_per_rad = scaled(table, 1000.0 * model.drive.wheel_radius_m, model.drive);
+  base.track_mm = track_mm;
+  base.ticks_per_mm = static_cast<int>(table.integer("ticks_per_mm"));
+  base.motion = {whole(ramp_mmps2), whole(2.0 * ramp_mmps2 / track_mm * kDegrees),
+                 whole(1000.0 * model.limits.max_speed_mps), whole(kDegrees * model.limits.max_turn_radps)};
+  base.watchdog_least = std::max(base.watchdog_least, 2 * tick);
+  base.stop = stop;
+  base.allow_unproved = table.boolean("allow_unproved");
+  base.tick = tick;
+  base.times = model.drive.times;
+  return base;
 }
 
 std::string read_interface(TomlTable& table) {
@@ -149,6 +178,8 @@ std::array<double, 4> axes_of(const DriveWiring& drive) {
               static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
     case DriveKind::kDds:
       return {0.0, 1.0, 0.0, 1.0};  // it has no axes
+    case DriveKind::kPioneer:
+      return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
     case DriveKind::kCia402:
       break;
   }
@@ -163,7 +194,7 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   const StopLimits stop = stop_limits_of(model, tick);
   model.drive.track_width_m = table.number("track_width_m", model.drive.track_width_m);
   const bool has_wheels = wiring.kind != DriveKind::kDds;  // of its own; a ROS 2 base has those of the model
-  if (has_wheels) wiring.can = read_interface(table);
+  if (wiring.is_on_can()) wiring.can = read_interface(table);
   wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};
   if (has_wheels) wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
@@ -183,6 +214,13 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
     case DriveKind::kDds:
       wiring.ros = read_ros(table, tick, model.drive.times, stop);
       wiring.can = wiring.ros.command;
+      break;
+    case DriveKind::kPioneer:
+      require_two_ticks_within(table, tick, wiring.arcos.watchdog_most, "a watchdog");
+      wiring.line = read_byte_wiring(table, "base", kArcosPort, kArcosBaud);
+      wiring.can = name_of(wiring.line);
+      wiring.arcos = read_arcos(table, model, tick, stop);
+      wiring.arcos.name = wiring.can;
       break;
   }
   table.finish();

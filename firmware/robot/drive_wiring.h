@@ -3,26 +3,33 @@
 #include <array>
 #include <string>
 
+#include "drivers/arcos/arcos_base.h"
 #include "drivers/canopen/drive_base.h"
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
 #include "drivers/ros/ros_base.h"
+#include "firmware/robot/byte_wiring.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
 
-enum class DriveKind { kCia402, kOdrive, kVesc, kDds };
+enum class DriveKind { kCia402, kOdrive, kVesc, kDds, kPioneer };
 
 struct DriveWiring {
   DriveKind kind = DriveKind::kCia402;
-  std::string can;  ///< interface; of a ROS 2 base the topic of its commands
+  /// CAN interface; of a ROS 2 base the topic of its commands, of a Pioneer its line or address.
+  std::string can;
+  ByteWiring line;  ///< of a Pioneer
   /// Left, right (m). The drives' scales hold what differs from the model's radius: to all else both wheels have that.
   std::array<double, 2> wheel_radii_m{};
   canopen::DriveBaseSetup cia402;
   odrive::BaseSetup odrive;
   vesc::BaseSetup vesc;
   ros::BaseSetup ros;
+  arcos::BaseSetup arcos;
+
+  [[nodiscard]] bool is_on_can() const noexcept { return kind != DriveKind::kDds && kind != DriveKind::kPioneer; }
 };
 
 /// Left node and scale, right node and scale, as the file has them: counts or turns a radian, negative where reversed.

@@ -108,6 +108,7 @@ void check_gear(const Check& check, const RobotFile& robot, const DriveModel& no
                            text("its field would turn %.0f times a minute at max_speed_mps", fastest_rpm),
                            "give the gear times the motor's pole pairs");
     case DriveKind::kDds:
+    case DriveKind::kPioneer:
       return;
   }
 }

@@ -156,7 +156,7 @@ std::vector<CheckedPart> preflight(const RobotFile& file, const std::filesystem:
   inspection.look("control socket", [&] { return check_socket(control_socket); });
   if (!inspection.last_is_well() && a_run_listens(control_socket)) return std::move(inspection).parts();
   inspection.look("planner", [&] { return tried_backend(file.setup.backend, file.setup.device); });
-  const bool is_on_can = file.drive.kind != DriveKind::kDds;
+  const bool is_on_can = file.drive.is_on_can();
   if (is_on_can) inspection.look(file.drive.can, [&] { return check_link(file.drive.can); });
   if (!is_on_can || inspection.last_is_well()) {
     inspection.look("left drive", [&] { return check_drive(file.drive, 0, clock); });

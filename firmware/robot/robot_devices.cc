@@ -17,20 +17,20 @@ std::unique_ptr<EmergencyBrake> make_brake(const DriveWiring& wiring, CanBus& bu
   const auto& odrives = wiring.odrive.axes;
   const auto& vescs = wiring.vesc.axes;
   const auto& axes = wiring.cia402.axes;
-  switch (wiring.kind) {
-    case DriveKind::kOdrive:
-      return std::make_unique<odrive::Stopper>(bus, std::array{odrives[0].node, odrives[1].node});
-    case DriveKind::kVesc:
-      return std::make_unique<vesc::Stopper>(bus, std::array{vescs[0].controller, vescs[1].controller});
-    case DriveKind::kDds:
-    case DriveKind::kCia402:
-      break;
-  }
+  if (wiring.kind == DriveKind::kPioneer) return std::make_unique<arcos::Stopper>(bus);
+  if (wiring.kind == DriveKind::kOdrive)
+    return std::make_unique<odrive::Stopper>(bus, std::array{odrives[0].node, odrives[1].node});
+  if (wiring.kind == DriveKind::kVesc)
+    return std::make_unique<vesc::Stopper>(bus, std::array{vescs[0].controller, vescs[1].controller});
   return std::make_unique<canopen::QuickStopper>(bus, std::array{axes[0].node, axes[1].node});
 }
 
 std::unique_ptr<ros::RosBus> make_ros_bus(const ros::BaseSetup& base, Clock& clock) {
   return std::make_unique<ros::RosBus>(ros::RosBus::Rings{ring_path(base.odometry), ring_path(base.command)}, clock);
+}
+
+std::unique_ptr<ByteBus> make_line(const ByteWiring& line, Clock& clock) {
+  return std::make_unique<ByteBus>(wire::make_byte_link(line.host, line.port, line.device, line.baud), clock);
 }
 
 }  // namespace
@@ -58,11 +58,13 @@ std::unique_ptr<ScannerConnection> make_laser(const RobotFile& file, Clock& cloc
 
 std::unique_ptr<CanBus> make_bus(const DriveWiring& wiring, Clock& clock) {
   if (wiring.kind == DriveKind::kDds) return make_ros_bus(wiring.ros, clock);
+  if (wiring.kind == DriveKind::kPioneer) return make_line(wiring.line, clock);
   return std::make_unique<SocketCan>(open_can(wiring.can, filters_for(wiring)), clock);
 }
 
 std::unique_ptr<WiredDrive> make_drive(const DriveWiring& wiring, CanBus& bus, Clock& clock) {
   if (wiring.kind == DriveKind::kDds) return std::make_unique<ros::RosBase>(bus, clock, wiring.ros);
+  if (wiring.kind == DriveKind::kPioneer) return std::make_unique<arcos::ArcosBase>(bus, clock, wiring.arcos);
   if (wiring.kind == DriveKind::kOdrive) return std::make_unique<odrive::OdriveBase>(bus, clock, wiring.odrive);
   if (wiring.kind == DriveKind::kVesc) return std::make_unique<vesc::VescBase>(bus, clock, wiring.vesc);
   return std::make_unique<canopen::CanopenDriveBase>(bus, clock, wiring.cia402);
@@ -89,13 +91,16 @@ RobotDevices::RobotDevices(const RobotFile& file, Clock& clock)
     : file_(file),
       clock_(clock),
       lock_(file.drive.can),
-      can_(file.drive.kind != DriveKind::kDds ? std::make_unique<SocketCan>(open_can(file.drive.can, {}), clock)
-                                              : nullptr),
+      can_(file.drive.is_on_can() ? std::make_unique<SocketCan>(open_can(file.drive.can, {}), clock) : nullptr),
+      ros_(file.drive.kind == DriveKind::kDds ? make_ros_bus(file.drive.ros, clock) : nullptr),
+      line_(file.drive.kind == DriveKind::kPioneer ? make_line(file.drive.line, clock) : nullptr),
       brake_can_(can_ ? std::make_unique<SocketCan>(can_->second(), clock) : nullptr),
-      ros_(can_ ? nullptr : make_ros_bus(file.drive.ros, clock)),
-      bus_(can_ ? static_cast<CanBus&>(*can_) : *ros_),
-      drive_(make_drive(file.drive, bus_, clock)),
-      brake_(can_ ? make_brake(file.drive, *brake_can_) : std::make_unique<ros::Stopper>(*ros_)) {
+      bus_(can_   ? static_cast<CanBus&>(*can_)
+           : ros_ ? static_cast<CanBus&>(*ros_)
+                  : *line_),
+      drive_(make_drive(file.drive, bus_, clock)) {
+  if (ros_) brake_ = std::make_unique<ros::Stopper>(*ros_);
+  if (!ros_) brake_ = make_brake(file.drive, can_ ? *brake_can_ : bus_);
   for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers_.push_back(make_laser(file, clock, k));
 }
 

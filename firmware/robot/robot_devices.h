@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "drivers/can/bus_lock.h"
+#include "drivers/can/byte_bus.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/quick_stopper.h"
 #include "drivers/laser/scanner_connection.h"
@@ -37,9 +38,10 @@ class RobotDevices {
   const RobotFile& file_;
   Clock& clock_;
   BusLock lock_;
-  std::unique_ptr<SocketCan> can_,
-      brake_can_;                     ///< the same kernel socket: what the guard sends is not another master's
-  std::unique_ptr<ros::RosBus> ros_;  ///< in their place
+  std::unique_ptr<SocketCan> can_;     ///< null: not on CAN
+  std::unique_ptr<ros::RosBus> ros_;   ///< in its place
+  std::unique_ptr<ByteBus> line_;      ///< in theirs
+  std::unique_ptr<CanBus> brake_can_;  ///< the same kernel socket: what the guard sends is not another master's
   CanBus& bus_;
   std::vector<std::unique_ptr<ScannerConnection>> lasers_;
   std::unique_ptr<WiredDrive> drive_;

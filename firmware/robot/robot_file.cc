@@ -25,20 +25,7 @@ LaserWiring read_wiring(TomlTable& table) {
     wiring.infinity_is_free = table.boolean("infinity_is_free");
     return wiring;
   }
-  if (table.has("host") && table.has("device"))
-    table.refuse("device", "stands beside host", "keep the one by which this scanner is connected");
-  const bool serial = choice.port == 0 || (choice.baud != 0 && table.has("device"));
-  if (serial) {
-    if (table.has("host"))
-      table.refuse("host", "is for scanners on the network", "give the serial line of this one as device");
-    wiring.device = table.text("device");
-    wiring.baud = static_cast<std::uint32_t>(table.integer("baud", choice.baud));
-  } else {
-    if (table.has("device"))
-      table.refuse("device", "is for scanners on a serial line", "give the address of this one as host");
-    wiring.host = table.text("host");
-    wiring.port = static_cast<std::uint16_t>(table.integer("port", choice.port));
-  }
+  static_cast<ByteWiring&>(wiring) = read_byte_wiring(table, "scanner", choice.port, choice.baud);
   return wiring;
 }
 

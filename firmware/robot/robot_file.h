@@ -16,12 +16,8 @@
 
 namespace jaywalk {
 
-struct LaserWiring {
+struct LaserWiring : ByteWiring {
   ScannerKind kind = ScannerKind::kSickColaB;
-  std::string host;  ///< empty: on a serial line
-  std::uint16_t port = 0;
-  std::string device;
-  std::uint32_t baud = 0;
   std::string topic;                                     ///< ROS 2 only
   bool reliable = false;                                 ///< ROS 2 only: lost scans are sent again
   bool infinity_is_free = false;                         ///< of a ROS 2 one

@@ -29,10 +29,11 @@ enum class DriveFaultKind : std::uint8_t {
   kMode,       ///< CiA 402: mode shown (6061h) where it is not the one wanted
   kOdrive,     ///< active errors, a bit each
   kVesc,       ///< fault code
-  kVescStill   ///< electrical turns a minute that a VESC was told, and its motor did not turn
+  kVescStill,  ///< electrical turns a minute that a VESC was told, and its motor did not turn
+  kArcos       ///< stalls and flags of a Pioneer's board, a bit each
 };
 /// The last of them, for checks of what is read.
-inline constexpr DriveFaultKind kLastDriveFaultKind = DriveFaultKind::kVescStill;
+inline constexpr DriveFaultKind kLastDriveFaultKind = DriveFaultKind::kArcos;
 
 /// First fault that a drive told since its drive base was proved.
 struct DriveFault {

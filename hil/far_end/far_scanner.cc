@@ -35,9 +35,7 @@ ScipModel scip_model(const LaserModel& laser) {
 
 }  // namespace
 
-std::unique_ptr<ByteServer> make_far_wire(const LaserWiring& wiring) {
-  if (wiring.kind == ScannerKind::kDds)
-    throw StartupError("laser.kind \"dds\" has no emulator", "play the robot with a program on DDS");
+std::unique_ptr<ByteServer> make_far_wire(const ByteWiring& wiring) {
   if (wiring.host.empty()) return std::make_unique<PtyServer>(wiring.device);
   return std::make_unique<TcpServer>(wiring.port);
 }
@@ -45,6 +43,8 @@ std::unique_ptr<ByteServer> make_far_wire(const LaserWiring& wiring) {
 FarWires make_far_wires(const RobotFile& wiring, bool any_port) {
   FarWires wires;
   for (LaserWiring laser : wiring.lasers()) {
+    if (laser.kind == ScannerKind::kDds)
+      throw StartupError("laser.kind \"dds\" has no emulator", "play the robot with a program on DDS");
     if (any_port) laser.port = 0;
     wires.push_back(make_far_wire(laser));
   }

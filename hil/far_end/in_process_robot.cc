@@ -17,6 +17,14 @@ RobotFile with_ports(RobotFile file, const FarWires& wires) {
   return file;
 }
 
+/// At any port that is free where it is one; the file is told.
+std::unique_ptr<emulators::ServedBytes> make_far_line(ByteWiring& line, Clock& clock) {
+  line.port = 0;
+  auto wire = make_far_wire(line);
+  if (const auto* const network = dynamic_cast<const emulators::TcpServer*>(wire.get())) line.port = network->port();
+  return std::make_unique<emulators::ServedBytes>(std::move(wire), clock);
+}
+
 std::vector<std::unique_ptr<ScannerConnection>> make_lasers(const RobotFile& file, Clock& clock) {
   std::vector<std::unique_ptr<ScannerConnection>> lasers;
   for (std::size_t k = 0; k < file.lasers().size(); ++k) lasers.push_back(make_laser(file, clock, k));
@@ -35,8 +43,10 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       clock_(clock),
       file_(with_ports(std::move(file), wires)),
       wires_(clock, seed),
-      bus_(wires_.port(0), clock),
-      far_end_(scenario, seed, file_, {&wires_.port(1), &wires_.port(2)}, std::move(wires), clock.now()),
+      far_line_(run.real_line ? make_far_line(file_.drive.line, clock) : nullptr),
+      line_(run.real_line ? make_bus(file_.drive, clock) : nullptr),
+      bus_(line_ ? *line_ : wires_.port(0), clock),
+      far_end_(scenario, seed, file_, places(), std::move(wires), clock.now()),
       lasers_(make_lasers(file_, clock)),
       drive_(make_drive(file_.drive, bus_, clock)),
       controls_(file_, *drive_, clock, [] { return std::string(); }),
@@ -44,6 +54,11 @@ InProcessRobot::InProcessRobot(RobotFile file, const sim::Scenario& scenario, st
       guard_(no_brake_, clock, std::chrono::seconds(1)),
       loop_(runner_, {*drive_, lasers_, bus_, controls_.resets()}, controls_.desk(), clock, guard_, observer_) {
   messages_.reserve(kMostMessages);
+}
+
+SimulatedRobot::Buses InProcessRobot::places() noexcept {
+  if (far_line_) return {far_line_.get(), far_line_.get()};
+  return {&wires_.port(1), &wires_.port(2)};
 }
 
 Hal InProcessRobot::hal() {

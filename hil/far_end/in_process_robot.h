@@ -10,6 +10,7 @@
 #include "drivers/can/in_process_bus.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/robot_loop.h"
+#include "hil/emulators/served_bytes.h"
 #include "hil/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
@@ -43,6 +44,7 @@ class InProcessRobot {
     std::filesystem::path out;                  ///< the folder for the run's files
     LoopRunner::MakePlanner make_planner = {};  ///< LoopRunner's
     TickObserver* observer = nullptr;           ///< gets every tick; outlives the robot. Null: nothing observes the run
+    bool real_line = false;                     ///< of a Pioneer: a pseudo terminal or TCP port, not the in-process bus
   };
 
   /// `clock` outlives it. A scanner on a network is found at any free port of this machine. Throws StartupError.
@@ -61,6 +63,8 @@ class InProcessRobot {
   [[nodiscard]] const WatchedBus& bus() const noexcept { return bus_; }
   /// Port 0 is the controller's, 1 and 2 are the drives' (left, right); the others are free.
   [[nodiscard]] InProcessBus& wires() noexcept { return wires_; }
+  /// The device's end of a Pioneer's real line; null: none.
+  [[nodiscard]] emulators::ServedBytes* far_line() noexcept { return far_line_.get(); }
   /// When the last byte of the scanner's message left, by message, from the first.
   [[nodiscard]] const std::vector<Time>& messages() const noexcept { return messages_; }
 
@@ -72,6 +76,7 @@ class InProcessRobot {
 
   InProcessRobot(RobotFile file, const sim::Scenario& scenario, std::uint64_t seed, Clock& clock, const Run& run,
                  FarWires wires);
+  [[nodiscard]] SimulatedRobot::Buses places() noexcept;
   [[nodiscard]] Hal hal();
 
   TickObserver nobody_;
@@ -79,6 +84,8 @@ class InProcessRobot {
   Clock& clock_;
   RobotFile file_;
   InProcessBus wires_;
+  std::unique_ptr<emulators::ServedBytes> far_line_;  ///< null: none
+  std::unique_ptr<CanBus> line_;                      ///< its other end
   WatchedBus bus_;
   SimulatedRobot far_end_;
   std::vector<std::unique_ptr<ScannerConnection>> lasers_;

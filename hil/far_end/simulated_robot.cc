@@ -28,7 +28,7 @@ SimulatedRobot::SimulatedRobot(const sim::Scenario& scenario, std::uint64_t seed
       wheel_radius_m_(scenario.model.drive.wheel_radius_m),
       buses_(buses),
       wiring_(wiring.drive),
-      drives_{make_wheel_drive(wiring.drive, 0, *buses[0]), make_wheel_drive(wiring.drive, 1, *buses[1])} {
+      drives_(make_wheel_drives(wiring.drive, buses)) {
   for (std::size_t k = 0; k < wires.size(); ++k) {
     const LaserModel laser = laser_of(scenario, wiring, k);
     eyes_.push_back(std::make_unique<Eye>(Eye{k, laser, sim::Random(seed, sim::Purpose::kRange, k)}));

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "hil/emulators/arcos_board.h"
 #include "hil/emulators/cia402_node.h"
 #include "hil/emulators/odrive_node.h"
 #include "hil/emulators/vesc_node.h"
@@ -67,7 +68,53 @@ class NodeDrive final : public WheelDrive {
   double units_per_rad_;
 };
 
+/// One motor of a Pioneer, on side 0 (left) or 1. Whatever befalls its board befalls both.
+class ArcosMotor final : public WheelDrive {
+ public:
+  ArcosMotor(std::shared_ptr<emulators::ArcosBoard> board, std::size_t side, double mm_per_rad)
+      : board_(std::move(board)), side_(side), mm_per_rad_(mm_per_rad) {}
+
+  void step(Time now) override {
+    if (side_ == 0) board_->step(now);
+  }
+  [[nodiscard]] double speed_radps() const noexcept override { return board_->velocity(side_) / mm_per_rad_; }
+  void measure(double speed_radps, double turned_rad) noexcept override {
+    board_->measure(side_, speed_radps * mm_per_rad_, turned_rad * mm_per_rad_);
+  }
+  [[nodiscard]] std::string_view state_name() const noexcept override { return board_->state_name(); }
+  [[nodiscard]] Time heard_controller() const noexcept override { return board_->heard_controller(); }
+  void raise_fault(std::uint16_t) noexcept override { board_->stall(side_, true); }
+  void pull_cable() noexcept override { board_->pull_cable(); }
+  void plug_cable() noexcept override { board_->plug_cable(); }
+  void restart() noexcept override { board_->restart(); }
+  void stick() noexcept override { board_->stick(side_); }
+  void lose_feedback() noexcept override { board_->mute(); }
+  void set_watchdog(Duration time) noexcept override {
+    board_->set_watchdog(static_cast<std::uint16_t>(time / std::chrono::milliseconds(1)));
+  }
+  void press_stop() noexcept override { board_->press_stop(true); }
+
+ private:
+  std::shared_ptr<emulators::ArcosBoard> board_;
+  std::size_t side_;
+  double mm_per_rad_;
+};
+
+std::array<std::unique_ptr<WheelDrive>, 2> make_arcos_motors(const arcos::BaseSetup& setup, CanBus& line) {
+  auto board = std::make_shared<emulators::ArcosBoard>(line, setup.track_mm);
+  board->set_cycle(static_cast<std::uint8_t>(std::lround(1e3 * setup.times.report_s)));
+  board->set_ticks(static_cast<std::uint16_t>(setup.ticks_per_mm));
+  return {std::make_unique<ArcosMotor>(board, 0, setup.mm_per_rad[0]),
+          std::make_unique<ArcosMotor>(board, 1, setup.mm_per_rad[1])};
+}
+
 }  // namespace
+
+std::array<std::unique_ptr<WheelDrive>, 2> make_wheel_drives(const DriveWiring& wiring,
+                                                             const std::array<CanBus*, 2>& buses) {
+  if (wiring.kind == DriveKind::kPioneer) return make_arcos_motors(wiring.arcos, *buses[0]);
+  return {make_wheel_drive(wiring, 0, *buses[0]), make_wheel_drive(wiring, 1, *buses[1])};
+}
 
 std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::size_t side, CanBus& bus) {
   const auto& odrive = wiring.odrive.axes[side];
@@ -82,6 +129,7 @@ std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::siz
     case DriveKind::kVesc:
       return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
     case DriveKind::kDds:
+    case DriveKind::kPioneer:
     case DriveKind::kCia402:
       break;
   }

@@ -1,4 +1,5 @@
 #pragma once
+#include <array>
 #include <memory>
 #include <string_view>
 
@@ -34,14 +35,23 @@ class WheelDrive {
   /// It obeys, and says nothing of its wheel any more.
   virtual void lose_feedback() noexcept = 0;
   /// Delays the mode that a CiA 402 drive shows after it is enabled.
-  virtual void show_mode_late(Duration delay) noexcept = 0;
+  virtual void show_mode_late(Duration) noexcept {}
   /// Sets the wheel's speed below which a VESC lets its motor go.
-  virtual void let_go_below(double speed_radps) noexcept = 0;
+  virtual void let_go_below(double /*speed_radps*/) noexcept {}
+  /// Sets the watchdog that a Pioneer's board has in its FLASH.
+  virtual void set_watchdog(Duration) noexcept {}
+  /// Presses a Pioneer's stop button.
+  virtual void press_stop() noexcept {}
   /// What a CiA 402 drive can be told to lie about or to lack; null of others.
-  [[nodiscard]] virtual emulators::DriveObjects* objects() noexcept = 0;
+  [[nodiscard]] virtual emulators::DriveObjects* objects() noexcept { return nullptr; }
 };
 
-/// The far end of what the controller's side says about the drive on side 0 (left) or 1. `bus` outlives it.
+/// The far end of what the controller's side says about its drives: left, right. Each place on the bus outlives its
+/// drive; a Pioneer's board is at the left one alone.
+[[nodiscard]] std::array<std::unique_ptr<WheelDrive>, 2> make_wheel_drives(const DriveWiring& wiring,
+                                                                           const std::array<CanBus*, 2>& buses);
+
+/// One of them, on side 0 (left) or 1; not of a Pioneer.
 [[nodiscard]] std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::size_t side, CanBus& bus);
 
 }  // namespace jaywalk::rig

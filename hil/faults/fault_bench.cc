@@ -15,6 +15,9 @@ namespace {
 constexpr double kSlower_mps = 0.005;  ///< below the speed at the fault by so much: it slows down
 constexpr double kBrake_mps2 = 1.0;    ///< the matrix' model
 constexpr double kBeyond_m = 0.05;     ///< motors' lag at the end of a ramp
+/// What shows in the drives' reports: it shows later where they are rare.
+constexpr Reason kByReports =
+    Reason::kDrive | Reason::kWheelsStale | Reason::kWheelsDisobey | Reason::kMotionMismatch | Reason::kStopUnconfirmed;
 constexpr Duration kLongest = std::chrono::seconds(15), kAfterwards = std::chrono::milliseconds(600);
 
 std::string in_words(const char* format, double a, double b) {
@@ -31,6 +34,7 @@ FaultBench::FaultBench(const FaultCase& fault, DriveKind kind, double speed_mps,
       kind_(kind),
       speed_mps_(speed_mps),
       file_(robot_file(kind, speed_mps, rate_hz, folder, {fault.claims_free, fault.of_two.has_value()})) {
+  file_.drive.arcos.allow_unproved = fault.allow_unproved;
   const auto straight = [this](const ControlSetup&) {
     auto planner = std::make_unique<StraightPlanner>();
     planner_ = planner.get();
@@ -186,13 +190,16 @@ FaultResult FaultBench::struck_at_rest() {
 
 Duration FaultBench::limit() const noexcept {
   const double ramp_s = fault_.after_ramp ? speed_struck_ / kBrake_mps2 : 0.0;
-  return fault_.limit(file_.setup.tick()) + duration_from_seconds(ramp_s);
+  const double usual_s = std::max(0.06, 2.5 * to_seconds(file_.setup.tick()));
+  const double late_s = std::max(file_.setup.model.drive.times.oldest_report_s() - usual_s, 0.0);
+  return fault_.limit(file_.setup.tick()) +
+         duration_from_seconds(ramp_s + (has(kByReports, fault_.reason) ? late_s : 0.0));
 }
 
 bool FaultBench::rolls_out() const noexcept {
   const bool lets_go = kind_ == DriveKind::kOdrive && outlasts_watchdog_;
   return lets_go || fault_.rolls_out == RollsOut::kAll ||
-         (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402);
+         (fault_.rolls_out == RollsOut::kMotors && kind_ != DriveKind::kCia402 && kind_ != DriveKind::kPioneer);
 }
 
 /// Whether the supervisor named the scanner that failed, and no other. motion_mismatch names none: the wheels may be

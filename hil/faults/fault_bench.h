@@ -34,6 +34,7 @@ struct FaultCase {
   Outcome outcome = Outcome::kLatched;
   void (*every_tick)(FaultBench&) = nullptr;  ///< and then again and again; may be null
   std::optional<DriveKind> only = {};         ///< of the one kind of drive that can have it
+  bool of_bus = false;                        ///< of a CAN bus: nobody else is on a Pioneer's line
   RollsOut rolls_out = RollsOut::kNone;
   bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
   std::optional<sim::FaultKind> miswiring = {};
@@ -43,6 +44,7 @@ struct FaultCase {
   double wheels_go = 1.0;                  ///< so many times as far as the file says
   std::optional<std::size_t> of_two = {};  ///< the robot has a second scanner, at its rear; this one fails
   void (*from_start)(FaultBench&) = nullptr;  ///< before the drives are armed; may be null
+  bool allow_unproved = false;                ///< of a Pioneer: says the robot file
   bool claims_free = false;                   ///< the scanner has a word for "nothing within reach", as a Hokuyo
 };
 

@@ -4,49 +4,13 @@
 #include <array>
 #include <limits>
 
+#include "hil/faults/fault_limits.h"
+
 namespace jaywalk::faults {
 namespace {
 
 using namespace std::chrono_literals;
 using emulators::ScannerFault;
-
-/// Two periods of the loop: what happens just after a tick is seen by the next, whose frames the drives obey with the
-/// one after it; and what a ramp takes to be 5 mm/s below the speed before it.
-Duration at_once(Duration tick) noexcept { return 2 * tick + 20ms; }
-/// The drives' own watchdog or heartbeat consumer, 100 ms at most, after the frame before it; a wheel that nothing
-/// brakes is 5 mm/s slower only after 40 ms more.
-Duration by_themselves(Duration tick) noexcept { return 100ms + at_once(tick); }
-/// 60 ms without feedback, or two and a half periods of the loop.
-Duration feedback(Duration tick) noexcept { return std::max<Duration>(60ms, 5 * tick / 2) + at_once(tick); }
-/// Two scans of 15 Hz that do not come, and the age of the one before.
-Duration scans(Duration tick) noexcept { return 240ms + at_once(tick); }
-/// Plans are good for 0.3 s, and then the speed falls until they are a second old; the scan that they rest on is
-/// older than they are.
-Duration plans(Duration tick) noexcept { return 540ms + at_once(tick); }
-/// A lost stop escalates to silence 100 ms after the ramp's end, and 100 ms later the drive's own watchdog acts.
-Duration escalated(Duration tick) noexcept { return 100ms + 100ms + at_once(tick); }
-/// A stranger's NMT command, repeated: the feedback that stops coming, silence, and the drives' own watchdog.
-Duration taken_over(Duration tick) noexcept { return 100ms + by_themselves(tick); }
-/// A scan of 15 Hz, and what it takes to come.
-Duration next_scan(Duration tick) noexcept { return 67ms + 67ms + at_once(tick); }
-/// Two and a half periods of the loop.
-Duration two_ticks(Duration tick) noexcept { return 5 * tick / 2 + at_once(tick); }
-/// A plain stop keeps to the limits of comfort: 1 m/s2 is reached by a jerk of at most 2 m/s3.
-Duration in_comfort(Duration tick) noexcept { return 500ms + at_once(tick); }
-/// Half a second of motion that shows it, and what a P3-DX that turns at 0.8 rad/s needs to move enough.
-Duration shows_for(Duration) noexcept { return 700ms; }
-/// The same, from the first scan that repeats.
-Duration repeats_for(Duration) noexcept { return 67ms + 500ms; }
-/// Wheels that go less far than they say look like slip for long (docs/explanation/safety.md).
-Duration slips_for(Duration) noexcept { return 4s; }
-
-/// Told 0.03 m/s in the first way after arming (WheelProof), a wheel that stands is 6 mm/s outside what is tolerated.
-Duration in_first_way(Duration) noexcept { return 6s; }
-/// Speeds that stand show where they change.
-Duration changes_for(Duration) noexcept { return 1s; }
-/// A tenth of a second in each: until it is more than a sound drive's, and then a change of speed that shows it: at
-/// 0.3 m/s the next one is the stop.
-Duration ages_for(Duration) noexcept { return 5500ms; }
 
 /// What another master would tell the left drive.
 CanFrame foreign_setpoint(DriveKind kind) {
@@ -119,6 +83,11 @@ FaultCase of_two(std::size_t scanner, FaultCase fault) {
 
 FaultCase rolling_out(RollsOut which, FaultCase fault) {
   fault.rolls_out = which;
+  return fault;
+}
+
+FaultCase of_bus(FaultCase fault) {
+  fault.of_bus = true;
   return fault;
 }
 
@@ -219,6 +188,23 @@ FaultCase below_minimum_erpm() {
   return fault;
 }
 
+/// A Pioneer's stop button, which its board tells in its next report.
+FaultCase stop_button() {
+  FaultCase fault{"stop_button", [](FaultBench& b) { b.left_drive().press_stop(); }, Reason::kDrive, at_once};
+  fault.only = DriveKind::kPioneer;
+  return fault;
+}
+
+/// A Pioneer as it comes from the factory, armed because its robot file allows that: its watchdog takes two seconds.
+FaultCase factory_watchdog() {
+  FaultCase fault{"factory_watchdog", [](FaultBench& b) { b.hold_up(Duration::max()); }, Reason::kNone,
+                  [](Duration tick) noexcept -> Duration { return 2s + at_once(tick); }, Outcome::kDead};
+  fault.only = DriveKind::kPioneer;
+  fault.allow_unproved = true;
+  fault.from_start = [](FaultBench& b) { b.left_drive().set_watchdog(2s); };
+  return fault;
+}
+
 void deceive(FaultBench& bench, const rig::FalseSenses& senses) { bench.robot().far_end().deceive(senses); }
 
 const std::array kCases{
@@ -248,10 +234,11 @@ const std::array kCases{
     rolling_out(RollsOut::kMotors,
                 {"bus_refuses_frames", [](FaultBench& b) { b.controllers_port().refuse_sends(1000000); }, Reason::kBus,
                  by_themselves}),
-    rolling_out(RollsOut::kMotors, {"bus_off", [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
-                                    Reason::kBus, by_themselves}),
-    FaultCase{"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, Reason::kBus,
-              at_once},
+    of_bus(rolling_out(RollsOut::kMotors,
+                       {"bus_off", [](FaultBench& b) { b.controllers_port().set_state(CanState::kBusOff); },
+                        Reason::kBus, by_themselves})),
+    of_bus({"bus_passive", [](FaultBench& b) { b.controllers_port().set_state(CanState::kPassive); }, Reason::kBus,
+            at_once}),
     rolling_out(RollsOut::kMotors,
                 {"interface_down", [](FaultBench& b) { b.controllers_port().set_state(CanState::kDown); }, Reason::kBus,
                  by_themselves}),
@@ -286,12 +273,14 @@ const std::array kCases{
     network("network_stopped", [](FaultBench& b) { tell_network(b, 0x02); }),
     of_cia402({"foreign_heartbeat", [](FaultBench& b) { b.say_as_stranger(foreign_heartbeat()); },
                Reason::kForeignMaster, at_once}),
-    FaultCase{"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
-              Reason::kForeignMaster, at_once},
-    rolling_out(RollsOut::kMotors, {"twin_left", [](FaultBench& b) { b.add_twin(0); },
-                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
-    rolling_out(RollsOut::kMotors, {"twin_right", [](FaultBench& b) { b.add_twin(1); },
-                                    Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback}),
+    of_bus({"foreign_setpoint", [](FaultBench& b) { b.say_as_stranger(foreign_setpoint(b.kind())); },
+            Reason::kForeignMaster, at_once}),
+    of_bus(
+        rolling_out(RollsOut::kMotors, {"twin_left", [](FaultBench& b) { b.add_twin(0); },
+                                        Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback})),
+    of_bus(
+        rolling_out(RollsOut::kMotors, {"twin_right", [](FaultBench& b) { b.add_twin(1); },
+                                        Reason::kForeignMaster | Reason::kDrive | Reason::kWheelsDisobey, feedback})),
     restarts_at_rest("restarts_at_rest_left", [](FaultBench& b) { restart_at_rest(b, b.left_drive()); }),
     restarts_at_rest("restarts_at_rest_right", [](FaultBench& b) { restart_at_rest(b, b.right_drive()); }),
     miswired("both_motors_reversed", sim::FaultKind::kBothMotorsReversed),
@@ -323,6 +312,8 @@ const std::array kCases{
                   }),
     mode_shown_late(),
     below_minimum_erpm(),
+    stop_button(),
+    factory_watchdog(),
     contradiction("scanner_turned_20", [](FaultBench& b) { deceive(b, {.mount_turned_rad = 0.35}); }),
     carried("carried_1_m",
             [](FaultBench& b) {

@@ -7,7 +7,7 @@
 namespace jaywalk::faults {
 namespace {
 
-constexpr std::array kKinds{DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc};
+constexpr std::array kKinds{DriveKind::kCia402, DriveKind::kOdrive, DriveKind::kVesc, DriveKind::kPioneer};
 constexpr std::array kSpeeds_mps{0.3, 0.6, 1.2};
 
 template <class Visit>
@@ -15,6 +15,7 @@ void for_each_row(Visit&& visit) {
   for (const FaultCase& fault : all_cases()) {
     for (const DriveKind kind : kKinds) {
       if (fault.only && *fault.only != kind) continue;
+      if (fault.of_bus && kind == DriveKind::kPioneer) continue;
       for (const double speed : kSpeeds_mps) visit(fault, kind, speed);
     }
   }

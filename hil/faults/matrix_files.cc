@@ -1,5 +1,7 @@
 #include "hil/faults/matrix_files.h"
 
+#include <array>
+
 #include "hal/text_file.h"
 
 namespace jaywalk::faults {
@@ -7,11 +9,14 @@ namespace {
 
 constexpr double kLong_m = 44.0, kWide_m = 5.0;
 
-/// The drive's own keys; counts, turns and pole pairs are those of the bench's motors.
+/// The drive's own keys; counts, turns and pole pairs are those of the bench's motors. A Pioneer has its factory's
+/// cycle.
 std::string drive_keys(DriveKind kind) {
-  if (kind == DriveKind::kOdrive) return "left_node = 3\nright_node = 4\nmotor_turns_per_wheel_turn = 10\n";
-  if (kind == DriveKind::kVesc) return "left_node = 23\nright_node = 24\nelectrical_turns_per_wheel_turn = 50\n";
-  return "left_node = 2\nright_node = 3\ncounts_per_wheel_turn = 76600\n";
+  if (kind == DriveKind::kPioneer) return "device = \"in-process\"\nticks_per_mm = 128\n";
+  const std::string can = "can = \"in-process\"\nright_reversed = true\n";
+  if (kind == DriveKind::kOdrive) return can + "left_node = 3\nright_node = 4\nmotor_turns_per_wheel_turn = 10\n";
+  if (kind == DriveKind::kVesc) return can + "left_node = 23\nright_node = 24\nelectrical_turns_per_wheel_turn = 50\n";
+  return can + "left_node = 2\nright_node = 3\ncounts_per_wheel_turn = 76600\n";
 }
 
 /// A P3-DX (hal/types/robot_model.h) as a file, with a fastest speed of its own.
@@ -30,8 +35,8 @@ std::string model_text(double speed_mps) {
 }  // namespace
 
 const char* name_of(DriveKind kind) noexcept {
-  if (kind == DriveKind::kOdrive) return "odrive";
-  return kind == DriveKind::kVesc ? "vesc" : "cia402";
+  constexpr std::array kNames{"cia402", "odrive", "vesc", "dds", "pioneer"};
+  return kNames.at(static_cast<std::size_t>(kind));
 }
 
 RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std::filesystem::path& folder,
@@ -39,12 +44,12 @@ RobotFile robot_file(DriveKind kind, double speed_mps, double rate_hz, const std
   const std::string scans = scanners.claims_free ? "\"hokuyo\"\nbeams = 1081\nrange_m = 30.0\n" : "\"sick-cola-b\"\n";
   const std::string scanner = "[[laser]]\nhost = \"127.0.0.1\"\nkind = " + scans;
   write_text(folder / "model.toml", model_text(speed_mps), kOtherOut);
-  write_text(
-      folder / "robot.toml",
-      std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) + "\n" +
-          scanner + (scanners.second ? scanner + "port = 2113\nmount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
-          "[drive]\nkind = \"" + name_of(kind) + "\"\ncan = \"in-process\"\nright_reversed = true\n" + drive_keys(kind),
-      kOtherOut);
+  write_text(folder / "robot.toml",
+             std::string("model = \"model.toml\"\nstart = [1.5, 2.5, 0.0]\nrate_hz = ") + std::to_string(rate_hz) +
+                 "\n" + scanner +
+                 (scanners.second ? scanner + "port = 2113\nmount = [-0.2, 0.0, 3.14159]\nrate_hz = 20.0\n" : "") +
+                 "[drive]\nkind = \"" + name_of(kind) + "\"\n" + drive_keys(kind),
+             kOtherOut);
   RobotFile file = load_robot_file(folder / "robot.toml");
   file.setup.backend = Backend::kCpu;
   return file;

@@ -23,7 +23,7 @@ struct Scanners {
 /// The world: a hall of 44 m x 5 m, the robot at one end, looking along it. Its map is written into `folder`.
 [[nodiscard]] sim::Scenario hall(const RobotModel& model, const std::filesystem::path& folder);
 
-/// "cia402", "odrive", "vesc".
+/// "cia402", "odrive", "vesc", "pioneer".
 [[nodiscard]] const char* name_of(DriveKind kind) noexcept;
 
 }  // namespace jaywalk::faults

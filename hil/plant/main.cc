@@ -11,6 +11,7 @@
 #include "drivers/can/socketcan.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/served_bytes.h"
 #include "hil/plant/orders.h"
 #include "hil/plant/plant_log.h"
 
@@ -72,9 +73,11 @@ class OrderLines {
   bool ended_ = false;
 };
 
-SocketCan place_on_bus(const Options& options, const DriveWiring& drive, Clock& clock) {
+std::unique_ptr<CanBus> place_on_bus(const Options& options, const DriveWiring& drive, Clock& clock) {
+  if (drive.kind == DriveKind::kPioneer)
+    return std::make_unique<emulators::ServedBytes>(rig::make_far_wire(drive.line), clock);
   const std::array all{CanFilter{.id = 0, .mask = 0, .extended = drive.kind == DriveKind::kVesc}};
-  return {open_can(options.can.empty() ? drive.can : options.can, all), clock};
+  return std::make_unique<SocketCan>(open_can(options.can.empty() ? drive.can : options.can, all), clock);
 }
 
 int run(int argc, char** argv) {
@@ -87,9 +90,10 @@ int run(int argc, char** argv) {
   }
   SteadyClock clock;
   const RobotFile wiring = load_robot_file(options.robot);
-  SocketCan left = place_on_bus(options, wiring.drive, clock), right = place_on_bus(options, wiring.drive, clock);
-  rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, wiring, {&left, &right},
-                            rig::make_far_wires(wiring), clock.now());
+  const auto left = place_on_bus(options, wiring.drive, clock);
+  const auto right = wiring.drive.is_on_can() ? place_on_bus(options, wiring.drive, clock) : nullptr;
+  rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, wiring,
+                            {left.get(), right ? right.get() : left.get()}, rig::make_far_wires(wiring), clock.now());
   for (const std::string& order : options.orders) {
     if (const std::string complaint = obey(order, robot); !complaint.empty())
       throw StartupError(complaint, "see --help");

@@ -168,8 +168,10 @@ TEST_CASE("a thousand ticks ask nothing of the heap and lose no frame") {
 TEST_CASE("axes that cannot be are refused") {
   for (const DriveKind& kind : tests::drive_kinds()) {
     CAPTURE(kind.name);
-    CHECK_THROWS_AS(kind.make({.ids = {{7, 7}}}), StartupError);
-    CHECK_THROWS_AS(kind.make({.ids = {{7, kind.reserved_id}}}), StartupError);
+    if (kind.reserved_id) {
+      CHECK_THROWS_AS(kind.make({.ids = {{7, 7}}}), StartupError);
+      CHECK_THROWS_AS(kind.make({.ids = {{7, *kind.reserved_id}}}), StartupError);
+    }
     CHECK_THROWS_AS(kind.make({.per_rad = 0.0}), StartupError);
     CHECK_THROWS_AS(kind.make({.per_rad = std::numeric_limits<double>::quiet_NaN()}), StartupError);
   }

@@ -6,10 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "drivers/arcos/arcos_base.h"
 #include "drivers/can/in_process_bus.h"
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
 #include "hal/types/errors.h"
+#include "hil/emulators/arcos_board.h"
 #include "hil/emulators/odrive_node.h"
 #include "hil/emulators/vesc_node.h"
 #include "tests/drivers/drive_plant.h"
@@ -153,6 +155,38 @@ struct Vesc {
     return setup;
   }
   static double position(const Node& node) { return node.electrical_turns(); }
+};
+
+/// The emulated board of a Pioneer reports every 20 ms and ramps with 1000 mm/s2: 10 rad/s2 of the wheel, of which a
+/// stop is owed 8. Half a rad/s between its wheels are 10 degrees/s.
+class ArcosBench : public DriveBench {
+ public:
+  static arcos::BaseSetup setup() {
+    return {.name = "line",
+            .mm_per_rad = {100.0, 100.0},
+            .track_mm = 900.0 / kPi,
+            .ticks_per_mm = 128,
+            .motion = {2000, 800, 600, 250},
+            .stop = {.brake_radps2 = 15.0, .tolerance_radps = 0.5}};
+  }
+  explicit ArcosBench(const arcos::BaseSetup& setup = ArcosBench::setup())
+      : board(bus.port(1), 900.0 / kPi), base(port, clock, setup) {
+    board.set_cycle(20);
+    board.limit_ramps(2000, 800);
+    clock.plant = [this](Time now) { board.step(now); };
+  }
+
+  [[nodiscard]] WiredDrive& drives() noexcept override { return base; }
+  [[nodiscard]] double wheel_radps(std::size_t side) const override { return board.velocity(side) / 100.0; }
+  [[nodiscard]] double wheel_rad(std::size_t side) const override { return board.position(side) / 100.0; }
+  [[nodiscard]] bool has_torque(std::size_t) const override { return board.state_name() == "enabled"; }
+  void pull_cable(std::size_t) override { board.pull_cable(); }
+  void plug_cable(std::size_t) override { board.plug_cable(); }
+  void restart(std::size_t) override { board.restart(); }
+  void add_twin(std::size_t) override {}
+
+  emulators::ArcosBoard board;
+  arcos::ArcosBase base;
 };
 
 using Cia402Bench = BenchOf<Cia402>;

@@ -2,6 +2,7 @@
 
 #include <chrono>
 
+#include "drivers/can/byte_bus.h"
 #include "drivers/canopen/quick_stopper.h"
 
 using namespace std::chrono_literals;
@@ -220,10 +221,77 @@ DriveKind vescs() {
           .random_frame = random_to_vesc};
 }
 
+DriveEvent on_board(void (*event)(emulators::ArcosBoard&, std::size_t side)) {
+  return [event](DriveBench& bench, std::size_t side) { event(dynamic_cast<ArcosBench&>(bench).board, side); };
+}
+
+std::unique_ptr<DriveBench> make_arcos(const BenchChanges& changes) {
+  auto setup = ArcosBench::setup();
+  setup.allow_unproved = changes.allow_unproved;
+  setup.tick = changes.tick;
+  if (changes.per_rad) setup.mm_per_rad = {*changes.per_rad, *changes.per_rad};
+  if (changes.tick != 20ms) setup.stop = stop_limits(setup.stop.brake_radps2, setup.stop.tolerance_radps, changes.tick);
+  auto bench = std::make_unique<ArcosBench>(setup);
+  bench->tick = changes.tick;
+  return bench;
+}
+
+/// What looks like the beginning of a packet, or is one that the board obeys, each one time in eight.
+CanFrame random_to_arcos(RandomBytes& random) {
+  CanFrame made = with_random_bytes(frame(0, {}), random);
+  const std::size_t kind = random.below(8);
+  if (kind == 0) made.bytes[0] = 0xFA, made.bytes[1] = 0xFB;
+  if (kind != 1) return made;
+  constexpr std::array kWords{arcos::Command::kPulse, arcos::Command::kClose, arcos::Command::kEmergencyStop};
+  in_frames(arcos::packet_of({kWords[random.below(3)]}).on_line(), [&made](const CanFrame& all) { made = all; });
+  return made;
+}
+
+DriveKind arcos_boards() {
+  return {.name = "Pioneer",
+          .make = make_arcos,
+          .reserved_id = {},
+          .brake_radps2 = 15.0,
+          .tolerance_radps = 0.5,
+          .travelled_rad = 1.9,  // 0.1 s of ramp are 0.1 rad, 0.9 s more at 2 rad/s 1.8
+          .enabling_ticks = 12,
+          .stop_ticks = 40,  // without torque it rolls out: 0.67 s
+          .proof_ticks = 70,
+          .absent_ticks = 30,  // of 3 s
+          .given_up_ticks = 160,
+          .disarm_ticks = 2,
+          .own_stop = 182ms,  // the last word was 20 ms ago; 100 ms of watchdog, 100 ms of ramp, two steps
+          .noticed = 170ms,
+          .brakes_itself = true,
+          .fault = DriveTrouble::kDriveFault,
+          .restarted = DriveTrouble::kDriveSilent,  // it says nothing before a new connection
+          .broken = "Pioneer: right wheel stalled",
+          .break_down = on_board([](auto& board, std::size_t side) { board.stall(side, true); }),
+          .mend = on_board([](auto& board, std::size_t side) { board.stall(side, false); }),
+          .lose_watch = on_board([](auto& board, std::size_t) { board.set_watchdog(2000); }),
+          .restore_watch = on_board([](auto& board, std::size_t) { board.set_watchdog(100); }),
+          .need_restart = on_board([](auto& board, std::size_t side) { board.go_deaf(side); }),
+          .disobey = {on_board([](auto& board, std::size_t side) { board.go_deaf(side); }),
+                      on_board([](auto& board, std::size_t side) { board.stick(side); })},
+          .fall_quiet = {on_board([](auto& board, std::size_t) { board.mute(); }), kUnplugged},
+          .jump = on_board([](auto& board, std::size_t side) { board.jump(side, 10000.0); }),
+          .unproved =
+              "line: Pioneer p3dx-sh, SipCycle 20, TicksMM 128, TransAccel 2000, TransDecel 2000, RotAccel 800, "
+              "RotDecel 800, TransVelMax 600, RotVelMax 250, Watchdog 2000 (wanted 40 to 100): NOT PROVED",
+          .remedy = "set Watchdog in the board's FLASH (ARCOScfg), or allow_unproved at your own risk",
+          .second_way = [](CanBus& bus) -> std::unique_ptr<EmergencyBrake> {
+            return std::make_unique<arcos::Stopper>(bus);
+          },
+          .foreign = "",
+          .masters = {},
+          .strangers = {},
+          .random_frame = random_to_arcos};
+}
+
 }  // namespace
 
 const std::vector<DriveKind>& drive_kinds() {
-  static const std::vector<DriveKind> kinds{cia402(), odrive_axes(), vescs()};
+  static const std::vector<DriveKind> kinds{cia402(), odrive_axes(), vescs(), arcos_boards()};
   return kinds;
 }
 

@@ -25,7 +25,7 @@ using DriveEvent = std::function<void(DriveBench&, std::size_t side)>;
 struct DriveKind {
   const char* name;
   std::unique_ptr<DriveBench> (*make)(const BenchChanges& changes);
-  std::uint8_t reserved_id;  ///< no drive may have it
+  std::optional<std::uint8_t> reserved_id;  ///< no drive may have it; none of a board alone on its line, without ids
   double brake_radps2, tolerance_radps;
   double travelled_rad;              ///< by bring_to_two_radps()
   int enabling_ticks, stop_ticks;    ///< most from zero to torque; from trouble at 2 rad/s to a wheel that stands
@@ -36,7 +36,8 @@ struct DriveKind {
   Duration noticed;    ///< most until a drive that tells nothing is noticed, beside what a stop has
   bool brakes_itself;  ///< its watch over the controller brakes; otherwise it takes the torque away
   DriveTrouble fault;  ///< what break_down() is called
-  std::string broken;  ///< how its fault is told; of the right drive
+  DriveTrouble restarted = DriveTrouble::kDriveRestarted;  ///< what a restart is called
+  std::string broken;                                      ///< how its fault is told; of the right drive
   DriveEvent break_down, mend;
   DriveEvent lose_watch, restore_watch;  ///< over the controller, in a way that its proof must find
   DriveEvent need_restart;               ///< it stops obeying or talking until it is restarted and plugged in
@@ -51,7 +52,7 @@ struct DriveKind {
   CanFrame (*random_frame)(RandomBytes& random);
 };
 
-/// CiA 402, ODrive, VESC: what a test of all drives goes through.
+/// CiA 402, ODrive, VESC, Pioneer: what a test of all drives goes through.
 [[nodiscard]] const std::vector<DriveKind>& drive_kinds();
 
 /// `body(kind, bench)` for each kind, on a bench of its own. No sections: of those in a loop only the first turn runs.

@@ -49,3 +49,15 @@ TEST_CASE("a drive's fault stands in the status with node, code and meaning") {
   CHECK(bench.suffer().why_not == "");
   CHECK(status_of(bench).find("\ndrive_fault: VESC 23: fault 33 (not known)\n") != std::string::npos);
 }
+
+TEST_CASE("a Pioneer's stop button stands in the status, and its watchdog from the factory takes two seconds") {
+  const Scratch folder;
+  FaultBench bench(row("stop_button"), DriveKind::kPioneer, 0.6, 50.0, folder.folder());
+  CHECK(bench.suffer().why_not == "");
+  CHECK(status_of(bench).find("\ndrive_fault: Pioneer: stop button pressed\n") != std::string::npos);
+  const Scratch other;
+  FaultBench factory(row("factory_watchdog"), DriveKind::kPioneer, 0.6, 50.0, other.folder());
+  const faults::FaultResult result = factory.suffer();
+  CHECK(result.why_not == "");
+  CHECK(result.reaction > std::chrono::milliseconds(1900));
+}

@@ -106,6 +106,32 @@ TEST_CASE(
   CHECK(refusal(with("max_speed_mps = 0.5", "max_speed_mps = 0,5")) == "3: a number with a comma; write 0.5");
 }
 
+// Of the p3dx: 1.5 times 1.0 m/s2; over half a track of 0.165 m 520.9 degrees/s2; 1.5 rad/s are 85.9 degrees/s.
+TEST_CASE("a Pioneer is found by its line or address and told its model's ramps, which its own wheels scale") {
+  const std::string drive = "cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600\nright_reversed = true";
+  const auto pioneer = [&](const std::string& keys) { return with(drive, "pioneer\"\nticks_per_mm = 128\n" + keys); };
+  const std::string line = "device = \"/dev/ttyUSB0\"\n";
+  const RobotFile robot = load(pioneer(line + "left_wheel_radius_m = 0.1\nallow_unproved = true"));
+  CHECK(robot.drive.kind == DriveKind::kPioneer);
+  CHECK(robot.drive.can == "/dev/ttyUSB0");
+  CHECK(robot.drive.line.baud == 9600);
+  CHECK(robot.drive.arcos.ticks_per_mm == 128);
+  CHECK(robot.drive.arcos.mm_per_rad[0] == Approx(95.0625));
+  CHECK(robot.drive.arcos.mm_per_rad[1] == Approx(97.5));
+  CHECK(robot.drive.arcos.motion.ramp_mmps2 == 1500);
+  CHECK(robot.drive.arcos.motion.turn_ramp_dps2 == 521);
+  CHECK(robot.drive.arcos.motion.top_mmps == 500);
+  CHECK(robot.drive.arcos.motion.turn_top_dps == 86);
+  CHECK(robot.drive.arcos.allow_unproved);
+  CHECK(robot.setup.model.drive.times.report_s == Approx(0.1));
+  CHECK(load(pioneer("host = \"10.0.0.3\"")).drive.can == "10.0.0.3:8101");
+  CHECK(refusal(pioneer(line + "host = \"h\""))
+            .find("drive.device stands beside host; keep the one by which this base") != std::string::npos);
+  CHECK(refusal(pioneer(line + "baud = 4800")).find("baud") != std::string::npos);
+  CHECK(refusal(pioneer(line + "right_reversed = true")).find("right_reversed") != std::string::npos);
+  CHECK(refusal("rate_hz = 20.0\n" + pioneer(line)) == "loaded");
+}
+
 TEST_CASE("a robot on ROS 2 is named by its topics, which stand for the bus") {
   const std::string drive = "cia402\"\ncan = \"can0\"\ncounts_per_wheel_turn = 76600\nright_reversed = true";
   const auto ros = [&](const std::string& keys) { return with(drive, "dds\"\n" + keys); };

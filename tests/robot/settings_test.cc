@@ -103,8 +103,8 @@ TEST_CASE("the example with two scanners at its corners looks all round") {
 }
 
 TEST_CASE("the example robots load") {
-  for (const char* name :
-       {"pioneer-p3dx", "cia402-base", "wheelchair", "two-scanners", "turtlebot4", "jackal", "ros2-control-base"}) {
+  for (const char* name : {"pioneer-p3dx", "pioneer-p3dx-arcos", "cia402-base", "wheelchair", "two-scanners",
+                           "turtlebot4", "jackal", "ros2-control-base"}) {
     CAPTURE(name);
     const RobotFile robot = load_robot_file(std::string(JAYWALK_EXAMPLES) + "/" + name + ".toml");
     CHECK(robot.setup.model.limits.max_speed_mps <= 0.6);

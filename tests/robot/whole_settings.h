@@ -101,6 +101,28 @@ kind = "speed"
 points = [[1.0, 5.0], [2.0, 5.0], [2.0, 6.5]]
 speed_mps = 0.2
 )",
+    R"(model = "p3dx"
+[laser]
+kind = "lms200"
+device = "/dev/ttyUSB1"
+[drive]
+kind = "pioneer"
+device = "/dev/ttyUSB0"
+baud = 115200
+ticks_per_mm = 128
+report_ms = 100.0
+report_late_ms = 20.0
+)",
+    R"(model = "p3dx"
+[laser]
+kind = "lms200"
+device = "/dev/ttyUSB1"
+[drive]
+kind = "pioneer"
+host = "192.168.0.1"
+port = 8101
+ticks_per_mm = 128
+)",
     R"(model = "wheelchair"
 [laser]
 kind = "ld19"

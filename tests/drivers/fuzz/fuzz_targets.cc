@@ -9,6 +9,7 @@
 #include <cstring>
 #include <string>
 
+#include "drivers/arcos/arcos.h"
 #include "drivers/can/kernel_frame.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_settings.h"
@@ -121,6 +122,18 @@ void fuzz_motors(wire::Bytes bytes) {
   read_settings(bytes);
 }
 
+void fuzz_arcos(wire::Bytes bytes) {
+  arcos::PacketReader reader;
+  for (; !bytes.empty(); bytes = bytes.subspan(std::min<std::size_t>(bytes.size(), 7))) {
+    reader.append(bytes.first(std::min<std::size_t>(bytes.size(), 7)));
+    for (wire::Bytes body = reader.next(); !body.empty(); body = reader.next()) {
+      if (const auto report = arcos::report_in(body)) require(std::fabs(report->speed_mmps[0]) <= 32768.0);
+      static_cast<void>(arcos::encoders_in(body));
+      if (const auto settings = arcos::settings_in(body)) require(settings->type.back() == 0);
+    }
+  }
+}
+
 void fuzz_input_event(wire::Bytes bytes) {
   panel::EventStream events;
   events.append(bytes);
@@ -146,6 +159,7 @@ constexpr std::array<FuzzTarget, kFuzzTargets> kTargets{{{"kernel_frame", fuzz_k
                                                          {"sdo_client", fuzz_sdo_client},
                                                          {"eds_file", fuzz_eds_file},
                                                          {"motors", fuzz_motors},
+                                                         {"arcos", fuzz_arcos},
                                                          {"input_event", fuzz_input_event},
                                                          {"sick", fuzz_sick},
                                                          {"scip", fuzz_scip},
