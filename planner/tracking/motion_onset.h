@@ -3,8 +3,8 @@
 #include <cstdint>
 
 #include "hal/types/geometry.h"
-#include "planner/mapping/evidence_map.h"
 #include "planner/scan/line_of_sight.h"
+#include "planner/scan/past_scans.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
@@ -14,7 +14,8 @@ namespace jaywalk {
 /// As a scan has it; neither is kept beyond it.
 struct Surroundings {
   const LineOfSight& sight;  ///< of this scan
-  const EvidenceMap& still;  ///< from all scans before it
+  const PastScans& past;     ///< the scans before it
+  Time now;                  ///< of this scan
   Pose2 map_from_laser;
   Pose2 map_from_first = map_from_laser;  ///< of the robot's first laser: anchors are kept as seen from there
 

@@ -65,6 +65,7 @@ struct Tracker::State {
   Entries entries{};
 
   FirstScans first_scans;
+  PastScans past;
   Targets targets;
   OccludedTracks hidden;
   std::uint32_t last_id = 0;
@@ -124,7 +125,7 @@ void Tracker::State::associate_and_correct() noexcept {
 
 void Tracker::State::judge(const LineOfSight& sight, const Twist2& twist) noexcept {
   const bool unreliable = first_scans.are_unreliable(twist, now);
-  const Surroundings around{sight, still, scene().map_from_laser, map_from_first};
+  const Surroundings around{sight, past, now, scene().map_from_laser, map_from_first};
   for (Target& target : targets) {
     if (unreliable && !target.existence.given) forget_walk(target, map_from_first, now);
     if (target.existence.scan_counts) judge_motion(target, around, now);
@@ -232,6 +233,7 @@ void Tracker::update(const LaserScan& scan, const Pose2& map_from_robot, const T
   s.enter_still();
   update_standing(s.targets, s.still, sight, s.now, s.standing);
   s.publish();
+  s.past.keep(scan, map_from_robot, s.mounts[s.scanner], twist);
 }
 
 void Tracker::update_given(const OutsideFix& fix) noexcept {
