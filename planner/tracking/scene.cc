@@ -4,8 +4,8 @@
 #include <chrono>
 #include <cmath>
 
-#include "planner/tracking/detection.h"
 #include "planner/tracking/association.h"
+#include "planner/tracking/detection.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {

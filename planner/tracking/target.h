@@ -2,9 +2,9 @@
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
-#include "planner/tracking/observation.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/imm_filter.h"
+#include "planner/tracking/observation.h"
 #include "planner/tracking/straight_fit.h"
 #include "planner/tracking/track.h"
 
