@@ -181,9 +181,14 @@ MountStep best_step(int steps, const std::vector<Nudge>& nudges, const DriveMode
   return best.misfit_m > kClearly * at_file.misfit_m ? at_file : best;
 }
 
+struct MountCheck {
+  CheckedPart part;
+  bool is_off_axle = false;  ///< turned no better explains it
+};
+
 /// The scanner's heading, or its place ahead of the axle, that explains the scans better than the file's. The robot
 /// turns about the axle's middle: a frame elsewhere shows as a scanner elsewhere.
-CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
+MountCheck check_mount(const std::vector<Nudge>& nudges, const RobotModel& model, std::size_t scanner) {
   const Pose2& file = model.lasers()[scanner].robot_from_laser;
   const MountStep turned = best_step(9, nudges, model.drive, scanner, [&](int k) {  // to 45 degrees either way
     return Pose2{file.x, file.y, wrap_angle(file.heading + k * 5.0 * kPi / 180.0)};
@@ -206,7 +211,7 @@ CheckedPart check_mount(const std::vector<Nudge>& nudges, const RobotModel& mode
     std::snprintf(said, sizeof said, "it is where the file says, as far as %d degrees and %.2f m can be told",
                   5 * kOffMountSteps, 0.05 * kOffAxleSteps);
   }
-  return {"scanner's mount", !is_turned && !is_off, said};
+  return {{"scanner's mount", !is_turned && !is_off, said}, is_off};
 }
 
 /// What one scanner's scans show.
@@ -219,11 +224,11 @@ std::vector<CheckedPart> judge_scans(const std::vector<Nudge>& nudges, const Rob
   std::vector<CheckedPart> checks{check_sides(left, right)};
   if (!checks.back().is_well) {
     const bool way_alone = left.turn == 1 && right.turn == 1 && left.way + right.way > -2;  // a wrong place hides it
-    const CheckedPart mount = check_mount(nudges, model, scanner);
-    return way_alone && !mount.is_well ? std::vector<CheckedPart>{mount} : checks;
+    const MountCheck mount = check_mount(nudges, model, scanner);
+    return way_alone && mount.is_off_axle ? std::vector<CheckedPart>{mount.part} : checks;
   }
   for (const std::size_t side : {0U, 1U}) checks.push_back(check_counts(seen[side], side, track_m));
-  checks.push_back(check_mount(nudges, model, scanner));
+  checks.push_back(check_mount(nudges, model, scanner).part);
   return checks;
 }
 
