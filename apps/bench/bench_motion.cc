@@ -71,7 +71,7 @@ ControlSetup setup_at(const BenchMap& map, double cell_m) {
   return setup;
 }
 
-/// What the laser sees at each tick, taken before anything is timed.
+/// Scans of all ticks, made before the timing begins.
 std::vector<LaserScan> scans_of(const BenchMap& map, double cell_m, std::span<const Track> walkers,
                                 const ControlSetup& setup, int ticks) {
   const sim::Walls walls = walls_of(map, cell_m);

@@ -38,7 +38,7 @@ double x_of(double movers) {
 
 double y_of(double share) { return kTop + kHigh * (1.0 - share); }
 
-/// What a pointer on an element is told.
+/// Text that a browser shows while the pointer is on an element.
 std::string hover(const std::string& text) { return "<title>" + as_markup(text) + "</title>"; }
 
 std::string dot(double movers, double share, const std::string& colour, bool open, const std::string& said) {

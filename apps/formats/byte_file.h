@@ -32,7 +32,7 @@ class ByteFile {
   std::uint64_t size_ = 0;
 };
 
-// What recorders pack their bytes with.
+// Compression formats of recordings.
 
 /// `packed` in zstd's frames, lz4's frames or bzip2's, by the names that the formats give them: "zstd", "lz4", "bz2";
 /// "" and "none" are not packed. `bytes`: how many come out, exactly. Nothing where they do not.

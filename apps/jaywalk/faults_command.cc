@@ -40,7 +40,7 @@ struct Reaction {
   Duration slowest{0}, limit{0};
 };
 
-/// Of a Pioneer, or of all others.
+/// Slowest reaction and its limit, of the Pioneer or of all other drives.
 Reaction reaction_in(Rows rows, bool of_pioneer) {
   Reaction found;
   for (const FaultResult& row : rows) {
@@ -56,8 +56,8 @@ std::string in_words(const Reaction& reaction) {
   return times;
 }
 
-/// What a line says of a fault: the slowest reaction of all drives, and of a Pioneer where its limit is another; each
-/// drive's ways to rest from all speeds.
+/// Cells of a fault's row: the slowest reaction of all drives, the Pioneer's apart where its limit differs, then each
+/// drive's stopping distances, m, by speed.
 std::string figures_of(Rows rows) {
   std::array<std::string, kKinds> ways;
   for (const FaultResult& row : rows) {

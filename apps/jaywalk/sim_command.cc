@@ -129,8 +129,8 @@ OperatorInput with_goal(const OperatorInput& input) {
   return wanted;
 }
 
-/// How a run ends, empty while it goes on; its time to arrive counts from `set_out`. A mover that was forced does not
-/// end it: the goal may still be worth reaching. A stop that waits for a reset does: nobody is there to press it.
+/// Outcome of a run, empty while it goes on; its time to arrive counts from `set_out`. A forced mover does not end the
+/// run. A latched stop ends it, since a simulation has nobody who resets.
 std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied,
                     Time set_out) {
   if (truth.contacts > 0) return "collision";

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/motion/trajectory.h"
+#include "planner/motion/rollout_motion.h"
 
 namespace jaywalk::baseline {
 namespace {
@@ -24,16 +24,6 @@ motion::MotionBounds bounds_of(const MotionLimits& limits) {
           .accel = accel,
           .slowing = std::max(accel, at_most(limits.brake_mps2, kSlowing)),
           .jerk = at_most(limits.max_jerk_mps3, kMostJerk)};
-}
-
-motion::RobotState state_of(const motion::World& world) noexcept {
-  const Pose2& here = world.map_from_robot;
-  return {static_cast<float>(here.x),
-          static_cast<float>(here.y),
-          static_cast<float>(here.heading),
-          static_cast<float>(world.driven.v_mps),
-          static_cast<float>(world.driven.w_radps),
-          0.0F};
 }
 
 template <BaselineMotion::Decide deciding>
@@ -81,7 +71,7 @@ void BaselineMotion::decide(const motion::World& world, const motion::Intent& in
   const bool has_goal = intent.kind == motion::Intent::Kind::kGoal;
   if (!has_goal || age(world.plan.stamp, world.now) >= kGuideHoldsFor || !guide.known()) return;
   const Vec2 goal = world.input.goal_in_map;
-  decided_ = decide_({state_of(world),
+  decided_ = decide_({motion::state_of(world),
                       {static_cast<float>(goal.x), static_cast<float>(goal.y)},
                       world.perceived.tracks,
                       guide,

@@ -19,7 +19,7 @@ class SetupAnswers {
   /// Complaint about a value as TOML writes it; empty: none.
   using Check = std::function<std::string(const std::string& value)>;
 
-  /// Without a file, nothing is known beforehand; without a terminal (null), nobody is asked. Both outlive it. What a
+  /// `file` may be empty: no answers are given beforehand. A null terminal asks no questions. Both outlive it. What a
   /// person answers is kept in the file `kept` after each answer, and not asked again while that is there. Throws
   /// StartupError for a file that cannot be read, or with a key that ROBOT.toml does not know.
   SetupAnswers(const std::optional<std::filesystem::path>& file, std::istream* from, std::ostream* to,

@@ -17,7 +17,7 @@ inline constexpr std::size_t kShownFutures = 8;
 /// Now and in 1, 2, 3 and 4 s.
 inline constexpr std::array<int, 5> kShownSteps{0, 5, 10, 15, 20};
 
-/// Of the chosen trajectory's steps every fifth is shown.
+/// Steps of the chosen trajectory from one shown point to the next.
 inline constexpr std::size_t kChosenStep = 5;
 
 /// Where one mover is in the sampled futures, m in the map.

@@ -11,8 +11,8 @@
 
 namespace jaywalk::emulators {
 
-/// A Pioneer's ARCOS board with its two motors, which follow its ramps: packets over a line whose bytes come in frames,
-/// a report each cycle, encoders, settings, a watchdog after which it goes on with its old command when talk resumes.
+/// Emulated ARCOS board of a Pioneer: two motors with ramps, a report each cycle, encoders, settings, and a watchdog.
+/// After the watchdog has stopped the motors, any packet resumes the last command. Packets arrive as frames of bytes.
 /// For tests and the bench; it shares no code with the driver, except how numbers stand in bytes. Speeds: mm/s; sides:
 /// 0 left, 1 right.
 class ArcosBoard {

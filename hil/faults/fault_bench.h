@@ -34,7 +34,7 @@ struct FaultCase {
   Outcome outcome = Outcome::kLatched;
   void (*every_tick)(FaultBench&) = nullptr;  ///< and then again and again; may be null
   std::optional<DriveKind> only = {};         ///< of the one kind of drive that can have it
-  bool of_bus = false;                        ///< of a CAN bus: nobody else is on a Pioneer's line
+  bool of_bus = false;                        ///< on a CAN bus alone; a Pioneer's serial line has no other sender
   RollsOut rolls_out = RollsOut::kNone;
   bool after_ramp = false;  ///< the limit begins where the ramp that was ordered ends
   std::optional<sim::FaultKind> miswiring = {};

@@ -9,8 +9,8 @@ namespace jaywalk::faults {
 
 using namespace std::chrono_literals;
 
-/// Two periods of the loop: what happens just after a tick is seen by the next, whose frames the drives obey with the
-/// one after it; and what a ramp takes to be 5 mm/s below the speed before it.
+/// Limit of an immediate reaction: one period until the loop sees the fault, one until the drives obey, and 20 ms for a
+/// ramp to fall by 5 mm/s.
 [[nodiscard]] inline Duration at_once(Duration tick) noexcept { return 2 * tick + 20ms; }
 /// The drives' own watchdog or heartbeat consumer, 100 ms at most, after the frame before it; a wheel that nothing
 /// brakes is 5 mm/s slower only after 40 ms more.

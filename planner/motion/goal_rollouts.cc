@@ -57,7 +57,7 @@ void GoalRollouts::observe(const World& world, const Intent& intent) noexcept {
 
 bool GoalRollouts::is_there(const World& world) const noexcept {
   if (setup_.constant_speed) return false;
-  const RobotState now = now_in(world);
+  const RobotState now = state_of(world, sent_accel());
   const auto rests_within = [&](double share) {
     const auto within_m = static_cast<float>(share * setup_.goal_tolerance_m);
     return rests_near(now, static_cast<float>(world.input.goal_in_map.x), static_cast<float>(world.input.goal_in_map.y),

@@ -39,8 +39,7 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   if (!is_to_decide(world, intent, ground)) return;
   ++decision_.number;
   futures_->draw(memory_.beliefs(), memory_.hidden(), memory_.turning(), ground, decision_.number);
-  RobotState now = now_in(world);
-  now.accel = 0.0F;
+  const RobotState now = state_of(world);
   decision_.start = moved(now, {now.v, now.w}, body_.bounds, kLagS);  // as the wheels follow what is decided now
   decision_.start.accel = accel_;
   decision_.start.braked = braked_;
@@ -51,14 +50,14 @@ void RolloutMotion::decide(const World& world, const Intent& intent) noexcept {
   decision_.seen = world.scan.stamp;
 }
 
-RobotState RolloutMotion::now_in(const World& world) const noexcept {
+RobotState state_of(const World& world, float accel) noexcept {
   const Pose2& here = world.map_from_robot;
   return {static_cast<float>(here.x),
           static_cast<float>(here.y),
           static_cast<float>(here.heading),
           static_cast<float>(world.driven.v_mps),
           static_cast<float>(world.driven.w_radps),
-          accel_};
+          accel};
 }
 
 /// The supervisor supposes them where no laser looks; the robot may back or turn into them.

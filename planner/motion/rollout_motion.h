@@ -27,6 +27,9 @@ struct Decision {
   Trajectory last;
 };
 
+/// Pose and twist of the robot now, in the map, with the acceleration last sent, m/s2.
+[[nodiscard]] RobotState state_of(const World& world, float accel = 0.0F) noexcept;
+
 /// Drives by roll-outs: with each scan it samples joint futures of all movers, rolls proposed trajectories out among
 /// them and takes the one that costs least; each tick then drives on along it, within the comfort limits. What is
 /// proposed, and over which ground, the two kinds say: GoalRollouts and StickRollouts.
@@ -58,8 +61,8 @@ class RolloutMotion : public Motion {
   [[nodiscard]] Command command_at(Time now) const noexcept;
   /// Whether the last decision still holds, so that what is left of it may be gone on with.
   [[nodiscard]] bool holds(Time now) const noexcept { return decision_.at != kNever && now - decision_.at < kHoldsFor; }
-  /// Where the robot is and how it moves, its acceleration as it was sent.
-  [[nodiscard]] RobotState now_in(const World& world) const noexcept;
+  /// m/s2, as it was last sent.
+  [[nodiscard]] float sent_accel() const noexcept { return accel_; }
   [[nodiscard]] float tick_s() const noexcept { return static_cast<float>(setup_.tick_s); }
 
   MotionSetup setup_;

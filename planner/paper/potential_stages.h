@@ -186,8 +186,8 @@ struct RebaseCouplings {
   }
 };
 
-/// Count of the cells of a row that a cycle has tilted: those whose v differs from their eastern or northern
-/// neighbour's by more than `tilt` of it. A v that has changed alike all around has moved levels, not directions.
+/// Number of cells of a row whose correction v differs from the eastern or northern neighbour's by more than the share
+/// `tilt`. Where v changed by the same factor all around, the levels moved and the gradient's direction did not.
 struct TiltedOfRow {
   Grid grid;
   float tilt;

@@ -11,7 +11,7 @@ namespace jaywalk {
 //
 // State (position, velocity), A = [1 dt; 0 1], H = [1 0], no input. x and y are alike and independent, so one
 // covariance serves both axes. Process noise: white acceleration, constant over a step (the planner's
-// predictions, planner/cell/kalman.h, take it as white throughout: over seconds nobody holds an acceleration).
+// predictions, planner/cell/kalman.h, take it as white noise, since walkers do not hold an acceleration for seconds).
 
 /// Eqs. 12 and 13: moves the track `dt_s` >= 0 seconds on. `accel_std_mps2`: what it may accelerate by, an axis.
 void predict(Track& track, double dt_s, double accel_std_mps2) noexcept;

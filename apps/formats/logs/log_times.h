@@ -37,7 +37,7 @@ class LineClock {
   /// Lines in which the robot drove though time stood still.
   [[nodiscard]] std::size_t stood() const { return stood_; }
 
-  /// Of line `k` of those seen: the first stamp, and evenly on to the last; ten a second where they are the same.
+  /// Evenly spaced time of line `k`, from the first stamp to the last; at 10 Hz where both are the same.
   [[nodiscard]] Time even(std::size_t k) const;
 
  private:
