@@ -1,7 +1,10 @@
 #pragma once
 // What stands between a wish and a wheel, with everything else left away: desk, stop button, reset gate, supervisor, a
 // drive base and two emulated drives, time moved on by hand. It holds the rules against every tick.
+#include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdlib>
 #include <sstream>
 #include <string>
 
@@ -205,7 +208,9 @@ inline void SafetyCore::hold_against_rules(Time now) {
   if (wheels_.trouble != DriveTrouble::kNone && !proof_owed_) proof_owed_ = true, proofs_ = {};
   if (mode == Mode::kLatched && before_ != Mode::kLatched) {
     latched_ = now;
-    speed_latched_ = std::max(std::fabs(left_.velocity()), std::fabs(right_.velocity()));
+    // The ramp begins at the last setpoint, which a wheel that speeds up is behind by two ticks.
+    const double setpoint = std::max(std::abs(target_), std::abs(target_before_));
+    speed_latched_ = std::max({setpoint, std::fabs(left_.velocity()), std::fabs(right_.velocity())});
     reset_given_ = goal_given_ = false;
     proof_asked_ = false;
     proofs_ = {};
