@@ -1,6 +1,7 @@
 #include "firmware/safety/scan_pair.h"
 
 #include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -11,15 +12,22 @@ namespace {
 
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostError_m = 0.15;               ///< whatever is farther off is something else
-constexpr double kChord_m = 0.05;                   ///< to either side: with less a range's noise turns the surface
+constexpr double kChord_m = 0.10;                   ///< to either side: with less a range's noise turns the surface
 constexpr double kFlat_m = 0.18, kUneven_m = 0.02;  ///< to either side, and the mean off it: a pedestrian is round
 constexpr double kEdge_m = 0.1;
 constexpr float kRoundWeight = 0.06F;
 constexpr double kLeastNoise_m = 0.008, kMostNoise_m = 0.06;  ///< beams are discrete, surfaces rough
 constexpr double kCoarse_m = 0.1;                             ///< an error that weighs a quarter, to begin with
+constexpr double kFeigned = 2.0;  ///< times what noise turns normals by, which is no information: it varies by a fifth
 constexpr int kSteps = 7;
 constexpr double kOutlier = 4.5;              ///< negative log-likelihood at three standard deviations
 const Eigen::Vector3d kPrior{1.0, 1.0, 1.0};  ///< of a step, as information: no point at all has a thousand
+
+/// Positive: along what nothing tells, a standard deviation of 1 m.
+Eigen::Matrix3d told_apart(const Eigen::Matrix3d& information) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::Matrix3d> axes(information);
+  return axes.eigenvectors() * axes.eigenvalues().cwiseMax(1.0).asDiagonal() * axes.eigenvectors().transpose();
+}
 
 /// Of the beams, so that no more than kMostPoints are looked at.
 std::uint32_t every(const LaserScan& scan) {
@@ -126,7 +134,7 @@ ScanPair::Fit ScanPair::fit(const LaserScan& scan, const Pose2& start) const noe
 void ScanPair::improve(const LaserScan& scan, Fit& fit) const noexcept {
   const double scale_m = std::clamp(3.0 * fit.noise_m, 3.0 * kLeastNoise_m, kCoarse_m);
   const Transform2 to_robot(robot_from_laser_), to_laser(inverse(fit.kept_from_now * robot_from_laser_));
-  Eigen::Matrix3d normal_equations = kPrior.asDiagonal();
+  Eigen::Matrix3d normal_equations = kPrior.asDiagonal(), feigned = normal_equations;
   Eigen::Vector3d gradient = Eigen::Vector3d::Zero();
   FixedVector<float, kMostPoints> errors;
   double all = 1e-9, near = 0.0;
@@ -139,6 +147,8 @@ void ScanPair::improve(const LaserScan& scan, Fit& fit) const noexcept {
     const double weight = point.weight * share * share;
     const Eigen::Vector3d row(-normal.x, -normal.y, -cross(in_robot, normal));
     normal_equations += weight * row * row.transpose();
+    const Eigen::Vector3d beside(normal.y, -normal.x, -dot(in_robot, normal));  // the row of a normal turned by noise
+    feigned += kFeigned * weight * fit.noise_m * fit.noise_m / found.spread_m2 * beside * beside.transpose();
     gradient += weight * found.error_m * row;
     all += point.weight, near += std::fabs(found.error_m) < scale_m ? point.weight : 0.0F;
     if (point.weight < 1.0F && !few_walls_) continue;
@@ -149,7 +159,7 @@ void ScanPair::improve(const LaserScan& scan, Fit& fit) const noexcept {
   if (errors.empty()) return;
   std::nth_element(errors.begin(), errors.begin() + errors.size() / 2, errors.end());
   fit.noise_m = std::clamp(1.48 * errors[errors.size() / 2], kLeastNoise_m, kMostNoise_m);
-  fit.information = normal_equations / (fit.noise_m * fit.noise_m);
+  fit.information = told_apart((normal_equations - feigned) / (fit.noise_m * fit.noise_m));
   const Eigen::Vector3d by = normal_equations.ldlt().solve(-gradient);
   fit.kept_from_now = fit.kept_from_now * Pose2{by.x(), by.y(), by.z()};
 }
@@ -194,10 +204,11 @@ ScanPair::Residual ScanPair::residual(const LaserScan& scan, Vec2 in_laser, bool
   return shown(scan, laser_from_robot_ * (inverse(moved) * (robot_from_laser_ * in_laser)), hidden_too);
 }
 
-/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge. The surface is a line parallel to the
-/// chord of the outer two of three hits, through the mean of all three: a single hit has too much noise.
+/// At most kMostError_m; NaN where the scan shows no surface: no hit, or an edge. The surface is the line of least
+/// squares through up to nine hits: two hits on a chord of 0.1 m turn it by 0.15 rad with 1 cm of noise, and a wall
+/// that many such normals claim to see along lets the match slide.
 ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept {
-  constexpr Residual kNone{kNan, {}};
+  constexpr Residual kNone{kNan, {}, 1.0};
   const double full = std::fabs(scan.angle_step_rad);
   const std::int64_t beam = beam_towards(scan, in_laser);
   if (beam < 0 || beam >= static_cast<std::int64_t>(scan.beam_count)) return kNone;
@@ -207,16 +218,25 @@ ScanPair::Residual ScanPair::shown(const LaserScan& scan, Vec2 in_laser, bool hi
   const auto beside =
       static_cast<std::int64_t>(std::clamp(kChord_m / (range_m * full), 1.0, std::max(0.3 / full, 1.0)));
   if (beam < beside || beam + beside >= static_cast<std::int64_t>(scan.beam_count)) return kNone;
-  const auto middle = static_cast<std::size_t>(beam), low = static_cast<std::size_t>(beam - beside),
-             high = static_cast<std::size_t>(beam + beside);
+  const auto low = static_cast<std::size_t>(beam - beside), high = static_cast<std::size_t>(beam + beside);
   if (!scan.is_hit(low) || !scan.is_hit(high)) return kNone;
   const double apart_m = range_m * full * static_cast<double>(2 * beside);
   if (std::fabs(scan.range_m[high] - scan.range_m[low]) > 0.05 + 4.0 * apart_m) return kNone;
-  const Vec2 left = direction_[low] * scan.range_m[low], right = direction_[high] * scan.range_m[high];
-  const Vec2 along = right - left;
-  const Vec2 normal = Vec2{-along.y, along.x} * (1.0 / std::max(norm(along), 1e-6));
-  const double error = dot(normal, in_laser - (left + direction_[middle] * range_m + right) * (1.0 / 3.0));
-  return {std::clamp(error, -kMostError_m, kMostError_m), normal};
+  const auto place = [&](std::size_t k) { return direction_[k] * static_cast<double>(scan.range_m[k]); };
+  const Vec2 left = place(low), chord = place(high) - left, along = chord * (1.0 / std::max(norm(chord), 1e-6));
+  const std::size_t stride = std::max<std::size_t>(static_cast<std::size_t>(beside) / 4, 1);
+  double hits = 0.0, s = 0.0, t = 0.0, ss = 0.0, st = 0.0;  // along and across the chord, from its left end
+  for (std::size_t k = low; k <= high; k += stride) {
+    if (!scan.is_hit(k)) continue;
+    const Vec2 hit = place(k) - left;
+    const double on = dot(along, hit), off = cross(along, hit);
+    hits += 1.0, s += on, t += off, ss += on * on, st += on * off;
+  }
+  const double slope = (hits * st - s * t) / std::max(hits * ss - s * s, 1e-9);
+  const Vec2 normal = (Vec2{-along.y, along.x} - along * slope) * (1.0 / std::sqrt(1.0 + slope * slope));
+  const Vec2 mean = left + along * (s / hits) + Vec2{-along.y, along.x} * (t / hits);
+  return {std::clamp(dot(normal, in_laser - mean), -kMostError_m, kMostError_m), normal,
+          std::max(ss - s * s / hits, 1e-6)};
 }
 
 }  // namespace jaywalk

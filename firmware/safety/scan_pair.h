@@ -81,7 +81,8 @@ class ScanPair {
   };
   struct Residual {
     double error_m;
-    Vec2 normal;  ///< of the surface, in the laser's frame
+    Vec2 normal;             ///< of the surface, in the laser's frame
+    double spread_m2 = 1.0;  ///< of the hits along it, squares summed: its direction's variance is noise^2 / spread
   };
   /// `in_laser`: where the scan would show it, at the time of its first beam.
   [[nodiscard]] Residual residual(const LaserScan& scan, Vec2 in_laser, bool hidden_too) const noexcept;
