@@ -1,8 +1,9 @@
 #include <cstring>
+#include <type_traits>
 
 #include "cuda/cuda_cost_to_go.h"
 #include "cuda/kernels.h"
-#include "cuda/settle_tiles.h"
+#include "cuda/near_far.h"
 #include "planner/cost_to_go/cell_graph.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/cost_to_go/pose_price.h"
@@ -10,93 +11,75 @@
 namespace jaywalk {
 namespace {
 
-/// Costs up to so much more than `there`, or anything below `most` where there is none.
-template <class Value>
-__device__ std::uint32_t limit_beyond(const Value* there, std::uint32_t beyond, std::uint32_t most) {
-  const std::uint32_t cost = there == nullptr ? most : peek(there);
-  return cost < most - beyond ? cost + beyond : most;
-}
+/// Costs of all nodes, and where ways end: beyond that of a node, negative: nowhere.
+template <class Steps>
+struct Ends {
+  static constexpr std::uint32_t kNone = Steps::kNone;
+  LoweredCosts costs;
+  std::int32_t robot;
+  std::uint32_t beyond;
+
+  [[nodiscard]] __device__ std::uint32_t limit() const {
+    return Steps::end(robot < 0 ? kNone : costs.peek(robot), beyond);
+  }
+};
 
 /// Poses and the moves between them.
-struct PoseWays {
-  using Value = std::uint16_t;
-  static constexpr Value kNone = PoseGuide::kNoWay;
-  static constexpr int kTile = 8, kLayers = PoseLattice::kHeadings, kReach = PoseLattice::kReach, kThreads = 768;
-  std::int32_t cells;  ///< a side
-  const PoseMove* moves;
-  const std::int32_t* count;
-  const std::uint8_t *rate, *unseen;
-  const Value* robot;  ///< its cost; null: it is nowhere
-  std::uint32_t beyond;
-  Value* cost;
+struct Poses : Ends<field::PoseSteps> {
+  static constexpr int kThreads = 16;
+  static constexpr std::uint32_t kSpan = 128;  ///< half a second in the open
+  field::PoseSteps steps;
 
-  [[nodiscard]] JAYWALK_CELL int side() const { return cells; }
-  /// The lattice has a rim that no move leaves.
-  [[nodiscard]] __device__ static bool holds(int, int) { return true; }
-  [[nodiscard]] __device__ int at(int i, int j, int heading) const {
-    const int stride = cells + 2 * kReach;
-    return (heading * stride + j + kReach) * stride + i + kReach;
-  }
-  [[nodiscard]] __device__ std::uint32_t limit() const { return limit_beyond(robot, beyond, kNone - 1U); }
-
-  template <class Near>
-  [[nodiscard]] __device__ std::uint32_t least(int i, int j, int heading, std::uint32_t own, std::uint32_t limit,
-                                               const Near& near) const {
-    const std::uint32_t here = rate[at(i, j, heading)];
-    if (here == 0) return own;
-    for (int m = 0; m < count[heading]; ++m) {
-      const PoseMove move = moves[heading * PoseMoves::kMost + m];
-      const int turned = heading + move.turn, to = turned < 0 ? turned + kLayers : turned % kLayers;
-      const std::uint32_t there = near(move.di, move.dj, to);
-      if (there > limit || there + move.cost >= own) continue;  // no rate is lower than in the open
-      const int pose = at(i + move.di, j + move.dj, to);
-      if (rate[pose] == 0) continue;
-      const std::uint32_t through =
-          there + price::cost_of(move, here, rate[pose], unseen == nullptr ? 0U : unseen[pose]);
-      own = through < own ? through : own;
-    }
-    return own;
+  [[nodiscard]] __device__ std::int32_t count(std::int32_t pose) const { return steps.count(pose); }
+  template <class May, class Visit>
+  __device__ void step(std::int32_t pose, std::int32_t k, const May& may, const Visit& visit) const {
+    steps.step(pose, k, may, visit);
   }
 };
 
-/// Cells and the steps to sixteen neighbours. Of a node's two numbers the first is its cost.
-struct CellWays {
-  using Value = std::uint32_t;
-  static constexpr Value kNone = field::kNoWay;
-  static constexpr int kTile = 32, kLayers = 1, kReach = 2, kThreads = 512;
-  static constexpr int kRing = field::CellGraph::kRing;
-  std::int32_t cells;  ///< a side
-  const Value* robot;
-  std::uint32_t beyond;
-  Value* cost;
+/// Cells and the steps to sixteen neighbours.
+struct Cells : Ends<field::CellSteps> {
+  static constexpr int kThreads = 16;
+  static constexpr std::uint32_t kSpan = 8 * field::kCostsPerCell;
+  field::CellSteps steps;
 
-  [[nodiscard]] JAYWALK_CELL int side() const { return cells; }
-  /// A ring of cells about the grid is not free.
-  [[nodiscard]] __device__ static bool holds(int, int) { return true; }
-  [[nodiscard]] __device__ int at(int i, int j, int) const {
-    return 2 * ((j + kRing) * (cells + 2 * kRing) + i + kRing);
-  }
-  [[nodiscard]] __device__ std::uint32_t limit() const {
-    return limit_beyond(robot, beyond, field::CellGraph::kEverywhere);
-  }
-  [[nodiscard]] __device__ std::uint32_t rate(int i, int j) const { return cost[at(i, j, 0) + 1]; }
-
-  template <class Near>
-  [[nodiscard]] __device__ std::uint32_t least(int i, int j, int, std::uint32_t own, std::uint32_t limit,
-                                               const Near& near) const {
-    const std::uint32_t here = rate(i, j);
-    for (int k = 0; here != 0 && k < field::kCellSteps; ++k) {
-      const field::CellStep step = field::cell_step(k);
-      const int di = step.di, dj = step.dj;
-      const std::uint32_t there = near(di, dj, 0), rate_there = rate(i + di, j + dj);
-      if (there > (limit < own ? limit : own) || rate_there == 0) continue;
-      const bool passes = rate(i + di / 2, j + dj / 2) != 0 && rate(i + di - di / 2, j + dj - dj / 2) != 0;
-      const std::uint32_t through = there + step.cost(here, rate_there);
-      own = passes && through < own ? through : own;
-    }
-    return own;
+  [[nodiscard]] __device__ static std::int32_t count(std::int32_t) { return field::kCellSteps; }
+  template <class May, class Visit>
+  __device__ void step(std::int32_t cell, std::int32_t k, const May& may, const Visit& visit) const {
+    steps.step(cell, field::cell_step(k), may, visit);
   }
 };
+
+/// Widens a pose's cost, in which 16 bits are none of an atomic operation's, and puts it on the pile.
+struct SowPose {
+  const std::uint16_t* given;
+  std::uint32_t* cost;
+  Piles piles;
+
+  __device__ void operator()(std::int32_t pose) const {
+    cost[pose] = given[pose];
+    if (given[pose] != PoseGuide::kNoWay) piles.sow(pose, given[pose]);
+  }
+};
+struct ReapPose {
+  const std::uint32_t* cost;
+  std::uint16_t* settled;
+
+  __device__ void operator()(std::int32_t pose) const { settled[pose] = static_cast<std::uint16_t>(cost[pose]); }
+};
+struct SowCell {
+  const field::CellNode* nodes;
+  Piles piles;
+
+  __device__ void operator()(std::int32_t cell) const {
+    if (nodes[cell].cost != field::kNoWay) piles.sow(cell, nodes[cell].cost);
+  }
+};
+
+template <class Stage>
+void launch_visits(CudaDevice& device, const Stage& stage, std::int32_t n) noexcept {
+  device.launch(visit<Stage>, (n + kVisitThreads - 1) / kVisitThreads, kVisitThreads, stage, 1, n);
+}
 
 template <class T>
 void put_in(CudaDevice& device, const Shared<T>& to, const T* from, std::size_t n) noexcept {
@@ -116,16 +99,12 @@ CudaCostToGo::CudaCostToGo(int device, std::chrono::milliseconds limit, std::int
       pose_rate_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
       unseen_(device_.share<std::uint8_t>(PoseLattice::kPoses)),
       pose_cost_(device_.share<std::uint16_t>(PoseLattice::kPoses)),
-      moves_(device_.share<PoseMove>(static_cast<std::size_t>(PoseLattice::kHeadings * PoseMoves::kMost))),
-      move_count_(device_.share<std::int32_t>(PoseLattice::kHeadings)),
-      cells_(device_.share<std::uint32_t>(2 * field::CellGraph::size_for(max_side))),
-      waits_(device_.share<std::int32_t>(static_cast<std::size_t>(field::Grid{max_side / 8}.cells()))) {}
-
-template <class Ways>
-bool CudaCostToGo::read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept {
-  if (!settle_tiles(device_, ways, waits_)) return false;
-  device_.copy_out(cost, n);
-  return device_.wait();
+      wide_cost_(device_.take<std::uint32_t>(PoseLattice::kPoses)),
+      moves_(device_.share<field::BackMoves>(1)),
+      cells_(device_.share<field::CellNode>(field::CellGraph::size_for(max_side))),
+      told_(device_.share<Piles::Told>(1)) {
+  for (Piles::Entry*& pile : piles_.pile) pile = device_.take<Piles::Entry>(Piles::kRoom);
+  piles_.told = told_.device;
 }
 
 bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
@@ -137,7 +116,7 @@ bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
   put_in(device_, radius_, look.radius, points);
   const field::PoseLook on_device{nodes_.device, places_.device, radius_.device,
                                   look.points,   room_.device,   shift_.device};
-  device_.launch(visit<field::PoseLook>, kVisits / kVisitThreads, kVisitThreads, on_device, kVisits, kVisits);
+  launch_visits(device_, on_device, kVisits);
   device_.copy_out(room_, PoseLattice::kPoses), device_.copy_out(shift_, PoseLattice::kPoses);
   if (!device_.wait()) return false;
   std::memcpy(look.room, room_.host, PoseLattice::kPoses);
@@ -145,35 +124,43 @@ bool CudaCostToGo::find(const field::PoseLook& look) noexcept {
   return true;
 }
 
+/// False: the device failed, or a pile was full.
+template <class Graph, class T>
+bool CudaCostToGo::read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept {
+  device_.launch(settle_piles<Graph>, 1, kPileThreads, graph, piles_);
+  if constexpr (std::is_same_v<Graph, Poses>)
+    launch_visits(device_, ReapPose{wide_cost_, settled.device}, PoseLattice::kPoses);
+  device_.copy_out(settled, n);
+  device_.copy_out(told_, 1);
+  return device_.wait() && told_.host->full == 0;
+}
+
 bool CudaCostToGo::settle(const field::PoseCosts& poses) noexcept {
   constexpr std::size_t kPoses = PoseLattice::kPoses;
   if (!begins()) return false;
-  put_in(device_, pose_rate_, poses.rate, kPoses);
-  if (poses.unseen != nullptr) put_in(device_, unseen_, poses.unseen, kPoses);
+  put_in(device_, pose_rate_, poses.steps.rate, kPoses);
+  if (poses.steps.unseen != nullptr) put_in(device_, unseen_, poses.steps.unseen, kPoses);
   put_in(device_, pose_cost_, poses.cost, kPoses);
-  put_in(device_, moves_, poses.moves.from[0].data(), poses.moves.from.size() * PoseMoves::kMost);
-  put_in(device_, move_count_, poses.moves.count.data(), poses.moves.count.size());
-  const PoseWays ways{PoseLattice::kSide,
-                      moves_.device,
-                      move_count_.device,
-                      pose_rate_.device,
-                      poses.unseen == nullptr ? nullptr : unseen_.device,
-                      poses.robot < 0 ? nullptr : pose_cost_.device + poses.robot,
-                      poses.beyond,
-                      pose_cost_.device};
-  if (!read_settled(ways, pose_cost_, kPoses)) return false;
+  put_in(device_, moves_, poses.steps.moves, 1);
+  device_.set_bytes(told_.device, 0, 1);
+  launch_visits(device_, SowPose{pose_cost_.device, wide_cost_, piles_}, PoseLattice::kPoses);
+  const Poses graph{{{wide_cost_, 1}, poses.robot, poses.beyond},
+                    {moves_.device, pose_rate_.device, poses.steps.unseen == nullptr ? nullptr : unseen_.device}};
+  if (!read_settled(graph, pose_cost_, kPoses)) return false;
   std::memcpy(poses.cost, pose_cost_.host, kPoses * sizeof *poses.cost);
   return true;
 }
 
 bool CudaCostToGo::settle(const field::CellCosts& cells) noexcept {
-  static_assert(sizeof(field::CellNode) == 2 * sizeof(std::uint32_t));
-  const std::size_t n = 2 * field::CellGraph::size_for(cells.side);
+  const std::size_t n = field::CellGraph::size_for(cells.side);
   if (!begins()) return false;
-  put_in(device_, cells_, &cells.nodes->cost, n);
-  const CellWays ways{cells.side, cells_.device + 2 * cells.robot, cells.beyond, cells_.device};
-  if (!read_settled(ways, cells_, n)) return false;
-  std::memcpy(cells.nodes, cells_.host, n * sizeof(std::uint32_t));
+  put_in(device_, cells_, cells.nodes, n);
+  device_.set_bytes(told_.device, 0, 1);
+  launch_visits(device_, SowCell{cells_.device, piles_}, static_cast<std::int32_t>(n));
+  const Cells graph{{{&cells_.device->cost, 2}, cells.robot, cells.beyond},
+                    {cells_.device, cells.side + 2 * field::CellGraph::kRing}};
+  if (!read_settled(graph, cells_, n)) return false;
+  std::memcpy(cells.nodes, cells_.host, n * sizeof *cells.nodes);
   return true;
 }
 

@@ -1,5 +1,6 @@
 #pragma once
 #include "cuda/cuda_device.h"
+#include "cuda/near_far.h"
 #include "planner/cost_to_go/cost_settler.h"
 
 namespace jaywalk {
@@ -18,10 +19,12 @@ class CudaCostToGo final : public field::CostSettler {
   [[nodiscard]] bool settle(const field::PoseCosts& poses) noexcept override;
   [[nodiscard]] bool settle(const field::CellCosts& cells) noexcept override;
   [[nodiscard]] bool find(const field::PoseLook& look) noexcept override;
+  /// Of the last settlement.
+  [[nodiscard]] const Piles::Told& told() const noexcept { return *told_.host; }
 
  private:
-  template <class Ways>
-  [[nodiscard]] bool read_settled(const Ways& ways, const Shared<typename Ways::Value>& cost, std::size_t n) noexcept;
+  template <class Graph, class T>
+  [[nodiscard]] bool read_settled(const Graph& graph, const Shared<T>& settled, std::size_t n) noexcept;
 
   /// Once it has failed it is asked for nothing more until is_ready().
   [[nodiscard]] bool begins() noexcept { return !device_.has_failed() && device_.begin(); }
@@ -36,10 +39,11 @@ class CudaCostToGo final : public field::CostSettler {
   Shared<std::int8_t> shift_;
   Shared<std::uint8_t> pose_rate_, unseen_;
   Shared<std::uint16_t> pose_cost_;
-  Shared<PoseMove> moves_;
-  Shared<std::int32_t> move_count_;
-  Shared<std::uint32_t> cells_;
-  Shared<std::int32_t> waits_;
+  std::uint32_t* wide_cost_;  ///< of poses, while they are settled
+  Shared<field::BackMoves> moves_;
+  Shared<field::CellNode> cells_;
+  Shared<Piles::Told> told_;
+  Piles piles_;
 };
 
 }  // namespace jaywalk

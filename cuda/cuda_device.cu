@@ -1,3 +1,5 @@
+#include <sys/prctl.h>
+
 #include <cstring>
 #include <stdexcept>
 #include <thread>
@@ -7,8 +9,9 @@
 namespace jaywalk {
 namespace {
 
-/// Between two looks at the device: what a plan may come later, and no core is kept busy.
-constexpr std::chrono::microseconds kLook{20};
+/// The host looks without a break, and then sleeps between two looks, so that no core is kept busy.
+constexpr std::chrono::microseconds kSpin{100}, kLook{20};
+constexpr unsigned long kSlack_ns = 1000;  ///< of these sleeps: 50,000 by default, more than all of the wait
 /// A host that was kept from its processor for a while looks so often before it gives the device up.
 constexpr int kFewestLooks = 10;
 
@@ -19,11 +22,8 @@ void must(cudaError_t error) {
 }  // namespace
 
 CudaDevice::CudaDevice(int device, std::chrono::milliseconds limit) : device_(device), limit_(limit) {
-  int integrated = 0, managed = 0, least = 0, greatest = 0;
+  int least = 0, greatest = 0;
   must(cudaSetDevice(device));
-  must(cudaDeviceGetAttribute(&integrated, cudaDevAttrIntegrated, device));
-  must(cudaDeviceGetAttribute(&managed, cudaDevAttrManagedMemory, device));
-  is_one_memory_ = integrated != 0 && managed != 0;
   must(cudaDeviceGetStreamPriorityRange(&least, &greatest));
   must(cudaStreamCreateWithPriority(&stream_, cudaStreamNonBlocking, greatest));
   must(cudaEventCreate(&begin_)), must(cudaEventCreate(&end_));
@@ -40,7 +40,7 @@ CudaDevice::~CudaDevice() {
 
 void* CudaDevice::take_bytes(std::size_t bytes) {
   void* block = nullptr;
-  must(is_one_memory_ ? cudaMallocManaged(&block, bytes) : cudaMalloc(&block, bytes));
+  must(cudaMalloc(&block, bytes));
   taken_.push_back(block);
   must(cudaMemsetAsync(block, 0, bytes, stream_));
   must(cudaStreamSynchronize(stream_));
@@ -57,16 +57,17 @@ void* CudaDevice::pin_bytes(std::size_t bytes) {
 
 bool CudaDevice::begin() noexcept {
   if (!is_ready()) return false;
-  (void)cudaSetDevice(device_);  // each thread of the host has its own, at first device 0
-  launched_ = cudaEventRecord(begin_, stream_);
+  launched_ = cudaSetDevice(device_);  // each thread of the host has its own, at first device 0
+  if (launched_ == cudaSuccess) launched_ = cudaEventRecord(begin_, stream_);
   return true;
 }
 
 bool CudaDevice::wait() noexcept {
   if (has_failed()) return false;
-  (void)cudaEventRecord(end_, stream_);
+  // Where the end cannot be marked, an earlier mark would be taken for it.
+  const bool is_marked = cudaEventRecord(end_, stream_) == cudaSuccess;
   // What was launched before a refusal still runs: it is waited for as well.
-  failure_ = waited();
+  failure_ = is_marked ? waited() : DeviceFailure::kBroken;
   if (!has_failed() && launched_ != cudaSuccess) failure_ = DeviceFailure::kRefused;
   // Of errors that stay the second look still has one.
   if (cudaGetLastError() != cudaSuccess && cudaGetLastError() != cudaSuccess) failure_ = DeviceFailure::kBroken;
@@ -78,15 +79,16 @@ bool CudaDevice::wait() noexcept {
 }
 
 DeviceFailure CudaDevice::waited() noexcept {
-  const auto end = std::chrono::steady_clock::now() + limit_;
+  const auto begin = std::chrono::steady_clock::now(), end = begin + limit_;
+  (void)prctl(PR_SET_TIMERSLACK, kSlack_ns);
   for (int looks = 1;; ++looks) {
     const cudaError_t state = cudaEventQuery(end_);
     if (state == cudaSuccess) return DeviceFailure::kNone;
     if (state != cudaErrorNotReady) return DeviceFailure::kBroken;
     (void)cudaGetLastError();  // "not ready" is remembered as an error
-    if (looks > kFewestLooks && std::chrono::steady_clock::now() > end)
-      return left_behind_ = true, DeviceFailure::kSilent;
-    std::this_thread::sleep_for(kLook);
+    const auto now = std::chrono::steady_clock::now();
+    if (looks > kFewestLooks && now > end) return left_behind_ = true, DeviceFailure::kSilent;
+    if (now - begin > kSpin) std::this_thread::sleep_for(kLook);
   }
 }
 

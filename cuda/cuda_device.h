@@ -1,7 +1,7 @@
 #pragma once
 // A CUDA device as the planner has it: one stream, memory that is taken at the start, launches one after another, and a
-// wait that ends. What host and kernels share lies twice, in pinned and in the device's memory, and is copied; on a
-// device that shares the host's memory it lies once, in managed memory, which both cache.
+// wait that ends. What host and kernels share lies twice, in pinned and in the device's memory, and is copied: on a
+// Jetson, too, where managed memory would be maintained at every launch.
 #include <cuda_runtime.h>
 
 #include <algorithm>
@@ -50,11 +50,8 @@ class CudaDevice {
   }
   template <class T>
   Shared<T> share(std::size_t n) {
-    T* device = take<T>(n);
-    return {is_one_memory_ ? device : pin<T>(n), device};
+    return {pin<T>(n), take<T>(n)};
   }
-  /// On a Jetson: one memory, which the host must not touch while a kernel runs.
-  [[nodiscard]] bool is_one_memory() const noexcept { return is_one_memory_; }
   /// Whether shared memory may be touched and kernels launched: nothing that was given up still runs, and the device
   /// works.
   [[nodiscard]] bool is_ready() noexcept {
@@ -67,11 +64,10 @@ class CudaDevice {
 
   /// What is launched and copied from now on, up to the wait that ends it. False while an earlier kernel may still run.
   [[nodiscard]] bool begin() noexcept;
-  /// Between the two places of what is shared; left out where they are one.
+  /// Between the two places of what is shared.
   template <class T>
   void copy(T* to, const T* from, std::size_t n) noexcept {
-    if (to == from || launched_ != cudaSuccess) return;
-    launched_ = cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDefault, stream_);
+    if (launched_ == cudaSuccess) launched_ = cudaMemcpyAsync(to, from, n * sizeof(T), cudaMemcpyDefault, stream_);
   }
   /// Each byte of n values.
   template <class T>
@@ -93,7 +89,7 @@ class CudaDevice {
     config.stream = stream_;
     if (launched_ == cudaSuccess) launched_ = cudaLaunchKernelEx(&config, kernel, arguments...);
   }
-  /// Sleeps until all has ended since begin() or its time is up. False: that failed, or a wait since begin() has; until
+  /// Waits until all has ended since begin() or its time is up. False: that failed, or a wait since begin() has; until
   /// the next begin() nothing more is launched then.
   [[nodiscard]] bool wait() noexcept;
 
@@ -116,7 +112,6 @@ class CudaDevice {
   std::chrono::milliseconds limit_;
   DeviceFailure failure_ = DeviceFailure::kNone;
   cudaError_t launched_ = cudaSuccess;
-  bool is_one_memory_ = false;
   cudaStream_t stream_ = nullptr;
   cudaEvent_t begin_ = nullptr, end_ = nullptr;
   std::vector<void*> taken_, pinned_;

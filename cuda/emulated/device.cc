@@ -60,13 +60,13 @@ bool has_run(std::uint64_t place) { return d.put - d.line.size() >= place; }
 
 /// Runs it. False: it never ends.
 bool run_to(std::uint64_t place) {
-  d.memory.protect(Busy::kWorks);
+  d.memory.protect(true);
   while (!has_run(place) && !d.is_stuck) {
     d.line.front()();
     if (!d.is_stuck) d.line.pop_front();
     if (d.sticky != cudaSuccess) d.line.clear();
   }
-  d.memory.protect(d.line.empty() ? Busy::kNot : Busy::kMaybe);
+  d.memory.protect(false);
   return !d.is_stuck;
 }
 
@@ -76,7 +76,6 @@ cudaError_t wait(std::uint64_t place, const char* in_call) {
 }
 
 cudaError_t put_in_line(std::function<void()> work) {
-  d.memory.protect(Busy::kMaybe);
   d.line.push_back(std::move(work));
   ++d.put;
   return cudaSuccess;
@@ -135,9 +134,6 @@ cudaError_t cudaSetDevice(int number) {
   if (number < 0 || number >= d.properties.devices) return call([] { return cudaErrorInvalidDevice; });
   return call([&] { return current_device = number, cudaSuccess; });
 }
-cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int) {
-  return *value = attribute == cudaDevAttrManagedMemory || d.properties.integrated ? 1 : 0, done();
-}
 cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest) { return *least = 0, *greatest = -5, done(); }
 
 cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned, int) {
@@ -166,7 +162,6 @@ cudaError_t cudaEventSynchronize(cudaEvent_t event) {
 cudaError_t cudaEventElapsedTime(float* ms, cudaEvent_t, cudaEvent_t) { return *ms = 0.0F, done(); }
 
 cudaError_t cudaMalloc(void** block, std::size_t bytes) { return take(block, bytes, Where::kDevice); }
-cudaError_t cudaMallocManaged(void** block, std::size_t bytes) { return take(block, bytes, Where::kManaged); }
 cudaError_t cudaHostAlloc(void** block, std::size_t bytes, unsigned) { return take(block, bytes, Where::kPinned); }
 cudaError_t cudaFree(void* block) {
   return call([&] { return wait(d.put, "cudaFree"), d.memory.release(block), cudaSuccess; });

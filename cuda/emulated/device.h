@@ -11,9 +11,8 @@
 namespace jaywalk::emulated {
 
 struct Properties {
-  int devices = 1;          ///< all alike; 0: none is there
-  bool integrated = false;  ///< one memory, as on a Jetson
-  bool guarded = false;     ///< the host cannot touch what is not its own (memory.h)
+  int devices = 1;       ///< all alike; 0: none is there
+  bool guarded = false;  ///< the host cannot touch what is not its own (memory.h)
   std::size_t bytes = std::size_t{4} << 30;
   int not_ready = 0;       ///< queries of an event that answer "not ready" before its work runs
   std::uint64_t seed = 1;  ///< of the order in which threads run

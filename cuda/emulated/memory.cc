@@ -16,7 +16,7 @@ std::size_t rounded_up(std::size_t bytes, std::size_t to) { return (bytes + to -
 
 void Memory::begin_anew(std::size_t room, std::uint8_t poison, bool guarded) {
   while (!blocks_.empty()) release(blocks_.begin()->first);
-  room_ = room, poison_ = poison, guarded_ = guarded, busy_ = Busy::kNot;
+  room_ = room, poison_ = poison, guarded_ = guarded, works_ = false;
 }
 
 void* Memory::take(std::size_t bytes, Where where) {
@@ -41,16 +41,15 @@ void Memory::release(void* block) {
   blocks_.erase(at);
 }
 
-void Memory::protect(Busy busy) {
-  if (busy == busy_) return;
-  busy_ = busy;
+void Memory::protect(bool works) {
+  if (works == works_) return;
+  works_ = works;
   for (const auto& [begin, block] : blocks_) protect(block);
 }
 
 void Memory::protect(const Block& block) const {
   if (!guarded_ || block.where == Where::kPinned) return;
-  const bool is_open = busy_ == Busy::kWorks || (block.where == Where::kManaged && busy_ == Busy::kNot);
-  ::mprotect(block.pages, block.used, is_open ? PROT_READ | PROT_WRITE : PROT_NONE);
+  ::mprotect(block.pages, block.used, works_ ? PROT_READ | PROT_WRITE : PROT_NONE);
 }
 
 }  // namespace jaywalk::emulated

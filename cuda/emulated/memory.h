@@ -8,16 +8,8 @@
 namespace jaywalk::emulated {
 
 enum class Where : std::uint8_t {
-  kDevice,   ///< the device's alone
-  kPinned,   ///< of the host; the device's too
-  kManaged,  ///< both, the host's while the device has nothing to do (as on a Jetson)
-};
-
-/// What the device does, as far as the host knows.
-enum class Busy : std::uint8_t {
-  kNot,
-  kMaybe,  ///< work was queued that the host has not waited for
-  kWorks,  ///< it works, and the host waits
+  kDevice,  ///< the device's alone
+  kPinned,  ///< of the host; the device's too
 };
 
 class Memory {
@@ -30,7 +22,8 @@ class Memory {
   [[nodiscard]] void* take(std::size_t bytes, Where where);
   /// `block`: what take() returned, or null.
   void release(void* block);
-  void protect(Busy busy);
+  /// `works`: the device does, and the host waits.
+  void protect(bool works);
 
  private:
   struct Block {
@@ -44,7 +37,7 @@ class Memory {
   std::size_t room_ = 0;
   std::uint8_t poison_ = 0;
   bool guarded_ = false;
-  Busy busy_ = Busy::kNot;
+  bool works_ = false;
 };
 
 }  // namespace jaywalk::emulated

@@ -31,10 +31,9 @@ class CudaExecutor {
   T* take(std::size_t n) {
     return device_.take<T>(n);
   }
-  /// The stages' own where host and device share their memory.
   template <class T>
-  T* show(T* stages, std::size_t n) {
-    return device_.is_one_memory() ? stages : device_.pin<T>(n);
+  T* show(T*, std::size_t n) {
+    return device_.pin<T>(n);
   }
   [[nodiscard]] bool is_ready() noexcept { return device_.is_ready(); }
   [[nodiscard]] bool begin() noexcept { return device_.begin(); }

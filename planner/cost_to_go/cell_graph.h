@@ -43,15 +43,38 @@ struct CellNode {
   std::uint32_t cost, rate;
 };
 
-/// A window's cells with a ring of two about them that are not free, so that a step asks for no border. What Shortest
-/// wants of a graph is here.
+/// The steps between cells, on the processor and on a device; plain values. Nodes lie by rows of `width`, with a ring
+/// of two about them that are not free, so that a step asks for no border.
+struct CellSteps {
+  static constexpr std::uint32_t kNone = kNoWay;
+  static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
+
+  const CellNode* nodes = nullptr;
+  std::int32_t width = 0;
+
+  /// may(to, cost) is asked before what lies between is looked at.
+  template <class May, class Visit>
+  JAYWALK_CELL void step(std::int32_t n, const CellStep& step, const May& may, const Visit& visit) const {
+    const CellNode* const here = nodes + n;
+    const std::int32_t away = step.dj * width + step.di;
+    const std::uint32_t rate = here[away].rate, cost = step.cost(here->rate, rate);
+    if (rate == 0 || here->rate == 0 || !may(n + away, cost)) return;
+    const std::int32_t between = step.dj / 2 * width + step.di / 2;
+    if (here[between].rate != 0 && here[away - between].rate != 0) visit(n + away, cost);
+  }
+  /// Cells at this cost or beyond it are not stepped from: `more` beyond a cost.
+  [[nodiscard]] JAYWALK_CELL static std::uint32_t end(std::uint32_t there, std::uint32_t more) {
+    return there < kEverywhere - more ? there + more : kEverywhere;
+  }
+};
+
+/// A window's cells with CellSteps's ring about them. What Shortest wants of a graph is here.
 class CellGraph {
  public:
   using Cost = std::uint32_t;
   static constexpr std::uint32_t kBucketShift = 9;  ///< 512 costs: less than any step
   static constexpr std::int32_t kNone = -1;
-  static constexpr std::int32_t kRing = 2;                           ///< cells
-  static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
+  static constexpr std::int32_t kRing = 2;  ///< cells
 
   static constexpr std::array<CellStep, kCellSteps> kSteps = [] {
     std::array<CellStep, kCellSteps> steps{};
@@ -112,23 +135,16 @@ class CellGraph {
   }
   [[nodiscard]] std::uint32_t limit() const noexcept { return end_ == kNone ? limit_ : beyond(end_, more_); }
   [[nodiscard]] std::uint32_t beyond(std::int32_t n, std::uint32_t more) const noexcept {
-    const std::uint32_t there = cost(n);
-    return there < kEverywhere - more ? there + more : kEverywhere;
+    return CellSteps::end(cost(n), more);
   }
 
   template <class May, class Visit>
   void for_each_step(std::int32_t n, const May& may, const Visit& visit) const noexcept {
-    const CellNode* here = &nodes_[static_cast<std::size_t>(n)];
-    const std::uint32_t own = here->rate;
-    if (own == 0) return;
-    for (const CellStep& step : kSteps) {
-      const std::int32_t away = step.dj * width_ + step.di;
-      const CellNode there = here[away];
-      const std::uint32_t cost = step.cost(own, there.rate);
-      if (there.rate == 0 || !may(there.cost, cost)) continue;
-      const std::int32_t between = step.dj / 2 * width_ + step.di / 2;
-      if (here[between].rate != 0 && here[away - between].rate != 0) visit(n + away, cost);
-    }
+    const CellNode* const nodes = nodes_.data();
+    const CellSteps steps{nodes, width_};
+    const auto asked = [&](std::int32_t to, std::uint32_t cost) { return may(nodes[to].cost, cost); };
+    if (nodes[n].rate == 0) return;
+    for (const CellStep& step : kSteps) steps.step(n, step, asked, visit);
   }
   template <class Visit>
   void for_each_near(std::int32_t n, const Visit& visit) const noexcept {
@@ -140,7 +156,7 @@ class CellGraph {
   std::int32_t width_ = 0;
   std::int32_t seed_ = kNone;
   std::int32_t end_ = kNone;
-  std::uint32_t more_ = 0, limit_ = kEverywhere;
+  std::uint32_t more_ = 0, limit_ = CellSteps::kEverywhere;
 };
 
 }  // namespace jaywalk::field

@@ -3,7 +3,7 @@
 #include <cstdint>
 
 #include "planner/cost_to_go/cell_graph.h"
-#include "planner/cost_to_go/pose_moves.h"
+#include "planner/cost_to_go/pose_graph.h"
 
 namespace jaywalk::field {
 
@@ -49,9 +49,7 @@ struct PoseLook {
 
 /// cost[p] = min(cost[q] + step(p, q)) over the moves p to q of a lattice of poses.
 struct PoseCosts {
-  const std::uint8_t* rate;    ///< 0: no place for the body
-  const std::uint8_t* unseen;  ///< null: none anywhere
-  const PoseMoves& moves;
+  PoseSteps steps;
   std::int32_t robot;    ///< pose; negative: none
   std::uint32_t beyond;  ///< more than the robot's cost: of no concern
   std::uint16_t* cost;   ///< what is given, else PoseGuide::kNoWay; then the fixed point, where that is of concern

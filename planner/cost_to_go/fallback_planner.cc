@@ -9,18 +9,22 @@ FallbackPlanner::FallbackPlanner(std::unique_ptr<Planner> device, std::unique_pt
     : device_(std::move(device)),
       processor_(std::move(processor)),
       answering_(device_.get()),
-      name_(device_->backend()) {}
+      name_(device_->backend()) {
+  failed_at_.fill(kNever);
+}
 
 bool FallbackPlanner::asks_device(Time now) const noexcept {
-  return !has_failed_ || (failures_ < kMostFailures && now >= failed_at_ + kAskAgainAfter);
+  if (!has_failed_) return true;
+  const Time last = failed_at_[(failures_ - 1) % kMostFailures], first = failed_at_[failures_ % kMostFailures];
+  return now >= last + kAskAgainAfter && (first == kNever || now >= first + kWindow);
 }
 
 void FallbackPlanner::note_failure(Time now) noexcept {
-  Name& name = names_[static_cast<std::size_t>(failures_++)];
+  Name& name = names_[failures_ % kMostFailures];
+  failed_at_[failures_++ % kMostFailures] = now;
   std::snprintf(name.data(), name.size(), "%s (%s: %s)", processor_->backend(), device_->backend(), device_->failure());
   name_.store(name.data(), std::memory_order_release);
   has_failed_ = true;
-  failed_at_ = now;
 }
 
 void FallbackPlanner::submit(const PlanRequest& request) noexcept {

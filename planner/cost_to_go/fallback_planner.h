@@ -63,9 +63,9 @@ class AnsweringPlanner : public Planner {
   std::uint32_t submissions_ = 0;
 };
 
-/// Plans on a device; from the submission on in which that fails, on the processor. Once, some time later, it asks the
-/// device again: a launch may have been refused for a moment, and a kernel have been late and not lost. Where the
-/// device fails a second time the processor plans for good.
+/// Plans on a device; from the submission on in which that fails, on the processor. Some time later it asks the device
+/// again: a launch may have been refused for a moment, and a kernel have been late and not lost. A device that failed
+/// three times within a minute is asked again when that minute is over.
 class FallbackPlanner final : public Planner {
  public:
   /// Both for the same configuration.
@@ -81,13 +81,14 @@ class FallbackPlanner final : public Planner {
 
   /// By the requests' stamps: seconds in which a driver gets over what it can get over.
   static constexpr Duration kAskAgainAfter = std::chrono::seconds(5);
+  static constexpr Duration kWindow = std::chrono::seconds(60);
 
  private:
   [[nodiscard]] bool asks_device(Time now) const noexcept;
   void note_failure(Time now) noexcept;
 
   using Name = std::array<char, 96>;
-  static constexpr int kMostFailures = 2;
+  static constexpr std::size_t kMostFailures = 3;  ///< in the window
 
   std::unique_ptr<Planner> device_, processor_;
   Planner* answering_;
@@ -95,9 +96,9 @@ class FallbackPlanner final : public Planner {
   std::uint32_t submissions_ = 0;
   bool is_new_ = false;
   bool has_failed_ = false;  ///< and has not answered since
-  int failures_ = 0;
-  Time failed_at_ = kNever;
-  std::array<Name, kMostFailures> names_{};
+  std::size_t failures_ = 0;
+  std::array<Time, kMostFailures> failed_at_;  ///< the latest, in turns
+  std::array<Name, kMostFailures> names_{};    ///< likewise: a reader may still hold the last one
   std::atomic<const char*> name_;
 };
 

@@ -118,7 +118,7 @@ PoseGuide PoseField::settle(const PoseFieldRequest& request, Memory& memory) noe
   queue_.clear();
   guide.goal_closed = !sow_goal(request, guide, memory) && request.asked.wants_heading;
   if (queue_.is_empty() && !guide.goal_closed) sow_rim(request, guide, memory);
-  settle_costs(guide, memory);
+  settle_costs(memory);
   const auto heading = static_cast<float>(robot.heading);
   guide.known = guide.time_to_go(request.guide, here.x, here.y, heading) < Guide::kNoWay_s;
   if (guide.known && guide.unseen != nullptr) {
@@ -132,11 +132,11 @@ void PoseField::offer(std::int32_t pose, float seconds) noexcept {
   queue_.offer(graph_, pose, static_cast<std::uint32_t>(seconds * kPoseCostsPerSecond));
 }
 
-void PoseField::settle_costs(const PoseGuide& guide, Memory& memory) noexcept {
+void PoseField::settle_costs(Memory& memory) noexcept {
   const std::int32_t robot = graph_.robot();
-  const bool is_settled = (settler_ != nullptr && settler_->settle({guide.rate, guide.unseen, memory.moves, robot,
-                                                                    kBeyond, memory.cost.data()})) ||
-                          queue_.settle(graph_);
+  const bool is_settled =
+      (settler_ != nullptr && settler_->settle({graph_.steps(), robot, kBeyond, memory.cost.data()})) ||
+      queue_.settle(graph_);
   const std::uint32_t end = is_settled ? graph_.limit() : 0;
   for (std::uint16_t& cost : memory.cost) cost = cost >= end ? PoseGuide::kNoWay : cost;
 }

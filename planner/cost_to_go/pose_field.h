@@ -54,7 +54,7 @@ class PoseField {
   bool sow_goal(const PoseFieldRequest& request, const PoseGuide& guide, Memory& memory) noexcept;
   void sow_rim(const PoseFieldRequest& request, PoseGuide& guide, Memory& memory) noexcept;
   void offer(std::int32_t pose, float seconds) noexcept;
-  void settle_costs(const PoseGuide& guide, Memory& memory) noexcept;
+  void settle_costs(Memory& memory) noexcept;
 
   Footprint body_;
   CostSettler* settler_;

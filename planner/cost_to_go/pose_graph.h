@@ -1,13 +1,66 @@
 #pragma once
 // The graph that the time from poses is settled on: poses, and the moves between them backward.
 #include <algorithm>
-#include <array>
 #include <cstdint>
 
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/cost_to_go/pose_price.h"
 
 namespace jaywalk::field {
+
+/// The moves backward, by the heading that they lead to; plain values.
+struct BackMoves {
+  static constexpr std::int32_t kMost = 2 * PoseMoves::kMost;
+  struct Move {
+    std::int32_t offset;  ///< of poses
+    std::uint32_t cost, unseen_weight;
+  };
+
+  void turn_back(const PoseMoves& moves) noexcept {
+    std::fill_n(count, PoseLattice::kHeadings, 0);
+    for (std::int32_t from = 0; from < PoseLattice::kHeadings; ++from) {
+      for (std::int32_t m = 0; m < moves.count[static_cast<std::size_t>(from)]; ++m) {
+        const PoseMove& move = moves.from[static_cast<std::size_t>(from)][static_cast<std::size_t>(m)];
+        const std::int32_t heading = PoseLattice::wrapped(from + move.turn);
+        if (count[heading] == kMost) continue;
+        to[heading][count[heading]++] = {
+            (from - heading) * PoseLattice::kPlane - move.dj * PoseLattice::kStride - move.di, move.cost,
+            price::unseen_weight(move.gear, move.turn)};
+      }
+    }
+  }
+
+  Move to[PoseLattice::kHeadings][kMost];
+  std::int32_t count[PoseLattice::kHeadings];
+};
+
+/// The steps to poses that a pose may be come to from, on the processor and on a device; plain values.
+struct PoseSteps {
+  static constexpr std::uint32_t kNone = PoseGuide::kNoWay;
+
+  const BackMoves* moves = nullptr;
+  const std::uint8_t *rate = nullptr, *unseen = nullptr;  ///< as PoseGuide has them
+
+  [[nodiscard]] JAYWALK_CELL std::int32_t count(std::int32_t pose) const {
+    return moves->count[PoseLattice::heading_of(pose)];
+  }
+  /// The k-th of them. may(from, least) is asked first: what the step costs is the dearer question, and nowhere is less
+  /// dear than the open.
+  template <class May, class Visit>
+  JAYWALK_CELL void step(std::int32_t pose, std::int32_t k, const May& may, const Visit& visit) const {
+    const BackMoves::Move& move = moves->to[PoseLattice::heading_of(pose)][k];
+    const std::int32_t from = pose + move.offset;
+    if (!may(from, move.cost)) return;
+    const std::uint32_t other = rate[from];
+    if (other == 0) return;
+    visit(from,
+          price::cost_of(move.cost, rate[pose], other, unseen == nullptr ? 0U : unseen[pose], move.unseen_weight));
+  }
+  /// Poses at this cost or beyond it are not stepped from: `more` beyond a cost.
+  [[nodiscard]] JAYWALK_CELL static std::uint32_t end(std::uint32_t there, std::uint32_t more) {
+    return there + more + 1 < kNone ? there + more + 1 : kNone;
+  }
+};
 
 /// Graph of a PoseGuide's poses, for Shortest.
 class PoseGraph {
@@ -19,56 +72,30 @@ class PoseGraph {
   /// Takes the arrays of `guide` and their `costs`. Ways end `more` beyond the cost of pose `robot`, nowhere where that
   /// is negative.
   void lay(const PoseGuide& guide, Cost* costs, std::int32_t robot, std::uint32_t more) noexcept {
-    rate_ = guide.rate, unseen_ = guide.unseen, costs_ = costs, robot_ = robot, more_ = more;
-    turn_moves_back(*guide.moves);
+    steps_ = {&back_, guide.rate, guide.unseen};
+    costs_ = costs, robot_ = robot, more_ = more;
+    back_.turn_back(*guide.moves);
   }
 
+  [[nodiscard]] const PoseSteps& steps() const noexcept { return steps_; }
   [[nodiscard]] std::int32_t robot() const noexcept { return robot_; }
   [[nodiscard]] Cost& cost(std::int32_t pose) const noexcept { return costs_[pose]; }
   [[nodiscard]] std::uint32_t limit() const noexcept {
-    const std::uint32_t there = robot_ < 0 ? PoseGuide::kNoWay : costs_[robot_];
-    return there == PoseGuide::kNoWay ? there : std::min<std::uint32_t>(there + more_ + 1, PoseGuide::kNoWay);
+    return PoseSteps::end(robot_ < 0 ? PoseSteps::kNone : costs_[robot_], more_);
   }
   template <class May, class Visit>
   void for_each_step(std::int32_t pose, const May& may, const Visit& visit) const noexcept {
-    const auto to = static_cast<std::size_t>(PoseLattice::heading_of(pose));
-    const std::uint32_t rate = rate_[pose], eighths = unseen_ == nullptr ? 0U : unseen_[pose];
-    for (std::int32_t k = 0; k < count_[to]; ++k) {
-      const Move& move = back_[to][static_cast<std::size_t>(k)];
-      const std::int32_t from = pose + move.offset;
-      if (!may(costs_[from], move.cost)) continue;  // nowhere is less dear than the open
-      const std::uint32_t other = rate_[from];
-      if (other != 0) visit(from, price::cost_of(move.cost, rate, other, eighths, move.unseen_weight));
-    }
+    const std::int32_t count = steps_.count(pose);
+    const auto asked = [&](std::int32_t from, std::uint32_t least) { return may(costs_[from], least); };
+    for (std::int32_t k = 0; k < count; ++k) steps_.step(pose, k, asked, visit);
   }
 
  private:
-  /// Move backward: from the pose that it leads to.
-  struct Move {
-    std::int32_t offset;  ///< of poses
-    std::uint32_t cost, unseen_weight;
-  };
-
-  void turn_moves_back(const PoseMoves& moves) noexcept {
-    count_.fill(0);
-    for (std::int32_t from = 0; from < PoseLattice::kHeadings; ++from) {
-      for (std::int32_t m = 0; m < moves.count[static_cast<std::size_t>(from)]; ++m) {
-        const PoseMove& move = moves.from[static_cast<std::size_t>(from)][static_cast<std::size_t>(m)];
-        const auto to = static_cast<std::size_t>(PoseLattice::wrapped(from + move.turn));
-        if (static_cast<std::size_t>(count_[to]) == back_[to].size()) continue;
-        back_[to][static_cast<std::size_t>(count_[to]++)] = {
-            (from - static_cast<std::int32_t>(to)) * PoseLattice::kPlane - move.dj * PoseLattice::kStride - move.di,
-            move.cost, price::unseen_weight(move.gear, move.turn)};
-      }
-    }
-  }
-
-  const std::uint8_t *rate_ = nullptr, *unseen_ = nullptr;
+  BackMoves back_{};
+  PoseSteps steps_;
   Cost* costs_ = nullptr;
   std::int32_t robot_ = -1;
   std::uint32_t more_ = 0;
-  std::array<std::array<Move, 2 * PoseMoves::kMost>, PoseLattice::kHeadings> back_{};
-  std::array<std::int32_t, PoseLattice::kHeadings> count_{};
 };
 
 }  // namespace jaywalk::field

@@ -11,7 +11,7 @@ namespace jaywalk::test {
 
 /// A device of its own memory or, every third seed, one that shares the host's.
 inline emulated::Properties properties_of(std::uint64_t seed) {
-  return {.integrated = seed % 3 == 0, .not_ready = static_cast<int>(seed % 3), .seed = seed};
+  return {.not_ready = static_cast<int>(seed % 3), .seed = seed};
 }
 
 inline std::unique_ptr<paper::MapField> cuda_field(const paper::CellMap& map) {

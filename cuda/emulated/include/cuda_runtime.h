@@ -30,12 +30,8 @@ T atomicAdd(T* at, T by) {
   return std::exchange(*at, static_cast<T>(*at + by));
 }
 template <class T>
-T atomicOr(T* at, T with) {
-  return std::exchange(*at, static_cast<T>(*at | with));
-}
-template <class T>
-T atomicExch(T* at, T with) {
-  return std::exchange(*at, with);
+T atomicMin(T* at, T with) {
+  return std::exchange(*at, with < *at ? with : *at);
 }
 
 // For the host.
@@ -50,7 +46,6 @@ enum cudaError_t {
   cudaErrorLaunchOutOfResources = 701,
   cudaErrorLaunchFailure = 719,
 };
-enum cudaDeviceAttr { cudaDevAttrIntegrated = 18, cudaDevAttrManagedMemory = 83 };
 enum cudaMemcpyKind { cudaMemcpyDefault = 4 };
 inline constexpr unsigned cudaStreamNonBlocking = 1, cudaHostAllocPortable = 1;
 
@@ -71,7 +66,6 @@ const char* cudaGetErrorString(cudaError_t error);
 cudaError_t cudaGetLastError();
 cudaError_t cudaGetDeviceCount(int* count);
 cudaError_t cudaSetDevice(int device);
-cudaError_t cudaDeviceGetAttribute(int* value, cudaDeviceAttr attribute, int device);
 cudaError_t cudaDeviceGetStreamPriorityRange(int* least, int* greatest);
 cudaError_t cudaStreamCreateWithPriority(cudaStream_t* stream, unsigned flags, int priority);
 cudaError_t cudaStreamDestroy(cudaStream_t stream);
@@ -83,7 +77,6 @@ cudaError_t cudaEventQuery(cudaEvent_t event);
 cudaError_t cudaEventSynchronize(cudaEvent_t event);
 cudaError_t cudaEventElapsedTime(float* ms, cudaEvent_t begin, cudaEvent_t end);
 cudaError_t cudaMalloc(void** block, std::size_t bytes);
-cudaError_t cudaMallocManaged(void** block, std::size_t bytes);
 cudaError_t cudaHostAlloc(void** block, std::size_t bytes, unsigned flags);
 cudaError_t cudaFree(void* block);
 cudaError_t cudaFreeHost(void* block);
