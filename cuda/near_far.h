@@ -63,7 +63,7 @@ inline constexpr int kPileThreads = 1024;
 
 /// In one block: what one thread put into a pile all others see after a barrier.
 template <class Graph>
-__global__ void __launch_bounds__(kPileThreads)
+__global__ void __launch_bounds__(kPileThreads, 1)
     settle_piles(const __grid_constant__ Graph graph, const __grid_constant__ Piles piles) {
   __shared__ int count[4], full, expanded;
   __shared__ std::uint32_t least;  // of the far pile that is being made
