@@ -14,7 +14,7 @@ namespace {
 /// Costs of all nodes, and where ways end: beyond that of a node, negative: nowhere.
 template <class Steps>
 struct Ends {
-  static constexpr std::uint32_t kNone = Steps::kNone;
+  static constexpr std::uint32_t kNone = Steps::kNone, kSpan = Steps::kSpan;
   LoweredCosts costs;
   std::int32_t robot;
   std::uint32_t beyond;
@@ -27,7 +27,6 @@ struct Ends {
 /// Poses and the moves between them.
 struct Poses : Ends<field::PoseSteps> {
   static constexpr int kThreads = 16;
-  static constexpr std::uint32_t kSpan = 128;  ///< half a second in the open
   field::PoseSteps steps;
 
   [[nodiscard]] __device__ std::int32_t count(std::int32_t pose) const { return steps.count(pose); }
@@ -40,7 +39,6 @@ struct Poses : Ends<field::PoseSteps> {
 /// Cells and the steps to sixteen neighbours.
 struct Cells : Ends<field::CellSteps> {
   static constexpr int kThreads = 16;
-  static constexpr std::uint32_t kSpan = 8 * field::kCostsPerCell;
   field::CellSteps steps;
 
   [[nodiscard]] __device__ static std::int32_t count(std::int32_t) { return field::kCellSteps; }

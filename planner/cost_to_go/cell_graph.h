@@ -46,7 +46,7 @@ struct CellNode {
 /// The steps between cells, on the processor and on a device; plain values. Nodes lie by rows of `width`, with a ring
 /// of two about them that are not free, so that a step asks for no border.
 struct CellSteps {
-  static constexpr std::uint32_t kNone = kNoWay;
+  static constexpr std::uint32_t kNone = kNoWay, kSpan = 8 * kCostsPerCell;
   static constexpr std::uint32_t kEverywhere = kNoWay - (1U << 24);  ///< a step costs less than the difference
 
   const CellNode* nodes = nullptr;
@@ -72,7 +72,7 @@ struct CellSteps {
 class CellGraph {
  public:
   using Cost = std::uint32_t;
-  static constexpr std::uint32_t kBucketShift = 9;  ///< 512 costs: less than any step
+  static constexpr std::uint32_t kSpan = CellSteps::kSpan;
   static constexpr std::int32_t kNone = -1;
   static constexpr std::int32_t kRing = 2;  ///< cells
 

@@ -24,8 +24,7 @@ struct BackMoves {
         const std::int32_t heading = PoseLattice::wrapped(from + move.turn);
         if (count[heading] == kMost) continue;
         to[heading][count[heading]++] = {
-            (from - heading) * PoseLattice::kPlane - move.dj * PoseLattice::kStride - move.di, move.cost,
-            price::unseen_weight(move.gear, move.turn)};
+            PoseLattice::offset(-move.di, -move.dj, from - heading), move.cost, price::unseen_weight(move.gear, move.turn)};
       }
     }
   }
@@ -36,7 +35,7 @@ struct BackMoves {
 
 /// The steps to poses that a pose may be come to from, on the processor and on a device; plain values.
 struct PoseSteps {
-  static constexpr std::uint32_t kNone = PoseGuide::kNoWay;
+  static constexpr std::uint32_t kNone = PoseGuide::kNoWay, kSpan = 128;  ///< half a second in the open
 
   const BackMoves* moves = nullptr;
   const std::uint8_t *rate = nullptr, *unseen = nullptr;  ///< as PoseGuide has them
@@ -66,8 +65,7 @@ struct PoseSteps {
 class PoseGraph {
  public:
   using Cost = std::uint16_t;
-  static constexpr std::uint32_t kBucketShift = 4;  ///< 16 costs: no move costs less, in no order
-  static_assert(price::kLeastCost == 1U << kBucketShift);
+  static constexpr std::uint32_t kSpan = PoseSteps::kSpan;
 
   /// Takes the arrays of `guide` and their `costs`. Ways end `more` beyond the cost of pose `robot`, nowhere where that
   /// is negative.

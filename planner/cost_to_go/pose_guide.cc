@@ -68,7 +68,7 @@ float PoseGuide::time_to_go(const Guide& guide, float x, float y, float heading)
 
 PoseGuide::Step PoseGuide::step(std::int32_t pose, const PoseMove& move) const noexcept {
   const std::int32_t from = Lattice::heading_of(pose), heading = Lattice::wrapped(from + move.turn);
-  const std::int32_t to = pose + (heading - from) * Lattice::kPlane + move.dj * Lattice::kStride + move.di;
+  const std::int32_t to = pose + Lattice::offset(move.di, move.dj, heading - from);
   if (rate[pose] == 0 || rate[to] == 0) return {to};
   const std::uint32_t eighths = unseen == nullptr ? 0U : unseen[to];
   return {to, price::cost_of(move, rate[pose], rate[to], eighths)};

@@ -9,19 +9,24 @@ namespace jaywalk {
 
 enum class Gear : std::uint8_t { kForward, kBackward, kTurn };
 
-/// 64 x 64 cells of 0.1 m with 48 headings each, and a rim round the cells that no move leaves.
+/// 64 x 64 cells of 0.1 m with 48 headings each, and a rim round the cells that no move leaves. A cell's headings lie
+/// side by side: the moves to a pose come from few lines of a cache.
 struct PoseLattice {
   static constexpr std::int32_t kSide = 64, kHeadings = 48, kReach = 4;
-  static constexpr std::int32_t kStride = kSide + 2 * kReach, kPlane = kStride * kStride, kPoses = kHeadings * kPlane;
+  static constexpr std::int32_t kStride = kSide + 2 * kReach, kPoses = kHeadings * kStride * kStride;
   static constexpr float kCell_m = 0.1F, kStep_rad = 2.0F * cell::kPiF / static_cast<float>(kHeadings);
 
   /// Numbers of cell and heading; the cell may lie in the rim.
   JAYWALK_CELL static constexpr std::int32_t at(std::int32_t i, std::int32_t j, std::int32_t heading) {
-    return heading * kPlane + (j + kReach) * kStride + i + kReach;
+    return ((j + kReach) * kStride + i + kReach) * kHeadings + heading;
   }
-  static constexpr std::int32_t heading_of(std::int32_t pose) { return pose / kPlane; }
-  static constexpr std::int32_t i_of(std::int32_t pose) { return pose % kPlane % kStride - kReach; }
-  static constexpr std::int32_t j_of(std::int32_t pose) { return pose % kPlane / kStride - kReach; }
+  JAYWALK_CELL static constexpr std::int32_t heading_of(std::int32_t pose) { return pose % kHeadings; }
+  static constexpr std::int32_t i_of(std::int32_t pose) { return pose / kHeadings % kStride - kReach; }
+  static constexpr std::int32_t j_of(std::int32_t pose) { return pose / kHeadings / kStride - kReach; }
+  /// From a pose to the one so many cells and headings on.
+  static constexpr std::int32_t offset(std::int32_t di, std::int32_t dj, std::int32_t headings) {
+    return (dj * kStride + di) * kHeadings + headings;
+  }
   static constexpr std::int32_t wrapped(std::int32_t heading) { return (heading % kHeadings + kHeadings) % kHeadings; }
 };
 

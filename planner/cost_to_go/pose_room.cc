@@ -97,18 +97,14 @@ void PoseRoom::take_nodes(const Guide& guide, Place low) noexcept {
   }
 }
 
-/// `places`: of a heading's and side's points. By row, with what is least on the stack: compilers take 16 bytes at
+/// Row j of a heading and side, `places` of their points, with what is least on the stack: compilers take 16 bytes at
 /// once.
-void PoseRoom::look_round(const std::int32_t* places) noexcept {
-  for (std::int32_t j = 0; j < kSide; ++j) {
-    std::uint8_t least[kSide];
-    std::fill(least, least + kSide, std::uint8_t{255});
-    for (std::size_t p = 0; p < radius_.size(); ++p) {
-      const std::uint8_t* from = &nodes_[static_cast<std::size_t>(places[p] + j * kPerCell * kColumns)];
-      const std::uint8_t radius = radius_[p];
-      for (std::int32_t i = 0; i < kSide; ++i) least[i] = std::min(least[i], PoseLook::left(from[i], radius));
-    }
-    std::copy_n(least, kSide, &looked_[static_cast<std::size_t>(j * kSide)]);
+void PoseRoom::look_along(const std::int32_t* places, std::int32_t j, std::uint8_t* least) const noexcept {
+  std::fill(least, least + kSide, std::uint8_t{255});
+  for (std::size_t p = 0; p < radius_.size(); ++p) {
+    const std::uint8_t* from = &nodes_[static_cast<std::size_t>(places[p] + j * kPerCell * kColumns)];
+    const std::uint8_t radius = radius_[p];
+    for (std::int32_t i = 0; i < kSide; ++i) least[i] = std::min(least[i], PoseLook::left(from[i], radius));
   }
 }
 
@@ -133,17 +129,15 @@ void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, 
   const auto points = static_cast<std::int32_t>(radius_.size());
   if (settler_ != nullptr && settler_->find({nodes_.data(), places_.data(), radius_.data(), points, room, shift}))
     return;
-  for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
-    for (std::int32_t side = 0; side < PoseLook::kSides; ++side) {
-      look_round(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * points)]);
-      for (std::int32_t j = 0; j < kSide; ++j) {
-        const std::uint8_t* from = &looked_[static_cast<std::size_t>(j * kSide)];
-        const std::int32_t first = PoseLattice::at(0, j, heading);
-        for (std::int32_t i = 0; i < kSide; ++i) {
-          const bool better = side == 0 || from[i] > room[first + i];
-          room[first + i] = better ? from[i] : room[first + i];
-          shift[first + i] = better ? PoseLook::shift_of(side) : shift[first + i];
-        }
+  for (std::int32_t j = 0; j < kSide; ++j) {
+    for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+      std::uint8_t least[PoseLook::kSides][kSide];
+      for (std::int32_t side = 0; side < PoseLook::kSides; ++side)
+        look_along(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * points)], j, least[side]);
+      for (std::int32_t i = 0; i < kSide; ++i) {
+        const std::int32_t pose = PoseLattice::at(i, j, heading);
+        const std::int32_t aside = least[2][i] > least[1][i] ? 2 : 1, side = least[aside][i] > least[0][i] ? aside : 0;
+        room[pose] = least[side][i], shift[pose] = PoseLook::shift_of(side);
       }
     }
   }
@@ -163,14 +157,20 @@ bool PoseRoom::find_unseen(const Guide& guide, Place low, std::uint8_t* unseen) 
     }
   }
   if (any == 0) return false;
+  std::array<std::array<std::int32_t, 8>, PoseLattice::kHeadings> places{};
   for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
-    for (std::size_t k = 0; k < rim_.size(); ++k) {
-      const std::int32_t place = place_of_node(turned(rim_[k].x, rim_[k].y, heading));
-      for (std::int32_t j = 0; j < kSide; ++j) {
+    for (std::size_t k = 0; k < rim_.size(); ++k)
+      places[static_cast<std::size_t>(heading)][k] = place_of_node(turned(rim_[k].x, rim_[k].y, heading));
+  }
+  for (std::int32_t j = 0; j < kSide; ++j) {
+    for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
+      std::array<std::uint8_t, kSide> eighths{};
+      for (const std::int32_t place : places[static_cast<std::size_t>(heading)]) {
         const std::uint8_t* from = &unseen_[static_cast<std::size_t>(place + j * kPerCell * kColumns)];
-        std::uint8_t* to = unseen + PoseLattice::at(0, j, heading);
-        for (std::int32_t i = 0; i < kSide; ++i) to[i] = static_cast<std::uint8_t>((k == 0 ? 0 : to[i]) + from[i]);
+        for (std::size_t i = 0; i < eighths.size(); ++i) eighths[i] = static_cast<std::uint8_t>(eighths[i] + from[i]);
       }
+      for (std::int32_t i = 0; i < kSide; ++i)
+        unseen[PoseLattice::at(i, j, heading)] = eighths[static_cast<std::size_t>(i)];
     }
   }
   return true;

@@ -38,7 +38,7 @@ class PoseRoom {
   void place_points();
   void take_nodes(const Guide& guide, Place low) noexcept;
   void add_wall(Place at) noexcept;
-  void look_round(const std::int32_t* places) noexcept;
+  void look_along(const std::int32_t* places, std::int32_t j, std::uint8_t* least) const noexcept;
 
   CostSettler* settler_;
   std::vector<Place> points_;                 ///< in the body's frame
@@ -46,7 +46,6 @@ class PoseRoom {
   std::vector<std::int32_t> places_;          ///< as PoseLook has them
   std::array<Place, 8> rim_;                  ///< corners and the sides' middles
   std::vector<std::uint8_t> nodes_, unseen_;  ///< every fourth of a row side by side
-  std::array<std::uint8_t, PoseLattice::kSide * PoseLattice::kSide> looked_{};
 };
 
 }  // namespace jaywalk::field

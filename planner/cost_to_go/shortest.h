@@ -1,5 +1,5 @@
 #pragma once
-// Shortest ways in integer costs by Dial's buckets, and their repair where steps have become dearer, cheaper or none.
+// Shortest ways in integer costs by near and far piles (Davidson and others 2014), and their repair where steps have become dearer, cheaper or none.
 //
 // Costs are the fixed point of cost[n] = min(cost[c] + step(c, n)) over the cells c whose cost is below a limit. No
 // step is free, so the fixed point is unique: what a repair leaves are the costs of a computation from nothing, to the
@@ -7,7 +7,7 @@
 // and so on; then the cells about all that was forgotten or has changed offer their costs anew.
 //
 // Graph says what the cells and the steps are:
-//   Cost, kBucketShift           an unsigned type; costs of a bucket, as a power of two
+//   Cost, kSpan                  an unsigned type; costs that a near pile spans
 //   cost(n)                      reference; kNoWay where there is none
 //   limit()                      cells at this cost or beyond it are not stepped from
 //   for_each_step(n, may, visit) visit(to, step) for the cells that n may be left for; of a repair the same both ways.
@@ -30,16 +30,15 @@ inline constexpr std::uint32_t kNoWay = 0xffffffffU;
 
 class Shortest {
  public:
-  /// Takes memory for `entries` that are queued at a time, and for repairs among `cells` cells.
+  /// Takes memory for piles of `entries` each, and for repairs among `cells` cells.
   Shortest(std::size_t cells, std::size_t entries)
-      : entries_(entries), heads_(kBuckets, kNone), seen_(cells), open_(cells), forgotten_(cells / kWorthwhile) {}
+      : near_(entries), far_(entries), seen_(cells), open_(cells), forgotten_(cells / kWorthwhile) {}
 
-  /// Nothing is queued.
+  /// Nothing is offered.
   void clear() noexcept {
-    if (queued_ > 0) std::fill(heads_.begin(), heads_.end(), kNone);
-    spare_ = kNone;
-    used_ = queued_ = 0;
-    lowest_ = std::numeric_limits<std::uint32_t>::max();
+    near_count_ = far_count_ = 0;
+    end_ = 0;
+    least_ = kNoWay;
     full_ = false;
   }
 
@@ -48,16 +47,20 @@ class Shortest {
   void offer(Graph& graph, std::int32_t n, std::uint32_t cost) noexcept {
     if (cost >= graph.cost(n)) return;
     graph.cost(n) = static_cast<typename Graph::Cost>(cost);
-    queue(n, cost >> Graph::kBucketShift);
+    if (cost < end_) return put(near_, near_count_, {n, cost});
+    put(far_, far_count_, {n, cost});
+    least_ = std::min(least_, cost);
   }
 
-  /// True where nothing is queued.
-  [[nodiscard]] bool is_empty() const noexcept { return queued_ == 0; }
-  /// Settles the offers to the fixed point. False when the queue was full: costs are then not settled.
+  /// True where nothing is offered.
+  [[nodiscard]] bool is_empty() const noexcept { return near_count_ + far_count_ == 0; }
+  /// Settles the offers to the fixed point. False when a pile was full: costs are then not settled.
   template <class Graph>
   [[nodiscard]] bool settle(Graph& graph) noexcept {
-    for (std::uint64_t bucket = lowest_; queued_ > 0 && bucket << Graph::kBucketShift < graph.limit(); ++bucket) {
-      drain(graph, static_cast<std::uint32_t>(bucket));
+    while (far_count_ > 0 && least_ < graph.limit()) {
+      take_span(graph);
+      for (std::size_t k = 0; k < near_count_; ++k) step_from(graph, near_[k]);
+      near_count_ = 0;
     }
     return !full_;
   }
@@ -85,13 +88,13 @@ class Shortest {
   }
 
  private:
-  static constexpr std::int32_t kNone = -1;
-  static constexpr std::size_t kBuckets = 4096;  ///< in a ring; what lies a lap or more ahead waits in its bucket
   static constexpr std::size_t kMostNear = 16;
   static constexpr std::size_t kWorthwhile = 5;  ///< more than a fifth of all cells: from nothing is sooner
 
+  /// A cell that had this cost when it was offered.
   struct Entry {
-    std::int32_t cell, next;
+    std::int32_t cell;
+    std::uint32_t cost;
   };
 
   void look_at(std::int32_t n) noexcept {
@@ -136,51 +139,43 @@ class Shortest {
     offer(graph, n, best);
   }
 
-  /// What is queued in the bucket meanwhile is stepped from as well.
+  /// The near pile of the next span: what is offered below its end meanwhile is stepped from as well.
   template <class Graph>
-  void drain(Graph& graph, std::uint32_t bucket) noexcept {
-    std::int32_t& head = heads_[bucket % kBuckets];
-    std::int32_t later = kNone;
-    while (head != kNone) {
-      const std::int32_t taken = head;
-      Entry& entry = entries_[static_cast<std::size_t>(taken)];
-      const std::int32_t n = entry.cell;
-      const std::uint32_t cost = graph.cost(n), now = cost >> Graph::kBucketShift;
-      head = entry.next;
-      const bool waits = now > bucket;
-      entry.next = std::exchange(waits ? later : spare_, taken);
-      if (waits) continue;
-      --queued_;
-      if (now != bucket || cost >= graph.limit()) continue;
-      graph.for_each_step(
-          n, [cost](std::uint32_t there, std::uint32_t least) { return there > cost + least; },
-          [&](std::int32_t to, std::uint32_t step) { offer(graph, to, cost + step); });
+  void take_span(Graph& graph) noexcept {
+    end_ = least_ / Graph::kSpan * Graph::kSpan + Graph::kSpan;
+    least_ = kNoWay;
+    std::size_t kept = 0;
+    for (std::size_t k = 0; k < far_count_; ++k) {
+      const Entry entry = far_[k];
+      if (graph.cost(entry.cell) != entry.cost) continue;
+      if (entry.cost < end_) {
+        put(near_, near_count_, entry);
+      } else {
+        far_[kept++] = entry;
+        least_ = std::min(least_, entry.cost);
+      }
     }
-    head = later;
+    far_count_ = kept;
   }
 
-  void queue(std::int32_t n, std::uint32_t bucket) noexcept {
-    std::int32_t entry = spare_;
-    if (entry != kNone) {
-      spare_ = entries_[static_cast<std::size_t>(entry)].next;
-    } else if (used_ < entries_.size()) {
-      entry = static_cast<std::int32_t>(used_++);
-    } else {
-      full_ = true;
-      return;
-    }
-    std::int32_t& head = heads_[bucket % kBuckets];
-    entries_[static_cast<std::size_t>(entry)] = {n, head};
-    head = entry;
-    if (bucket < lowest_) lowest_ = bucket;
-    ++queued_;
+  template <class Graph>
+  void step_from(Graph& graph, const Entry& entry) noexcept {
+    const std::uint32_t cost = entry.cost;
+    if (graph.cost(entry.cell) != cost || cost >= graph.limit()) return;
+    graph.for_each_step(
+        entry.cell, [cost](std::uint32_t there, std::uint32_t least) { return there > cost + least; },
+        [&](std::int32_t to, std::uint32_t step) { offer(graph, to, cost + step); });
   }
 
-  std::vector<Entry> entries_;
-  std::vector<std::int32_t> heads_;
-  std::int32_t spare_ = kNone;  ///< first of the entries that have been taken
-  std::size_t used_ = 0, queued_ = 0;
-  std::uint32_t lowest_ = 0;  ///< bucket
+  void put(std::vector<Entry>& pile, std::size_t& count, const Entry& entry) noexcept {
+    if (count == pile.size()) return void(full_ = true);
+    pile[count++] = entry;
+  }
+
+  std::vector<Entry> near_, far_;
+  std::size_t near_count_ = 0, far_count_ = 0;
+  std::uint32_t end_ = 0;          ///< of the near pile's span
+  std::uint32_t least_ = kNoWay;   ///< of the far pile
   bool full_ = false;
 
   std::vector<std::uint32_t> seen_;  ///< in which round a cell was looked at last

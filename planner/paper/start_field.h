@@ -41,7 +41,7 @@ inline constexpr std::uint32_t kFarthest = field::kNoWay - 16384;
 class StartGraph {
  public:
   using Cost = std::uint32_t;
-  static constexpr std::uint32_t kBucketShift = 7;  ///< 128 costs a bucket
+  static constexpr std::uint32_t kSpan = 1024;
   explicit StartGraph(std::int32_t max_side) : nodes_(static_cast<std::size_t>((max_side + 2) * (max_side + 2))) {}
 
   /// None of the grid's cells is free.
