@@ -5,13 +5,16 @@
 
 #include "apps/campaign/statistics.h"
 #include "apps/report/markup.h"
+#include "hal/types/geometry.h"
 
 namespace jaywalk::campaign {
 namespace {
 
 constexpr std::array kColours{"#0a6e8a", "#c2410c", "#4d7c0f", "#7c3aed", "#eab308", "#be185d", "#334155", "#0f766e"};
 constexpr double kLeft = 60.0, kTop = 20.0, kWide = 700.0, kHigh = 360.0;
-constexpr double kMostDoublings = 6.5;  // 64 movers, and some room
+constexpr double kMostDoublings = 6.5;                                 // 64 movers, and some room
+constexpr double kPanelWide = 180.0, kPanelHigh = 130.0, kGap = 80.0;  // of small charts
+constexpr std::size_t kAcross = 4;
 
 std::string opened(double width, double height) {
   return "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + fixed(width, 0) + " " + fixed(height, 0) +
@@ -77,6 +80,26 @@ std::string line_through(const SuccessLine& line, const std::string& colour) {
   return out;
 }
 
+std::string opened_panels(std::size_t panels) {
+  const std::size_t rows = (panels + kAcross - 1) / kAcross;
+  return opened((kPanelWide + kGap) * static_cast<double>(kAcross) + kGap,
+                (kPanelHigh + 60.0) * static_cast<double>(rows));
+}
+
+/// Left end of a panel's foot.
+Vec2 foot_of(std::size_t panel) {
+  return {kGap + (kPanelWide + kGap) * static_cast<double>(panel % kAcross),
+          (kPanelHigh + 60.0) * static_cast<double>(panel / kAcross) + 20.0 + kPanelHigh};
+}
+
+/// 1, 2 or 5 times a power of ten: a quarter of `most` or the next larger.
+double step_of(double most) {
+  const double tenfold = std::pow(10.0, std::floor(std::log10(most / 4.0)));
+  for (const double step : {tenfold, 2.0 * tenfold, 5.0 * tenfold})
+    if (step >= most / 4.0) return step;
+  return 10.0 * tenfold;
+}
+
 }  // namespace
 
 std::string success_chart(const std::vector<SuccessLine>& lines) {
@@ -95,14 +118,10 @@ std::string success_chart(const std::vector<SuccessLine>& lines) {
 }
 
 std::string turn_chart(const std::vector<TurnBars>& all) {
-  constexpr double kBar = 10.0, kPanelHigh = 130.0, kGap = 80.0, kTenfolds = 4.0;
-  constexpr std::size_t kAcross = 4;
-  const double panel = kBar * static_cast<double>(kTurnBins), cell = panel + kGap;
-  const std::size_t rows = (all.size() + kAcross - 1) / kAcross;
-  std::string out = opened(cell * static_cast<double>(kAcross) + kGap, (kPanelHigh + 60.0) * static_cast<double>(rows));
+  constexpr double kBar = kPanelWide / static_cast<double>(kTurnBins), kTenfolds = 4.0;
+  std::string out = opened_panels(all.size());
   for (std::size_t k = 0; k < all.size(); ++k) {
-    const double x = kGap + cell * static_cast<double>(k % kAcross);
-    const double foot = (kPanelHigh + 60.0) * static_cast<double>(k / kAcross) + 20.0 + kPanelHigh;
+    const auto [x, foot] = foot_of(k);
     for (std::size_t bin = 0; bin < kTurnBins; ++bin) {
       const double share = all[k].shares[bin];
       const double high = share > 0.0 ? kPanelHigh * std::max(0.02, 1.0 + std::log10(share) / kTenfolds) : 0.0;
@@ -117,8 +136,34 @@ std::string turn_chart(const std::vector<TurnBars>& all) {
       out += line_of(x - 4.0, y, x, y, "#333") +
              text_at(x - 6.0, y + 4.0, fixed(100.0 * std::pow(10.0, -tenfold), tenfold == 4 ? 2 : 0) + " %", "end");
     }
-    out += line_of(x, foot, x + panel, foot, "#333") + text_at(x, foot + 14.0, "0") +
-           text_at(x + panel, foot + 14.0, "180") + text_at(x + panel / 2.0, foot + 30.0, all[k].name);
+    out += line_of(x, foot, x + kPanelWide, foot, "#333") + text_at(x, foot + 14.0, "0") +
+           text_at(x + kPanelWide, foot + 14.0, "180") + text_at(x + kPanelWide / 2.0, foot + 30.0, all[k].name);
+  }
+  return out + "</svg>\n";
+}
+
+std::string map_chart(const std::vector<MapPanel>& panels) {
+  double most = 1.0, rows = 1.0;
+  for (const MapPanel& panel : panels)
+    for (const MapPanel::Run& run : panel.runs)
+      most = std::fmax(most, run.value), rows = std::max(rows, static_cast<double>(run.row + 1));
+  const double step = step_of(most), top = step * std::ceil(most / step);
+  std::string out = opened_panels(panels.size());
+  for (std::size_t k = 0; k < panels.size(); ++k) {
+    const Vec2 foot = foot_of(k);
+    const auto y_at = [&](double value) { return foot.y - kPanelHigh * std::clamp(value / top, 0.0, 1.0); };
+    for (double tick = 0.0; tick < top + step / 2.0; tick += step)
+      out += line_of(foot.x, y_at(tick), foot.x + kPanelWide, y_at(tick), "#ccc") +
+             text_at(foot.x - 6.0, y_at(tick) + 4.0, fixed(tick, step < 1.0 ? 1 : 0), "end");
+    for (const MapPanel::Run& run : panels[k].runs) {
+      const std::string colour = kColours[run.row % kColours.size()];
+      const bool arrived = !std::isnan(run.value);
+      out += "<circle cx=\"" + fixed(foot.x + kPanelWide * (static_cast<double>(run.row) + 0.5) / rows, 1) +
+             "\" cy=\"" + fixed(arrived ? y_at(run.value) : foot.y - kPanelHigh, 1) + "\" r=\"4\" fill=\"" +
+             (arrived ? colour : "#fff") + "\" stroke=\"" + colour + "\">" +
+             hover(run.said + ": " + (arrived ? fixed(run.value, 1) : "did not arrive")) + "</circle>\n";
+    }
+    out += text_at(foot.x + kPanelWide / 2.0, foot.y + 20.0, panels[k].map);
   }
   return out + "</svg>\n";
 }

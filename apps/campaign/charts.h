@@ -20,4 +20,19 @@ struct TurnBars {
 /// rare wide turns are seen.
 [[nodiscard]] std::string turn_chart(const std::vector<TurnBars>& all);
 
+/// A map with its runs.
+struct MapPanel {
+  struct Run {
+    std::size_t row = 0;  ///< of the experiment's rows
+    double value = 0.0;   ///< NaN: did not arrive
+    std::string said;     ///< names it
+  };
+  std::string map;
+  std::vector<Run> runs;
+};
+
+/// A small panel a map, all with the same axes: a column a row of the experiment, a dot a run; an open dot at the top
+/// did not arrive.
+[[nodiscard]] std::string map_chart(const std::vector<MapPanel>& panels);
+
 }  // namespace jaywalk::campaign

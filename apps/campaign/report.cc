@@ -46,6 +46,12 @@ ReportSection section_of(const ReportedTables& tables) {
       {"turns_" + experiment.name,
        "Turning angles every 0.25 m, degrees; heights are shares from 0.01 % to 100 %, by tenfolds",
        turn_chart(turn_bars(tables))});
+  if (const std::vector<MapPanel> panels = map_panels(tables); !panels.empty())
+    section.charts.push_back(
+        {"maps_" + experiment.name,
+         "Seconds lost against the shortest way, by map: columns as the tables' rows, a dot a run, "
+         "an open one did not arrive",
+         map_chart(panels)});
   return section;
 }
 

@@ -11,6 +11,8 @@
 
 namespace jaywalk::campaign {
 
+struct MapPanel;
+
 /// A run of the plan and what came of it.
 struct ReportedRun {
   const PlannedRun* run = nullptr;
@@ -56,6 +58,8 @@ class CampaignReport {
 
 /// The tables of one experiment.
 [[nodiscard]] std::vector<ReportTable> tables_of(const ReportedTables& experiment);
+/// Time lost by map, s; none for one map or many.
+[[nodiscard]] std::vector<MapPanel> map_panels(const ReportedTables& experiment);
 /// Settings against the first that differs in one option or key alone, over runs of the same scenario and seed; no
 /// table where there are none.
 [[nodiscard]] std::vector<ReportTable> paired_tables(const ReportedTables& experiment);

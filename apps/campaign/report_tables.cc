@@ -4,6 +4,7 @@
 #include <functional>
 #include <optional>
 
+#include "apps/campaign/charts.h"
 #include "apps/campaign/report.h"
 #include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"
@@ -243,6 +244,23 @@ std::vector<ReportTable> tables_of(const ReportedTables& tables) {
   for (ReportTable& table : stick_table(tables)) all.push_back(std::move(table));
   for (ReportTable& table : paired_tables(tables)) all.push_back(std::move(table));
   return all;
+}
+
+std::vector<MapPanel> map_panels(const ReportedTables& tables) {
+  const std::vector<std::string>& scenarios = tables.experiment->scenarios;
+  std::vector<MapPanel> panels;
+  if (scenarios.size() < 2 || scenarios.size() > kMostColumns) return panels;
+  for (const std::string& scenario : scenarios) {
+    panels.push_back({scenario, {}});
+    for (std::size_t k = 0; k < tables.rows.size(); ++k) {
+      for (const ReportedRun& run : tables.rows[k].runs) {
+        if (run.run->scenario != scenario) continue;
+        panels.back().runs.push_back(
+            {k, of_arrived(time_lost_s)(run), tables.rows[k].name + ", seed " + std::to_string(run.run->seed)});
+      }
+    }
+  }
+  return panels;
 }
 
 std::vector<ReportTable> paired_tables(const ReportedTables& tables) {

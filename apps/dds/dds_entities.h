@@ -45,15 +45,26 @@ void take_all(dds_entity_t reader, Use use) {
   }
 }
 
-/// Reads /goal_pose; of what is repeated or late nothing is an order (exchange::GoalOrders).
-class GoalReader {
+/// A pose that came, in CDR: a goal of /goal_pose, or of /initialpose the place where the robot is.
+struct PoseOrder {
+  bool is_place = false;
+  std::string message;
+};
+/// As a person says it to a run, "goto X Y H" or "here X Y H"; empty where it is no pose in the frame map.
+[[nodiscard]] std::string words_of(const PoseOrder& order);
+
+/// Reads /goal_pose and /initialpose; of what is repeated or late nothing is an order (exchange::GoalOrders).
+class PoseReader {
  public:
-  explicit GoalReader(dds_entity_t participant);
-  /// The newest order that came, as a PoseStamped in CDR.
-  [[nodiscard]] std::optional<std::string> take();
+  explicit PoseReader(dds_entity_t participant);
+  /// The newest order that came, a place before a goal.
+  [[nodiscard]] std::optional<PoseOrder> take();
 
  private:
-  dds_entity_t reader_;
+  template <class Message>
+  std::optional<PoseOrder> newest(dds_entity_t reader);
+
+  dds_entity_t goals_, places_;
   exchange::GoalOrders orders_;
 };
 

@@ -47,7 +47,7 @@ DdsTopics::DdsTopics(std::uint32_t domain, bool takes_goals, const std::string& 
     : participant_(checked(dds_create_participant(domain, nullptr, nullptr), "no participant")), space_(space) {
   for (const PassedOn& one : kPassedOn)
     writers_[one.topic()] = make_writer(participant_, *one.type, space + one.topic(), qos_of(one.kept));
-  if (takes_goals) goals_.emplace(participant_);
+  if (takes_goals) poses_.emplace(participant_);
 }
 
 DdsTopics::~DdsTopics() { dds_delete(participant_); }
@@ -72,6 +72,6 @@ bool DdsTopics::publish(const std::string& topic, std::string message) {
   return dds_write(writer->second, sample.get()) == DDS_RETCODE_OK;
 }
 
-std::optional<std::string> DdsTopics::take_goal() { return goals_ ? goals_->take() : std::nullopt; }
+std::optional<PoseOrder> DdsTopics::take_order() { return poses_ ? poses_->take() : std::nullopt; }
 
 }  // namespace jaywalk::dds

@@ -9,7 +9,8 @@
 namespace jaywalk::dds {
 
 /// A participant with a writer for each topic that is passed on ("/scan" is rt/scan, as ROS 2 names it), and, where it
-/// takes goals, a reader of rt/goal_pose. Reliable, the last ten; /map is kept for newcomers. Thread: one.
+/// takes goals, readers of rt/goal_pose and rt/initialpose. Reliable, the last ten; /map is kept for newcomers. Thread:
+/// one.
 class DdsTopics {
  public:
   /// `space` goes before every topic that is written, "/jaywalk" say. Throws StartupError where DDS finds no network it
@@ -24,13 +25,13 @@ class DdsTopics {
   [[nodiscard]] static bool passes(const std::string& topic);
   /// `message`: CDR behind its encapsulation header. False where its bytes do not fit the topic's type: it is not sent.
   bool publish(const std::string& topic, std::string message);
-  /// The newest goal that came, as a PoseStamped in CDR; none where none are taken.
-  [[nodiscard]] std::optional<std::string> take_goal();
+  /// See PoseReader::take(); none where none are taken.
+  [[nodiscard]] std::optional<PoseOrder> take_order();
 
  private:
   dds_entity_t participant_;
   std::string space_;
-  std::optional<GoalReader> goals_;
+  std::optional<PoseReader> poses_;
   std::map<std::string, dds_entity_t> writers_;
 };
 

@@ -16,7 +16,7 @@ using Json = nlohmann::json;
 
 constexpr char kMessageData = 1;  // of server and client alike
 constexpr std::size_t kSubscriptionHead = 13, kMostPayload = 64U << 20U;
-constexpr std::uint32_t kGoalChannel = 1;
+constexpr std::uint32_t kGoalChannel = 1, kPlaceChannel = 2;
 constexpr std::chrono::seconds kPatience{5};
 constexpr const char* kRemedy = "give the address that a run with --view prints";
 
@@ -63,7 +63,11 @@ FoxgloveClient::FoxgloveClient(const std::string& url, const std::string& finger
                     {{{"id", kGoalChannel},
                       {"topic", "/goal_pose"},
                       {"encoding", "cdr"},
-                      {"schemaName", "geometry_msgs/msg/PoseStamped"}}}}})
+                      {"schemaName", "geometry_msgs/msg/PoseStamped"}},
+                     {{"id", kPlaceChannel},
+                      {"topic", "/initialpose"},
+                      {"encoding", "cdr"},
+                      {"schemaName", "geometry_msgs/msg/PoseWithCovarianceStamped"}}}}})
                  .dump());
 }
 
@@ -110,15 +114,19 @@ std::optional<FoxgloveMessage> FoxgloveClient::next(std::chrono::milliseconds wa
   }
 }
 
-void FoxgloveClient::publish_goal(std::string_view message) {
+void FoxgloveClient::publish(const PoseOrder& order) {
+  const std::uint32_t channel = order.is_place ? kPlaceChannel : kGoalChannel;
   std::string payload(1, kMessageData);
-  payload.append(reinterpret_cast<const char*>(&kGoalChannel), sizeof kGoalChannel).append(message);
+  payload.append(reinterpret_cast<const char*>(&channel), sizeof channel).append(order.message);
   send(false, payload);
 }
 
 void FoxgloveClient::take_text(std::string_view text) {
   const Json json = Json::parse(text, nullptr, false);
-  if (!json.is_object() || json.value("op", "") != "advertise") return;
+  if (!json.is_object()) return;
+  if (json.value("op", "") == "status")
+    std::printf("jaywalk_dds: %s\n", json.value("message", "").c_str()), std::fflush(stdout);
+  if (json.value("op", "") != "advertise") return;
   Json wishes = Json::array();
   for (const Json& channel : json.value("channels", Json::array())) {
     const std::string topic = channel.value("topic", "");

@@ -11,6 +11,7 @@
 #include <string>
 #include <string_view>
 
+#include "apps/dds/dds_entities.h"
 #include "apps/view/door_stream.h"
 
 namespace jaywalk::dds {
@@ -33,8 +34,7 @@ class FoxgloveClient {
 
   /// The next message that comes within `wait`. Throws StartupError when the run has ended or the connection is lost.
   [[nodiscard]] std::optional<FoxgloveMessage> next(std::chrono::milliseconds wait);
-  /// geometry_msgs/PoseStamped in CDR.
-  void publish_goal(std::string_view message);
+  void publish(const PoseOrder& order);
 
  private:
   using Error = boost::system::error_code;

@@ -1,6 +1,6 @@
 // jaywalk_dds has two jobs, each in a process of its own: what a write to the network takes never meets a tick.
 // With a run's address: passes its topics on to ROS 2 and other programs on DDS. With a robot file: passes its ROS 2
-// devices on to the robot's program. With --goals either takes goals.
+// devices on to the robot's program. With --goals either takes goals, and the place where the robot is.
 #include <CLI/CLI.hpp>
 #include <atomic>
 #include <csignal>
@@ -11,9 +11,7 @@
 #include "apps/dds/dds_topics.h"
 #include "apps/dds/foxglove_client.h"
 #include "apps/dds/robot_bridge.h"
-#include "apps/view/goal_message.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"
 
 namespace {
@@ -21,7 +19,7 @@ namespace {
 using namespace jaywalk;
 
 constexpr auto kWait = std::chrono::milliseconds(10);  // longest that a goal waits for its turn
-constexpr auto kGoalPeriod = std::chrono::milliseconds(50);
+constexpr auto kOrderPeriod = std::chrono::milliseconds(50);
 
 std::atomic<bool> ends{false};  // threads and a signal look at it
 
@@ -33,7 +31,7 @@ struct Options {
 
 void greet(const Options& options) {
   std::printf("jaywalk_dds: %s on DDS domain %u; %s\n", options.from.c_str(), options.domain,
-              options.takes_goals ? "any program there can set goals" : "takes no goals");
+              options.takes_goals ? "any program there can set goals and say where the robot is" : "takes no goals");
   std::fflush(stdout);
 }
 
@@ -48,25 +46,27 @@ void pass_run_on(const Options& options) {
         std::fprintf(stderr, "jaywalk_dds: rt%s: a message was not sent: its bytes do not fit its type\n",
                      message->topic.c_str());
     }
-    if (const auto goal = topics.take_goal()) live.publish_goal(*goal);
+    if (const auto order = topics.take_order()) live.publish(*order);
   }
 }
 
-/// As a person's `jaywalk goto` says it. Returns why not.
-std::string say_goal(const std::filesystem::path& socket, const std::string& message) {
-  const auto goal = view::goal_from_cdr(message);
-  if (!goal) return "refused: no pose in the frame map\n";
+/// Returns the run's answer.
+std::string say(const std::filesystem::path& socket, const dds::PoseOrder& order) {
+  const std::string words = words_of(order);
+  if (words.empty()) return "refused: no pose in the frame map\n";
   try {
-    return ask(socket, "goto " + words_of(GoalOrder{goal->goal_in_map, goal->heading_rad}));
+    return ask(socket, words);
   } catch (const StartupError& error) {
     return std::string(error.what()) + "\n";
   }
 }
 
-void pass_goals(dds::GoalReader goals, const std::filesystem::path& socket) {
-  for (; !ends; std::this_thread::sleep_for(kGoalPeriod)) {
-    if (const auto message = goals.take())
-      std::printf("jaywalk_dds: goal: %s", say_goal(socket, *message).c_str()), std::fflush(stdout);
+void pass_orders(dds::PoseReader poses, const std::filesystem::path& socket) {
+  for (; !ends; std::this_thread::sleep_for(kOrderPeriod)) {
+    const auto order = poses.take();
+    if (!order) continue;
+    std::printf("jaywalk_dds: %s: %s", order->is_place ? "place" : "goal", say(socket, *order).c_str());
+    std::fflush(stdout);
   }
 }
 
@@ -76,13 +76,13 @@ void pass_robot_on(const Options& options) {
   if (socket.empty()) socket = robot.control_socket.empty() ? default_control_socket() : robot.control_socket;
   dds::RobotBridge bridge(robot, options.domain);
   greet(options);
-  std::thread goals, out([&] {
+  std::thread orders, out([&] {
     while (!ends) bridge.pass_out(kWait);
   });
-  if (options.takes_goals) goals = std::thread([reader = bridge.goals(), &socket] { pass_goals(reader, socket); });
+  if (options.takes_goals) orders = std::thread([poses = bridge.poses(), &socket] { pass_orders(poses, socket); });
   while (!ends) bridge.pass_in(kWait);
   out.join();
-  if (goals.joinable()) goals.join();
+  if (orders.joinable()) orders.join();
   bridge.stop();
 }
 
@@ -93,13 +93,15 @@ int main(int argc, char** argv) {
   CLI::App app{
       "jaywalk_dds: a run's topics on DDS (rt/scan, rt/odom, rt/tf, rt/map, rt/plan, rt/tracks), or a robot's laser "
       "and "
-      "base from it; with --goals, goals from rt/goal_pose. Not yet tried with ROS 2 itself"};
+      "base from it; with --goals, goals from rt/goal_pose, its place from rt/initialpose. Not yet tried with ROS 2 "
+      "itself"};
   app.add_option("from", options.from,
                  "What a run with --view prints, http://127.0.0.1:PORT/ with its token; or ROBOT.toml with kind = "
                  "\"dds\" in [laser] or [drive]")
       ->required();
   app.add_flag("--goals", options.takes_goals,
-               "Take goals: DDS asks nobody who he is, so that any program in the domain can send the robot anywhere");
+               "Take goals and places: DDS asks nobody who he is, so that any program in the domain can send the robot "
+               "anywhere");
   app.add_option("--fingerprint", options.fingerprint,
                  "Of the certificate behind an https:// address, as the run prints it: AB:CD:...");
   app.add_option("--namespace", options.space,

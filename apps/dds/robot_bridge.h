@@ -34,7 +34,7 @@ class RobotBridge {
   /// Commands zero, at the end.
   void stop();
   /// Before the threads begin; used while this lives.
-  [[nodiscard]] GoalReader goals() const { return GoalReader(participant_); }
+  [[nodiscard]] PoseReader poses() const { return PoseReader(participant_); }
 
  private:
   void add_laser(const LaserWiring& wiring);

@@ -58,6 +58,13 @@ std::string model_complaint(const std::string& value) {
   }
 }
 
+/// A model's file with its whole path: the robot's file may lie elsewhere.
+std::string placed(const std::string& model, const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / text_in(model);
+  return std::filesystem::is_regular_file(file) ? literal(std::filesystem::absolute(file).lexically_normal().string())
+                                                : model;
+}
+
 class Setup {
  public:
   Setup(Surroundings& machine, SetupAnswers& answers, Clock& clock)
@@ -95,7 +102,10 @@ class Setup {
   void draft_model() {
     const bool may_measure = answers_.asks() && !answers_.given("", "model");
     answers_.settle(draft_, "", "model", may_measure ? literal(kMeasured) : "", "", model_complaint);
-    if (!may_measure || draft_.value("", "model") != literal(kMeasured)) return;
+    const std::string model = draft_.value("", "model");
+    if (!may_measure || model != literal(kMeasured))
+      return draft_.set("", "model", placed(model, answers_.given("", "model") ? answers_.folder() : ""),
+                        "as answered");
     const RobotModel like = p3dx();
     std::string text = "# Measured by a person; what is not was taken from the P3-DX: see to it.\n";
     const auto ask = [&](const char* section, std::initializer_list<const char*> keys) {

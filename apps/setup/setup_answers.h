@@ -29,6 +29,8 @@ class SetupAnswers {
   [[nodiscard]] std::optional<std::string> given(const std::string& section, const std::string& key);
   /// The same as a text; "" where there is none.
   [[nodiscard]] std::string given_text(const std::string& section, const std::string& key);
+  /// Folder of the file.
+  [[nodiscard]] std::filesystem::path folder() const { return std::filesystem::path(name_).parent_path(); }
   [[nodiscard]] bool has_section(const std::string& section) const { return tables_.count(section) != 0; }
   /// How many scanners the file has, each in a section of its own by laser_section(); 0: none.
   [[nodiscard]] std::size_t scanners() const { return scanners_; }

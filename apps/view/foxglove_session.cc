@@ -19,9 +19,11 @@ constexpr int kWarning = 1;
 
 std::string dumped(const Json& json) { return json.dump(-1, ' ', true, Json::error_handler_t::replace); }
 
-std::string warning(const std::string& said) {
-  return dumped({{"op", "status"}, {"level", kWarning}, {"message", said}});
+std::string status(const std::string& said, int level) {
+  return dumped({{"op", "status"}, {"level", level}, {"message", said}});
 }
+
+std::string warning(const std::string& said) { return status(said, kWarning); }
 
 std::string little_endian(std::uint64_t number, std::size_t count) {
   std::string bytes(count, '\0');
@@ -81,6 +83,11 @@ std::vector<std::string> foxglove_greeting(std::span<const FoxgloveChannel> chan
           dumped({{"op", "advertise"}, {"channels", listed}})};
 }
 
+std::string foxglove_answer(std::string_view said) {
+  const std::string text = text_in(Json::parse(said), "text");
+  return status(text, text.starts_with("refused") ? kWarning : 0);
+}
+
 FoxgloveSession::Outcome FoxgloveSession::take_text(std::string_view text) {
   Outcome outcome;
   const Json json = Json::parse(text, nullptr, false);
@@ -125,11 +132,13 @@ FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) 
   if (found == published_.end())
     return {.order = "", .status = warning("a message of a channel that is not advertised")};
   const auto& [topic, encoding] = found->second;
-  if (topic != "/goal_pose")
-    return {.order = "", .status = warning(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose")};
-  const auto goal = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
-  if (!goal) return {.order = "", .status = warning("/goal_pose: no geometry_msgs/PoseStamped in the frame map")};
-  return {.order = words_of(*goal), .status = ""};
+  const bool is_place = topic == "/initialpose";
+  if (topic != "/goal_pose" && !is_place)
+    return {.order = "",
+            .status = warning(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose or /initialpose")};
+  const auto pose = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
+  if (!pose) return {.order = "", .status = warning(topic + ": no pose in the plane of the frame map")};
+  return {.order = words_of(*pose, is_place ? "here" : "goal"), .status = ""};
 }
 
 std::optional<std::uint32_t> FoxgloveSession::subscription(std::size_t channel) const {

@@ -1,6 +1,6 @@
 #pragma once
 // The server's end of Foxglove's WebSocket protocol, version 1 (github.com/foxglove/ws-protocol, docs/spec.md):
-// channels are advertised, clients subscribe to them and may publish a goal.
+// channels are advertised, clients subscribe to them and may publish a goal or the robot's place.
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -33,7 +33,7 @@ class FoxgloveSession {
 
   /// What a client's message asks for: an order of the live page's (view_orders.h), or what to tell it.
   struct Outcome {
-    std::string order;                      ///< {"goal":[x,y,heading]}
+    std::string order;                      ///< {"goal":[x,y,heading]}, {"here":...}
     std::string status;                     ///< JSON to send back
     std::vector<std::size_t> subscribed{};  ///< channels that begin now
   };
@@ -53,6 +53,9 @@ class FoxgloveSession {
   std::map<std::size_t, std::uint32_t> subscriptions_;  ///< the client's number of a channel, one each
   std::map<std::uint32_t, Published> published_;        ///< by the client's number
 };
+
+/// The status that tells a client what the live page's answer to its order says, {"kind":"said","text":...}.
+[[nodiscard]] std::string foxglove_answer(std::string_view said);
 
 /// What stands before a message in a binary frame of Message Data.
 [[nodiscard]] std::string foxglove_head(std::uint32_t subscription, Time stamp);

@@ -47,7 +47,8 @@ std::optional<GoalOrder> goal_from_cdr(std::string_view message) {
 std::optional<GoalOrder> goal_from_json(std::string_view message) {
   const Json json = Json::parse(message, nullptr, false);
   if (!json.is_object() || !json.contains("pose")) return std::nullopt;
-  const Json empty = Json::object(), &pose = json["pose"];
+  const Json empty = Json::object(), &stamped = json["pose"];
+  const Json& pose = stamped.contains("pose") ? stamped["pose"] : stamped;
   const auto part = [&empty](const Json& of, const char* key) -> const Json& {
     const auto found = of.find(key);
     return found != of.end() && found->is_object() ? *found : empty;
@@ -61,14 +62,10 @@ std::optional<GoalOrder> goal_from_json(std::string_view message) {
                  {number_in(turn, "x"), number_in(turn, "y"), number_in(turn, "z"), number_in(turn, "w")});
 }
 
-std::string words_of(const GoalOrder& goal) {
-  char text[160];
-  if (std::isnan(goal.heading_rad)) {
-    std::snprintf(text, sizeof text, R"({"goal":[%.9g,%.9g]})", goal.goal_in_map.x, goal.goal_in_map.y);
-  } else {
-    std::snprintf(text, sizeof text, R"({"goal":[%.9g,%.9g,%.9g]})", goal.goal_in_map.x, goal.goal_in_map.y,
-                  goal.heading_rad);
-  }
+std::string words_of(const GoalOrder& goal, const char* name) {
+  char text[160], heading[40] = "";
+  if (!std::isnan(goal.heading_rad)) std::snprintf(heading, sizeof heading, ",%.9g", goal.heading_rad);
+  std::snprintf(text, sizeof text, R"({"%s":[%.9g,%.9g%s]})", name, goal.goal_in_map.x, goal.goal_in_map.y, heading);
   return text;
 }
 

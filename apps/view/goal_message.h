@@ -1,5 +1,5 @@
 #pragma once
-// A goal as others publish it: geometry_msgs/PoseStamped.
+// A goal or a place as others publish it: geometry_msgs/PoseStamped, PoseWithCovarianceStamped.
 #include <optional>
 #include <string>
 #include <string_view>
@@ -14,7 +14,7 @@ namespace jaywalk::view {
 /// The same as JSON: {"header":{"frame_id":"map"},"pose":{"position":{"x":..},"orientation":{"z":..,"w":..}}}.
 [[nodiscard]] std::optional<GoalOrder> goal_from_json(std::string_view message);
 
-/// As the live page says it: {"goal":[x,y]} or {"goal":[x,y,heading]}.
-[[nodiscard]] std::string words_of(const GoalOrder& goal);
+/// As the live page says it: {"goal":[x,y]} or {"goal":[x,y,heading]}; `name`: "goal" or "here".
+[[nodiscard]] std::string words_of(const GoalOrder& goal, const char* name = "goal");
 
 }  // namespace jaywalk::view

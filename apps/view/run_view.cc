@@ -40,17 +40,27 @@ void RunView::follow() {
   const bool wanted = live_.viewers() > 0;
   snapshots_.want(wanted);
   planner_tap_.want(wanted);
-  for (auto& ring = snapshots_.snapshots(); ring.front() != nullptr; ring.pop()) live_.show(*ring.front(), "");
+  for (auto& ring = snapshots_.snapshots(); ring.front() != nullptr; ring.pop()) live_.show(last_ = *ring.front(), "");
   if (!planner_tap_.has_new()) return;
   live_.show(planner_tap_.field());
   if (live_.is_map_due(planner_tap_.stamp())) live_.show_map(planner_tap_.map(), planner_tap_.stamp());
   planner_tap_.taken();
 }
 
+std::filesystem::path RunView::finish(const RunEnd& end, const ControlLoop& loop, const Planner& planner) {
+  follow();
+  if (live_.viewers() > 0) live_.show(last_, end.outcome);
+  return RunObserver::finish(end, loop, planner);
+}
+
 void RunView::obey(const view::ViewOrder& order, const view::Reply& reply) {
   if (order.stop) return stop(reply);
   if (order.reset) return go("reset", reply);
-  if (order.goal) go("goto " + words_of(GoalOrder{order.goal->goal_in_map, order.goal->heading_rad}), reply);
+  const auto words = [](const view::GoalOrder& pose) {
+    return words_of(GoalOrder{pose.goal_in_map, pose.heading_rad});
+  };
+  if (order.goal) go("goto " + words(*order.goal), reply);
+  if (order.here) go("here " + words(*order.here), reply);
 }
 
 std::string RunView::said_to(const std::string& line) const {

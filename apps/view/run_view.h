@@ -30,6 +30,8 @@ class RunView final : public RunObserver {
   }
   /// Shows what came since.
   void follow() override;
+  /// Tells the page first: the end takes seconds.
+  std::filesystem::path finish(const RunEnd& end, const ControlLoop& loop, const Planner& planner) override;
 
  private:
   void obey(const view::ViewOrder& order, const view::Reply& reply);
@@ -39,6 +41,7 @@ class RunView final : public RunObserver {
 
   std::string control_socket_;
   view::SnapshotTap snapshots_;
+  view::ViewSnapshot last_;  ///< shown
   view::PlannerTap planner_tap_;
   std::atomic<unsigned> stops_asked_{0}, stops_done_{0}, goals_waiting_{0};
   boost::asio::thread_pool stops_{1},

@@ -162,7 +162,10 @@ void ViewClient::take_message() {
 }
 
 void ViewClient::obey(const FoxgloveSession::Outcome& outcome) {
-  if (!outcome.order.empty()) house_.door.on_order(outcome.order, [](const std::string&) {});
+  if (!outcome.order.empty())
+    house_.door.on_order(outcome.order, reply_to([](ViewClient& client, const std::string& said) {
+                           client.send({"", std::make_shared<const std::string>(foxglove_answer(said))});
+                         }));
   if (!outcome.status.empty()) send({"", std::make_shared<const std::string>(outcome.status)});
   for (const std::size_t channel : outcome.subscribed) house_.repeat(*this, channel);
 }

@@ -32,9 +32,9 @@ std::optional<ViewOrder> parse_order(std::string_view json) {
   if (!parsed.is_object() || parsed.size() != 1) return std::nullopt;
   const auto& [name, value] = *parsed.items().begin();
   ViewOrder order;
-  if (name == "goal") {
-    order.goal = goal_of(value);
-    return order.goal ? std::optional(order) : std::nullopt;
+  if (name == "goal" || name == "here") {
+    const auto pose = (name == "goal" ? order.goal : order.here) = goal_of(value);
+    return pose ? std::optional(order) : std::nullopt;
   }
   if (!value.is_boolean()) return std::nullopt;
   if (name == "pause") order.pause = value.get<bool>();

@@ -17,14 +17,16 @@ struct GoalOrder {
 /// One order; fields that are empty were not asked for.
 struct ViewOrder {
   std::optional<GoalOrder> goal;
+  std::optional<GoalOrder> here;  ///< where the robot is
   std::optional<bool> pause;
   bool stop = false;
   bool reset = false;
   bool step = false;
 };
 
-/// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"stop":true}, {"reset":true}, {"pause":true}, {"step":true}; m and rad in
-/// the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no angle (beyond pi).
+/// {"goal":[x,y]}, {"goal":[x,y,heading]}, {"here":[x,y,heading]}, {"stop":true}, {"reset":true}, {"pause":true},
+/// {"step":true}; m and rad in the map. Nothing where it is none of these or a number is no place (beyond 1e6 m) or no
+/// angle (beyond pi).
 [[nodiscard]] std::optional<ViewOrder> parse_order(std::string_view json);
 
 /// Orders wait here until they are taken; a later one of a kind replaces the earlier, and a stop takes back the goal

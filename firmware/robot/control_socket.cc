@@ -34,10 +34,10 @@ sockaddr_un address_of(const std::filesystem::path& path) {
   return address;
 }
 
-/// Connected, or -1 and errno. Gives up connecting, sending and receiving after three seconds each.
-wire::FileDescriptor connected_to(const std::filesystem::path& path) {
+/// Connected, or -1 and errno. Gives up connecting, sending and receiving after `limit_s` each.
+wire::FileDescriptor connected_to(const std::filesystem::path& path, time_t limit_s = 3) {
   const sockaddr_un address = address_of(path);
-  const timeval limit{.tv_sec = 3, .tv_usec = 0};
+  const timeval limit{.tv_sec = limit_s, .tv_usec = 0};
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_CLOEXEC, 0));
   ::setsockopt(made.get(), SOL_SOCKET, SO_RCVTIMEO, &limit, sizeof limit);
   ::setsockopt(made.get(), SOL_SOCKET, SO_SNDTIMEO, &limit, sizeof limit);
@@ -116,7 +116,8 @@ void ControlSocket::serve(int priority) noexcept {
 }
 
 std::string ask(const std::filesystem::path& path, const std::string& line) {
-  const wire::FileDescriptor run = connected_to(path);
+  constexpr time_t kSearch_s = 20;  // for a place the run may search its map (OperatorDesk::answer_to_place())
+  const wire::FileDescriptor run = line.starts_with("here ") ? connected_to(path, kSearch_s) : connected_to(path);
   if (run.get() < 0) {
     throw StartupError(path.string() + ": no run listens there: " + std::strerror(errno),
                        "start one with jaywalk run, or name its socket with --socket");

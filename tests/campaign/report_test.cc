@@ -176,6 +176,33 @@ TEST_CASE("charts hold the lines and the paper's points") {
   CHECK(circles == 2 + 6);
 }
 
+TEST_CASE("an experiment of several maps has a small chart a map, all with the same axes") {
+  ReportedExperiment experiment;
+  experiment.scenarios = {"hall", "room"};
+  std::vector<PlannedRun> runs(3);
+  for (PlannedRun& run : runs) run.scenario = "room", run.cruise_mps = 0.5;
+  runs[0].scenario = "hall";
+  ReportedTables tables{&experiment, {{"all", {}, {}}}};
+  for (const PlannedRun& run : runs) tables.rows[0].runs.push_back({&run, nullptr, result("reached"), {}});
+  tables.rows[0].runs[1].result.figures["duration_s"] = 57.0;  // 37 s lost; 40 is the next round figure
+  tables.rows[0].runs[2].result = result("timeout");
+  const std::string svg = map_chart(map_panels(tables));
+  const auto count = [&svg](const std::string& what) {
+    std::size_t found = 0;
+    for (std::size_t at = svg.find(what); at != std::string::npos; at = svg.find(what, at + 1)) ++found;
+    return found;
+  };
+  CHECK(count(">hall</text>") == 1);
+  CHECK(count(">room</text>") == 1);
+  CHECK(count(">40</text>") == 2);
+  CHECK(count(">0</text>") == 2);
+  CHECK(holds(svg, "<title>all, seed 0: 37.0</title>"));
+  CHECK(holds(svg, "<title>all, seed 0: did not arrive</title>"));
+  CHECK(count("<circle") == 3);
+  experiment.scenarios.pop_back();
+  CHECK(map_panels(tables).empty());
+}
+
 TEST_CASE("success stands by movers, and a dash where nothing was run") {
   const ReportTable table = success_table({{"ours", {{2.0, 3, 4}, {32.0, 1, 4}}}, {"theirs", {{0.0, 4, 4}}}});
   CHECK(table.head == std::vector<std::string>{"", "0", "2", "32"});

@@ -3,6 +3,7 @@
 #include <fastdds/rtps/transport/UDPv4TransportDescriptor.h>
 #include <fastrtps/utils/IPLocator.h>
 
+#include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <fastdds/dds/domain/DomainParticipant.hpp>
@@ -100,10 +101,10 @@ class CdrOut {
   std::string bytes_{"\0\1\0\0", 4};
 };
 
-inline std::string goal_bytes(double x, double y) {
+inline std::string goal_bytes(double x, double y, double heading = 0.0) {
   CdrOut out;
   out.header(0, "map");
-  for (const double value : {x, y, 0.0, 0.0, 0.0, 0.0, 1.0}) out.number(value);
+  for (const double value : {x, y, 0.0, 0.0, 0.0, std::sin(0.5 * heading), std::cos(0.5 * heading)}) out.number(value);
   return out.bytes();
 }
 

@@ -1,9 +1,10 @@
 // Another vendor's DDS (eProsima's Fast DDS) plays a ROS 2 robot over loopback: a base with a timeout of its own that
 // obeys rt/cmd_vel and publishes rt/odom 50 times a second, and a laser with rt/scan 10 times a second, in a room of
 // 12 m x 8 m with three pillars. It says each 100 ms where it stands, and what happens to it.
-// usage: fast_dds_robot DOMAIN reliable|best-effort plain|stamped [LOSS]   (share of messages it loses, both ways)
-// Orders on standard input: "goal X Y", "mute odom", "mute scan", "speak", "rival" (another node commands the base),
-// "end"
+// usage: fast_dds_robot DOMAIN reliable|best-effort plain|stamped [LOSS [TURNED]]   (share of messages it loses, both
+// ways; its laser's heading on it, rad)
+// Orders on standard input: "goal X Y", "here X Y HEADING", "mute odom", "mute scan", "speak", "rival" (another node
+// commands the base), "end"
 #include <poll.h>
 #include <unistd.h>
 
@@ -29,7 +30,8 @@ constexpr double kAccel_mps2 = 1.5, kTurnAccel_radps2 = 5.0;
 constexpr int kBeams = 270;  // 269 steps of a degree
 
 struct Base {
-  double x = 0.0, y = 0.0, heading = 0.0, v = 0.0, w = 0.0, wanted_v = 0.0, wanted_w = 0.0, silent_s = 1e9;
+  double x = 0.0, y = 0.0, heading = 0.0, v = 0.0, w = 0.0, wanted_v = 0.0, wanted_w = 0.0, silent_s = 1e9,
+         turned = 0.0;
 
   void step() {
     silent_s += kStep_s;
@@ -45,7 +47,7 @@ struct Base {
     return least - kBody_m;
   }
   [[nodiscard]] float range(double angle) const {
-    const double c = std::cos(heading + angle), s = std::sin(heading + angle);
+    const double c = std::cos(heading + turned + angle), s = std::sin(heading + turned + angle);
     double least = 1e9;
     if (std::fabs(c) > 1e-9) least = std::min(least, ((c > 0 ? kRight : kLeft) - x) / c);
     if (std::fabs(s) > 1e-9) least = std::min(least, ((s > 0 ? kTop : kBottom) - y) / s);
@@ -115,11 +117,14 @@ int main(int argc, char** argv) {
   DataWriter* odometry = write_topic(participant, "rt/odom", "nav_msgs::msg::dds_::Odometry_", reliable);
   DataWriter* scans = write_topic(participant, "rt/scan", "sensor_msgs::msg::dds_::LaserScan_", reliable);
   DataWriter* goals = write_topic(participant, "rt/goal_pose", "geometry_msgs::msg::dds_::PoseStamped_", true);
+  DataWriter* places =
+      write_topic(participant, "rt/initialpose", "geometry_msgs::msg::dds_::PoseWithCovarianceStamped_", true);
   DataReader* commands = read_topic(participant, "rt/cmd_vel", twist, reliable);
   DomainParticipant* other = nullptr;
   DataWriter* rival = nullptr;
 
   Base base;
+  base.turned = argc > 5 ? std::atof(argv[5]) : 0.0;
   bool mute_odom = false, mute_scan = false;
   double least_clearance = 1e9;
   auto due = std::chrono::steady_clock::now();
@@ -148,9 +153,15 @@ int main(int argc, char** argv) {
     const std::string order = next_order();
     std::istringstream words(order);
     std::string verb, what;
-    double x = 0.0, y = 0.0;
+    double x = 0.0, y = 0.0, heading = 0.0;
     words >> verb;
     if (verb == "goal" && words >> x >> y) goals->write(&(bytes = goal_bytes(x, y)));
+    if (verb == "here" && words >> x >> y >> heading) {
+      CdrOut out;
+      out.bytes() = goal_bytes(x, y, heading);
+      for (int k = 0; k < 36; ++k) out.number(0.0);
+      places->write(&out.bytes());
+    }
     if (verb == "mute" && words >> what) (what == "odom" ? mute_odom : mute_scan) = true;
     if (verb == "speak") mute_odom = mute_scan = false;
     if (verb == "rival") {

@@ -2,9 +2,11 @@
 #include <unistd.h>
 
 #include <filesystem>
+#include <fstream>
 #include <sstream>
 
 #include "apps/setup/robot_setup.h"
+#include "firmware/robot/robot_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
@@ -66,4 +68,20 @@ TEST_CASE("what was answered before a setup was broken off is not asked again") 
   CHECK(says(text, "left_node = 2 "));
   CHECK(says(text, "right_node = 3 "));
   CHECK(says(text, "port = 9 "));
+}
+
+TEST_CASE("a model file that the answers name is found beside them, wherever the robot's file is written") {
+  BareMachine machine;
+  rig::HandLivingClock clock;
+  const std::filesystem::path folder =
+      std::filesystem::temp_directory_path() / ("jaywalk_answers_" + std::to_string(::getpid()));
+  std::filesystem::create_directories(folder / "other");
+  std::filesystem::copy_file(JAYWALK_EXAMPLES "/jackal.model.toml", folder / "mine.toml");
+  std::ofstream(folder / "answers.toml")
+      << "model = \"mine.toml\"\n[laser]\nkind = \"sick-cola-b\"\nhost = \"127.0.0.1\"\nport = 9\n[drive]\nkind = "
+         "\"cia402\"\nleft_node = 2\nright_node = 3\ncounts_per_wheel_turn = 76600\n";
+  SetupAnswers answers(folder / "answers.toml", nullptr, nullptr);
+  std::ofstream(folder / "other" / "robot.toml") << draft_robot(machine, answers, clock).text();
+  CHECK(load_robot_file(folder / "other" / "robot.toml").setup.model.name == "jackal");
+  std::filesystem::remove_all(folder);
 }

@@ -6,6 +6,7 @@
 
 #include <cstring>
 #include <fstream>
+#include <thread>
 
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
@@ -46,6 +47,14 @@ TEST_CASE("a line said to the control socket is answered") {
   const ControlSocket socket(place(), echo);
   CHECK(ask(place(), "status") == "heard status\n");
   CHECK(ask(place(), "goto 1 2") == "heard goto 1 2\n");
+}
+
+TEST_CASE("the answer to a place is waited for while the run searches its map") {
+  const ControlSocket socket(place(), [](std::string_view) {
+    return ControlReply(
+        [] { return std::this_thread::sleep_for(std::chrono::milliseconds(3500)), std::string("there\n"); });
+  });
+  CHECK(ask(place(), "here 1 2 0") == "there\n");
 }
 
 TEST_CASE("a line without end, too long or of odd bytes hurts nobody") {

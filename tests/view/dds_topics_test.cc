@@ -14,40 +14,44 @@ using namespace jaywalk;
 
 namespace {
 
-/// Says a goal until one is taken, or, where none must be, until the far end has seen a topic of ours and said it ten
+/// Says a pose until one is taken, or, where none must be, until the far end has seen a topic of ours and said it ten
 /// times more.
-std::optional<std::string> goal_taken(bool takes_goals) {
+template <class Pose>
+std::optional<dds::PoseOrder> taken_of(bool takes_goals, const dds_topic_descriptor_t& type, const char* name,
+                                       Pose said) {
   ::setenv("CYCLONEDDS_URI", "file://" JAYWALK_LOOPBACK, 1);
   const auto domain = static_cast<std::uint32_t>(::getpid() % 200);
   dds::DdsTopics topics(domain, takes_goals);
   const dds_entity_t far_end = dds_create_participant(domain, nullptr, nullptr);
   dds_qos_t* const qos = dds_create_qos();
   dds_qset_reliability(qos, DDS_RELIABILITY_RELIABLE, DDS_SECS(1));
-  const auto topic = [&](const dds_topic_descriptor_t& type, const char* name) {
-    return dds_create_topic(far_end, &type, name, nullptr, nullptr);
+  const auto topic = [&](const dds_topic_descriptor_t& kind, const char* at) {
+    return dds_create_topic(far_end, &kind, at, nullptr, nullptr);
   };
-  const dds_entity_t writer =
-      dds_create_writer(far_end, topic(geometry_msgs_msg_dds__PoseStamped__desc, "rt/goal_pose"), qos, nullptr);
+  const dds_entity_t writer = dds_create_writer(far_end, topic(type, name), qos, nullptr);
   const dds_entity_t reader =
       dds_create_reader(far_end, topic(sensor_msgs_msg_dds__LaserScan__desc, "rt/scan"), qos, nullptr);
   dds_delete_qos(qos);
   REQUIRE(writer > 0);
   REQUIRE(reader > 0);
   char frame[] = "map";
-  geometry_msgs_msg_dds__PoseStamped_ goal{};
-  goal.header_.frame_id_ = frame;
-  goal.pose_.position_.x_ = 3.0;
-  std::optional<std::string> taken;
+  said.header_.frame_id_ = frame;
+  std::optional<dds::PoseOrder> taken;
   for (int said_after = 0; !taken && said_after < 10;) {
-    CHECK(dds_write(writer, &goal) == DDS_RETCODE_OK);
+    CHECK(dds_write(writer, &said) == DDS_RETCODE_OK);
     std::this_thread::sleep_for(std::chrono::milliseconds(20));
-    taken = topics.take_goal();
+    taken = topics.take_order();
     dds_subscription_matched_status_t matched{};
     dds_get_subscription_matched_status(reader, &matched);
     said_after += !takes_goals && matched.current_count > 0 ? 1 : 0;
   }
   dds_delete(far_end);
   return taken;
+}
+
+std::optional<dds::PoseOrder> goal_taken(bool takes_goals) {
+  return taken_of(takes_goals, geometry_msgs_msg_dds__PoseStamped__desc, "rt/goal_pose",
+                  geometry_msgs_msg_dds__PoseStamped_{});
 }
 
 }  // namespace
@@ -100,6 +104,16 @@ TEST_CASE("the scans of a second scanner have a topic of their own") {
 }
 
 TEST_CASE("a goal on DDS is taken where goals were asked for, and nowhere else") {
-  CHECK(goal_taken(true));
+  CHECK_FALSE(goal_taken(true)->is_place);
   CHECK_FALSE(goal_taken(false));
+}
+
+TEST_CASE("RViz's pose estimate on DDS is taken as the place where the robot is") {
+  geometry_msgs_msg_dds__PoseWithCovarianceStamped_ estimate{};
+  estimate.pose_.pose_.position_.x_ = 3.0;
+  estimate.pose_.pose_.orientation_.z_ = 1.0;
+  const auto taken = taken_of(true, geometry_msgs_msg_dds__PoseWithCovarianceStamped__desc, "rt/initialpose", estimate);
+  REQUIRE(taken);
+  CHECK(taken->is_place);
+  CHECK(dds::words_of(*taken) == "here 3 0 3.1415926535897931");
 }

@@ -87,6 +87,8 @@ TEST_CASE("a goal through 127.0.0.1 wants the token that lies beside the control
   say(friendly, frame(R"({"goal":[1,2]})"));
   CHECK(heard(friendly, "heard goto").find("heard goto") != std::string::npos);
   CHECK(bench.told() == "stop now\ngoto 1 2\n");
+  say(friendly, frame(R"({"here":[1,2,0.5]})"));
+  CHECK(heard(friendly, "heard here 1 2 0.5").find("heard here 1 2 0.5") != std::string::npos);
 }
 
 TEST_CASE("the file with the address goes with the run, and a file of another kind in its place stays as it is") {
@@ -142,10 +144,10 @@ long resident_kB() {
   return resident * (::sysconf(_SC_PAGESIZE) / 1024);
 }
 
-/// A run in real time with its control socket and its page, beside hostile clients in a process of their own.
-class BesetRun {
+/// A run in real time with its control socket and its page.
+class PagedRun {
  public:
-  explicit BesetRun(HostileProcess& hostile) : hostile_(hostile) {
+  PagedRun() {
     clock_.live = [this] { robot_.step_far_end(); };
     robot_.laser().start();
     while (robot_.laser().latest().sequence == 0) clock_.sleep_until(clock_.now() + 1ms);
@@ -153,20 +155,38 @@ class BesetRun {
     static_cast<void>(robot_.drive().arm());
     robot_.loop().start();
   }
-  ~BesetRun() {
-    robot_.loop().end();
-    while (!robot_.loop().has_ended()) follow(10ms);
+  ~PagedRun() {
+    end();
     std::filesystem::remove_all(folder_);
   }
-  /// Beset for that long, after two seconds in peace.
-  Figures besiege(std::chrono::seconds long_) {
-    const std::string url = text_of(socket_.string() + ".view"), query = query_of(url.substr(0, url.size() - 1));
+  void end() {
+    robot_.loop().end();
+    while (!robot_.loop().has_ended()) follow(10ms);
+  }
+  [[nodiscard]] std::string url() const { return text_of(socket_.string() + ".view"); }
+  /// Text that a page hears after its first frame, until it is told the end.
+  std::string heard_to_the_end() {
+    const auto page = connected(port_of(url()));
+    say(page, upgrade("/ws" + query_of(url().substr(0, url().size() - 1))));
+    std::string text, part(4096, '\0');
+    while (text.find(R"("kind":"frame")") == std::string::npos) {
+      follow(10ms);
+      const ssize_t got = ::recv(page.get(), part.data(), part.size(), MSG_DONTWAIT);
+      if (got > 0) text.append(part, 0, static_cast<std::size_t>(got));
+    }
+    end();
+    robot_.runner().finish({.outcome = "stopped"});
+    return heard(page, R"("ended":"stopped")");
+  }
+  /// Beset for that long by clients in a process of their own, after two seconds in peace.
+  Figures besiege(HostileProcess& hostile, std::chrono::seconds long_) {
+    const std::string url = this->url(), query = query_of(url.substr(0, url.size() - 1));
     const auto page = connected(port_of(url));
     say(page, upgrade("/ws" + query));
     follow(2s);
     const long before = resident_kB();
     const std::uint64_t missed = figures_.missed, ticks = figures_.ticks;
-    hostile_.begin(port_of(url), query);
+    hostile.begin(port_of(url), query);
     const auto end = std::chrono::steady_clock::now() + long_;
     while (std::chrono::steady_clock::now() < end) {
       follow(200ms);
@@ -203,7 +223,6 @@ class BesetRun {
     figures_.slowest_stop_ms = std::max(figures_.slowest_stop_ms, took.count());
   }
 
-  HostileProcess& hostile_;
   Figures figures_;
   std::filesystem::path folder_ = place("run"), socket_ = place("beset");
   rig::RealLivingClock clock_;
@@ -227,8 +246,8 @@ void beset(int clients, std::chrono::seconds for_) {
   HostileProcess hostile(clients);
   Figures figures;
   {
-    BesetRun run(hostile);
-    figures = run.besiege(for_);
+    PagedRun run;
+    figures = run.besiege(hostile, for_);
   }
   std::printf("%d hostile clients: memory +%ld kB, %lu of %lu ticks missed, slowest of %d stops %.1f ms\n", clients,
               figures.grown_kB, figures.missed, figures.ticks, figures.stops, figures.slowest_stop_ms);
@@ -239,6 +258,11 @@ void beset(int clients, std::chrono::seconds for_) {
 }
 
 }  // namespace
+
+TEST_CASE("the page of a run on a robot is told that the run has ended, and how") {
+  PagedRun run;
+  CHECK(run.heard_to_the_end().find(R"("ended":"stopped")") != std::string::npos);
+}
 
 TEST_CASE("a hundred hostile clients take neither memory nor a stop's or a newcomer's place") { beset(100, 5s); }
 

@@ -20,6 +20,7 @@ TEST_CASE("orders are a goal with or without a heading, stop, reset, pause or st
   CHECK(goal->goal->goal_in_map == Vec2{1.5, -2.0});
   CHECK(goal->goal->heading_rad == 0.5);
   CHECK(std::isnan(parse_order(R"({"goal":[1,2]})")->goal->heading_rad));
+  CHECK(parse_order(R"({"here":[1,2,0.5]})")->here->heading_rad == 0.5);
   CHECK(parse_order(R"({"stop":true})")->stop);
   CHECK(parse_order(R"({"reset":true})")->reset);
   CHECK(parse_order(R"({"pause":false})")->pause == false);
@@ -161,6 +162,9 @@ TEST_CASE("a PoseStamped in JSON is a goal where it turns in the plane of the ma
   CHECK(goal->goal_in_map == Vec2{1.0, 2.0});
   CHECK(std::fabs(goal->heading_rad - 3.14159265358979) < 1e-12);
   CHECK(words_of({.goal_in_map = {1.5, -2.0}}) == R"({"goal":[1.5,-2]})");
+  CHECK(words_of({.goal_in_map = {1.5, -2.0}, .heading_rad = 0.5}, "here") == R"({"here":[1.5,-2,0.5]})");
+  CHECK(goal_from_json(R"({"pose":{"pose":{"position":{"x":1,"y":2}},"covariance":[]}})")->goal_in_map ==
+        Vec2{1.0, 2.0});
   CHECK(std::isnan(goal_from_json(R"({"pose":{"position":{"x":1,"y":2}}})")->heading_rad));
   for (const char* text : {"", "{}", "[]", R"({"pose":{}})", R"({"pose":1})",
                            R"({"header":{"frame_id":"odom"},"pose":{"position":{"x":1,"y":2}}})",
@@ -179,8 +183,24 @@ TEST_CASE("a PoseStamped in CDR that is cut anywhere is no goal") {
   CHECK(goal_from_cdr(whole)->goal_in_map == Vec2{3.0, 4.0});
   CHECK(goal_from_cdr(whole)->heading_rad == 0.0);
   for (std::size_t size = 0; size < whole.size(); ++size) CHECK_FALSE(goal_from_cdr(whole.substr(0, size)));
+  const std::string with_covariance = whole + std::string(36 * sizeof(double), '\0');
+  CHECK(goal_from_cdr(with_covariance)->goal_in_map == Vec2{3.0, 4.0});
   whole[12] = '\xFF';  // a frame of 255 letters
   CHECK_FALSE(goal_from_cdr(whole));
+}
+
+TEST_CASE("Foxglove's pose estimate says where the robot is, and an answer is a status") {
+  FoxgloveSession session(1);
+  static_cast<void>(session.take_text(
+      R"({"op":"advertise","channels":[{"id":4,"topic":"/initialpose","encoding":"json","schemaName":"x"}]})"));
+  const std::string head("\1\4\0\0\0", 5);
+  const auto outcome = session.take_binary(
+      head + R"({"pose":{"pose":{"position":{"x":1,"y":2},"orientation":{"z":1,"w":0}},"covariance":[]}})");
+  CHECK(outcome.order == R"({"here":[1,2,3.14159265]})");
+  CHECK(session.take_binary(head + "{}").status.find("/initialpose: no pose") != std::string::npos);
+  CHECK(foxglove_answer(R"({"kind":"said","text":"refused: it does not fit"})") ==
+        R"({"level":1,"message":"refused: it does not fit","op":"status"})");
+  CHECK(foxglove_answer(R"({"kind":"said","text":"going"})") == R"({"level":0,"message":"going","op":"status"})");
 }
 
 TEST_CASE("Foxglove's client messages that are none are told, and subscribe to nothing") {
