@@ -63,7 +63,7 @@ Cost cost_of(const Command& command, float stood_s, float turned = 0.0F, bool wa
 TEST_CASE("beside movers a second is the dearer the longer the time to go has not fallen, however it is spent") {
   for (const Command& command : {Command{}, {0.6F, 0.0F}, {0.0F, 0.5F}, {-0.3F, 0.0F}}) {
     const float at_once = cost_of(command, 0.0F).time;
-    const float seconds = at_once - price::kArrivedEarly;
+    const float seconds = at_once - motion::price::kArrivedEarly;
     CHECK(cost_of(command, 2.0F).time == Approx(at_once + 0.5F * seconds).margin(0.01));
     CHECK(cost_of(command, 4.0F).time == Approx(at_once + seconds).margin(0.01));
     CHECK(cost_of(command, 60.0F).time == cost_of(command, 4.0F).time);
