@@ -23,7 +23,7 @@ void PastScans::keep(const LaserScan& scan, const Pose2& map_from_robot, const P
   (*kept_)[count_++ % kMost] = {scan, map_from_robot, robot_from_laser, twist};
 }
 
-double PastScans::seen_through(std::span<const Vec2> places, Time now) const noexcept {
+std::optional<double> PastScans::seen_through(std::span<const Vec2> places, Time now) const noexcept {
   int through = 0, told = 0;
   for (std::size_t k = 0; k < std::min(count_, kMost); ++k) {
     const Kept& kept = (*kept_)[k];
@@ -36,7 +36,8 @@ double PastScans::seen_through(std::span<const Vec2> places, Time now) const noe
       through += seen == Sight::kThrough || seen == Sight::kEmpty ? 1 : 0;
     }
   }
-  return told == 0 ? 1.0 : static_cast<double>(through) / told;
+  if (told == 0) return std::nullopt;
+  return static_cast<double>(through) / told;
 }
 
 }  // namespace jaywalk

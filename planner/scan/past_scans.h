@@ -1,6 +1,7 @@
 #pragma once
 #include <array>
 #include <memory>
+#include <optional>
 #include <span>
 
 #include "hal/types/geometry.h"
@@ -19,8 +20,8 @@ class PastScans {
   void keep(const LaserScan& scan, const Pose2& map_from_robot, const Pose2& robot_from_laser,
             const Twist2& twist) noexcept;
   /// Share, 0 to 1, of the looks at these places, in the map, that went through, of all that told anything, in scans
-  /// taken kUntil to kSince before `now`. 1 where none told: then this is no evidence.
-  [[nodiscard]] double seen_through(std::span<const Vec2> places, Time now) const noexcept;
+  /// taken kUntil to kSince before `now`; none where none told.
+  [[nodiscard]] std::optional<double> seen_through(std::span<const Vec2> places, Time now) const noexcept;
 
  private:
   static constexpr std::size_t kMost = 16;
