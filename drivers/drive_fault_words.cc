@@ -6,7 +6,7 @@
 #include <span>
 
 #include "drivers/arcos/arcos.h"
-#include "drivers/canopen/services.h"
+#include "drivers/canopen/pdo.h"
 
 namespace jaywalk {
 namespace {

@@ -5,7 +5,7 @@
 
 #include "apps/formats/ros_input.h"
 #include "drivers/laser/device_clock.h"
-#include "drivers/ros/ring_messages.h"
+#include "drivers/ros/shared_ring.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk::exchange {

@@ -6,8 +6,7 @@
 #include <fstream>
 #include <sstream>
 
-#include "drivers/can/bus_lock.h"
-#include "drivers/can/link_facts.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "hal/types/errors.h"
 

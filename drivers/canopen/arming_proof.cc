@@ -5,7 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "drivers/canopen/sdo_abort.h"
+#include "drivers/canopen/sdo_client.h"
 
 namespace jaywalk::canopen {
 

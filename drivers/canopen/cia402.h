@@ -3,7 +3,7 @@
 #include <cstdint>
 #include <string_view>
 
-#include "drivers/canopen/object_address.h"
+#include "drivers/canopen/pdo.h"
 
 namespace jaywalk::canopen {
 

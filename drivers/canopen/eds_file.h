@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/canopen/object_address.h"
+#include "drivers/canopen/pdo.h"
 
 namespace jaywalk::canopen {
 

@@ -1,8 +1,8 @@
 #include "drivers/canopen/quick_stopper.h"
 
 #include "drivers/canopen/cia402.h"
-#include "drivers/canopen/drive_settings.h"
-#include "drivers/canopen/services.h"
+#include "drivers/canopen/drive_proof.h"
+#include "drivers/canopen/pdo.h"
 
 namespace jaywalk::canopen {
 

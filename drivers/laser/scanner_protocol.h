@@ -1,11 +1,28 @@
 #pragma once
+#include <array>
+#include <cstddef>
 #include <cstdint>
+#include <string_view>
 
-#include "drivers/laser/decoding.h"
 #include "drivers/wire/byte_reader.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk {
+
+/// What came of bytes that should have been a scan. Except at kScan the scan that was to be filled is not to be used.
+enum class Decoding : std::uint8_t {
+  kScan,
+  kOtherMessage,  ///< well formed, but no scan: an answer to a command
+  kTruncated,     ///< ends before its fields do
+  kChecksum,
+  kBadField,      ///< a field that is no number, or one that no scanner sends
+  kTooManyBeams,  ///< more than kMaxBeams
+  kNoDistances,   ///< a scan without a channel of first distances
+  kDeviceError,   ///< the scanner says that it is not well
+  kDirty          ///< the scanner says that its window is too dirty to measure through
+};
+
+[[nodiscard]] std::string_view name(Decoding decoding) noexcept;
 
 /// What a message from a scanner was.
 enum class Heard : std::uint8_t {
@@ -59,6 +76,42 @@ class ScannerProtocol {
   /// The next message of what was heard, whose last byte came in at `arrival`. `scan` may be spoilt except at kScan.
   [[nodiscard]] virtual Heard next(Time arrival, LaserScan& scan) noexcept = 0;
   [[nodiscard]] virtual ProtocolCounts counts() const noexcept = 0;
+};
+
+/// Makes scans of the single points of a scanner that turns clockwise without end: a turn begins where the angle passes
+/// straight ahead.
+///
+/// Points lie at uneven angles; they are put into equal sectors, the nearest hit of a sector counts (as is right for
+/// what must not be hit). A sector without a hit is free where all its points found nothing within reach; one with a
+/// point that proves nothing, or with none at all (a lost packet), is unknown: it holds 0. One that was only stepped
+/// over, by less than 1.5 sectors from point to point, holds the nearer of the two where both were measured. The first
+/// turn, seen in part, is not handed out.
+class TurnBuilder {
+ public:
+  static constexpr std::uint32_t kMostSectors = 512;
+
+  /// `sectors` is 1 to kMostSectors.
+  TurnBuilder(std::uint32_t sectors, float range_min_m, float range_max_m) noexcept
+      : sectors_(sectors), range_min_m_(range_min_m), range_max_m_(range_max_m) {}
+
+  /// A point at `angle_deg` clockwise from ahead, 0 to 360, measured at `measured`. True when it is the first of a new
+  /// turn: then `scan` holds the one before, all but its sequence. Otherwise `scan` is left alone.
+  [[nodiscard]] bool add(double angle_deg, float range_m, Time measured, LaserScan& scan) noexcept;
+  /// The next turn is one seen in part.
+  void forget() noexcept { began_ = kNever; }
+
+ private:
+  void put(float range_m, float& sector) const noexcept;
+  void fill_stepped_over(std::size_t sector, float range_m) noexcept;
+  void close_turn(Time end, LaserScan& scan) const noexcept;
+
+  std::uint32_t sectors_;
+  float range_min_m_, range_max_m_;
+  std::array<float, kMostSectors> sector_m_{};  ///< as in a scan, and NaN where a point proved nothing
+  Time began_ = kNever;
+  double last_angle_deg_ = 0.0;
+  std::size_t last_sector_ = 0;
+  float last_range_m_ = 0.0F;
 };
 
 }  // namespace jaywalk

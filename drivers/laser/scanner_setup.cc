@@ -3,12 +3,11 @@
 #include <algorithm>
 #include <array>
 
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
+#include "drivers/laser/ldrobot.h"
+#include "drivers/laser/lms200.h"
+#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
-#include "drivers/ros/ring_link.h"
+#include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
 #include "hal/types/errors.h"
 

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/counter_jump.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk {
 

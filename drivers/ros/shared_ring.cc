@@ -1,21 +1,19 @@
 #include "drivers/ros/shared_ring.h"
 
+#include <cerrno>
+#include <cstring>
 #include <fcntl.h>
 #include <linux/futex.h>
+#include <optional>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <cstring>
-#include <optional>
-
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::ros {
-
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31676E6972776A0AU;  // "\njwring1"

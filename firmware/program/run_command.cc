@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "drivers/can/restart_link.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/drive_fault_words.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/run_folders.h"

@@ -1,7 +1,7 @@
 #pragma once
 #include <optional>
 
-#include "drivers/panel/joystick_panel.h"
+#include "drivers/panel/joystick_watch.h"
 #include "drivers/wired_drive.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/permission.h"

@@ -11,8 +11,8 @@
 #include <functional>
 #include <thread>
 
-#include "drivers/can/link_facts.h"
-#include "drivers/panel/device_keys.h"
+#include "drivers/can/can_interface.h"
+#include "drivers/panel/joystick.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/operator_controls.h"

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <functional>
 
-#include "drivers/can/link_facts.h"
+#include "drivers/can/can_interface.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/scanner_check.h"

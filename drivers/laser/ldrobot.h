@@ -5,8 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/laser/decoding.h"
-#include "drivers/wire/byte_queue.h"
+#include "drivers/laser/scanner_protocol.h"
+#include "drivers/laser/device_clock.h"
+#include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::ldrobot {
 
@@ -45,6 +46,36 @@ class PacketStream {
  private:
   wire::ByteQueue<4096> queue_;
   std::uint64_t skipped_ = 0;
+};
+
+/// Makes scans of packets.
+class SweepBuilder {
+ public:
+  static constexpr std::uint32_t kBeams = 450;  ///< 0.8 degrees: 4500 points a second at 10 turns a second
+
+  /// Adds a packet whose last byte came in at `arrival`; true when it completed a turn, then `scan` holds it, all but
+  /// its sequence. Otherwise `scan` is left alone.
+  [[nodiscard]] bool add(const Packet& packet, Time arrival, LaserScan& scan) noexcept;
+
+ private:
+  TurnBuilder turn_{kBeams, 0.02F, 12.0F};  ///< ranges: maker's data sheet
+};
+
+/// An LD06 or LD19 on a serial line of 230400 baud: it sends from when it has power, and nothing is said to it.
+class LdProtocol final : public ScannerProtocol {
+ public:
+  void begin() noexcept override;
+  [[nodiscard]] wire::Bytes to_say(Time) noexcept override { return {}; }
+  [[nodiscard]] bool awaits_answer() const noexcept override { return false; }
+  void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
+  [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
+  /// Packets are not numbered: what is lost of them shows as skipped bytes, and as unknown beams.
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0, 0}; }
+
+ private:
+  PacketStream stream_;
+  SweepBuilder sweep_;
+  DeviceClock device_clock_{std::chrono::milliseconds(1), 30000};
 };
 
 }  // namespace jaywalk::ldrobot

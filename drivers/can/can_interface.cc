@@ -1,19 +1,23 @@
-#include "drivers/can/link_facts.h"
+#include "drivers/can/can_interface.h"
 
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
 #include <linux/can/netlink.h>
 #include <linux/if_link.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
 #include <net/if_arp.h>
+#include <span>
+#include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
-
-#include <algorithm>
-#include <cstring>
-#include <span>
+#include <sys/un.h>
 #include <vector>
 
 #include "drivers/wire/file_descriptor.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
@@ -109,6 +113,39 @@ std::vector<std::string> can_interfaces() {
   if (all != nullptr) ::if_freenameindex(all);
   std::sort(names.begin(), names.end());
   return names;
+}
+
+// An address that begins with a zero byte is in the abstract namespace: unix(7).
+BusLock::BusLock(const std::string& interface) : socket_(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0)) {
+  sockaddr_un address{};
+  address.sun_family = AF_UNIX;
+  const std::string name = "jaywalk-can:" + interface;
+  const std::size_t length = std::min(name.size(), sizeof address.sun_path - 1);
+  std::memcpy(address.sun_path + 1, name.data(), length);
+  const auto bytes = static_cast<socklen_t>(offsetof(sockaddr_un, sun_path) + 1 + length);
+  if (::bind(socket_.get(), reinterpret_cast<const sockaddr*>(&address), bytes) == 0) return;
+  if (errno == EADDRINUSE) {
+    throw StartupError(interface + ": another program of jaywalk has the drives on this bus",
+                       "end it first: jaywalk status, or: ss -xp | grep " + name);
+  }
+  throw StartupError(interface + ": cannot be locked: " + std::strerror(errno), "see what this system forbids");
+}
+
+std::string restart_link(const std::string& interface) {
+  ifreq request{};
+  if (interface.size() >= sizeof request.ifr_name) return interface + ": no such interface";
+  std::memcpy(request.ifr_name, interface.data(), interface.size());
+  const wire::FileDescriptor any(::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC, 0));
+  if (::ioctl(any.get(), SIOCGIFFLAGS, &request) != 0) return interface + ": " + std::strerror(errno);
+  for (const bool up : {false, true}) {
+    const int flags = up ? request.ifr_flags | IFF_UP : request.ifr_flags & ~IFF_UP;
+    request.ifr_flags = static_cast<decltype(request.ifr_flags)>(flags);
+    if (::ioctl(any.get(), SIOCSIFFLAGS, &request) != 0) {
+      return interface + ": not permitted to restart it: " + std::strerror(errno) + "; run as root, or: ip link set " +
+             interface + " down && ip link set " + interface + " up";
+    }
+  }
+  return "";
 }
 
 }  // namespace jaywalk

@@ -1,4 +1,4 @@
-#include "drivers/laser/turn_builder.h"
+#include "drivers/laser/scanner_protocol.h"
 
 #include <algorithm>
 #include <cmath>
@@ -7,7 +7,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk {
-
 namespace {
 
 constexpr double kHalfTurnDeg = 180.0;  // a smaller step back is jitter, not a new turn
@@ -15,6 +14,30 @@ constexpr double kHalfTurnDeg = 180.0;  // a smaller step back is jitter, not a 
 constexpr double kUsualStep = 1.5;
 
 }  // namespace
+
+std::string_view name(Decoding decoding) noexcept {
+  switch (decoding) {
+    case Decoding::kScan:
+      return "scan";
+    case Decoding::kOtherMessage:
+      return "another message";
+    case Decoding::kTruncated:
+      return "cut off";
+    case Decoding::kChecksum:
+      return "wrong checksum";
+    case Decoding::kBadField:
+      return "bad field";
+    case Decoding::kTooManyBeams:
+      return "too many beams";
+    case Decoding::kNoDistances:
+      return "no distances";
+    case Decoding::kDeviceError:
+      return "scanner reports an error";
+    case Decoding::kDirty:
+      return "scanner's window is dirty";
+  }
+  return "unknown";
+}
 
 bool TurnBuilder::add(double angle_deg, float range_m, Time measured, LaserScan& scan) noexcept {
   bool completed = false;
