@@ -10,7 +10,6 @@
 
 #include "hal/text_file.h"
 #include "hil/faults/fault_matrix.h"
-#include "hil/faults/matrix_files.h"
 
 namespace jaywalk {
 namespace {

@@ -7,7 +7,7 @@
 #include "firmware/safety/wheel_proof.h"
 #include "hal/types/errors.h"
 #include "hal/types/wheels.h"
-#include "hil/faults/matrix_files.h"
+#include "hil/faults/fault_matrix.h"
 
 namespace jaywalk::faults {
 namespace {

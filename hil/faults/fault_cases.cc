@@ -1,10 +1,10 @@
-#include "hil/faults/fault_cases.h"
+#include "hil/faults/fault_matrix.h"
 
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "hil/faults/fault_limits.h"
+#include "hil/faults/fault_bench.h"
 
 namespace jaywalk::faults {
 namespace {

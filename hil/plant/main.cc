@@ -11,9 +11,8 @@
 #include "drivers/can/socketcan.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
-#include "hil/emulators/served_bytes.h"
+#include "hil/emulators/byte_server.h"
 #include "hil/plant/orders.h"
-#include "hil/plant/plant_log.h"
 
 namespace {
 

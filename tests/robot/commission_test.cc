@@ -9,7 +9,6 @@
 #include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 #include "tests/support/file_size_limit.h"
 

@@ -11,7 +11,6 @@
 #include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
