@@ -10,7 +10,6 @@
 #include "hal/comfort.h"
 #include "hal/maps/wall_map.h"
 #include "hal/setting_keys.h"
-#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
 #include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"
