@@ -11,7 +11,6 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/recording/run_folders.h"
-#include "firmware/recording/run_parts.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <type_traits>
 
-#include "firmware/recording/byte_order.h"
-
 namespace jaywalk {
 namespace {
 

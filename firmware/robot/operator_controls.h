@@ -4,7 +4,7 @@
 #include "drivers/panel/joystick_watch.h"
 #include "drivers/wired_drive.h"
 #include "firmware/robot/operator_desk.h"
-#include "firmware/robot/permission.h"
+#include "firmware/robot/place_check.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/hal.h"
 

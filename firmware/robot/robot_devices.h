@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/can_interface.h"
 #include "drivers/can/byte_bus.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/quick_stopper.h"
 #include "drivers/laser/scanner_connection.h"

@@ -1,4 +1,4 @@
-#include "firmware/log_histogram.h"
+#include "firmware/run_sample.h"
 
 #include <algorithm>
 #include <cmath>

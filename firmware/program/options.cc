@@ -1,4 +1,4 @@
-#include "firmware/program/parse_message.h"
+#include "firmware/program/options.h"
 
 #include <string>
 
