@@ -1,5 +1,3 @@
-#include "apps/bench/bench_command.h"
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/bench_maps.h"
-#include "apps/bench/bench_motion.h"
-#include "apps/bench/bench_rivals.h"
-#include "apps/bench/timing.h"
+#include "apps/bench/bench.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"

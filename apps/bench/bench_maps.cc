@@ -1,8 +1,7 @@
-#include "apps/bench/bench_maps.h"
-
 #include <algorithm>
 #include <optional>
 
+#include "apps/bench/bench.h"
 #include "apps/jaywalk/map_cells.h"
 #include "hal/types/errors.h"
 

@@ -1,9 +1,8 @@
-#include "apps/bench/bench_motion.h"
-
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/bench/bench.h"
 #include "firmware/backends.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"

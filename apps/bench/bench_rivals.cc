@@ -1,10 +1,10 @@
-#include "apps/bench/bench_rivals.h"
-
 #include <algorithm>
 #include <array>
 #include <functional>
 #include <queue>
 #include <utility>
+
+#include "apps/bench/bench.h"
 
 namespace jaywalk {
 namespace {

@@ -5,9 +5,8 @@
 
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/charts.h"
-#include "apps/campaign/digest.h"
+#include "apps/campaign/plan_text.h"
 #include "apps/campaign/statistics.h"
-#include "apps/campaign/success.h"
 #include "hal/text_file.h"
 
 namespace jaywalk::campaign {

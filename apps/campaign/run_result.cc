@@ -5,8 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "apps/campaign/digest.h"
-#include "apps/campaign/failure_words.h"
+#include "apps/campaign/plan_text.h"
 #include "apps/campaign/ride.h"
 #include "apps/campaign/statistics.h"
 #include "hal/shown_text.h"

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::dds {

@@ -10,9 +10,8 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/foxglove_input.h"
-#include "apps/formats/laser_mount.h"
-#include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/log_checks.h"
+#include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

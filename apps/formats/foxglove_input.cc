@@ -3,7 +3,7 @@
 #include <array>
 #include <limits>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 
 namespace jaywalk::exchange {
 namespace {

@@ -3,8 +3,8 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/byte_file.h"
-#include "apps/formats/little_endian.h"
-#include "apps/formats/mcap_format.h"
+#include "apps/formats/mcap_writer.h"
+#include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::exchange {

@@ -8,7 +8,7 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/byte_file.h"
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -10,7 +10,7 @@
 #include <sstream>
 #include <vector>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 
 namespace jaywalk::exchange {
 namespace {

@@ -4,6 +4,7 @@
 #include <array>
 #include <cstdint>
 #include <cstring>
+#include <string>
 #include <string_view>
 
 namespace jaywalk::exchange {
@@ -65,6 +66,77 @@ class WireReader {
   std::string_view bytes_;
   std::size_t used_ = 0;
   bool aligned_, swapped_ = false, ok_ = true;
+};
+
+// Reads and writes packed little-endian records of numbers and texts.
+
+/// Takes values from the front of bytes; where they end it gives zeros, and `ok` turns false for good.
+class LittleEndian {
+ public:
+  explicit LittleEndian(std::string_view bytes) : bytes_(bytes) {}
+
+  template <class T>
+  [[nodiscard]] T number() {
+    T value{};
+    const std::string_view raw = take(sizeof(T));
+    if (raw.size() == sizeof(T)) std::memcpy(&value, raw.data(), sizeof value);  // all our machines are little-endian
+    return value;
+  }
+  [[nodiscard]] std::uint16_t u16() { return number<std::uint16_t>(); }
+  [[nodiscard]] std::uint32_t u32() { return number<std::uint32_t>(); }
+  [[nodiscard]] std::uint64_t u64() { return number<std::uint64_t>(); }
+  /// Behind the number of its bytes.
+  [[nodiscard]] std::string_view sized() { return take(u32()); }
+  [[nodiscard]] std::string_view take(std::uint64_t bytes) {
+    ok_ = ok_ && bytes <= bytes_.size();
+    if (!ok_) return {};
+    const std::string_view taken = bytes_.substr(0, bytes);
+    bytes_.remove_prefix(bytes);
+    return taken;
+  }
+  [[nodiscard]] std::string_view rest() { return take(bytes_.size()); }
+  [[nodiscard]] bool empty() const { return bytes_.empty(); }
+  [[nodiscard]] bool ok() const { return ok_; }
+
+ private:
+  std::string_view bytes_;
+  bool ok_ = true;
+};
+
+// OMG's Common Data Representation (CDR, XCDR1, little endian), as ROS 2 writes messages.
+
+/// Numbers stand at multiples of their size, counted from behind the encapsulation's four bytes.
+class CdrWriter {
+ public:
+  template <class T>
+  CdrWriter& number(T value) {
+    bytes_.resize(kHead + (bytes_.size() - kHead + sizeof(T) - 1) / sizeof(T) * sizeof(T));
+    char raw[sizeof(T)];
+    std::memcpy(raw, &value, sizeof raw);  // all our machines are little-endian
+    bytes_.append(raw, sizeof raw);
+    return *this;
+  }
+  CdrWriter& f64(double value) { return number(value); }
+  CdrWriter& f32(double value) { return number(static_cast<float>(value)); }
+  CdrWriter& u32(std::size_t value) { return number(static_cast<std::uint32_t>(value)); }
+  CdrWriter& i32(std::int64_t value) { return number(static_cast<std::int32_t>(value)); }
+  CdrWriter& u8(unsigned value) { return number(static_cast<std::uint8_t>(value)); }
+  CdrWriter& text(std::string_view text) {
+    u32(text.size() + 1);
+    bytes_.append(text).push_back('\0');
+    return *this;
+  }
+  /// Bytes behind their count.
+  CdrWriter& bytes(std::string_view raw) {
+    u32(raw.size());
+    bytes_.append(raw);
+    return *this;
+  }
+  [[nodiscard]] const std::string& message() const { return bytes_; }
+
+ private:
+  static constexpr std::size_t kHead = 4;
+  std::string bytes_{"\0\1\0\0", kHead};
 };
 
 }  // namespace jaywalk::exchange

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/calibrate_command.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -8,12 +6,13 @@
 #include <string>
 #include <vector>
 
+#include "apps/jaywalk/commands.h"
 #include "apps/setup/armed_session.h"
 #include "apps/setup/calibration_plot.h"
 #include "apps/setup/guided_drive.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/recorder.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
 

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/config_command.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "apps/campaign/campaign.h"
+#include "apps/jaywalk/commands.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"

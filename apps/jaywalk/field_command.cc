@@ -1,5 +1,3 @@
-#include "apps/jaywalk/field_command.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/bench/timing.h"
+#include "apps/bench/bench.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/map_cells.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/shown_text.h"

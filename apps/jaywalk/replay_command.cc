@@ -1,5 +1,3 @@
-#include "apps/jaywalk/replay_command.h"
-
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -12,17 +10,16 @@
 #include "apps/formats/bag_log.h"
 #include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/log_replay.h"
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/report/run_observer.h"
-#include "apps/setup/mount_check.h"
 #include "apps/setup/mount_search.h"
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/run_parts.h"
+#include "firmware/recording/run_folders.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"

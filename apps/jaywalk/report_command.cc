@@ -1,10 +1,9 @@
-#include "apps/jaywalk/report_command.h"
-
 #include <cstdio>
 #include <string>
 
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/report.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/report/run_words.h"
 #include "hal/types/errors.h"
 

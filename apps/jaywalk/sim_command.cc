@@ -1,5 +1,3 @@
-#include "apps/jaywalk/sim_command.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,7 +5,7 @@
 #include <memory>
 #include <thread>
 
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/jaywalk/shipped_scenarios.h"
 #include "apps/report/run_observer.h"

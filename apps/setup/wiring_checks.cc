@@ -7,7 +7,7 @@
 #include <limits>
 #include <optional>
 
-#include "apps/setup/scan_shift.h"
+#include "apps/setup/scan_surfels.h"
 
 namespace jaywalk {
 namespace {

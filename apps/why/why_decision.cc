@@ -1,5 +1,3 @@
-#include "apps/why/why_decision.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "apps/report/csv_file.h"
+#include "apps/why/why.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {

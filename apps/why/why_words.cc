@@ -1,11 +1,10 @@
-#include "apps/why/why_words.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
 #include <vector>
 
+#include "apps/why/why.h"
 #include "drivers/drive_fault_words.h"
 #include "hal/shown_text.h"
 

@@ -1,19 +1,20 @@
 #include "drivers/can/can_interface.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cstddef>
-#include <cstring>
 #include <linux/can/netlink.h>
 #include <linux/if_link.h>
 #include <linux/rtnetlink.h>
 #include <net/if.h>
 #include <net/if_arp.h>
-#include <span>
 #include <sys/ioctl.h>
 #include <sys/socket.h>
 #include <sys/time.h>
 #include <sys/un.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstddef>
+#include <cstring>
+#include <span>
 #include <vector>
 
 #include "drivers/wire/file_descriptor.h"

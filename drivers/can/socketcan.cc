@@ -1,9 +1,5 @@
 #include "drivers/can/socketcan.h"
 
-#include <algorithm>
-#include <array>
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <linux/can/error.h>
 #include <linux/can/raw.h>
@@ -11,6 +7,11 @@
 #include <sys/socket.h>
 #include <sys/uio.h>
 #include <time.h>
+
+#include <algorithm>
+#include <array>
+#include <cerrno>
+#include <cstring>
 #include <vector>
 
 #include "hal/types/errors.h"

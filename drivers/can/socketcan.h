@@ -1,7 +1,8 @@
 #pragma once
+#include <linux/can.h>
+
 #include <algorithm>
 #include <chrono>
-#include <linux/can.h>
 #include <optional>
 #include <span>
 #include <string>

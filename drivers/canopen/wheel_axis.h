@@ -4,10 +4,10 @@
 #include <string>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/wired_drive.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/pdo.h"
 #include "drivers/stop_ladder.h"
+#include "drivers/wired_drive.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/wheels.h"
 

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/laser/scanner_protocol.h"
 #include "drivers/laser/device_clock.h"
+#include "drivers/laser/scanner_protocol.h"
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::ldrobot {

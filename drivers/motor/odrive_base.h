@@ -3,9 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/wired_drive.h"
 #include "drivers/motor/motor_pair.h"
 #include "drivers/motor/odrive.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk::odrive {
 

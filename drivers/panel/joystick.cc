@@ -1,13 +1,14 @@
 #include "drivers/panel/joystick.h"
 
-#include <algorithm>
-#include <cerrno>
-#include <cmath>
-#include <cstring>
 #include <fcntl.h>
 #include <linux/input.h>
 #include <linux/joystick.h>
 #include <sys/ioctl.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstring>
 #include <utility>
 
 namespace jaywalk::panel {

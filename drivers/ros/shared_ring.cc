@@ -1,14 +1,15 @@
 #include "drivers/ros/shared_ring.h"
 
-#include <cerrno>
-#include <cstring>
 #include <fcntl.h>
 #include <linux/futex.h>
-#include <optional>
 #include <sys/mman.h>
 #include <sys/stat.h>
 #include <sys/syscall.h>
 #include <unistd.h>
+
+#include <cerrno>
+#include <cstring>
+#include <optional>
 
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"

@@ -1,9 +1,10 @@
 #pragma once
+#include <sys/socket.h>
+
 #include <cstdint>
 #include <memory>
 #include <span>
 #include <string>
-#include <sys/socket.h>
 
 #include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"

@@ -1,14 +1,15 @@
 #include "hil/emulators/byte_server.h"
 
-#include <array>
-#include <cerrno>
 #include <fcntl.h>
-#include <filesystem>
 #include <netinet/in.h>
 #include <netinet/tcp.h>
 #include <stdlib.h>
 #include <sys/socket.h>
 #include <termios.h>
+
+#include <array>
+#include <cerrno>
+#include <filesystem>
 #include <utility>
 
 #include "hal/types/errors.h"

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 
 namespace jaywalk::emulators {
 

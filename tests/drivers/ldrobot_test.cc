@@ -1,10 +1,11 @@
+#include "drivers/laser/ldrobot.h"
+
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <tuple>
 #include <vector>
 
-#include "drivers/laser/ldrobot.h"
 #include "drivers/laser/scanner_protocol.h"
 #include "hal/types/trig.h"
 #include "tests/drivers/random_bytes.h"

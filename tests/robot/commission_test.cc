@@ -4,7 +4,7 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/setup/scan_shift.h"
+#include "apps/setup/scan_surfels.h"
 #include "apps/setup/wiring_checks.h"
 #include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"

@@ -9,7 +9,6 @@
 #include "drivers/can/can_interface.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/realtime.h"
-#include "firmware/robot/scanner_check.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
 #include "hil/emulators/sick_server.h"

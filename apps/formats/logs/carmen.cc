@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
-#include "apps/formats/logs/scan_lines.h"
 #include "hal/shown_text.h"
 #include "hal/types/trig.h"
 

@@ -2,10 +2,9 @@
 #include <array>
 #include <cctype>
 
-#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
-#include "apps/formats/logs/scan_lines.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {

@@ -1,12 +1,25 @@
 #pragma once
+#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "apps/report/picture/scene.h"
+#include "firmware/control_loop.h"
+#include "firmware/recording/tick_record.h"
 #include "planner/motion/goal_rollouts.h"
 
 namespace jaywalk {
+
+struct WhyOptions {
+  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
+  double at_s = 0.0;
+  std::filesystem::path out = "out/why";
+};
+
+/// One moment of a recording: a few sentences on standard output, and why.png. Returns 0. Throws StartupError for bad
+/// input, a time outside the recording among it.
+[[nodiscard]] int run_why(const WhyOptions& options);
 
 /// A decision that was gone on with since: what it proposed, and when it was made.
 struct Resolve {
@@ -42,5 +55,19 @@ struct BodiesAbout {
 /// A table of everything that a decision weighed, cheapest first: what it proposes, what it costs term by term (s),
 /// where it ends. Throws StartupError when the file cannot be made.
 void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file);
+
+/// What the last decision weighed.
+struct Weighed {
+  Resolve resolve;
+  std::vector<motion::Alternative> alternatives;  ///< cheapest first; none without a decision
+};
+
+/// A moment in plain sentences, a line each: what the robot did, saw, expected, wanted, was permitted and why, and what
+/// would have come of driving on.
+[[nodiscard]] std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,
+                                    const Weighed& weighed);
+
+/// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
+[[nodiscard]] std::string in_words(Reason reasons);
 
 }  // namespace jaywalk
