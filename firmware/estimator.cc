@@ -1,7 +1,6 @@
 #include "firmware/estimator.h"
 
 #include <algorithm>
-#include <utility>
 
 #include "planner/localization/odometry.h"
 

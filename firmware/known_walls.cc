@@ -1,7 +1,5 @@
 #include "firmware/known_walls.h"
 
-#include "planner/mapping/evidence_map.h"
-
 namespace jaywalk {
 
 std::span<const Vec2> KnownWalls::near(const EvidenceMap& still, const Pose2& map_from_robot) noexcept {

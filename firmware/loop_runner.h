@@ -2,7 +2,6 @@
 // A control loop under way, with everything that watches it: recorder, report, stopwatch.
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>

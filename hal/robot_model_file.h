@@ -25,8 +25,8 @@ namespace jaywalk {
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 
-/// The row of the key `comfort` in a table `section`, and its value: normal where it is absent.
-[[nodiscard]] SettingKey comfort_key(const std::string& section);
+/// The row of the key `comfort`, and its value: normal where it is absent.
+[[nodiscard]] SettingKey comfort_key();
 [[nodiscard]] Comfort read_comfort(TomlTable& table);
 
 /// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.

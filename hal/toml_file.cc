@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <regex>
 #include <sstream>
@@ -11,7 +10,6 @@
 #include "hal/text_file.h"
 #include "hal/toml_settings.h"
 #include "hal/types/errors.h"
-#include "hal/types/geometry.h"
 
 namespace jaywalk {
 namespace {

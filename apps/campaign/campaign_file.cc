@@ -1,5 +1,4 @@
 #include <algorithm>
-#include <array>
 
 #include "apps/campaign/campaign.h"
 #include "hal/toml_file.h"
@@ -11,29 +10,6 @@ namespace {
 using enum KeyKind;
 
 constexpr double kMostSeeds = 1e6;
-
-FileKeys make_campaign_keys() {
-  constexpr const char* kIn = "experiments";
-  return {"Campaign",
-          {{"", "name", kText, {}, "", "the file's name", "for reports"},
-           {"", "title", kText, {}, "", "the name", "heading of the report"},
-           {"", "keep", kChoice, {}, "", "failures", "what stays of a run's files", {"figures", "failures", "all"}},
-           {"", "experiments", kTables, {}, "", kNeeded, "what is run"},
-           {kIn, "name", kText, {}, "", kNeeded, "of its folder: letters, digits, - and _"},
-           {kIn, "title", kText, {}, "", "the name", "heading of its tables"},
-           {kIn, "scenarios", kTexts, {}, "", kNeeded, "scenario files, relative to this file's folder"},
-           {kIn, "seeds", kNumbers, {}, "", "each scenario's own", "[first, last]"},
-           {kIn,
-            "planner",
-            kTexts,
-            {},
-            "",
-            "ours",
-            "who decides on motion: ours, none, replan, dwa, orca; a list to vary it"},
-           {kIn, "mode", kTexts, {}, "", "full", "full, paper, or both in a list"},
-           {kIn, "constant_speed", kBoolean, {}, "", false, "one speed from start to goal, never stopping"},
-           {kIn, "set", kTable, {}, "", "nothing", "keys of the scenario: a value, or a list to vary it"}}};
-}
 
 std::optional<SeedRange> read_seeds(TomlTable& table) {
   if (!table.has("seeds")) return std::nullopt;
@@ -98,7 +74,22 @@ void refuse_equal_names(const std::vector<Experiment>& experiments) {
 }  // namespace
 
 const FileKeys& campaign_keys() {
-  static const FileKeys keys = make_campaign_keys();
+  static const FileKeys keys = file_keys(
+      "Campaign",
+      {section_keys("", {key_row("name", kText, "the file's name", "for reports"),
+                         key_row("title", kText, "the name", "heading of the report"),
+                         choice_row("keep", "failures", "what stays of a run's files", {"figures", "failures", "all"}),
+                         key_row("experiments", kTables, kNeeded, "what is run")}),
+       section_keys("experiments",
+                    {key_row("name", kText, kNeeded, "of its folder: letters, digits, - and _"),
+                     key_row("title", kText, "the name", "heading of its tables"),
+                     key_row("scenarios", kTexts, kNeeded, "scenario files, relative to this file's folder"),
+                     key_row("seeds", kNumbers, "each scenario's own", "[first, last]"),
+                     key_row("planner", kTexts, "ours",
+                             "who decides on motion: ours, none, replan, dwa, orca; a list to vary it"),
+                     key_row("mode", kTexts, "full", "full, paper, or both in a list"),
+                     key_row("constant_speed", kBoolean, false, "one speed from start to goal, never stopping"),
+                     key_row("set", kTable, "nothing", "keys of the scenario: a value, or a list to vary it")})});
   return keys;
 }
 

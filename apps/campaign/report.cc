@@ -5,7 +5,6 @@
 
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/charts.h"
-#include "apps/campaign/plan_text.h"
 #include "apps/campaign/statistics.h"
 #include "hal/text_file.h"
 

@@ -1,7 +1,6 @@
 #pragma once
 // The report of a campaign from the folders of its shards.
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 

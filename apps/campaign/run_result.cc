@@ -2,7 +2,6 @@
 
 #include <sys/wait.h>
 
-#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "apps/campaign/plan_text.h"

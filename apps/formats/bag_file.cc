@@ -3,9 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
-#include <optional>
 #include <vector>
 
 #include "apps/formats/byte_file.h"

@@ -4,14 +4,12 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/foxglove_input.h"
 #include "apps/formats/logs/log_checks.h"
-#include "apps/formats/logs/recorded_log.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include "apps/formats/logs/recorded_log.h"
 #include "hal/types/trig.h"

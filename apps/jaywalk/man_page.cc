@@ -4,7 +4,6 @@
 #include <cstdio>
 #include <map>
 #include <string_view>
-#include <vector>
 
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

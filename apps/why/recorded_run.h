@@ -5,7 +5,6 @@
 #include <string>
 #include <vector>
 
-#include "firmware/backends.h"
 #include "firmware/control_loop.h"
 #include "firmware/control_setup.h"
 #include "firmware/estimator.h"

@@ -1,8 +1,5 @@
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
-#include <vector>
 
 #include "apps/why/why.h"
 #include "drivers/drive_fault_words.h"

@@ -2,7 +2,6 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "drivers/arcos/arcos.h"
 #include "drivers/motor/motor_pair.h"

@@ -1,6 +1,5 @@
 #include "drivers/can/can_bus.h"
 
-#include <array>
 #include <cstdio>
 
 namespace jaywalk {

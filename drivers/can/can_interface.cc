@@ -15,9 +15,7 @@
 #include <cstddef>
 #include <cstring>
 #include <span>
-#include <vector>
 
-#include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -8,7 +8,6 @@
 #include <sys/uio.h>
 #include <time.h>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <cstring>

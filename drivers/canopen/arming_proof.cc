@@ -5,8 +5,6 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "drivers/canopen/sdo_client.h"
-
 namespace jaywalk::canopen {
 
 namespace {

@@ -5,7 +5,6 @@
 #include <initializer_list>
 
 #include "drivers/canopen/cia402.h"
-#include "drivers/canopen/pdo.h"
 
 namespace jaywalk::canopen {
 namespace {

@@ -2,7 +2,6 @@
 
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/canopen/pdo.h"
 
 namespace jaywalk::canopen {
 

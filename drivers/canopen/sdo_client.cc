@@ -1,7 +1,6 @@
 #include "drivers/canopen/sdo_client.h"
 
 #include <algorithm>
-#include <array>
 
 namespace jaywalk::canopen {
 namespace {

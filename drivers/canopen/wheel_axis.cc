@@ -1,11 +1,9 @@
 #include "drivers/canopen/wheel_axis.h"
 
 #include <algorithm>
-#include <array>
 #include <cassert>
 
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/wired_drive.h"
 
 namespace jaywalk::canopen {
 namespace {

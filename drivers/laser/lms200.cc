@@ -1,7 +1,6 @@
 #include "drivers/laser/lms200.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 

@@ -1,7 +1,5 @@
 #include "drivers/laser/rplidar.h"
 
-#include <algorithm>
-
 namespace jaywalk::rplidar {
 namespace {
 

@@ -4,7 +4,6 @@
 #include <bit>
 #include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "hal/types/trig.h"
 

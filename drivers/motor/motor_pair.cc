@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "drivers/wired_drive.h"
-
 namespace jaywalk {
 
 MotorPair::MotorPair(CanBus& bus, Clock& clock, const PairSetup& setup)

@@ -1,7 +1,6 @@
 #include "drivers/motor/odrive.h"
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
 #include <cstdio>

@@ -1,6 +1,7 @@
 #include "drivers/ros/ros_scan.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace jaywalk::ros {
 namespace {

@@ -7,9 +7,9 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"

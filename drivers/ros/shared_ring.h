@@ -1,6 +1,5 @@
 #pragma once
 #include <array>
-#include <atomic>
 #include <bit>
 #include <cmath>
 #include <cstdint>
@@ -8,7 +7,6 @@
 #include <memory>
 #include <optional>
 #include <span>
-#include <vector>
 
 #include "drivers/can/can_bus.h"
 #include "hal/types/laser_scan.h"

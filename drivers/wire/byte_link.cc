@@ -10,8 +10,6 @@
 #include <algorithm>
 #include <cerrno>
 #include <cstring>
-#include <ctime>
-#include <memory>
 
 #include "drivers/wire/serial_settings.h"
 #include "hal/types/errors.h"

@@ -1,7 +1,5 @@
 #include "firmware/program/options.h"
 
-#include <string>
-
 namespace jaywalk {
 namespace {
 

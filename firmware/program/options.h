@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/backends.h"
+#include "firmware/control_setup.h"
 #include "firmware/recording/run_folders.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

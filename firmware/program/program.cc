@@ -16,7 +16,6 @@
 
 #include "firmware/backends.h"
 #include "firmware/program/options.h"
-#include "firmware/program/run_command.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
 #include "hal/setting_keys.h"

@@ -3,15 +3,12 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
 #include "drivers/can/can_interface.h"
 #include "drivers/drive_fault_words.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/recording/run_folders.h"
 #include "firmware/robot/armed_mark.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"

@@ -6,10 +6,8 @@
 #include <array>
 #include <cstring>
 #include <filesystem>
-#include <span>
 #include <utility>
 
-#include "firmware/recording/tick_entry.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

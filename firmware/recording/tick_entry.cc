@@ -1,7 +1,6 @@
 #include "firmware/recording/tick_entry.h"
 
 #include <algorithm>
-#include <type_traits>
 
 namespace jaywalk {
 namespace {

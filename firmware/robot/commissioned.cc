@@ -9,7 +9,6 @@
 #include <ctime>
 #include <fstream>
 #include <nlohmann/json.hpp>
-#include <vector>
 
 #include "hal/types/errors.h"
 

@@ -1,7 +1,6 @@
 #include "firmware/robot/drive_wiring.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "firmware/robot/robot_file_keys.h"
@@ -78,14 +77,12 @@ void require_two_ticks_within(TomlTable& table, Duration tick, Duration most, co
 canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
-  settings.controller_node = read_node(table, "controller_node");
-  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms"));
+  canopen_keys().read(table, settings);
   if (2 * tick > std::chrono::milliseconds(settings.controller_timeout_ms)) {
     table.refuse("controller_timeout_ms",
                  "is " + std::to_string(settings.controller_timeout_ms) + ", less than two of the loop's periods",
                  "raise it, or rate_hz");
   }
-  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms"));
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.stop = stop;
   base.allow_unproved = table.boolean("allow_unproved");

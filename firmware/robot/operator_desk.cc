@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "firmware/robot/control_clients.h"
 #include "hal/types/errors.h"
 #include "hal/types/wheels.h"
 

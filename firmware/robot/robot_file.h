@@ -1,6 +1,5 @@
 #pragma once
 // ROBOT.toml: which robot this is and how its devices are wired. docs/tutorial/first-real-robot.md has every key.
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>

@@ -5,7 +5,6 @@
 #include <limits>
 
 #include "drivers/wire/thread_without_signals.h"
-#include "firmware/robot/realtime.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk {

@@ -14,9 +14,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
-#include "drivers/wire/file_descriptor.h"
 #include "drivers/wire/thread_without_signals.h"
 
 namespace jaywalk {

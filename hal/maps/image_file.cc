@@ -4,7 +4,6 @@
 
 #include <array>
 #include <fstream>
-#include <string>
 
 #include "hal/types/errors.h"
 

@@ -10,7 +10,6 @@
 #include <string>
 
 #include "hal/maps/image_file.h"
-#include "hal/maps/wall_map.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {

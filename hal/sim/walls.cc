@@ -1,7 +1,6 @@
 #include "hal/sim/walls.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace jaywalk::sim {

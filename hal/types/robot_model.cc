@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "hal/types/geometry.h"
-
 namespace jaywalk {
 namespace {
 

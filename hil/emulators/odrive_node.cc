@@ -1,7 +1,6 @@
 #include "hil/emulators/odrive_node.h"
 
 #include <bit>
-#include <cmath>
 
 #include "drivers/wire/byte_reader.h"
 #include "hil/emulators/ramped.h"

@@ -2,7 +2,6 @@
 #include <filesystem>
 #include <functional>
 #include <span>
-#include <string_view>
 
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/scenario.h"

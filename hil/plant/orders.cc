@@ -1,6 +1,5 @@
 #include "hil/plant/orders.h"
 
-#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <optional>

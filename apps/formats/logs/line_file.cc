@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "hal/shown_text.h"
 #include "hal/text_file.h"

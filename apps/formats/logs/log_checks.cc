@@ -1,7 +1,6 @@
 #include "apps/formats/logs/log_checks.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 

@@ -1,7 +1,6 @@
 #include "apps/formats/logs/log_times.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace jaywalk::sim {
