@@ -7,6 +7,7 @@
 
 #include "drivers/can/can_bus.h"
 #include "hal/hal.h"
+#include "hal/types/errors.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {
@@ -88,5 +89,16 @@ class FrameRate {
   double store_ = kStore;
   Time last_ = kNever;
 };
+
+/// Node, code and its meaning: "node 5: emergency 2310h (continuous over-current)"; empty where no fault was told. Not
+/// for the loop.
+[[nodiscard]] std::string describe(const DriveFault& fault);
+
+/// Meanings of an ODrive's error bits, firmware 0.6, joined by "; "; empty for bits that are not known.
+[[nodiscard]] std::string odrive_error_words(std::uint32_t errors);
+/// Meanings of the bits of arcos::Fault, likewise.
+[[nodiscard]] std::string arcos_fault_words(std::uint32_t faults);
+/// Meaning of the procedure result in an ODrive's heartbeat: "timeout".
+[[nodiscard]] std::string odrive_procedure_words(std::uint8_t result);
 
 }  // namespace jaywalk

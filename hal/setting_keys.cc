@@ -79,28 +79,17 @@ std::string joined(const std::vector<std::string>& words) {
 
 std::string allowed(const SettingKey& key) {
   switch (key.kind) {
-    case KeyKind::kNumber:
-      return shortest(key.range.low) + " to " + shortest(key.range.high);
-    case KeyKind::kInteger:
-      return shortest(key.range.low) + " to " + shortest(key.range.high) + ", whole";
-    case KeyKind::kBoolean:
-      return "true or false";
-    case KeyKind::kChoice:
-      return joined(key.choices);
-    case KeyKind::kText:
-      return "text";
-    case KeyKind::kFile:
-      return "path, relative to this file";
-    case KeyKind::kNumbers:
-      return "list of numbers";
-    case KeyKind::kPoints:
-      return "list of [x, y]";
-    case KeyKind::kTexts:
-      return "text, or a list of texts";
-    case KeyKind::kTable:
-      return "table";
-    case KeyKind::kTables:
-      return "tables";
+    case KeyKind::kNumber: return shortest(key.range.low) + " to " + shortest(key.range.high);
+    case KeyKind::kInteger: return shortest(key.range.low) + " to " + shortest(key.range.high) + ", whole";
+    case KeyKind::kBoolean: return "true or false";
+    case KeyKind::kChoice: return joined(key.choices);
+    case KeyKind::kText: return "text";
+    case KeyKind::kFile: return "path, relative to this file";
+    case KeyKind::kNumbers: return "list of numbers";
+    case KeyKind::kPoints: return "list of [x, y]";
+    case KeyKind::kTexts: return "text, or a list of texts";
+    case KeyKind::kTable: return "table";
+    case KeyKind::kTables: return "tables";
   }
   return "";
 }

@@ -4,9 +4,9 @@
 #include <string>
 #include <vector>
 
+#include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/plan_text.h"
 #include "apps/campaign/report_page.h"
-#include "apps/campaign/run_result.h"
 
 namespace jaywalk::campaign {
 

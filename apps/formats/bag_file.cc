@@ -96,21 +96,15 @@ class UnpackedFile {
 std::string read_file(const std::filesystem::path& file, const BagSink& sink) {
   require_readable(file, file.string() + ": ", "give a recording");
   switch (format_of(file)) {
-    case Format::kMcap:
-      return read_mcap(file, sink);
-    case Format::kRos1:
-      read_ros1_bag(file, sink);
-      return "";
-    case Format::kSqlite:
-      read_sqlite_bag(file, sink);
-      return "";
+    case Format::kMcap: return read_mcap(file, sink);
+    case Format::kRos1: read_ros1_bag(file, sink); return "";
+    case Format::kSqlite: read_sqlite_bag(file, sink); return "";
     case Format::kZstd: {
       const UnpackedFile unpacked(file);
       if (format_of(unpacked.path()) == Format::kZstd) break;
       return read_file(unpacked.path(), sink);
     }
-    case Format::kNone:
-      break;
+    case Format::kNone: break;
   }
   throw StartupError(file.string() + ": no recording that is known here",
                      "give an MCAP file, a ROS 2 bag or a ROS 1 bag");

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/foxglove_input.h"
 #include "apps/formats/logs/log_checks.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"

@@ -100,4 +100,14 @@ struct LaserMount {
 /// Nothing where its plane is not level to 10 degrees.
 [[nodiscard]] std::optional<LaserMount> level_mount(const SpatialFrame& base_from_laser);
 
+// Foxglove's own messages in protobuf (github.com/foxglove/foxglove-sdk, schemas/proto), as far as a replay needs them.
+
+/// foxglove.LaserScan: it says no range limits (0 to infinity here) and no times of beams, but where its origin lies in
+/// its frame. Nothing where the bytes are no such message.
+[[nodiscard]] std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes);
+/// foxglove.FrameTransform.
+[[nodiscard]] std::optional<TransformMessage> read_foxglove_transform(std::string_view bytes);
+/// foxglove.FrameTransforms.
+[[nodiscard]] std::optional<std::vector<TransformMessage>> read_foxglove_transforms(std::string_view bytes);
+
 }  // namespace jaywalk::exchange

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "apps/formats/ros_input.h"
-#include "drivers/laser/device_clock.h"
+#include "drivers/laser/scanner_protocol.h"
 #include "drivers/ros/shared_ring.h"
 #include "hal/types/robot_model.h"
 

@@ -124,9 +124,9 @@ struct SimOptions {
   bool until_arrived = false;                  ///< with it too: ends at the first arrival
 };
 
-/// The whole controller on the simulated robot; the scenario may be the name of one that comes with the program
-/// (shipped_scenarios.h). Returns the process's exit code: 0 when the run succeeded by the strict
-/// rule (goal reached, nobody touched, nobody made to turn), 1 when not. Throws StartupError for bad input.
+/// The whole controller on the simulated robot; the scenario may be the name of one that comes with the program.
+/// Returns the process's exit code: 0 when the run succeeded by the strict rule (goal reached, nobody touched, nobody
+/// made to turn), 1 when not. Throws StartupError for bad input.
 [[nodiscard]] int run_sim(SimOptions options);
 
 }  // namespace jaywalk

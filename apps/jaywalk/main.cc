@@ -10,7 +10,7 @@
 #include "apps/why/why.h"
 #include "firmware/program/options.h"
 #include "firmware/program/program.h"
-#include "hal/comfort.h"
+#include "hal/robot_model_file.h"
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

@@ -1,11 +1,10 @@
-#include "apps/setup/drive_search.h"
-
 #include <array>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <set>
 
+#include "apps/setup/robot_setup.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"

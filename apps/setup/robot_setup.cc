@@ -7,8 +7,6 @@
 #include <initializer_list>
 #include <set>
 
-#include "apps/setup/drive_search.h"
-#include "apps/setup/scanner_search.h"
 #include "drivers/laser/scanner_setup.h"
 #include "hal/robot_model_file.h"
 #include "hal/types/errors.h"

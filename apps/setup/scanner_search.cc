@@ -1,10 +1,9 @@
-#include "apps/setup/scanner_search.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <memory>
 
+#include "apps/setup/robot_setup.h"
 #include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"
 

@@ -23,21 +23,18 @@ std::optional<std::string> understood(const SettingKey& row, const std::string& 
   const double number = std::strtod(said.c_str(), &end);
   const bool is_number = !said.empty() && *end == '\0' && number >= row.range.low && number <= row.range.high;
   switch (row.kind) {
-    case KeyKind::kNumber:
-      return is_number ? std::optional(literal(number)) : std::nullopt;
+    case KeyKind::kNumber: return is_number ? std::optional(literal(number)) : std::nullopt;
     case KeyKind::kInteger:
       return is_number && number == std::floor(number) ? std::optional(literal(number)) : std::nullopt;
     case KeyKind::kBoolean:
       if (said == "true" || said == "yes") return "true";
       return said == "false" || said == "no" ? std::optional<std::string>("false") : std::nullopt;
-    case KeyKind::kNumbers:
-      return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
+    case KeyKind::kNumbers: return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
     case KeyKind::kChoice:
       for (const std::string& choice : row.choices)
         if (said == choice) return literal(said);
       return std::nullopt;
-    default:
-      return said.empty() ? std::nullopt : std::optional(literal(said));
+    default: return said.empty() ? std::nullopt : std::optional(literal(said));
   }
 }
 

@@ -1,11 +1,10 @@
-#include "apps/setup/surroundings.h"
-
 #include <algorithm>
 #include <array>
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
+#include "apps/setup/robot_setup.h"
 #include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
 #include "hal/types/errors.h"

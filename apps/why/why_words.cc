@@ -2,7 +2,7 @@
 #include <cmath>
 
 #include "apps/why/why.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {

@@ -3,7 +3,7 @@
 #include <cmath>
 
 #include "drivers/arcos/arcos_base.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::arcos {

@@ -44,16 +44,11 @@ Octets attribute(Octets bytes, std::uint16_t type) {
 std::optional<CanState> state_of(Octets bytes) {
   if (bytes.size() < sizeof(std::uint32_t)) return std::nullopt;
   switch (read_as<std::uint32_t>(bytes)) {
-    case CAN_STATE_ERROR_ACTIVE:
-      return CanState::kActive;
-    case CAN_STATE_ERROR_WARNING:
-      return CanState::kWarning;
-    case CAN_STATE_ERROR_PASSIVE:
-      return CanState::kPassive;
-    case CAN_STATE_BUS_OFF:
-      return CanState::kBusOff;
-    default:
-      return CanState::kDown;
+    case CAN_STATE_ERROR_ACTIVE: return CanState::kActive;
+    case CAN_STATE_ERROR_WARNING: return CanState::kWarning;
+    case CAN_STATE_ERROR_PASSIVE: return CanState::kPassive;
+    case CAN_STATE_BUS_OFF: return CanState::kBusOff;
+    default: return CanState::kDown;
   }
 }
 

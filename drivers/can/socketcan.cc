@@ -156,15 +156,11 @@ SendResult SocketCan::send(const CanFrame& frame) noexcept {
   if (::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == sizeof raw) return SendResult::kQueued;
   switch (errno) {
     case ENOBUFS:
-    case EAGAIN:
-      return SendResult::kQueueFull;
+    case EAGAIN: return SendResult::kQueueFull;
     case ENETDOWN:
     case ENXIO:
-    case ENODEV:
-      health_.state = CanState::kDown;
-      return SendResult::kOffBus;
-    default:
-      return SendResult::kSystemError;
+    case ENODEV: health_.state = CanState::kDown; return SendResult::kOffBus;
+    default: return SendResult::kSystemError;
   }
 }
 

@@ -134,16 +134,11 @@ std::string describe(const ProofLine& line) {
   switch (line.verdict) {
     case ProofVerdict::kProved:
       return what + (demand_of(line.item) == ": wanted " + said ? ", reads the same" : ", reads " + said);
-    case ProofVerdict::kDiffers:
-      return what + ", reads " + said + ": NOT PROVED";
-    case ProofVerdict::kRefused:
-      return what + ", refused (" + std::string(abort_name(line.said)) + "): NOT PROVED";
-    case ProofVerdict::kLacks:
-      return what + ", none (" + std::string(abort_name(line.said)) + ")";
-    case ProofVerdict::kSilent:
-      return what + ", no answer: NOT PROVED";
-    case ProofVerdict::kOpen:
-      break;
+    case ProofVerdict::kDiffers: return what + ", reads " + said + ": NOT PROVED";
+    case ProofVerdict::kRefused: return what + ", refused (" + std::string(abort_name(line.said)) + "): NOT PROVED";
+    case ProofVerdict::kLacks: return what + ", none (" + std::string(abort_name(line.said)) + ")";
+    case ProofVerdict::kSilent: return what + ", no answer: NOT PROVED";
+    case ProofVerdict::kOpen: break;
   }
   return what + ", not asked yet";
 }

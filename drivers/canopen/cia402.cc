@@ -29,15 +29,11 @@ constexpr std::array kPatterns{
 
 std::uint16_t step_to_enabled(DriveState state) noexcept {
   switch (state) {
-    case DriveState::kSwitchOnDisabled:
-      return kShutdown;
-    case DriveState::kReadyToSwitchOn:
-      return kSwitchOn;
+    case DriveState::kSwitchOnDisabled: return kShutdown;
+    case DriveState::kReadyToSwitchOn: return kSwitchOn;
     case DriveState::kSwitchedOn:
-    case DriveState::kOperationEnabled:
-      return kEnableOperation;
-    default:
-      return kDisableVoltage;
+    case DriveState::kOperationEnabled: return kEnableOperation;
+    default: return kDisableVoltage;
   }
 }
 
@@ -62,12 +58,10 @@ std::string_view name(DriveState state) noexcept {
 std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_fault) noexcept {
   if (state == DriveState::kFault) return reset_fault ? kFaultReset : kDisableVoltage;
   switch (goal) {
-    case DriveGoal::kEnabled:
-      return step_to_enabled(state);
+    case DriveGoal::kEnabled: return step_to_enabled(state);
     case DriveGoal::kQuickStop:
       return kQuickStop;  // in every state: what is known of the drive may be old, and it must brake, not roll
-    case DriveGoal::kOff:
-      break;
+    case DriveGoal::kOff: break;
   }
   return kDisableVoltage;
 }

@@ -94,8 +94,7 @@ std::optional<Heartbeat> decode_heartbeat(const CanFrame& frame) noexcept {
     case NmtState::kBootUp:
     case NmtState::kStopped:
     case NmtState::kOperational:
-    case NmtState::kPreOperational:
-      return Heartbeat{node, state};
+    case NmtState::kPreOperational: return Heartbeat{node, state};
   }
   return std::nullopt;
 }
@@ -120,30 +119,18 @@ std::optional<Emergency> decode_emergency(const CanFrame& frame) noexcept {
 
 std::string_view emergency_class(std::uint16_t error_code) noexcept {
   switch (error_code >> 12U) {
-    case 0x0:
-      return "no error";
-    case 0x1:
-      return "generic";
-    case 0x2:
-      return "current";
-    case 0x3:
-      return "voltage";
-    case 0x4:
-      return "temperature";
-    case 0x5:
-      return "device hardware";
-    case 0x6:
-      return "device software";
-    case 0x7:
-      return "additional modules";
-    case 0x8:
-      return "monitoring";
-    case 0x9:
-      return "external";
-    case 0xF:
-      return "device specific";
-    default:
-      return "reserved";
+    case 0x0: return "no error";
+    case 0x1: return "generic";
+    case 0x2: return "current";
+    case 0x3: return "voltage";
+    case 0x4: return "temperature";
+    case 0x5: return "device hardware";
+    case 0x6: return "device software";
+    case 0x7: return "additional modules";
+    case 0x8: return "monitoring";
+    case 0x9: return "external";
+    case 0xF: return "device specific";
+    default: return "reserved";
   }
 }
 

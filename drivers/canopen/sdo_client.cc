@@ -109,16 +109,11 @@ void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
     return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(std::span(frame.bytes).subspan(4)));
   }
   switch (phase_) {
-    case Phase::kReadStart:
-      return on_read_start(frame);
-    case Phase::kReadSegments:
-      return on_read_segment(frame);
-    case Phase::kWriteStart:
-      return on_write_start(frame);
-    case Phase::kWriteSegments:
-      return on_write_segment(frame);
-    case Phase::kNone:
-      return;
+    case Phase::kReadStart: return on_read_start(frame);
+    case Phase::kReadSegments: return on_read_segment(frame);
+    case Phase::kWriteStart: return on_write_start(frame);
+    case Phase::kWriteSegments: return on_write_segment(frame);
+    case Phase::kNone: return;
   }
 }
 

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/laser/device_clock.h"
 #include "drivers/laser/scanner_protocol.h"
 #include "drivers/wire/byte_reader.h"
 

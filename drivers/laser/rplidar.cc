@@ -55,27 +55,21 @@ wire::Bytes RplidarProtocol::to_say(Time now) noexcept {
       queue_.clear();
       step_ = Step::kHealth;
       return kMotorOnAndHealth;
-    case Step::kAskScan:
-      step_ = Step::kScan;
-      return kScanRequest;
-    default:
-      return {};
+    case Step::kAskScan: step_ = Step::kScan; return kScanRequest;
+    default: return {};
   }
 }
 
 Heard RplidarProtocol::next(Time arrival, LaserScan& scan) noexcept {
   switch (step_) {
-    case Step::kHealth:
-      return on_health();
+    case Step::kHealth: return on_health();
     case Step::kScan:
       if (!find(kNodesCome)) return Heard::kNothing;
       step_ = Step::kNodes;
       lost_step_ = false;
       return Heard::kAnswer;
-    case Step::kNodes:
-      return on_nodes(arrival, scan);
-    default:
-      return Heard::kNothing;
+    case Step::kNodes: return on_nodes(arrival, scan);
+    default: return Heard::kNothing;
   }
 }
 

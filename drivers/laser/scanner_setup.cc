@@ -42,20 +42,13 @@ std::unique_ptr<wire::Link> link_of(const ScannerSetup& setup, const ScannerMake
 std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uint32_t baud) {
   const sick::ScannerModel model{.range_min_m = setup.range_min_m, .range_max_m = setup.range_max_m};
   switch (setup.kind) {
-    case ScannerKind::kSickColaA:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kA, model);
-    case ScannerKind::kSickColaB:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kB, model);
-    case ScannerKind::kHokuyo:
-      return std::make_unique<scip::ScipProtocol>();
-    case ScannerKind::kLdrobot:
-      return std::make_unique<ldrobot::LdProtocol>();
-    case ScannerKind::kLms200:
-      return std::make_unique<lms200::Lms200Protocol>(baud);
-    case ScannerKind::kRplidar:
-      return std::make_unique<rplidar::RplidarProtocol>();
-    case ScannerKind::kDds:
-      return std::make_unique<ros::RosScanProtocol>(setup.infinity_is_free);
+    case ScannerKind::kSickColaA: return std::make_unique<sick::SickProtocol>(sick::Cola::kA, model);
+    case ScannerKind::kSickColaB: return std::make_unique<sick::SickProtocol>(sick::Cola::kB, model);
+    case ScannerKind::kHokuyo: return std::make_unique<scip::ScipProtocol>();
+    case ScannerKind::kLdrobot: return std::make_unique<ldrobot::LdProtocol>();
+    case ScannerKind::kLms200: return std::make_unique<lms200::Lms200Protocol>(baud);
+    case ScannerKind::kRplidar: return std::make_unique<rplidar::RplidarProtocol>();
+    case ScannerKind::kDds: return std::make_unique<ros::RosScanProtocol>(setup.infinity_is_free);
   }
   throw StartupError("scanner: of no known kind", "choose one of those in drivers/laser/scanner_setup.h");
 }

@@ -3,7 +3,6 @@
 #include <string_view>
 
 #include "drivers/laser/cola_stream.h"
-#include "drivers/laser/device_clock.h"
 #include "drivers/laser/scanner_protocol.h"
 #include "hal/types/laser_scan.h"
 

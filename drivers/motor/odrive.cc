@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstdio>
 
-#include "drivers/drive_fault_words.h"
 #include "drivers/wire/byte_reader.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk::odrive {
 namespace {
@@ -87,10 +87,8 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
       const Errors errors{reader.little<std::uint32_t>(), reader.little<std::uint32_t>()};
       return reader.ok() ? std::optional(Message{node, errors}) : std::nullopt;
     }
-    case kEstimates:
-      return decode_estimates(node, reader);
-    default:
-      return std::nullopt;
+    case kEstimates: return decode_estimates(node, reader);
+    default: return std::nullopt;
   }
 }
 
@@ -191,42 +189,30 @@ std::string WatchdogProof::line() const {
   const std::string said = " " + std::to_string(std::chrono::duration_cast<std::chrono::milliseconds>(after_).count()) +
                            " ms after the last command";
   switch (verdict_) {
-    case Verdict::kSilent:
-      return "no heartbeat any more: NOT PROVED";
-    case Verdict::kDoesNotClear:
-      return "errors " + error_words(errors_) + " that do not clear: NOT PROVED";
-    case Verdict::kTurns:
-      return "turns, which it must not for the proof: NOT PROVED";
+    case Verdict::kSilent: return "no heartbeat any more: NOT PROVED";
+    case Verdict::kDoesNotClear: return "errors " + error_words(errors_) + " that do not clear: NOT PROVED";
+    case Verdict::kTurns: return "turns, which it must not for the proof: NOT PROVED";
     case Verdict::kDoesNotClose:
       return "does not go to closed loop, errors " + error_words(errors_) + ", procedure result " +
              std::to_string(procedure_) + " (" + odrive_procedure_words(procedure_) + "): NOT PROVED";
-    case Verdict::kNothingSaid:
-      return "watchdog: nothing said" + said + ": NOT PROVED";
+    case Verdict::kNothingSaid: return "watchdog: nothing said" + said + ": NOT PROVED";
     case Verdict::kOldFirmware:
       return "watchdog: expired" + said + " with error " + in_hex(errors_) +
              ", as firmware 0.5 says it: its firmware is too old, 0.6 is wanted: NOT PROVED";
-    case Verdict::kHoldsOn:
-      return "watchdog: expired" + said + ", and holds on: NOT PROVED";
-    case Verdict::kHasty:
-      return "watchdog: expired" + said + ", too soon for two commands: NOT PROVED";
-    case Verdict::kLate:
-      return "watchdog: expired" + said + ", too late: NOT PROVED";
-    case Verdict::kNone:
-      break;
+    case Verdict::kHoldsOn: return "watchdog: expired" + said + ", and holds on: NOT PROVED";
+    case Verdict::kHasty: return "watchdog: expired" + said + ", too soon for two commands: NOT PROVED";
+    case Verdict::kLate: return "watchdog: expired" + said + ", too late: NOT PROVED";
+    case Verdict::kNone: break;
   }
   return "watchdog: expired" + said;
 }
 
 std::string WatchdogProof::remedy() const {
   switch (verdict_) {
-    case Verdict::kSilent:
-      return "see to its cable, its power and its node";
-    case Verdict::kDoesNotClear:
-      return "see to what its errors name";
-    case Verdict::kTurns:
-      return "see why its wheel turns";
-    case Verdict::kDoesNotClose:
-      return "see to what it names, and calibrate it anew, with odrivetool";
+    case Verdict::kSilent: return "see to its cable, its power and its node";
+    case Verdict::kDoesNotClear: return "see to what its errors name";
+    case Verdict::kTurns: return "see why its wheel turns";
+    case Verdict::kDoesNotClose: return "see to what it names, and calibrate it anew, with odrivetool";
     default:
       return "set enable_watchdog, watchdog_timeout = 0.06 and can.heartbeat_msg_rate_ms = 10 in the ODrive, or "
              "allow_unproved at your own risk";

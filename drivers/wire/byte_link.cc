@@ -11,7 +11,6 @@
 #include <cerrno>
 #include <cstring>
 
-#include "drivers/wire/serial_settings.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::wire {

@@ -7,12 +7,10 @@
 #include <thread>
 
 #include "drivers/can/can_interface.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/robot/armed_mark.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/known_map_file.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/planner_thread.h"
 #include "firmware/robot/preflight.h"

@@ -10,6 +10,7 @@
 #include <span>
 #include <type_traits>
 
+#include "drivers/wire/byte_reader.h"
 #include "firmware/recording/tick_record.h"
 
 namespace jaywalk {
@@ -69,11 +70,8 @@ class ByteSink {
       overflowed_ = true;
       return;
     }
-    auto bits = std::bit_cast<UnsignedOfSize<sizeof(T)>>(value);
-    for (std::size_t i = 0; i < sizeof(T); ++i) {
-      bytes_[size_++] = static_cast<unsigned char>(bits & 0xFFU);
-      if constexpr (sizeof(T) > 1) bits = static_cast<decltype(bits)>(bits >> 8U);
-    }
+    wire::put_little_endian(std::bit_cast<UnsignedOfSize<sizeof(T)>>(value), bytes_.subspan(size_));
+    size_ += sizeof(T);
   }
   /// A number that is mostly small: seven bits a byte, the lowest first; 0, -1, 1, -2 as 0, 1, 2, 3.
   void small_number(std::int64_t value) noexcept {
@@ -97,15 +95,7 @@ class ByteSource {
 
   template <Number T>
   void number(T& value) noexcept {
-    UnsignedOfSize<sizeof(T)> bits = 0;
-    if (bytes_.size() - used_ < sizeof(T)) {
-      ok_ = false;
-    } else {
-      for (std::size_t i = 0; i < sizeof(T); ++i) {
-        bits = static_cast<decltype(bits)>(bits | static_cast<decltype(bits)>(bytes_[used_++]) << (8U * i));
-      }
-    }
-    value = std::bit_cast<T>(bits);
+    value = std::bit_cast<T>(bytes_.little<UnsignedOfSize<sizeof(T)>>());
   }
   void small_number(std::int64_t& value) noexcept {
     std::uint64_t bits = 0;
@@ -117,14 +107,13 @@ class ByteSource {
     }
     value = static_cast<std::int64_t>(bits >> 1U) ^ -static_cast<std::int64_t>(bits & 1U);
   }
-  void refuse() noexcept { ok_ = false; }
-  [[nodiscard]] bool ok() const noexcept { return ok_; }
-  [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - used_; }
+  void refuse() noexcept { refused_ = true; }
+  [[nodiscard]] bool ok() const noexcept { return bytes_.ok() && !refused_; }
+  [[nodiscard]] std::size_t left() const noexcept { return bytes_.rest().size(); }
 
  private:
-  std::span<const unsigned char> bytes_;
-  std::size_t used_ = 0;
-  bool ok_ = true;
+  wire::ByteReader bytes_;
+  bool refused_ = false;
 };
 
 }  // namespace jaywalk

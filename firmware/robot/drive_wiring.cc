@@ -196,12 +196,9 @@ std::array<double, 4> axes_of(const DriveWiring& drive) {
     case DriveKind::kVesc:
       return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
               static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
-    case DriveKind::kDds:
-      return {0.0, 1.0, 0.0, 1.0};  // it has no axes
-    case DriveKind::kPioneer:
-      return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
-    case DriveKind::kCia402:
-      break;
+    case DriveKind::kDds: return {0.0, 1.0, 0.0, 1.0};  // it has no axes
+    case DriveKind::kPioneer: return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
+    case DriveKind::kCia402: break;
   }
   return {static_cast<double>(cia402[0].node), cia402[0].counts_per_rad, static_cast<double>(cia402[1].node),
           cia402[1].counts_per_rad};
@@ -218,9 +215,7 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};
   if (has_wheels) wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
-    case DriveKind::kCia402:
-      wiring.cia402 = read_cia402(table, model, tick, stop);
-      break;
+    case DriveKind::kCia402: wiring.cia402 = read_cia402(table, model, tick, stop); break;
     case DriveKind::kOdrive:
       require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
       wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "drivers/laser/scanner_setup.h"
-#include "firmware/robot/armed_mark.h"
+#include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

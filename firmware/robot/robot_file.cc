@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "firmware/robot/known_map_file.h"
-#include "firmware/robot/plausible_robot.h"
+#include "firmware/recording/map_files.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"

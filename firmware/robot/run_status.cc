@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <sstream>
 
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "hal/text_file.h"
 
 namespace jaywalk {

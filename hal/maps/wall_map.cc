@@ -69,12 +69,9 @@ bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") ==
 
 WallMap load_wall_map(MapKind kind, const std::filesystem::path& file) {
   switch (kind) {
-    case MapKind::kAria:
-      return load_aria_map(file);
-    case MapKind::kCylinders:
-      return load_cylinder_map(file);
-    case MapKind::kYaml:
-      break;
+    case MapKind::kAria: return load_aria_map(file);
+    case MapKind::kCylinders: return load_cylinder_map(file);
+    case MapKind::kYaml: break;
   }
   return load_raster_map(file);
 }

@@ -183,15 +183,9 @@ void Wanderers::step(double step_s, const RobotBody& robot, std::span<const Move
   const Surroundings near{robot, others};
   for (std::size_t self = 0; self < movers_.size(); ++self) {
     switch (minds_[self].activity) {
-      case Activity::kWalking:
-        walk(self, step_s, near);
-        break;
-      case Activity::kChoosing:
-        choose(self, near);
-        break;
-      case Activity::kTurning:
-        turn(self, step_s);
-        break;
+      case Activity::kWalking: walk(self, step_s, near); break;
+      case Activity::kChoosing: choose(self, near); break;
+      case Activity::kTurning: turn(self, step_s); break;
     }
   }
 }

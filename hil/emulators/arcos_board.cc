@@ -127,36 +127,24 @@ void ArcosBoard::obey(std::uint8_t number, std::int32_t argument) {
       open_ = motors_on_ = tells_encoders_ = false;
       greeted_ = 0;
       return;
-    case 4:
-      motors_on_ = argument != 0 && !stop_pressed_;
-      return;
-    case 5:
-      return set_ramp(kSpeed, argument);
-    case 6:
-      ramps_[kSpeed].top = argument;
-      return;
-    case 10:
-      ramps_[kTurn].top = argument;
-      return;
+    case 4: motors_on_ = argument != 0 && !stop_pressed_; return;
+    case 5: return set_ramp(kSpeed, argument);
+    case 6: ramps_[kSpeed].top = argument; return;
+    case 10: ramps_[kTurn].top = argument; return;
     case 11:
     case 21:
       ramps_[number == 11 ? kSpeed : kTurn].wanted = argument;
       brakes_hard_ = false;
       return;
-    case 18:
-      return say_settings();
-    case 19:
-      tells_encoders_ = argument > 1 && has_encoder_packets_;
-      return;
-    case 23:
-      return set_ramp(kTurn, argument);
+    case 18: return say_settings();
+    case 19: tells_encoders_ = argument > 1 && has_encoder_packets_; return;
+    case 23: return set_ramp(kTurn, argument);
     case 29:
     case 55:
       for (Ramp& ramp : ramps_) ramp.wanted = 0.0;
       brakes_hard_ = number == 55;
       return;
-    default:
-      return;
+    default: return;
   }
 }
 

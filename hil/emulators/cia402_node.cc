@@ -59,24 +59,16 @@ void Cia402Node::take(const CanFrame& frame, Time now) noexcept {
 // consumer and leaves the motor as it is.
 void Cia402Node::take_network_command(std::uint8_t command) noexcept {
   switch (command) {
-    case 0x01:
-      network_ = Network::kOperational;
-      return;
-    case 0x02:
-      network_ = Network::kStopped;
-      return;
-    case 0x80:
-      network_ = Network::kPreOperational;
-      return;
-    case 0x81:
-      return restart();
+    case 0x01: network_ = Network::kOperational; return;
+    case 0x02: network_ = Network::kStopped; return;
+    case 0x80: network_ = Network::kPreOperational; return;
+    case 0x81: return restart();
     case 0x82:
       objects_.restore(false);
       heard_controller_ = kNever;
       booted_ = false;
       return;
-    default:
-      return;
+    default: return;
   }
 }
 
@@ -174,20 +166,13 @@ void Cia402Node::obey(std::uint16_t controlword) noexcept {
 
 std::uint16_t Cia402Node::statusword() const noexcept {
   switch (state_) {
-    case State::kSwitchOnDisabled:
-      return 0x0250;
-    case State::kReady:
-      return 0x0231;
-    case State::kSwitchedOn:
-      return 0x0233;
-    case State::kOperationEnabled:
-      return 0x0237;
-    case State::kQuickStop:
-      return 0x0217;
-    case State::kFaultReaction:
-      return 0x021F;
-    case State::kFault:
-      return 0x0218;
+    case State::kSwitchOnDisabled: return 0x0250;
+    case State::kReady: return 0x0231;
+    case State::kSwitchedOn: return 0x0233;
+    case State::kOperationEnabled: return 0x0237;
+    case State::kQuickStop: return 0x0217;
+    case State::kFaultReaction: return 0x021F;
+    case State::kFault: return 0x0218;
   }
   return 0;
 }
@@ -207,17 +192,10 @@ void Cia402Node::lose_controller() noexcept {
   if (network_ == Network::kOperational && objects_.value({0x1029, 1}) == 0) network_ = Network::kPreOperational;
   if (state_ != State::kOperationEnabled) return;
   switch (objects_.value({0x6007, 0})) {
-    case 1:
-      state_ = State::kFaultReaction;
-      break;
-    case 2:
-      state_ = State::kSwitchOnDisabled;
-      break;
-    case 3:
-      state_ = State::kQuickStop;
-      break;
-    default:
-      break;  // it drives on, as drives do that nobody told otherwise
+    case 1: state_ = State::kFaultReaction; break;
+    case 2: state_ = State::kSwitchOnDisabled; break;
+    case 3: state_ = State::kQuickStop; break;
+    default: break;  // it drives on, as drives do that nobody told otherwise
   }
 }
 
@@ -248,9 +226,7 @@ void Cia402Node::move(double seconds) noexcept {
       velocity_ = ramped(velocity_, target, std::fabs(target) > std::fabs(velocity_) ? ramp(0x6083) : ramp(0x6084));
       break;
     case State::kQuickStop:
-    case State::kFaultReaction:
-      velocity_ = ramped(velocity_, 0.0, ramp(0x6085));
-      break;
+    case State::kFaultReaction: velocity_ = ramped(velocity_, 0.0, ramp(0x6085)); break;
     default:
       velocity_ = ramped(velocity_, 0.0, friction_ * seconds);  // it rolls out
       break;

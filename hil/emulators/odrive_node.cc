@@ -39,23 +39,17 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
   if (deaf_) return;
   const auto word = wire::little_endian<std::uint32_t>(frame.bytes);
   switch (frame.id & 0x1FU) {
-    case 0x02:
-      return disarm(kEstop);
+    case 0x02: return disarm(kEstop);
     case 0x07:
       if (word == 1) state_ = 1;
       if (word == 8 && errors_ == 0 && procedure_ == 0) state_ = 8;
       return;
-    case 0x0B:
-      control_mode_ = word;
-      return;
+    case 0x0B: control_mode_ = word; return;
     case 0x0D:
       if (!stuck_) target_ = static_cast<double>(std::bit_cast<float>(word));
       return;
-    case 0x18:
-      errors_ = lasting_error_;
-      return;
-    default:
-      return;
+    case 0x18: errors_ = lasting_error_; return;
+    default: return;
   }
 }
 

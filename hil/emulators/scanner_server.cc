@@ -105,29 +105,19 @@ void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
   if (noise() < 256.0 * damaged_share_) message[message.size() / 2] ^= 0x5AU;
   switch (fault_) {
     case ScannerFault::kSilence:
-    case ScannerFault::kGone:
-      return;
+    case ScannerFault::kGone: return;
     case ScannerFault::kHalfTelegram:
       message.resize(message.size() / 2);
       fault_ = ScannerFault::kNone;
       break;
-    case ScannerFault::kHalves:
-      message.resize(message.size() / 2);
-      break;
-    case ScannerFault::kDamage:
-      message[message.size() / 2] ^= 0x5AU;
-      break;
+    case ScannerFault::kHalves: message.resize(message.size() / 2); break;
+    case ScannerFault::kDamage: message[message.size() / 2] ^= 0x5AU; break;
     case ScannerFault::kGarbage:
       for (auto& byte : message) byte = noise();
       break;
-    case ScannerFault::kHeldBack:
-      held_.push_back({fault_ends_, std::move(message)});
-      return;
-    case ScannerFault::kDelayed:
-      held_.push_back({now + std::chrono::milliseconds(700), std::move(message)});
-      return;
-    default:
-      break;
+    case ScannerFault::kHeldBack: held_.push_back({fault_ends_, std::move(message)}); return;
+    case ScannerFault::kDelayed: held_.push_back({now + std::chrono::milliseconds(700), std::move(message)}); return;
+    default: break;
   }
   held_.push_back({now + shape_.on_line, std::move(message)});
   send_held(now);

@@ -93,19 +93,15 @@ void RplidarServer::on_bytes(wire::Bytes bytes) {
 
 void RplidarServer::obey(std::uint8_t command) {
   switch (command) {
-    case 0x25:
-      return set_streaming(false);
-    case 0xF0:
-      motor_runs_ = true;
-      return;
+    case 0x25: return set_streaming(false);
+    case 0xF0: motor_runs_ = true; return;
     case 0x52:
       return answer(std::array<std::uint8_t, 10>{0xA5, 0x5A, 0x03, 0x00, 0x00, 0x00, 0x06, status_, 0x00, 0x00});
     case 0x20:
       if (status_ == 2) return;
       answer(std::array<std::uint8_t, 7>{0xA5, 0x5A, 0x05, 0x00, 0x00, 0x40, 0x81});
       return set_streaming(motor_runs_);
-    default:
-      return;
+    default: return;
   }
 }
 

@@ -53,20 +53,14 @@ void VescNode::take(const CanFrame& frame, Time now) {
   if (is_order) fed_ = now;
   if (is_order && (deaf_ || (stuck_ && frame.id >> 8U == 3))) return;
   switch (frame.id >> 8U) {
-    case 1:
-      mode_ = Mode::kCurrent;
-      return;
-    case 2:
-      mode_ = Mode::kBrake;
-      return;
+    case 1: mode_ = Mode::kCurrent; return;
+    case 2: mode_ = Mode::kBrake; return;
     case 3:
       mode_ = Mode::kSpeed;
       target_erpm_ = word;
       return;
-    case 8:
-      return answer(frame.payload());
-    default:
-      return;
+    case 8: return answer(frame.payload());
+    default: return;
   }
 }
 
@@ -152,12 +146,9 @@ void VescNode::restart() noexcept {
 std::string_view VescNode::state_name() const noexcept {
   if (fault_ != 0) return "fault";
   switch (mode_) {
-    case Mode::kSpeed:
-      return "enabled";
-    case Mode::kBrake:
-      return "braking";
-    case Mode::kCurrent:
-      break;
+    case Mode::kSpeed: return "enabled";
+    case Mode::kBrake: return "braking";
+    case Mode::kCurrent: break;
   }
   return "off";
 }

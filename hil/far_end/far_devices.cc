@@ -156,8 +156,7 @@ std::unique_ptr<WheelDrive> make_wheel_drive(const DriveWiring& wiring, std::siz
       return std::make_unique<NodeDrive<VescNode>>(bus, vesc.controller, vesc.electrical_turns_per_rad);
     case DriveKind::kDds:
     case DriveKind::kPioneer:
-    case DriveKind::kCia402:
-      break;
+    case DriveKind::kCia402: break;
   }
   return std::make_unique<NodeDrive<Cia402Node>>(bus, cia402.node, cia402.counts_per_rad);
 }
@@ -187,14 +186,10 @@ std::unique_ptr<ScannerServer> make_far_scanner(const LaserWiring& wiring, const
       return std::make_unique<SickServer>(std::move(wire), sick_model(model, ColaDialect::kBinary), std::move(world));
     case ScannerKind::kHokuyo:
       return std::make_unique<ScipServer>(std::move(wire), scip_model(model), std::move(world));
-    case ScannerKind::kLdrobot:
-      return std::make_unique<LdServer>(std::move(wire), std::move(world));
-    case ScannerKind::kRplidar:
-      return std::make_unique<RplidarServer>(std::move(wire), std::move(world));
-    case ScannerKind::kLms200:
-      return std::make_unique<Lms200Server>(std::move(wire), wiring.baud, std::move(world));
-    case ScannerKind::kDds:
-      break;
+    case ScannerKind::kLdrobot: return std::make_unique<LdServer>(std::move(wire), std::move(world));
+    case ScannerKind::kRplidar: return std::make_unique<RplidarServer>(std::move(wire), std::move(world));
+    case ScannerKind::kLms200: return std::make_unique<Lms200Server>(std::move(wire), wiring.baud, std::move(world));
+    case ScannerKind::kDds: break;
   }
   return nullptr;
 }

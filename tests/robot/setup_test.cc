@@ -5,7 +5,6 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/setup/drive_search.h"
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
 #include "hal/robot_model_file.h"

@@ -13,7 +13,6 @@
 #include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/canopen/eds_file.h"
 #include "drivers/canopen/pdo.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
@@ -21,6 +20,7 @@
 #include "drivers/panel/joystick.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/drive_objects.h"
+#include "tests/drivers/eds_file.h"
 #include "tests/drivers/fuzz/fuzz_scanners.h"
 
 namespace jaywalk::tests {

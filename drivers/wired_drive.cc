@@ -1,4 +1,4 @@
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 
 #include <algorithm>
 #include <array>
@@ -162,10 +162,8 @@ std::string describe(const DriveFault& fault) {
       return "VESC " + node + "told " + number +
              " ERPM, and its motor does not turn: blocked, or its minimum ERPM lies above; set that to 0 (VESC Tool, "
              "Motor Settings, PID Controllers)";
-    case DriveFaultKind::kArcos:
-      return "Pioneer: " + arcos_fault_words(fault.code);
-    case DriveFaultKind::kNone:
-      break;
+    case DriveFaultKind::kArcos: return "Pioneer: " + arcos_fault_words(fault.code);
+    case DriveFaultKind::kNone: break;
   }
   return "";
 }
