@@ -83,9 +83,8 @@ int merge(toml::value& into, const toml::value& given, const std::vector<const S
   for (const auto& [key, value] : given.as_table()) {
     toml::value* const old = into.contains(key) ? &into.at(key) : nullptr;
     if (value.is_table() && old != nullptr && old->is_array()) {
-      for (toml::value& table : old->as_array()) {
+      for (toml::value& table : old->as_array())
         if (table.is_table() && may_hold(table, rows)) put += merge(table, value, rows);
-      }
     } else if (value.is_table() && old != nullptr && old->is_table()) {
       put += merge(*old, value, rows);
     } else {

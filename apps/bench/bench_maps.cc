@@ -11,9 +11,8 @@ namespace {
 BenchMap walled(std::string name, std::int32_t side) {
   const auto n = static_cast<std::size_t>(side);
   BenchMap map{std::move(name), {side, side, std::vector<std::uint8_t>(n * n, 0)}, {12, 12}, {side - 12, 12}};
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n; ++k)
     map.cells.wall[k] = map.cells.wall[(n - 1) * n + k] = map.cells.wall[k * n] = map.cells.wall[k * n + n - 1] = 1;
-  }
   return map;
 }
 
@@ -36,15 +35,13 @@ void set(BenchMap& map, const Cells& cells, std::uint8_t value) {
 BenchMap office(std::int32_t side) {
   BenchMap map = walled("office", side);
   constexpr std::int32_t kRoom = 50, kCorridor = 30, kDoor = 12, kPeriod = 2 * kRoom + kCorridor;
-  for (std::int32_t j = kRoom; j < side; j += kPeriod) {
+  for (std::int32_t j = kRoom; j < side; j += kPeriod)
     set(map, {0, j, side, j + 2}, 1), set(map, {0, j + kCorridor, side, j + kCorridor + 2}, 1);
-  }
   for (std::int32_t i = kRoom; i < side; i += kRoom) set(map, {i, 0, i + 2, side}, 1);
   for (std::int32_t j = kRoom; j < side; j += kPeriod) {
     set(map, {0, j + 2, side, j + kCorridor}, 0);
-    for (std::int32_t i = 20; i < side; i += kRoom) {
+    for (std::int32_t i = 20; i < side; i += kRoom)
       set(map, {i, j, i + kDoor, j + 2}, 0), set(map, {i, j + kCorridor, i + kDoor, j + kCorridor + 2}, 0);
-    }
     // One door between rooms that lie back to back, so that corridors are joined.
     set(map, {20, j + kCorridor + kRoom - 6, 32, j + kCorridor + kRoom + 6}, 0);
   }
@@ -54,9 +51,8 @@ BenchMap office(std::int32_t side) {
 BenchMap serpentine(std::int32_t side, std::int32_t corridor) {
   BenchMap map = walled(corridor == 15 ? "corridor 1.5 m" : "corridor 1.0 m", side);
   bool right = true;
-  for (std::int32_t j = 1 + corridor; j + corridor < side - 1; j += corridor + 2, right = !right) {
+  for (std::int32_t j = 1 + corridor; j + corridor < side - 1; j += corridor + 2, right = !right)
     set(map, {right ? 0 : 1 + corridor, j, right ? side - 1 - corridor : side, j + 2}, 1);
-  }
   map.goal = {12, 5};
   map.start = {side - 12, 5};
   return map;
@@ -98,9 +94,8 @@ BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
   field->inflate(kBenchInflation);
   map.goal = {fine.cells.width / 2, fine.cells.height / 2};
   map.start = {fine.cells.width - 12, fine.cells.height - 12};
-  if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side)) {
+  if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side))
     throw StartupError(file.string() + ": no free cell", "give a map with room for a robot");
-  }
   return map;
 }
 

@@ -48,9 +48,8 @@ template <class Visit>
 void BenchRivals::for_each_step(std::size_t from, const Visit& visit) const {
   const auto stride = static_cast<std::size_t>(stride_);
   const std::size_t east = from + 1, west = from - 1, north = from + stride, south = from - stride;
-  for (const std::size_t n : {east, west, north, south}) {
+  for (const std::size_t n : {east, west, north, south})
     if (free_[n] != 0) visit(n, kStraight);
-  }
   const auto corner = [&](std::size_t n, std::size_t a, std::size_t b) {
     if (free_[n] != 0 && free_[a] != 0 && free_[b] != 0) visit(n, kDiagonal);
   };

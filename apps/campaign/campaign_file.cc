@@ -34,10 +34,9 @@ std::string read_name(TomlTable& table) {
 /// An option of jaywalk sim that may be varied: `choices`, of which the first is the usual one.
 Axis read_option(TomlTable& table, const std::string& key, const std::vector<std::string>& choices) {
   std::vector<std::string> values = table.has(key) ? table.texts(key) : std::vector<std::string>{choices.front()};
-  for (const std::string& value : values) {
+  for (const std::string& value : values)
     if (std::find(choices.begin(), choices.end(), value) == choices.end())
       table.refuse(key, "is \"" + value + "\"", "choose of " + joined(choices) + ", several in a list");
-  }
   return {key, std::move(values), table.place_of(key), true};
 }
 
@@ -64,10 +63,9 @@ Experiment read_experiment(TomlTable& table) {
 
 void refuse_equal_names(const std::vector<Experiment>& experiments) {
   for (const Experiment& one : experiments) {
-    for (const Experiment& other : experiments) {
+    for (const Experiment& other : experiments)
       if (&one < &other && one.name == other.name)
         throw StartupError(other.place + "experiments.name " + one.name + " is there already", "give it another name");
-    }
   }
 }
 

@@ -48,9 +48,8 @@ RunResult without_run(const std::filesystem::path& folder, const std::string& ou
 }
 
 void add_figures(const Json& summary, const std::filesystem::path& folder, RunResult& result) {
-  for (const char* name : kFigures) {
+  for (const char* name : kFigures)
     if (summary.contains(name) && summary[name].is_number()) result.figures[name] = summary[name].get<double>();
-  }
   result.turns = summary.at("turn_histogram").get<std::array<std::uint32_t, kTurnBins>>();
   const Ride ride = ride_of(folder / "robot.csv");
   result.figures["steering_reversals"] = ride.steering_reversals;

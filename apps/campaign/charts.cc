@@ -38,9 +38,8 @@ SuccessPoint point_of(const ReportedRow& row, std::size_t movers) {
 /// "11 of 12" of the points with so many movers (several where the same number stands twice in a line).
 std::string cell_of(const SuccessLine& line, double movers) {
   SuccessPoint sum{movers, 0, 0};
-  for (const SuccessPoint& point : line.points) {
+  for (const SuccessPoint& point : line.points)
     if (point.movers == movers) sum.good += point.good, sum.runs += point.runs;
-  }
   return sum.runs == 0 ? "-" : std::to_string(sum.good) + " of " + std::to_string(sum.runs);
 }
 
@@ -138,9 +137,8 @@ std::vector<SuccessLine> success_lines(const std::vector<ReportedTables>& all) {
 
 ReportTable success_table(const std::vector<SuccessLine>& lines) {
   std::set<double> counts;
-  for (const SuccessLine& line : lines) {
+  for (const SuccessLine& line : lines)
     for (const SuccessPoint& point : line.points) counts.insert(point.movers);
-  }
   ReportTable table{"Success, by movers", {""}, {}};
   for (const double movers : counts) table.head.push_back(fixed(movers, 0));
   for (const SuccessLine& line : lines) {

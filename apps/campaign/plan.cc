@@ -49,9 +49,8 @@ std::string row_of(const Experiment& experiment, const Combination& values, cons
 
 std::vector<std::string> settings_of(const Experiment& experiment, const Combination& values) {
   std::vector<std::string> settings;
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (std::size_t k = 0; k < values.size(); ++k)
     if (!experiment.axes[k].is_option) settings.push_back(experiment.axes[k].name + "=" + values[k]);
-  }
   return settings;
 }
 
@@ -75,9 +74,8 @@ std::vector<std::string> settings_from(const std::filesystem::path& folder, std:
 std::vector<std::string> arguments_of(const Experiment& experiment, const Combination& values,
                                       const std::string& scenario) {
   std::vector<std::string> arguments{"sim", scenario};
-  for (std::size_t k = 0; k < values.size(); ++k) {
+  for (std::size_t k = 0; k < values.size(); ++k)
     if (experiment.axes[k].is_option) arguments.insert(arguments.end(), {"--" + experiment.axes[k].name, values[k]});
-  }
   if (experiment.constant_speed) arguments.push_back("--constant-speed");
   for (const std::string& setting : settings_of(experiment, values)) {
     arguments.push_back("--set");
@@ -88,9 +86,8 @@ std::vector<std::string> arguments_of(const Experiment& experiment, const Combin
 
 /// Where the campaign file says what a refusal of `setting` is about.
 std::string place_of(const Experiment& experiment, const std::string& refusal) {
-  for (const Axis& axis : experiment.axes) {
+  for (const Axis& axis : experiment.axes)
     if (refusal.rfind("--set " + axis.name + "=", 0) == 0) return axis.place + "experiments.set ";
-  }
   return experiment.place;
 }
 

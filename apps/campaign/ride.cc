@@ -95,9 +95,8 @@ std::vector<RobotRow> robot_rows(const std::filesystem::path& folder) {
 
 const RobotRow& row_at(const std::vector<RobotRow>& rows, double t_s) {
   const RobotRow* found = &rows.front();
-  for (const RobotRow& row : rows) {
+  for (const RobotRow& row : rows)
     if (row.t_s <= t_s) found = &row;
-  }
   return *found;
 }
 
@@ -140,9 +139,8 @@ std::string nearest_mover(const std::filesystem::path& folder, const RobotRow& e
 FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& robot) {
   const RobotRow& end = robot.back();
   double moved_s = robot.front().t_s;
-  for (const RobotRow& row : robot) {
+  for (const RobotRow& row : robot)
     if (std::fabs(row.v_mps) > kStands_mps) moved_s = row.t_s;
-  }
   std::string reason = "time was over " + formatted("%.1f m from the goal", distance(end.position, run.goal)) +
                        " for " + where(end) + formatted(", which had stood for %.1f s", end.t_s - moved_s);
   if (!end.reasons.empty()) reason += " (" + end.reasons + ")";
@@ -158,10 +156,9 @@ FailureWords collision_words(const std::filesystem::path& folder, const std::vec
 }
 
 FailureWords fault_words(const std::vector<RobotRow>& robot) {
-  for (const RobotRow& row : robot) {
+  for (const RobotRow& row : robot)
     if (row.reasons.find("latched") != std::string::npos)
       return {row.t_s, "a fault stopped " + where(row) + ": " + row.reasons};
-  }
   return {robot.back().t_s, "a fault stopped " + where(robot.back())};
 }
 

@@ -34,11 +34,10 @@ std::filesystem::path inside(const std::filesystem::path& folder, const std::str
   const std::filesystem::path file = folder / std::filesystem::path(name).filename();
   if (std::filesystem::exists(file)) return file;
   std::filesystem::path other = file;
-  if (file.extension() == ".zstd") {
+  if (file.extension() == ".zstd")
     other.replace_extension();
-  } else {
+  else
     other += ".zstd";
-  }
   return std::filesystem::exists(other) ? other : file;
 }
 
@@ -60,9 +59,8 @@ std::vector<std::filesystem::path> listed_files(const std::filesystem::path& met
 /// The recordings that lie in it, by their names: b_2 before b_10.
 std::vector<std::filesystem::path> found_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.is_regular_file() && format_of(entry.path()) != Format::kNone) files.push_back(entry.path());
-  }
   std::sort(files.begin(), files.end(),
             [](const auto& a, const auto& b) { return ::strverscmp(a.c_str(), b.c_str()) < 0; });
   return files;

@@ -61,9 +61,8 @@ class Ros1Bag {
       at_ = record->end;
     }
     if (!headed_) refuse("there is no bag header");
-    if (chunks_ != chunks_said_) {
+    if (chunks_ != chunks_said_)
       refuse("the file is cut short: " + std::to_string(chunks_) + " of " + std::to_string(chunks_said_) + " chunks");
-    }
   }
 
  private:

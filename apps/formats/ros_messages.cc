@@ -276,9 +276,8 @@ std::string occupancy(const EvidenceMap& map, Time time) {
   }
   if (!any) return "";
   std::string cells;
-  for (std::int32_t j = low.j; j <= high.j; ++j) {
+  for (std::int32_t j = low.j; j <= high.j; ++j)
     for (std::int32_t i = low.i; i <= high.i; ++i) cells += static_cast<char>(state({i, j}));
-  }
   CdrWriter out;
   header(out, time, "map");
   stamp(out, time);

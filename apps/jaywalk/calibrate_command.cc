@@ -130,9 +130,8 @@ Drive read_recording(const std::filesystem::path& run) {
   RecordedRun recorded(run);
   const RobotModel& model = recorded.setup().model;
   std::vector<CalibrationLog> logs(model.lasers().size(), CalibrationLog(model.drive));
-  while (recorded.step()) {
+  while (recorded.step())
     for (std::size_t k = 0; k < logs.size(); ++k) logs[k].take(recorded.last().wheels, recorded.last().scans()[k]);
-  }
   return {std::move(logs), model, radii_beside(recorded.folder(), model)};
 }
 

@@ -91,9 +91,8 @@ std::string best_in_words(const std::optional<double>& best) {
 }  // namespace
 
 int run_field(const FieldOptions& options) {
-  if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0)) {
+  if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0))
     throw StartupError("--inflation: outside 0 to 5 m", "give the robot's radius and a margin");
-  }
   const MapCells map = load_map_cells(options.map, options.cell_m);
   const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend, options.device);
   MapField& solver = *chosen;

@@ -51,9 +51,8 @@ sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
                        format == "scan-odom" ? "give SCAN.txt and, where there is one, ODOM.txt" : "give one log");
   }
   const Pose2 models = options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser;
-  if (format == "bag") {
+  if (format == "bag")
     return exchange::load_bag(options.logs[0], {options.scan_topic, options.odom_topic, options.laser_mount, models});
-  }
   const Pose2 mount = options.laser_mount.value_or(models);
   if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
   return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
@@ -216,9 +215,8 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 /// Replays our own recording and compares every command. `part`: where in the file it stands.
 int replay_recording(const ReplayOptions& options, FilePart part) {
   const std::string file = options.logs[0].string();
-  if (options.logs.size() > 1) {
+  if (options.logs.size() > 1)
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
-  }
   warn_of_options_of_logs(options);
   RecordedRun run(options.logs[0], part);
   refuse_own_folder(run, options.out);

@@ -23,10 +23,9 @@ void make_empty(const std::filesystem::path& folder) {
 void save(const campaign::ReportPage& page, const std::filesystem::path& out) {
   make_empty(out / "charts");
   make_empty(out / "failures");
-  for (const campaign::ReportSection& section : page.sections) {
+  for (const campaign::ReportSection& section : page.sections)
     for (const campaign::ReportChart& chart : section.charts)
       campaign::write_whole(out / "charts" / (chart.name + ".svg"), chart.svg, kBegun);
-  }
   std::size_t number = 0;
   for (const campaign::ReportFailure& failure : page.failures) {
     ++number;

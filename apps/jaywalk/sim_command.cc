@@ -171,9 +171,8 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
   const OperatorInput wanted = with_goal(t.input);
   if (wanted.has_goal && wanted.is_reached_at(truth.map_from_robot) &&
-      (!wanted.wants_heading() || is_at_rest(truth.twist))) {
+      (!wanted.wants_heading() || is_at_rest(truth.twist)))
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
-  }
   return to_seconds(t.now - set_out) >= scenario.timeout_s ? "timeout" : "";
 }
 

@@ -85,9 +85,8 @@ class NodeQuestions {
     clock_.sleep_until(clock_.now() + time);
     const Time now = clock_.now();
     ReceivedFrame received;
-    while (bus_.receive(received)) {
+    while (bus_.receive(received))
       for (auto& [node, client] : clients_) client->on_frame(received.frame, now);
-    }
     for (auto& [node, client] : clients_) client->poll(now);
   }
 

@@ -60,12 +60,11 @@ SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std
     for (const TomlTable& laser : root.table_or_tables("laser")) tables_.emplace(laser_section(scanners_++), laser);
   tables_.emplace("", root);
   const toml::value raw = toml::parse(*file);
-  for (const auto& [section, table] : tables_) {
+  for (const auto& [section, table] : tables_)
     if (section.empty())
       refuse_unknown(section, raw);
     else if (const toml::value& inner = raw.at(section_in_file(section)); inner.is_table())
       refuse_unknown(section, inner);
-  }
 }
 
 void SetupAnswers::refuse_unknown(const std::string& section, const toml::value& raw) {
@@ -189,13 +188,12 @@ void SetupAnswers::finish_section(RobotDraft& draft, const std::string& section,
     const bool mine =
         row.section == section_in_file(section) || (section == "drive" && row.section == "drive:" + kind_);
     if (!mine || row.kind == KeyKind::kTable || !table.has(row.key)) continue;
-    if (row.kind == KeyKind::kTables) {
+    if (row.kind == KeyKind::kTables)
       take_tables(draft, table, section, row.key);
-    } else if (!draft.has(section, row.key)) {
+    else if (!draft.has(section, row.key))
       draft.set(section, row.key, literal_of(table, row), "as answered");
-    } else {
+    else
       static_cast<void>(literal_of(table, row));  // known by now
-    }
   }
   table.finish();
 }

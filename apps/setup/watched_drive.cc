@@ -51,10 +51,9 @@ class Nudging {
   /// Wherever wrong wiring may make it go.
   void require_room() {
     const double v = 0.5 * setup_.speed_mps, w = setup_.speed_mps / setup_.model.drive.track_width_m;
-    for (const Twist2& way : {Twist2{v, w}, Twist2{v, -w}, Twist2{-v, w}, Twist2{-v, -w}}) {
+    for (const Twist2& way : {Twist2{v, w}, Twist2{v, -w}, Twist2{-v, w}, Twist2{-v, -w}})
       if (!drive_.has_room(way))
         drive_.give_up("something stands too near", "leave half a metre free all round the robot");
-    }
   }
 
   const NudgeSetup& setup_;

@@ -75,9 +75,8 @@ double RecordedRun::share_read() const {
 
 bool RecordedRun::step() {
   if (!std::exchange(begun_, true)) return true;  // the first, which is read already
-  while (!reader_->next(record_)) {
+  while (!reader_->next(record_))
     if (!reader_->warning().empty() || !open_next()) return false;
-  }
   return true;
 }
 

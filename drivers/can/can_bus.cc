@@ -8,9 +8,8 @@ std::string to_text(const CanFrame& frame) {
   std::array<char, 32> text{};
   int end =
       std::snprintf(text.data(), text.size(), frame.extended ? "%08X#" : "%03X#", static_cast<unsigned>(frame.id));
-  for (std::size_t at = 0; !frame.remote && at < frame.size; ++at) {
+  for (std::size_t at = 0; !frame.remote && at < frame.size; ++at)
     end += std::snprintf(text.data() + end, text.size() - static_cast<std::size_t>(end), "%02X", frame.bytes[at]);
-  }
   return text.data() + std::string(frame.remote ? "R" : "");
 }
 

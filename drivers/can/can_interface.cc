@@ -80,18 +80,16 @@ LinkFacts link_facts(const std::string& interface) {
   const std::vector<std::uint8_t> answer =
       index == 0 ? std::vector<std::uint8_t>() : ask_kernel(static_cast<int>(index));
   const Octets bytes(answer);
-  if (bytes.size() < sizeof(nlmsghdr) + sizeof(ifinfomsg) || read_as<nlmsghdr>(bytes).nlmsg_type != RTM_NEWLINK) {
+  if (bytes.size() < sizeof(nlmsghdr) + sizeof(ifinfomsg) || read_as<nlmsghdr>(bytes).nlmsg_type != RTM_NEWLINK)
     return facts;
-  }
   const auto about = read_as<ifinfomsg>(bytes.subspan(sizeof(nlmsghdr)));
   facts.exists = true;
   facts.is_can = about.ifi_type == ARPHRD_CAN;
   facts.is_up = (about.ifi_flags & IFF_UP) != 0;
   const Octets link = attribute(bytes.subspan(sizeof(nlmsghdr) + sizeof(ifinfomsg)), IFLA_LINKINFO);
   const Octets kind = attribute(link, IFLA_INFO_KIND), can = attribute(link, IFLA_INFO_DATA);
-  for (const std::uint8_t letter : kind) {
+  for (const std::uint8_t letter : kind)
     if (letter != 0) facts.kind += static_cast<char>(letter);
-  }
   if (facts.kind != "can") return facts;
   facts.bitrate = read_as<can_bittiming>(attribute(can, IFLA_CAN_BITTIMING)).bitrate;
   facts.state = state_of(attribute(can, IFLA_CAN_STATE));
@@ -101,9 +99,8 @@ LinkFacts link_facts(const std::string& interface) {
 std::vector<std::string> can_interfaces() {
   std::vector<std::string> names;
   struct if_nameindex* const all = ::if_nameindex();
-  for (const struct if_nameindex* at = all; at != nullptr && at->if_index != 0; ++at) {
+  for (const struct if_nameindex* at = all; at != nullptr && at->if_index != 0; ++at)
     if (link_facts(at->if_name).is_can) names.emplace_back(at->if_name);
-  }
   if (all != nullptr) ::if_freenameindex(all);
   std::sort(names.begin(), names.end());
   return names;

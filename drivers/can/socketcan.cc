@@ -127,9 +127,8 @@ wire::FileDescriptor open_can(const std::string& interface, std::span<const CanF
                        "bring it up: ip link set " + interface + " up type can bitrate 500000");
   }
   wire::FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (socket.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)) {
+  if (socket.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT))
     throw StartupError(interface + ": this kernel has no raw CAN sockets", "load them: modprobe can_raw");
-  }
   if (socket.get() < 0) refuse(interface, "socket", errno);
   set_filters(socket.get(), filters, interface);
   set_option(socket.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK}, interface, "error frames");

@@ -79,9 +79,8 @@ void ArmingProof::conclude_read() noexcept {
 ProofVerdict ArmingProof::verdict_of(std::uint32_t said, bool has_all) const noexcept {
   const ProofItem& item = lines_[at_].item;
   bool is_so = said == cut(item.wanted.value, item.wanted.bytes);
-  if (item.demand == ProofDemand::kAtMost) {
+  if (item.demand == ProofDemand::kAtMost)
     is_so = std::llabs(static_cast<std::int32_t>(said)) <= static_cast<std::int64_t>(item.wanted.value);
-  }
   if (item.demand == ProofDemand::kIdentifier) is_so = (said & ~kNoRemoteFrames) == item.wanted.value;
   if (item.demand == ProofDemand::kKnown) is_so = true;
   return has_all && is_so ? ProofVerdict::kProved : ProofVerdict::kDiffers;

@@ -40,9 +40,8 @@ std::uint16_t step_to_enabled(DriveState state) noexcept {
 }  // namespace
 
 DriveState state_of(std::uint16_t statusword) noexcept {
-  for (const Pattern& pattern : kPatterns) {
+  for (const Pattern& pattern : kPatterns)
     if ((statusword & pattern.mask) == pattern.value) return pattern.state;
-  }
   return DriveState::kUnknown;
 }
 

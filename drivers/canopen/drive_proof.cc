@@ -90,9 +90,8 @@ ArmingProof::Items whole_proof(std::uint8_t node, const DriveSettings& settings)
   ArmingProof::Items items = proof_items(node, settings);
   bool fits = items.push_back({{kVelocity, settings.standstill, 4}, ProofDemand::kAtMost, "stands", true});
   constexpr std::array kIdentity{"vendor", "product code", "revision", "serial number"};
-  for (std::uint8_t sub = 1; sub <= kIdentity.size(); ++sub) {
+  for (std::uint8_t sub = 1; sub <= kIdentity.size(); ++sub)
     fits = fits && items.push_back({{{0x1018, sub}, 0, 4}, ProofDemand::kKnown, kIdentity[sub - 1U]});
-  }
   assert(fits);
   static_cast<void>(fits);
   return items;
@@ -161,9 +160,8 @@ void DriveProof::poll(Time now) noexcept {
 
 void DriveProof::conclude_asking(Time now) noexcept {
   state_ = State::kFailed;
-  for (std::size_t k = 0; k < asked_->lines().size(); ++k) {
+  for (std::size_t k = 0; k < asked_->lines().size(); ++k)
     if (!is_good(k)) return;
-  }
   if (bus_.send(nmt_frame(NmtCommand::kStart, node_)) != SendResult::kQueued) return;
   state_ = State::kStarting;
   started_ = now;

@@ -28,11 +28,9 @@ std::optional<CanFrame> pack(const PdoMapping& mapping, std::uint32_t id,
   if (values.size() != mapping.size() || length_of(mapping) > 8) return std::nullopt;
   CanFrame frame;
   frame.id = id;
-  for (std::size_t i = 0; i < mapping.size(); ++i) {
-    for (std::uint8_t byte = 0; byte < mapping[i].bytes && byte < 4; ++byte) {
+  for (std::size_t i = 0; i < mapping.size(); ++i)
+    for (std::uint8_t byte = 0; byte < mapping[i].bytes && byte < 4; ++byte)
       frame.bytes[frame.size++] = static_cast<std::uint8_t>(values[i] >> (8U * byte));
-    }
-  }
   return frame;
 }
 
@@ -42,9 +40,8 @@ std::optional<FixedVector<std::uint32_t, 8>> unpack(const PdoMapping& mapping, c
   std::size_t at = 0;
   for (const MappedObject& object : mapping) {
     std::uint32_t value = 0;
-    for (std::uint8_t byte = 0; byte < object.bytes && byte < 4; ++byte) {
+    for (std::uint8_t byte = 0; byte < object.bytes && byte < 4; ++byte)
       value |= static_cast<std::uint32_t>(frame.bytes[at++]) << (8U * byte);
-    }
     if (!values.push_back(value)) return std::nullopt;
   }
   return values;
@@ -56,9 +53,8 @@ bool append_setup(const PdoSetup& setup, ObjectWrites& writes) noexcept {
   bool fits = writes.push_back({{setup.communication_index, 1}, setup.id | kOff, 4});
   fits = fits && writes.push_back({{setup.mapping_index, 0}, 0, 1});
   std::uint8_t entry = 0;
-  for (const MappedObject& object : setup.mapping) {
+  for (const MappedObject& object : setup.mapping)
     fits = fits && writes.push_back({{setup.mapping_index, ++entry}, object.mapping_word(), 4});
-  }
   fits = fits && writes.push_back({{setup.mapping_index, 0}, entry, 1});
   fits = fits && writes.push_back({{setup.communication_index, 2}, setup.transmission_type, 1});
   return fits && writes.push_back({{setup.communication_index, 1}, setup.id, 4});

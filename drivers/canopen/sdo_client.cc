@@ -105,9 +105,8 @@ void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
   if (frame.size < (names_object ? kAddressed : 1)) return abort_here(kAbortLength);
   if (names_object && !answers_address(frame)) return;
   heard_ = now;
-  if (is_abort) {
+  if (is_abort)
     return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(std::span(frame.bytes).subspan(4)));
-  }
   switch (phase_) {
     case Phase::kReadStart: return on_read_start(frame);
     case Phase::kReadSegments: return on_read_segment(frame);

@@ -55,9 +55,8 @@ void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
   heard_ = stamp;
   restarted_ = restarted_ || state == NmtState::kBootUp;
   if (state == NmtState::kOperational) return;
-  if (left_network_ != DriveTrouble::kDriveRestarted) {
+  if (left_network_ != DriveTrouble::kDriveRestarted)
     left_network_ = state == NmtState::kBootUp ? DriveTrouble::kDriveRestarted : DriveTrouble::kNotOperational;
-  }
 }
 
 void WheelAxis::take_status(const ReceivedFrame& received) noexcept {

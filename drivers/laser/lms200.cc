@@ -108,9 +108,8 @@ Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserSc
   const auto* const fan = std::find_if(kFans.begin(), kFans.end(), [count](const Fan& f) { return f.values == count; });
   if (fan == kFans.end()) return Decoding::kBadField;
   const float metres_per_count = unit == 0 ? 0.01F : 0.001F;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < count; ++k)
     scan.range_m[k] = range_of(reader.little<std::uint16_t>(), metres_per_count);
-  }
   const auto status = reader.little<std::uint8_t>();
   if (!reader.ok()) return Decoding::kTruncated;
   if (judge(status) != Decoding::kScan) return judge(status);

@@ -97,9 +97,8 @@ Heard RplidarProtocol::on_health() noexcept {
 
 /// Enough nodes stand one after the other for chance to be ruled out.
 bool RplidarProtocol::in_step() const noexcept {
-  for (std::size_t k = 0; k < kInARow; ++k) {
+  for (std::size_t k = 0; k < kInARow; ++k)
     if (!decode_node(queue_.waiting().subspan(k * kNodeBytes, kNodeBytes))) return false;
-  }
   return true;
 }
 

@@ -30,12 +30,10 @@ std::unique_ptr<wire::Link> link_of(const ScannerSetup& setup, const ScannerMake
     throw StartupError("scanner: " + std::string(on_network ? "both host and device" : "neither host nor device"),
                        "give the host of one on a network, or the device of one on a serial line");
   }
-  if (on_network && kind.port == 0) {
+  if (on_network && kind.port == 0)
     throw StartupError(setup.host + ": " + std::string(kind.name) + " is not on a network", "give its serial device");
-  }
-  if (!on_network && kind.baud == 0) {
+  if (!on_network && kind.baud == 0)
     throw StartupError(setup.device + ": " + std::string(kind.name) + " is not on a serial line", "give its host");
-  }
   return wire::make_byte_link(setup.host, setup.port == 0 ? kind.port : setup.port, setup.device, baud);
 }
 

@@ -154,9 +154,8 @@ void MotorPair::command(const WheelCommand& command) noexcept {
 void MotorPair::tell(std::size_t index, MotorOrder order, double speed_radps) noexcept {
   MotorAxis& a = axes_[index];
   // Where one motor is told nothing more, the other one is told nothing more as soon as its wheel stands.
-  if (stop_ == StopStage::kSilent && (ladders_[index].stage() == StopStage::kSilent || stands(index))) {
+  if (stop_ == StopStage::kSilent && (ladders_[index].stage() == StopStage::kSilent || stands(index)))
     a.silenced = true;
-  }
   if (a.silenced) return;
   if (order == MotorOrder::kOff) a.was_enabled = false;  // it leaves operation because it is asked to
   const bool gives_up = ladders_[index].stage() == StopStage::kNetworkStop;

@@ -82,9 +82,8 @@ void Joystick::expire_dead_man(Time now) noexcept {
   if (heard_) heard_at_ = now;
   heard_ = false;
   if (setup_.dead_man_renew > Duration{0} && age(heard_at_, now) > setup_.dead_man_renew &&
-      dead_man_ == Button::kPressed) {
+      dead_man_ == Button::kPressed)
     seen_released_ = false;
-  }
 }
 
 void Joystick::note_centred() noexcept {
@@ -141,9 +140,8 @@ void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
 void Joystick::ask_present_state() noexcept {
   std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
   if (::ioctl(device_.get(), question(0x18, keys.size()), keys.data()) >= 0) {
-    for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset}) {
+    for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset})
       if (code <= KEY_MAX) take_button(code, ((static_cast<unsigned>(keys[code / 8U]) >> (code % 8U)) & 1U) != 0);
-    }
   }
   const auto ask_axis = [this](std::uint16_t code, Axis& axis) {
     input_absinfo told{};

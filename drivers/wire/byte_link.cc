@@ -81,11 +81,10 @@ ByteLink::State ByteLink::state() noexcept {
   socklen_t size = sizeof failure;
   const bool is_socket = ::getsockopt(file_.get(), SOL_SOCKET, SO_ERROR, &failure, &size) == 0;
   const bool failed = is_socket ? failure != 0 : (writable.revents & POLLOUT) == 0;
-  if (failed) {
+  if (failed)
     close();
-  } else {
+  else
     state_ = State::kOpen;
-  }
   return state_;
 }
 

@@ -25,9 +25,8 @@ template <class T>
 [[nodiscard]] T big_endian(Bytes bytes) noexcept {
   static_assert(std::is_unsigned_v<T>);
   T value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     value = static_cast<T>((static_cast<std::uint64_t>(value) << 8U) | bytes[i]);
-  }
   return value;
 }
 
@@ -35,18 +34,16 @@ template <class T>
 template <class T>
 void put_little_endian(T value, std::span<std::uint8_t> out) noexcept {
   static_assert(std::is_unsigned_v<T>);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     out[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8U * i));
-  }
 }
 
 /// The same, most significant byte first.
 template <class T>
 void put_big_endian(T value, std::span<std::uint8_t> out) noexcept {
   static_assert(std::is_unsigned_v<T>);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     out[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8U * (sizeof(T) - 1 - i)));
-  }
 }
 
 /// Walks through bytes that may end anywhere: what is read beyond their end is 0, and ok() is false from then on.

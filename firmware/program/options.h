@@ -60,9 +60,8 @@ inline void add_parts(CLI::App& command, PartsKept& kept) {
 /// The first option that `command` does not have, with the one that was meant; empty where all are known.
 inline std::string unknown_option(const std::string& program, const CLI::App& command) {
   std::vector<std::string> known;
-  for (const CLI::Option* option : command.get_options()) {
+  for (const CLI::Option* option : command.get_options())
     for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
-  }
   for (const std::string& word : command.remaining()) {
     if (word.rfind('-', 0) != 0) continue;
     const std::string see = "see " + program + " " + command.get_name() + " --help";

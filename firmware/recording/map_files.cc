@@ -49,9 +49,8 @@ CellBox known_cells(const EvidenceMap& map) {
 std::string pgm_of(const EvidenceMap& map, const CellBox& box) {
   std::string bytes = "P5\n" + std::to_string(box.high.i - box.low.i + 1) + " " +
                       std::to_string(box.high.j - box.low.j + 1) + "\n255\n";
-  for (std::int32_t j = box.high.j; j >= box.low.j; --j) {
+  for (std::int32_t j = box.high.j; j >= box.low.j; --j)
     for (std::int32_t i = box.low.i; i <= box.high.i; ++i) bytes += shade_of(map, {i, j});
-  }
   return bytes;
 }
 

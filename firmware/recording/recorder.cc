@@ -60,9 +60,8 @@ bool is_recording(const std::string& file) {
 
 RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
     : file_(file), block_(std::max(kBlockBytes + kEntryHeadBytes + kMaxEntryBytes, setup.size() + 32)) {
-  if (setup.size() > kMaxSetupBytes) {
+  if (setup.size() > kMaxSetupBytes)
     throw StartupError(file + ": a setup of " + std::to_string(setup.size()) + " bytes", "keep it below 16 MiB");
-  }
   std::array<unsigned char, kMagic.size() + 8> head{};
   std::memcpy(head.data(), kMagic.data(), kMagic.size());
   ByteSink numbers(std::span<unsigned char>(head).subspan(kMagic.size()));
@@ -160,9 +159,8 @@ void RecordingReader::read_header() {
   if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
   setup_.resize(setup_bytes);
   std::array<unsigned char, 4> check{};
-  if (!read(reinterpret_cast<unsigned char*>(setup_.data()), setup_bytes) || !read(check.data(), check.size())) {
+  if (!read(reinterpret_cast<unsigned char*>(setup_.data()), setup_bytes) || !read(check.data(), check.size()))
     damaged("the header is cut");
-  }
   std::uint32_t crc = 0;
   ByteSource(check).number(crc);
   if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
@@ -176,9 +174,8 @@ void RecordingReader::cut_short() {
 }
 
 void RecordingReader::check_end(std::uint32_t entries) {
-  if (entries != entries_) {
+  if (entries != entries_)
     damaged("the end mark counts " + std::to_string(entries) + " ticks, there are " + std::to_string(entries_));
-  }
   position_ += kEntryHeadBytes;
   unsigned char beyond = 0;
   if (read(&beyond, 1)) damaged("something follows the end mark");

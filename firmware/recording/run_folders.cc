@@ -46,10 +46,9 @@ std::vector<std::filesystem::path> past_runs(const std::filesystem::path& all) {
   static const std::regex kName(R"(\d{4}-\d\d-\d\dT\d\d-\d\d-\d\dZ(-\d+)?)");
   std::vector<std::filesystem::path> runs;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(all, ignored)) {
+  for (const auto& entry : std::filesystem::directory_iterator(all, ignored))
     if (entry.is_directory(ignored) && std::regex_match(entry.path().filename().string(), kName))
       runs.push_back(entry.path());
-  }
   std::sort(runs.begin(), runs.end());
   return runs;
 }
@@ -83,9 +82,8 @@ std::filesystem::path part(const std::filesystem::path& run, int number) {
 std::vector<std::filesystem::path> all_parts(const std::filesystem::path& run) {
   std::vector<std::filesystem::path> parts;
   std::error_code ignored;
-  for (const auto& entry : std::filesystem::directory_iterator(run, ignored)) {
+  for (const auto& entry : std::filesystem::directory_iterator(run, ignored))
     if (entry.is_directory(ignored) && part_number(entry.path()) > 0) parts.push_back(entry.path());
-  }
   std::sort(parts.begin(), parts.end(), [](const auto& a, const auto& b) { return part_number(a) < part_number(b); });
   return parts;
 }

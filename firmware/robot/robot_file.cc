@@ -51,13 +51,11 @@ PanelWiring read_panel(TomlTable table, StickUse& steering) {
   joystick.asks_device = true;
   joystick.needs_dead_man = panel.needs_dead_man;
   joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
-  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
+  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man)
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
-  }
   if (table.has("steering")) steering = static_cast<StickUse>(table.choice("steering"));  // in the enumeration's order
-  if (steering != StickUse::kNone && !panel.needs_dead_man) {
+  if (steering != StickUse::kNone && !panel.needs_dead_man)
     table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
-  }
   joystick.steers = steering != StickUse::kNone;
   button_keys().read(table, joystick);
   require_distinct(

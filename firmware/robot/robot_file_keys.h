@@ -32,10 +32,9 @@ struct Numbered {
 /// Refuses the first that repeats one before it.
 inline void require_distinct(const TomlTable& table, std::initializer_list<Numbered> all) {
   for (const Numbered& one : all) {
-    for (const Numbered* other = all.begin(); other != &one; ++other) {
+    for (const Numbered* other = all.begin(); other != &one; ++other)
       if (one.value == other->value)
         table.refuse(one.key, std::string("is ") + other->key + " too", "give each its own");
-    }
   }
 }
 

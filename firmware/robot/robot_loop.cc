@@ -186,9 +186,8 @@ void RobotLoop::trace(const TickRecord& t) noexcept {
   if (slot == nullptr) return;
   slot->record = t;
   slot->tracks.clear();
-  for (const Track& track : runner_.loop().tracker().tracks()) {
+  for (const Track& track : runner_.loop().tracker().tracks())
     if (!slot->tracks.push_back(track)) break;
-  }
   slot->took = runner_.last_took();
   slot->plan_took.reset();
   const Plan& plan = runner_.loop().plan();

@@ -73,11 +73,10 @@ StderrRelay::~StderrRelay() {
   if (!ends_) return;
   ::dup2(ends_->out.get(), STDERR_FILENO);  // the pipe's last writer is gone: its reader comes to the end
   for (auto waited = kPause; !ends_->done && waited < kPatience; waited += kPause) std::this_thread::sleep_for(kPause);
-  if (ends_->done) {
+  if (ends_->done)
     thread_.join();
-  } else {
+  else
     thread_.detach();
-  }
 }
 
 void StderrRelay::pass_on(Ends& ends) noexcept {

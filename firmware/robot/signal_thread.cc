@@ -21,9 +21,8 @@ bool is_ignored(int signal) noexcept {
 SignalThread::SignalThread(int priority) {
   for (const int signal : {SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
   sigemptyset(&signals_);
-  for (const int signal : {SIGINT, SIGTERM, SIGHUP}) {
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
     if (signal != SIGHUP || !is_ignored(SIGHUP)) sigaddset(&signals_, signal);
-  }
   ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
   thread_ = thread_without_signals("signals", [this, priority] { live(priority); });
 }

@@ -87,10 +87,9 @@ class MapYaml {
   /// The library takes the first of them.
   void refuse_repeated_keys() const {
     std::set<std::string> known;
-    for (const auto& entry : root_) {
+    for (const auto& entry : root_)
       if (!known.insert(entry.first.Scalar()).second)
         refuse(entry.first.Mark(), entry.first.Scalar() + " stands twice");
-    }
   }
   [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& cause) const {
     throw StartupError(file_.string() + ":" + std::to_string(mark.line + 1) + ": " + cause,
@@ -104,9 +103,8 @@ class MapYaml {
 Pose2 read_origin(const MapYaml& yaml) {
   const auto origin = yaml.get<std::vector<double>>("origin");
   if (origin.size() != 3) yaml.refuse("origin", "is not [x, y, yaw]");
-  for (const double value : origin) {
+  for (const double value : origin)
     if (!(std::fabs(value) < 1e6)) yaml.refuse("origin", "holds what is no coordinate");
-  }
   return {origin[0], origin[1], wrap_angle(origin[2])};
 }
 

@@ -58,9 +58,8 @@ FreeGrid::FreeGrid(const Walls& walls, double radius_m, Vec2 start, Vec2 goal) :
   columns_ = static_cast<std::int32_t>(size.x / cell_m_) + 1;
   rows_ = static_cast<std::int32_t>(size.y / cell_m_) + 1;
   state_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  for (std::int32_t index = 0; index < columns_ * rows_; ++index) {
+  for (std::int32_t index = 0; index < columns_ * rows_; ++index)
     state_[static_cast<std::size_t>(index)] = walls.distance(centre_of(index), radius_m) >= radius_m ? kFree : 0;
-  }
   flood_from_start();
 }
 
@@ -138,28 +137,24 @@ std::vector<Vec2> FreeGrid::cell_path() const {
     });
   }
   std::vector<Vec2> path{start_};
-  for (std::int32_t k = parent[static_cast<std::size_t>(start)]; k != kOutside;
-       k = parent[static_cast<std::size_t>(k)]) {
+  for (std::int32_t k = parent[static_cast<std::size_t>(start)]; k != kOutside; k = parent[static_cast<std::size_t>(k)])
     path.push_back(centre_of(k));
-  }
   path.push_back(goal_);
   return path;
 }
 
 bool FreeGrid::line_is_free(Vec2 from, Vec2 to) const {
   const auto samples = static_cast<int>(distance(from, to) / (0.5 * cell_m_)) + 1;
-  for (int k = 0; k <= samples; ++k) {
+  for (int k = 0; k <= samples; ++k)
     if (!free(from + (to - from) * (static_cast<double>(k) / samples))) return false;
-  }
   return true;
 }
 
 /// From each point goes straight to the last one that can be seen, then from there.
 std::vector<Vec2> FreeGrid::pulled(const std::vector<Vec2>& path) const {
   std::vector<Vec2> taut{path.front()};
-  for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+  for (std::size_t k = 1; k + 1 < path.size(); ++k)
     if (!line_is_free(taut.back(), path[k + 1])) taut.push_back(path[k]);
-  }
   taut.push_back(path.back());
   return taut;
 }

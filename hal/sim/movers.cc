@@ -62,18 +62,16 @@ std::vector<Row> read_rows(const std::filesystem::path& file) {
 Wanderers::Wanderers(const Scenario& scenario, const Walls& walls, const FreeGrid& grid, std::uint64_t seed)
     : walls_(walls) {
   Random random(seed, Purpose::kPlacement);
-  for (const WanderSpec& spec : scenario.wanderers) {
+  for (const WanderSpec& spec : scenario.wanderers)
     for (int k = 0; k < spec.count; ++k) place(spec, scenario, grid, seed, random);
-  }
 }
 
 bool Wanderers::has_room(Vec2 p, double radius_m, const Scenario& scenario, const FreeGrid& grid) const {
   const double to_walls = radius_m + kRoomToWalls;
   if (distance(p, scenario.start.position()) < kRoomToRobot + radius_m) return false;
   if (distance(p, scenario.goal) < kRoomToGoal + radius_m) return false;
-  for (const MoverTruth& other : movers_) {
+  for (const MoverTruth& other : movers_)
     if (distance(p, other.position) < radius_m + other.radius_m + kRoomToMovers) return false;
-  }
   return grid.reachable(p) && walls_.distance(p, to_walls) >= to_walls;
 }
 
@@ -215,9 +213,8 @@ void RecordedMovers::load(const RecordedSpec& spec) {
 /// Sets the person's truth; false when not there at this time.
 bool RecordedMovers::move(Person& person, double now_s) noexcept {
   double t = person.begin_s + now_s - person.spec->start_at_s;
-  if (person.spec->loop && person.period_s > 0.0 && t >= person.begin_s) {
+  if (person.spec->loop && person.period_s > 0.0 && t >= person.begin_s)
     t = person.begin_s + std::fmod(t - person.begin_s, person.period_s);
-  }
   const auto& samples = person.samples;
   if (samples.size() < 2 || t < samples.front().t_s || t >= samples.back().t_s) return false;
   if (samples[person.next - 1].t_s > t) person.next = 1;  // the recording began anew

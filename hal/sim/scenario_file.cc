@@ -217,11 +217,10 @@ StickSpec read_stick(TomlTable table) {
   spec.kind = static_cast<StickKind>(table.choose_keys("kind"));  // choices in the enumerations' orders
   if (table.has("steering")) spec.steering = table.choice("steering") == 0 ? StickUse::kShared : StickUse::kByHand;
   kStickKeys.read(table, spec);
-  if (spec.kind == StickKind::kTable) {
+  if (spec.kind == StickKind::kTable)
     spec.file = table.existing_file("file");
-  } else {
+  else
     spec.forward = table.number("forward");
-  }
   table.finish();
   return spec;
 }

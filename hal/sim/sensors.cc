@@ -18,9 +18,8 @@ namespace {
 /// Scanner with lost packets, a dirty window or a dead diode in a sector: its beams there say `says_m`.
 void lose(const BlankedSector& sector, float says_m, LaserScan& scan) noexcept {
   constexpr double kSame_rad = 1e-6;  // single precision's angles: a beam on the sector's rim is in it
-  for (std::size_t k = 0; k < scan.beam_count; ++k) {
+  for (std::size_t k = 0; k < scan.beam_count; ++k)
     if (sector.off_rad(scan.angle_rad(k)) <= kSame_rad) scan.range_m[k] = says_m;
-  }
 }
 
 /// Drops before the window: each beam by itself, in each scan anew.
@@ -79,12 +78,11 @@ void Sensors::sense(World& world) noexcept {
 void Sensors::deliver_reports(Time now) noexcept {
   if (under_way_.empty() || under_way_[0].stamp > now) return;
   FixedVector<WheelState, kMostUnderWay> left;
-  for (const WheelState& reading : under_way_) {
+  for (const WheelState& reading : under_way_)
     if (reading.stamp <= now)
       wheels_ = reading;
     else
       (void)left.push_back(reading);
-  }
   under_way_ = left;
 }
 
@@ -157,9 +155,8 @@ void Sensors::locate(const Truth& truth) noexcept {
   fix_.heading_std_rad = pose_source_.heading_std_rad;
   fix_.mover_std_m = pose_source_.mover_std_m;
   fix_.movers.clear();
-  for (const MoverTruth& mover : truth.movers) {  // those beyond kMaxObservedMovers have no tag to be seen by
+  for (const MoverTruth& mover : truth.movers)  // those beyond kMaxObservedMovers have no tag to be seen by
     if (!fix_.movers.push_back({mover.id, noisy(mover.position, pose_source_.mover_std_m), mover.radius_m})) break;
-  }
 }
 
 ScriptedStick::ScriptedStick(const StickSpec& spec, const Scenario& scenario, std::uint64_t seed)

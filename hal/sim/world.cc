@@ -74,13 +74,11 @@ const Scenario& World::with_free_places(const Scenario& scenario) const {
     throw StartupError(scenario.goal_place + "the goal lies more than 50 m outside the walls" + of_map,
                        "move robot.goal, in metres in the map's frame");
   }
-  if (walls_.clearance(footprint_, scenario.start) <= 0.0) {
+  if (walls_.clearance(footprint_, scenario.start) <= 0.0)
     throw StartupError(scenario.start_place + "the robot's start lies in a wall" + of_map, "move robot.start");
-  }
   const double radius = footprint_.inscribed_radius_m();
-  if (walls_.distance(scenario.goal, radius) < radius) {
+  if (walls_.distance(scenario.goal, radius) < radius)
     throw StartupError(scenario.goal_place + "the goal lies in a wall or too near one" + of_map, "move robot.goal");
-  }
   return scenario;
 }
 

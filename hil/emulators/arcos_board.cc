@@ -71,9 +71,8 @@ std::string_view ArcosBoard::state_name() const noexcept {
 
 void ArcosBoard::step(Time now) {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) hear(received.frame.payload(), now);
-  }
   tripped_ = tripped_ || (open_ && watchdog_ms_ > 0 && now - heard_ > std::chrono::milliseconds(watchdog_ms_));
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -169,13 +168,12 @@ void ArcosBoard::move(double seconds) noexcept {
 void ArcosBoard::turn_motor(Motor& motor, double target, double seconds) noexcept {
   const double before = motor.speed;
   const bool braked = tripped_ || (brakes_hard_ && !motor.deaf);
-  if (!motors_on_ || motor.stalls) {
+  if (!motors_on_ || motor.stalls)
     motor.speed = ramped(before, 0.0, (motor.stalls ? kEmergency_mmps2 : kRollOut_mmps2) * seconds);
-  } else if (!motor.sticks) {
+  else if (!motor.sticks)
     motor.speed = target;
-  } else if (braked) {
+  else if (braked)
     motor.speed = ramped(before, 0.0, ramps_[kSpeed].down * seconds);
-  }
   motor.position += 0.5 * (before + motor.speed) * seconds;
   if (has_encoder_) return;
   motor.shown_speed = motor.speed;

@@ -110,14 +110,12 @@ void PtyServer::plug_in() {
   wire::FileDescriptor mine(::posix_openpt(O_RDWR | O_NOCTTY | O_NONBLOCK | O_CLOEXEC));
   std::array<char, 128> name{};
   if (mine.get() < 0 || ::grantpt(mine.get()) != 0 || ::unlockpt(mine.get()) != 0 ||
-      ::ptsname_r(mine.get(), name.data(), name.size()) != 0) {
+      ::ptsname_r(mine.get(), name.data(), name.size()) != 0)
     throw StartupError(path_ + ": no pseudo terminal for it", "mount /dev/pts");
-  }
   wire::FileDescriptor theirs(::open(name.data(), O_RDWR | O_NOCTTY | O_CLOEXEC));
   termios settings{};
-  if (theirs.get() < 0 || ::tcgetattr(theirs.get(), &settings) != 0) {
+  if (theirs.get() < 0 || ::tcgetattr(theirs.get(), &settings) != 0)
     throw StartupError(path_ + ": " + name.data() + " cannot be opened", "mount /dev/pts");
-  }
   ::cfmakeraw(&settings);  // or what is sent comes back as an echo
   ::tcsetattr(theirs.get(), TCSANOW, &settings);
   std::error_code failure;

@@ -20,9 +20,8 @@ void Cia402Node::step(Time now) noexcept {
   if (is_enabled() && enabled_ == kNever) enabled_ = now;
   show();
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   watch_controller(now);
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -78,9 +77,8 @@ bool Cia402Node::take_request(const CanFrame& frame) noexcept {
   if (!answered) return false;
   if (connected_) static_cast<void>(bus_.send(*answered));
   const bool was_written = answered->bytes[0] == 0x60;
-  if (was_written && wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == 0x6040) {
+  if (was_written && wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == 0x6040)
     obey(wire::little_endian<std::uint16_t>(frame.payload().subspan(4)));
-  }
   return true;
 }
 

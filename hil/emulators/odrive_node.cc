@@ -24,9 +24,8 @@ bool is_due(Time& said, Duration period, Time now) noexcept {
 
 void OdriveNode::step(Time now) noexcept {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   watch(now);
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -56,11 +55,10 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
 void OdriveNode::watch(Time now) noexcept {
   const bool expired = watchdog_ > Duration{0} && fed_ != kNever && now - fed_ > watchdog_;
   if (!expired || (errors_ & expired_) != 0) return;
-  if (lies_) {
+  if (lies_)
     errors_ |= expired_;
-  } else {
+  else
     disarm(expired_);
-  }
 }
 
 void OdriveNode::disarm(std::uint32_t error) noexcept {

@@ -88,9 +88,8 @@ void ScannerServer::measure_until_now(Time now) {
   const std::size_t until = share >= 1.0 ? shape_.beams : static_cast<std::size_t>(past) + 1;
   if (until <= measured_) return;
   world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
-  for (; measured_ < until; ++measured_) {
+  for (; measured_ < until; ++measured_)
     if (says_m_[measured_] != kMeasures) range_m_[measured_] = says_m_[measured_];
-  }
   tell_measured(now);
 }
 

@@ -114,9 +114,8 @@ std::vector<std::uint8_t> RplidarServer::message_of(std::size_t first_beam, std:
     const bool begins = first_beam + k == 0;
     const unsigned quality = range_q2 > 0 ? 47 : 0;
     for (const unsigned byte :
-         {quality << 2U | (begins ? 1U : 2U), angle_q6 << 1U | 1U, angle_q6 >> 7U, range_q2, range_q2 >> 8U}) {
+         {quality << 2U | (begins ? 1U : 2U), angle_q6 << 1U | 1U, angle_q6 >> 7U, range_q2, range_q2 >> 8U})
       message.push_back(static_cast<std::uint8_t>(byte));
-    }
   }
   return message;
 }

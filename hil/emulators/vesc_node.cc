@@ -36,9 +36,8 @@ void VescNode::set_timeout(std::uint32_t timeout_ms, float brake_current_a) noex
 
 void VescNode::step(Time now) {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   const bool expired = timeout_ms_ > 0 && fed_ != kNever && now - fed_ > std::chrono::milliseconds(timeout_ms_);
   if (expired) mode_ = brake_current_a_ > 0.0F ? Mode::kBrake : Mode::kCurrent;
   if (stepped_ != kNever) move(to_seconds(now - stepped_));

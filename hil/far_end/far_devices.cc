@@ -41,18 +41,16 @@ class NodeDrive final : public WheelDrive {
   void plug_cable() noexcept override { node_.plug_cable(); }
   void restart() noexcept override { node_.restart(); }
   void stick() noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>) {
+    if constexpr (std::is_same_v<Node, Cia402Node>)
       node_.hang();
-    } else {
+    else
       node_.stick();
-    }
   }
   void lose_feedback() noexcept override {
-    if constexpr (std::is_same_v<Node, Cia402Node>) {
+    if constexpr (std::is_same_v<Node, Cia402Node>)
       node_.lose_feedback();
-    } else {
+    else
       node_.mute();
-    }
   }
   void show_mode_late(Duration delay) noexcept override {
     if constexpr (std::is_same_v<Node, Cia402Node>) node_.show_mode_after_enabling(delay);

@@ -97,19 +97,18 @@ std::string obey(std::string_view order, SimulatedRobot& robot) {
   if (side != "left" && side != "right") return "left or right? " + std::string(order);
   WheelDrive& drive = robot.drive(side == "left" ? 0 : 1);
   const canopen::ObjectAddress object{static_cast<std::uint16_t>(number), static_cast<std::uint8_t>(sub)};
-  if (what == "emergency") {
+  if (what == "emergency")
     drive.raise_fault(static_cast<std::uint16_t>(number));
-  } else if (what == "unplug") {
+  else if (what == "unplug")
     drive.pull_cable();
-  } else if (what == "plug") {
+  else if (what == "plug")
     drive.plug_cable();
-  } else if (what == "lie" && drive.objects() != nullptr) {
+  else if (what == "lie" && drive.objects() != nullptr)
     drive.objects()->lie_about(object);
-  } else if (what == "lack" && drive.objects() != nullptr) {
+  else if (what == "lack" && drive.objects() != nullptr)
     drive.objects()->lack(object);
-  } else {
+  else
     return "no such order: " + std::string(order);
-  }
   return "";
 }
 

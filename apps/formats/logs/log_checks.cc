@@ -122,11 +122,10 @@ void LogOdometry::add(const OdometryPose& said, const LogPlace& place) {
   const std::optional<Pose2> pose = sound_pose({near.x, near.y, said.pose.heading});
   if (!pose) return log_.refuse(place, kNoPose);
   const Twist2 twist = said.twist.value_or(Twist2{});
-  if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest) {
+  if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)
     said_.push_back({{said.stamp, *pose, said.twist}, place.number});
-  } else {
+  else
     without_speed_.push_back({{said.stamp, *pose, std::nullopt}, place.number});
-  }
 }
 
 void LogOdometry::settle(LogPlace place) {

@@ -43,11 +43,10 @@ void LogPlace::refuse(const std::string& cause, const std::string& remedy) const
 void RecordedLog::refuse(const LogPlace& place, std::string_view cause) {
   const auto known = std::find_if(refused.begin(), refused.end(),
                                   [&](const RefusedLines& r) { return r.file == place.file && r.cause == cause; });
-  if (known != refused.end()) {
+  if (known != refused.end())
     ++known->count;
-  } else {
+  else
     refused.push_back({place.file, std::string(cause), place.number, 1, place.unit});
-  }
 }
 
 std::string RecordedLog::complaint() const {
