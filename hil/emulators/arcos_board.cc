@@ -6,7 +6,7 @@
 
 #include "drivers/can/byte_bus.h"
 #include "hal/types/trig.h"
-#include "hil/emulators/ramped.h"
+#include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
 

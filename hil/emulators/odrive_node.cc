@@ -3,7 +3,6 @@
 #include <bit>
 
 #include "drivers/wire/byte_reader.h"
-#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
 
@@ -76,10 +75,7 @@ void OdriveNode::restart() noexcept {
   errors_ = lasting_error_;
   target_ = 0.0;
   control_mode_ = 3;
-  stuck_ = deaf_ = muted_ = false;
-  fed_ = kNever;
-  position_ = 0.0;
-  encoder_zero_ = encoder_position_;
+  forget();
 }
 
 void OdriveNode::move(double seconds) noexcept {
@@ -94,25 +90,17 @@ void OdriveNode::say(Time now) noexcept {
   if (is_due(said_heartbeat_, kHeartbeatPeriod, now))
     send(0x01, errors_, state_ | static_cast<std::uint32_t>(procedure_) << 8U);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
-  const double position = has_encoder_ ? encoder_position_ - encoder_zero_ : position_;
-  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position)),
+  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(felt_position())),
        std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_velocity_ : velocity_)));
 }
 
-void OdriveNode::measure(double velocity, double position) noexcept {
-  has_encoder_ = true;
-  encoder_velocity_ = velocity;
-  encoder_position_ = position;
-}
-
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {
-  if (!connected_ || muted_) return;
   CanFrame frame;
   frame.id = static_cast<std::uint32_t>(node_) << 5U | command;
   frame.size = 8;
   wire::put_little_endian(first, frame.bytes);
   wire::put_little_endian(second, std::span(frame.bytes).subspan(4));
-  static_cast<void>(bus_.send(frame));
+  MotorNode::send(frame);
 }
 
 }  // namespace jaywalk::emulators
