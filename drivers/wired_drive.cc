@@ -1,6 +1,5 @@
 #include "drivers/wired_drive.h"
 
-#include <algorithm>
 #include <array>
 #include <cstdio>
 #include <span>

@@ -8,7 +8,6 @@
 #include "apps/jaywalk/man_page.h"
 #include "apps/jaywalk/run_observers.h"
 #include "apps/why/why.h"
-#include "firmware/program/options.h"
 #include "firmware/program/program.h"
 #include "hal/robot_model_file.h"
 #include "hal/setting_keys.h"

@@ -5,7 +5,6 @@
 
 #include "drivers/arcos/arcos.h"
 #include "drivers/motor/motor_pair.h"
-#include "drivers/motor/shown_reports.h"
 
 namespace jaywalk::arcos {
 

@@ -4,7 +4,6 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/motor/motor_pair.h"
-#include "drivers/motor/shown_reports.h"
 #include "drivers/ros/shared_ring.h"
 #include "hal/hal.h"
 

@@ -19,7 +19,6 @@
 #include "firmware/robot/robot_loop.h"
 #include "firmware/robot/run_status.h"
 #include "firmware/robot/service_manager.h"
-#include "firmware/robot/signal_thread.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <string>
 
 #include "hal/maps/wall_map.h"
 #include "hal/shown_text.h"

@@ -16,7 +16,7 @@
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/operator_desk.h"
 #include "firmware/robot/realtime.h"
-#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/service_manager.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
