@@ -7,7 +7,6 @@
 #include "hal/shown_text.h"
 
 namespace jaywalk::arcos {
-
 namespace {
 
 constexpr const char* kRampRemedy = "lower [limits] of the model, or raise the board's own limits (ARCOScfg)";

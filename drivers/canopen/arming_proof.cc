@@ -6,7 +6,6 @@
 #include <cstdlib>
 
 namespace jaywalk::canopen {
-
 namespace {
 
 constexpr std::uint32_t kNoRemoteFrames = 1U << 30U;  ///< bit of a COB-ID (CiA 301)

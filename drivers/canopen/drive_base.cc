@@ -7,7 +7,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk::canopen {
-
 namespace {
 
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);

@@ -8,7 +8,6 @@
 #include "drivers/wire/thread_without_signals.h"
 
 namespace jaywalk {
-
 namespace {
 
 /// So long at most until limits are looked at again, and until the thread sees that it is to end.

@@ -12,7 +12,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk {
-
 namespace {
 
 constexpr std::array<ScannerMake, 7> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},

@@ -9,7 +9,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk::scip {
-
 namespace {
 
 constexpr std::size_t kLongestData = 64;

@@ -4,7 +4,6 @@
 #include "drivers/motor/motor_pair.h"
 
 namespace jaywalk {
-
 namespace {
 
 /// Another controller commands at 20 Hz or more: in this time it is heard several times.

@@ -7,7 +7,6 @@
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::vesc {
-
 namespace {
 
 constexpr std::uint32_t kSetCurrent = 1, kSetBrakeCurrent = 2, kSetErpm = 3, kPiece = 5, kLongPiece = 6, kPiecesEnd = 7,

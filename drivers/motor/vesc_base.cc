@@ -8,7 +8,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk::vesc {
-
 namespace {
 
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(500);

@@ -9,7 +9,6 @@
 #include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRollOut_mmps2 = 300.0;     ///< without torque

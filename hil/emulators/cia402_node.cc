@@ -6,7 +6,6 @@
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr std::uint32_t kPdoOff = 0x80000000, kIdentifier = 0x7FF;

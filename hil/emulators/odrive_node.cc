@@ -5,7 +5,6 @@
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRamp_turns_per_s2 = 20.0;

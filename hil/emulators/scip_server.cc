@@ -7,7 +7,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr std::uint32_t kClockAtStart_ms = (1U << 24U) - 2000U;

@@ -6,7 +6,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRadPerTdeg = kPi / 1.8e6;

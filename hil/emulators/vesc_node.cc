@@ -7,7 +7,6 @@
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRamp_erpm_per_s = 30000.0;
