@@ -1,4 +1,5 @@
 #pragma once
+// Drive bases on wires, and the checks that all of them share.
 #include <algorithm>
 #include <cmath>
 #include <optional>

@@ -1,4 +1,5 @@
 #pragma once
+// Robot model files, and the comfort that a ride has.
 #include <filesystem>
 #include <functional>
 #include <string>

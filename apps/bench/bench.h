@@ -1,4 +1,5 @@
 #pragma once
+// `jaywalk bench`: maps, motions and rival methods that it measures.
 #include <chrono>
 #include <cstdint>
 #include <ctime>

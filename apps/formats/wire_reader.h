@@ -1,5 +1,5 @@
 #pragma once
-// The fields of a message, one after the other, as ROS 2 (CDR) and ROS 1 write them, which WireReader reads.
+// Fields of a message or record, one after the other: ROS 2 (CDR), ROS 1, MCAP.
 #include <algorithm>
 #include <array>
 #include <bit>

@@ -1,4 +1,5 @@
 #pragma once
+// The commands of `jaywalk` with their options, a function each.
 #include <CLI/CLI.hpp>
 #include <cstdint>
 #include <filesystem>

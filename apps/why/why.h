@@ -1,4 +1,5 @@
 #pragma once
+// `jaywalk why`: one moment of a recording in words, tables and a picture.
 #include <filesystem>
 #include <span>
 #include <string>

@@ -1,4 +1,5 @@
 #pragma once
+// CAN frames, and a place on a bus.
 #include <array>
 #include <cstdint>
 #include <span>

@@ -1,4 +1,5 @@
 #pragma once
+// A CAN interface of this machine: its state, the right to it, its restart.
 #include <cstdint>
 #include <optional>
 #include <string>

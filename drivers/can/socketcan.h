@@ -1,4 +1,5 @@
 #pragma once
+// CAN through the Linux kernel.
 #include <linux/can.h>
 
 #include <algorithm>

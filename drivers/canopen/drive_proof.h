@@ -1,4 +1,5 @@
 #pragma once
+// The settings of a CiA 402 drive, and the proof that it has them.
 #include <optional>
 #include <string>
 #include <vector>

@@ -1,4 +1,5 @@
 #pragma once
+// One wheel of a CANopen drive base.
 #include <array>
 #include <cstdint>
 #include <string>

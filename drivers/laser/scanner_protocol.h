@@ -1,4 +1,5 @@
 #pragma once
+// Conversation with a scanner, and what its kinds share: decoding, turns, device clock.
 #include <array>
 #include <cstddef>
 #include <cstdint>

@@ -1,4 +1,5 @@
 #pragma once
+// SICK TiM5xx and LMS1xx: scan telegrams, and what makes them come.
 #include <array>
 #include <string_view>
 

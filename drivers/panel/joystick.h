@@ -1,4 +1,5 @@
 #pragma once
+// A joystick or a box of buttons as Linux shows it.
 #include <array>
 #include <cstdint>
 #include <optional>

@@ -1,4 +1,5 @@
 #pragma once
+// A ROS 2 robot as a drive base, through jaywalk_dds.
 #include <array>
 #include <string>
 

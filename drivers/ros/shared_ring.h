@@ -1,4 +1,5 @@
 #pragma once
+// Shared memory between the robot's program and jaywalk_dds, and what is said there.
 #include <array>
 #include <bit>
 #include <cmath>

@@ -1,4 +1,5 @@
 #pragma once
+// Serial lines and TCP connections that open again by themselves.
 #include <sys/socket.h>
 
 #include <cstdint>

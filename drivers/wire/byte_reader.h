@@ -1,4 +1,5 @@
 #pragma once
+// Numbers in bytes, and bytes that wait to be read.
 #include <algorithm>
 #include <array>
 #include <cstddef>

@@ -1,4 +1,5 @@
 #pragma once
+// Maps as map_server files: what the robot saw, what it knows at start.
 #include <filesystem>
 #include <memory>
 #include <string>

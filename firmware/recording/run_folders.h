@@ -1,4 +1,5 @@
 #pragma once
+// A run's folder, and the parts that it grows by.
 #include <chrono>
 #include <filesystem>
 #include <span>

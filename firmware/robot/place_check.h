@@ -1,4 +1,5 @@
 #pragma once
+// A person's word on where the robot is and what it may do.
 #include <cstdint>
 #include <optional>
 #include <string>

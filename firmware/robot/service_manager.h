@@ -1,4 +1,5 @@
 #pragma once
+// What systemd and a terminal are told, and the signals that come.
 #include <signal.h>
 
 #include <array>

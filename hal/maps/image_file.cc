@@ -20,9 +20,9 @@ std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
   char magic[2] = {};
   if (!std::ifstream(file, std::ios::binary).read(magic, 2)) refuse_picture(file, "cannot be read");
   const std::string kind(magic, 2);
-  if (kind == "P2" || kind == "P5") return pgm_rows(file);
+  if (kind == "P2" || kind == "P5") return std::make_unique<PgmRows>(file);
   if (kind == "\x89P") return png_rows(file);
-  if (kind == "BM") return bmp_rows(file);
+  if (kind == "BM") return std::make_unique<BmpRows>(file);
   refuse_picture(file, "neither PNG nor PGM nor BMP");
 }
 
@@ -160,9 +160,5 @@ ImageFile::~ImageFile() = default;
 std::int32_t ImageFile::width() const { return rows_->width; }
 std::int32_t ImageFile::height() const { return rows_->height; }
 void ImageFile::next_row(std::vector<Pixel>& row) { rows_->next(row); }
-
-std::unique_ptr<ImageFile::Rows> pgm_rows(const std::filesystem::path& file) { return std::make_unique<PgmRows>(file); }
-
-std::unique_ptr<ImageFile::Rows> bmp_rows(const std::filesystem::path& file) { return std::make_unique<BmpRows>(file); }
 
 }  // namespace jaywalk::sim

@@ -1,4 +1,5 @@
 #pragma once
+// Free places between walls, and zones that must be free.
 #include <array>
 #include <cstdint>
 #include <vector>

@@ -1,5 +1,5 @@
 #pragma once
-// The paper's movers: straight ahead at constant speed; they turn in place only when something is near ahead.
+// Simulated movers: those of the paper, which walk straight ahead and turn in place, and recorded ones.
 #include <cstdint>
 #include <filesystem>
 #include <span>

@@ -1,4 +1,5 @@
 #pragma once
+// The device's end of a wire.
 #include <cstdint>
 #include <memory>
 #include <string>

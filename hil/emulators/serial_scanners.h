@@ -1,4 +1,5 @@
 #pragma once
+// Emulated LD19, RPLIDAR and LMS200, on a serial line.
 #include <cstdint>
 #include <span>
 #include <vector>

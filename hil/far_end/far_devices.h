@@ -1,4 +1,5 @@
 #pragma once
+// Emulated drives and scanners at the far end of the wires, as a robot file has them.
 #include <array>
 #include <memory>
 #include <string_view>
