@@ -16,16 +16,6 @@ constexpr std::int64_t kMostPixels = 3'000'000'000;  // 500 m a side in cells of
   throw StartupError(file.string() + ": " + cause, "use a whole PNG, PGM or BMP picture");
 }
 
-std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
-  char magic[2] = {};
-  if (!std::ifstream(file, std::ios::binary).read(magic, 2)) refuse_picture(file, "cannot be read");
-  const std::string kind(magic, 2);
-  if (kind == "P2" || kind == "P5") return std::make_unique<PgmRows>(file);
-  if (kind == "\x89P") return png_rows(file);
-  if (kind == "BM") return std::make_unique<BmpRows>(file);
-  refuse_picture(file, "neither PNG nor PGM nor BMP");
-}
-
 constexpr std::streamsize kLongestComment = 1'000'000;
 
 class PgmRows final : public ImageFile::Rows {
@@ -140,6 +130,16 @@ class BmpRows final : public ImageFile::Rows {
   std::vector<std::uint16_t> palette_;
   std::vector<unsigned char> line_;
 };
+
+std::unique_ptr<ImageFile::Rows> rows_of(const std::filesystem::path& file) {
+  char magic[2] = {};
+  if (!std::ifstream(file, std::ios::binary).read(magic, 2)) refuse_picture(file, "cannot be read");
+  const std::string kind(magic, 2);
+  if (kind == "P2" || kind == "P5") return std::make_unique<PgmRows>(file);
+  if (kind == "\x89P") return png_rows(file);
+  if (kind == "BM") return std::make_unique<BmpRows>(file);
+  refuse_picture(file, "neither PNG nor PGM nor BMP");
+}
 
 }  // namespace
 
