@@ -77,7 +77,7 @@ class Brakes {
   std::vector<std::pair<double, double>> brakes_{};  ///< from, to, s
 };
 
-constexpr double kStands_mps = 0.02;
+constexpr double kStuck_mps = 0.02;
 
 struct RobotRow {
   double t_s = 0.0;
@@ -140,7 +140,7 @@ FailureWords timeout_words(const PlannedRun& run, const std::vector<RobotRow>& r
   const RobotRow& end = robot.back();
   double moved_s = robot.front().t_s;
   for (const RobotRow& row : robot)
-    if (std::fabs(row.v_mps) > kStands_mps) moved_s = row.t_s;
+    if (std::fabs(row.v_mps) > kStuck_mps) moved_s = row.t_s;
   std::string reason = "time was over " + formatted("%.1f m from the goal", distance(end.position, run.goal)) +
                        " for " + where(end) + formatted(", which had stood for %.1f s", end.t_s - moved_s);
   if (!end.reasons.empty()) reason += " (" + end.reasons + ")";

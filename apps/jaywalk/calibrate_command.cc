@@ -10,6 +10,7 @@
 
 #include "apps/jaywalk/commands.h"
 #include "apps/setup/armed_session.h"
+#include "apps/setup/calibration.h"
 #include "apps/setup/guided_drive.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/control_setup.h"
