@@ -4,7 +4,7 @@
 #include <optional>
 #include <string>
 
-#include "firmware/program/parse_message.h"
+#include "firmware/program/program.h"
 
 namespace jaywalk::bench {
 

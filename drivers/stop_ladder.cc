@@ -60,9 +60,8 @@ void StopLadder::begin(Time now, const std::array<WheelFeedback, 2>& wheels) noe
   under_way_ = true;
   ended_ = false;
   ordered_ = now;
-  for (std::size_t k = 0; k < wheels.size(); ++k) {
+  for (std::size_t k = 0; k < wheels.size(); ++k)
     speed_at_order_[k] = std::min(std::fabs(wheels[k].speed_radps), owed_radps_[k]);
-  }
   longest_s_ =
       std::max(speed_at_order_[0], speed_at_order_[1]) / limits_.brake_radps2 + to_seconds(limits_.confirmation);
   confirmed_ = false;

@@ -1,10 +1,15 @@
 #pragma once
+// Drive bases on wires, and the checks that all of them share.
+#include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include "drivers/can/can_frame.h"
+#include "drivers/can/can_bus.h"
 #include "hal/hal.h"
+#include "hal/types/errors.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
 
@@ -45,5 +50,56 @@ class EmergencyBrake {
   /// Tells the drives to stop as fast as they were set to; does not wait.
   virtual void brake() noexcept = 0;
 };
+
+/// True where a wheel's counter jumped, by a restart or a slip: the difference is no way.
+///
+/// `turned_rad` since the position before, `since_s` ago, of a wheel that turns with `speed_radps`. Allowed beyond what
+/// the speed explains: some steps of the coarsest counter (six Hall states an electrical turn), the way that a wheel
+/// gains with 20 rad/s2, as hard a stop as drives are set to, and 20 ms by which speed and position are measured apart.
+[[nodiscard]] inline bool jumps(double turned_rad, double speed_radps, double since_s) noexcept {
+  constexpr double kSteps_rad = 0.05, kHardest_radps2 = 20.0, kApart_s = 0.02;
+  const double explained_rad = speed_radps * (since_s + kApart_s);
+  const double nearest_rad = std::clamp(turned_rad, std::min(explained_rad, 0.0), std::max(explained_rad, 0.0));
+  return !(std::fabs(turned_rad - nearest_rad) <= kSteps_rad + 0.5 * kHardest_radps2 * since_s * since_s);
+}
+
+/// Token bucket that detects two devices with the same number by the rate of a frame that only one device may send.
+///
+/// The bucket fills at 1.5 times the due rate. A device's clock may be fast, and CAN repeats a frame after a disturbed
+/// last bit (ISO 11898-1). Two devices send at twice the due rate: their fourth pair finds the bucket empty.
+class FrameRate {
+ public:
+  /// Adds tokens for frames that became due, such as one with each SYNC.
+  void expect(double frames) noexcept { store_ = std::min(store_ + kShare * frames, kStore); }
+  /// Takes a token for a frame that came; false where none is left.
+  [[nodiscard]] bool take() noexcept {
+    if (store_ < 1.0) return false;
+    store_ -= 1.0;
+    return true;
+  }
+  /// Takes a token for a frame that is due once a period.
+  [[nodiscard]] bool take_at(Time stamp, Duration period) noexcept {
+    if (last_ != kNever) expect(to_seconds(stamp - last_) / to_seconds(period));
+    last_ = stamp;
+    return take();
+  }
+
+ private:
+  static constexpr double kShare = 1.5, kStore = 3.0;  ///< frames
+
+  double store_ = kStore;
+  Time last_ = kNever;
+};
+
+/// Node, code and its meaning: "node 5: emergency 2310h (continuous over-current)"; empty where no fault was told. Not
+/// for the loop.
+[[nodiscard]] std::string describe(const DriveFault& fault);
+
+/// Meanings of an ODrive's error bits, firmware 0.6, joined by "; "; empty for bits that are not known.
+[[nodiscard]] std::string odrive_error_words(std::uint32_t errors);
+/// Meanings of the bits of arcos::Fault, likewise.
+[[nodiscard]] std::string arcos_fault_words(std::uint32_t faults);
+/// Meaning of the procedure result in an ODrive's heartbeat: "timeout".
+[[nodiscard]] std::string odrive_procedure_words(std::uint8_t result);
 
 }  // namespace jaywalk

@@ -1,7 +1,5 @@
 #include "firmware/control_loop.h"
 
-#include <algorithm>
-
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -7,7 +7,6 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/estimator.h"
-#include "firmware/known_walls.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/safety/beam_filter.h"
 #include "firmware/safety/latency.h"

@@ -71,9 +71,8 @@ void LoopRunner::report(const RunSample& sample) {
 void LoopRunner::tell_losses() {
   std::vector<std::string> complaints = observer_.complaints();
   if (std::string complaint = recorder_.complaint(); !complaint.empty()) complaints.push_back(std::move(complaint));
-  for (const std::string& complaint : complaints) {
+  for (const std::string& complaint : complaints)
     if (std::find(losses_.begin(), losses_.end(), complaint) == losses_.end()) tell_loss(complaint);
-  }
 }
 
 void LoopRunner::tell_loss(const std::string& complaint) {
@@ -108,9 +107,8 @@ std::filesystem::path LoopRunner::finish(RunEnd end) {
   recorder_.close();
   tell_losses();
   const std::vector<std::string> tables = observer_.complaints();
-  for (const std::string& loss : losses_) {
+  for (const std::string& loss : losses_)
     if (std::find(tables.begin(), tables.end(), loss) == tables.end()) end.not_recorded.push_back(loss);
-  }
   end.dropped_records = recorder_.dropped();
   end.backend = chosen_.planner->backend();
   if (!chosen_.why_not_cuda.empty()) end.backend += " (" + chosen_.why_not_cuda + ")";

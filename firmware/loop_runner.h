@@ -2,7 +2,6 @@
 // A control loop under way, with everything that watches it: recorder, report, stopwatch.
 #include <filesystem>
 #include <functional>
-#include <memory>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,7 +10,6 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorder.h"
 #include "firmware/recording/run_folders.h"
-#include "firmware/recording/run_parts.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {

@@ -23,9 +23,8 @@ class Mailbox {
   }
   /// Reader's thread: the newest published, T{} before the first. Valid until the next call.
   const T& latest() noexcept {
-    if (middle_.load(std::memory_order_relaxed) & kFresh) {
+    if (middle_.load(std::memory_order_relaxed) & kFresh)
       reading_ = middle_.exchange(reading_, std::memory_order_acq_rel) & kSlot;
-    }
     return slots_[reading_];
   }
 

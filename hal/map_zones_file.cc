@@ -79,17 +79,13 @@ bool are_too_far_apart(const std::vector<MapZone>& zones) {
 
 std::vector<SettingKey> zone_keys() {
   using enum KeyKind;
-  return {{"", "zones", kTables, {}, "", "none", "polygons in the map: where not to drive, or slowly"},
-          {"zones",
-           "kind",
-           kChoice,
-           {},
-           "",
-           kNeeded,
-           "keep_out: the body stays outside; speed: slowly inside",
-           {"keep_out", "speed"}},
-          {"zones", "points", kPoints, {}, "m, m", kNeeded, "corners [x, y] in order round the zone: 3 to 64"},
-          {"zones:speed", "speed_mps", kNumber, {0.05, 10.0}, "m/s", kNeeded, "fastest while the body is in it"}};
+  return {key_row("zones", kTables, "none", "polygons in the map: where not to drive, or slowly"),
+          in_section("zones", choice_row("kind", kNeeded, "keep_out: the body stays outside; speed: slowly inside",
+                                         {"keep_out", "speed"})),
+          in_section("zones",
+                     key_row("points", kPoints, kNeeded, "corners [x, y] in order round the zone: 3 to 64", "m, m")),
+          in_section("zones:speed",
+                     number_row("speed_mps", {0.05, 10.0}, "m/s", kNeeded, "fastest while the body is in it"))};
 }
 
 std::vector<MapZone> read_zones(TomlTable& root) {

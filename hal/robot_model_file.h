@@ -1,14 +1,34 @@
 #pragma once
+// Robot model files, and the comfort that a ride has.
 #include <filesystem>
 #include <functional>
 #include <string>
 #include <vector>
 
-#include "hal/comfort.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
+
+// How a ride is to feel: one word in place of several limits.
+
+enum class Comfort { kGentle, kNormal, kBrisk };
+
+/// In the order of the enumeration: "gentle", "normal", "brisk".
+[[nodiscard]] const std::vector<std::string>& comfort_names();
+
+/// What a profile makes of a robot's own limits, which are those of `normal`.
+struct ComfortProfile {
+  double speed = 1.0, accel = 1.0, jerk = 1.0;  ///< shares; turning alike, but no quicker. None is faster.
+  double comfort_distance_m = 1.0;              ///< m; a pedestrian nearer than this to the robot costs
+};
+[[nodiscard]] ComfortProfile profile_of(Comfort comfort) noexcept;
+
+/// SAFETY 10: no profile plans more, whatever the model has, unless the model itself has more.
+inline constexpr double kMostComfortAccel_mps2 = 1.0, kMostComfortJerk_mps3 = 2.0;
+
+/// The limits of a ride that feels so. Braking stays: it is what the drives were proved to do.
+[[nodiscard]] MotionLimits limits_for(Comfort comfort, const RobotModel& model) noexcept;
 
 /// Its keys.
 [[nodiscard]] const FileKeys& robot_model_keys();
@@ -25,8 +45,8 @@ namespace jaywalk {
 /// The model that `key` of `table` names: "p3dx", "wheelchair", or a file's path relative to the table's own file.
 [[nodiscard]] RobotModel read_model_choice(TomlTable& table, const std::string& key);
 
-/// The row of the key `comfort` in a table `section`, and its value: normal where it is absent.
-[[nodiscard]] SettingKey comfort_key(const std::string& section);
+/// The row of the key `comfort`, and its value: normal where it is absent.
+[[nodiscard]] SettingKey comfort_key();
 [[nodiscard]] Comfort read_comfort(TomlTable& table);
 
 /// A sector of the laser's frame: from_deg, and counter-clockwise from there to_deg. Both are needed.

@@ -30,6 +30,20 @@ struct SettingKey {
   std::vector<std::string> choices{};  ///< of kChoice
 };
 
+// Rows; those without a section are for section_keys().
+
+[[nodiscard]] SettingKey key_row(const char* key, KeyKind kind, Otherwise otherwise, const char* meaning,
+                                 const char* unit = "");
+[[nodiscard]] SettingKey number_row(const char* key, Range range, const char* unit, Otherwise otherwise,
+                                    const char* meaning);
+[[nodiscard]] SettingKey whole_row(const char* key, Range range, const char* unit, Otherwise otherwise,
+                                   const char* meaning);
+[[nodiscard]] SettingKey choice_row(const char* key, Otherwise otherwise, const char* meaning,
+                                    const std::vector<std::string>& choices);
+[[nodiscard]] SettingKey in_section(const std::string& section, SettingKey row);
+/// Puts the rows that have no section into this one.
+[[nodiscard]] std::vector<SettingKey> section_keys(const std::string& section, std::vector<SettingKey> rows);
+
 struct FileKeys {
   const char* title = "";  ///< "Scenario file"
   std::vector<SettingKey> keys;
@@ -41,6 +55,9 @@ struct FileKeys {
   /// The choice of `section` ("vesc" of "drive:vesc") that has this key; empty where none has.
   [[nodiscard]] std::string choice_with(const std::string& section, const std::string& key) const;
 };
+
+/// The keys of all sections, in their order.
+[[nodiscard]] FileKeys file_keys(const char* title, const std::vector<std::vector<SettingKey>>& sections);
 
 /// "0.1 to 100", "true or false", "p3dx, wheelchair": what may be written.
 [[nodiscard]] std::string allowed(const SettingKey& key);

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdint>
 #include <exception>
 #include <regex>
 #include <sstream>
@@ -11,7 +10,6 @@
 #include "hal/text_file.h"
 #include "hal/toml_settings.h"
 #include "hal/types/errors.h"
-#include "hal/types/geometry.h"
 
 namespace jaywalk {
 namespace {
@@ -19,20 +17,18 @@ namespace {
 // toml11 3 and 4 say differently where something stands.
 template <class Location>
 std::size_t line_of(const Location& where) {
-  if constexpr (requires { where.first_line_number(); }) {
+  if constexpr (requires { where.first_line_number(); })
     return where.first_line_number();
-  } else {
+  else
     return where.line();
-  }
 }
 
 template <class SyntaxError>
 std::size_t line_of_mistake(const SyntaxError& e) {
-  if constexpr (requires { e.location(); }) {
+  if constexpr (requires { e.location(); })
     return line_of(e.location());
-  } else {
+  else
     return line_of(e.errors().front().locations().front().first);
-  }
 }
 
 // The whole of a file has no line in toml11 4; a mistake in it is shown at the first.
@@ -74,10 +70,9 @@ void refuse_deep_nesting(const std::filesystem::path& file, const std::string& t
 void refuse_texts_of_several_lines(const std::filesystem::path& file, const std::string& text) {
   std::istringstream stream(text);
   std::size_t number = 1;
-  for (std::string line; std::getline(stream, line); ++number) {
+  for (std::string line; std::getline(stream, line); ++number)
     if (line.find("'''") != std::string::npos || line.find("\"\"\"") != std::string::npos)
       throw StartupError(place(file, number) + "three quotes begin a text of several lines", "write it in one line");
-  }
 }
 
 /// A decimal comma where a number stands alone, which TOML has no word for.
@@ -179,9 +174,8 @@ bool TomlTable::has(const std::string& key) const {
 double TomlTable::number_from(const std::string& key, const toml::value& node, Range range) const {
   if (!is_number(node)) refuse(key, "is not a number", "write a number");
   const double value = as_number(node);
-  if (!(value >= range.low && value <= range.high)) {
+  if (!(value >= range.low && value <= range.high))
     refuse(key, "is " + written(value), "choose a value from " + written(range.low) + " to " + written(range.high));
-  }
   return value;
 }
 
@@ -273,10 +267,9 @@ std::vector<double> TomlTable::numbers_from(const std::string& key, const toml::
 
 void TomlTable::require_in_map(const std::string& key, const std::vector<double>& values) const {
   constexpr double kFarthest_m = 1e5;
-  for (std::size_t k = 0; k < 2; ++k) {
+  for (std::size_t k = 0; k < 2; ++k)
     if (std::fabs(values[k]) > kFarthest_m)
       refuse(key, "lies at " + written(values[k]) + " m", "give metres in the map's frame, at most 100000");
-  }
 }
 
 std::vector<double> TomlTable::place_in_map(const std::string& key, std::size_t least) {
@@ -318,9 +311,7 @@ std::vector<TomlTable> TomlTable::tables(const std::string& key) {
 std::filesystem::path TomlTable::existing_file(const std::string& key, const std::string& remedy) {
   const std::filesystem::path named = text(key);
   std::filesystem::path file = named.is_absolute() ? named : file_->parent_path() / named;
-  if (!std::filesystem::is_regular_file(file)) {
-    refuse(key, "names " + file.string() + ", which is no file", remedy);
-  }
+  if (!std::filesystem::is_regular_file(file)) refuse(key, "names " + file.string() + ", which is no file", remedy);
   return file;
 }
 

@@ -3,9 +3,12 @@
 // "FILE:LINE: cause; remedy". Start-up only.
 #include <cstdint>
 #include <filesystem>
+#include <functional>
+#include <optional>
 #include <set>
 #include <string>
 #include <toml.hpp>
+#include <utility>
 #include <vector>
 
 #include "hal/setting_keys.h"
@@ -108,6 +111,65 @@ class TomlTable {
   std::string name_;
   std::string section_;  ///< the name, and ":kind" where keys hold for one kind only
   std::set<std::string> asked_;
+};
+
+/// A row of a table of keys and the member of a `T` that it sets, whose own value is the default; or a row alone.
+template <class T>
+struct BoundKey {
+  BoundKey(SettingKey alone) : row(std::move(alone)) {}
+  template <class Read>
+  BoundKey(SettingKey bound, const Read& reader) : row(std::move(bound)), read(reader) {}
+
+  SettingKey row;
+  std::function<void(TomlTable&, T&)> read = [](TomlTable&, T&) {};
+};
+
+template <class T>
+BoundKey<T> number_row(const char* key, double T::*member, Range range, const char* unit, const char* meaning) {
+  return {number_row(key, range, unit, T{}.*member, meaning),
+          [=](TomlTable& table, T& into) { into.*member = table.number(key, into.*member); }};
+}
+template <class T, class Whole>
+BoundKey<T> whole_row(const char* key, Whole T::*member, Range range, const char* unit, const char* meaning) {
+  return {whole_row(key, range, unit, static_cast<double>(T{}.*member), meaning), [=](TomlTable& table, T& into) {
+            into.*member = static_cast<Whole>(table.integer(key, static_cast<std::int64_t>(into.*member)));
+          }};
+}
+template <class T>
+BoundKey<T> boolean_row(const char* key, bool T::*member, const char* meaning) {
+  return {key_row(key, KeyKind::kBoolean, T{}.*member, meaning),
+          [=](TomlTable& table, T& into) { into.*member = table.boolean(key, into.*member); }};
+}
+
+/// The rows of one section and how they are read into a `T`.
+template <class T>
+class BoundKeys {
+ public:
+  /// `otherwise`: holds for all, in place of the members' own values.
+  BoundKeys(std::string section, std::vector<BoundKey<T>> rows, const std::optional<Otherwise>& otherwise = {})
+      : section_(std::move(section)), rows_(std::move(rows)) {
+    for (BoundKey<T>& bound : rows_) bound.row.otherwise = otherwise.value_or(bound.row.otherwise);
+  }
+  [[nodiscard]] std::vector<SettingKey> keys() const {
+    std::vector<SettingKey> rows;
+    for (const BoundKey<T>& bound : rows_) rows.push_back(bound.row);
+    return section_keys(section_, std::move(rows));
+  }
+  /// Reads the bound keys; the others are the caller's.
+  void read(TomlTable& table, T& into) const {
+    for (const BoundKey<T>& bound : rows_) bound.read(table, into);
+  }
+  /// Reads a whole table.
+  [[nodiscard]] T read(TomlTable table) const {
+    T value{};
+    read(table, value);
+    table.finish();
+    return value;
+  }
+
+ private:
+  std::string section_;
+  std::vector<BoundKey<T>> rows_;
 };
 
 /// A parsed file. Throws StartupError when it cannot be read or is not TOML.

@@ -1,5 +1,3 @@
-#include "apps/bench/bench_command.h"
-
 #include <array>
 #include <cmath>
 #include <cstdio>
@@ -9,10 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/bench/bench_maps.h"
-#include "apps/bench/bench_motion.h"
-#include "apps/bench/bench_rivals.h"
-#include "apps/bench/timing.h"
+#include "apps/bench/bench.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/types/errors.h"
@@ -65,11 +60,10 @@ Timing time_plan(const BenchMap& map, PlanOf what, Backend backend, int repeats)
   request.map_from_robot = {(map.start.i + 0.5) * kCell_m, (map.start.j + 0.5) * kCell_m, 0.0};
   std::array<Track, 8> tracks = walkers(side * kCell_m);
   std::array<MoverDisc, tracks.size()> bodies;
-  if (by_potential) {
+  if (by_potential)
     request.moving = tracks;
-  } else {
+  else
     request.masked = bodies;
-  }
   const char* const name = by_potential ? "potential, 8 movers" : "plan, 8 movers";
   return time(name, repeats, planner.backend(), [&] {
     constexpr double kScan_s = 1.0 / 15.0;
@@ -140,9 +134,8 @@ class Bench {
       if (backend == Backend::kCpu)
         for (const int movers : {16, 64}) own.push_back(time_decision(map, kCell_m, movers, kDecisions));
     }
-    for (const Timing& timing : own) {
+    for (const Timing& timing : own)
       for (const Timing& rival : rivals) add(map, timing, rival);
-    }
     if (!certified) std::printf("%s, %d: not certified\n", map.name.c_str(), map.cells.width);
   }
 
@@ -160,9 +153,8 @@ class Bench {
     field->inflate(kBenchInflation);
     (void)field->solve_start(map.goal);
     std::vector<std::uint8_t> free;
-    for (std::int32_t j = 0; j < side; ++j) {
+    for (std::int32_t j = 0; j < side; ++j)
       for (std::int32_t i = 0; i < side; ++i) free.push_back(std::isnan(field->psi(i, j)) ? 0 : 1);
-    }
     BenchRivals rivals(side, side, std::move(free));
     return {time("wavefront", repeats, "cpu", [&] { rivals.wavefront(map.goal); }),
             time("dijkstra, buckets", repeats, "cpu", [&] { rivals.dijkstra_buckets(map.goal); }),
@@ -219,9 +211,8 @@ int run_bench(const BenchOptions& options) {
   std::printf("%-19s %-15s %5s  %-4s %9s %9s  %-18s %7s\n", "what", "map", "size", "on", "p50_ms", "p99_ms", "baseline",
               "ratio");
   Bench bench;
-  for (std::size_t k = 0; k < maps.size(); ++k) {
+  for (std::size_t k = 0; k < maps.size(); ++k)
     bench.measure(maps[k], static_cast<double>(k) / static_cast<double>(maps.size()));
-  }
   if (options.json) write_rows(*options.json, bench.rows());
   return 0;
 }

@@ -1,8 +1,11 @@
-#include "apps/bench/bench_maps.h"
-
 #include <algorithm>
+#include <array>
+#include <functional>
 #include <optional>
+#include <queue>
+#include <utility>
 
+#include "apps/bench/bench.h"
 #include "apps/jaywalk/map_cells.h"
 #include "hal/types/errors.h"
 
@@ -12,9 +15,8 @@ namespace {
 BenchMap walled(std::string name, std::int32_t side) {
   const auto n = static_cast<std::size_t>(side);
   BenchMap map{std::move(name), {side, side, std::vector<std::uint8_t>(n * n, 0)}, {12, 12}, {side - 12, 12}};
-  for (std::size_t k = 0; k < n; ++k) {
+  for (std::size_t k = 0; k < n; ++k)
     map.cells.wall[k] = map.cells.wall[(n - 1) * n + k] = map.cells.wall[k * n] = map.cells.wall[k * n + n - 1] = 1;
-  }
   return map;
 }
 
@@ -37,15 +39,13 @@ void set(BenchMap& map, const Cells& cells, std::uint8_t value) {
 BenchMap office(std::int32_t side) {
   BenchMap map = walled("office", side);
   constexpr std::int32_t kRoom = 50, kCorridor = 30, kDoor = 12, kPeriod = 2 * kRoom + kCorridor;
-  for (std::int32_t j = kRoom; j < side; j += kPeriod) {
+  for (std::int32_t j = kRoom; j < side; j += kPeriod)
     set(map, {0, j, side, j + 2}, 1), set(map, {0, j + kCorridor, side, j + kCorridor + 2}, 1);
-  }
   for (std::int32_t i = kRoom; i < side; i += kRoom) set(map, {i, 0, i + 2, side}, 1);
   for (std::int32_t j = kRoom; j < side; j += kPeriod) {
     set(map, {0, j + 2, side, j + kCorridor}, 0);
-    for (std::int32_t i = 20; i < side; i += kRoom) {
+    for (std::int32_t i = 20; i < side; i += kRoom)
       set(map, {i, j, i + kDoor, j + 2}, 0), set(map, {i, j + kCorridor, i + kDoor, j + kCorridor + 2}, 0);
-    }
     // One door between rooms that lie back to back, so that corridors are joined.
     set(map, {20, j + kCorridor + kRoom - 6, 32, j + kCorridor + kRoom + 6}, 0);
   }
@@ -55,9 +55,8 @@ BenchMap office(std::int32_t side) {
 BenchMap serpentine(std::int32_t side, std::int32_t corridor) {
   BenchMap map = walled(corridor == 15 ? "corridor 1.5 m" : "corridor 1.0 m", side);
   bool right = true;
-  for (std::int32_t j = 1 + corridor; j + corridor < side - 1; j += corridor + 2, right = !right) {
+  for (std::int32_t j = 1 + corridor; j + corridor < side - 1; j += corridor + 2, right = !right)
     set(map, {right ? 0 : 1 + corridor, j, right ? side - 1 - corridor : side, j + 2}, 1);
-  }
   map.goal = {12, 5};
   map.start = {side - 12, 5};
   return map;
@@ -79,6 +78,9 @@ BenchMap clutter(std::int32_t side) {
   return map;
 }
 
+constexpr std::int32_t kNoWay = -1;
+constexpr std::int32_t kStraight = 10, kDiagonal = 14;
+
 }  // namespace
 
 std::vector<BenchMap> bench_maps(std::int32_t side) {
@@ -99,10 +101,115 @@ BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side) {
   field->inflate(kBenchInflation);
   map.goal = {fine.cells.width / 2, fine.cells.height / 2};
   map.start = {fine.cells.width - 12, fine.cells.height - 12};
-  if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side)) {
+  if (!field->nearest_free(map.goal, side) || !field->nearest_free(map.start, side))
     throw StartupError(file.string() + ": no free cell", "give a map with room for a robot");
-  }
   return map;
+}
+
+BenchRivals::BenchRivals(std::int32_t width, std::int32_t height, std::vector<std::uint8_t> free)
+    : width_(width), height_(height), stride_(width + 2) {
+  const auto cells = static_cast<std::size_t>(stride_) * static_cast<std::size_t>(height + 2);
+  // The ring lies at column and row -1, which is the last column of the row before: one row of spare cells in front.
+  free_.assign(cells + static_cast<std::size_t>(stride_) + 1, 0);
+  for (std::int32_t j = 0; j < height; ++j) {
+    for (std::int32_t i = 0; i < width; ++i) {
+      free_[index({i + 1, j + 1})] =
+          free[static_cast<std::size_t>(j) * static_cast<std::size_t>(width) + static_cast<std::size_t>(i)];
+    }
+  }
+  distance_.resize(free_.size());
+  queue_.resize(free_.size());
+  phi_.resize(free_.size());
+}
+
+void BenchRivals::wavefront(CellIndex goal) {
+  std::fill(distance_.begin(), distance_.end(), kNoWay);
+  const auto stride = static_cast<std::uint32_t>(stride_);
+  std::size_t head = 0, tail = 0;
+  queue_[tail++] = static_cast<std::uint32_t>(index({goal.i + 1, goal.j + 1}));
+  distance_[queue_[0]] = 0;
+  while (head < tail) {
+    const std::uint32_t c = queue_[head++];
+    for (const std::uint32_t n : {c + 1, c - 1, c + stride, c - stride}) {
+      if (free_[n] == 0 || distance_[n] != kNoWay) continue;
+      distance_[n] = distance_[c] + 1;
+      queue_[tail++] = n;
+    }
+  }
+}
+
+template <class Visit>
+void BenchRivals::for_each_step(std::size_t from, const Visit& visit) const {
+  const auto stride = static_cast<std::size_t>(stride_);
+  const std::size_t east = from + 1, west = from - 1, north = from + stride, south = from - stride;
+  for (const std::size_t n : {east, west, north, south})
+    if (free_[n] != 0) visit(n, kStraight);
+  const auto corner = [&](std::size_t n, std::size_t a, std::size_t b) {
+    if (free_[n] != 0 && free_[a] != 0 && free_[b] != 0) visit(n, kDiagonal);
+  };
+  corner(north + 1, north, east), corner(north - 1, north, west);
+  corner(south + 1, south, east), corner(south - 1, south, west);
+}
+
+void BenchRivals::dijkstra_buckets(CellIndex goal) {
+  std::fill(distance_.begin(), distance_.end(), kNoWay);
+  std::array<std::vector<std::uint32_t>, 16> ring;  // more than the dearest step
+  const std::size_t first = index({goal.i + 1, goal.j + 1});
+  distance_[first] = 0;
+  ring[0].push_back(static_cast<std::uint32_t>(first));
+  std::size_t queued = 1;
+  for (std::int32_t reached = 0; queued > 0; ++reached) {
+    std::vector<std::uint32_t>& bucket = ring[static_cast<std::size_t>(reached % 16)];
+    for (const std::uint32_t c : bucket) {
+      if (distance_[c] != reached) continue;  // found a shorter way meanwhile
+      for_each_step(c, [&](std::size_t n, std::int32_t cost) {
+        const std::int32_t through = reached + cost;
+        if (distance_[n] != kNoWay && distance_[n] <= through) return;
+        distance_[n] = through;
+        ring[static_cast<std::size_t>(through % 16)].push_back(static_cast<std::uint32_t>(n));
+        ++queued;
+      });
+    }
+    queued -= bucket.size();
+    bucket.clear();
+  }
+}
+
+void BenchRivals::dijkstra_heap(CellIndex goal) {
+  using Entry = std::pair<std::int32_t, std::uint32_t>;
+  std::fill(distance_.begin(), distance_.end(), kNoWay);
+  std::priority_queue<Entry, std::vector<Entry>, std::greater<>> heap;
+  const std::size_t first = index({goal.i + 1, goal.j + 1});
+  distance_[first] = 0;
+  heap.emplace(0, static_cast<std::uint32_t>(first));
+  while (!heap.empty()) {
+    const auto [reached, c] = heap.top();
+    heap.pop();
+    if (distance_[c] != reached) continue;
+    const std::int32_t here = reached;
+    for_each_step(c, [&](std::size_t n, std::int32_t cost) {
+      const std::int32_t through = here + cost;
+      if (distance_[n] != kNoWay && distance_[n] <= through) return;
+      distance_[n] = through;
+      heap.emplace(through, static_cast<std::uint32_t>(n));
+    });
+  }
+}
+
+void BenchRivals::hundred_sweeps(CellIndex goal) {
+  const auto stride = static_cast<std::size_t>(stride_);
+  for (std::size_t c = 0; c < phi_.size(); ++c) phi_[c] = free_[c] != 0 ? 0.5F : 1.0F;
+  const std::size_t at_goal = index({goal.i + 1, goal.j + 1});
+  phi_[at_goal] = 0.0F;
+  for (std::int32_t half = 0; half < 200; ++half) {
+    for (std::int32_t j = 1; j <= height_; ++j) {
+      for (std::int32_t i = 1 + ((j + half) & 1); i <= width_; i += 2) {
+        const std::size_t c = index({i, j});
+        if (free_[c] == 0 || c == at_goal) continue;
+        phi_[c] = 0.25F * ((phi_[c + 1] + phi_[c - 1]) + (phi_[c + stride] + phi_[c - stride]));
+      }
+    }
+  }
 }
 
 }  // namespace jaywalk

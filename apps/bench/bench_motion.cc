@@ -1,9 +1,8 @@
-#include "apps/bench/bench_motion.h"
-
 #include <memory>
 #include <string>
 #include <vector>
 
+#include "apps/bench/bench.h"
 #include "firmware/backends.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
@@ -80,9 +79,8 @@ std::vector<LaserScan> scans_of(const BenchMap& map, double cell_m, std::span<co
   std::vector<sim::Disc> discs(walkers.size());
   for (std::size_t k = 0; k < scans.size(); ++k) {
     const Duration after = setup.tick() * static_cast<std::int64_t>(k + 1);
-    for (std::size_t w = 0; w < discs.size(); ++w) {
+    for (std::size_t w = 0; w < discs.size(); ++w)
       discs[w] = {walkers[w].position_in_map + walkers[w].velocity_in_map * to_seconds(after), walkers[w].radius_m};
-    }
     laser.sweep(walls, discs, setup.start, Time{after}, scans[k]);
     scans[k].sequence = static_cast<std::uint32_t>(k + 1);
   }

@@ -2,6 +2,7 @@
 // campaign.json: all that a report needs to know of a campaign beside its runs.
 #include <filesystem>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "apps/campaign/campaign.h"
@@ -27,5 +28,10 @@ struct ReportedCampaign {
 
 /// Throws StartupError, naming `file`, for what is no such text.
 [[nodiscard]] ReportedCampaign read_plan(const std::filesystem::path& file);
+
+/// FNV-1a, 64 bits (Fowler, Noll and Vo; RFC 9923), as 16 hexadecimal digits: tells files apart, keeps no secret.
+[[nodiscard]] std::string digest_of_text(std::string_view text);
+/// Of a file's bytes; of nothing where it cannot be read.
+[[nodiscard]] std::string digest_of_file(const std::filesystem::path& file);
 
 }  // namespace jaywalk::campaign

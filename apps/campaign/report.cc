@@ -3,11 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/charts.h"
-#include "apps/campaign/digest.h"
 #include "apps/campaign/statistics.h"
-#include "apps/campaign/success.h"
 #include "hal/text_file.h"
 
 namespace jaywalk::campaign {
@@ -18,9 +15,8 @@ std::vector<TurnBars> turn_bars(const ReportedTables& tables) {
   for (const ReportedRow& row : tables.rows) {
     TurnBars bars{row.name, {}};
     double sum = 0.0;
-    for (const ReportedRun& run : row.runs) {
+    for (const ReportedRun& run : row.runs)
       for (std::size_t k = 0; k < kTurnBins; ++k) bars.shares[k] += run.result.turns[k], sum += run.result.turns[k];
-    }
     for (double& share : bars.shares) share = sum > 0.0 ? share / sum : 0.0;
     all.push_back(bars);
   }
@@ -59,9 +55,8 @@ ReportSection section_of(const ReportedTables& tables) {
 std::string digest_of(const std::vector<ReportedTables>& all) {
   std::string digests;
   for (const ReportedTables& tables : all) {
-    for (const ReportedRow& row : tables.rows) {
+    for (const ReportedRow& row : tables.rows)
       for (const ReportedRun& run : row.runs) digests += run.result.robot_csv + "\n";
-    }
   }
   return digest_of_text(digests);
 }

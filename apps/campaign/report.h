@@ -1,13 +1,12 @@
 #pragma once
 // The report of a campaign from the folders of its shards.
 #include <filesystem>
-#include <optional>
 #include <string>
 #include <vector>
 
+#include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/plan_text.h"
 #include "apps/campaign/report_page.h"
-#include "apps/campaign/run_result.h"
 
 namespace jaywalk::campaign {
 

@@ -1,6 +1,5 @@
 #pragma once
 // A campaign's report before it has a form: HTML and Markdown say the same.
-#include <filesystem>
 #include <string>
 #include <vector>
 

@@ -9,7 +9,6 @@
 #include <csignal>
 #include <cstring>
 #include <utility>
-#include <vector>
 
 #include "hal/types/errors.h"
 

@@ -50,9 +50,8 @@ double half_interval(const std::vector<double>& values) {
 
 double mean(const std::vector<double>& values) {
   double sum = 0.0, count = 0.0;
-  for (const double value : values) {
+  for (const double value : values)
     if (!std::isnan(value)) sum += value, ++count;
-  }
   return count > 0.0 ? sum / count : kUnknown;
 }
 

@@ -6,7 +6,7 @@
 #include <cstdio>
 #include <utility>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 #include "apps/view/goal_message.h"
 #include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"

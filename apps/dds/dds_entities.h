@@ -8,7 +8,7 @@
 #include <string>
 #include <type_traits>
 
-#include "apps/formats/goal_orders.h"
+#include "apps/formats/ros_robot.h"
 
 namespace jaywalk::dds {
 

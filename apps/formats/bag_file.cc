@@ -3,9 +3,7 @@
 #include <yaml-cpp/yaml.h>
 
 #include <algorithm>
-#include <cstring>
 #include <fstream>
-#include <optional>
 #include <vector>
 
 #include "apps/formats/byte_file.h"
@@ -36,11 +34,10 @@ std::filesystem::path inside(const std::filesystem::path& folder, const std::str
   const std::filesystem::path file = folder / std::filesystem::path(name).filename();
   if (std::filesystem::exists(file)) return file;
   std::filesystem::path other = file;
-  if (file.extension() == ".zstd") {
+  if (file.extension() == ".zstd")
     other.replace_extension();
-  } else {
+  else
     other += ".zstd";
-  }
   return std::filesystem::exists(other) ? other : file;
 }
 
@@ -62,9 +59,8 @@ std::vector<std::filesystem::path> listed_files(const std::filesystem::path& met
 /// The recordings that lie in it, by their names: b_2 before b_10.
 std::vector<std::filesystem::path> found_files(const std::filesystem::path& folder) {
   std::vector<std::filesystem::path> files;
-  for (const auto& entry : std::filesystem::directory_iterator(folder)) {
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
     if (entry.is_regular_file() && format_of(entry.path()) != Format::kNone) files.push_back(entry.path());
-  }
   std::sort(files.begin(), files.end(),
             [](const auto& a, const auto& b) { return ::strverscmp(a.c_str(), b.c_str()) < 0; });
   return files;
@@ -98,21 +94,15 @@ class UnpackedFile {
 std::string read_file(const std::filesystem::path& file, const BagSink& sink) {
   require_readable(file, file.string() + ": ", "give a recording");
   switch (format_of(file)) {
-    case Format::kMcap:
-      return read_mcap(file, sink);
-    case Format::kRos1:
-      read_ros1_bag(file, sink);
-      return "";
-    case Format::kSqlite:
-      read_sqlite_bag(file, sink);
-      return "";
+    case Format::kMcap: return read_mcap(file, sink);
+    case Format::kRos1: read_ros1_bag(file, sink); return "";
+    case Format::kSqlite: read_sqlite_bag(file, sink); return "";
     case Format::kZstd: {
       const UnpackedFile unpacked(file);
       if (format_of(unpacked.path()) == Format::kZstd) break;
       return read_file(unpacked.path(), sink);
     }
-    case Format::kNone:
-      break;
+    case Format::kNone: break;
   }
   throw StartupError(file.string() + ": no recording that is known here",
                      "give an MCAP file, a ROS 2 bag or a ROS 1 bag");

@@ -4,14 +4,10 @@
 #include <cmath>
 #include <cstdio>
 #include <map>
-#include <set>
 #include <utility>
 #include <vector>
 
 #include "apps/formats/bag_file.h"
-#include "apps/formats/foxglove_input.h"
-#include "apps/formats/laser_mount.h"
-#include "apps/formats/logs/beam_fit.h"
 #include "apps/formats/logs/log_checks.h"
 #include "apps/formats/ros_input.h"
 #include "hal/shown_text.h"
@@ -248,10 +244,9 @@ void add_odometry(sim::RecordedLog& log, const std::string& name, const std::vec
 /// taken to spin.
 Duration sweep_of(sim::RecordedLog& log, const std::string& name, const std::vector<ScanMessage>& messages) {
   std::vector<double> sweeps_s;
-  for (const ScanMessage& message : messages) {
+  for (const ScanMessage& message : messages)
     if (message.range_m.size() > 1)
       sweeps_s.push_back(static_cast<double>(message.beam_step_s) * static_cast<double>(message.range_m.size() - 1));
-  }
   std::sort(sweeps_s.begin(), sweeps_s.end(),
             [](double a, double b) { return a < b || (std::isnan(b) && !std::isnan(a)); });
   const double sweep_s = sweeps_s.empty() ? 0.0 : sweeps_s[sweeps_s.size() / 2];

@@ -66,9 +66,8 @@ bool can_unpack(std::string_view method) {
 }
 
 std::optional<std::string> unpack(std::string_view method, std::string_view packed, std::size_t bytes) {
-  if (method.empty() || method == "none") {
+  if (method.empty() || method == "none")
     return packed.size() == bytes ? std::optional<std::string>(packed) : std::nullopt;
-  }
   std::string out(bytes, '\0');
   const bool whole = method == "zstd"  ? ZSTD_decompress(out.data(), bytes, packed.data(), packed.size()) == bytes
                      : method == "lz4" ? unpack_lz4(packed, out)

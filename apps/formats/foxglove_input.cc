@@ -1,9 +1,8 @@
-#include "apps/formats/foxglove_input.h"
-
 #include <array>
 #include <limits>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/ros_input.h"
+#include "apps/formats/wire_reader.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -39,7 +38,7 @@ class ProtoFields {
   [[nodiscard]] std::uint32_t number() const { return number_; }
   [[nodiscard]] std::uint64_t value() const { return value_; }
   [[nodiscard]] std::string_view bytes() const { return bytes_; }
-  [[nodiscard]] double f64() const { return LittleEndian(bytes_).number<double>(); }
+  [[nodiscard]] double f64() const { return WireReader(bytes_).number<double>(); }
 
  private:
   std::uint64_t varint() {
@@ -53,7 +52,7 @@ class ProtoFields {
     return 0;
   }
 
-  LittleEndian in_;
+  WireReader in_;
   bool known_ = true;
   std::uint32_t number_ = 0;
   std::uint64_t value_ = 0;
@@ -112,7 +111,7 @@ std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes) {
     if (f.number() == 4) first = f.f64();
     if (f.number() == 5) last = f.f64();
     if (f.number() != 6) return;
-    LittleEndian ranges(f.bytes());
+    WireReader ranges(f.bytes());
     ok = ok && f.bytes().size() % sizeof(double) == 0;
     while (!ranges.empty() && ranges.ok()) scan.range_m.push_back(static_cast<float>(ranges.number<double>()));
   });

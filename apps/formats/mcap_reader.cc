@@ -3,8 +3,8 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/byte_file.h"
-#include "apps/formats/little_endian.h"
-#include "apps/formats/mcap_format.h"
+#include "apps/formats/mcap_writer.h"
+#include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::exchange {
@@ -47,7 +47,7 @@ class McapFile {
     at_ = next_;
     if (is_cut_ && !is_whole()) return false;
     const std::string head = file_.read(at_, kRecordHead);
-    LittleEndian in(head);
+    WireReader in(head);
     op_ = in.number<std::uint8_t>();
     bytes_ = in.u64();
     if (bytes_ > file_.size() - at_ - kRecordHead) file_.refuse(at_, "a record that is longer than the file");
@@ -70,7 +70,7 @@ class McapFile {
   }
   void check_data_end() {
     const std::string body = file_.read(at_ + kRecordHead, bytes_);
-    const std::uint32_t said = LittleEndian(body).u32();
+    const std::uint32_t said = WireReader(body).u32();
     if (said != 0 && said != crc_) refuse("the data's check sum is wrong");
   }
   [[noreturn]] void refuse(const std::string& cause) const { file_.refuse(at_, cause); }
@@ -80,7 +80,7 @@ class McapFile {
     const std::uint64_t left = file_.size() - at_;
     if (left < kRecordHead) return false;
     const std::string head = file_.read(at_, kRecordHead);
-    return LittleEndian(std::string_view(head).substr(1)).u64() <= left - kRecordHead;
+    return WireReader(std::string_view(head).substr(1)).u64() <= left - kRecordHead;
   }
 
   ByteFile file_;
@@ -96,7 +96,7 @@ class McapMessages {
   McapMessages(const McapFile& file, const BagSink& sink) : file_(file), sink_(sink) {}
 
   void take(std::uint8_t op, std::string_view body) {
-    LittleEndian in(body);
+    WireReader in(body);
     if (op == kSchema) {
       const std::uint16_t number = in.u16();
       schemas_[number] = ros1_name(in.sized());
@@ -111,13 +111,13 @@ class McapMessages {
   }
 
  private:
-  void add_channel(LittleEndian& in) {
+  void add_channel(WireReader& in) {
     const std::uint16_t number = in.u16(), schema = in.u16();
     const std::string_view topic = in.sized(), encoding = in.sized();
     channels_[number] = {std::string(topic), schemas_[schema], wire_of(encoding)};
     if (channels_[number].wire == Wire::kOther) channels_[number].type += " in " + std::string(encoding);
   }
-  void pass_on(LittleEndian& in) {
+  void pass_on(WireReader& in) {
     const std::uint16_t number = in.u16();
     (void)in.u32();  // its running number
     const Time logged{std::chrono::nanoseconds(in.u64())};
@@ -126,7 +126,7 @@ class McapMessages {
     if (channel == channels_.end()) file_.refuse("a message of a channel that the file does not describe");
     if (in.ok()) sink_({channel->second.topic, channel->second.type, channel->second.wire, logged, in.rest()});
   }
-  void open_chunk(LittleEndian& in) {
+  void open_chunk(WireReader& in) {
     (void)in.u64(), (void)in.u64();  // of its first and last message
     const std::uint64_t bytes = in.u64();
     const std::uint32_t crc = in.u32();
@@ -138,7 +138,7 @@ class McapMessages {
     const auto unpacked = unpack(method, packed, bytes);
     if (!unpacked) file_.refuse("a chunk that does not unpack");
     if (crc != 0 && crc_of(*unpacked) != crc) file_.refuse("a chunk's check sum is wrong");
-    LittleEndian records(*unpacked);
+    WireReader records(*unpacked);
     while (!records.empty()) {
       const auto op = records.number<std::uint8_t>();
       const std::string_view body = records.take(records.u64());
@@ -177,7 +177,7 @@ Attachment find_attachment(const std::filesystem::path& path, std::string_view n
   while (file.next()) {
     if (file.op() != kAttachment) continue;
     const std::string body = file.body();
-    LittleEndian in(body);
+    WireReader in(body);
     (void)in.u64(), (void)in.u64();  // when it was recorded and made
     const std::string_view said = in.sized(), type = in.sized();
     const std::uint64_t bytes = in.u64(), before = 8 + 8 + 4 + said.size() + 4 + type.size() + 8;

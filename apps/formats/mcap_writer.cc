@@ -4,7 +4,6 @@
 #include <cstring>
 
 #include "apps/formats/byte_file.h"
-#include "apps/formats/mcap_format.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {

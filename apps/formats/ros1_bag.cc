@@ -8,7 +8,7 @@
 
 #include "apps/formats/bag_file.h"
 #include "apps/formats/byte_file.h"
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
@@ -26,7 +26,7 @@ enum Op : std::uint8_t { kMessageData = 2, kBagHeader = 3, kIndexData = 4, kChun
 /// "name=value" fields, each behind its length; empty where they are none.
 std::map<std::string, std::string, std::less<>> fields_of(std::string_view bytes, bool& ok) {
   std::map<std::string, std::string, std::less<>> fields;
-  LittleEndian in(bytes);
+  WireReader in(bytes);
   while (!in.empty() && in.ok()) {
     const std::string_view field = in.sized();
     const std::size_t equals = field.find('=');
@@ -61,9 +61,8 @@ class Ros1Bag {
       at_ = record->end;
     }
     if (!headed_) refuse("there is no bag header");
-    if (chunks_ != chunks_said_) {
+    if (chunks_ != chunks_said_)
       refuse("the file is cut short: " + std::to_string(chunks_) + " of " + std::to_string(chunks_said_) + " chunks");
-    }
   }
 
  private:
@@ -98,7 +97,7 @@ class Ros1Bag {
   std::uint64_t bytes_of_index(const Record& record, std::uint64_t body) {
     const auto count = record.fields.find("count");
     if (count == record.fields.end() || count->second.size() != sizeof(std::uint32_t)) return record.bytes;
-    const std::uint64_t entries = LittleEndian(count->second).u32() * kIndexEntry;
+    const std::uint64_t entries = WireReader(count->second).u32() * kIndexEntry;
     const auto record_follows = [&](std::uint64_t after) {
       return after == file_.size() || (after + 8 <= file_.size() && begins_record(file_.read(after, 8)));
     };
@@ -107,7 +106,7 @@ class Ros1Bag {
   }
   /// A head's length, and that of its first field.
   static bool begins_record(std::string_view bytes) {
-    LittleEndian in(bytes);
+    WireReader in(bytes);
     const std::uint32_t head = in.u32(), field = in.u32();
     return in.ok() && head <= kLongestHead && field >= 2 && field + 4 <= head;
   }
@@ -127,14 +126,14 @@ class Ros1Bag {
   }
   std::uint32_t u32_at(std::uint64_t at) {
     const std::string size = file_.read(at, 4);
-    return LittleEndian(size).u32();
+    return WireReader(size).u32();
   }
   template <class T>
   [[nodiscard]] T number(const Fields& fields, std::string_view name) const {
     const auto found = fields.find(name);
     if (found == fields.end() || found->second.size() != sizeof(T))
       refuse("a record without '" + std::string(name) + "'");
-    return LittleEndian(found->second).number<T>();
+    return WireReader(found->second).number<T>();
   }
   void take(const Fields& fields, std::string_view body, bool outside) {
     const auto op = number<std::uint8_t>(fields, "op");
@@ -159,7 +158,7 @@ class Ros1Bag {
     if (bytes > kMostRecordBytes) refuse("a chunk of " + std::to_string(bytes) + " bytes");
     const auto unpacked = unpack(method, body, bytes);
     if (!unpacked) refuse("a chunk that does not unpack");
-    LittleEndian records(*unpacked);
+    WireReader records(*unpacked);
     while (!records.empty()) {
       const std::string_view head = records.sized(), inner = records.sized();
       bool ok = records.ok();

@@ -1,16 +1,36 @@
 #pragma once
 // The messages of others that a replay needs, in ROS 1's bytes or ROS 2's.
+#include <Eigen/Geometry>
+#include <map>
 #include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include "apps/formats/spatial_frame.h"
 #include "apps/formats/wire_reader.h"
 #include "hal/types/geometry.h"
 #include "hal/types/time.h"
+#include "hal/types/trig.h"
 
 namespace jaywalk::exchange {
+
+// Where a frame lies in another, in space: a transform as ROS's tf has it.
+
+/// parent_from_child: m, and a unit quaternion.
+using SpatialFrame = Eigen::Transform<double, 3, Eigen::Isometry>;
+
+/// Of a translation (m) and a quaternion (x, y, z, w) of any length; one of length 0 turns nothing.
+[[nodiscard]] inline SpatialFrame spatial_frame(double x, double y, double z, const Eigen::Vector4d& xyzw) {
+  SpatialFrame frame = SpatialFrame::Identity();
+  frame.translation() = Eigen::Vector3d(x, y, z);
+  if (xyzw.norm() > 1e-6) frame.linear() = Eigen::Quaterniond(Eigen::Vector4d(xyzw.normalized())).toRotationMatrix();
+  return frame;
+}
+
+/// The heading of the frame's x axis in the parent's plane, rad.
+[[nodiscard]] inline double heading_of(const SpatialFrame& frame) {
+  return atan2(frame.linear()(1, 0), frame.linear()(0, 0));
+}
 
 /// sensor_msgs/LaserScan, in metres, seconds and radians.
 struct ScanMessage {
@@ -45,5 +65,49 @@ struct TransformMessage {
 [[nodiscard]] std::optional<ScanMessage> read_scan(std::string_view bytes, Wire wire);
 [[nodiscard]] std::optional<OdometryMessage> read_odometry(std::string_view bytes, Wire wire);
 [[nodiscard]] std::optional<std::vector<TransformMessage>> read_transforms(std::string_view bytes, Wire wire);
+
+// Where a laser sits on a robot, from the frames of its recording.
+
+/// Frames by the frame that each lies in, as tf has them: a forest.
+class FrameTree {
+ public:
+  /// What has a NaN says nothing. Names may begin with a slash. What says something else than before makes its frame
+  /// one that moves.
+  void add(const TransformMessage& transform);
+  [[nodiscard]] bool has(const std::string& frame) const { return parents_.count(bare(frame)) > 0; }
+  /// base_from_frame, along the tree; nothing where no way joins them, or one of its frames moves.
+  [[nodiscard]] std::optional<SpatialFrame> find(const std::string& base, const std::string& frame) const;
+
+  /// The name without a slash before it, as ROS 1 has some.
+  [[nodiscard]] static std::string bare(const std::string& frame) {
+    return frame.rfind('/', 0) == 0 ? frame.substr(1) : frame;
+  }
+
+ private:
+  struct Edge {
+    std::string parent;
+    SpatialFrame parent_from_child;
+    bool moves = false;
+  };
+  std::map<std::string, Edge> parents_;
+};
+
+/// A laser in the robot's plane.
+struct LaserMount {
+  Pose2 robot_from_laser;
+  bool upside_down = false;  ///< its angles count clockwise, seen from above
+};
+/// Nothing where its plane is not level to 10 degrees.
+[[nodiscard]] std::optional<LaserMount> level_mount(const SpatialFrame& base_from_laser);
+
+// Foxglove's own messages in protobuf (github.com/foxglove/foxglove-sdk, schemas/proto), as far as a replay needs them.
+
+/// foxglove.LaserScan: it says no range limits (0 to infinity here) and no times of beams, but where its origin lies in
+/// its frame. Nothing where the bytes are no such message.
+[[nodiscard]] std::optional<ScanMessage> read_foxglove_scan(std::string_view bytes);
+/// foxglove.FrameTransform.
+[[nodiscard]] std::optional<TransformMessage> read_foxglove_transform(std::string_view bytes);
+/// foxglove.FrameTransforms.
+[[nodiscard]] std::optional<std::vector<TransformMessage>> read_foxglove_transforms(std::string_view bytes);
 
 }  // namespace jaywalk::exchange

@@ -6,11 +6,10 @@
 #include <cstdio>
 #include <limits>
 #include <map>
-#include <set>
 #include <sstream>
 #include <vector>
 
-#include "apps/formats/little_endian.h"
+#include "apps/formats/wire_reader.h"
 
 namespace jaywalk::exchange {
 namespace {
@@ -277,9 +276,8 @@ std::string occupancy(const EvidenceMap& map, Time time) {
   }
   if (!any) return "";
   std::string cells;
-  for (std::int32_t j = low.j; j <= high.j; ++j) {
+  for (std::int32_t j = low.j; j <= high.j; ++j)
     for (std::int32_t i = low.i; i <= high.i; ++i) cells += static_cast<char>(state({i, j}));
-  }
   CdrWriter out;
   header(out, time, "map");
   stamp(out, time);

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/recorded_log.h"
 #include "hal/types/trig.h"
 
 namespace jaywalk::exchange {
@@ -35,6 +35,11 @@ Duration age_on_wall(Time stamp, Time wall) {
   const bool are_set = stamp > Time{} && wall > Time{};
   const Duration old = are_set ? wall - stamp : Duration{0};
   return old < SentTimes::kOneClock ? std::max(old, Duration{0}) : Duration{0};
+}
+
+bool is_far_from(Time stamp, Time wall) {
+  if (stamp <= Time{} || wall <= Time{}) return false;
+  return stamp > wall + GoalOrders::kGood || stamp < wall - GoalOrders::kGood;
 }
 
 }  // namespace
@@ -99,6 +104,16 @@ std::optional<Twist2> twist_of(double left_radps, double right_radps, const Driv
   if (!(std::fabs(left_radps) <= most_radps && std::fabs(right_radps) <= most_radps)) return std::nullopt;
   return Twist2{0.5 * (left_radps + right_radps) * drive.wheel_radius_m,
                 (right_radps - left_radps) * drive.wheel_radius_m / drive.track_width_m};
+}
+
+GoalOrders::Heard GoalOrders::judge(std::string_view message, Time stamp, std::uint64_t writer,
+                                    const Arrival& arrival) {
+  if (last_.size() == kMostWriters && !last_.contains(writer)) last_.clear();
+  std::string& last = last_[writer];
+  if (stamp > Time{} && last == message) return Heard::kRepeated;
+  last = message;
+  const bool late = is_far_from(stamp, arrival.wall) || is_far_from(arrival.written, arrival.wall);
+  return late ? Heard::kLate : Heard::kOrder;
 }
 
 }  // namespace jaywalk::exchange

@@ -2,8 +2,6 @@
 
 #include <cmath>
 
-#include "apps/formats/ros_messages.h"
-
 namespace jaywalk::exchange {
 namespace {
 

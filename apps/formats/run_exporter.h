@@ -1,6 +1,5 @@
 #pragma once
 #include <filesystem>
-#include <optional>
 
 #include "apps/formats/mcap_writer.h"
 #include "apps/formats/ros_topics.h"

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/campaign_command.h"
-
 #include <sched.h>
 
 #include <algorithm>
@@ -11,7 +9,7 @@
 
 #include "apps/campaign/plan_text.h"
 #include "apps/campaign/run_pool.h"
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

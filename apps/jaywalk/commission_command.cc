@@ -1,8 +1,7 @@
-#include "apps/jaywalk/commission_command.h"
-
 #include <algorithm>
 #include <cstdio>
 
+#include "apps/jaywalk/commands.h"
 #include "apps/setup/armed_session.h"
 #include "apps/setup/wiring_checks.h"
 #include "firmware/robot/commissioned.h"

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/config_command.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -9,6 +7,7 @@
 #include <vector>
 
 #include "apps/campaign/campaign.h"
+#include "apps/jaywalk/commands.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
@@ -69,15 +68,11 @@ std::string in_short(const SettingKey& key) {
       const std::size_t between = text.find(" to ");
       return with_unit(text.substr(0, between) + ".." + text.substr(between + 4), key);
     }
-    case KeyKind::kBoolean:
-      return "boolean";
-    case KeyKind::kFile:
-      return "path";
+    case KeyKind::kBoolean: return "boolean";
+    case KeyKind::kFile: return "path";
     case KeyKind::kNumbers:
-    case KeyKind::kPoints:
-      return key.unit[0] == '\0' ? "numbers" : key.unit;
-    default:
-      return allowed(key);
+    case KeyKind::kPoints: return key.unit[0] == '\0' ? "numbers" : key.unit;
+    default: return allowed(key);
   }
 }
 

@@ -1,9 +1,8 @@
-#include "apps/jaywalk/export_command.h"
-
 #include <cstdio>
 #include <string>
 
 #include "apps/formats/run_exporter.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/why/recorded_run.h"
 #include "hal/types/errors.h"

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/faults_command.h"
-
 #include <algorithm>
 #include <array>
 #include <cstdio>
@@ -8,9 +6,9 @@
 #include <utility>
 #include <vector>
 
+#include "apps/jaywalk/commands.h"
 #include "hal/text_file.h"
 #include "hil/faults/fault_matrix.h"
-#include "hil/faults/matrix_files.h"
 
 namespace jaywalk {
 namespace {

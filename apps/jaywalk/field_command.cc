@@ -1,5 +1,3 @@
-#include "apps/jaywalk/field_command.h"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -7,7 +5,8 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
-#include "apps/bench/timing.h"
+#include "apps/bench/bench.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/map_cells.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/shown_text.h"
@@ -92,9 +91,8 @@ std::string best_in_words(const std::optional<double>& best) {
 }  // namespace
 
 int run_field(const FieldOptions& options) {
-  if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0)) {
+  if (!(options.inflation_m >= 0.0 && options.inflation_m <= 5.0))
     throw StartupError("--inflation: outside 0 to 5 m", "give the robot's radius and a margin");
-  }
   const MapCells map = load_map_cells(options.map, options.cell_m);
   const std::unique_ptr<MapField> chosen = make_map_field(map.cells, options.backend, options.device);
   MapField& solver = *chosen;

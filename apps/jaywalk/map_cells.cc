@@ -48,9 +48,8 @@ MapCells drawn_cells(const std::filesystem::path& file, sim::WallMap map, double
 
 MapCells load_map_cells(const std::filesystem::path& file, std::optional<double> cell_m) {
   const std::string name = file.string(), ending = file.extension().string();
-  if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0)) {
+  if (cell_m && !(*cell_m >= 0.001 && *cell_m <= 10.0))
     throw StartupError("--resolution: outside 0.001 to 10 m", "give metres a cell");
-  }
   require_readable(file, name + ": ", "give a map's path");
   if (ending == ".yaml" || ending == ".yml") {
     if (cell_m) throw StartupError(name + ": says its resolution itself", "leave --resolution out");

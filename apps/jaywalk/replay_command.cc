@@ -1,5 +1,3 @@
-#include "apps/jaywalk/replay_command.h"
-
 #include <bit>
 #include <cctype>
 #include <cmath>
@@ -12,17 +10,16 @@
 #include "apps/formats/bag_log.h"
 #include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/log_replay.h"
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "apps/report/run_observer.h"
-#include "apps/setup/mount_check.h"
 #include "apps/setup/mount_search.h"
 #include "apps/view/live_view.h"
 #include "apps/why/recorded_run.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
 #include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/run_parts.h"
+#include "firmware/recording/run_folders.h"
 #include "hal/robot_model_file.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
@@ -54,9 +51,8 @@ sim::RecordedLog load(const ReplayOptions& options, const std::string& format) {
                        format == "scan-odom" ? "give SCAN.txt and, where there is one, ODOM.txt" : "give one log");
   }
   const Pose2 models = options.model.empty() ? Pose2{} : robot_model(options.model).laser.robot_from_laser;
-  if (format == "bag") {
+  if (format == "bag")
     return exchange::load_bag(options.logs[0], {options.scan_topic, options.odom_topic, options.laser_mount, models});
-  }
   const Pose2 mount = options.laser_mount.value_or(models);
   if (format == "carmen") return sim::load_carmen(options.logs[0], mount);
   return sim::load_scan_odom(options.logs[0], options.logs.size() > 1 ? std::optional(options.logs[1]) : std::nullopt,
@@ -219,9 +215,8 @@ bool same_bits(double a, double b) { return std::bit_cast<std::uint64_t>(a) == s
 /// Replays our own recording and compares every command. `part`: where in the file it stands.
 int replay_recording(const ReplayOptions& options, FilePart part) {
   const std::string file = options.logs[0].string();
-  if (options.logs.size() > 1) {
+  if (options.logs.size() > 1)
     throw StartupError(options.logs[1].string() + ": one file too many", "a recording holds everything in one file");
-  }
   warn_of_options_of_logs(options);
   RecordedRun run(options.logs[0], part);
   refuse_own_folder(run, options.out);

@@ -1,10 +1,9 @@
-#include "apps/jaywalk/report_command.h"
-
 #include <cstdio>
 #include <string>
 
 #include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/report.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/report/run_words.h"
 #include "hal/types/errors.h"
 
@@ -24,10 +23,9 @@ void make_empty(const std::filesystem::path& folder) {
 void save(const campaign::ReportPage& page, const std::filesystem::path& out) {
   make_empty(out / "charts");
   make_empty(out / "failures");
-  for (const campaign::ReportSection& section : page.sections) {
+  for (const campaign::ReportSection& section : page.sections)
     for (const campaign::ReportChart& chart : section.charts)
       campaign::write_whole(out / "charts" / (chart.name + ".svg"), chart.svg, kBegun);
-  }
   std::size_t number = 0;
   for (const campaign::ReportFailure& failure : page.failures) {
     ++number;

@@ -1,6 +1,5 @@
 #include "apps/jaywalk/run_observers.h"
 
-#include "apps/jaywalk/view_option.h"
 #include "apps/view/run_view.h"
 #include "firmware/robot/planner_thread.h"
 

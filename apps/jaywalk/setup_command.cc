@@ -1,5 +1,3 @@
-#include "apps/jaywalk/setup_command.h"
-
 #include <unistd.h>
 
 #include <cstdio>
@@ -7,6 +5,7 @@
 #include <fstream>
 #include <iostream>
 
+#include "apps/jaywalk/commands.h"
 #include "apps/setup/robot_setup.h"
 #include "firmware/program/run_command.h"
 #include "firmware/robot/realtime.h"

@@ -1,5 +1,3 @@
-#include "apps/jaywalk/sim_command.h"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -7,22 +5,57 @@
 #include <memory>
 #include <thread>
 
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
-#include "apps/jaywalk/shipped_scenarios.h"
 #include "apps/report/run_observer.h"
 #include "apps/rivals/paper_mode.h"
 #include "apps/view/sim_view.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/robot/known_map_file.h"
 #include "firmware/safety/zone_check.h"
+#include "hal/shown_text.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
 namespace {
+
+/// PREFIX/bin/jaywalk has PREFIX/share/jaywalk/scenarios; a build lies in its sources, or a folder or two below.
+std::filesystem::path shipped_folder() {
+  std::error_code failed;
+  std::filesystem::path above = std::filesystem::read_symlink("/proc/self/exe", failed).parent_path();
+  for (int depth = 0; depth < 4 && above.has_relative_path(); ++depth, above = above.parent_path()) {
+    for (const char* const place : {"share/jaywalk/scenarios", "hal/sim/scenarios"})
+      if (std::filesystem::is_directory(above / place, failed)) return above / place;
+  }
+  return {};
+}
+
+std::vector<std::string> names_in(const std::filesystem::path& folder) {
+  std::vector<std::string> names;
+  std::error_code failed;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, failed))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// `given` itself where there is such a file, or it has a folder; else the scenario of that name that comes with the
+/// program: installed beside it, or in the sources that it was built from. Throws StartupError for a name that is none
+/// of theirs, with the nearest.
+std::filesystem::path scenario_named(const std::filesystem::path& given) {
+  if (std::filesystem::exists(given) || given.has_parent_path()) return given;
+  const std::filesystem::path folder = shipped_folder();
+  const std::string name = given.extension() == ".toml" ? given.stem().string() : given.string();
+  if (std::filesystem::exists(folder / (name + ".toml"))) return folder / (name + ".toml");
+  const std::vector<std::string> names = names_in(folder);
+  if (given.extension() == ".toml" || names.empty()) return given;
+  std::string all;
+  for (const std::string& one : names) all += (all.empty() ? "" : ", ") + one;
+  throw StartupError(name + ": no such file, and no scenario of that name",
+                     did_you_mean(name, names, "give a file, or one of " + all));
+}
 
 /// The simulator's truth in the report's words.
 class TruthForReport {
@@ -138,9 +171,8 @@ std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, cons
   if (applied && waits_for_reset && t.verdict.permitted == Twist2{}) return "fault";
   const OperatorInput wanted = with_goal(t.input);
   if (wanted.has_goal && wanted.is_reached_at(truth.map_from_robot) &&
-      (!wanted.wants_heading() || is_at_rest(truth.twist))) {
+      (!wanted.wants_heading() || is_at_rest(truth.twist)))
     return truth.forced_movers > 0 ? "forced_mover" : "reached";
-  }
   return to_seconds(t.now - set_out) >= scenario.timeout_s ? "timeout" : "";
 }
 

@@ -2,7 +2,7 @@
 #include <memory>
 #include <vector>
 
-#include "firmware/log_histogram.h"
+#include "firmware/run_sample.h"
 
 namespace jaywalk {
 

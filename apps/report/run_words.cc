@@ -11,7 +11,7 @@
 #include "apps/report/csv_rows.h"
 #include "apps/report/loop_count.h"
 #include "apps/report/moments.h"
-#include "firmware/recording/run_parts.h"
+#include "firmware/recording/run_folders.h"
 #include "firmware/safety/reasons.h"
 #include "hal/shown_text.h"
 #include "hal/types/geometry.h"

@@ -17,9 +17,8 @@ constexpr float kDiagonal = 1.41421356F;
 class LocalField {
  public:
   explicit LocalField(const Scene& scene) : scene_(scene) {
-    for (int j = 0; j < kSide; ++j) {
+    for (int j = 0; j < kSide; ++j)
       for (int i = 0; i < kSide; ++i) at(i, j) = is_blocked(x_of(i), y_of(j)) ? kBlocked_s : begin_at(i, j);
-    }
     at(kSide / 2, kSide / 2) = Guide::kNoWay_s;  // where the robot is, it may be
     for (int round = 0; round < kMostRounds && sweep(); ++round) {
     }
@@ -84,10 +83,9 @@ class LocalField {
   bool sweep() {
     bool changed = false;
     for (int order = 0; order < 4; ++order) {
-      for (int b = 0; b < kSide; ++b) {
+      for (int b = 0; b < kSide; ++b)
         for (int a = 0; a < kSide; ++a)
           changed |= settle((order & 1) != 0 ? kSide - 1 - a : a, (order & 2) != 0 ? kSide - 1 - b : b);
-      }
     }
     return changed;
   }

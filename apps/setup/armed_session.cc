@@ -7,7 +7,6 @@
 #include <cstdio>
 #include <iostream>
 
-#include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -2,7 +2,6 @@
 // What commissioning and calibration share: the user's consent, the control socket, the devices, and arming. The
 // command drives the wheels itself; the control loop does not run.
 #include <filesystem>
-#include <functional>
 #include <memory>
 #include <span>
 #include <string>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/setup/calibration_log.h"
+#include "apps/setup/guided_drive.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {

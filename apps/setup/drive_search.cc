@@ -1,11 +1,10 @@
-#include "apps/setup/drive_search.h"
-
 #include <array>
 #include <cstdio>
 #include <map>
 #include <memory>
 #include <set>
 
+#include "apps/setup/robot_setup.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
@@ -86,9 +85,8 @@ class NodeQuestions {
     clock_.sleep_until(clock_.now() + time);
     const Time now = clock_.now();
     ReceivedFrame received;
-    while (bus_.receive(received)) {
+    while (bus_.receive(received))
       for (auto& [node, client] : clients_) client->on_frame(received.frame, now);
-    }
     for (auto& [node, client] : clients_) client->poll(now);
   }
 

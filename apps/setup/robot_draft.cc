@@ -97,21 +97,16 @@ std::string literal(double number) {
 
 std::string literal_of(TomlTable& table, const SettingKey& row) {
   switch (row.kind) {
-    case KeyKind::kNumber:
-      return literal(table.number(row.key));
-    case KeyKind::kInteger:
-      return std::to_string(table.integer(row.key));
-    case KeyKind::kBoolean:
-      return table.boolean(row.key, false) ? "true" : "false";
-    case KeyKind::kChoice:
-      return literal(row.choices[table.choice(row.key)]);
+    case KeyKind::kNumber: return literal(table.number(row.key));
+    case KeyKind::kInteger: return std::to_string(table.integer(row.key));
+    case KeyKind::kBoolean: return table.boolean(row.key, false) ? "true" : "false";
+    case KeyKind::kChoice: return literal(row.choices[table.choice(row.key)]);
     case KeyKind::kNumbers: {
       std::string list;
       for (const double number : table.numbers(row.key, 2, 3)) list += (list.empty() ? "" : ", ") + literal(number);
       return "[" + list + "]";
     }
-    default:
-      return literal(table.text(row.key));
+    default: return literal(table.text(row.key));
   }
 }
 

@@ -1,7 +1,6 @@
 #pragma once
 // A ROBOT.toml in the making: keys with their values as TOML writes them, each with a comment.
 #include <map>
-#include <optional>
 #include <string>
 #include <utility>
 #include <vector>

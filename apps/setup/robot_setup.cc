@@ -7,8 +7,6 @@
 #include <initializer_list>
 #include <set>
 
-#include "apps/setup/drive_search.h"
-#include "apps/setup/scanner_search.h"
 #include "drivers/laser/scanner_setup.h"
 #include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
@@ -235,11 +233,10 @@ class Setup {
     std::vector<std::string> words;
     for (const FoundScanner& scanner : scanners) words.push_back(describe(scanner));
     for (const std::string& word : words) draft_.remark("scanner " + word);
-    if (scanners.empty()) {
+    if (scanners.empty())
       draft_absent_scanner(section);
-    } else {
+    else
       enter_scanner(section, scanners[answers_.choose(section, words)]);
-    }
     if (!is_first || answers_.asks() || answers_.given(section, "mount"))
       answers_.settle(draft_, section, "mount", is_first ? "[0.0, 0.0, 0.0]" : "");
   }

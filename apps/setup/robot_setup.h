@@ -1,11 +1,93 @@
 #pragma once
 // `jaywalk setup`: finds a robot's devices, asks what cannot be seen, and drafts its ROBOT.toml.
+#include <cstdint>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
 #include "apps/setup/robot_draft.h"
 #include "apps/setup/setup_answers.h"
-#include "apps/setup/surroundings.h"
+#include "drivers/can/can_bus.h"
+#include "firmware/robot/drive_wiring.h"
+#include "firmware/robot/robot_file.h"
 #include "hal/hal.h"
 
 namespace jaywalk {
+
+// Which scanner answers, and what its scans are like, for `jaywalk setup`.
+
+/// Where a scanner may be, and what it may speak there, in the order in which that is tried.
+struct ScannerPlace {
+  std::string host;        ///< or
+  std::string device;      ///< a serial line
+  std::uint16_t port = 0;  ///< 0: the maker's
+  std::uint32_t baud = 0;  ///< 0: the maker's
+  std::vector<ScannerKind> kinds;
+};
+
+struct FoundScanner {
+  LaserWiring wiring;
+  std::uint32_t beams = 0;
+  double fov_deg = 0.0;  ///< from the first beam to the last
+  double rate_hz = 0.0;
+};
+
+/// Everything a person may have meant by that line of a network or a cable.
+[[nodiscard]] std::vector<ScannerKind> kinds_on_network();
+[[nodiscard]] std::vector<ScannerKind> kinds_on_line();
+/// What is tried on a serial line that nobody named, by its adapter's name: words go only to what is a scanner by name.
+[[nodiscard]] std::vector<ScannerKind> kinds_by_adapter(const std::string& line);
+
+/// Opens all places at once, makes each send by one kind's words, and listens: kind by kind, at most three seconds
+/// each. The scanners of which scans came, in the places' order. A name that cannot be resolved has none. Start-up
+/// only.
+[[nodiscard]] std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock);
+
+/// Where the scanner is connected: "192.168.0.1:2112", "/dev/ttyUSB0".
+[[nodiscard]] std::string place_of(const FoundScanner& scanner);
+/// "sick-cola-b at 192.168.0.1:2112: 811 beams over 270.00 degrees, 15 a second"
+[[nodiscard]] std::string describe(const FoundScanner& scanner);
+
+// Which drives are on a bus, for `jaywalk setup`.
+
+struct FoundNode {
+  std::uint8_t node = 0;
+  std::string said;  ///< "vendor 0000029Ch, product 00020192h, ...", or what it was known by
+};
+
+struct FoundDrives {
+  std::optional<DriveKind> kind;  ///< none: no drives that this program knows
+  std::vector<FoundNode> nodes;   ///< of that kind, by number
+  std::string remark;             ///< what else there is; empty where nothing is
+};
+
+/// Listens for a second: ODrives and VESCs speak by themselves. Where none does, CANopen nodes 1 to 127 are asked what
+/// they are (1000h, 1018h); not beside ODrives, to which these questions could be orders (600h + node is axis 48 and
+/// up). Nothing is written and nothing moves. Takes about two seconds. Start-up only.
+[[nodiscard]] FoundDrives find_drives(CanBus& bus, Clock& clock);
+
+// What a machine has that a robot's devices may hang on, as `jaywalk setup` sees it.
+
+/// Start-up only. Thread: one.
+class Surroundings {
+ public:
+  virtual ~Surroundings() = default;
+  /// Names of CAN interfaces, up or down.
+  [[nodiscard]] virtual std::vector<std::string> can_interfaces() = 0;
+  /// All frames of the interface, and the sole right to command there while it is kept. Throws StartupError where it is
+  /// down, or another program has it.
+  [[nodiscard]] virtual std::unique_ptr<CanBus> open_bus(const std::string& interface) = 0;
+  /// Serial lines by names that do not change.
+  [[nodiscard]] virtual std::vector<std::string> serial_lines() = 0;
+  /// Addresses at which a scanner may answer: those that makers set, and those this machine has spoken to.
+  [[nodiscard]] virtual std::vector<std::string> hosts() = 0;
+  /// Joysticks behind evdev, by names that do not change.
+  [[nodiscard]] virtual std::vector<std::string> joysticks() = 0;
+};
+
+/// This machine: /sys, /dev and the kernel's table of neighbours. `clock` outlives it.
+[[nodiscard]] std::unique_ptr<Surroundings> this_machine(Clock& clock);
 
 /// Nothing moves, and no device's setting is changed but what makes a scanner send. What the answers name is looked for
 /// there alone. Takes some seconds, up to ten. Throws StartupError where the drives or a key are not to be known.

@@ -23,21 +23,18 @@ std::optional<std::string> understood(const SettingKey& row, const std::string& 
   const double number = std::strtod(said.c_str(), &end);
   const bool is_number = !said.empty() && *end == '\0' && number >= row.range.low && number <= row.range.high;
   switch (row.kind) {
-    case KeyKind::kNumber:
-      return is_number ? std::optional(literal(number)) : std::nullopt;
+    case KeyKind::kNumber: return is_number ? std::optional(literal(number)) : std::nullopt;
     case KeyKind::kInteger:
       return is_number && number == std::floor(number) ? std::optional(literal(number)) : std::nullopt;
     case KeyKind::kBoolean:
       if (said == "true" || said == "yes") return "true";
       return said == "false" || said == "no" ? std::optional<std::string>("false") : std::nullopt;
-    case KeyKind::kNumbers:
-      return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
+    case KeyKind::kNumbers: return said.starts_with("[") && said.ends_with("]") ? std::optional(said) : std::nullopt;
     case KeyKind::kChoice:
       for (const std::string& choice : row.choices)
         if (said == choice) return literal(said);
       return std::nullopt;
-    default:
-      return said.empty() ? std::nullopt : std::optional(literal(said));
+    default: return said.empty() ? std::nullopt : std::optional(literal(said));
   }
 }
 
@@ -63,12 +60,11 @@ SetupAnswers::SetupAnswers(const std::optional<std::filesystem::path>& file, std
     for (const TomlTable& laser : root.table_or_tables("laser")) tables_.emplace(laser_section(scanners_++), laser);
   tables_.emplace("", root);
   const toml::value raw = toml::parse(*file);
-  for (const auto& [section, table] : tables_) {
+  for (const auto& [section, table] : tables_)
     if (section.empty())
       refuse_unknown(section, raw);
     else if (const toml::value& inner = raw.at(section_in_file(section)); inner.is_table())
       refuse_unknown(section, inner);
-  }
 }
 
 void SetupAnswers::refuse_unknown(const std::string& section, const toml::value& raw) {
@@ -192,13 +188,12 @@ void SetupAnswers::finish_section(RobotDraft& draft, const std::string& section,
     const bool mine =
         row.section == section_in_file(section) || (section == "drive" && row.section == "drive:" + kind_);
     if (!mine || row.kind == KeyKind::kTable || !table.has(row.key)) continue;
-    if (row.kind == KeyKind::kTables) {
+    if (row.kind == KeyKind::kTables)
       take_tables(draft, table, section, row.key);
-    } else if (!draft.has(section, row.key)) {
+    else if (!draft.has(section, row.key))
       draft.set(section, row.key, literal_of(table, row), "as answered");
-    } else {
+    else
       static_cast<void>(literal_of(table, row));  // known by now
-    }
   }
   table.finish();
 }

@@ -1,14 +1,16 @@
-#include "apps/setup/surroundings.h"
-
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <memory>
 #include <sstream>
 
-#include "drivers/can/bus_lock.h"
-#include "drivers/can/link_facts.h"
+#include "apps/setup/robot_setup.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
+#include "drivers/laser/scanner_setup.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -79,8 +81,127 @@ class ThisMachine final : public Surroundings {
   Clock& clock_;
 };
 
+constexpr Duration kPatience = std::chrono::seconds(3), kReplyStep = std::chrono::milliseconds(1);
+constexpr std::size_t kPeriodsForRate = 10;
+
+/// One conversation, and the times between its scans.
+class Trial {
+ public:
+  Trial(const ScannerPlace& place, ScannerKind kind, Clock& clock) {
+    const ScannerMake& make = scanner_make(kind);
+    wiring_.kind = kind;
+    wiring_.host = place.host;
+    wiring_.device = place.device;
+    wiring_.port = place.port == 0 ? make.port : place.port;
+    wiring_.baud = place.baud == 0 ? make.baud : place.baud;
+    connection_ = make_scanner({.kind = kind,
+                                .host = wiring_.host,
+                                .port = wiring_.port,
+                                .device = wiring_.device,
+                                .baud = wiring_.baud,
+                                .range_min_m = 0.05F,
+                                .range_max_m = 25.0F},
+                               clock);
+  }
+  void look() {
+    connection_->step();
+    const LaserScan& scan = connection_->latest();
+    if (scan.sequence == 0 || scan.sequence == last_sequence_) return;
+    if (last_ != kNever) periods_.push_back((scan.stamp - last_) / (scan.sequence - last_sequence_));
+    last_ = scan.stamp;
+    last_sequence_ = scan.sequence;
+  }
+  [[nodiscard]] bool is_known() const { return periods_.size() >= kPeriodsForRate; }
+  [[nodiscard]] bool has_scans() const { return !periods_.empty(); }
+  [[nodiscard]] FoundScanner found() {
+    const LaserScan& scan = connection_->latest();
+    constexpr double kDegPerRad = 180.0 / kPi;
+    const double fov_deg = std::fabs(static_cast<double>(scan.angle_step_rad)) * (scan.beam_count - 1.0) * kDegPerRad;
+    return {wiring_, scan.beam_count, fov_deg, rate_hz()};
+  }
+
+ private:
+  /// Of the middle period; a whole number where it is one but for the stamps' scatter.
+  [[nodiscard]] double rate_hz() {
+    const auto middle = periods_.begin() + static_cast<std::ptrdiff_t>(periods_.size() / 2);
+    std::nth_element(periods_.begin(), middle, periods_.end());
+    const double rate = 1.0 / to_seconds(*middle), whole = std::round(rate);
+    return std::fabs(rate - whole) < 0.03 * whole ? whole : std::round(10.0 * rate) / 10.0;
+  }
+
+  LaserWiring wiring_;
+  std::unique_ptr<ScannerConnection> connection_;
+  std::vector<Duration> periods_;  ///< from a scan's stamp to the next one's
+  Time last_ = kNever;
+  std::uint32_t last_sequence_ = 0;
+};
+
+std::unique_ptr<Trial> try_kind(const ScannerPlace& place, std::size_t round, Clock& clock) {
+  if (round >= place.kinds.size()) return nullptr;
+  try {
+    return std::make_unique<Trial>(place, place.kinds[round], clock);
+  } catch (const StartupError&) {  // a name that nobody knows, a rate that no line has
+    return nullptr;
+  }
+}
+
+void listen(std::vector<std::unique_ptr<Trial>>& trials, Clock& clock) {
+  const auto is_settled = [](const std::unique_ptr<Trial>& trial) { return !trial || trial->is_known(); };
+  for (const Time until = clock.now() + kPatience; clock.now() < until;) {
+    clock.sleep_until(clock.now() + kReplyStep);
+    for (const auto& trial : trials)
+      if (trial) trial->look();
+    if (std::all_of(trials.begin(), trials.end(), is_settled)) return;
+  }
+}
+
 }  // namespace
 
 std::unique_ptr<Surroundings> this_machine(Clock& clock) { return std::make_unique<ThisMachine>(clock); }
+
+std::vector<ScannerKind> kinds_on_network() {
+  return {ScannerKind::kSickColaB, ScannerKind::kSickColaA, ScannerKind::kHokuyo};
+}
+
+std::vector<ScannerKind> kinds_on_line() {
+  return {ScannerKind::kLdrobot, ScannerKind::kRplidar, ScannerKind::kHokuyo, ScannerKind::kLms200};
+}
+
+// An LD19 speaks by itself: listening does no harm on any line. CP210x: adapters of LD06, LD19 and RPLIDAR.
+std::vector<ScannerKind> kinds_by_adapter(const std::string& line) {
+  if (line.find("Hokuyo") != std::string::npos) return {ScannerKind::kHokuyo};
+  if (line.find("CP210") != std::string::npos) return {ScannerKind::kLdrobot, ScannerKind::kRplidar};
+  return {ScannerKind::kLdrobot};
+}
+
+std::vector<FoundScanner> find_scanners(const std::vector<ScannerPlace>& places, Clock& clock) {
+  std::vector<std::optional<FoundScanner>> by_place(places.size());
+  std::size_t rounds = 0;
+  for (const ScannerPlace& place : places) rounds = std::max(rounds, place.kinds.size());
+  for (std::size_t round = 0; round < rounds; ++round) {
+    std::vector<std::unique_ptr<Trial>> trials(places.size());
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (!by_place[k]) trials[k] = try_kind(places[k], round, clock);
+    listen(trials, clock);
+    for (std::size_t k = 0; k < places.size(); ++k)
+      if (trials[k] && trials[k]->has_scans()) by_place[k] = trials[k]->found();
+  }
+  std::vector<FoundScanner> found;
+  for (const auto& scanner : by_place)
+    if (scanner) found.push_back(*scanner);
+  return found;
+}
+
+std::string place_of(const FoundScanner& scanner) {
+  const LaserWiring& wiring = scanner.wiring;
+  return wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
+}
+
+std::string describe(const FoundScanner& scanner) {
+  char figures[80];
+  std::snprintf(figures, sizeof figures, ": %u beams over %.2f degrees, %g a second",
+                static_cast<unsigned>(scanner.beams), scanner.fov_deg, scanner.rate_hz);
+  return std::string(scanner_make(scanner.wiring.kind).name) + " at " + place_of(scanner) + figures;
+}
 
 }  // namespace jaywalk

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
-#include <limits>
 #include <optional>
 
-#include "apps/setup/scan_shift.h"
+#include "apps/setup/scan_surfels.h"
 
 namespace jaywalk {
 namespace {

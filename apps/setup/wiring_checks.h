@@ -3,7 +3,7 @@
 #include <string>
 #include <vector>
 
-#include "apps/setup/wheel_nudges.h"
+#include "apps/setup/watched_drive.h"
 #include "firmware/robot/preflight.h"
 
 namespace jaywalk {

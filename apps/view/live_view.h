@@ -6,7 +6,7 @@
 #include <string>
 
 #include "apps/formats/ros_topics.h"
-#include "apps/jaywalk/interruption.h"
+#include "apps/jaywalk/progress.h"
 #include "apps/view/frame_store.h"
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"

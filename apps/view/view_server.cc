@@ -17,7 +17,7 @@
 #include "apps/view/certificate.h"
 #include "apps/view/secret.h"
 #include "apps/view/view_client.h"
-#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/service_manager.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

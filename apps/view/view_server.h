@@ -4,7 +4,7 @@
 #include <filesystem>
 
 #include "apps/view/view_door.h"
-#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/service_manager.h"
 
 namespace jaywalk::view {
 

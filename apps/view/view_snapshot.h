@@ -6,7 +6,7 @@
 
 #include "firmware/control_loop.h"
 #include "firmware/recording/tick_record.h"
-#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/service_manager.h"
 #include "planner/motion/trajectory.h"
 #include "planner/prediction/futures.h"
 

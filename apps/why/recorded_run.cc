@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "apps/rivals/paper_mode.h"
-#include "firmware/recording/run_parts.h"
+#include "firmware/recording/run_folders.h"
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
 #include "hal/types/errors.h"
@@ -31,6 +31,12 @@ std::string said_of(int part, const TickRecord& first) {
                 "with nothing mapped, followed, planned or latched before",
                 part, to_seconds(first.now), at.x, at.y, at.heading);
   return without_minus_zero(text);
+}
+
+std::unique_ptr<Planner> planner_for(ControlSetup setup) {
+  // The bits are the same wherever it is replayed.
+  if (setup.backend == Backend::kCuda) setup.backend = Backend::kAuto;
+  return make_planner(setup).planner;
 }
 
 }  // namespace
@@ -69,9 +75,8 @@ double RecordedRun::share_read() const {
 
 bool RecordedRun::step() {
   if (!std::exchange(begun_, true)) return true;  // the first, which is read already
-  while (!reader_->next(record_)) {
+  while (!reader_->next(record_))
     if (!reader_->warning().empty() || !open_next()) return false;
-  }
   return true;
 }
 
@@ -98,6 +103,23 @@ bool SeenRun::step() {
   estimator_.forget_where_stuck(last());
   estimator_.end_tick(last());
   if (estimator_.pose().map_from_robot != last().pose.map_from_robot) ++different_;
+  return true;
+}
+
+RelivedRun::RelivedRun(RecordedRun& run)
+    : run_(run),
+      devices_(run.last()),
+      planner_(planner_for(run.setup()), run.last()),
+      loop_(run.setup(), devices_.hal(run.setup().model.lasers().size()), planner_, recorder_) {}
+
+bool RelivedRun::step() {
+  if (!run_.step()) return false;
+  const TickRecord& recorded = run_.last();
+  last_ = &loop_.tick(recorded.now);
+  recorder_.drain();
+  const WheelCommand& now = devices_.commanded();
+  const bool same = now.left_radps == recorded.command.left_radps && now.right_radps == recorded.command.right_radps;
+  different_ += same ? 0 : 1;
   return true;
 }
 

@@ -1,5 +1,3 @@
-#include "apps/why/why_command.h"
-
 #include <cmath>
 #include <cstdio>
 #include <optional>
@@ -9,9 +7,8 @@
 #include "apps/jaywalk/progress.h"
 #include "apps/report/picture/picture.h"
 #include "apps/report/picture/scene.h"
-#include "apps/why/relived_run.h"
-#include "apps/why/why_decision.h"
-#include "apps/why/why_words.h"
+#include "apps/why/recorded_run.h"
+#include "apps/why/why.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

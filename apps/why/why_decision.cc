@@ -1,5 +1,3 @@
-#include "apps/why/why_decision.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -7,6 +5,7 @@
 #include <utility>
 
 #include "apps/report/csv_file.h"
+#include "apps/why/why.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {
@@ -96,28 +95,17 @@ std::vector<Vec2> way_of(const motion::RobotState& start,
 std::pair<const char*, const char*> names_of(motion::Proposal proposal) {
   using motion::Proposal;
   switch (proposal) {
-    case Proposal::kLast:
-      return {"last", "go on as decided before"};
-    case Proposal::kFollow:
-      return {"follow", "follow the way"};
-    case Proposal::kWaitThenGo:
-      return {"wait_then_go", "wait and then go"};
-    case Proposal::kGoThenStop:
-      return {"go_then_stop", "go and then stop"};
-    case Proposal::kArc:
-      return {"arc", "drive an arc"};
-    case Proposal::kArcBack:
-      return {"arc_back", "back off in an arc"};
-    case Proposal::kArcThenFollow:
-      return {"arc_then_follow", "drive an arc, then follow the way"};
-    case Proposal::kBackThenFollow:
-      return {"back_then_follow", "back off, then follow the way"};
-    case Proposal::kStick:
-      return {"wish", "drive as the stick asks"};
-    case Proposal::kGoStraight:
-      return {"go_straight", "turn and drive straight on"};
-    case Proposal::kBrake:
-      return {"brake", "brake as hard as it can"};
+    case Proposal::kLast: return {"last", "go on as decided before"};
+    case Proposal::kFollow: return {"follow", "follow the way"};
+    case Proposal::kWaitThenGo: return {"wait_then_go", "wait and then go"};
+    case Proposal::kGoThenStop: return {"go_then_stop", "go and then stop"};
+    case Proposal::kArc: return {"arc", "drive an arc"};
+    case Proposal::kArcBack: return {"arc_back", "back off in an arc"};
+    case Proposal::kArcThenFollow: return {"arc_then_follow", "drive an arc, then follow the way"};
+    case Proposal::kBackThenFollow: return {"back_then_follow", "back off, then follow the way"};
+    case Proposal::kStick: return {"wish", "drive as the stick asks"};
+    case Proposal::kGoStraight: return {"go_straight", "turn and drive straight on"};
+    case Proposal::kBrake: return {"brake", "brake as hard as it can"};
   }
   return {"unknown", "do something unknown"};
 }

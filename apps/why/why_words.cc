@@ -1,12 +1,8 @@
-#include "apps/why/why_words.h"
-
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <utility>
-#include <vector>
 
-#include "drivers/drive_fault_words.h"
+#include "apps/why/why.h"
+#include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk {

@@ -134,14 +134,10 @@ const char* name_of(MapKind kind) {
 
 CellMap random_map(MapKind kind, std::int32_t side, MapRandom& random) {
   switch (kind) {
-    case MapKind::kRooms:
-      return rooms(side, random);
-    case MapKind::kCave:
-      return cave(side, random);
-    case MapKind::kMaze:
-      return maze(side, random);
-    default:
-      return boxes(side, random);
+    case MapKind::kRooms: return rooms(side, random);
+    case MapKind::kCave: return cave(side, random);
+    case MapKind::kMaze: return maze(side, random);
+    default: return boxes(side, random);
   }
 }
 

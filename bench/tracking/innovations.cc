@@ -4,7 +4,7 @@
 
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/recorder.h"
 
 namespace jaywalk::bench {
 namespace {

@@ -1,6 +1,6 @@
 #include "bench/tracking/reference_poses.h"
 
-#include "apps/formats/logs/scan_lines.h"
+#include "apps/formats/logs/log_checks.h"
 #include "bench/tracking/number_table.h"
 #include "hal/types/errors.h"
 #include "hal/types/laser_scan.h"

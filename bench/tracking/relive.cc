@@ -7,7 +7,7 @@
 #include "apps/report/run_tables.h"
 #include "bench/tracking/run_folder.h"
 #include "firmware/estimator.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/recorder.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {

@@ -4,7 +4,7 @@
 #include "bench/tracking/number_table.h"
 #include "bench/tracking/run_folder.h"
 #include "firmware/control_setup.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/recorder.h"
 #include "firmware/recording/tick_record.h"
 #include "hal/types/errors.h"
 

@@ -10,7 +10,6 @@
 #include "firmware/robot/planner_thread.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 
 namespace jaywalk::bench {
 namespace {

@@ -4,7 +4,6 @@
 #include <utility>
 
 namespace jaywalk::arcos {
-
 namespace {
 
 constexpr std::uint8_t kFirst = 0xFA, kSecond = 0xFB;

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/wire/byte_queue.h"
+#include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::arcos {
 

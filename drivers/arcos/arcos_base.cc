@@ -8,7 +8,6 @@
 #include "drivers/can/byte_bus.h"
 
 namespace jaywalk::arcos {
-
 namespace {
 
 constexpr Duration kBoardSilence = std::chrono::milliseconds(150), kBoardSettling = std::chrono::milliseconds(300);

@@ -2,11 +2,9 @@
 #include <array>
 #include <optional>
 #include <string>
-#include <vector>
 
 #include "drivers/arcos/arcos.h"
 #include "drivers/motor/motor_pair.h"
-#include "drivers/motor/shown_reports.h"
 
 namespace jaywalk::arcos {
 

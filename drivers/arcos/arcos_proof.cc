@@ -3,11 +3,10 @@
 #include <cmath>
 
 #include "drivers/arcos/arcos_base.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::arcos {
-
 namespace {
 
 constexpr const char* kRampRemedy = "lower [limits] of the model, or raise the board's own limits (ARCOScfg)";

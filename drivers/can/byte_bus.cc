@@ -3,7 +3,6 @@
 #include <utility>
 
 namespace jaywalk {
-
 namespace {
 
 constexpr Duration kReopening = std::chrono::milliseconds(500);

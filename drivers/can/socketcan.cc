@@ -16,7 +16,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk {
-
 namespace {
 
 /// Error frames that one call of receive passes over: a storm of them must not hold up a tick.
@@ -84,6 +83,43 @@ Duration wall_clock() noexcept {
 
 }  // namespace
 
+can_frame to_kernel(const CanFrame& frame) noexcept {
+  can_frame raw{};
+  raw.can_id = frame.id | (frame.extended ? CAN_EFF_FLAG : 0U) | (frame.remote ? CAN_RTR_FLAG : 0U);
+  raw.can_dlc = frame.size;
+  if (!frame.remote) std::copy_n(frame.bytes.begin(), frame.size, raw.data);
+  return raw;
+}
+
+// Format and request bit are part of the mask: without the first a filter for 081h lets 29-bit frames through as well.
+can_filter to_kernel(const CanFilter& filter) noexcept {
+  return {.can_id = filter.id | (filter.extended ? CAN_EFF_FLAG : 0U) | (filter.remote ? CAN_RTR_FLAG : 0U),
+          .can_mask = filter.mask | CAN_EFF_FLAG | CAN_RTR_FLAG};
+}
+
+std::optional<CanFrame> from_kernel(const can_frame& raw) noexcept {
+  if (is_error(raw)) return std::nullopt;
+  CanFrame frame;
+  frame.extended = (raw.can_id & CAN_EFF_FLAG) != 0;
+  frame.remote = (raw.can_id & CAN_RTR_FLAG) != 0;
+  frame.id = raw.can_id & CAN_EFF_MASK;
+  frame.size = raw.can_dlc;
+  if (!is_valid(frame)) return std::nullopt;
+  if (!frame.remote) std::copy_n(raw.data, frame.size, frame.bytes.begin());
+  return frame;
+}
+
+CanState state_after(const can_frame& error, CanState before) noexcept {
+  if ((error.can_id & CAN_ERR_BUSOFF) != 0) return CanState::kBusOff;
+  if ((error.can_id & CAN_ERR_RESTARTED) != 0) return CanState::kActive;
+  if ((error.can_id & CAN_ERR_CRTL) == 0) return before;
+  const unsigned status = error.data[1];
+  if ((status & (CAN_ERR_CRTL_RX_PASSIVE | CAN_ERR_CRTL_TX_PASSIVE)) != 0) return CanState::kPassive;
+  if ((status & (CAN_ERR_CRTL_RX_WARNING | CAN_ERR_CRTL_TX_WARNING)) != 0) return CanState::kWarning;
+  if ((status & CAN_ERR_CRTL_ACTIVE) != 0) return CanState::kActive;
+  return before;
+}
+
 wire::FileDescriptor open_can(const std::string& interface, std::span<const CanFilter> filters) {
   const unsigned index = ::if_nametoindex(interface.c_str());
   if (index == 0) {
@@ -91,9 +127,8 @@ wire::FileDescriptor open_can(const std::string& interface, std::span<const CanF
                        "bring it up: ip link set " + interface + " up type can bitrate 500000");
   }
   wire::FileDescriptor socket(::socket(PF_CAN, SOCK_RAW | SOCK_NONBLOCK | SOCK_CLOEXEC, CAN_RAW));
-  if (socket.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT)) {
+  if (socket.get() < 0 && (errno == EAFNOSUPPORT || errno == EPROTONOSUPPORT))
     throw StartupError(interface + ": this kernel has no raw CAN sockets", "load them: modprobe can_raw");
-  }
   if (socket.get() < 0) refuse(interface, "socket", errno);
   set_filters(socket.get(), filters, interface);
   set_option(socket.get(), SOL_CAN_RAW, CAN_RAW_ERR_FILTER, can_err_mask_t{CAN_ERR_MASK}, interface, "error frames");
@@ -120,15 +155,11 @@ SendResult SocketCan::send(const CanFrame& frame) noexcept {
   if (::send(socket_.get(), &raw, sizeof raw, MSG_DONTWAIT | MSG_NOSIGNAL) == sizeof raw) return SendResult::kQueued;
   switch (errno) {
     case ENOBUFS:
-    case EAGAIN:
-      return SendResult::kQueueFull;
+    case EAGAIN: return SendResult::kQueueFull;
     case ENETDOWN:
     case ENXIO:
-    case ENODEV:
-      health_.state = CanState::kDown;
-      return SendResult::kOffBus;
-    default:
-      return SendResult::kSystemError;
+    case ENODEV: health_.state = CanState::kDown; return SendResult::kOffBus;
+    default: return SendResult::kSystemError;
   }
 }
 

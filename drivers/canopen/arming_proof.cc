@@ -5,10 +5,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "drivers/canopen/sdo_abort.h"
-
 namespace jaywalk::canopen {
-
 namespace {
 
 constexpr std::uint32_t kNoRemoteFrames = 1U << 30U;  ///< bit of a COB-ID (CiA 301)
@@ -81,9 +78,8 @@ void ArmingProof::conclude_read() noexcept {
 ProofVerdict ArmingProof::verdict_of(std::uint32_t said, bool has_all) const noexcept {
   const ProofItem& item = lines_[at_].item;
   bool is_so = said == cut(item.wanted.value, item.wanted.bytes);
-  if (item.demand == ProofDemand::kAtMost) {
+  if (item.demand == ProofDemand::kAtMost)
     is_so = std::llabs(static_cast<std::int32_t>(said)) <= static_cast<std::int64_t>(item.wanted.value);
-  }
   if (item.demand == ProofDemand::kIdentifier) is_so = (said & ~kNoRemoteFrames) == item.wanted.value;
   if (item.demand == ProofDemand::kKnown) is_so = true;
   return has_all && is_so ? ProofVerdict::kProved : ProofVerdict::kDiffers;
@@ -136,16 +132,11 @@ std::string describe(const ProofLine& line) {
   switch (line.verdict) {
     case ProofVerdict::kProved:
       return what + (demand_of(line.item) == ": wanted " + said ? ", reads the same" : ", reads " + said);
-    case ProofVerdict::kDiffers:
-      return what + ", reads " + said + ": NOT PROVED";
-    case ProofVerdict::kRefused:
-      return what + ", refused (" + std::string(abort_name(line.said)) + "): NOT PROVED";
-    case ProofVerdict::kLacks:
-      return what + ", none (" + std::string(abort_name(line.said)) + ")";
-    case ProofVerdict::kSilent:
-      return what + ", no answer: NOT PROVED";
-    case ProofVerdict::kOpen:
-      break;
+    case ProofVerdict::kDiffers: return what + ", reads " + said + ": NOT PROVED";
+    case ProofVerdict::kRefused: return what + ", refused (" + std::string(abort_name(line.said)) + "): NOT PROVED";
+    case ProofVerdict::kLacks: return what + ", none (" + std::string(abort_name(line.said)) + ")";
+    case ProofVerdict::kSilent: return what + ", no answer: NOT PROVED";
+    case ProofVerdict::kOpen: break;
   }
   return what + ", not asked yet";
 }

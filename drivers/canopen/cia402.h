@@ -1,9 +1,12 @@
 #pragma once
 // The state machine of a drive (CiA 402, IEC 61800-7-201): what the statusword says, what the controlword asks.
+#include <array>
 #include <cstdint>
 #include <string_view>
 
-#include "drivers/canopen/object_address.h"
+#include "drivers/can/can_bus.h"
+#include "drivers/canopen/pdo.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk::canopen {
 
@@ -40,5 +43,18 @@ enum class DriveGoal : std::uint8_t {
 /// A fault is left only by a rising edge of the reset bit: it is set where `reset_fault`, which is to be true for one
 /// call after a person's reset. A quick stop that was asked for is not gone back on: its way leads through kOff.
 [[nodiscard]] std::uint16_t controlword_towards(DriveGoal goal, DriveState state, bool reset_fault) noexcept;
+
+/// Tells two CiA 402 drives to quick-stop, over a place of its own on their bus.
+class QuickStopper final : public EmergencyBrake {
+ public:
+  /// `bus` outlives it and belongs to the thread that brakes. The drives are set up as CanopenDriveBase does.
+  QuickStopper(CanBus& bus, std::array<std::uint8_t, 2> nodes) noexcept;
+  void brake() noexcept override;
+
+ private:
+  CanBus& bus_;
+  std::array<std::uint8_t, 2> nodes_;
+  std::array<PdoMapping, 2> mappings_;
+};
 
 }  // namespace jaywalk::canopen

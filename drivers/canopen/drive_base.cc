@@ -7,7 +7,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk::canopen {
-
 namespace {
 
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
@@ -39,9 +38,8 @@ CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSet
       proofs_{proof_for(bus, setup, 0), proof_for(bus, setup, 1)},
       masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})),
       ladder_(setup.stop) {
-  if (setup.axes[0].node == setup.axes[1].node) {
+  if (setup.axes[0].node == setup.axes[1].node)
     throw StartupError("drives: both have node " + std::to_string(setup.axes[0].node), "give each a node of its own");
-  }
 }
 
 std::vector<std::string> CanopenDriveBase::arm() {
@@ -82,12 +80,9 @@ std::string CanopenDriveBase::inspect(std::size_t side) {
   const std::string who = "node " + std::to_string(node);
   ArmingProof identity(bus_, node, identity_items(), setup_.answer_timeout);
   conduct(identity);
-  if (identity.lines()[0].verdict == ProofVerdict::kSilent) {
-    throw StartupError(who + ": no answer", kSilentDrive);
-  }
-  if (!speaks_profile_velocity(identity.lines())) {
+  if (identity.lines()[0].verdict == ProofVerdict::kSilent) throw StartupError(who + ": no answer", kSilentDrive);
+  if (!speaks_profile_velocity(identity.lines()))
     throw StartupError(who + ": is no CiA 402 drive with profile velocity, by its 1000h and 6502h", "use one that is");
-  }
   ArmingProof::Items items = proof_items(node, setup_.settings);
   for (ProofItem& item : items) item.demand = ProofDemand::kHeld;
   ArmingProof settings(bus_, node, items, setup_.answer_timeout);
@@ -277,13 +272,11 @@ void CanopenDriveBase::cycle(DriveGoal goal, bool stopping, double left_radps, d
   if (feeds) send(heartbeat_frame(setup_.settings.controller_node, NmtState::kOperational));
   if (stage == StopStage::kNone) return send_targets(goal, left_radps, right_radps);
   send_targets(DriveGoal::kQuickStop, 0.0, 0.0);
-  for (const WheelAxis& axis : axes_) {
-    if (stage == StopStage::kNetworkStop) {
+  for (const WheelAxis& axis : axes_)
+    if (stage == StopStage::kNetworkStop)
       send(nmt_frame(NmtCommand::kStop, axis.setup().node));
-    } else if (!axis.is_operational()) {
+    else if (!axis.is_operational())
       send(axis.quick_stop_request());
-    }
-  }
 }
 
 void CanopenDriveBase::send_targets(DriveGoal goal, double left_radps, double right_radps) noexcept {

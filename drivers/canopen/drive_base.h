@@ -7,7 +7,6 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/canopen/drive_proof.h"
-#include "drivers/canopen/foreign_frames.h"
 #include "drivers/canopen/wheel_axis.h"
 #include "drivers/wired_drive.h"
 

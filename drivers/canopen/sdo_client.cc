@@ -2,10 +2,7 @@
 
 #include <algorithm>
 
-#include "drivers/canopen/sdo_abort.h"
-
 namespace jaywalk::canopen {
-
 namespace {
 
 constexpr std::uint32_t kRequestBase = 0x600, kAnswerBase = 0x580;
@@ -19,6 +16,45 @@ constexpr std::uint8_t kReadAnswer = 2, kWriteAnswer = 3, kReadSegmentAnswer = 0
 
 constexpr std::uint8_t specifier(const CanFrame& frame) { return static_cast<std::uint8_t>(frame.bytes[0] >> 5U); }
 constexpr bool has(const CanFrame& frame, std::uint8_t bit) { return (frame.bytes[0] & bit) != 0; }
+
+struct Reason {
+  std::uint32_t code;
+  std::string_view name;
+};
+
+constexpr std::array kReasons{
+    Reason{0x05030000, "toggle bit did not alternate"},
+    Reason{0x05040000, "no answer in time"},
+    Reason{0x05040001, "unknown command"},
+    Reason{0x05040002, "bad block size"},
+    Reason{0x05040003, "bad sequence number"},
+    Reason{0x05040004, "checksum error"},
+    Reason{0x05040005, "out of memory"},
+    Reason{0x06010000, "access not supported"},
+    Reason{0x06010001, "write only"},
+    Reason{0x06010002, "read only"},
+    Reason{0x06020000, "no such object"},
+    Reason{0x06040041, "cannot be mapped to a PDO"},
+    Reason{0x06040042, "mapping longer than a PDO"},
+    Reason{0x06040043, "incompatible parameters"},
+    Reason{0x06040047, "incompatible inside the device"},
+    Reason{0x06060000, "hardware error"},
+    Reason{0x06070010, "length does not match"},
+    Reason{0x06070012, "too long"},
+    Reason{0x06070013, "too short"},
+    Reason{0x06090011, "no such sub-index"},
+    Reason{0x06090030, "value out of range"},
+    Reason{0x06090031, "value too high"},
+    Reason{0x06090032, "value too low"},
+    Reason{0x06090036, "maximum below minimum"},
+    Reason{0x060A0023, "resource not available"},
+    Reason{0x08000000, "general error"},
+    Reason{0x08000020, "cannot be stored"},
+    Reason{0x08000021, "refused: under local control"},
+    Reason{0x08000022, "refused in the device's present state"},
+    Reason{0x08000023, "no object dictionary"},
+    Reason{0x08000024, "no value there"},
+};
 
 }  // namespace
 
@@ -69,20 +105,14 @@ void SdoClient::on_frame(const CanFrame& frame, Time now) noexcept {
   if (frame.size < (names_object ? kAddressed : 1)) return abort_here(kAbortLength);
   if (names_object && !answers_address(frame)) return;
   heard_ = now;
-  if (is_abort) {
+  if (is_abort)
     return finish(SdoStatus::kAbortedByDrive, wire::little_endian<std::uint32_t>(std::span(frame.bytes).subspan(4)));
-  }
   switch (phase_) {
-    case Phase::kReadStart:
-      return on_read_start(frame);
-    case Phase::kReadSegments:
-      return on_read_segment(frame);
-    case Phase::kWriteStart:
-      return on_write_start(frame);
-    case Phase::kWriteSegments:
-      return on_write_segment(frame);
-    case Phase::kNone:
-      return;
+    case Phase::kReadStart: return on_read_start(frame);
+    case Phase::kReadSegments: return on_read_segment(frame);
+    case Phase::kWriteStart: return on_write_start(frame);
+    case Phase::kWriteSegments: return on_write_segment(frame);
+    case Phase::kNone: return;
   }
 }
 
@@ -184,6 +214,12 @@ void SdoClient::finish(SdoStatus status, std::uint32_t code) noexcept {
   status_ = status;
   phase_ = Phase::kNone;
   abort_code_ = code;
+}
+
+std::string_view abort_name(std::uint32_t code) noexcept {
+  const auto* found =
+      std::find_if(kReasons.begin(), kReasons.end(), [code](const Reason& r) { return r.code == code; });
+  return found == kReasons.end() ? "unknown reason" : found->name;
 }
 
 }  // namespace jaywalk::canopen

@@ -2,9 +2,10 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <string_view>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/canopen/object_address.h"
+#include "drivers/canopen/pdo.h"
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::canopen {
@@ -76,5 +77,14 @@ class SdoClient {
   std::size_t size_ = 0;  ///< of the value
   std::size_t sent_ = 0;  ///< of a value being written
 };
+
+/// Why a transfer of an object was given up (CiA 301, SDO abort codes): those that this client sends itself.
+inline constexpr std::uint32_t kAbortToggle = 0x05030000, kAbortTimeout = 0x05040000, kAbortUnknownCommand = 0x05040001,
+                               kAbortNoMemory = 0x05040005, kAbortLength = 0x06070010;
+/// What a drive says of an object that it keeps as it is.
+inline constexpr std::uint32_t kAbortReadOnly = 0x06010002;
+
+/// In words; "unknown reason" for a code that the standard does not list.
+[[nodiscard]] std::string_view abort_name(std::uint32_t code) noexcept;
 
 }  // namespace jaywalk::canopen

@@ -4,7 +4,6 @@
 #include <array>
 
 namespace jaywalk::sick {
-
 namespace {
 
 constexpr std::uint8_t kStx = 0x02, kEtx = 0x03;

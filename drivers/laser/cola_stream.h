@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "drivers/wire/byte_queue.h"
+#include "drivers/wire/byte_reader.h"
 #include "hal/types/fixed_vector.h"
 
 namespace jaywalk::sick {

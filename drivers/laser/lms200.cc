@@ -1,14 +1,12 @@
 #include "drivers/laser/lms200.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
 #include "hal/types/trig.h"
 
 namespace jaywalk::lms200 {
-
 namespace {
 
 constexpr std::uint8_t kStx = 0x02, kAck = 0x06, kFromScanner = 0x80, kAllValues = 0xB0;
@@ -110,9 +108,8 @@ Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserSc
   const auto* const fan = std::find_if(kFans.begin(), kFans.end(), [count](const Fan& f) { return f.values == count; });
   if (fan == kFans.end()) return Decoding::kBadField;
   const float metres_per_count = unit == 0 ? 0.01F : 0.001F;
-  for (std::uint32_t k = 0; k < count; ++k) {
+  for (std::uint32_t k = 0; k < count; ++k)
     scan.range_m[k] = range_of(reader.little<std::uint16_t>(), metres_per_count);
-  }
   const auto status = reader.little<std::uint8_t>();
   if (!reader.ok()) return Decoding::kTruncated;
   if (judge(status) != Decoding::kScan) return judge(status);
@@ -125,6 +122,33 @@ Decoding decode_scan(wire::Bytes body, std::uint32_t baud, Time arrival, LaserSc
 
 bool warns(wire::Bytes body) noexcept {
   return !body.empty() && ((body.back() & kSeverity) == kWarning || (body.back() & kPolluted) != 0);
+}
+
+void Lms200Protocol::begin() noexcept {
+  at_ = 0;
+  asked_ = false;
+  stream_.forget();
+}
+
+wire::Bytes Lms200Protocol::to_say(Time) noexcept {
+  if (asked_ || at_ == steps_.size()) return {};
+  asked_ = true;
+  return {steps_[at_].data(), steps_[at_].size()};
+}
+
+Heard Lms200Protocol::next(Time arrival, LaserScan& scan) noexcept {
+  const auto body = stream_.next();
+  if (!body) return Heard::kNothing;
+  const bool answers = (*body)[0] == 0xA0 && body->size() >= 2;  // to a change of mode; then 0: done
+  if (answers && asked_) {
+    if ((*body)[1] != 0) return Heard::kRefused;
+    asked_ = false;
+    ++at_;
+  }
+  if (at_ < steps_.size()) return Heard::kAnswer;  // what it still sends from before
+  const Heard heard = heard_of(decode_scan(*body, baud_, arrival, scan));
+  if (heard == Heard::kScan && warns(*body)) ++warned_;
+  return heard;
 }
 
 }  // namespace jaywalk::lms200

@@ -1,12 +1,13 @@
 #pragma once
 // SICK LMS200 on a serial line: STX, address, length, body, CRC-16; numbers least significant byte first.
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <initializer_list>
 #include <optional>
 
-#include "drivers/laser/decoding.h"
-#include "drivers/wire/byte_queue.h"
+#include "drivers/laser/scanner_protocol.h"
+#include "drivers/wire/byte_reader.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 
@@ -49,5 +50,28 @@ class TelegramStream {
 
 /// The scanner warns in the status byte at the end of a body: of dirt on its window, or of something else.
 [[nodiscard]] bool warns(wire::Bytes body) noexcept;
+
+/// Makes an LMS200 send all its scans: quiet, then all values without end. Field of view, resolution, unit and line
+/// rate are left as they were set in the scanner (9600 baud from the factory). It has no clock.
+class Lms200Protocol final : public ScannerProtocol {
+ public:
+  /// `baud` is that of its endpoint.
+  explicit Lms200Protocol(std::uint32_t baud) noexcept : baud_(baud) {}
+
+  void begin() noexcept override;
+  [[nodiscard]] wire::Bytes to_say(Time now) noexcept override;
+  [[nodiscard]] bool awaits_answer() const noexcept override { return asked_; }
+  void hear(wire::Bytes bytes) noexcept override { stream_.append(bytes); }
+  [[nodiscard]] Heard next(Time arrival, LaserScan& scan) noexcept override;
+  [[nodiscard]] ProtocolCounts counts() const noexcept override { return {0, stream_.skipped(), 0, warned_}; }
+
+ private:
+  std::uint32_t baud_;
+  std::array<Command, 2> steps_{framed({0x20, 0x25}), framed({0x20, 0x24})};
+  std::size_t at_ = 0;
+  bool asked_ = false;
+  TelegramStream stream_;
+  std::uint64_t warned_ = 0;
+};
 
 }  // namespace jaywalk::lms200

@@ -8,7 +8,6 @@
 #include "drivers/wire/thread_without_signals.h"
 
 namespace jaywalk {
-
 namespace {
 
 /// So long at most until limits are looked at again, and until the thread sees that it is to end.
@@ -68,8 +67,7 @@ void ScannerConnection::step() noexcept {
 
 void ScannerConnection::await_opening(Time now) noexcept {
   switch (link_->state()) {
-    case wire::Link::State::kClosed:
-      return give_up(ScannerTrouble::kUnreachable, now);
+    case wire::Link::State::kClosed: return give_up(ScannerTrouble::kUnreachable, now);
     case wire::Link::State::kOpening:
       if (age(opened_, now) > timing_.connect_limit) give_up(ScannerTrouble::kUnreachable, now);
       return;
@@ -100,25 +98,15 @@ void ScannerConnection::take_messages(Time arrival) noexcept {
   for (;;) {
     const bool asked = protocol_->awaits_answer();
     switch (protocol_->next(arrival, scans_.draft())) {
-      case Heard::kNothing:
-        return;
-      case Heard::kScan:
-        take_scan(arrival);
-        break;
+      case Heard::kNothing: return;
+      case Heard::kScan: take_scan(arrival); break;
       case Heard::kAnswer:
         if (asked && !protocol_->awaits_answer()) progress_ = arrival;
         break;
-      case Heard::kMalformed:
-        ++health_.malformed;
-        break;
-      case Heard::kDeviceError:
-        suffer(ScannerTrouble::kDeviceError);
-        break;
-      case Heard::kDirty:
-        suffer(ScannerTrouble::kDirty);
-        break;
-      case Heard::kRefused:
-        return give_up(ScannerTrouble::kRefused, arrival);
+      case Heard::kMalformed: ++health_.malformed; break;
+      case Heard::kDeviceError: suffer(ScannerTrouble::kDeviceError); break;
+      case Heard::kDirty: suffer(ScannerTrouble::kDirty); break;
+      case Heard::kRefused: return give_up(ScannerTrouble::kRefused, arrival);
     }
   }
 }

@@ -3,17 +3,15 @@
 #include <algorithm>
 #include <array>
 
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
+#include "drivers/laser/ldrobot.h"
+#include "drivers/laser/lms200.h"
+#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
-#include "drivers/ros/ring_link.h"
+#include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
-
 namespace {
 
 constexpr std::array<ScannerMake, 7> kKinds{{{"sick-cola-a", ScannerKind::kSickColaA, 2112, 0},
@@ -31,32 +29,23 @@ std::unique_ptr<wire::Link> link_of(const ScannerSetup& setup, const ScannerMake
     throw StartupError("scanner: " + std::string(on_network ? "both host and device" : "neither host nor device"),
                        "give the host of one on a network, or the device of one on a serial line");
   }
-  if (on_network && kind.port == 0) {
+  if (on_network && kind.port == 0)
     throw StartupError(setup.host + ": " + std::string(kind.name) + " is not on a network", "give its serial device");
-  }
-  if (!on_network && kind.baud == 0) {
+  if (!on_network && kind.baud == 0)
     throw StartupError(setup.device + ": " + std::string(kind.name) + " is not on a serial line", "give its host");
-  }
   return wire::make_byte_link(setup.host, setup.port == 0 ? kind.port : setup.port, setup.device, baud);
 }
 
 std::unique_ptr<ScannerProtocol> protocol_of(const ScannerSetup& setup, std::uint32_t baud) {
   const sick::ScannerModel model{.range_min_m = setup.range_min_m, .range_max_m = setup.range_max_m};
   switch (setup.kind) {
-    case ScannerKind::kSickColaA:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kA, model);
-    case ScannerKind::kSickColaB:
-      return std::make_unique<sick::SickProtocol>(sick::Cola::kB, model);
-    case ScannerKind::kHokuyo:
-      return std::make_unique<scip::ScipProtocol>();
-    case ScannerKind::kLdrobot:
-      return std::make_unique<ldrobot::LdProtocol>();
-    case ScannerKind::kLms200:
-      return std::make_unique<lms200::Lms200Protocol>(baud);
-    case ScannerKind::kRplidar:
-      return std::make_unique<rplidar::RplidarProtocol>();
-    case ScannerKind::kDds:
-      return std::make_unique<ros::RosScanProtocol>(setup.infinity_is_free);
+    case ScannerKind::kSickColaA: return std::make_unique<sick::SickProtocol>(sick::Cola::kA, model);
+    case ScannerKind::kSickColaB: return std::make_unique<sick::SickProtocol>(sick::Cola::kB, model);
+    case ScannerKind::kHokuyo: return std::make_unique<scip::ScipProtocol>();
+    case ScannerKind::kLdrobot: return std::make_unique<ldrobot::LdProtocol>();
+    case ScannerKind::kLms200: return std::make_unique<lms200::Lms200Protocol>(baud);
+    case ScannerKind::kRplidar: return std::make_unique<rplidar::RplidarProtocol>();
+    case ScannerKind::kDds: return std::make_unique<ros::RosScanProtocol>(setup.infinity_is_free);
   }
   throw StartupError("scanner: of no known kind", "choose one of those in drivers/laser/scanner_setup.h");
 }

@@ -9,7 +9,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk::scip {
-
 namespace {
 
 constexpr std::size_t kLongestData = 64;
@@ -199,9 +198,8 @@ Decoding decode_model(std::string_view answer, ScannerModel& model) noexcept {
     if (decoding != Decoding::kScan) return decoding;
     is_utm_30lx = is_utm_30lx || names_utm_30lx(line.substr(0, line.rfind(';')));
   }
-  for (const Told& one : told) {
+  for (const Told& one : told)
     if (!one.value) return Decoding::kTruncated;
-  }
   const auto value = [&told](std::size_t index) { return *told[index].value; };
   if (value(3) >= value(4) || value(4) - value(3) >= value(2)) return Decoding::kBadField;  // more than a turn
   model.range_min_m = static_cast<float>(value(0)) * 0.001F;

@@ -5,8 +5,8 @@
 #include <optional>
 #include <string_view>
 
-#include "drivers/laser/decoding.h"
-#include "drivers/wire/byte_queue.h"
+#include "drivers/laser/scanner_protocol.h"
+#include "drivers/wire/byte_reader.h"
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk::scip {

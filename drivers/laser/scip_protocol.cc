@@ -4,7 +4,6 @@
 #include <cstdio>
 
 namespace jaywalk::scip {
-
 namespace {
 
 /// More scans than this do not go missing on a connection that lives: the scanner began to count anew.

@@ -2,7 +2,6 @@
 #include <array>
 #include <string_view>
 
-#include "drivers/laser/device_clock.h"
 #include "drivers/laser/scanner_protocol.h"
 #include "drivers/laser/scip.h"
 

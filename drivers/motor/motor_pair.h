@@ -6,12 +6,52 @@
 #include <vector>
 
 #include "drivers/can/can_bus.h"
-#include "drivers/motor/motor_axis.h"
 #include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
 #include "hal/types/errors.h"
+#include "hal/types/robot_model.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
+
+/// What one motor is told in a cycle.
+enum class MotorOrder : std::uint8_t {
+  kOff,         ///< no torque
+  kHold,        ///< torque on, speed zero
+  kRun,         ///< follow the speed
+  kStop,        ///< speed zero because of trouble; nothing else that changes its state
+  kNetworkStop  ///< what else the motor has that ends its obedience, where it does not obey speed zero
+};
+
+/// How the arming proof of one motor stands.
+enum class ProofResult : std::uint8_t {
+  kUnderWay,
+  kPassed,
+  kUnproved,  ///< it did not show that it stops by itself; all else is well
+  kFailed,
+  kAbsent  ///< it does not show itself
+};
+
+/// What is known of one motor, in the wheel's units.
+struct MotorAxis {
+  double turned_rad = 0.0;  ///< since start; goes on where a motor comes back
+  double speed_radps = 0.0;
+  bool fresh_position = false, fresh_speed = false;
+  bool obeys = false;        ///< its torque is on and it follows speeds
+  bool was_enabled = false;  ///< and was asked to
+  Time heard = kNever;       ///< of the message that it always sends; kNever: not since its proof began
+  Time felt = kNever;        ///< of the last speed; likewise
+  Time placed = kNever;      ///< of the last position; likewise
+  bool silenced = false;     ///< it is told nothing more until a reset
+
+  /// All that it has to send by itself came since its proof began.
+  [[nodiscard]] bool shows_itself() const noexcept { return heard != kNever && felt != kNever && placed != kNever; }
+  /// Its proof begins: what it said before counts no more.
+  void forget() noexcept {
+    fresh_position = fresh_speed = obeys = was_enabled = false;
+    heard = felt = placed = kNever;
+  }
+};
 
 struct PairSetup {
   Duration silence_limit{};  ///< a motor that says nothing for so long is lost
@@ -142,5 +182,33 @@ class MotorPair : public WiredDrive {
 [[nodiscard]] constexpr std::int32_t counted(std::uint32_t from, std::uint32_t to) noexcept {
   return static_cast<std::int32_t>(to - from);
 }
+
+/// Reports that a base shows in its arming proof, while it is told to stand: how many, how late, and of what speed.
+class ShownReports {
+ public:
+  /// `tick`: how often they are read.
+  ShownReports(const DriveTimes& times, Duration tick) noexcept : times_(times), tick_(tick) {}
+
+  void begin(Time now) noexcept;
+  void note(Time now, double speed_radps) noexcept;
+  /// Long enough to tell how often it reports.
+  [[nodiscard]] bool is_over(Time now) const noexcept { return now - began_ >= shown_for(); }
+  /// As often as stated.
+  [[nodiscard]] bool is_often_enough() const noexcept;
+  [[nodiscard]] double per_second() const noexcept;
+  [[nodiscard]] double fastest_radps() const noexcept { return fastest_radps_; }
+  /// Periods and delays that it showed, for the robot file; or that no robot file can have them. Start-up only.
+  [[nodiscard]] std::string remedy() const;
+
+ private:
+  [[nodiscard]] Duration shown_for() const noexcept;
+
+  DriveTimes times_;
+  Duration tick_;
+  Time began_ = kNever, read_ = kNever;
+  int readings_ = 0;
+  Duration longest_{};  ///< between two
+  double fastest_radps_ = 0.0;
+};
 
 }  // namespace jaywalk

@@ -12,9 +12,8 @@ OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
       setup_(setup) {
   for (std::size_t k = 0; k < setup.axes.size(); ++k) {
     const AxisSetup& axis = setup.axes[k];
-    if (axis.node > 62 || !std::isfinite(axis.turns_per_rad) || axis.turns_per_rad == 0.0) {
+    if (axis.node > 62 || !std::isfinite(axis.turns_per_rad) || axis.turns_per_rad == 0.0)
       throw StartupError(who(k) + "cannot be set up so", "give it a node from 0 to 62 and its turns per radian");
-    }
   }
   if (setup.axes[0].node == setup.axes[1].node) {
     throw StartupError("ODrive axes: both have node " + std::to_string(setup.axes[0].node),
@@ -33,9 +32,8 @@ std::string OdriveBase::inspect(std::size_t side) {
 }
 
 StartupError OdriveBase::absence(std::size_t index) const {
-  if (axis(index).heard == kNever) {
+  if (axis(index).heard == kNever)
     return {who(index) + "no heartbeat", "see that the bus is up and the drive is powered"};
-  }
   return {who(index) + "no encoder estimates", "set can.encoder_msg_rate_ms = 10 in the ODrive"};
 }
 
@@ -56,9 +54,8 @@ std::string OdriveBase::proof_line(std::size_t index) const { return who(index) 
 std::string OdriveBase::proof_remedy(std::size_t index) const { return proofs_[index].remedy(); }
 
 void OdriveBase::take(const ReceivedFrame& received) noexcept {
-  for (const AxisSetup& axis_setup : setup_.axes) {
+  for (const AxisSetup& axis_setup : setup_.axes)
     if (is_order(received.frame, axis_setup.node)) return note_foreign(received.frame);
-  }
   const auto message = decode(received.frame);
   if (!message) return;
   for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
@@ -67,9 +64,8 @@ void OdriveBase::take(const ReceivedFrame& received) noexcept {
       if (!seen_[k].heartbeats.take_at(received.stamp, setup_.heartbeat_least)) note_foreign(received.frame);
       take_heartbeat(k, *heartbeat, received.stamp);
     }
-    if (const auto* estimates = std::get_if<EncoderEstimates>(&message->content)) {
+    if (const auto* estimates = std::get_if<EncoderEstimates>(&message->content))
       take_estimates(k, *estimates, received.stamp);
-    }
   }
 }
 

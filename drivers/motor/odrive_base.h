@@ -3,10 +3,9 @@
 #include <cstdint>
 #include <string>
 
-#include "drivers/can/frame_rate.h"
 #include "drivers/motor/motor_pair.h"
 #include "drivers/motor/odrive.h"
-#include "drivers/motor/odrive_proof.h"
+#include "drivers/wired_drive.h"
 
 namespace jaywalk::odrive {
 

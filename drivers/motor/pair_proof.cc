@@ -4,7 +4,6 @@
 #include "drivers/motor/motor_pair.h"
 
 namespace jaywalk {
-
 namespace {
 
 /// Another controller commands at 20 Hz or more: in this time it is heard several times.
@@ -56,9 +55,8 @@ std::vector<std::string> MotorPair::judge_proofs() const {
     report.push_back(proof_line(k));
     if (!accepts(results_[k])) throw StartupError(report.back(), proof_remedy(k));
   }
-  if (trouble_ != DriveTrouble::kNone) {
+  if (trouble_ != DriveTrouble::kNone)
     throw StartupError("CAN: " + std::string(name(trouble_)), "see that the bus is up and the drives are powered");
-  }
   return report;
 }
 
@@ -105,9 +103,8 @@ void MotorPair::continue_proofs() noexcept {
   if (both_shown_) return finish_proof(continue_proof(under_proof_));
   wake(false);
   const bool late = clock_.now() - proofs_began_ > setup_.answer_limit;
-  for (under_proof_ = 0; under_proof_ < axes_.size(); ++under_proof_) {
+  for (under_proof_ = 0; under_proof_ < axes_.size(); ++under_proof_)
     if (!axes_[under_proof_].shows_itself()) return late ? finish_proof(ProofResult::kAbsent) : void();
-  }
   both_shown_ = true;
   under_proof_ = 0;
   begin_proof(0);

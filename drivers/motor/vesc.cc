@@ -7,7 +7,6 @@
 #include "drivers/wire/byte_reader.h"
 
 namespace jaywalk::vesc {
-
 namespace {
 
 constexpr std::uint32_t kSetCurrent = 1, kSetBrakeCurrent = 2, kSetErpm = 3, kPiece = 5, kLongPiece = 6, kPiecesEnd = 7,
@@ -115,22 +114,17 @@ std::optional<Message> decode(const CanFrame& frame) noexcept {
   // Braced lists are evaluated in the order written.
   switch (frame.id >> 8U) {
     case kPiece:
-    case kLongPiece:
-      return decode_piece(controller, reader, frame.id >> 8U == kLongPiece);
-    case kPiecesEnd:
-      return decode_end(controller, reader);
-    case kShort:
-      return decode_fault(controller, reader);
+    case kLongPiece: return decode_piece(controller, reader, frame.id >> 8U == kLongPiece);
+    case kPiecesEnd: return decode_end(controller, reader);
+    case kShort: return decode_fault(controller, reader);
     case kStatus:
       return message_of(controller, Status{word(reader), half_word(reader) / 10.0, half_word(reader) / 1000.0}, reader);
     case kStatus4:
       return message_of(controller,
                         Temperatures{half_word(reader) / 10.0, half_word(reader) / 10.0, half_word(reader) / 10.0},
                         reader);
-    case kStatus5:
-      return message_of(controller, Travel{word(reader), half_word(reader) / 10.0}, reader);
-    default:
-      return std::nullopt;
+    case kStatus5: return message_of(controller, Travel{word(reader), half_word(reader) / 10.0}, reader);
+    default: return std::nullopt;
   }
 }
 

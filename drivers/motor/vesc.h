@@ -7,7 +7,7 @@
 #include <span>
 #include <variant>
 
-#include "drivers/can/can_frame.h"
+#include "drivers/can/can_bus.h"
 
 namespace jaywalk::vesc {
 

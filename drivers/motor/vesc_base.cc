@@ -8,7 +8,6 @@
 #include "hal/types/errors.h"
 
 namespace jaywalk::vesc {
-
 namespace {
 
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(500);
@@ -75,9 +74,8 @@ bool VescBase::is_proved_by(const StopSettings& settings) const noexcept {
 
 std::string VescBase::proof_line(std::size_t index) const {
   const Seen& seen = seen_[index];
-  if (!seen.settings) {
+  if (!seen.settings)
     return who(index) + "timeout: " + (seen.answered ? "answer damaged" : "no answer") + ": NOT PROVED";
-  }
   const auto in_ms = [](Duration d) {
     return static_cast<int>(std::chrono::duration_cast<std::chrono::milliseconds>(d).count());
   };
@@ -104,12 +102,10 @@ void VescBase::take(const ReceivedFrame& received) noexcept {
     if (!message || !take_answer(*message, received.stamp)) note_foreign(frame);
     return;
   }
-  for (const AxisSetup& axis_setup : setup_.axes) {
+  for (const AxisSetup& axis_setup : setup_.axes)
     if (is_order(frame, axis_setup.controller)) return note_foreign(frame);
-  }
-  for (std::size_t k = 0; message && k < setup_.axes.size(); ++k) {
+  for (std::size_t k = 0; message && k < setup_.axes.size(); ++k)
     if (message->controller == setup_.axes[k].controller) take_own(k, *message, received.stamp);
-  }
 }
 
 void VescBase::take_own(std::size_t index, const Message& message, Time stamp) noexcept {

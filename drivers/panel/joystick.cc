@@ -2,17 +2,16 @@
 
 #include <fcntl.h>
 #include <linux/input.h>
+#include <linux/joystick.h>
 #include <sys/ioctl.h>
 
 #include <algorithm>
 #include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <utility>
 
-#include "drivers/panel/device_keys.h"
-
 namespace jaywalk::panel {
-
 namespace {
 
 constexpr Duration kBetweenTries = std::chrono::milliseconds(500);
@@ -24,7 +23,32 @@ constexpr unsigned long question(unsigned number, std::size_t answer_bytes) noex
   return _IOC(_IOC_READ, 0x45U, number, static_cast<unsigned>(answer_bytes));  // 45h: 'E'
 }
 
+/// <linux/input.h>'s EVIOCGBIT: 20h and the type of event.
+constexpr unsigned long which_codes(unsigned type, std::size_t bytes) noexcept {
+  return _IOC(_IOC_READ, 0x45U, 0x20U + type, static_cast<unsigned>(bytes));  // 45h: 'E'
+}
+/// <linux/joystick.h>'s JSIOCGBUTTONS, without its mixed signs.
+constexpr unsigned long kHowManyButtons = _IOC(_IOC_READ, 0x6AU, 0x12U, 1U);  // 6Ah: 'j'
+
+template <std::size_t N>
+bool has(const std::array<std::uint8_t, N>& bits, std::uint16_t code) noexcept {
+  return code / 8U < N && (static_cast<unsigned>(bits[code / 8U]) >> (code % 8U) & 1U) != 0;
+}
+
+bool has_stick(const DeviceKeys& keys, const JoystickSetup& setup) noexcept {
+  return has(keys.axes, setup.forward) && has(keys.axes, setup.left);
+}
+
 }  // namespace
+
+std::optional<InputEvent> EventStream::next() noexcept {
+  input_event raw;
+  const wire::Bytes waiting = queue_.waiting();
+  if (waiting.size() < sizeof raw) return std::nullopt;
+  std::memcpy(&raw, waiting.data(), sizeof raw);
+  queue_.drop(sizeof raw);
+  return InputEvent{raw.type, raw.code, raw.value};
+}
 
 double Joystick::Axis::share() const noexcept {
   const double middle = 0.5 * (static_cast<double>(least) + most);
@@ -58,9 +82,8 @@ void Joystick::expire_dead_man(Time now) noexcept {
   if (heard_) heard_at_ = now;
   heard_ = false;
   if (setup_.dead_man_renew > Duration{0} && age(heard_at_, now) > setup_.dead_man_renew &&
-      dead_man_ == Button::kPressed) {
+      dead_man_ == Button::kPressed)
     seen_released_ = false;
-  }
 }
 
 void Joystick::note_centred() noexcept {
@@ -117,9 +140,8 @@ void Joystick::close() noexcept { device_ = wire::FileDescriptor(); }
 void Joystick::ask_present_state() noexcept {
   std::array<std::uint8_t, KEY_MAX / 8 + 1> keys{};
   if (::ioctl(device_.get(), question(0x18, keys.size()), keys.data()) >= 0) {
-    for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset}) {
+    for (const std::uint16_t code : {setup_.dead_man, setup_.stop, setup_.reset})
       if (code <= KEY_MAX) take_button(code, ((static_cast<unsigned>(keys[code / 8U]) >> (code % 8U)) & 1U) != 0);
-    }
   }
   const auto ask_axis = [this](std::uint16_t code, Axis& axis) {
     input_absinfo told{};
@@ -159,6 +181,33 @@ void Joystick::take_button(std::uint16_t code, bool pressed) noexcept {
   if (code == setup_.stop) stop_ = now;
   count_stop();
   if (code == setup_.reset) reset_ = now;
+}
+
+DeviceKeys keys_of(int device) noexcept {
+  DeviceKeys keys;
+  std::uint8_t buttons = 0;
+  keys.old_joystick = ::ioctl(device, kHowManyButtons, &buttons) >= 0;
+  keys.answers = ::ioctl(device, which_codes(EV_KEY, keys.buttons.size()), keys.buttons.data()) >= 0;
+  static_cast<void>(::ioctl(device, which_codes(EV_ABS, keys.axes.size()), keys.axes.data()));
+  return keys;
+}
+
+bool has_all(const DeviceKeys& keys, const JoystickSetup& setup) noexcept {
+  const bool stops = keys.answers && has(keys.buttons, setup.stop);
+  return stops && (!setup.needs_dead_man || has(keys.buttons, setup.dead_man)) &&
+         (!setup.steers || has_stick(keys, setup));
+}
+
+std::string lacking(const DeviceKeys& keys, const JoystickSetup& setup) {
+  if (has_all(keys, setup)) return "";
+  if (keys.old_joystick) return "speaks the older joystick interface, whose buttons have no numbers of their own";
+  if (!keys.answers) return "is no input device: it does not tell which buttons it has";
+  const auto button = [](const char* key, std::uint16_t code) {
+    return "has no button " + std::to_string(code) + ", which [panel] " + key + " names";
+  };
+  if (!has(keys.buttons, setup.stop)) return button("stop_button", setup.stop);
+  if (setup.needs_dead_man && !has(keys.buttons, setup.dead_man)) return button("dead_man_button", setup.dead_man);
+  return "has no stick, which [panel] steering needs";
 }
 
 }  // namespace jaywalk::panel

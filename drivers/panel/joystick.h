@@ -1,14 +1,35 @@
 #pragma once
+// A joystick or a box of buttons as Linux shows it.
 #include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 
-#include "drivers/panel/input_event.h"
+#include "drivers/wire/byte_reader.h"
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/time.h"
 
 namespace jaywalk::panel {
+
+// Linux's input events as they are read from /dev/input/event*: struct input_event of <linux/input.h>.
+
+struct InputEvent {
+  std::uint16_t type = 0;  ///< EV_KEY, EV_ABS, EV_SYN and others
+  std::uint16_t code = 0;  ///< which button or axis
+  std::int32_t value = 0;  ///< of a button 0 released, 1 pressed, 2 held; of an axis its position
+  bool operator==(const InputEvent&) const = default;
+};
+
+/// Cuts what was read into events; the kernel's time in each is passed over.
+class EventStream {
+ public:
+  void append(wire::Bytes bytes) noexcept { queue_.append(bytes); }
+  [[nodiscard]] std::optional<InputEvent> next() noexcept;
+  void forget() noexcept { queue_.clear(); }
+
+ private:
+  wire::ByteQueue<4096> queue_;
+};
 
 /// Which of a device's buttons and axes mean what, by the numbers of <linux/input-event-codes.h>.
 struct JoystickSetup {
@@ -92,5 +113,21 @@ class Joystick {
   std::uint32_t stops_ = 0;
   Axis forward_, left_;
 };
+
+/// What an input device says that it has (EVIOCGBIT), a bit for each number of <linux/input-event-codes.h>.
+struct DeviceKeys {
+  bool answers = false;       ///< it is an evdev device
+  bool old_joystick = false;  ///< it is one of the older interface, /dev/input/js0 say
+  std::array<std::uint8_t, 96> buttons{};
+  std::array<std::uint8_t, 8> axes{};
+};
+
+/// Asks an open device.
+[[nodiscard]] DeviceKeys keys_of(int device) noexcept;
+
+/// Which of the buttons and axes that a setup needs the device lacks, in words; empty where it has them all.
+[[nodiscard]] std::string lacking(const DeviceKeys& keys, const JoystickSetup& setup);
+/// The same as a matter of fact; takes no memory.
+[[nodiscard]] bool has_all(const DeviceKeys& keys, const JoystickSetup& setup) noexcept;
 
 }  // namespace jaywalk::panel

@@ -1,9 +1,9 @@
 #include "drivers/ros/ros_scan.h"
 
 #include <algorithm>
+#include <cstring>
 
 namespace jaywalk::ros {
-
 namespace {
 
 constexpr float kTurn_rad = 6.2832F, kHalfStep_rad = 0.01F, kFarthest_m = 1000.0F;
@@ -62,6 +62,26 @@ Heard RosScanProtocol::next(Time arrival, LaserScan& scan) noexcept {
   const std::size_t size = heard_;
   heard_ = 0;
   return decode_scan(wire::Bytes(message_).first(size), arrival, infinity_is_free_, scan);
+}
+
+void RingLink::open() noexcept {
+  ring_->skip();
+  state_ = State::kOpen;
+}
+
+wire::Bytes RingLink::read(std::span<std::uint8_t>) noexcept {
+  if (state_ != State::kOpen) return {};
+  switch (ring_->read(std::as_writable_bytes(std::span(message_)))) {
+    case SharedRing::Took::kNothing: return {};
+    case SharedRing::Took::kTorn: return wire::Bytes(message_).first(1);
+    case SharedRing::Took::kMessage: break;
+  }
+  return message_;
+}
+
+void RingLink::wait(Duration most) noexcept {
+  if (state_ == State::kClosed) ring_->skip();
+  ring_->wait(most);
 }
 
 }  // namespace jaywalk::ros

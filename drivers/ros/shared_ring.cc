@@ -7,15 +7,14 @@
 #include <sys/syscall.h>
 #include <unistd.h>
 
+#include <atomic>
 #include <cerrno>
 #include <cstring>
-#include <optional>
 
 #include "drivers/wire/file_descriptor.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::ros {
-
 namespace {
 
 constexpr std::uint64_t kMagic = 0x31676E6972776A0AU;  // "\njwring1"

@@ -1,12 +1,55 @@
 #pragma once
+// Serial lines and TCP connections that open again by themselves.
+#include <sys/socket.h>
+
+#include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 
 #include "drivers/wire/byte_reader.h"
-#include "drivers/wire/endpoint.h"
+#include "drivers/wire/file_descriptor.h"
 #include "hal/types/time.h"
 
 namespace jaywalk::wire {
+
+/// Where a device is found that speaks in bytes, and how it is opened again and again.
+class Endpoint {
+ public:
+  virtual ~Endpoint() = default;
+  /// Opens it without waiting or allocating: the descriptor, which may still be connecting; -1 where that failed.
+  [[nodiscard]] virtual FileDescriptor open() const noexcept = 0;
+  /// How a person would name it: "192.168.0.1:2112", "/dev/ttyUSB0".
+  [[nodiscard]] virtual const std::string& name() const noexcept = 0;
+};
+
+/// A TCP port. The host's name is looked up once, at start.
+class TcpEndpoint final : public Endpoint {
+ public:
+  /// Throws StartupError where `host` is no address and no name that is known.
+  TcpEndpoint(const std::string& host, std::uint16_t port);
+  [[nodiscard]] FileDescriptor open() const noexcept override;
+  [[nodiscard]] const std::string& name() const noexcept override { return name_; }
+
+ private:
+  std::string name_;
+  sockaddr_storage address_{};
+  socklen_t address_size_ = 0;
+};
+
+/// A serial line: 8 data bits, no parity, one stop bit, no flow control, nothing translated.
+class SerialEndpoint final : public Endpoint {
+ public:
+  /// `path` need not exist yet: a device may be plugged in later. Throws StartupError for a rate that no line has.
+  SerialEndpoint(std::string path, std::uint32_t baud);
+  /// What came in before it was opened is thrown away.
+  [[nodiscard]] FileDescriptor open() const noexcept override;
+  [[nodiscard]] const std::string& name() const noexcept override { return path_; }
+
+ private:
+  std::string path_;
+  std::uint32_t baud_;
+};
 
 /// A connection to a device. Only `wait` waits; nothing allocates after construction. Thread: one.
 class Link {
@@ -53,5 +96,9 @@ class ByteLink final : public Link {
 /// A link to `host` and `port`, or, where `host` is empty, to the serial line `device`. Throws StartupError.
 [[nodiscard]] std::unique_ptr<Link> make_byte_link(const std::string& host, std::uint16_t port,
                                                    const std::string& device, std::uint32_t baud);
+
+/// Sets an open serial line to 8 data bits, no parity, one stop bit, no flow control, nothing translated, at any rate
+/// (termios2; glibc's own calls know but a few). False where it does not take that.
+[[nodiscard]] bool set_raw(int line, std::uint32_t baud) noexcept;
 
 }  // namespace jaywalk::wire

@@ -1,8 +1,9 @@
 #pragma once
-#include <bit>
+// Numbers in bytes, and bytes that wait to be read.
+#include <algorithm>
+#include <array>
 #include <cstddef>
 #include <cstdint>
-#include <cstring>
 #include <span>
 #include <type_traits>
 
@@ -25,9 +26,8 @@ template <class T>
 [[nodiscard]] T big_endian(Bytes bytes) noexcept {
   static_assert(std::is_unsigned_v<T>);
   T value = 0;
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     value = static_cast<T>((static_cast<std::uint64_t>(value) << 8U) | bytes[i]);
-  }
   return value;
 }
 
@@ -35,18 +35,16 @@ template <class T>
 template <class T>
 void put_little_endian(T value, std::span<std::uint8_t> out) noexcept {
   static_assert(std::is_unsigned_v<T>);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     out[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8U * i));
-  }
 }
 
 /// The same, most significant byte first.
 template <class T>
 void put_big_endian(T value, std::span<std::uint8_t> out) noexcept {
   static_assert(std::is_unsigned_v<T>);
-  for (std::size_t i = 0; i < sizeof(T); ++i) {
+  for (std::size_t i = 0; i < sizeof(T); ++i)
     out[i] = static_cast<std::uint8_t>(static_cast<std::uint64_t>(value) >> (8U * (sizeof(T) - 1 - i)));
-  }
 }
 
 /// Walks through bytes that may end anywhere: what is read beyond their end is 0, and ok() is false from then on.
@@ -83,6 +81,46 @@ class ByteReader {
  private:
   Bytes rest_;
   bool ok_ = true;
+};
+
+/// Bytes of a stream that wait to be understood, in place. When new ones do not fit, the oldest go and are counted:
+/// of a sensor only the newest matters, and a reader that finds no beginning any more finds the next one.
+template <std::size_t N>
+class ByteQueue {
+ public:
+  void append(Bytes bytes) noexcept {
+    if (bytes.size() > N) {
+      lost_ += bytes.size() - N;
+      bytes = bytes.last(N);
+    }
+    if (size_ + bytes.size() > N) {
+      lost_ += size_ + bytes.size() - N;
+      drop(size_ + bytes.size() - N);
+    }
+    if (begin_ + size_ + bytes.size() > N) {
+      std::copy_n(bytes_.begin() + static_cast<std::ptrdiff_t>(begin_), size_, bytes_.begin());
+      begin_ = 0;
+    }
+    std::copy(bytes.begin(), bytes.end(), bytes_.begin() + static_cast<std::ptrdiff_t>(begin_ + size_));
+    size_ += bytes.size();
+  }
+  /// Oldest first; valid until the next append.
+  [[nodiscard]] Bytes waiting() const noexcept { return {bytes_.data() + begin_, size_}; }
+  /// Forgets the oldest `count`, or all where there are fewer.
+  void drop(std::size_t count) noexcept {
+    count = std::min(count, size_);
+    begin_ += count;
+    size_ -= count;
+  }
+  /// Forgets all that waits; what was lost stays counted.
+  void clear() noexcept { begin_ = size_ = 0; }
+  [[nodiscard]] std::uint64_t lost() const noexcept { return lost_; }
+
+ private:
+  std::array<std::uint8_t, N> bytes_{};
+  std::size_t begin_ = 0;
+  std::size_t size_ = 0;
+  std::uint64_t lost_ = 0;
 };
 
 }  // namespace jaywalk::wire

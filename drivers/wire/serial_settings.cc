@@ -1,7 +1,7 @@
-#include "drivers/wire/serial_settings.h"
-
 #include <asm/termbits.h>  // not with <termios.h>: both define the same names
 #include <sys/ioctl.h>
+
+#include "drivers/wire/byte_link.h"
 
 namespace jaywalk::wire {
 

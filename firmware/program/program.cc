@@ -3,7 +3,6 @@
 #include <fcntl.h>
 #include <unistd.h>
 
-#include <algorithm>
 #include <array>
 #include <csignal>
 #include <cstdio>
@@ -11,18 +10,11 @@
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
-#include <string>
-#include <vector>
 
 #include "firmware/backends.h"
-#include "firmware/program/options.h"
-#include "firmware/program/parse_message.h"
-#include "firmware/program/run_command.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/goal_order.h"
 #include "hal/setting_keys.h"
-#include "hal/shown_text.h"
-#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
@@ -137,6 +129,12 @@ void add_check(CLI::App& app, int& exit_code) {
   check->callback([&exit_code] { exit_code = check_robot(run_options); });
 }
 
+std::string text_of(const Footer& footer, const std::string& program) {
+  const std::string one = footer.one == std::string("-") ? "" : std::string(", 1: ") + footer.one;
+  return "Example:\n  " + program + " " + footer.example + "\nExit code: 0: " + footer.zero + one +
+         ", 2: bad input or set-up, 130: ended by Ctrl-C";
+}
+
 }  // namespace
 
 int run_program(CLI::App& app, int argc, char** argv, const AddCommands& add_commands) {
@@ -202,6 +200,13 @@ void open_standard_streams() {
 void require_heard() {
   if (std::fflush(stdout) == 0 && std::ferror(stdout) == 0) return;
   throw StartupError("standard output: not all of it was taken", "free some space where it goes");
+}
+
+void add_footers(CLI::App& app, std::span<const Footer> footers) {
+  const std::string program = app.get_name();
+  for (const Footer& footer : footers) app.get_subcommand(footer.command)->footer(text_of(footer, program));
+  app.footer("Example:\n  " + program + " " + footers.front().example +
+             "\nExit code: 0: as asked, 1: not so, 2: bad input or set-up; each command's --help says more");
 }
 
 }  // namespace jaywalk

@@ -1,8 +1,16 @@
 #pragma once
 #include <CLI/CLI.hpp>
+#include <algorithm>
 #include <functional>
+#include <span>
+#include <string>
+#include <vector>
 
+#include "firmware/control_setup.h"
 #include "firmware/program/run_command.h"
+#include "firmware/recording/run_folders.h"
+#include "hal/shown_text.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 
@@ -23,5 +31,98 @@ void open_standard_streams();
 
 /// Throws StartupError when standard output did not take all that was said there, as on a full disk.
 void require_heard();
+
+// Options whose value is one of a few words.
+
+template <class T>
+struct Choice {
+  std::string word;
+  T value;
+};
+
+/// `chosen` holds the default. Help and errors show the words, which the parser's own checks mix with the values behind
+/// them. Parsing throws StartupError for any other word.
+template <class T>
+void add_choice(CLI::App& command, const std::string& option, T& chosen, const std::vector<Choice<T>>& choices,
+                const std::string& about) {
+  std::string words, usual;
+  for (const Choice<T>& choice : choices) {
+    words += (words.empty() ? "" : "|") + choice.word;
+    if (choice.value == chosen) usual = choice.word;
+  }
+  const auto choose = [&chosen, option, choices, words](const std::string& word) {
+    const auto found = std::find_if(choices.begin(), choices.end(), [&](const auto& c) { return c.word == word; });
+    if (found == choices.end()) throw StartupError(option + ": no such choice: " + shown(word), "give " + words);
+    chosen = found->value;
+  };
+  command.add_option_function<std::string>(option, choose, about)->type_name(words)->default_str(usual);
+}
+
+inline void add_backend(CLI::App& command, Backend& chosen, int& device) {
+  add_choice<Backend>(command, "--backend", chosen,
+                      {{"auto", Backend::kAuto}, {"cpu", Backend::kCpu}, {"cuda", Backend::kCuda}}, "Who plans");
+  command.add_option("--device", device, "Number of the GPU that plans, as CUDA counts them from 0")
+      ->check(CLI::Range(0, 255))
+      ->capture_default_str();
+}
+
+/// --part-bytes and --keep-parts.
+inline void add_parts(CLI::App& command, PartsKept& kept) {
+  command
+      .add_option("--part-bytes", kept.bytes,
+                  "Recording and tables in parts of at most so many bytes, 200000 or more; 0: whole")
+      ->type_name("UINT")
+      ->capture_default_str();
+  command.add_option("--keep-parts", kept.parts, "How many parts are kept, the one that is written among them")
+      ->check(CLI::Range(2, 1'000'000))
+      ->capture_default_str();
+}
+
+/// The first option that `command` does not have, with the one that was meant; empty where all are known.
+inline std::string unknown_option(const std::string& program, const CLI::App& command) {
+  std::vector<std::string> known;
+  for (const CLI::Option* option : command.get_options())
+    for (const std::string& name : option->get_lnames()) known.push_back("--" + name);
+  for (const std::string& word : command.remaining()) {
+    if (word.rfind('-', 0) != 0) continue;
+    const std::string see = "see " + program + " " + command.get_name() + " --help";
+    return shown(word) + ": no such option; " + did_you_mean(word.substr(0, word.find('=')), known, see);
+  }
+  return "";
+}
+
+/// One line for a command line that the parser refuses.
+inline std::string parse_message(const CLI::App* app, const CLI::Error& error) {
+  const auto given = app->get_subcommands();
+  const std::string unknown = given.empty() ? "" : unknown_option(app->get_name(), *given[0]);
+  if (!unknown.empty()) return app->get_name() + ": " + unknown + "\n";
+  return app->get_name() + ": " + printable(error.what()) + "; see " + app->get_name() + " " +
+         (given.empty() ? "" : given[0]->get_name() + " ") + "--help\n";
+}
+
+/// Throws StartupError for a word of the command line that is empty, or an option that ends in "=": the parser would
+/// read a number as 0, from a shell's unset variable, say.
+inline void refuse_empty_words(int argc, const char* const* argv) {
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool option_of_nothing = word.rfind("--", 0) == 0 && word.back() == '=';
+    if (!word.empty() && !option_of_nothing) continue;
+    const std::string place = option_of_nothing ? " behind " + shown(word)
+                              : k > 1           ? " behind " + shown(argv[k - 1])
+                                                : "";
+    throw StartupError("a word of the command line is empty" + place, "give a value, or leave it out");
+  }
+}
+
+/// What stands under a command's help.
+struct Footer {
+  const char* command;
+  const char* example;  ///< without the program's name
+  const char* zero;     ///< meaning of exit code 0
+  const char* one;      ///< of exit code 1; "-": there is none
+};
+
+/// Under each command's help: an example, and what its exit code says. The program's own help shows the first.
+void add_footers(CLI::App& app, std::span<const Footer> footers);
 
 }  // namespace jaywalk

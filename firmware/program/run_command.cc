@@ -3,28 +3,22 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <fstream>
-#include <memory>
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "drivers/can/restart_link.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/can/can_interface.h"
+#include "drivers/wired_drive.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/recording/run_folders.h"
-#include "firmware/robot/armed_mark.h"
 #include "firmware/robot/commissioned.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/device_report.h"
-#include "firmware/robot/known_map_file.h"
 #include "firmware/robot/operator_controls.h"
 #include "firmware/robot/planner_thread.h"
 #include "firmware/robot/preflight.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/robot/robot_loop.h"
+#include "firmware/robot/run_status.h"
 #include "firmware/robot/service_manager.h"
-#include "firmware/robot/signal_thread.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 

@@ -5,7 +5,6 @@
 
 #include "firmware/control_setup.h"
 #include "firmware/recording/run_folders.h"
-#include "firmware/recording/run_parts.h"
 #include "firmware/robot/robot_file.h"
 #include "firmware/run_sample.h"
 

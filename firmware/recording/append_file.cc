@@ -24,11 +24,10 @@ std::size_t AppendFile::append(std::span<const unsigned char> bytes) noexcept {
   std::size_t taken = 0;
   while (taken < bytes.size() && error_ == 0) {
     const ssize_t count = ::write(descriptor_, bytes.data() + taken, bytes.size() - taken);
-    if (count > 0) {
+    if (count > 0)
       taken += static_cast<std::size_t>(count);
-    } else if (count == 0 || errno != EINTR) {
+    else if (count == 0 || errno != EINTR)
       error_ = count == 0 ? ENOSPC : errno;
-    }
   }
   size_ += taken;
   return taken;

@@ -1,8 +1,211 @@
 #include "firmware/recording/recorder.h"
 
+#include <zlib.h>
+
 #include <algorithm>
+#include <array>
+#include <cstring>
+#include <filesystem>
+#include <utility>
+
+#include "hal/types/errors.h"
 
 namespace jaywalk {
+namespace {
+
+constexpr std::array<unsigned char, 8> kMagic{'J', 'A', 'Y', 'W', 'A', 'L', 'K', '\n'};
+constexpr std::size_t kEntryHeadBytes = 12;
+constexpr std::size_t kBlockBytes = 1U << 16U;
+
+std::uint32_t crc_of(std::span<const unsigned char> bytes, std::uint32_t before = 0) {
+  return static_cast<std::uint32_t>(crc32(before, bytes.data(), static_cast<uInt>(bytes.size())));
+}
+
+std::span<const unsigned char> bytes_of(const std::string& text) {
+  return {reinterpret_cast<const unsigned char*>(text.data()), text.size()};
+}
+
+/// What stands before an entry's bytes, or at the end (length 0, `check` the number of entries).
+struct EntryHead {
+  std::uint32_t length = 0;
+  std::uint32_t inverse = 0;
+  std::uint32_t check = 0;
+};
+
+std::array<unsigned char, kEntryHeadBytes> encode(std::uint32_t length, std::uint32_t check) {
+  std::array<unsigned char, kEntryHeadBytes> bytes{};
+  ByteSink sink(bytes);
+  sink.number(length);
+  sink.number(~length);
+  sink.number(check);
+  return bytes;
+}
+
+EntryHead decode(std::span<const unsigned char> bytes) {
+  ByteSource source(bytes);
+  EntryHead head;
+  source.number(head.length);
+  source.number(head.inverse);
+  source.number(head.check);
+  return head;
+}
+
+}  // namespace
+
+bool is_recording(const std::string& file) {
+  std::array<unsigned char, kMagic.size()> head{};
+  GzipFile stream(file.c_str());
+  return stream.is_open() && stream.read(head.data(), head.size()) == head.size() && head == kMagic;
+}
+
+RecordingWriter::RecordingWriter(const std::string& file, const std::string& setup)
+    : file_(file), block_(std::max(kBlockBytes + kEntryHeadBytes + kMaxEntryBytes, setup.size() + 32)) {
+  if (setup.size() > kMaxSetupBytes)
+    throw StartupError(file + ": a setup of " + std::to_string(setup.size()) + " bytes", "keep it below 16 MiB");
+  std::array<unsigned char, kMagic.size() + 8> head{};
+  std::memcpy(head.data(), kMagic.data(), kMagic.size());
+  ByteSink numbers(std::span<unsigned char>(head).subspan(kMagic.size()));
+  numbers.number(kRecordingVersion);
+  numbers.number(static_cast<std::uint32_t>(setup.size()));
+  std::array<unsigned char, 4> check{};
+  ByteSink(check).number(crc_of(bytes_of(setup), crc_of(head)));
+  put(head);
+  put(bytes_of(setup));
+  put(check);
+}
+
+RecordingWriter::~RecordingWriter() { close(); }
+
+void RecordingWriter::put(std::span<const unsigned char> bytes) noexcept {
+  if (!bytes.empty()) std::memcpy(block_.data() + used_, bytes.data(), bytes.size());
+  used_ += bytes.size();
+}
+
+bool RecordingWriter::write(const TickRecord& record, std::uint64_t lost_before) noexcept {
+  if (!header_written_) write_out();
+  if (file_.has_failed()) return false;
+  const std::span<unsigned char> entry = std::span(block_).subspan(used_);
+  const std::size_t length = encoder_.encode(record, lost_before, entry.subspan(kEntryHeadBytes));
+  const auto head = encode(static_cast<std::uint32_t>(length), crc_of(entry.subspan(kEntryHeadBytes, length)));
+  std::memcpy(entry.data(), head.data(), head.size());
+  used_ += kEntryHeadBytes + length;
+  ++entries_;
+  if (written_at_ == kNever) written_at_ = record.now;
+  if (used_ >= kBlockBytes || record.now - written_at_ >= kLongestWait) {
+    write_out();
+    written_at_ = record.now;
+  }
+  return !file_.has_failed();
+}
+
+void RecordingWriter::write_out() noexcept {
+  const std::span<const unsigned char> block = std::span<const unsigned char>(block_).first(used_);
+  const std::size_t taken = file_.append(block);
+  used_ = 0;
+  if (taken == block.size()) {
+    header_written_ = true;
+    return;
+  }
+  std::size_t whole = 0;  // entries; of a header that is cut nothing is kept
+  while (header_written_ && taken - whole >= kEntryHeadBytes) {
+    const std::size_t entry = kEntryHeadBytes + decode(block.subspan(whole)).length;
+    if (taken - whole < entry) break;
+    whole += entry;
+  }
+  file_.take_back(taken - whole);
+}
+
+bool RecordingWriter::close() noexcept {
+  if (std::exchange(closed_, true)) return !file_.has_failed();
+  write_out();
+  if (!file_.has_failed()) {
+    put(encode(0, entries_));
+    write_out();
+  }
+  return file_.close();
+}
+
+RecordingReader::RecordingReader(const std::string& file, FilePart part)
+    : file_(file), stream_(file.c_str(), part), entry_(kMaxEntryBytes) {
+  if (!stream_.is_open())
+    throw StartupError(file + ": cannot be read", "give a recording.jwr that a run left in its --out");
+  std::error_code unknown;  // the size then reads as the greatest: a bar that does not move
+  bytes_ = std::min(part.bytes, static_cast<std::uint64_t>(std::filesystem::file_size(file, unknown)));
+  read_header();
+}
+
+double RecordingReader::share_read() const { return stream_.bytes_used() / static_cast<double>(bytes_); }
+
+bool RecordingReader::read(unsigned char* to, std::size_t bytes) { return stream_.read(to, bytes) == bytes; }
+
+void RecordingReader::damaged(const std::string& cause) const {
+  throw StartupError(file_ + ": byte " + std::to_string(position_) + ": " + cause,
+                     "take an undamaged copy of the recording");
+}
+
+void RecordingReader::read_header() {
+  std::array<unsigned char, kMagic.size() + 8> head{};
+  if (!read(head.data(), head.size())) damaged("too short for a recording");
+  if (std::memcmp(head.data(), kMagic.data(), kMagic.size()) != 0) damaged("not a recording");
+  ByteSource numbers(std::span<const unsigned char>(head).subspan(kMagic.size()));
+  std::uint32_t version = 0, setup_bytes = 0;
+  numbers.number(version);
+  numbers.number(setup_bytes);
+  if (version != kRecordingVersion) {
+    throw StartupError(file_ + ": byte 8: format version " + std::to_string(version) + ", this program reads " +
+                           std::to_string(kRecordingVersion) + " alone",
+                       "replay it with the jaywalk that recorded it");
+  }
+  if (setup_bytes > kMaxSetupBytes) damaged("the header is damaged");
+  setup_.resize(setup_bytes);
+  std::array<unsigned char, 4> check{};
+  if (!read(reinterpret_cast<unsigned char*>(setup_.data()), setup_bytes) || !read(check.data(), check.size()))
+    damaged("the header is cut");
+  std::uint32_t crc = 0;
+  ByteSource(check).number(crc);
+  if (crc != crc_of(bytes_of(setup_), crc_of(head))) damaged("the header is damaged");
+  position_ = head.size() + setup_bytes + check.size();
+}
+
+void RecordingReader::cut_short() {
+  ended_ = true;
+  warning_ = file_ + ": byte " + std::to_string(position_) + ": cut short after " + std::to_string(entries_) +
+             " ticks; what stands before is good";
+}
+
+void RecordingReader::check_end(std::uint32_t entries) {
+  if (entries != entries_)
+    damaged("the end mark counts " + std::to_string(entries) + " ticks, there are " + std::to_string(entries_));
+  position_ += kEntryHeadBytes;
+  unsigned char beyond = 0;
+  if (read(&beyond, 1)) damaged("something follows the end mark");
+  ended_ = true;
+}
+
+bool RecordingReader::next(TickRecord& record) {
+  if (ended_) return false;
+  std::array<unsigned char, kEntryHeadBytes> bytes{};
+  if (!read(bytes.data(), bytes.size())) {
+    cut_short();
+    return false;
+  }
+  const EntryHead head = decode(bytes);
+  if (head.inverse != ~head.length || head.length > kMaxEntryBytes) damaged("an entry's length is damaged");
+  if (head.length == 0) {
+    check_end(head.check);
+    return false;
+  }
+  if (!read(entry_.data(), head.length)) {
+    cut_short();
+    return false;
+  }
+  const std::span<const unsigned char> entry = std::span<const unsigned char>(entry_).first(head.length);
+  if (crc_of(entry) != head.check) damaged("an entry's check sum is wrong");
+  if (!decoder_.decode(entry, record, lost_before_)) damaged("an entry holds values that no tick has");
+  position_ += kEntryHeadBytes + head.length;
+  ++entries_;
+  return true;
+}
 
 Recorder::Recorder(const RecorderConfig& config)
     : writer_(config.file.empty() ? nullptr : std::make_unique<RecordingWriter>(config.file, config.setup)),

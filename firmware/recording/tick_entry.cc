@@ -1,9 +1,6 @@
 #include "firmware/recording/tick_entry.h"
 
 #include <algorithm>
-#include <type_traits>
-
-#include "firmware/recording/byte_order.h"
 
 namespace jaywalk {
 namespace {
@@ -20,11 +17,9 @@ struct Put {
   void operator()(const bool& value) { sink.number(static_cast<std::uint8_t>(value ? 1 : 0)); }
   void operator()(const Duration& value) { sink.number(static_cast<std::int64_t>(value.count())); }
   void operator()(const Time& value) { sink.number(static_cast<std::int64_t>(value.time_since_epoch().count())); }
-  void operator()(const PlanStatus& value) { sink.number(static_cast<std::uint8_t>(value)); }
-  void operator()(const DriveTrouble& value) { sink.number(static_cast<std::uint8_t>(value)); }
-  void operator()(const DriveFaultKind& value) { sink.number(static_cast<std::uint8_t>(value)); }
-  void operator()(const StopStage& value) { sink.number(static_cast<std::uint8_t>(value)); }
-  void operator()(const Reason& value) { sink.number(static_cast<std::uint32_t>(value)); }
+  template <class Enum>
+  requires std::is_enum_v<Enum>
+  void operator()(const Enum& value) { sink.number(static_cast<std::underlying_type_t<Enum>>(value)); }
   std::uint32_t count(std::size_t size) {
     sink.number(static_cast<std::uint32_t>(size));
     return static_cast<std::uint32_t>(size);
@@ -40,18 +35,10 @@ struct Get {
   void operator()(bool& value) { value = up_to(1) == 1; }
   void operator()(Duration& value) { value = Duration{ticks()}; }
   void operator()(Time& value) { value = Time{Duration{ticks()}}; }
-  void operator()(PlanStatus& value) {
-    value = static_cast<PlanStatus>(up_to(static_cast<std::uint8_t>(PlanStatus::kBackendFailed)));
-  }
-  void operator()(StopStage& value) {
-    value = static_cast<StopStage>(up_to(static_cast<std::uint8_t>(StopStage::kSilent)));
-  }
-  void operator()(DriveTrouble& value) {
-    value = static_cast<DriveTrouble>(up_to(static_cast<std::uint8_t>(kLastDriveTrouble)));
-  }
-  void operator()(DriveFaultKind& value) {
-    value = static_cast<DriveFaultKind>(up_to(static_cast<std::uint8_t>(kLastDriveFaultKind)));
-  }
+  void operator()(PlanStatus& value) { up_to(PlanStatus::kBackendFailed, value); }
+  void operator()(StopStage& value) { up_to(StopStage::kSilent, value); }
+  void operator()(DriveTrouble& value) { up_to(kLastDriveTrouble, value); }
+  void operator()(DriveFaultKind& value) { up_to(kLastDriveFaultKind, value); }
   void operator()(Reason& value) {
     std::uint32_t bits = 0;
     source.number(bits);
@@ -69,6 +56,10 @@ struct Get {
   }
 
  private:
+  template <class Enum>
+  void up_to(Enum most, Enum& value) {
+    value = static_cast<Enum>(up_to(static_cast<std::uint8_t>(most)));
+  }
   std::uint8_t up_to(std::uint8_t most) {
     std::uint8_t value = 0;
     source.number(value);

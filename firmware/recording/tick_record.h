@@ -12,7 +12,6 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/outside_fix.h"
-#include "hal/types/scanners.h"
 #include "hal/types/wheels.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/localization/localizer.h"

@@ -5,7 +5,6 @@
 #include <sys/socket.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <system_error>
 
@@ -96,9 +95,8 @@ void ControlClients::serve(int listener, Time now) {
   accept_new(listener, now);
   answer_job();
   std::size_t answers = 0;
-  for (Client& client : clients_) {
+  for (Client& client : clients_)
     if (client.state == State::kAsked && answers++ < kMostAnswers) answer(client);
-  }
   drop_done(now);
   if (reserve_.get() < 0) reserve_ = reserved();
 }
@@ -171,13 +169,12 @@ void ControlClients::answer(Client& client) {
   const StopWords stop = stop_in(client.said());
   const std::string_view first = client.said().substr(0, client.said().find('\n'));
   const ControlReply reply = answer_(stop == StopWords::kNone ? first : kStops[static_cast<std::size_t>(stop)]);
-  if (reply.job && job_.valid()) {
+  if (reply.job && job_.valid())
     send_to(client.socket.get(), "refused: an earlier order is still being carried out; try again\n");
-  } else if (reply.job) {
+  else if (reply.job)
     start_job(client, reply.job);
-  } else {
+  else
     send_to(client.socket.get(), reply.text);
-  }
 }
 
 void ControlClients::start_job(Client& client, const std::function<std::string()>& job) {
@@ -200,9 +197,8 @@ void ControlClients::answer_job() {
 }
 
 void ControlClients::drop_done(Time now) {
-  for (Client& client : clients_) {
+  for (Client& client : clients_)
     if (client.state == State::kTalks && now - client.since > kPatience) end_line(client, false);
-  }
   std::erase_if(clients_, [](const Client& client) { return client.state == State::kDone; });
 }
 

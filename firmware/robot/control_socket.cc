@@ -27,9 +27,8 @@ sockaddr_un address_of(const std::filesystem::path& path) {
   sockaddr_un address{};
   address.sun_family = AF_UNIX;
   const std::string text = path.string();
-  if (text.empty() || text.size() >= sizeof address.sun_path) {
+  if (text.empty() || text.size() >= sizeof address.sun_path)
     throw StartupError(text + ": no name for a socket", "choose one of 1 to 107 characters");
-  }
   std::memcpy(address.sun_path, text.data(), text.size());
   return address;
 }
@@ -64,16 +63,14 @@ void remove_dead_socket(const std::filesystem::path& path) {
 
 wire::FileDescriptor listening_at(const std::filesystem::path& path) {
   const sockaddr_un address = address_of(path);
-  if (connected_to(path).get() >= 0) {
+  if (connected_to(path).get() >= 0)
     throw StartupError(path.string() + ": another run listens there", "end it, or give control_socket another name");
-  }
   remove_dead_socket(path);
   wire::FileDescriptor made(::socket(AF_UNIX, SOCK_STREAM | SOCK_NONBLOCK | SOCK_CLOEXEC, 0));
   ::fchmod(made.get(), S_IRUSR | S_IWUSR);  // as long as it is not listening, nobody else's
   if (::bind(made.get(), reinterpret_cast<const sockaddr*>(&address), sizeof address) != 0 ||
-      ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0) {
+      ::chmod(address.sun_path, S_IRUSR | S_IWUSR | S_IRGRP | S_IWGRP) != 0 || ::listen(made.get(), kBacklog) != 0)
     throw StartupError(path.string() + ": " + std::strerror(errno), "give control_socket a name that can be made");
-  }
   return made;
 }
 
@@ -125,9 +122,8 @@ std::string ask(const std::filesystem::path& path, const std::string& line) {
   say(run.get(), line + "\n");
   std::string answer;
   std::array<char, 1024> part{};
-  for (ssize_t got = 0; (got = ::recv(run.get(), part.data(), part.size(), 0)) > 0;) {
+  for (ssize_t got = 0; (got = ::recv(run.get(), part.data(), part.size(), 0)) > 0;)
     answer.append(part.data(), static_cast<std::size_t>(got));
-  }
   if (answer.empty()) throw StartupError(path.string() + ": no answer", "see whether the run has stopped or hangs");
   return answer;
 }

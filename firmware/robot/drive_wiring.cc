@@ -1,7 +1,6 @@
 #include "firmware/robot/drive_wiring.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "firmware/robot/robot_file_keys.h"
@@ -78,14 +77,12 @@ void require_two_ticks_within(TomlTable& table, Duration tick, Duration most, co
 canopen::DriveBaseSetup read_cia402(TomlTable& table, const RobotModel& model, Duration tick, const StopLimits& stop) {
   canopen::DriveBaseSetup base;
   canopen::DriveSettings& settings = base.settings;
-  settings.controller_node = read_node(table, "controller_node");
-  settings.controller_timeout_ms = static_cast<std::uint16_t>(table.integer("controller_timeout_ms"));
+  canopen_keys().read(table, settings);
   if (2 * tick > std::chrono::milliseconds(settings.controller_timeout_ms)) {
     table.refuse("controller_timeout_ms",
                  "is " + std::to_string(settings.controller_timeout_ms) + ", less than two of the loop's periods",
                  "raise it, or rate_hz");
   }
-  settings.heartbeat_ms = static_cast<std::uint16_t>(table.integer("heartbeat_ms"));
   base.silence_limit = 3 * std::chrono::milliseconds(settings.heartbeat_ms);
   base.stop = stop;
   base.allow_unproved = table.boolean("allow_unproved");
@@ -165,6 +162,29 @@ std::string read_interface(TomlTable& table) {
 
 }  // namespace
 
+ByteWiring read_byte_wiring(TomlTable& table, const std::string& what, std::uint16_t makers_port,
+                            std::uint32_t makers_baud) {
+  ByteWiring wiring;
+  if (table.has("host") && table.has("device"))
+    table.refuse("device", "stands beside host", "keep the one by which this " + what + " is connected");
+  if (makers_port == 0 || (makers_baud != 0 && table.has("device"))) {
+    if (table.has("host"))
+      table.refuse("host", "is for " + what + "s on the network", "give the serial line of this one as device");
+    wiring.device = table.text("device");
+    wiring.baud = static_cast<std::uint32_t>(table.integer("baud", makers_baud));
+    return wiring;
+  }
+  if (table.has("device"))
+    table.refuse("device", "is for " + what + "s on a serial line", "give the address of this one as host");
+  wiring.host = table.text("host");
+  wiring.port = static_cast<std::uint16_t>(table.integer("port", makers_port));
+  return wiring;
+}
+
+std::string name_of(const ByteWiring& wiring) {
+  return wiring.host.empty() ? wiring.device : wiring.host + ":" + std::to_string(wiring.port);
+}
+
 std::array<double, 4> axes_of(const DriveWiring& drive) {
   const auto& odrive = drive.odrive.axes;
   const auto& vesc = drive.vesc.axes;
@@ -176,12 +196,9 @@ std::array<double, 4> axes_of(const DriveWiring& drive) {
     case DriveKind::kVesc:
       return {static_cast<double>(vesc[0].controller), vesc[0].electrical_turns_per_rad,
               static_cast<double>(vesc[1].controller), vesc[1].electrical_turns_per_rad};
-    case DriveKind::kDds:
-      return {0.0, 1.0, 0.0, 1.0};  // it has no axes
-    case DriveKind::kPioneer:
-      return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
-    case DriveKind::kCia402:
-      break;
+    case DriveKind::kDds: return {0.0, 1.0, 0.0, 1.0};  // it has no axes
+    case DriveKind::kPioneer: return {0.0, drive.arcos.mm_per_rad[0], 0.0, drive.arcos.mm_per_rad[1]};
+    case DriveKind::kCia402: break;
   }
   return {static_cast<double>(cia402[0].node), cia402[0].counts_per_rad, static_cast<double>(cia402[1].node),
           cia402[1].counts_per_rad};
@@ -198,9 +215,7 @@ DriveWiring read_drive(TomlTable table, RobotModel& model, Duration tick) {
   wiring.wheel_radii_m = {model.drive.wheel_radius_m, model.drive.wheel_radius_m};
   if (has_wheels) wiring.wheel_radii_m = read_radii(table, model.drive);
   switch (wiring.kind) {
-    case DriveKind::kCia402:
-      wiring.cia402 = read_cia402(table, model, tick, stop);
-      break;
+    case DriveKind::kCia402: wiring.cia402 = read_cia402(table, model, tick, stop); break;
     case DriveKind::kOdrive:
       require_two_ticks_within(table, tick, wiring.odrive.watchdog_limit, "a watchdog");
       wiring.odrive.watchdog_least = std::max(wiring.odrive.watchdog_least, 2 * tick);

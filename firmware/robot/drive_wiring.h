@@ -1,6 +1,7 @@
 #pragma once
 // [drive] of ROBOT.toml: which drives turn the wheels, and on which bus.
 #include <array>
+#include <cstdint>
 #include <string>
 
 #include "drivers/arcos/arcos_base.h"
@@ -8,11 +9,27 @@
 #include "drivers/motor/odrive_base.h"
 #include "drivers/motor/vesc_base.h"
 #include "drivers/ros/ros_base.h"
-#include "firmware/robot/byte_wiring.h"
 #include "hal/toml_file.h"
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
+
+// Serial line or TCP port of a device, as a robot file gives it.
+
+struct ByteWiring {
+  std::string host;  ///< empty: on a serial line
+  std::uint16_t port = 0;
+  std::string device;
+  std::uint32_t baud = 0;
+};
+
+/// Reads host and port, or device and baud; a maker's port or baud of 0: none of its devices has that. `what`:
+/// "scanner". Throws StartupError.
+[[nodiscard]] ByteWiring read_byte_wiring(TomlTable& table, const std::string& what, std::uint16_t makers_port,
+                                          std::uint32_t makers_baud);
+
+/// "/dev/ttyUSB0", "192.168.0.1:8101".
+[[nodiscard]] std::string name_of(const ByteWiring& wiring);
 
 enum class DriveKind { kCia402, kOdrive, kVesc, kDds, kPioneer };
 

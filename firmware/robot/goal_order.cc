@@ -5,7 +5,6 @@
 #include <charconv>
 #include <cmath>
 #include <cstdio>
-#include <vector>
 
 #include "hal/setting_keys.h"
 #include "hal/shown_text.h"

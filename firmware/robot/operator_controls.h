@@ -1,10 +1,10 @@
 #pragma once
 #include <optional>
 
-#include "drivers/panel/joystick_panel.h"
+#include "drivers/panel/joystick_watch.h"
 #include "drivers/wired_drive.h"
 #include "firmware/robot/operator_desk.h"
-#include "firmware/robot/permission.h"
+#include "firmware/robot/place_check.h"
 #include "firmware/robot/robot_file.h"
 #include "hal/hal.h"
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "firmware/robot/control_clients.h"
 #include "hal/types/errors.h"
 #include "hal/types/wheels.h"
 
@@ -60,10 +59,9 @@ std::string OperatorDesk::take_goal(std::string_view words) {
   } catch (const StartupError& error) {
     return std::string("refused: ") + error.what() + "\n";
   }
-  for (const GoalOrder& order : route) {
+  for (const GoalOrder& order : route)
     if (is_kept_out(closed_ground_.zones, order.position_in_map, closed_ground_.body_m + kZoneMargin_m))
       return "refused: goto: " + words_of(order) + " lies in a keep-out zone or too near one; choose another place\n";
-  }
   const std::lock_guard lock(asking_);
   const RunStatus& status = statuses_.latest();
   const bool is_void = said_.is_void(words, status.revoked, clock_.now());
@@ -154,9 +152,7 @@ std::string OperatorDesk::reset_at_rest(const RunStatus& status) {
 bool OperatorDesk::bus_comes_back() {
   constexpr Duration kLongest = std::chrono::seconds(1), kLook = std::chrono::milliseconds(20);
   const Time limit = clock_.now() + kLongest;
-  while (status().bus.state == CanState::kBusOff && clock_.now() < limit) {
-    clock_.sleep_until(clock_.now() + kLook);
-  }
+  while (status().bus.state == CanState::kBusOff && clock_.now() < limit) clock_.sleep_until(clock_.now() + kLook);
   return status().bus.state != CanState::kBusOff;
 }
 

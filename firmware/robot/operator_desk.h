@@ -9,7 +9,6 @@
 
 #include "firmware/robot/control_clients.h"
 #include "firmware/robot/goal_order.h"
-#include "firmware/robot/permission.h"
 #include "firmware/robot/place_check.h"
 #include "firmware/robot/run_status.h"
 #include "hal/hal.h"

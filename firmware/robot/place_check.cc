@@ -2,6 +2,7 @@
 
 #include <cmath>
 #include <cstdio>
+#include <utility>
 
 namespace jaywalk {
 namespace {
@@ -88,6 +89,15 @@ void PlaceCheck::end(PlaceAnswer::Why why) noexcept {
              .fit = there_.fit(),
              .has_better = other_.is_good(),
              .better = other_.map_from_robot};
+}
+
+bool Permission::judge(Reason reasons) noexcept {
+  const bool latched = has(reasons, Reason::kLatched);
+  const Reason faults = without(reasons, kNoFaults);
+  const bool rises = without(faults, std::exchange(faults_, faults)) != Reason::kNone;
+  const bool begins = !std::exchange(latched_, latched) && latched;
+  if (begins || (latched && rises)) revoke();
+  return std::exchange(revokes_reset_, false) || begins;
 }
 
 }  // namespace jaywalk

@@ -1,8 +1,12 @@
 #pragma once
+// A person's word on where the robot is and what it may do.
 #include <cstdint>
+#include <optional>
 #include <string>
 
 #include "firmware/recording/tick_record.h"
+#include "firmware/robot/goal_order.h"
+#include "firmware/safety/reasons.h"
 #include "hal/hal.h"
 #include "hal/types/robot_model.h"
 #include "planner/localization/place_search.h"
@@ -93,6 +97,82 @@ class PlaceCheck {
   PlaceFit there_, other_;  ///< where it was told to be; the best elsewhere: where it was believed, or was found
   double left_rad_ = 0.0, right_rad_ = 0.0;  ///< of the wheels when it looked
   PlaceAnswer answer_;
+};
+
+/// What a person asks for in one breath.
+struct Orders {
+  std::uint32_t under = 0;  ///< revocations that the asker had been told of (Permission::revoked())
+  Route route{};            ///< empty: nowhere to go
+  bool reset = false;
+  std::optional<Pose2> here{};  ///< where the robot is, in the map
+  bool forced = false;          ///< taken without a match
+};
+
+/// What people permitted and what of it still waits for its moment: the one owner of it, in one struct that every
+/// order, stop, fault and latch assigns anew, so that nothing given before them is left. A stop is obeyed to rest:
+/// until then nothing is given, and a stick counts from its middle on.
+///
+/// Orders come from other threads, which know the loop as it was a moment ago: those given before the last revocation
+/// are void, too. Thread: the loop's; never allocates, never waits.
+class Permission {
+ public:
+  /// Takes the place of all that was given before, a reset that waits among it. False: void, and nothing is given.
+  bool give(const Orders& orders) noexcept {
+    given_ = {};
+    if (stopping_ || orders.under != revoked_) return false;
+    given_.route = orders.route;
+    return true;
+  }
+  void revoke() noexcept {
+    revokes_reset_ = revokes_reset_ || given_.reset_waits;
+    given_ = {};
+    ++revoked_;
+  }
+  /// A person's order to stop.
+  void stop() noexcept {
+    revoke();
+    stopping_ = true;
+  }
+  /// After each tick: whether the robot stands and is told to.
+  void note_rest(bool at_rest) noexcept { stopping_ = stopping_ && !at_rest; }
+  [[nodiscard]] bool is_stopping() const noexcept { return stopping_; }
+  /// Once a tick: what counts of where a stick stands.
+  [[nodiscard]] Stick admitted(const Stick& stick) noexcept {
+    stick_waits_ = (stick_waits_ || stopping_) && !stick.is_centred();
+    return stick_waits_ ? Stick{} : stick;
+  }
+  /// A tick's verdict: a latch, and a fault that comes while latched, revoke. True where it latched, or where a reset
+  /// that waited was revoked in this tick: by these reasons it stands.
+  bool judge(Reason reasons) noexcept;
+  /// How often, so far.
+  [[nodiscard]] std::uint32_t revoked() const noexcept { return revoked_; }
+
+  void let_reset_wait() noexcept { given_.reset_waits = true; }
+  [[nodiscard]] bool reset_waits() const noexcept { return given_.reset_waits; }
+  void reset_is_done() noexcept { given_.reset_waits = false; }
+
+  /// The goal that is driven to; none: nullptr.
+  [[nodiscard]] const GoalOrder* goal() const noexcept {
+    return given_.leg < given_.route.size() ? &given_.route[given_.leg] : nullptr;
+  }
+  void goal_is_reached() noexcept { given_.leg += goal() != nullptr ? 1U : 0U; }
+  /// That one among them.
+  [[nodiscard]] std::size_t goals_left() const noexcept { return given_.route.size() - given_.leg; }
+
+ private:
+  struct Given {
+    Route route;
+    std::size_t leg = 0;       ///< of the route that is driven
+    bool reset_waits = false;  ///< until the drives are proved
+  };
+
+  Given given_;
+  std::uint32_t revoked_ = 0;
+  bool revokes_reset_ = false;  ///< in this tick
+  bool stopping_ = false;       ///< ordered to, and not at rest since
+  bool stick_waits_ = false;    ///< for its middle
+  bool latched_ = false;
+  Reason faults_ = Reason::kNone;  ///< of the tick before
 };
 
 }  // namespace jaywalk

@@ -28,21 +28,17 @@ void PlannerThread::submit(const PlanRequest& request) noexcept {
   assert(request.still->side() == still_.side());
   still_.follow(*request.still);  // of the same size: no memory is taken
   moving_.clear();
-  for (const Track& track : request.moving) {
+  for (const Track& track : request.moving)
     if (!moving_.push_back(track)) break;
-  }
   standing_.clear();
-  for (const StandingPedestrian& stander : request.standing) {
+  for (const StandingPedestrian& stander : request.standing)
     if (!standing_.push_back(stander)) break;
-  }
   masked_.clear();
-  for (const MoverDisc& disc : request.masked) {
+  for (const MoverDisc& disc : request.masked)
     if (!masked_.push_back(disc)) break;
-  }
   unseen_walls_.clear();
-  for (const Vec2 wall : request.poses.unseen_walls) {
+  for (const Vec2 wall : request.poses.unseen_walls)
     if (!unseen_walls_.push_back(wall)) break;
-  }
   request_.poses.unseen_walls = {unseen_walls_.begin(), unseen_walls_.size()};
   request_.masked = {masked_.begin(), masked_.size()};
   request_.still = &still_;

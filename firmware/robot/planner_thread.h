@@ -2,7 +2,6 @@
 #include <atomic>
 #include <memory>
 #include <thread>
-#include <vector>
 
 #include "firmware/control_setup.h"
 #include "firmware/run_sample.h"

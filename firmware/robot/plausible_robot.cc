@@ -1,5 +1,3 @@
-#include "firmware/robot/plausible_robot.h"
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -9,6 +7,7 @@
 #include <span>
 #include <vector>
 
+#include "firmware/robot/robot_file.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
 #include "firmware/safety/zone_check.h"
@@ -108,8 +107,7 @@ void check_gear(const Check& check, const RobotFile& robot, const DriveModel& no
                            text("its field would turn %.0f times a minute at max_speed_mps", fastest_rpm),
                            "give the gear times the motor's pole pairs");
     case DriveKind::kDds:
-    case DriveKind::kPioneer:
-      return;
+    case DriveKind::kPioneer: return;
   }
 }
 

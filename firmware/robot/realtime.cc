@@ -51,9 +51,8 @@ std::vector<std::string> enter_realtime(const RealtimeWishes& wishes) {
     sched_param wanted{};
     wanted.sched_priority = wishes.priority;
     const int error = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &wanted);
-    if (error != 0) {
+    if (error != 0)
       refused.push_back(refusal("no real-time priority", error, "run as root, or raise rtprio: ulimit -r 99"));
-    }
   }
   touch_stack();
   return refused;

@@ -5,7 +5,7 @@
 #include <cstdio>
 
 #include "drivers/laser/scanner_setup.h"
-#include "firmware/robot/armed_mark.h"
+#include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
@@ -79,11 +79,9 @@ std::vector<CanFilter> filters_for(const DriveWiring& wiring) {
   const auto masters =
       canopen::masters_identifiers(wiring.cia402.settings.controller_node, {axes[0].node, axes[1].node});
   for (const std::uint32_t id : masters) filters.push_back({.id = id, .mask = kMaxStandardId, .extended = false});
-  for (const canopen::AxisSetup& axis : axes) {
-    for (const std::uint32_t base : {0x080U, 0x180U, 0x280U, 0x580U, 0x700U}) {
+  for (const canopen::AxisSetup& axis : axes)
+    for (const std::uint32_t base : {0x080U, 0x180U, 0x280U, 0x580U, 0x700U})
       filters.push_back({.id = base + axis.node, .mask = kMaxStandardId, .extended = false});
-    }
-  }
   return filters;
 }
 

@@ -6,10 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "drivers/can/bus_lock.h"
 #include "drivers/can/byte_bus.h"
+#include "drivers/can/can_interface.h"
 #include "drivers/can/socketcan.h"
-#include "drivers/canopen/quick_stopper.h"
+#include "drivers/canopen/cia402.h"
 #include "drivers/laser/scanner_connection.h"
 #include "firmware/robot/robot_file.h"
 

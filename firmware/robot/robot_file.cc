@@ -3,8 +3,7 @@
 #include <algorithm>
 #include <cctype>
 
-#include "firmware/robot/known_map_file.h"
-#include "firmware/robot/plausible_robot.h"
+#include "firmware/recording/map_files.h"
 #include "firmware/robot/robot_file_keys.h"
 #include "firmware/safety/zone_check.h"
 #include "hal/map_zones_file.h"
@@ -21,8 +20,7 @@ LaserWiring read_wiring(TomlTable& table) {
   wiring.first_scan_limit = duration_from_seconds(table.number("first_scan_limit_s"));
   if (wiring.kind == ScannerKind::kDds) {
     wiring.topic = read_topic(table, "topic", "/scan");
-    wiring.reliable = table.boolean("reliable");
-    wiring.infinity_is_free = table.boolean("infinity_is_free");
+    dds_laser_keys().read(table, wiring);
     return wiring;
   }
   static_cast<ByteWiring&>(wiring) = read_byte_wiring(table, "scanner", choice.port, choice.baud);
@@ -39,9 +37,7 @@ void require_own_address(TomlTable& table, const LaserWiring& wiring, const std:
 
 RealtimeWishes read_realtime(TomlTable table) {
   RealtimeWishes wishes;
-  wishes.priority = static_cast<int>(table.integer("priority"));
-  wishes.lock_memory = table.boolean("lock_memory");
-  wishes.required = table.boolean("required");
+  realtime_keys().read(table, wishes);
   if (table.has("cpu")) wishes.cpu = static_cast<int>(table.integer("cpu"));
   table.finish();
   return wishes;
@@ -50,24 +46,18 @@ RealtimeWishes read_realtime(TomlTable table) {
 PanelWiring read_panel(TomlTable table, StickUse& steering) {
   PanelWiring panel;
   panel::JoystickSetup& joystick = panel.joystick;
-  const auto button = [&table](const char* key) { return static_cast<std::uint16_t>(table.integer(key)); };
   joystick.path = table.text("joystick");
   panel.needs_dead_man = table.boolean("needs_dead_man");
   joystick.asks_device = true;
   joystick.needs_dead_man = panel.needs_dead_man;
   joystick.dead_man_renew = duration_from_seconds(table.number("dead_man_renew_s"));
-  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man) {
+  if (joystick.dead_man_renew > Duration{0} && !panel.needs_dead_man)
     table.refuse("dead_man_renew_s", "has no dead man to renew", "set needs_dead_man = true, or leave it out");
-  }
   if (table.has("steering")) steering = static_cast<StickUse>(table.choice("steering"));  // in the enumeration's order
-  if (steering != StickUse::kNone && !panel.needs_dead_man) {
+  if (steering != StickUse::kNone && !panel.needs_dead_man)
     table.refuse("steering", "has no dead man", "set needs_dead_man = true, or steering = \"none\"");
-  }
   joystick.steers = steering != StickUse::kNone;
-  joystick.dead_man = button("dead_man_button");
-  joystick.stop = button("stop_button");
-  joystick.stop_opens = table.boolean("stop_opens");
-  joystick.reset = button("reset_button");
+  button_keys().read(table, joystick);
   require_distinct(
       table,
       {{"dead_man_button", joystick.dead_man}, {"stop_button", joystick.stop}, {"reset_button", joystick.reset}});

@@ -1,6 +1,5 @@
 #pragma once
 // ROBOT.toml: which robot this is and how its devices are wired. docs/tutorial/first-real-robot.md has every key.
-#include <cstdint>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -46,5 +45,12 @@ struct RobotFile {
 
 /// Throws StartupError "FILE:LINE: cause; remedy" for anything wrong or unknown.
 [[nodiscard]] RobotFile load_robot_file(const std::filesystem::path& file);
+
+/// Refuses what no robot is, and what would blind it (SAFETY 28): each number is in its range, but they do not go
+/// together. `nominal`: the drive as the model has it. Throws StartupError "PLACE: key: cause; remedy".
+///
+/// What no figure tells: whether a wheel's radius, a gear or a mount is off by what another robot of the kind might
+/// have. Commissioning measures those.
+void require_plausible(const RobotFile& robot, const DriveModel& nominal, const std::string& place);
 
 }  // namespace jaywalk

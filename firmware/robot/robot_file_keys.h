@@ -6,15 +6,20 @@
 #include <string>
 #include <vector>
 
-#include "hal/setting_keys.h"
+#include "firmware/robot/robot_file.h"
 #include "hal/toml_file.h"
 
 namespace jaywalk {
 
 /// The keys of ROBOT.toml.
 [[nodiscard]] const FileKeys& robot_file_keys();
-/// Those of its table [drive].
-[[nodiscard]] std::vector<SettingKey> drive_keys();
+
+// Those of its keys that are a struct's members.
+
+[[nodiscard]] const BoundKeys<LaserWiring>& dds_laser_keys();
+[[nodiscard]] const BoundKeys<panel::JoystickSetup>& button_keys();
+[[nodiscard]] const BoundKeys<RealtimeWishes>& realtime_keys();
+[[nodiscard]] const BoundKeys<canopen::DriveSettings>& canopen_keys();
 
 // Numbers of ROBOT.toml that may not be one: nodes on a bus, buttons.
 
@@ -27,10 +32,9 @@ struct Numbered {
 /// Refuses the first that repeats one before it.
 inline void require_distinct(const TomlTable& table, std::initializer_list<Numbered> all) {
   for (const Numbered& one : all) {
-    for (const Numbered* other = all.begin(); other != &one; ++other) {
+    for (const Numbered* other = all.begin(); other != &one; ++other)
       if (one.value == other->value)
         table.refuse(one.key, std::string("is ") + other->key + " too", "give each its own");
-    }
   }
 }
 

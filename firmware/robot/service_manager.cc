@@ -2,22 +2,21 @@
 
 #include <fcntl.h>
 #include <poll.h>
+#include <pthread.h>
 #include <sys/socket.h>
 #include <sys/un.h>
+#include <time.h>
 #include <unistd.h>
 
 #include <algorithm>
-#include <array>
 #include <cerrno>
 #include <chrono>
-#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-#include <string>
 
-#include "drivers/wire/file_descriptor.h"
 #include "drivers/wire/thread_without_signals.h"
+#include "firmware/robot/realtime.h"
 
 namespace jaywalk {
 namespace {
@@ -30,6 +29,13 @@ std::string text_of(const char* variable) {
 constexpr std::chrono::milliseconds kPatience{500}, kPause{10};
 
 std::atomic<std::uint64_t> lines_lost{0};
+
+constexpr timespec kSignalRound{.tv_sec = 0, .tv_nsec = 50'000'000};
+
+bool is_ignored(int signal) noexcept {
+  struct sigaction now {};
+  return ::sigaction(signal, nullptr, &now) == 0 && now.sa_handler == SIG_IGN;
+}
 
 }  // namespace
 
@@ -75,11 +81,10 @@ StderrRelay::~StderrRelay() {
   if (!ends_) return;
   ::dup2(ends_->out.get(), STDERR_FILENO);  // the pipe's last writer is gone: its reader comes to the end
   for (auto waited = kPause; !ends_->done && waited < kPatience; waited += kPause) std::this_thread::sleep_for(kPause);
-  if (ends_->done) {
+  if (ends_->done)
     thread_.join();
-  } else {
+  else
     thread_.detach();
-  }
 }
 
 void StderrRelay::pass_on(Ends& ends) noexcept {
@@ -105,6 +110,48 @@ void remark(const std::string& text) {
   const std::uint64_t lost = lines_lost.exchange(0);
   const std::string before = lost > 0 ? "(" + std::to_string(lost) + " lines were lost) " : "";
   if (std::fprintf(stderr, "jaywalk: %s%s\n", before.c_str(), text.c_str()) < 0) lines_lost += lost + 1;
+}
+
+SignalThread::SignalThread(int priority) {
+  for (const int signal : {SIGPIPE, SIGTSTP, SIGTTIN, SIGTTOU}) ::signal(signal, SIG_IGN);
+  sigemptyset(&signals_);
+  for (const int signal : {SIGINT, SIGTERM, SIGHUP})
+    if (signal != SIGHUP || !is_ignored(SIGHUP)) sigaddset(&signals_, signal);
+  ::pthread_sigmask(SIG_BLOCK, &signals_, nullptr);
+  thread_ = thread_without_signals("signals", [this, priority] { live(priority); });
+}
+
+SignalThread::~SignalThread() {
+  ending_ = true;
+  thread_.join();  // the signals go on waiting: the end of a run is not broken off
+}
+
+void SignalThread::live(int priority) noexcept {
+  static_cast<void>(enter_realtime({.priority = priority}));  // the loop's thread tells what is not permitted
+  while (!ending_) {
+    const int signal = ::sigtimedwait(&signals_, nullptr, &kSignalRound);
+    const std::lock_guard lock(handling_);
+    if (signal > 0) take(signal);
+    if (handler_ != nullptr) handler_->round_();
+  }
+}
+
+void SignalThread::take(int signal) noexcept {
+  if (handler_ != nullptr) return handler_->signalled_();
+  ::signal(signal, SIG_DFL);
+  ::pthread_sigmask(SIG_UNBLOCK, &signals_, nullptr);
+  ::raise(signal);
+}
+
+SignalThread::Handler::Handler(SignalThread& thread, std::function<void()> signalled, std::function<void()> round)
+    : thread_(thread), signalled_(std::move(signalled)), round_(std::move(round)) {
+  const std::lock_guard lock(thread.handling_);
+  thread.handler_ = this;
+}
+
+SignalThread::Handler::~Handler() {
+  const std::lock_guard lock(thread_.handling_);
+  thread_.handler_ = nullptr;
 }
 
 }  // namespace jaywalk

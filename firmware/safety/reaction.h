@@ -4,7 +4,6 @@
 
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/scanners.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {

@@ -8,7 +8,6 @@
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/scanners.h"
 
 namespace jaywalk {
 

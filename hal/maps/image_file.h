@@ -55,7 +55,5 @@ class ImageFile::Rows {
 };
 
 [[nodiscard]] std::unique_ptr<ImageFile::Rows> png_rows(const std::filesystem::path& file);
-[[nodiscard]] std::unique_ptr<ImageFile::Rows> pgm_rows(const std::filesystem::path& file);
-[[nodiscard]] std::unique_ptr<ImageFile::Rows> bmp_rows(const std::filesystem::path& file);
 
 }  // namespace jaywalk::sim

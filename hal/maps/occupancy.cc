@@ -1,9 +1,16 @@
 #include "hal/maps/occupancy.h"
 
+#include <yaml-cpp/yaml.h>
+
 #include <algorithm>
+#include <cctype>
 #include <cmath>
+#include <fstream>
+#include <set>
+#include <string>
 
 #include "hal/maps/image_file.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -20,6 +27,123 @@ CellState state_of(const Pixel& pixel, const OccupancyRule& rule) {
   if (rule.mode == MapMode::kRaw) occupancy = std::round(shade * 255.0) / 100.0;
   if (rule.mode == MapMode::kRaw && occupancy > 1.0) return {};
   return {occupancy > rule.occupied_above, occupancy < rule.free_below};
+}
+
+struct RasterSettings {
+  std::filesystem::path image;
+  double cell_m = 0.0;
+  Pose2 origin;  ///< the picture's lower left corner in the map
+  OccupancyRule rule;
+};
+
+/// The YAML file's keys, each refused with its line when it is wrong.
+class MapYaml {
+ public:
+  explicit MapYaml(const std::filesystem::path& file) : file_(file) {
+    refuse_picture();
+    try {
+      root_ = YAML::LoadFile(file.string());
+    } catch (const YAML::BadFile&) {
+      throw StartupError(file_.string() + ": cannot be read", "give the path of a map_server YAML file");
+    } catch (const YAML::Exception& e) {
+      refuse(e.mark, e.msg);
+    }
+    if (!root_.IsMap()) refuse(root_.Mark(), "holds no keys");
+    refuse_repeated_keys();
+  }
+
+  template <class T>
+  [[nodiscard]] T get(const std::string& key) const {
+    const YAML::Node node = root_[key];
+    if (!node) refuse(root_.Mark(), key + " is missing");
+    try {
+      return node.as<T>();
+    } catch (const YAML::Exception&) {
+      refuse(node.Mark(), key + " has the wrong type");
+    }
+  }
+  template <class T>
+  [[nodiscard]] T get(const std::string& key, const T& otherwise) const {
+    return root_[key] ? get<T>(key) : otherwise;
+  }
+  [[nodiscard]] double share(const std::string& key, double otherwise) const {
+    const double value = get<double>(key, otherwise);
+    if (!(value >= 0.0 && value <= 1.0)) refuse(key, "is outside 0 to 1");
+    return value;
+  }
+  [[noreturn]] void refuse(const std::string& key, const std::string& cause) const {
+    refuse(root_[key].Mark(), key + " " + cause);
+  }
+
+ private:
+  /// A PNG or PGM itself, by its first bytes.
+  void refuse_picture() const {
+    char first[4] = {};
+    std::ifstream(file_, std::ios::binary).read(first, sizeof first);
+    const std::string bytes(first, sizeof first);
+    if (bytes == "\x89PNG" || bytes.rfind("P5", 0) == 0 || bytes.rfind("P2", 0) == 0)
+      throw StartupError(file_.string() + ": is a picture", "give the map_server YAML file that names it");
+  }
+  /// The library takes the first of them.
+  void refuse_repeated_keys() const {
+    std::set<std::string> known;
+    for (const auto& entry : root_)
+      if (!known.insert(entry.first.Scalar()).second)
+        refuse(entry.first.Mark(), entry.first.Scalar() + " stands twice");
+  }
+  [[noreturn]] void refuse(const YAML::Mark& mark, const std::string& cause) const {
+    throw StartupError(file_.string() + ":" + std::to_string(mark.line + 1) + ": " + cause,
+                       "write it as map_server does");
+  }
+
+  std::filesystem::path file_;
+  YAML::Node root_;
+};
+
+Pose2 read_origin(const MapYaml& yaml) {
+  const auto origin = yaml.get<std::vector<double>>("origin");
+  if (origin.size() != 3) yaml.refuse("origin", "is not [x, y, yaw]");
+  for (const double value : origin)
+    if (!(std::fabs(value) < 1e6)) yaml.refuse("origin", "holds what is no coordinate");
+  return {origin[0], origin[1], wrap_angle(origin[2])};
+}
+
+/// In any case, as map_server takes it.
+MapMode read_mode(const MapYaml& yaml) {
+  std::string said = yaml.get<std::string>("mode", "trinary");
+  std::transform(said.begin(), said.end(), said.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (said == "scale") return MapMode::kScale;
+  if (said == "raw") return MapMode::kRaw;
+  if (said != "trinary") yaml.refuse("mode", "is none of trinary, scale, raw");
+  return MapMode::kTrinary;
+}
+
+RasterSettings read_settings(const std::filesystem::path& file) {
+  const MapYaml yaml(file);
+  RasterSettings settings;
+  settings.image = yaml.get<std::string>("image");
+  if (settings.image.is_relative()) settings.image = file.parent_path() / settings.image;
+  if (!std::filesystem::is_regular_file(settings.image)) yaml.refuse("image", "names no file");
+  settings.cell_m = yaml.get<double>("resolution");
+  if (!(settings.cell_m >= 0.001 && settings.cell_m <= 10.0)) yaml.refuse("resolution", "is outside 0.001 to 10 m");
+  settings.origin = read_origin(yaml);
+  settings.rule.negate = yaml.get<int>("negate", 0) != 0;
+  settings.rule.occupied_above = yaml.share("occupied_thresh", 0.65);
+  settings.rule.free_below = yaml.share("free_thresh", 0.196);
+  if (settings.rule.free_below > settings.rule.occupied_above) yaml.refuse("free_thresh", "is over occupied_thresh");
+  settings.rule.mode = read_mode(yaml);
+  return settings;
+}
+
+/// Edges along one grid line: `differs(k)` says whether an edge runs from k to k + 1; `point(k)` is where k lies.
+template <class Differs, class Point>
+void collect_runs(std::int32_t length, const Differs& differs, const Point& point, std::vector<WallSegment>& out) {
+  for (std::int32_t k = 0; k < length; ++k) {
+    if (!differs(k)) continue;
+    const std::int32_t begin = k;
+    while (k < length && differs(k)) ++k;
+    out.push_back({point(begin), point(k)});
+  }
 }
 
 }  // namespace
@@ -44,6 +168,45 @@ Raster read_raster(const std::filesystem::path& image, const OccupancyRule& rule
     }
   }
   return raster;
+}
+
+std::vector<WallSegment> edges_of(const Raster& raster) {
+  std::vector<WallSegment> edges;
+  const Transform2 map_from_raster(raster.map_from_raster);
+  const auto corner = [&](std::int32_t column, std::int32_t row) {
+    return map_from_raster * (Vec2{static_cast<double>(column), static_cast<double>(row)} * raster.cell_m);
+  };
+  for (std::int32_t row = 0; row <= raster.height; ++row) {
+    const auto differs = [&](std::int32_t k) { return raster.solid_cell(k, row) != raster.solid_cell(k, row - 1); };
+    collect_runs(
+        raster.width, differs, [&](std::int32_t k) { return corner(k, row); }, edges);
+  }
+  for (std::int32_t column = 0; column <= raster.width; ++column) {
+    const auto differs = [&](std::int32_t k) {
+      return raster.solid_cell(column, k) != raster.solid_cell(column - 1, k);
+    };
+    collect_runs(
+        raster.height, differs, [&](std::int32_t k) { return corner(column, k); }, edges);
+  }
+  return edges;
+}
+
+std::filesystem::path picture_of_raster_map(const std::filesystem::path& yaml_file) {
+  return read_settings(yaml_file).image;
+}
+
+Raster load_raster(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
+  const RasterSettings settings = read_settings(yaml_file);
+  Raster raster = read_raster(settings.image, settings.rule, settings.cell_m, most_cells);
+  raster.map_from_raster = settings.origin;
+  return raster;
+}
+
+WallMap load_raster_map(const std::filesystem::path& yaml_file, std::int32_t most_cells) {
+  WallMap map;
+  map.raster = load_raster(yaml_file, most_cells);
+  map.segments = edges_of(map.raster);
+  return map;
 }
 
 }  // namespace jaywalk::sim

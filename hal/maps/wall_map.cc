@@ -1,8 +1,16 @@
+// The maps that are plain text: MobileSim's and lists of cylinders.
 #include "hal/maps/wall_map.h"
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
 #include <limits>
+#include <sstream>
+#include <string>
+
+#include "hal/shown_text.h"
+#include "hal/text_file.h"
+#include "hal/types/errors.h"
 
 namespace jaywalk::sim {
 namespace {
@@ -10,16 +18,60 @@ namespace {
 constexpr double kMiss = std::numeric_limits<double>::infinity();
 constexpr double kEndSlack = 1e-9;  // share of a segment's length: no ray slips between two that share a corner
 
+constexpr double kMetresPerMillimetre = 0.001;
+constexpr double kDataPointRadius = 0.02;  // m: a laser reading stands for a small piece of wall
+constexpr double kFarthest = 1e6;          // m
+
+/// Reads a text line by line and knows which one it is at; a carriage return before the line's end is dropped.
+class LineReader {
+ public:
+  LineReader(const std::filesystem::path& file, std::string remedy)
+      : file_(file), remedy_(std::move(remedy)), in_(file) {
+    if (!in_) refuse("cannot be read");
+  }
+
+  [[nodiscard]] bool next(std::string& line) {
+    if (!std::getline(in_, line)) return false;
+    ++number_;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number_ == 1) drop_byte_order_mark(line);
+    return true;
+  }
+  /// Exactly `count` numbers, and nothing else, from `line`.
+  [[nodiscard]] std::vector<double> numbers(const std::string& line, std::size_t count) const {
+    std::istringstream words(line);
+    std::vector<double> values;
+    for (double value = 0.0; words >> value;) values.push_back(value);
+    bool sound = words.eof() && values.size() == count;
+    for (const double value : values) sound = sound && std::fabs(value) <= kFarthest / kMetresPerMillimetre;
+    if (!sound) refuse("\"" + shown(line) + "\" is not " + std::to_string(count) + " numbers");
+    return values;
+  }
+  [[noreturn]] void refuse(const std::string& cause) const {
+    throw StartupError(file_.string() + (number_ > 0 ? ":" + std::to_string(number_) : "") + ": " + cause, remedy_);
+  }
+
+ private:
+  std::filesystem::path file_;
+  std::string remedy_;
+  std::ifstream in_;
+  int number_ = 0;
+};
+
+/// The number behind `name`, where the line has that.
+void read_count(const std::string& line, const std::string& name, std::size_t& count) {
+  if (line.rfind(name, 0) == 0) std::istringstream(line.substr(name.size())) >> count;
+}
+
+bool is_blank(const std::string& line) { return line.find_first_not_of(" \t") == std::string::npos; }
+
 }  // namespace
 
 WallMap load_wall_map(MapKind kind, const std::filesystem::path& file) {
   switch (kind) {
-    case MapKind::kAria:
-      return load_aria_map(file);
-    case MapKind::kCylinders:
-      return load_cylinder_map(file);
-    case MapKind::kYaml:
-      break;
+    case MapKind::kAria: return load_aria_map(file);
+    case MapKind::kCylinders: return load_cylinder_map(file);
+    case MapKind::kYaml: break;
   }
   return load_raster_map(file);
 }
@@ -55,6 +107,51 @@ double hit_range(Vec2 from, Vec2 direction, const Disc& disc) noexcept {
   const double aside = cross(to_centre, direction);
   const double half_chord2 = radius2 - aside * aside;
   return ahead > 0.0 && half_chord2 >= 0.0 ? ahead - std::sqrt(half_chord2) : kMiss;
+}
+
+WallMap load_aria_map(const std::filesystem::path& file) {
+  enum class Section { kHeader, kLines, kData };
+  std::size_t lines_told = 0, points_told = 0;
+  LineReader reader(file, "give a map as MobileSim writes it");
+  std::string line;
+  if (!reader.next(line) || line.rfind("2D-Map", 0) != 0) reader.refuse("does not begin with 2D-Map");
+  WallMap map;
+  std::vector<Disc> points;
+  Section section = Section::kHeader;
+  while (reader.next(line)) {
+    if (is_blank(line)) continue;
+    if (line == "LINES" || line == "DATA") {
+      section = line == "LINES" ? Section::kLines : Section::kData;
+    } else if (section == Section::kLines) {
+      const auto v = reader.numbers(line, 4);
+      map.segments.push_back({Vec2{v[0], v[1]} * kMetresPerMillimetre, Vec2{v[2], v[3]} * kMetresPerMillimetre});
+    } else if (section == Section::kData) {
+      const auto v = reader.numbers(line, 2);
+      points.push_back({Vec2{v[0], v[1]} * kMetresPerMillimetre, kDataPointRadius});
+    } else {
+      read_count(line, "NumLines:", lines_told);
+      read_count(line, "NumPoints:", points_told);
+    }
+  }
+  if (map.segments.size() < lines_told) reader.refuse("ends before its NumLines: it was cut");
+  if (points.size() < points_told) reader.refuse("ends before its NumPoints: it was cut");
+  if (map.segments.empty()) map.discs = std::move(points);
+  if (map.segments.empty() && map.discs.empty()) reader.refuse("has neither LINES nor DATA");
+  return map;
+}
+
+WallMap load_cylinder_map(const std::filesystem::path& file) {
+  LineReader reader(file, "write x y radius in metres, one cylinder a line");
+  WallMap map;
+  for (std::string line; reader.next(line);) {
+    line.erase(std::min(line.find('#'), line.size()));
+    if (is_blank(line)) continue;
+    const auto v = reader.numbers(line, 3);
+    if (!(v[2] > 0.0)) reader.refuse("a cylinder needs a radius above 0");
+    map.discs.push_back({{v[0], v[1]}, v[2]});
+  }
+  if (map.discs.empty()) reader.refuse("holds no cylinder");
+  return map;
 }
 
 }  // namespace jaywalk::sim

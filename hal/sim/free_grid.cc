@@ -30,6 +30,23 @@ std::vector<Vec2> refined(const std::vector<Vec2>& path, double step) {
   return fine;
 }
 
+constexpr double kHalfRoot2 = 0.70710678118654757;
+
+/// The point in a frame whose axes are the zone's two borders: the zone is there the quarter disc x, y >= 0.
+Vec2 in_border_axes(const Zone& zone, Vec2 p) {
+  const Vec2 offset = p - zone.apex;
+  const double forward = dot(zone.ahead, offset) * kHalfRoot2;
+  const double left = cross(zone.ahead, offset) * kHalfRoot2;
+  return {forward - left, forward + left};
+}
+
+/// Narrows [begin, end] of a parameter to where from + share (to - from) is not negative.
+void keep_positive(double from, double to, double& begin, double& end) {
+  if (from < 0.0 && to < 0.0) end = -1.0;
+  if (from < 0.0 && to >= 0.0) begin = std::max(begin, from / (from - to));
+  if (from >= 0.0 && to < 0.0) end = std::min(end, from / (from - to));
+}
+
 }  // namespace
 
 FreeGrid::FreeGrid(const Walls& walls, double radius_m, Vec2 start, Vec2 goal) : start_(start), goal_(goal) {
@@ -41,9 +58,8 @@ FreeGrid::FreeGrid(const Walls& walls, double radius_m, Vec2 start, Vec2 goal) :
   columns_ = static_cast<std::int32_t>(size.x / cell_m_) + 1;
   rows_ = static_cast<std::int32_t>(size.y / cell_m_) + 1;
   state_.resize(static_cast<std::size_t>(columns_) * static_cast<std::size_t>(rows_));
-  for (std::int32_t index = 0; index < columns_ * rows_; ++index) {
+  for (std::int32_t index = 0; index < columns_ * rows_; ++index)
     state_[static_cast<std::size_t>(index)] = walls.distance(centre_of(index), radius_m) >= radius_m ? kFree : 0;
-  }
   flood_from_start();
 }
 
@@ -121,28 +137,24 @@ std::vector<Vec2> FreeGrid::cell_path() const {
     });
   }
   std::vector<Vec2> path{start_};
-  for (std::int32_t k = parent[static_cast<std::size_t>(start)]; k != kOutside;
-       k = parent[static_cast<std::size_t>(k)]) {
+  for (std::int32_t k = parent[static_cast<std::size_t>(start)]; k != kOutside; k = parent[static_cast<std::size_t>(k)])
     path.push_back(centre_of(k));
-  }
   path.push_back(goal_);
   return path;
 }
 
 bool FreeGrid::line_is_free(Vec2 from, Vec2 to) const {
   const auto samples = static_cast<int>(distance(from, to) / (0.5 * cell_m_)) + 1;
-  for (int k = 0; k <= samples; ++k) {
+  for (int k = 0; k <= samples; ++k)
     if (!free(from + (to - from) * (static_cast<double>(k) / samples))) return false;
-  }
   return true;
 }
 
 /// From each point goes straight to the last one that can be seen, then from there.
 std::vector<Vec2> FreeGrid::pulled(const std::vector<Vec2>& path) const {
   std::vector<Vec2> taut{path.front()};
-  for (std::size_t k = 1; k + 1 < path.size(); ++k) {
+  for (std::size_t k = 1; k + 1 < path.size(); ++k)
     if (!line_is_free(taut.back(), path[k + 1])) taut.push_back(path[k]);
-  }
   taut.push_back(path.back());
   return taut;
 }
@@ -155,6 +167,46 @@ double FreeGrid::shortest_path_m() const {
     std::reverse(path.begin(), path.end());
   }
   return length(path);
+}
+
+bool Zone::meets(const WallSegment& segment) const noexcept {
+  const Vec2 from = in_border_axes(*this, segment.from), to = in_border_axes(*this, segment.to);
+  double begin = 0.0, end = 1.0;
+  keep_positive(from.x, to.x, begin, end);
+  keep_positive(from.y, to.y, begin, end);
+  if (begin > end) return false;
+  const Vec2 along = to - from;
+  return distance(Vec2{}, WallSegment{from + along * begin, from + along * end}) <= reach_m;
+}
+
+bool Zone::meets(const Disc& disc) const noexcept {
+  const Vec2 centre = in_border_axes(*this, disc.centre);
+  if (centre.x >= 0.0 && centre.y >= 0.0) return norm(centre) <= reach_m + disc.radius_m;
+  const double to_borders =
+      std::min(distance(centre, WallSegment{{}, {reach_m, 0.0}}), distance(centre, WallSegment{{}, {0.0, reach_m}}));
+  return to_borders <= disc.radius_m;
+}
+
+std::array<WallSegment, 4> RobotBody::edges() const noexcept {
+  const Transform2 map_from_body(map_from_robot);
+  const Footprint& f = footprint;
+  const Vec2 front_left = map_from_body * Vec2{f.front_m, f.half_width_m};
+  const Vec2 rear_left = map_from_body * Vec2{-f.rear_m, f.half_width_m};
+  const Vec2 rear_right = map_from_body * Vec2{-f.rear_m, -f.half_width_m};
+  const Vec2 front_right = map_from_body * Vec2{f.front_m, -f.half_width_m};
+  return {{{front_left, rear_left}, {rear_left, rear_right}, {rear_right, front_right}, {front_right, front_left}}};
+}
+
+double RobotBody::gap(const Disc& disc) const noexcept {
+  return std::max(footprint.distance_to(inverse(map_from_robot) * disc.centre) - disc.radius_m, 0.0);
+}
+
+bool RobotBody::in(const Zone& zone) const noexcept {
+  const double far = zone.reach_m + footprint.circumscribed_radius_m();
+  const Vec2 offset = map_from_robot.position() - zone.apex;
+  if (dot(offset, offset) > far * far) return false;
+  const auto sides = edges();
+  return std::any_of(sides.begin(), sides.end(), [&](const WallSegment& side) { return zone.meets(side); });
 }
 
 }  // namespace jaywalk::sim

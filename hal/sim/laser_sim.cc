@@ -13,9 +13,8 @@ LaserSim::LaserSim(const LaserModel& model, std::uint64_t seed, std::uint64_t in
       noise_(seed, Purpose::kRange, index),
       loss_(seed, Purpose::kDropOut, index) {
   const double step = model.fov_rad / (model.beams - 1);
-  for (std::size_t k = 0; k < in_laser_.size(); ++k) {
+  for (std::size_t k = 0; k < in_laser_.size(); ++k)
     in_laser_[k] = direction(-0.5 * model.fov_rad + static_cast<double>(k) * step);
-  }
 }
 
 void LaserSim::see_walls(const Walls& walls, const Pose2& map_from_laser) noexcept {
@@ -29,9 +28,8 @@ void LaserSim::see_walls(const Walls& walls, const Pose2& map_from_laser) noexce
 void LaserSim::see(const Disc& mover, Vec2 laser_in_map) noexcept {
   const double nearest = distance(laser_in_map, mover.centre) - mover.radius_m;
   if (nearest > model_.range_max_m) return;
-  for (std::size_t k = 0; k < in_map_.size(); ++k) {
+  for (std::size_t k = 0; k < in_map_.size(); ++k)
     range_[k] = std::min(range_[k], hit_range(laser_in_map, in_map_[k], mover));
-  }
 }
 
 float LaserSim::measured(double range) noexcept {

@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include "hal/comfort.h"
 #include "hal/maps/wall_map.h"
+#include "hal/robot_model_file.h"
 #include "hal/setting_keys.h"
-#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
 #include "hal/types/map_zones.h"
 #include "hal/types/operator_input.h"

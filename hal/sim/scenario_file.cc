@@ -9,6 +9,130 @@
 namespace jaywalk::sim {
 namespace {
 
+using enum KeyKind;
+
+constexpr Range kSeconds{0.0, 86400.0};
+constexpr Range kDegrees{-360.0, 360.0};
+constexpr Range kWheel{0.01, 1.0}, kTrack{0.05, 3.0};  // as a model's
+constexpr Range kRadius{0.01, 1.0};  // a mover wider than this could brush a wall that its zone does not see
+constexpr const char* kModels = "the model's";
+constexpr const char* kLegs = "the laser sees two legs that walk, not a disc";
+const Scenario kScenario{};
+
+const BoundKeys<Scenario> kWorldKeys(
+    "", {key_row("name", kText, "the file's name", "for reports"),
+         whole_row("seed", &Scenario::seed, {0.0, 9e18}, "", "decides everything random; --seed overrides it"),
+         number_row("timeout_s", &Scenario::timeout_s, {0.1, 86400.0}, "s", "the run ends then"),
+         key_row("map", kTable, kNeeded, "the world: one of yaml, aria, cylinders"),
+         key_row("robot", kTable, kNeeded, "the robot in it"),
+         key_row("stick", kTable, "none", "a scripted person who drives by a stick; the goal is where it should lead"),
+         key_row("movers", kTables, "none", "what moves"), key_row("faults", kTables, "none", "what goes wrong")});
+
+const std::vector<SettingKey> kMapKeys =
+    section_keys("map", {key_row("yaml", kFile, "another kind", "ROS map_server file"),
+                         key_row("aria", kFile, "another kind", "MobileSim / ARIA map"),
+                         key_row("cylinders", kFile, "another kind", "a line \"x y radius\" (m) each"),
+                         key_row("known", kBoolean, kScenario.map_is_known, "the robot has it")});
+
+const BoundKeys<Scenario> kRobotKeys(
+    "robot",
+    {key_row("start", kNumbers, kNeeded, "[x, y, heading] of the drive axle's middle", "m, m, rad"),
+     key_row("goal", kNumbers, kNeeded, "[x, y] or [x, y, heading]", "m, m, rad"),
+     number_row("goal_tolerance_m", &Scenario::goal_tolerance_m, {0.01, 10.0}, "m",
+                "the goal counts as reached within this"),
+     number_row("goal_heading_tolerance_rad", &Scenario::goal_heading_tolerance_rad, {0.01, kPi}, "rad",
+                "and within this of its heading"),
+     key_row("model", kText, "\"p3dx\"", "\"p3dx\", \"wheelchair\", or a robot model file"),
+     number_row("max_speed_mps", {0.01, 500.0}, "m/s", kModels, "cruising speed; at most what the wheels can do"),
+     comfort_key(), key_row("laser", kTable, kModels, "over the model's own, or [[robot.laser]] for each"),
+     key_row("slip", kTable, "the defaults", "how the wheels slip, as shares of their speed"),
+     key_row("truth", kTable, "as its model", "what the robot really is; the controller is not told"),
+     key_row("reports", kTable, "100 a second", "how the wheels' motion is reported"),
+     key_row("pose_source", kTable, "none", "a localisation system outside the robot, as the paper has")});
+
+const BoundKeys<LaserModel> kTurningKeys("robot.laser",
+                                         {boolean_row("turns", &LaserModel::turns,
+                                                      "beams are measured one after another, as the scanner turns")});
+
+const BoundKeys<SlipSpec> kSlipKeys("robot.slip",
+                                    {number_row("mean", &SlipSpec::mean, {0.0, 0.5}, "",
+                                                "both wheels turn so much more than the ground passes"),
+                                     number_row("std", &SlipSpec::std, {0.0, 0.5}, "",
+                                                "standard deviation of each wheel by itself, correlated over 1 s")});
+
+const std::vector<SettingKey> kReportKeys =
+    section_keys("robot.reports",
+                 {number_row("period_ms", {1.0, 250.0}, "ms", 1e3 * ReportSpec{}.period_s, "between two"),
+                  number_row("late_ms", {0.0, 200.0}, "ms", 1e3 * ReportSpec{}.late_s, "each comes up to so late")});
+
+const std::vector<SettingKey> kTruthKeys = section_keys(
+    "robot.truth",
+    {number_row("left_wheel_radius_m", kWheel, "m", kModels, "of the left wheel"),
+     number_row("right_wheel_radius_m", kWheel, "m", kModels, "of the right wheel"),
+     number_row("track_width_m", kTrack, "m", kModels, "between the wheels' contact points"),
+     key_row("laser_mount", kNumbers, kModels, "[x, y, yaw] of the first laser on the robot", "m, m, rad")});
+
+const BoundKeys<PoseSourceSpec> kPoseSourceKeys(
+    "robot.pose_source",
+    {key_row("enabled", kBoolean, true, "false: as if the table were missing"),
+     number_row("rate_hz", &PoseSourceSpec::rate_hz, {0.1, 100.0}, "1/s", "fixes a second"),
+     number_row("position_std_m", &PoseSourceSpec::position_std_m, {0.0, 10.0}, "m", "noise of the robot's x and y"),
+     number_row("heading_std_rad", &PoseSourceSpec::heading_std_rad, {0.0, 3.0}, "rad", "noise of its heading"),
+     number_row("mover_std_m", &PoseSourceSpec::mover_std_m, {0.0, 10.0}, "m", "noise of each mover's x and y"),
+     boolean_row("gives_movers", &PoseSourceSpec::gives_movers,
+                 "the robot takes movers from it, not from its laser; --mode paper always does")});
+
+const BoundKeys<StickSpec> kStickKeys(
+    "stick",
+    {choice_row("kind", kNeeded, "ahead whatever comes, pointed at the goal, or by rows",
+                {"straight", "to_goal", "table"}),
+     choice_row("steering", "shared",
+                "shared: the robot steers clear and stops by itself; by_hand: the supervisor alone does",
+                {"shared", "by_hand"}),
+     number_row("delay_s", &StickSpec::delay_s, {0.0, 2.0}, "s", "from what is so to what the hand does"),
+     number_row("noise_std", &StickSpec::noise_std, {0.0, 1.0}, "", "of the hand, a share of the stick's way")});
+
+/// Of a stick that no table moves.
+const std::vector<SettingKey> kPushKeys{
+    number_row("forward", {0.0, 1.0}, "", StickSpec{}.forward, "how far it is pushed")};
+
+const BoundKeys<WanderSpec> kWanderKeys(
+    "movers:wander", {whole_row("count", {0.0, 500.0}, "", kNeeded, "how many"),
+                      number_row("speed_mps", &WanderSpec::speed_mps, {0.0, 5.0}, "m/s", "constant while walking"),
+                      number_row("radius_m", &WanderSpec::radius_m, kRadius, "m", "of the disc"),
+                      number_row("turn_rate_radps", &WanderSpec::turn_rate_radps, {0.01, 50.0}, "rad/s", "in place"),
+                      number_row("spontaneous_turns_hz", &WanderSpec::spontaneous_turns_hz, {0.0, 10.0}, "1/s",
+                                 "turns for no reason, a second of walking"),
+                      boolean_row("legs", &WanderSpec::legs, kLegs)});
+
+const BoundKeys<RecordedSpec> kRecordedKeys(
+    "movers:recorded",
+    {key_row("file", kFile, kNeeded, "rows of t_s,id,x_m,y_m below a line that says so"),
+     number_row("radius_m", &RecordedSpec::radius_m, kRadius, "m", "of the disc"),
+     key_row("offset", kNumbers, "[0, 0]", "[x, y] added to every place", "m, m"),
+     number_row("start_at_s", &RecordedSpec::start_at_s, {-86400.0, 86400.0}, "s", "when the first row happens"),
+     boolean_row("loop", &RecordedSpec::loop, "begins anew after the last row"),
+     boolean_row("legs", &RecordedSpec::legs, kLegs)});
+
+const std::vector<SettingKey> kFaultKeys = section_keys(
+    "faults",
+    {choice_row("kind", kNeeded, "what goes wrong (scenarios.md says what each does)",
+                // in the order of FaultKind
+                {"scan_stale", "scan_nan", "scan_short", "scan_frozen", "beams_lost", "wheels_stale", "wheel_slip",
+                 "emergency_stop", "no_grip", "both_motors_reversed", "left_motor_reversed", "left_wheel_reversed",
+                 "wheels_swapped", "left_wheel_stuck", "scanner_mirrored", "carried", "rain"}),
+     number_row("at_s", kSeconds, "s", kNeeded, "when it begins"),
+     number_row("for_s", kSeconds, "s", kNeeded, "how long it lasts"),
+     whole_row("scanner", {1.0, static_cast<double>(kMostScanners)}, "", "all", "which scanner has it")});
+
+const std::vector<SettingKey> kLostBeamsKeys = section_keys(
+    "faults:beams_lost",
+    {number_row("from_deg", kDegrees, "degrees", "-60",
+                "where the sector begins, in the laser's frame; needed with to_deg"),
+     number_row("to_deg", kDegrees, "degrees", "60", "where it ends, counter-clockwise; needed with from_deg"),
+     key_row("claims_free", kBoolean, FaultSpec{}.claims_free,
+             "whether its beams say that nothing is within reach; else that they measured nothing")});
+
 void read_map(TomlTable table, Scenario& scenario) {
   constexpr std::array<std::pair<const char*, MapKind>, 3> kKinds{
       {{"yaml", MapKind::kYaml}, {"aria", MapKind::kAria}, {"cylinders", MapKind::kCylinders}}};
@@ -29,19 +153,7 @@ void read_map(TomlTable table, Scenario& scenario) {
 PoseSourceSpec read_pose_source(TomlTable table) {
   PoseSourceSpec spec;
   spec.enabled = table.boolean("enabled");
-  spec.rate_hz = table.number("rate_hz");
-  spec.position_std_m = table.number("position_std_m");
-  spec.heading_std_rad = table.number("heading_std_rad");
-  spec.mover_std_m = table.number("mover_std_m");
-  spec.gives_movers = table.boolean("gives_movers");
-  table.finish();
-  return spec;
-}
-
-SlipSpec read_slip(TomlTable table) {
-  SlipSpec spec;
-  spec.mean = table.number("mean");
-  spec.std = table.number("std");
+  kPoseSourceKeys.read(table, spec);
   table.finish();
   return spec;
 }
@@ -77,7 +189,7 @@ RobotModel read_model(TomlTable& table) {
   model.limits.max_speed_mps = table.number("max_speed_mps", model.limits.max_speed_mps, fastest);
   if (table.has("laser"))
     read_lasers(table.table_or_tables("laser"), model,
-                [](TomlTable& laser, LaserModel& of) { of.turns = laser.boolean("turns", of.turns); });
+                [](TomlTable& laser, LaserModel& of) { kTurningKeys.read(laser, of); });
   return model;
 }
 
@@ -89,12 +201,11 @@ void read_robot(TomlTable table, Scenario& scenario) {
   if (goal.size() == 3) scenario.goal_heading_rad = wrap_angle(goal[2]);
   scenario.start_place = table.place_of("start");
   scenario.goal_place = table.place_of("goal");
-  scenario.goal_tolerance_m = table.number("goal_tolerance_m");
-  scenario.goal_heading_tolerance_rad = table.number("goal_heading_tolerance_rad");
+  kRobotKeys.read(table, scenario);
   scenario.model = read_model(table);
   scenario.comfort = read_comfort(table);
   scenario.model.limits = limits_for(scenario.comfort, scenario.model);
-  if (table.has("slip")) scenario.slip = read_slip(table.table("slip"));
+  if (table.has("slip")) scenario.slip = kSlipKeys.read(table.table("slip"));
   if (table.has("truth")) scenario.truth = read_truth(table.table("truth"));
   if (table.has("reports")) scenario.reports = read_reports(table.table("reports"), scenario.model.drive.times);
   if (table.has("pose_source")) scenario.pose_source = read_pose_source(table.table("pose_source"));
@@ -105,45 +216,30 @@ StickSpec read_stick(TomlTable table) {
   StickSpec spec;
   spec.kind = static_cast<StickKind>(table.choose_keys("kind"));  // choices in the enumerations' orders
   if (table.has("steering")) spec.steering = table.choice("steering") == 0 ? StickUse::kShared : StickUse::kByHand;
-  spec.delay_s = table.number("delay_s");
-  spec.noise_std = table.number("noise_std");
-  if (spec.kind == StickKind::kTable) {
+  kStickKeys.read(table, spec);
+  if (spec.kind == StickKind::kTable)
     spec.file = table.existing_file("file");
-  } else {
+  else
     spec.forward = table.number("forward");
-  }
   table.finish();
-  return spec;
-}
-
-WanderSpec read_wanderers(TomlTable& table) {
-  WanderSpec spec;
-  spec.count = static_cast<int>(table.integer("count"));
-  spec.speed_mps = table.number("speed_mps");
-  spec.radius_m = table.number("radius_m");
-  spec.turn_rate_radps = table.number("turn_rate_radps");
-  spec.spontaneous_turns_hz = table.number("spontaneous_turns_hz");
-  spec.legs = table.boolean("legs");
   return spec;
 }
 
 RecordedSpec read_recorded(TomlTable& table) {
   RecordedSpec spec;
   spec.file = table.existing_file("file");
-  spec.radius_m = table.number("radius_m");
   if (table.has("offset")) {
     const auto offset = table.numbers("offset", 2);
     spec.offset = {offset[0], offset[1]};
   }
-  spec.start_at_s = table.number("start_at_s");
-  spec.loop = table.boolean("loop");
-  spec.legs = table.boolean("legs");
+  kRecordedKeys.read(table, spec);
   return spec;
 }
 
 void read_movers(TomlTable& table, Scenario& scenario) {
   if (table.choose_keys("kind") == 0) {
-    scenario.wanderers.push_back(read_wanderers(table));
+    scenario.wanderers.push_back({.count = static_cast<int>(table.integer("count"))});
+    kWanderKeys.read(table, scenario.wanderers.back());
   } else {
     scenario.recorded.push_back(read_recorded(table));
   }
@@ -169,13 +265,42 @@ FaultSpec read_fault(TomlTable& table) {
 
 }  // namespace
 
+const FileKeys& scenario_keys() {
+  static const FileKeys keys = file_keys(
+      "Scenario",
+      {kWorldKeys.keys(),
+       kMapKeys,
+       kRobotKeys.keys(),
+       kTurningKeys.keys(),
+       kSlipKeys.keys(),
+       kReportKeys,
+       kTruthKeys,
+       kPoseSourceKeys.keys(),
+       laser_keys("robot.laser"),
+       zone_keys(),
+       kStickKeys.keys(),
+       section_keys("stick:table",
+                    {key_row("file", kFile, kNeeded, "rows of t_s,forward,left below a line that says so")}),
+       section_keys("stick:straight", kPushKeys),
+       section_keys("stick:to_goal", kPushKeys),
+       section_keys("movers",
+                    {choice_row("kind", kNeeded, "walk about, or walk as somebody once did", {"wander", "recorded"})}),
+       kWanderKeys.keys(),
+       kRecordedKeys.keys(),
+       kFaultKeys,
+       kLostBeamsKeys,
+       section_keys("faults:carried",
+                    {key_row("way", kNumbers, kNeeded, "x, y, heading of where it is put down, from where it stood",
+                             "m, m, rad")})});
+  return keys;
+}
+
 Scenario load_scenario(const std::filesystem::path& path, const std::vector<std::string>& settings) {
   const TomlFile file(path, scenario_keys(), settings);
   TomlTable root = file.root();
   Scenario scenario;
   scenario.name = root.text("name", path.stem().string());
-  scenario.seed = static_cast<std::uint64_t>(root.integer("seed"));
-  scenario.timeout_s = root.number("timeout_s");
+  kWorldKeys.read(root, scenario);
   read_map(root.table("map"), scenario);
   read_robot(root.table("robot"), scenario);
   scenario.zones = read_zones(root);

@@ -4,7 +4,6 @@
 #include <vector>
 
 #include "hal/sim/sensors.h"
-#include "hal/sim/stick.h"
 #include "hal/sim/world.h"
 
 namespace jaywalk::sim {

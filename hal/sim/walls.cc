@@ -1,7 +1,6 @@
 #include "hal/sim/walls.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace jaywalk::sim {
@@ -77,9 +76,8 @@ struct BodyFrame {
     const Vec2 along = wall.to - wall.from;
     if (enters_at(body, wall.from, along) <= 1.0) return 0.0;  // ranges count the segment's own length here
     double nearest = std::min(footprint.distance_to(wall.from), footprint.distance_to(wall.to));
-    for (const Vec2 corner : {body.low, Vec2{body.low.x, body.high.y}, body.high, Vec2{body.high.x, body.low.y}}) {
+    for (const Vec2 corner : {body.low, Vec2{body.low.x, body.high.y}, body.high, Vec2{body.high.x, body.low.y}})
       nearest = std::min(nearest, distance(corner, wall));
-    }
     return nearest;
   }
   [[nodiscard]] double distance_to(const Disc& disc) const {
@@ -117,9 +115,8 @@ void Walls::fill_buckets() {
       for (std::int32_t row = rows.begin; row < rows.end; ++row) {
         for (std::int32_t column = columns.begin; column < columns.end; ++column) {
           const std::int32_t bucket = row * columns_ + column;
-          if (surface_distance(bucket_centre(bucket), shape) <= half_diagonal) {
+          if (surface_distance(bucket_centre(bucket), shape) <= half_diagonal)
             touch(static_cast<std::size_t>(bucket), item);
-          }
         }
       }
     };

@@ -33,11 +33,9 @@ class Walls {
   void for_each_near(Vec2 p, double reach, Visit&& visit) const {
     const Span columns = overlap(p.x, reach, bounds_.low.x, columns_);
     const Span rows = overlap(p.y, reach, bounds_.low.y, rows_);
-    for (std::int32_t row = rows.begin; row < rows.end; ++row) {
-      for (std::int32_t column = columns.begin; column < columns.end; ++column) {
+    for (std::int32_t row = rows.begin; row < rows.end; ++row)
+      for (std::int32_t column = columns.begin; column < columns.end; ++column)
         visit_bucket(row * columns_ + column, visit);
-      }
-    }
   }
 
   [[nodiscard]] std::span<const WallSegment> segments() const noexcept { return map_.segments; }
@@ -62,11 +60,10 @@ class Walls {
     const auto b = static_cast<std::size_t>(bucket);
     for (std::uint32_t k = first_[b]; k < first_[b + 1]; ++k) {
       const std::uint32_t item = items_[k];
-      if (item < map_.segments.size()) {
+      if (item < map_.segments.size())
         visit(map_.segments[item]);
-      } else {
+      else
         visit(map_.discs[item - map_.segments.size()]);
-      }
     }
   }
 

@@ -10,6 +10,20 @@
 namespace jaywalk::sim {
 namespace {
 
+constexpr double kWalkRatio = 0.0065 * 60.0;  // m s: a step's length over steps a second
+constexpr double kOfTheFoot = 2.0 / 3.0;      // what a shin goes to and fro
+// Chosen, not measured: shins in trousers, feet a hand apart, and less than a second from a stride to standing.
+constexpr double kLegRadiusM = 0.06;
+constexpr double kLegFromMiddleM = 0.1;  // to the side
+constexpr double kStepGrowsMps = 1.0;    // a pedestrian starting or stopping changes its steps by this
+
+/// Where the left foot is, in half steps ahead of the middle: it stands on the ground for one step, while the body goes
+/// over it, and comes forward with the next.
+double left_ahead(double steps) {
+  const double of_two = steps - 2.0 * std::floor(0.5 * steps);
+  return of_two < 1.0 ? 1.0 - 2.0 * of_two : 2.0 * of_two - 3.0;
+}
+
 constexpr double kCausedSpeed = 0.05;  // m/s of any point of the outline: a contact at more is the robot's doing
 constexpr double kApartAgain = 0.01;   // m: an episode of touching ends at this gap
 constexpr double kOpenGround = 50.0;   // m round the walls; what lies farther out is a slip of unit or origin
@@ -20,6 +34,18 @@ bool off_the_map(const Box& walls, Vec2 p) {
 }
 
 }  // namespace
+
+void Legs::walk(const MoverTruth& walker, double step_s) noexcept {
+  const double speed = norm(walker.velocity), wanted = std::sqrt(kWalkRatio * speed);
+  if (wanted > 0.0) steps_ += speed * step_s / wanted;
+  step_m_ += std::clamp(wanted - step_m_, -kStepGrowsMps * step_s, kStepGrowsMps * step_s);
+}
+
+std::array<Disc, 2> Legs::of(const MoverTruth& walker) const noexcept {
+  const Vec2 ahead = direction(walker.heading), left{-ahead.y, ahead.x};
+  const Vec2 foot = ahead * (0.5 * kOfTheFoot * step_m_ * left_ahead(steps_)) + left * kLegFromMiddleM;
+  return {Disc{walker.position + foot, kLegRadiusM}, Disc{walker.position - foot, kLegRadiusM}};
+}
 
 World::World(const Scenario& scenario, std::uint64_t seed)
     : faults_(scenario.faults),
@@ -48,13 +74,11 @@ const Scenario& World::with_free_places(const Scenario& scenario) const {
     throw StartupError(scenario.goal_place + "the goal lies more than 50 m outside the walls" + of_map,
                        "move robot.goal, in metres in the map's frame");
   }
-  if (walls_.clearance(footprint_, scenario.start) <= 0.0) {
+  if (walls_.clearance(footprint_, scenario.start) <= 0.0)
     throw StartupError(scenario.start_place + "the robot's start lies in a wall" + of_map, "move robot.start");
-  }
   const double radius = footprint_.inscribed_radius_m();
-  if (walls_.distance(scenario.goal, radius) < radius) {
+  if (walls_.distance(scenario.goal, radius) < radius)
     throw StartupError(scenario.goal_place + "the goal lies in a wall or too near one" + of_map, "move robot.goal");
-  }
   return scenario;
 }
 

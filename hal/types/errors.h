@@ -15,9 +15,8 @@ class StartupError : public std::runtime_error {
  private:
   /// Names of files and words of strangers may hold line ends, and what a terminal obeys.
   static std::string in_a_line(std::string text) {
-    for (char& c : text) {
+    for (char& c : text)
       if ((c >= 0 && c < ' ') || c == 127) c = '?';
-    }
     return text;
   }
 };

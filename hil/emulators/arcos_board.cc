@@ -6,10 +6,9 @@
 
 #include "drivers/can/byte_bus.h"
 #include "hal/types/trig.h"
-#include "hil/emulators/ramped.h"
+#include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRollOut_mmps2 = 300.0;     ///< without torque
@@ -71,9 +70,8 @@ std::string_view ArcosBoard::state_name() const noexcept {
 
 void ArcosBoard::step(Time now) {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) hear(received.frame.payload(), now);
-  }
   tripped_ = tripped_ || (open_ && watchdog_ms_ > 0 && now - heard_ > std::chrono::milliseconds(watchdog_ms_));
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -127,36 +125,24 @@ void ArcosBoard::obey(std::uint8_t number, std::int32_t argument) {
       open_ = motors_on_ = tells_encoders_ = false;
       greeted_ = 0;
       return;
-    case 4:
-      motors_on_ = argument != 0 && !stop_pressed_;
-      return;
-    case 5:
-      return set_ramp(kSpeed, argument);
-    case 6:
-      ramps_[kSpeed].top = argument;
-      return;
-    case 10:
-      ramps_[kTurn].top = argument;
-      return;
+    case 4: motors_on_ = argument != 0 && !stop_pressed_; return;
+    case 5: return set_ramp(kSpeed, argument);
+    case 6: ramps_[kSpeed].top = argument; return;
+    case 10: ramps_[kTurn].top = argument; return;
     case 11:
     case 21:
       ramps_[number == 11 ? kSpeed : kTurn].wanted = argument;
       brakes_hard_ = false;
       return;
-    case 18:
-      return say_settings();
-    case 19:
-      tells_encoders_ = argument > 1 && has_encoder_packets_;
-      return;
-    case 23:
-      return set_ramp(kTurn, argument);
+    case 18: return say_settings();
+    case 19: tells_encoders_ = argument > 1 && has_encoder_packets_; return;
+    case 23: return set_ramp(kTurn, argument);
     case 29:
     case 55:
       for (Ramp& ramp : ramps_) ramp.wanted = 0.0;
       brakes_hard_ = number == 55;
       return;
-    default:
-      return;
+    default: return;
   }
 }
 
@@ -181,13 +167,12 @@ void ArcosBoard::move(double seconds) noexcept {
 void ArcosBoard::turn_motor(Motor& motor, double target, double seconds) noexcept {
   const double before = motor.speed;
   const bool braked = tripped_ || (brakes_hard_ && !motor.deaf);
-  if (!motors_on_ || motor.stalls) {
+  if (!motors_on_ || motor.stalls)
     motor.speed = ramped(before, 0.0, (motor.stalls ? kEmergency_mmps2 : kRollOut_mmps2) * seconds);
-  } else if (!motor.sticks) {
+  else if (!motor.sticks)
     motor.speed = target;
-  } else if (braked) {
+  else if (braked)
     motor.speed = ramped(before, 0.0, ramps_[kSpeed].down * seconds);
-  }
   motor.position += 0.5 * (before + motor.speed) * seconds;
   if (has_encoder_) return;
   motor.shown_speed = motor.speed;

@@ -4,10 +4,8 @@
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
-#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr std::uint32_t kPdoOff = 0x80000000, kIdentifier = 0x7FF;
@@ -20,9 +18,8 @@ void Cia402Node::step(Time now) noexcept {
   if (is_enabled() && enabled_ == kNever) enabled_ = now;
   show();
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   watch_controller(now);
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -38,7 +35,7 @@ void Cia402Node::boot() noexcept {
 void Cia402Node::restart() noexcept {
   objects_.restore(true);
   state_ = State::kSwitchOnDisabled;
-  heard_controller_ = said_heartbeat_ = kNever;
+  fed_ = said_heartbeat_ = kNever;
   pending_controlword_ = last_controlword_ = 0;
   pending_target_ = 0;
   booted_ = false;
@@ -47,7 +44,7 @@ void Cia402Node::restart() noexcept {
 void Cia402Node::take(const CanFrame& frame, Time now) noexcept {
   if (frame.extended || frame.remote) return;
   const std::uint32_t watched = objects_.value({0x1016, 1});
-  if (frame.id == 0x700 + ((watched >> 16U) & 0x7FU)) heard_controller_ = now;
+  if (frame.id == 0x700 + ((watched >> 16U) & 0x7FU)) fed_ = now;
   const bool is_addressed = frame.size == 2 && (frame.bytes[1] == node_ || frame.bytes[1] == 0);
   if (frame.id == 0x000 && is_addressed) return take_network_command(frame.bytes[0]);
   if (network_ == Network::kStopped || take_request(frame) || network_ != Network::kOperational) return;
@@ -59,24 +56,16 @@ void Cia402Node::take(const CanFrame& frame, Time now) noexcept {
 // consumer and leaves the motor as it is.
 void Cia402Node::take_network_command(std::uint8_t command) noexcept {
   switch (command) {
-    case 0x01:
-      network_ = Network::kOperational;
-      return;
-    case 0x02:
-      network_ = Network::kStopped;
-      return;
-    case 0x80:
-      network_ = Network::kPreOperational;
-      return;
-    case 0x81:
-      return restart();
+    case 0x01: network_ = Network::kOperational; return;
+    case 0x02: network_ = Network::kStopped; return;
+    case 0x80: network_ = Network::kPreOperational; return;
+    case 0x81: return restart();
     case 0x82:
       objects_.restore(false);
-      heard_controller_ = kNever;
+      fed_ = kNever;
       booted_ = false;
       return;
-    default:
-      return;
+    default: return;
   }
 }
 
@@ -84,11 +73,10 @@ void Cia402Node::take_network_command(std::uint8_t command) noexcept {
 bool Cia402Node::take_request(const CanFrame& frame) noexcept {
   const auto answered = objects_.answer(node_, frame);
   if (!answered) return false;
-  if (connected_) static_cast<void>(bus_.send(*answered));
+  MotorNode::send(*answered);
   const bool was_written = answered->bytes[0] == 0x60;
-  if (was_written && wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == 0x6040) {
+  if (was_written && wire::little_endian<std::uint16_t>(frame.payload().subspan(1)) == 0x6040)
     obey(wire::little_endian<std::uint16_t>(frame.payload().subspan(4)));
-  }
   return true;
 }
 
@@ -115,7 +103,7 @@ void Cia402Node::on_sync() noexcept {
 /// What its objects show of the motor.
 void Cia402Node::show() noexcept {
   const double felt = has_encoder_ ? encoder_velocity_ : velocity_;
-  const double stands_at = (has_encoder_ ? encoder_position_ : position_) + slipped_;
+  const double stands_at = felt_position() + slipped_;
   objects_.set({0x6041, 0}, statusword());
   objects_.set({0x606C, 0}, static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)));
   objects_.set({0x6064, 0}, static_cast<std::uint32_t>(static_cast<std::int64_t>(std::floor(stands_at))));
@@ -174,20 +162,13 @@ void Cia402Node::obey(std::uint16_t controlword) noexcept {
 
 std::uint16_t Cia402Node::statusword() const noexcept {
   switch (state_) {
-    case State::kSwitchOnDisabled:
-      return 0x0250;
-    case State::kReady:
-      return 0x0231;
-    case State::kSwitchedOn:
-      return 0x0233;
-    case State::kOperationEnabled:
-      return 0x0237;
-    case State::kQuickStop:
-      return 0x0217;
-    case State::kFaultReaction:
-      return 0x021F;
-    case State::kFault:
-      return 0x0218;
+    case State::kSwitchOnDisabled: return 0x0250;
+    case State::kReady: return 0x0231;
+    case State::kSwitchedOn: return 0x0233;
+    case State::kOperationEnabled: return 0x0237;
+    case State::kQuickStop: return 0x0217;
+    case State::kFaultReaction: return 0x021F;
+    case State::kFault: return 0x0218;
   }
   return 0;
 }
@@ -196,8 +177,8 @@ std::uint16_t Cia402Node::statusword() const noexcept {
 void Cia402Node::watch_controller(Time now) noexcept {
   const std::uint32_t entry = objects_.value({0x1016, 1});
   const auto limit = std::chrono::milliseconds(entry & 0xFFFFU);
-  if (entry == 0 || heard_controller_ == kNever || now - heard_controller_ <= limit) return;
-  heard_controller_ = kNever;
+  if (entry == 0 || fed_ == kNever || now - fed_ <= limit) return;
+  fed_ = kNever;
   lose_controller();
 }
 
@@ -207,24 +188,11 @@ void Cia402Node::lose_controller() noexcept {
   if (network_ == Network::kOperational && objects_.value({0x1029, 1}) == 0) network_ = Network::kPreOperational;
   if (state_ != State::kOperationEnabled) return;
   switch (objects_.value({0x6007, 0})) {
-    case 1:
-      state_ = State::kFaultReaction;
-      break;
-    case 2:
-      state_ = State::kSwitchOnDisabled;
-      break;
-    case 3:
-      state_ = State::kQuickStop;
-      break;
-    default:
-      break;  // it drives on, as drives do that nobody told otherwise
+    case 1: state_ = State::kFaultReaction; break;
+    case 2: state_ = State::kSwitchOnDisabled; break;
+    case 3: state_ = State::kQuickStop; break;
+    default: break;  // it drives on, as drives do that nobody told otherwise
   }
-}
-
-void Cia402Node::measure(double velocity, double position) noexcept {
-  has_encoder_ = true;
-  encoder_velocity_ = velocity;
-  encoder_position_ = position;
 }
 
 std::string_view Cia402Node::state_name() const noexcept {
@@ -248,9 +216,7 @@ void Cia402Node::move(double seconds) noexcept {
       velocity_ = ramped(velocity_, target, std::fabs(target) > std::fabs(velocity_) ? ramp(0x6083) : ramp(0x6084));
       break;
     case State::kQuickStop:
-    case State::kFaultReaction:
-      velocity_ = ramped(velocity_, 0.0, ramp(0x6085));
-      break;
+    case State::kFaultReaction: velocity_ = ramped(velocity_, 0.0, ramp(0x6085)); break;
     default:
       velocity_ = ramped(velocity_, 0.0, friction_ * seconds);  // it rolls out
       break;
@@ -273,12 +239,11 @@ void Cia402Node::send_emergency(std::uint16_t error_code) noexcept {
 }
 
 void Cia402Node::send(std::uint32_t id, std::uint64_t word, std::uint8_t size) noexcept {
-  if (!connected_) return;
   CanFrame frame;
   frame.id = id;
   frame.size = size;
   wire::put_little_endian(word, frame.bytes);
-  static_cast<void>(bus_.send(frame));
+  MotorNode::send(frame);
 }
 
 }  // namespace jaywalk::emulators

@@ -3,8 +3,8 @@
 #include <optional>
 #include <string_view>
 
-#include "drivers/can/can_bus.h"
 #include "hil/emulators/drive_objects.h"
+#include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
 
@@ -14,11 +14,12 @@ namespace jaywalk::emulators {
 ///
 /// Network states (CiA 301): after power-up it says boot-up and is Pre-operational. Outside Operational it takes and
 /// sends no PDO, Stopped it answers no SDO either, and in none of them does that by itself stop the motor, which goes
-/// on at the last target. What stops it is its watch over the controller's heartbeat (1016h, 6007h), in every state.
-class Cia402Node {
+/// on at the last target. What stops it is its watch over the controller's heartbeat (1016h, 6007h), in every state;
+/// heard_controller() is kNever again once that is missed.
+class Cia402Node : public MotorNode {
  public:
   /// `bus` outlives it; `node` is 1 to 127.
-  Cia402Node(CanBus& bus, std::uint8_t node) noexcept : bus_(bus), node_(node) {}
+  Cia402Node(CanBus& bus, std::uint8_t node) noexcept : MotorNode(bus, node) {}
 
   /// Takes what came in and moves the motor on to `now`.
   void step(Time now) noexcept;
@@ -28,10 +29,6 @@ class Cia402Node {
   [[nodiscard]] double position() const noexcept { return position_; }  ///< counts
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == State::kOperationEnabled; }
   [[nodiscard]] std::string_view state_name() const noexcept;
-  /// When the controller's heartbeat came in last; kNever before the first and once it is missed.
-  [[nodiscard]] Time heard_controller() const noexcept { return heard_controller_; }
-  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): counts/s and counts.
-  void measure(double velocity, double position) noexcept;
 
   /// Something broke: it brakes, says so in an emergency message and waits in "fault".
   void raise_fault(std::uint16_t error_code) noexcept;
@@ -51,9 +48,6 @@ class Cia402Node {
   void jump(double counts) noexcept { slipped_ += counts; }
   /// It sends no process data any more, and all else works.
   void lose_feedback() noexcept { reports_ = false; }
-  /// No more frames out, as when its cable is pulled; frames in are lost too.
-  void pull_cable() noexcept { connected_ = false; }
-  void plug_cable() noexcept { connected_ = true; }
 
  private:
   enum class State { kSwitchOnDisabled, kReady, kSwitchedOn, kOperationEnabled, kQuickStop, kFaultReaction, kFault };
@@ -79,29 +73,22 @@ class Cia402Node {
   void send_emergency(std::uint16_t error_code) noexcept;
   [[nodiscard]] std::uint16_t statusword() const noexcept;
 
-  CanBus& bus_;
-  std::uint8_t node_;
   DriveObjects objects_;
   State state_ = State::kSwitchOnDisabled;
   Network network_ = Network::kPreOperational;
   bool booted_ = false;  ///< and has said so
   bool starts_by_itself_ = false, hangs_ = false, reports_ = true;
-  bool connected_ = true;
   std::uint16_t pending_controlword_ = 0;  ///< of the last PDO, until SYNC
   std::int32_t pending_target_ = 0;
   std::uint16_t last_controlword_ = 0;
   double velocity_ = 0.0;
   double friction_ = 100.0;  ///< counts/s2: a tenth of the ramp with which it drove last
-  double position_ = 0.0;
-  bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, slipped_ = 0.0;
+  double slipped_ = 0.0;
   std::optional<Duration> mode_delay_;
   std::optional<std::uint8_t> kept_mode_;
   Time enabled_ = kNever;  ///< since when
   std::uint8_t heartbeat_size_ = 1;
-  Time stepped_ = kNever;
   Time said_heartbeat_ = kNever;
-  Time heard_controller_ = kNever;
 };
 
 }  // namespace jaywalk::emulators

@@ -51,9 +51,8 @@ DriveObjects::DriveObjects() noexcept {
     add({communication, 1}, 4, 0x80000000, true);
     add({communication, 2}, 1, 255, true);
   }
-  for (const std::uint16_t mapping : Indices{0x1600, 0x1601, 0x1A00, 0x1A01}) {
+  for (const std::uint16_t mapping : Indices{0x1600, 0x1601, 0x1A00, 0x1A01})
     for (std::uint8_t sub = 0; sub <= 4; ++sub) add({mapping, sub}, sub == 0 ? 1 : 4, 0, true);
-  }
   for (const std::uint16_t option : Indices{0x6007, 0x605A, 0x605B, 0x605C, 0x605D, 0x605E})
     add({option, 0}, 2, 0, true);
   add({0x6040, 0}, 2, 0, true);
@@ -79,9 +78,8 @@ DriveObjects::Object* DriveObjects::find(ObjectAddress address) noexcept {
 }
 
 std::uint32_t DriveObjects::value(ObjectAddress address) const noexcept {
-  for (const Object& object : objects_) {
+  for (const Object& object : objects_)
     if (object.address == address) return object.value;
-  }
   return 0;
 }
 
@@ -90,9 +88,8 @@ void DriveObjects::set(ObjectAddress address, std::uint32_t value) noexcept {
 }
 
 void DriveObjects::lack(ObjectAddress address) noexcept {
-  for (std::size_t i = 0; i < objects_.size(); ++i) {
+  for (std::size_t i = 0; i < objects_.size(); ++i)
     if (objects_[i].address == address) return objects_.swap_remove(i);
-  }
 }
 
 void DriveObjects::fix(ObjectAddress address, std::uint32_t value) noexcept {
@@ -118,9 +115,8 @@ void DriveObjects::store() noexcept {
 }
 
 void DriveObjects::restore(bool all) noexcept {
-  for (Object& object : objects_) {
+  for (Object& object : objects_)
     if (all || object.address.index < 0x2000) object.value = object.stored;
-  }
 }
 
 /// 0, or the abort code.

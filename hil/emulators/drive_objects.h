@@ -2,8 +2,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "drivers/can/can_frame.h"
-#include "drivers/canopen/object_address.h"
+#include "drivers/can/can_bus.h"
+#include "drivers/canopen/pdo.h"
 #include "hal/types/fixed_vector.h"
 
 namespace jaywalk::emulators {

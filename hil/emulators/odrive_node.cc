@@ -1,13 +1,10 @@
 #include "hil/emulators/odrive_node.h"
 
 #include <bit>
-#include <cmath>
 
 #include "drivers/wire/byte_reader.h"
-#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRamp_turns_per_s2 = 20.0;
@@ -25,9 +22,8 @@ bool is_due(Time& said, Duration period, Time now) noexcept {
 
 void OdriveNode::step(Time now) noexcept {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   watch(now);
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
   stepped_ = now;
@@ -40,34 +36,27 @@ void OdriveNode::take(const CanFrame& frame, Time now) noexcept {
   if (deaf_) return;
   const auto word = wire::little_endian<std::uint32_t>(frame.bytes);
   switch (frame.id & 0x1FU) {
-    case 0x02:
-      return disarm(kEstop);
+    case 0x02: return disarm(kEstop);
     case 0x07:
       if (word == 1) state_ = 1;
       if (word == 8 && errors_ == 0 && procedure_ == 0) state_ = 8;
       return;
-    case 0x0B:
-      control_mode_ = word;
-      return;
+    case 0x0B: control_mode_ = word; return;
     case 0x0D:
       if (!stuck_) target_ = static_cast<double>(std::bit_cast<float>(word));
       return;
-    case 0x18:
-      errors_ = lasting_error_;
-      return;
-    default:
-      return;
+    case 0x18: errors_ = lasting_error_; return;
+    default: return;
   }
 }
 
 void OdriveNode::watch(Time now) noexcept {
   const bool expired = watchdog_ > Duration{0} && fed_ != kNever && now - fed_ > watchdog_;
   if (!expired || (errors_ & expired_) != 0) return;
-  if (lies_) {
+  if (lies_)
     errors_ |= expired_;
-  } else {
+  else
     disarm(expired_);
-  }
 }
 
 void OdriveNode::disarm(std::uint32_t error) noexcept {
@@ -85,10 +74,7 @@ void OdriveNode::restart() noexcept {
   errors_ = lasting_error_;
   target_ = 0.0;
   control_mode_ = 3;
-  stuck_ = deaf_ = muted_ = false;
-  fed_ = kNever;
-  position_ = 0.0;
-  encoder_zero_ = encoder_position_;
+  forget();
 }
 
 void OdriveNode::move(double seconds) noexcept {
@@ -103,25 +89,17 @@ void OdriveNode::say(Time now) noexcept {
   if (is_due(said_heartbeat_, kHeartbeatPeriod, now))
     send(0x01, errors_, state_ | static_cast<std::uint32_t>(procedure_) << 8U);
   if (!estimates_ || !is_due(said_estimates_, kEstimatesPeriod, now)) return;
-  const double position = has_encoder_ ? encoder_position_ - encoder_zero_ : position_;
-  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(position)),
+  send(0x09, std::bit_cast<std::uint32_t>(static_cast<float>(felt_position())),
        std::bit_cast<std::uint32_t>(static_cast<float>(has_encoder_ ? encoder_velocity_ : velocity_)));
 }
 
-void OdriveNode::measure(double velocity, double position) noexcept {
-  has_encoder_ = true;
-  encoder_velocity_ = velocity;
-  encoder_position_ = position;
-}
-
 void OdriveNode::send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept {
-  if (!connected_ || muted_) return;
   CanFrame frame;
   frame.id = static_cast<std::uint32_t>(node_) << 5U | command;
   frame.size = 8;
   wire::put_little_endian(first, frame.bytes);
   wire::put_little_endian(second, std::span(frame.bytes).subspan(4));
-  static_cast<void>(bus_.send(frame));
+  MotorNode::send(frame);
 }
 
 }  // namespace jaywalk::emulators

@@ -2,16 +2,16 @@
 #include <cstdint>
 #include <string_view>
 
-#include "drivers/can/can_bus.h"
+#include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
 
 /// An ODrive axis of firmware 0.6 with a motor that follows its ramp: CANSimple, watchdog, heartbeat and estimates. For
 /// tests and the bench; it shares no code with the driver, except how numbers stand in bytes.
-class OdriveNode {
+class OdriveNode : public MotorNode {
  public:
   /// `bus` outlives it; `node` is 0 to 62.
-  OdriveNode(CanBus& bus, std::uint8_t node) noexcept : bus_(bus), node_(node) {}
+  OdriveNode(CanBus& bus, std::uint8_t node) noexcept : MotorNode(bus, node) {}
 
   /// Takes what came in and moves the motor on to `now`.
   void step(Time now) noexcept;
@@ -24,19 +24,10 @@ class OdriveNode {
   void lie_about_watchdog() noexcept { lies_ = true; }
   /// An error that clearing does not cure while it lasts; 0: it is mended.
   void set_lasting_error(std::uint32_t error) noexcept;
-  /// No more frames out, as when its cable is pulled; frames in are lost too.
-  void pull_cable() noexcept { connected_ = false; }
-  void plug_cable() noexcept { connected_ = true; }
-  /// No more frames out; it goes on hearing and obeying.
-  void mute() noexcept { muted_ = true; }
   /// It forgets everything but its settings, as after a loss of power; its encoder counts from zero again.
   void restart() noexcept;
   /// Its position is another one at once, as after an index pulse or a slip of its counter.
   void jump(double turns) noexcept { position_ += turns; }
-  /// Goes on with the speed that it was told last; everything else is obeyed.
-  void stick() noexcept { stuck_ = true; }
-  /// Obeys nothing any more, but everything that it is told feeds its watchdog.
-  void go_deaf() noexcept { deaf_ = true; }
   /// It never goes to closed loop, and says why by this procedure result.
   void refuse_closed_loop(std::uint8_t procedure) noexcept { procedure_ = procedure; }
   /// It has no encoder messages, as it comes from the factory.
@@ -46,10 +37,6 @@ class OdriveNode {
   [[nodiscard]] double position() const noexcept { return position_; }  ///< turns
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == 8; }
   [[nodiscard]] std::string_view state_name() const noexcept { return is_enabled() ? "enabled" : "off"; }
-  /// When it was last told anything; kNever before the first time.
-  [[nodiscard]] Time heard_controller() const noexcept { return fed_; }
-  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): turns a second and turns.
-  void measure(double velocity, double position) noexcept;
   /// It lets go until the error is cleared.
   void raise_fault(std::uint32_t error) noexcept { disarm(error); }
 
@@ -61,11 +48,9 @@ class OdriveNode {
   void say(Time now) noexcept;
   void send(std::uint32_t command, std::uint32_t first, std::uint32_t second) noexcept;
 
-  CanBus& bus_;
-  std::uint8_t node_;
   Duration watchdog_{std::chrono::milliseconds(60)};
   static constexpr Duration kHeartbeatPeriod = std::chrono::milliseconds(10);
-  bool lies_ = false, connected_ = true, estimates_ = true, stuck_ = false, deaf_ = false, muted_ = false;
+  bool lies_ = false, estimates_ = true;
   std::uint32_t expired_ = 0x01000000;  ///< the error of its watchdog
   std::uint32_t lasting_error_ = 0;
   std::uint32_t errors_ = 0;
@@ -73,10 +58,7 @@ class OdriveNode {
   std::uint32_t control_mode_ = 3;  ///< position, as it comes from the factory
   double target_ = 0.0;
   double velocity_ = 0.0;
-  double position_ = 0.0;
-  bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, encoder_zero_ = 0.0;
-  Time stepped_ = kNever, fed_ = kNever, said_heartbeat_ = kNever, said_estimates_ = kNever;
+  Time said_heartbeat_ = kNever, said_estimates_ = kNever;
 };
 
 }  // namespace jaywalk::emulators

@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <utility>
 
-#include "hal/types/blanking.h"
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 
 namespace jaywalk::emulators {
 
@@ -88,9 +88,8 @@ void ScannerServer::measure_until_now(Time now) {
   const std::size_t until = share >= 1.0 ? shape_.beams : static_cast<std::size_t>(past) + 1;
   if (until <= measured_) return;
   world_(measured_, std::span(range_m_).subspan(measured_, until - measured_));
-  for (; measured_ < until; ++measured_) {
+  for (; measured_ < until; ++measured_)
     if (says_m_[measured_] != kMeasures) range_m_[measured_] = says_m_[measured_];
-  }
   tell_measured(now);
 }
 
@@ -105,29 +104,19 @@ void ScannerServer::send(std::vector<std::uint8_t> message, Time now) {
   if (noise() < 256.0 * damaged_share_) message[message.size() / 2] ^= 0x5AU;
   switch (fault_) {
     case ScannerFault::kSilence:
-    case ScannerFault::kGone:
-      return;
+    case ScannerFault::kGone: return;
     case ScannerFault::kHalfTelegram:
       message.resize(message.size() / 2);
       fault_ = ScannerFault::kNone;
       break;
-    case ScannerFault::kHalves:
-      message.resize(message.size() / 2);
-      break;
-    case ScannerFault::kDamage:
-      message[message.size() / 2] ^= 0x5AU;
-      break;
+    case ScannerFault::kHalves: message.resize(message.size() / 2); break;
+    case ScannerFault::kDamage: message[message.size() / 2] ^= 0x5AU; break;
     case ScannerFault::kGarbage:
       for (auto& byte : message) byte = noise();
       break;
-    case ScannerFault::kHeldBack:
-      held_.push_back({fault_ends_, std::move(message)});
-      return;
-    case ScannerFault::kDelayed:
-      held_.push_back({now + std::chrono::milliseconds(700), std::move(message)});
-      return;
-    default:
-      break;
+    case ScannerFault::kHeldBack: held_.push_back({fault_ends_, std::move(message)}); return;
+    case ScannerFault::kDelayed: held_.push_back({now + std::chrono::milliseconds(700), std::move(message)}); return;
+    default: break;
   }
   held_.push_back({now + shape_.on_line, std::move(message)});
   send_held(now);

@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <utility>
 
 #include "hal/types/trig.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr std::uint32_t kClockAtStart_ms = (1U << 24U) - 2000U;

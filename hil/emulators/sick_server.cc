@@ -6,7 +6,6 @@
 #include "hal/types/trig.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRadPerTdeg = kPi / 1.8e6;
@@ -93,9 +92,8 @@ void SickServer::obey(std::string_view command) {
     logged_in_ = argument == password;
     return say("sAN SetAccessMode" + (logged_in_ ? yes : std::string(text ? " 0" : std::string(" \0", 2))));
   }
-  if (kind == "sWN" && logged_in_ && (word == "LMDscandatacfg" || word == "LMPoutputRange")) {
+  if (kind == "sWN" && logged_in_ && (word == "LMDscandatacfg" || word == "LMPoutputRange"))
     return say("sWA " + std::string(word));
-  }
   if (kind == "sMN" && word == "Run") return say("sAN Run" + yes);
   if (kind == "sEN" && word == "LMDscandata") {
     set_streaming(argument == yes.substr(1));

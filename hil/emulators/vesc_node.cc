@@ -5,10 +5,8 @@
 #include <cmath>
 
 #include "drivers/wire/byte_reader.h"
-#include "hil/emulators/ramped.h"
 
 namespace jaywalk::emulators {
-
 namespace {
 
 constexpr double kRamp_erpm_per_s = 30000.0;
@@ -36,9 +34,8 @@ void VescNode::set_timeout(std::uint32_t timeout_ms, float brake_current_a) noex
 
 void VescNode::step(Time now) {
   ReceivedFrame received;
-  while (bus_.receive(received)) {
+  while (bus_.receive(received))
     if (connected_) take(received.frame, now);
-  }
   const bool expired = timeout_ms_ > 0 && fed_ != kNever && now - fed_ > std::chrono::milliseconds(timeout_ms_);
   if (expired) mode_ = brake_current_a_ > 0.0F ? Mode::kBrake : Mode::kCurrent;
   if (stepped_ != kNever) move(to_seconds(now - stepped_));
@@ -47,26 +44,20 @@ void VescNode::step(Time now) {
 }
 
 void VescNode::take(const CanFrame& frame, Time now) {
-  if (!frame.extended || (frame.id & 0xFFU) != controller_) return;
+  if (!frame.extended || (frame.id & 0xFFU) != node_) return;
   const auto word = static_cast<std::int32_t>(wire::big_endian<std::uint32_t>(frame.bytes));
   const bool is_order = frame.id >> 8U <= 3;
   if (is_order) fed_ = now;
   if (is_order && (deaf_ || (stuck_ && frame.id >> 8U == 3))) return;
   switch (frame.id >> 8U) {
-    case 1:
-      mode_ = Mode::kCurrent;
-      return;
-    case 2:
-      mode_ = Mode::kBrake;
-      return;
+    case 1: mode_ = Mode::kCurrent; return;
+    case 2: mode_ = Mode::kBrake; return;
     case 3:
       mode_ = Mode::kSpeed;
       target_erpm_ = word;
       return;
-    case 8:
-      return answer(frame.payload());
-    default:
-      return;
+    case 8: return answer(frame.payload());
+    default: return;
   }
 }
 
@@ -74,8 +65,7 @@ void VescNode::answer(std::span<const std::uint8_t> question) {
   if (!answers_ || question.size() < 3) return;
   if (question[2] == 17) send_settings(question[0]);
   if (question[2] == 50 && question.size() == 7) {
-    const std::array<std::uint8_t, 8> told{controller_, 1,           50,          question[3],
-                                           question[4], question[5], question[6], fault_};
+    const std::array<std::uint8_t, 8> told{node_, 1, 50, question[3], question[4], question[5], question[6], fault_};
     send(8, question[0], told);
   }
 }
@@ -84,7 +74,7 @@ void VescNode::send_settings(std::uint8_t to) {
   std::vector<std::uint8_t> all(kSettingsBytes);
   all[0] = 17;
   wire::put_big_endian(std::uint32_t{0x1E0A3B5C}, std::span(all).subspan(1));
-  all[5] = controller_;
+  all[5] = node_;
   wire::put_big_endian(told_ms_, std::span(all).subspan(6));
   wire::put_big_endian(std::bit_cast<std::uint32_t>(brake_current_a_), std::span(all).subspan(10));
   for (std::size_t k = 14; k < all.size(); ++k) all[k] = static_cast<std::uint8_t>(k);
@@ -101,7 +91,7 @@ void VescNode::send_settings(std::uint8_t to) {
     for (std::size_t k = at; k < std::min(at + 6, all.size()); ++k) piece.push_back(all[k]);
     send(6, to, piece);
   }
-  const std::array<std::uint8_t, 6> end{controller_,
+  const std::array<std::uint8_t, 6> end{node_,
                                         1,
                                         static_cast<std::uint8_t>(all.size() >> 8U),
                                         static_cast<std::uint8_t>(all.size()),
@@ -125,51 +115,37 @@ void VescNode::say(Time now) noexcept {
   std::array<std::uint8_t, 8> bytes{};
   const double felt = has_encoder_ ? 60.0 * encoder_velocity_ : erpm_;
   wire::put_big_endian(static_cast<std::uint32_t>(static_cast<std::int32_t>(felt)), bytes);
-  send(9, controller_, bytes);
+  send(9, node_, bytes);
   if (!tells_travel_) return;
-  const auto sixths =
-      static_cast<std::int64_t>(std::floor(6.0 * (has_encoder_ ? encoder_position_ - encoder_zero_ : position_)));
+  const auto sixths = static_cast<std::int64_t>(std::floor(6.0 * felt_position()));
   wire::put_big_endian(static_cast<std::uint32_t>(sixths), bytes);
   wire::put_big_endian(std::uint16_t{240}, std::span(bytes).subspan(4));
-  send(27, controller_, bytes);
-}
-
-void VescNode::measure(double velocity, double position) noexcept {
-  has_encoder_ = true;
-  encoder_velocity_ = velocity;
-  encoder_position_ = position;
+  send(27, node_, bytes);
 }
 
 void VescNode::restart() noexcept {
   mode_ = Mode::kCurrent;
   target_erpm_ = 0.0;
-  stuck_ = deaf_ = muted_ = false;
-  fed_ = kNever;
-  position_ = 0.0;
-  encoder_zero_ = encoder_position_;
+  forget();
 }
 
 std::string_view VescNode::state_name() const noexcept {
   if (fault_ != 0) return "fault";
   switch (mode_) {
-    case Mode::kSpeed:
-      return "enabled";
-    case Mode::kBrake:
-      return "braking";
-    case Mode::kCurrent:
-      break;
+    case Mode::kSpeed: return "enabled";
+    case Mode::kBrake: return "braking";
+    case Mode::kCurrent: break;
   }
   return "off";
 }
 
 void VescNode::send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept {
-  if (!connected_ || muted_) return;
   CanFrame frame;
   frame.id = command << 8U | id;
   frame.extended = true;
   frame.size = static_cast<std::uint8_t>(bytes.size());
   std::copy(bytes.begin(), bytes.end(), frame.bytes.begin());
-  static_cast<void>(bus_.send(frame));
+  MotorNode::send(frame);
 }
 
 }  // namespace jaywalk::emulators

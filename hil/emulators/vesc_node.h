@@ -3,17 +3,17 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/can/can_bus.h"
+#include "hil/emulators/motor_node.h"
 
 namespace jaywalk::emulators {
 
-/// A VESC with a motor that follows its ramp: speeds and currents in, status messages 1 and 5 out, settings and fault
-/// code when asked, and a timeout. For tests and the bench; it shares no code with the driver, except how numbers stand
-/// in bytes.
-class VescNode {
+/// A VESC with a motor that follows its ramp (electrical turns): speeds and currents in, status messages 1 and 5 out,
+/// settings and fault code when asked, and a timeout. For tests and the bench; it shares no code with the driver,
+/// except how numbers stand in bytes.
+class VescNode : public MotorNode {
  public:
   /// `bus` outlives it.
-  VescNode(CanBus& bus, std::uint8_t controller) noexcept : bus_(bus), controller_(controller) {}
+  VescNode(CanBus& bus, std::uint8_t controller) noexcept : MotorNode(bus, controller) {}
 
   /// Takes what came in and moves the motor on to `now`.
   void step(Time now);
@@ -31,29 +31,15 @@ class VescNode {
   void set_travel(std::int32_t sixths) noexcept { position_ = sixths / 6.0; }
   /// Its tachometer shows another number at once.
   void jump(double electrical_turns) noexcept { position_ += electrical_turns; }
-  /// No more frames out, as when its cable is pulled; frames in are lost too.
-  void pull_cable() noexcept { connected_ = false; }
-  void plug_cable() noexcept { connected_ = true; }
-  /// No more frames out; it goes on hearing and obeying.
-  void mute() noexcept { muted_ = true; }
   /// Minimum ERPM, 900 from the factory: at a lower command, 0 too, it lets its motor go.
   void set_minimum_erpm(double erpm) noexcept { minimum_erpm_ = erpm; }
   /// It forgets everything but its settings, as after a loss of power; its tachometer counts from zero again.
   void restart() noexcept;
-  /// Goes on with the speed that it was told last; currents are obeyed.
-  void stick() noexcept { stuck_ = true; }
-  /// Obeys nothing any more, but speeds and currents hold off its timeout.
-  void go_deaf() noexcept { deaf_ = true; }
 
   [[nodiscard]] double erpm() const noexcept { return erpm_; }
   [[nodiscard]] double velocity() const noexcept { return erpm_ / 60.0; }  ///< electrical turns a second
   [[nodiscard]] double electrical_turns() const noexcept { return position_; }
   [[nodiscard]] std::string_view state_name() const noexcept;
-  /// When it was last told a speed or a current; kNever before the first time.
-  [[nodiscard]] Time heard_controller() const noexcept { return fed_; }
-  /// What its encoder shows from now on, where a motor of the world's own follows velocity(): electrical turns a second
-  /// and electrical turns.
-  void measure(double velocity, double position) noexcept;
   void raise_fault(std::uint16_t code) noexcept { fault_ = static_cast<std::uint8_t>(code); }
 
  private:
@@ -66,20 +52,14 @@ class VescNode {
   void say(Time now) noexcept;
   void send(std::uint32_t command, std::uint8_t id, std::span<const std::uint8_t> bytes) noexcept;
 
-  CanBus& bus_;
-  std::uint8_t controller_;
   std::uint32_t timeout_ms_ = 90, told_ms_ = 90;
   float brake_current_a_ = 10.0F;
-  bool damaged_ = false, answers_ = true, tells_travel_ = true, connected_ = true, stuck_ = false, deaf_ = false,
-       muted_ = false;
+  bool damaged_ = false, answers_ = true, tells_travel_ = true;
   std::uint8_t fault_ = 0;
   Mode mode_ = Mode::kCurrent;
   double target_erpm_ = 0.0, minimum_erpm_ = 0.0;
   double erpm_ = 0.0;
-  double position_ = 0.0;  ///< electrical turns
-  bool has_encoder_ = false;
-  double encoder_velocity_ = 0.0, encoder_position_ = 0.0, encoder_zero_ = 0.0;
-  Time stepped_ = kNever, fed_ = kNever, said_ = kNever;
+  Time said_ = kNever;
 };
 
 }  // namespace jaywalk::emulators

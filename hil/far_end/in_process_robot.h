@@ -1,6 +1,8 @@
 #pragma once
 // Both ends of the wires in one process: for measuring and for tests that move time on by hand.
+#include <algorithm>
 #include <filesystem>
+#include <functional>
 #include <memory>
 #include <span>
 #include <string>
@@ -9,8 +11,9 @@
 
 #include "drivers/can/in_process_bus.h"
 #include "firmware/robot/operator_controls.h"
+#include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_loop.h"
-#include "hil/emulators/served_bytes.h"
+#include "hil/emulators/byte_server.h"
 #include "hil/far_end/simulated_robot.h"
 
 namespace jaywalk::rig {
@@ -96,6 +99,43 @@ class InProcessRobot {
   StallGuard guard_;  ///< not started: time may stand still here
   RobotLoop loop_;
   std::vector<Time> messages_;
+};
+
+// Clocks by which the wires' far end lives while the controller sleeps, in the thread that sleeps.
+
+/// How long the far end stands still at most.
+inline constexpr Duration kLivingStep = std::chrono::milliseconds(1);
+
+/// Time that a test moves on by hand. Thread: one.
+class HandLivingClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return now_; }
+  void sleep_until(Time wake) noexcept override {
+    while (now_ < wake) {
+      now_ += kLivingStep;
+      if (live) live();
+    }
+  }
+  std::function<void()> live;
+
+ private:
+  Time now_{};
+};
+
+/// Real time; any thread asks for it, one sleeps by it.
+class RealLivingClock final : public Clock {
+ public:
+  [[nodiscard]] Time now() noexcept override { return steady_.now(); }
+  void sleep_until(Time wake) noexcept override {
+    do {
+      if (live) live();
+      steady_.sleep_until(std::min(wake, now() + kLivingStep));
+    } while (now() < wake);
+  }
+  std::function<void()> live;
+
+ private:
+  SteadyClock steady_;
 };
 
 }  // namespace jaywalk::rig

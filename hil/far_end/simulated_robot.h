@@ -8,8 +8,7 @@
 
 #include "firmware/robot/robot_file.h"
 #include "hal/sim/world.h"
-#include "hil/far_end/far_scanner.h"
-#include "hil/far_end/wheel_drive.h"
+#include "hil/far_end/far_devices.h"
 
 namespace jaywalk::rig {
 

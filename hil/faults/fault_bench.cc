@@ -1,13 +1,11 @@
 #include "hil/faults/fault_bench.h"
 
-#include <algorithm>
 #include <cmath>
 #include <cstdio>
 
 #include "firmware/safety/wheel_proof.h"
-#include "hal/types/errors.h"
 #include "hal/types/wheels.h"
-#include "hil/faults/matrix_files.h"
+#include "hil/faults/fault_matrix.h"
 
 namespace jaywalk::faults {
 namespace {

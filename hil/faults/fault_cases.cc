@@ -1,10 +1,9 @@
-#include "hil/faults/fault_cases.h"
-
 #include <algorithm>
 #include <array>
 #include <limits>
 
-#include "hil/faults/fault_limits.h"
+#include "hil/faults/fault_bench.h"
+#include "hil/faults/fault_matrix.h"
 
 namespace jaywalk::faults {
 namespace {

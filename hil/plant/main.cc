@@ -11,9 +11,8 @@
 #include "drivers/can/socketcan.h"
 #include "firmware/robot/realtime.h"
 #include "hal/types/errors.h"
-#include "hil/emulators/served_bytes.h"
+#include "hil/emulators/byte_server.h"
 #include "hil/plant/orders.h"
-#include "hil/plant/plant_log.h"
 
 namespace {
 
@@ -94,10 +93,9 @@ int run(int argc, char** argv) {
   const auto right = wiring.drive.is_on_can() ? place_on_bus(options, wiring.drive, clock) : nullptr;
   rig::SimulatedRobot robot(sim::load_scenario(options.scenario), options.seed, wiring,
                             {left.get(), right ? right.get() : left.get()}, rig::make_far_wires(wiring), clock.now());
-  for (const std::string& order : options.orders) {
+  for (const std::string& order : options.orders)
     if (const std::string complaint = obey(order, robot); !complaint.empty())
       throw StartupError(complaint, "see --help");
-  }
   rig::PlantLog log(options.log, clock.now());
   static_cast<void>(enter_realtime({.priority = 60}));
   OrderLines orders;

@@ -7,7 +7,6 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/scanners.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/keep_out.h"
 #include "planner/scan/line_of_sight.h"

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "hal/types/geometry.h"
+#include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/scanners.h"
 #include "planner/cost_to_go/guide.h"
 #include "planner/cost_to_go/nearest_surfaces.h"
 #include "planner/cost_to_go/planner.h"

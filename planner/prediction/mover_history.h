@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "hal/types/fixed_vector.h"
-#include "hal/types/scanners.h"
+#include "hal/types/laser_scan.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/prediction/occluded_movers.h"

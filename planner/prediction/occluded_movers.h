@@ -4,7 +4,7 @@
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"
-#include "hal/types/scanners.h"
+#include "hal/types/laser_scan.h"
 #include "planner/prediction/futures.h"
 #include "planner/prediction/pedestrian_model.h"
 #include "planner/scan/line_of_sight.h"

@@ -8,7 +8,6 @@
 #include "hal/types/fixed_vector.h"
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
-#include "hal/types/scanners.h"
 #include "hal/types/time.h"
 
 namespace jaywalk {

@@ -17,7 +17,7 @@ inline constexpr double kWidestBodyM = 1.6;
 /// Of a body that was not seen whole yet, m.
 inline constexpr double kPersonRadiusM = 0.25;
 
-/// Legs reach so far from their middle, m: shins 0.16 (hal/sim/legs.cc). What a pedestrian leans on is farther.
+/// Legs reach so far from their middle, m: shins 0.16 (hal/sim/world.cc). What a pedestrian leans on is farther.
 inline constexpr double kLegsReachM = 0.2;
 
 /// One of a pedestrian's legs is at most so far from the other, m, in mid-step.

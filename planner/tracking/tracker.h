@@ -6,7 +6,6 @@
 #include "hal/types/laser_scan.h"
 #include "hal/types/outside_fix.h"
 #include "hal/types/robot_model.h"
-#include "hal/types/scanners.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/known_map.h"
 #include "planner/tracking/standing.h"

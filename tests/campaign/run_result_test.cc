@@ -1,5 +1,3 @@
-#include "apps/campaign/run_result.h"
-
 #include <sys/wait.h>
 
 #include <algorithm>
@@ -9,6 +7,7 @@
 #include <cstdio>
 #include <thread>
 
+#include "apps/campaign/campaign_folder.h"
 #include "apps/campaign/run_pool.h"
 #include "tests/campaign/made_campaigns.h"
 #include "tests/support/catch.h"

@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "tests/drivers/drive_kinds.h"
 
 using namespace jaywalk;

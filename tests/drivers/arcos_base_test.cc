@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "drivers/can/byte_bus.h"
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;

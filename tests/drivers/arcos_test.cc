@@ -4,7 +4,7 @@
 #include <string_view>
 #include <vector>
 
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

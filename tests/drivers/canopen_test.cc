@@ -2,7 +2,6 @@
 
 #include "drivers/canopen/cia402.h"
 #include "drivers/canopen/pdo.h"
-#include "drivers/canopen/services.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/catch.h"

@@ -1,5 +1,4 @@
-#include "drivers/laser/device_clock.h"
-
+#include "drivers/laser/scanner_protocol.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

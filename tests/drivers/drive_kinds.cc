@@ -3,7 +3,7 @@
 #include <chrono>
 
 #include "drivers/can/byte_bus.h"
-#include "drivers/canopen/quick_stopper.h"
+#include "drivers/canopen/cia402.h"
 
 using namespace std::chrono_literals;
 

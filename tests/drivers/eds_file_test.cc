@@ -1,4 +1,4 @@
-#include "drivers/canopen/eds_file.h"
+#include "tests/drivers/eds_file.h"
 
 #include <unistd.h>
 

@@ -4,7 +4,7 @@
 #include <initializer_list>
 #include <ostream>
 
-#include "drivers/can/can_frame.h"
+#include "drivers/can/can_bus.h"
 
 namespace jaywalk {
 

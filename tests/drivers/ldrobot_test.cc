@@ -1,12 +1,12 @@
+#include "drivers/laser/ldrobot.h"
+
 #include <cmath>
 #include <limits>
 #include <memory>
 #include <tuple>
 #include <vector>
 
-#include "drivers/laser/ld_packet.h"
-#include "drivers/laser/ld_sweep.h"
-#include "drivers/laser/turn_builder.h"
+#include "drivers/laser/scanner_protocol.h"
 #include "hal/types/trig.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"

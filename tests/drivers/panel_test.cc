@@ -4,7 +4,7 @@
 #include <cmath>
 #include <tuple>
 
-#include "drivers/panel/device_keys.h"
+#include "drivers/panel/joystick.h"
 #include "tests/drivers/panel_bench.h"
 #include "tests/drivers/random_bytes.h"
 

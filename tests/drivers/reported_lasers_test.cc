@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <chrono>
 
-#include "drivers/laser/sick_protocol.h"
+#include "drivers/laser/sick.h"
 #include "tests/drivers/scanner_kinds.h"
 
 using namespace jaywalk;

@@ -5,7 +5,6 @@
 #include <memory>
 #include <vector>
 
-#include "drivers/laser/rplidar_protocol.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"

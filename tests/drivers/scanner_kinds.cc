@@ -1,10 +1,10 @@
 #include "tests/drivers/scanner_kinds.h"
 
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
+#include "drivers/laser/ldrobot.h"
+#include "drivers/laser/lms200.h"
+#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
+#include "drivers/laser/sick.h"
 #include "tests/drivers/serial_line.h"
 
 using namespace std::chrono_literals;

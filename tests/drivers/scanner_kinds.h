@@ -5,10 +5,8 @@
 #include <utility>
 #include <vector>
 
-#include "hil/emulators/ld_server.h"
-#include "hil/emulators/lms200_server.h"
-#include "hil/emulators/rplidar_server.h"
 #include "hil/emulators/scip_server.h"
+#include "hil/emulators/serial_scanners.h"
 #include "hil/emulators/sick_server.h"
 #include "tests/drivers/scanner_bench.h"
 

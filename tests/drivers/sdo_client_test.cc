@@ -4,7 +4,6 @@
 #include <string>
 
 #include "drivers/can/in_process_bus.h"
-#include "drivers/canopen/sdo_abort.h"
 #include "tests/drivers/frames.h"
 #include "tests/drivers/hand_clock.h"
 #include "tests/drivers/random_bytes.h"

@@ -1,7 +1,7 @@
 #include <asm/termbits.h>
 #include <sys/ioctl.h>
 
-#include "drivers/wire/endpoint.h"
+#include "drivers/wire/byte_link.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/serial_line.h"
 #include "tests/support/catch.h"

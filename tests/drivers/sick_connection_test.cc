@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "drivers/laser/sick_protocol.h"
+#include "drivers/laser/sick.h"
 #include "hal/types/errors.h"
 #include "tests/drivers/data_files.h"
 #include "tests/drivers/scanner_kinds.h"

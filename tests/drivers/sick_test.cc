@@ -1,10 +1,11 @@
+#include "drivers/laser/sick.h"
+
 #include <array>
 #include <cstdio>
 #include <span>
 #include <string>
 
 #include "drivers/laser/cola_stream.h"
-#include "drivers/laser/sick_scan.h"
 #include "tests/drivers/data_files.h"
 #include "tests/drivers/random_bytes.h"
 #include "tests/support/allocation_guard.h"

@@ -4,7 +4,7 @@
 #include <limits>
 #include <string>
 
-#include "drivers/drive_fault_words.h"
+#include "drivers/wired_drive.h"
 #include "tests/drivers/drive_bench.h"
 
 using namespace jaywalk;

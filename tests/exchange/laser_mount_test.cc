@@ -1,5 +1,4 @@
-#include "apps/formats/laser_mount.h"
-
+#include "apps/formats/ros_input.h"
 #include "tests/support/catch.h"
 
 namespace jaywalk::exchange {

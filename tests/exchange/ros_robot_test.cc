@@ -4,7 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "apps/formats/goal_orders.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

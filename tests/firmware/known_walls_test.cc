@@ -1,7 +1,6 @@
 // What the supervisor is told of walls where no laser looks: supposed ones are forgotten when they are out of reach or
 // free.
-#include "firmware/known_walls.h"
-
+#include "firmware/estimator.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

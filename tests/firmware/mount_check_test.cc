@@ -1,5 +1,4 @@
-#include "apps/setup/mount_check.h"
-
+#include "apps/setup/mount_search.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -6,7 +6,7 @@
 
 #include "apps/rivals/paper_mode.h"
 #include "firmware/recording/recorded_hal.h"
-#include "firmware/recording/recording_stream.h"
+#include "firmware/recording/recorder.h"
 #include "planner/paper/paper.h"
 #include "planner/paper/paper_planner.h"
 #include "tests/firmware/simulated_drive.h"

@@ -8,7 +8,6 @@
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
 #include "firmware/recording/recorder.h"
-#include "firmware/recording/recording_stream.h"
 
 namespace jaywalk {
 namespace {

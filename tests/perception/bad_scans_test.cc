@@ -80,33 +80,17 @@ struct Dice {
 void spoil(LaserScan& scan, Dice& dice) {
   for (std::uint32_t k = dice.roll(4); k > 0; --k) {
     switch (dice.roll(9)) {
-      case 0:
-        scan.beam_count = dice.roll(3) == 0 ? dice.roll(5) : dice.roll(5000);
-        break;
-      case 1:
-        scan.first_angle_rad = dice.odd_number();
-        break;
-      case 2:
-        scan.angle_step_rad = dice.odd_number();
-        break;
-      case 3:
-        scan.range_min_m = dice.odd_number();
-        break;
-      case 4:
-        scan.range_max_m = dice.odd_number();
-        break;
-      case 5:
-        scan.sweep = std::chrono::milliseconds(static_cast<std::int64_t>(dice.roll(4000)) - 2000);
-        break;
-      case 6:
-        scan.stamp += std::chrono::milliseconds(static_cast<std::int64_t>(dice.roll(40000)) - 20000);
-        break;
+      case 0: scan.beam_count = dice.roll(3) == 0 ? dice.roll(5) : dice.roll(5000); break;
+      case 1: scan.first_angle_rad = dice.odd_number(); break;
+      case 2: scan.angle_step_rad = dice.odd_number(); break;
+      case 3: scan.range_min_m = dice.odd_number(); break;
+      case 4: scan.range_max_m = dice.odd_number(); break;
+      case 5: scan.sweep = std::chrono::milliseconds(static_cast<std::int64_t>(dice.roll(4000)) - 2000); break;
+      case 6: scan.stamp += std::chrono::milliseconds(static_cast<std::int64_t>(dice.roll(40000)) - 20000); break;
       case 7:
         for (float& r : scan.range_m) r = dice.roll(2) == 0 ? dice.odd_number() : r;
         break;
-      default:
-        std::reverse(scan.range_m.begin(), scan.range_m.end());
-        break;
+      default: std::reverse(scan.range_m.begin(), scan.range_m.end()); break;
     }
   }
 }

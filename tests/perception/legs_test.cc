@@ -10,7 +10,7 @@ using namespace jaywalk::test;
 namespace {
 
 /// Two shins of somebody who walks across, `way_m` after he set out from `from`, at 0.8 m/s: steps of 0.56 m, of which
-/// shins do two thirds to and fro (hal/sim/legs.h).
+/// shins do two thirds to and fro (hal/sim/world.h).
 Room with_walker(Vec2 from, double way_m) {
   const double steps = way_m / 0.56, of_two = steps - 2.0 * std::floor(0.5 * steps);
   const double ahead = 0.187 * (of_two < 1.0 ? 1.0 - 2.0 * of_two : 2.0 * of_two - 3.0);

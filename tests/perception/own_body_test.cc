@@ -2,7 +2,7 @@
 #include <algorithm>
 #include <memory>
 
-#include "hal/types/blanking.h"
+#include "hal/types/robot_model.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 

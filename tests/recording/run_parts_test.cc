@@ -1,7 +1,6 @@
-#include "firmware/recording/run_parts.h"
-
 #include "apps/report/run_report.h"
 #include "firmware/recording/recorder.h"
+#include "firmware/recording/run_folders.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_ticks.h"
 #include "tests/recording/scratch.h"

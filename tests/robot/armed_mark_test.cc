@@ -1,10 +1,9 @@
-#include "firmware/robot/armed_mark.h"
-
 #include <unistd.h>
 
 #include <cstdlib>
 #include <fstream>
 
+#include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"

@@ -1,7 +1,7 @@
 // Drives as they are built on the whole robot: rows of the fault matrix, and what the status says of them.
 #include <algorithm>
 
-#include "hil/faults/fault_cases.h"
+#include "hil/faults/fault_matrix.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 

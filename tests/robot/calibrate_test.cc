@@ -9,7 +9,6 @@
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -4,12 +4,11 @@
 #include <filesystem>
 #include <fstream>
 
-#include "apps/setup/scan_shift.h"
+#include "apps/setup/scan_surfels.h"
 #include "apps/setup/wiring_checks.h"
 #include "firmware/robot/commissioned.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 #include "tests/support/file_size_limit.h"
 

@@ -1,10 +1,9 @@
-#include "firmware/robot/device_report.h"
-
 #include <unistd.h>
 
 #include <filesystem>
 #include <string>
 
+#include "firmware/robot/run_status.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 

@@ -4,7 +4,7 @@
 #include <string>
 #include <vector>
 
-#include "firmware/robot/known_map_file.h"
+#include "firmware/recording/map_files.h"
 #include "hal/sim/random.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"

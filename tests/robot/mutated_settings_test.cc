@@ -51,17 +51,10 @@ class Mutator {
       case 0:
         if (!text.empty()) text[at] = static_cast<char>(random_());
         return;
-      case 1:
-        text.erase(at, below(std::min<std::size_t>(most, 30)));
-        return;
-      case 2:
-        text.insert(at, kPieces[below(kPieces.size())]);
-        return;
-      case 3:
-        replace_value(text, at);
-        return;
-      default:
-        text.insert(below(text.size()), text.substr(at, below(std::min<std::size_t>(most, 60))));
+      case 1: text.erase(at, below(std::min<std::size_t>(most, 30))); return;
+      case 2: text.insert(at, kPieces[below(kPieces.size())]); return;
+      case 3: replace_value(text, at); return;
+      default: text.insert(below(text.size()), text.substr(at, below(std::min<std::size_t>(most, 60))));
     }
   }
   /// What stands behind the next equals sign.

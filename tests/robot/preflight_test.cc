@@ -6,14 +6,13 @@
 #include <cmath>
 #include <functional>
 
-#include "drivers/can/link_facts.h"
+#include "drivers/can/can_interface.h"
 #include "firmware/robot/control_socket.h"
 #include "firmware/robot/realtime.h"
-#include "firmware/robot/scanner_check.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
 #include "hil/emulators/sick_server.h"
-#include "hil/far_end/living_clock.h"
+#include "hil/far_end/in_process_robot.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,6 +1,6 @@
 #include <thread>
 
-#include "firmware/robot/signal_thread.h"
+#include "firmware/robot/service_manager.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -9,7 +9,6 @@
 #include "apps/report/run_observer.h"
 #include "firmware/robot/planner_thread.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

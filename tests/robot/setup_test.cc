@@ -5,13 +5,11 @@
 #include <fstream>
 #include <sstream>
 
-#include "apps/setup/drive_search.h"
 #include "apps/setup/robot_setup.h"
 #include "firmware/robot/robot_devices.h"
 #include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,5 +1,3 @@
-#include "firmware/robot/signal_thread.h"
-
 #include <fcntl.h>
 #include <sys/wait.h>
 #include <unistd.h>

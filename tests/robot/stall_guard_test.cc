@@ -1,8 +1,7 @@
-#include "firmware/robot/stall_guard.h"
-
 #include <condition_variable>
 #include <mutex>
 
+#include "firmware/robot/robot_loop.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -9,7 +9,6 @@
 #include <string>
 
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/allocation_guard.h"
 #include "tests/support/catch.h"
 

@@ -125,20 +125,11 @@ class TrialRobot {
     turned_ = side * uniform(engine_, 15.0, 150.0) / 180.0 * kPi;
     turns_radps_ = uniform(engine_, 10.0, 60.0) / 180.0 * kPi;
     switch (fault_) {
-      case Fault::kWheelsFar:
-        gain_ = uniform(engine_, 1.3, 2.0);
-        break;
-      case Fault::kWheelsShort:
-        gain_ = uniform(engine_, 0.5, 0.75);
-        break;
-      case Fault::kRangesFar:
-        gain_ = uniform(engine_, 1.25, 2.0);
-        break;
-      case Fault::kRangesShort:
-        gain_ = uniform(engine_, 0.5, 0.8);
-        break;
-      default:
-        break;
+      case Fault::kWheelsFar: gain_ = uniform(engine_, 1.3, 2.0); break;
+      case Fault::kWheelsShort: gain_ = uniform(engine_, 0.5, 0.75); break;
+      case Fault::kRangesFar: gain_ = uniform(engine_, 1.25, 2.0); break;
+      case Fault::kRangesShort: gain_ = uniform(engine_, 0.5, 0.8); break;
+      default: break;
     }
     const bool far = fault_ == Fault::kWheelsFar || fault_ == Fault::kRangesFar;
     if (far) gain_ /= 1.0 - setting_.slip_mean;  // slip apart, which would hide some of it

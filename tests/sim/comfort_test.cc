@@ -1,5 +1,4 @@
-#include "hal/comfort.h"
-
+#include "hal/robot_model_file.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

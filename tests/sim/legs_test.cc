@@ -1,5 +1,3 @@
-#include "hal/sim/legs.h"
-
 #include <algorithm>
 #include <cmath>
 

@@ -1,5 +1,4 @@
-#include "hal/sim/recorded_movers.h"
-
+#include "hal/sim/movers.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"
 

@@ -1,6 +1,5 @@
 // Scripted sticks: where a hand stands at a time, and what it makes of where the robot is.
-#include "hal/sim/stick.h"
-
+#include "hal/sim/sensors.h"
 #include "hal/sim/simulation.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"

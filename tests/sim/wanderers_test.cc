@@ -1,10 +1,9 @@
-#include "hal/sim/wanderers.h"
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
 #include <vector>
 
+#include "hal/sim/movers.h"
 #include "hal/sim/simulation.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"

@@ -1,5 +1,4 @@
-#include "hal/sim/zone.h"
-
+#include "hal/sim/free_grid.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,8 +1,7 @@
-#include "hal/types/blanking.h"
-
 #include <memory>
 
 #include "hal/types/geometry.h"
+#include "hal/types/robot_model.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

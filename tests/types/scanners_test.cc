@@ -1,7 +1,6 @@
-#include "hal/types/scanners.h"
-
 #include <vector>
 
+#include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
 #include "tests/support/catch.h"
 

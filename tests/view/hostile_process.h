@@ -73,29 +73,16 @@ class HostileProcess {
     const std::string unsubscribe = R"({"op":"unsubscribe","subscriptionIds":[7]})";
     std::string said;
     switch (kind % 8) {
-      case 0:
-        said = is_new ? "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n" : "X: y\r\n";
-        break;
-      case 1:
-        break;  // nothing
-      case 2:
-        said = std::string(500, '\xA5');
-        break;
-      case 3:
-        said = is_new ? request("GET /" + query) : "";
-        break;
+      case 0: said = is_new ? "GET / HTTP/1.1\r\nHost: 127.0.0.1\r\n" : "X: y\r\n"; break;
+      case 1: break;  // nothing
+      case 2: said = std::string(500, '\xA5'); break;
+      case 3: said = is_new ? request("GET /" + query) : ""; break;
       case 4:
         said = is_new ? upgrade("/" + query, "foxglove.websocket.v1") : frame(subscribe + "}") + frame(unsubscribe);
         break;
-      case 5:
-        said = is_new ? upgrade("/ws" + query) : frame(R"({"past":true})") + frame(R"({"goal":[1e9,0]})");
-        break;
-      case 6:
-        said = is_new ? upgrade("/ws") : frame(R"({"goal":[1,1]})");
-        break;
-      case 7:
-        said = is_new ? "POST /stop HTTP/1.1\r\nHost: x\r\nContent-Length: 8000\r\n\r\n" : "x";
-        break;
+      case 5: said = is_new ? upgrade("/ws" + query) : frame(R"({"past":true})") + frame(R"({"goal":[1e9,0]})"); break;
+      case 6: said = is_new ? upgrade("/ws") : frame(R"({"goal":[1,1]})"); break;
+      case 7: said = is_new ? "POST /stop HTTP/1.1\r\nHost: x\r\nContent-Length: 8000\r\n\r\n" : "x"; break;
     }
     if (!said.empty()) static_cast<void>(::send(peer.get(), said.data(), said.size(), MSG_NOSIGNAL | MSG_DONTWAIT));
   }

@@ -14,7 +14,6 @@
 #include "firmware/robot/robot_file.h"
 #include "hal/types/errors.h"
 #include "hil/far_end/in_process_robot.h"
-#include "hil/far_end/living_clock.h"
 #include "tests/support/catch.h"
 #include "tests/view/hostile_process.h"
 #include "tests/view/page_socket.h"

@@ -6,10 +6,9 @@
 #include <utility>
 #include <vector>
 
-#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
-#include "apps/formats/logs/scan_lines.h"
 #include "hal/shown_text.h"
 #include "hal/types/trig.h"
 
@@ -90,13 +89,11 @@ class CarmenReader {
     if (log_.scans.empty()) return;
     if (mount_ && mount_is_fixed_ && log_.robot_from_laser == Pose2{}) use_mount(place.file);
     std::size_t scan = 0;
-    for (const Event& event : events_) {
-      if (!event.of_scan) {
+    for (const Event& event : events_)
+      if (!event.of_scan)
         append_between(event, {place.file, event.line});
-      } else if (stays[scan++] && laser_.pose > 0) {
+      else if (stays[scan++] && laser_.pose > 0)
         append_scan(event.pose);
-      }
-    }
     if (poses_.were_corrected()) leave_out_odometry(place.file);
   }
 

@@ -4,7 +4,6 @@
 #include <array>
 #include <charconv>
 #include <cmath>
-#include <string_view>
 
 #include "hal/shown_text.h"
 #include "hal/text_file.h"
@@ -103,9 +102,8 @@ double LineFile::number(std::size_t i) const {
   const std::string_view word = words_[i];
   double value = 0.0;
   const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), value);
-  if (error != std::errc() || end != word.data() + word.size()) {
+  if (error != std::errc() || end != word.data() + word.size())
     refuse("'" + shown(word) + "' (word " + std::to_string(i + 1) + ") is not a number", "repair or delete the line");
-  }
   return value;
 }
 
@@ -120,9 +118,7 @@ std::size_t LineFile::count(std::size_t i, std::size_t most) const {
 
 double LineFile::seconds(std::size_t i) const {
   const double value = number(i);
-  if (!(std::fabs(value) <= kMaxSeconds)) {
-    refuse("a time of " + shown(words_[i]) + " s", "give times in seconds");
-  }
+  if (!(std::fabs(value) <= kMaxSeconds)) refuse("a time of " + shown(words_[i]) + " s", "give times in seconds");
   return value;
 }
 

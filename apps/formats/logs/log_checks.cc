@@ -1,7 +1,6 @@
 #include "apps/formats/logs/log_checks.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 
@@ -123,11 +122,10 @@ void LogOdometry::add(const OdometryPose& said, const LogPlace& place) {
   const std::optional<Pose2> pose = sound_pose({near.x, near.y, said.pose.heading});
   if (!pose) return log_.refuse(place, kNoPose);
   const Twist2 twist = said.twist.value_or(Twist2{});
-  if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest) {
+  if (std::fabs(twist.v_mps) <= kFastest && std::fabs(twist.w_radps) <= kFastest)
     said_.push_back({{said.stamp, *pose, said.twist}, place.number});
-  } else {
+  else
     without_speed_.push_back({{said.stamp, *pose, std::nullopt}, place.number});
-  }
 }
 
 void LogOdometry::settle(LogPlace place) {
@@ -197,5 +195,14 @@ void compare_times(RecordedLog& log, const std::string& odometry_name) {
   std::snprintf(text, sizeof text, ": nothing of %.1f of the %.1f s of scans: no wheels there", without_s, all_s);
   log.add_remark(odometry_name + text);
 }
+
+bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
+              double nothing_from_m) {
+  std::vector<double> ranges(scan.beams);
+  for (std::size_t i = 0; i < scan.beams; ++i) ranges[i] = file.number(first_word + i);
+  return scans.add(file.place(), scan, ranges, nothing_from_m);
+}
+
+Pose2 pose_at(const LineFile& file, std::size_t i) { return {file.number(i), file.number(i + 1), file.number(i + 2)}; }
 
 }  // namespace jaywalk::sim

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/recorded_log.h"
 
 namespace jaywalk::sim {
@@ -80,5 +81,16 @@ class LogOdometry {
 /// Two clocks that were never set by one another give times that do not meet: an error where none of the odometry is of
 /// the scans' time, a remark from a second without it on.
 void compare_times(RecordedLog& log, const std::string& odometry_name);
+
+// What the readers of the text formats share.
+
+inline constexpr const char* kWrongLength = "its number of words does not fit";
+
+/// LogScans::add with the ranges in words [first_word, first_word + scan.beams).
+bool add_scan(LogScans& scans, const LineFile& file, const RecordedScan& scan, std::size_t first_word,
+              double nothing_from_m);
+
+/// Word i, i + 1, i + 2 as a pose.
+[[nodiscard]] Pose2 pose_at(const LineFile& file, std::size_t i);
 
 }  // namespace jaywalk::sim

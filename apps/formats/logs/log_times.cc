@@ -1,7 +1,6 @@
 #include "apps/formats/logs/log_times.h"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 
 namespace jaywalk::sim {
@@ -33,11 +32,10 @@ std::vector<std::size_t> longest_rising(std::span<const Time> stamps, const std:
   for (const std::size_t k : of) {
     const auto place = std::lower_bound(ends.begin(), ends.end(), stamps[k],
                                         [&](const auto& end, Time stamp) { return stamps[end.back()] < stamp; });
-    if (place == ends.end()) {
+    if (place == ends.end())
       ends.push_back({k});
-    } else {
+    else
       place->push_back(k);
-    }
   }
   std::vector<std::size_t> rising;
   for (auto end = ends.rbegin(); end != ends.rend(); ++end) {
@@ -71,11 +69,10 @@ std::vector<const char*> judge_times(std::span<const Time> stamps) {
   for (const std::size_t k : inside) {
     while (next < rising.size() && rising[next] < k) ++next;
     if (next == rising.size()) continue;
-    if (rising[next] == k) {
+    if (rising[next] == k)
       causes[k] = nullptr;
-    } else if (stamps[k] > stamps[rising[next]]) {
+    else if (stamps[k] > stamps[rising[next]])
       causes[k] = kTimeLeapt;
-    }
   }
   return causes;
 }

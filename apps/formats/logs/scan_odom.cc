@@ -2,10 +2,9 @@
 #include <array>
 #include <cctype>
 
-#include "apps/formats/logs/beam_fit.h"
+#include "apps/formats/logs/log_checks.h"
 #include "apps/formats/logs/log_times.h"
 #include "apps/formats/logs/recorded_log.h"
-#include "apps/formats/logs/scan_lines.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::sim {
@@ -94,13 +93,12 @@ bool read_scans(RecordedLog& log, const std::filesystem::path& path, MotionLines
   Form form = Form::kNone;
   while (file.next()) {
     if (form == Form::kNone) form = form_of(file);
-    if (form == Form::kNone || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead)) {
+    if (form == Form::kNone || !counts_beams(file, form == Form::kPlain ? kPlainHead : kMotionHead))
       log.refuse(file.place(), kWrongLength);
-    } else if (form == Form::kPlain) {
+    else if (form == Form::kPlain)
       read_plain(scans, file);
-    } else {
+    else
       motion.read(scans, file);
-    }
   }
   motion.keep_those(scans.settle_times(file.place()));
   require_scans(log, file.name(), "lines 't angle_min angle_inc range_min range_max n r1..rn'");

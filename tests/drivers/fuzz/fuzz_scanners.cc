@@ -5,11 +5,11 @@
 #include <cmath>
 #include <string_view>
 
-#include "drivers/laser/ld_protocol.h"
-#include "drivers/laser/lms200_protocol.h"
-#include "drivers/laser/rplidar_protocol.h"
+#include "drivers/laser/ldrobot.h"
+#include "drivers/laser/lms200.h"
+#include "drivers/laser/rplidar.h"
 #include "drivers/laser/scip_protocol.h"
-#include "drivers/laser/sick_protocol.h"
+#include "drivers/laser/sick.h"
 #include "drivers/ros/ros_scan.h"
 
 namespace jaywalk::tests {

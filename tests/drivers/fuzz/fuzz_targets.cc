@@ -10,17 +10,17 @@
 #include <string>
 
 #include "drivers/arcos/arcos.h"
-#include "drivers/can/kernel_frame.h"
+#include "drivers/can/socketcan.h"
 #include "drivers/canopen/cia402.h"
-#include "drivers/canopen/drive_settings.h"
-#include "drivers/canopen/eds_file.h"
+#include "drivers/canopen/drive_proof.h"
+#include "drivers/canopen/pdo.h"
 #include "drivers/canopen/sdo_client.h"
-#include "drivers/canopen/services.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
-#include "drivers/panel/input_event.h"
+#include "drivers/panel/joystick.h"
 #include "hal/types/errors.h"
 #include "hil/emulators/drive_objects.h"
+#include "tests/drivers/eds_file.h"
 #include "tests/drivers/fuzz/fuzz_scanners.h"
 
 namespace jaywalk::tests {

@@ -1,0 +1,74 @@
+#pragma once
+// `jaywalk why`: one moment of a recording in words, tables and a picture.
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "apps/report/picture/scene.h"
+#include "firmware/control_loop.h"
+#include "firmware/recording/tick_record.h"
+#include "planner/motion/goal_rollouts.h"
+
+namespace jaywalk {
+
+struct WhyOptions {
+  std::filesystem::path run;  ///< a run's folder, or a recording.jwr
+  double at_s = 0.0;
+  std::filesystem::path out = "out/why";
+};
+
+/// One moment of a recording: a few sentences on standard output, and why.png. Returns 0. Throws StartupError for bad
+/// input, a time outside the recording among it.
+[[nodiscard]] int run_why(const WhyOptions& options);
+
+/// A decision that was gone on with since: what it proposed, and when it was made.
+struct Resolve {
+  motion::Proposal proposal = motion::Proposal::kFollow;
+  Time at = kNever;
+
+  /// After each tick.
+  void note(const motion::Decision& decision) {
+    if (decision.trajectory.proposal != motion::Proposal::kLast && decision.at != at)
+      *this = {decision.trajectory.proposal, decision.at};
+  }
+};
+
+/// Tracked bodies, and the robot's own outline.
+struct BodiesAbout {
+  std::span<const Track> tracks;
+  Footprint footprint;
+};
+
+/// "to follow the way, as decided 1.2 s before: 25.8 s to the goal, plus 0.4 s for being close to people (body 7 could
+/// come within 0.3 m in 1.8 s)".
+[[nodiscard]] std::string chosen_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                                          const BodiesAbout& around);
+/// "to wait and then go would have cost 0.3 s more: ...": the cheapest of another kind; empty where there is none.
+[[nodiscard]] std::string next_best_in_words(const motion::GoalRollouts& motion, const Resolve& resolve,
+                                             const std::vector<motion::Alternative>& alternatives,
+                                             const BodiesAbout& around);
+
+/// The decision as a picture shows it. Throws nothing but std::bad_alloc.
+[[nodiscard]] DecisionScene scene_of(const motion::GoalRollouts& motion,
+                                     const std::vector<motion::Alternative>& alternatives);
+
+/// A table of everything that a decision weighed, cheapest first: what it proposes, what it costs term by term (s),
+/// where it ends. Throws StartupError when the file cannot be made.
+void write_alternatives(const std::vector<motion::Alternative>& alternatives, const std::string& file);
+
+/// What the last decision weighed.
+struct Weighed {
+  Resolve resolve;
+  std::vector<motion::Alternative> alternatives;  ///< cheapest first; none without a decision
+};
+
+/// A moment in plain sentences, a line each: what the robot did, saw, expected, wanted, was permitted and why, and what
+/// would have come of driving on.
+[[nodiscard]] std::string why_words(const TickRecord& tick, const ControlLoop& loop, const RobotModel& model,
+                                    const Weighed& weighed);
+
+/// "stop_zone" as a person says it: "something stands in the way". Every reason of the set, joined by "; ".
+[[nodiscard]] std::string in_words(Reason reasons);
+
+}  // namespace jaywalk

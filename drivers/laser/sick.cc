@@ -1,0 +1,279 @@
+#include "drivers/laser/sick.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+#include <cmath>
+
+#include "hal/types/trig.h"
+
+namespace jaywalk::sick {
+namespace {
+
+/// The fields of a CoLa B body: big-endian numbers of fixed size.
+class BinaryFields {
+ public:
+  explicit BinaryFields(wire::Bytes body) noexcept : reader_(body) {}
+
+  std::uint32_t u8() noexcept { return reader_.big<std::uint8_t>(); }
+  std::uint32_t u16() noexcept { return reader_.big<std::uint16_t>(); }
+  std::uint32_t u32() noexcept { return reader_.big<std::uint32_t>(); }
+  /// A channel's name has five letters.
+  std::string_view word() noexcept { return text_of(reader_.take(5)); }
+  [[nodiscard]] Decoding failure() const noexcept { return reader_.ok() ? Decoding::kScan : Decoding::kTruncated; }
+
+ private:
+  wire::ByteReader reader_;
+};
+
+/// The fields of a CoLa A body: words between blanks, numbers in hexadecimal.
+class TextFields {
+ public:
+  explicit TextFields(wire::Bytes body) noexcept : rest_(text_of(body)) {}
+
+  std::uint32_t u8() noexcept { return number(0xFF); }
+  std::uint32_t u16() noexcept { return number(0xFFFF); }
+  std::uint32_t u32() noexcept { return number(0xFFFFFFFF); }
+  std::string_view word() noexcept {
+    rest_.remove_prefix(std::min(rest_.find_first_not_of(' '), rest_.size()));
+    const std::string_view found = rest_.substr(0, rest_.find(' '));
+    rest_.remove_prefix(found.size());
+    if (found.empty()) fail(Decoding::kTruncated);
+    return found;
+  }
+  [[nodiscard]] Decoding failure() const noexcept { return failure_; }
+
+ private:
+  std::uint32_t number(std::uint32_t largest) noexcept {
+    const std::string_view digits = word();
+    std::uint32_t value = 0;
+    const auto parsed = std::from_chars(digits.data(), digits.data() + digits.size(), value, 16);
+    if (parsed.ec == std::errc{} && parsed.ptr == digits.data() + digits.size() && value <= largest) return value;
+    fail(Decoding::kBadField);
+    return 0;
+  }
+  void fail(Decoding why) noexcept {
+    if (failure_ == Decoding::kScan) failure_ = why;
+  }
+
+  std::string_view rest_;
+  Decoding failure_ = Decoding::kScan;
+};
+
+/// How a channel's numbers become lengths and angles.
+struct Channel {
+  bool is_distance = false;
+  float metres_per_count = 0.0F;
+  float offset_m = 0.0F;
+  double first_angle_rad = 0.0;
+  double step_rad = 0.0;
+  std::uint32_t count = 0;
+};
+
+constexpr double kRadPerTick = kPi / 180.0 / 10000.0;  // angles come in ten-thousandths of a degree
+constexpr double kAheadRad = kPi / 2.0;
+/// Counts below are no distances: 0 no valid measurement, 1 dazzled, the rest reserved (SICK LMS4000, 8023198, 12.1;
+/// the same telegram). The largest that the field holds is no distance that one of these scanners measures.
+constexpr std::uint32_t kLeastCounts = 16, kBeyondCounts = 0xFFFF;
+/// Device status, as in SICK's telegram listing (8014631) and LMS5xx (8013796, 10.2).
+constexpr std::uint32_t kError = 1, kDirtWarning = 2, kDirtError = 4;
+
+template <class Fields>
+Channel read_channel(Fields& fields) noexcept {
+  Channel channel;
+  channel.is_distance = fields.word() == "DIST1";
+  channel.metres_per_count = std::bit_cast<float>(fields.u32()) * 0.001F;
+  channel.offset_m = std::bit_cast<float>(fields.u32()) * 0.001F;
+  channel.first_angle_rad = static_cast<double>(static_cast<std::int32_t>(fields.u32())) * kRadPerTick - kAheadRad;
+  channel.step_rad = static_cast<double>(fields.u16()) * kRadPerTick;
+  channel.count = fields.u16();
+  return channel;
+}
+
+/// Whole turns and sane scales only; false for NaN.
+bool is_plausible(const Channel& channel) noexcept {
+  return channel.metres_per_count > 0.0F && channel.metres_per_count <= 1.0F && std::fabs(channel.offset_m) <= 100.0F &&
+         std::fabs(channel.first_angle_rad) <= 4.0 * kPi && channel.step_rad > 0.0 && channel.count >= kLeastBeams &&
+         channel.step_rad * channel.count <= 2.0 * kPi + channel.step_rad;
+}
+
+template <class Fields>
+Decoding read_distances(Fields& fields, const Channel& channel, LaserScan& scan) noexcept {
+  if (channel.count > kMaxBeams) return Decoding::kTooManyBeams;
+  if (!is_plausible(channel)) return Decoding::kBadField;
+  scan.beam_count = channel.count;
+  scan.first_angle_rad = static_cast<float>(channel.first_angle_rad);
+  scan.angle_step_rad = static_cast<float>(channel.step_rad);
+  for (std::uint32_t beam = 0; beam < channel.count; ++beam) {
+    const std::uint32_t counts = fields.u16();
+    const bool measured = counts >= kLeastCounts && counts < kBeyondCounts;
+    scan.range_m[beam] = measured ? static_cast<float>(counts) * channel.metres_per_count + channel.offset_m : 0.0F;
+  }
+  return fields.failure();
+}
+
+/// The header up to the number of encoders; the scanner's frequency in hundredths of a hertz.
+template <class Fields>
+Decoding read_header(Fields& fields, ScanHeader& header, std::uint32_t& frequency_centihertz) noexcept {
+  fields.u16();  // version
+  fields.u16();  // device number
+  header.serial_number = fields.u32();
+  fields.u8();
+  const std::uint32_t status = fields.u8();
+  header.telegram_counter = static_cast<std::uint16_t>(fields.u16());
+  header.scan_counter = static_cast<std::uint16_t>(fields.u16());
+  header.scan_time_us = fields.u32();
+  header.sent_time_us = fields.u32();
+  for (int inputs_and_outputs = 0; inputs_and_outputs < 4; ++inputs_and_outputs) fields.u8();
+  fields.u16();  // layer angle
+  frequency_centihertz = fields.u32();
+  fields.u32();  // measuring frequency
+  if (fields.failure() != Decoding::kScan) return fields.failure();
+  header.warns_of_dirt = (status & kDirtWarning) != 0;
+  if ((status & kError) != 0) return Decoding::kDeviceError;
+  if ((status & kDirtError) != 0) return Decoding::kDirty;
+  return frequency_centihertz >= 10 && frequency_centihertz <= 100000 ? Decoding::kScan : Decoding::kBadField;
+}
+
+template <class Fields>
+Decoding read_channels(Fields& fields, LaserScan& scan) noexcept {
+  const std::uint32_t encoders = fields.u16();
+  if (encoders > 3) return Decoding::kBadField;
+  for (std::uint32_t k = 0; k < encoders; ++k) {
+    fields.u32();
+    fields.u16();
+  }
+  const std::uint32_t channels = fields.u16();
+  for (std::uint32_t k = 0; k < channels && fields.failure() == Decoding::kScan; ++k) {
+    const Channel channel = read_channel(fields);
+    if (fields.failure() != Decoding::kScan) break;
+    if (channel.is_distance) return read_distances(fields, channel, scan);
+    for (std::uint32_t value = 0; value < channel.count; ++value) fields.u16();
+  }
+  return fields.failure() == Decoding::kScan ? Decoding::kNoDistances : fields.failure();
+}
+
+template <class Fields>
+Decoding read_scan(Fields fields, const ScannerModel& model, Time arrival, LaserScan& scan,
+                   ScanHeader& header) noexcept {
+  std::uint32_t frequency_centihertz = 0;
+  const Decoding of_header = read_header(fields, header, frequency_centihertz);
+  if (of_header != Decoding::kScan) return of_header;
+  const Decoding of_channels = read_channels(fields, scan);
+  if (of_channels != Decoding::kScan) return of_channels;
+  const double period_s = 100.0 / static_cast<double>(frequency_centihertz);
+  const double swept_rad =
+      static_cast<double>(scan.angle_step_rad) * (scan.beam_count > 0 ? scan.beam_count - 1.0 : 0.0);
+  scan.period = duration_from_seconds(period_s);
+  scan.sweep = duration_from_seconds(period_s * swept_rad / (2.0 * kPi));
+  const Duration held = std::chrono::microseconds(header.sent_time_us - header.scan_time_us);  // right across the wrap
+  scan.stamp = arrival - std::min(held, scan.period) - scan.sweep;
+  scan.range_min_m = model.range_min_m;
+  scan.range_max_m = model.range_max_m;
+  return Decoding::kScan;
+}
+
+using namespace std::string_view_literals;
+
+// "client", hashed as the scanner wants it; level 3 is the authorised client.
+constexpr std::array<std::string_view, 4> kWords{"SetAccessMode", "LMDscandatacfg", "Run", "LMDscandata"};
+// Channel 1, no remission, 16 bits, unit 0, no encoder, no position, no name, no comment, no time, every scan.
+constexpr std::array<std::string_view, 4> kInText{"sMN SetAccessMode 03 F4724744"sv,
+                                                  "sWN LMDscandatacfg 01 00 0 1 0 00 00 0 0 0 0 +1"sv, "sMN Run"sv,
+                                                  "sEN LMDscandata 1"sv};
+constexpr std::array<std::string_view, 4> kInBinary{
+    "sMN SetAccessMode \x03\xF4\x72\x47\x44"sv,
+    "sWN LMDscandatacfg \x01\x00\x00\x01\x00\x00\x00\x00\x00\x00\x00\x00\x01"sv, "sMN Run"sv, "sEN LMDscandata \x01"sv};
+/// More telegrams than this do not go missing on a connection that lives: the scanner began to count anew.
+constexpr std::uint16_t kMostLost = 1000;
+
+}  // namespace
+
+Decoding decode_scan(Cola dialect, wire::Bytes body, const ScannerModel& model, Time arrival, LaserScan& scan,
+                     ScanHeader& header) noexcept {
+  // Sent on its own (sSN) or in answer to one question (sRA).
+  const std::string_view text = text_of(body);
+  const std::string_view kind = text.substr(0, 16);
+  if (kind != "sSN LMDscandata " && kind != "sRA LMDscandata ") return Decoding::kOtherMessage;
+  const wire::Bytes fields = body.subspan(kind.size());
+  return dialect == Cola::kA ? read_scan(TextFields(fields), model, arrival, scan, header)
+                             : read_scan(BinaryFields(fields), model, arrival, scan, header);
+}
+
+SickProtocol::SickProtocol(Cola dialect, const ScannerModel& model) noexcept
+    : dialect_(dialect), model_(model), stream_(dialect) {
+  speak(dialect);
+}
+
+void SickProtocol::speak(Cola dialect) noexcept {
+  dialect_ = dialect;
+  const auto& commands = dialect == Cola::kA ? kInText : kInBinary;
+  for (std::size_t k = 0; k < steps_.size(); ++k) steps_[k] = {framed(dialect, commands[k]), kWords[k]};
+  stream_.begin(dialect);
+}
+
+void SickProtocol::begin() noexcept {
+  at_ = 0;
+  asked_ = false;
+  speak(tried_ && !understood_ ? other(dialect_) : dialect_);
+  tried_ = true;
+  device_clock_.forget();
+  has_counter_ = false;
+}
+
+wire::Bytes SickProtocol::to_say(Time) noexcept {
+  if (asked_ || at_ == steps_.size()) return {};
+  asked_ = true;
+  return {steps_[at_].command.data(), steps_[at_].command.size()};
+}
+
+Heard SickProtocol::next(Time arrival, LaserScan& scan) noexcept {
+  const auto body = stream_.next();
+  if (!body) return Heard::kNothing;
+  understood_ = true;
+  ScanHeader header;
+  const Heard heard = heard_of(decode_scan(dialect_, *body, model_, arrival, scan, header));
+  if (heard == Heard::kAnswer) return on_answer(text_of(*body));
+  if (heard == Heard::kScan) {
+    count_lost(header.telegram_counter);
+    if (header.warns_of_dirt) ++warned_;
+    scan.stamp -= device_clock_.delay(header.sent_time_us, arrival);
+  }
+  return heard;
+}
+
+// "sAN Run 1", "sWA LMDscandatacfg", "sEA LMDscandata 1", or "sFA" and a number for any command that is refused.
+Heard SickProtocol::on_answer(std::string_view body) noexcept {
+  if (!asked_ || body.size() < 3) return Heard::kAnswer;
+  bool taken = false;
+  if (body.substr(0, 3) != "sFA") {
+    const std::string_view rest = body.substr(std::min<std::size_t>(4, body.size()));
+    const std::string_view word = rest.substr(0, rest.find(' '));
+    if (word != steps_[at_].word) return Heard::kAnswer;
+    const char last = rest.back();
+    taken = word.size() == rest.size() || last == '1' || last == '\x01';
+  }
+  return conclude(taken) ? Heard::kAnswer : Heard::kRefused;
+}
+
+bool SickProtocol::go_on_unanswered() noexcept { return conclude(false); }
+
+bool SickProtocol::conclude(bool taken) noexcept {
+  const bool must = at_ + 1 == steps_.size();
+  if (!taken && must) return false;
+  asked_ = false;
+  ++at_;
+  if (!taken) ++refused_;
+  return true;
+}
+
+void SickProtocol::count_lost(std::uint16_t telegram_counter) noexcept {
+  const auto missing = static_cast<std::uint16_t>(telegram_counter - last_counter_ - 1);
+  if (has_counter_ && missing <= kMostLost) lost_ += missing;
+  has_counter_ = true;
+  last_counter_ = telegram_counter;
+}
+
+ProtocolCounts SickProtocol::counts() const noexcept { return {lost_, stream_.skipped(), refused_, warned_}; }
+
+}  // namespace jaywalk::sick

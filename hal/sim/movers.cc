@@ -1,0 +1,244 @@
+#include "hal/sim/movers.h"
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <map>
+#include <sstream>
+#include <string>
+
+#include "hal/shown_text.h"
+#include "hal/text_file.h"
+#include "hal/types/errors.h"
+
+namespace jaywalk::sim {
+namespace {
+
+constexpr double kRoomToWalls = 0.3;   // m between a mover's edge and what is near when it is placed
+constexpr double kRoomToRobot = 2.0;   // m from the robot's start
+constexpr double kRoomToGoal = 1.0;    // m from the goal
+constexpr double kRoomToMovers = 0.5;  // m between edges
+constexpr int kPlacements = 20000;     // tries for one mover: 16 find room on maps that are 99 % walls
+constexpr int kHeadingsAStep = 16;     // tries for a free heading before it looks again in the next step
+constexpr double kTouch = 0.01;        // m: nearer than this a mover walks on into nobody
+
+struct Row {
+  double t_s, id, x_m, y_m;
+};
+
+constexpr const char* kMoverRows = "write rows of t_s,id,x_m,y_m below a line that says so";
+
+Row parse_row(const std::filesystem::path& file, int number, std::string line) {
+  std::replace(line.begin(), line.end(), ',', ' ');
+  std::istringstream words(line);
+  Row row{};
+  std::string rest;
+  const bool whole = static_cast<bool>(words >> row.t_s >> row.id >> row.x_m >> row.y_m) && !(words >> rest);
+  const bool sound = whole && std::fabs(row.t_s) < 1e7 && std::fabs(row.x_m) < 1e6 && std::fabs(row.y_m) < 1e6 &&
+                     row.id == std::floor(row.id) && std::fabs(row.id) < 1e15;
+  if (!sound) refuse_line(file, number, "\"" + shown(line) + "\" is not four numbers", kMoverRows);
+  return row;
+}
+
+std::vector<Row> read_rows(const std::filesystem::path& file) {
+  std::ifstream in(file);
+  std::vector<Row> rows;
+  std::string line;
+  int number = 0;
+  while (std::getline(in, line)) {
+    ++number;
+    if (!line.empty() && line.back() == '\r') line.pop_back();
+    if (number == 1) drop_byte_order_mark(line);
+    if (number == 1 && line == "t_s,id,x_m,y_m") continue;
+    if (number == 1) refuse_line(file, 1, "does not begin with t_s,id,x_m,y_m", kMoverRows);
+    if (!line.empty()) rows.push_back(parse_row(file, number, line));
+  }
+  if (rows.empty()) refuse_line(file, number, "holds nobody", kMoverRows);
+  return rows;
+}
+
+}  // namespace
+
+Wanderers::Wanderers(const Scenario& scenario, const Walls& walls, const FreeGrid& grid, std::uint64_t seed)
+    : walls_(walls) {
+  Random random(seed, Purpose::kPlacement);
+  for (const WanderSpec& spec : scenario.wanderers)
+    for (int k = 0; k < spec.count; ++k) place(spec, scenario, grid, seed, random);
+}
+
+bool Wanderers::has_room(Vec2 p, double radius_m, const Scenario& scenario, const FreeGrid& grid) const {
+  const double to_walls = radius_m + kRoomToWalls;
+  if (distance(p, scenario.start.position()) < kRoomToRobot + radius_m) return false;
+  if (distance(p, scenario.goal) < kRoomToGoal + radius_m) return false;
+  for (const MoverTruth& other : movers_)
+    if (distance(p, other.position) < radius_m + other.radius_m + kRoomToMovers) return false;
+  return grid.reachable(p) && walls_.distance(p, to_walls) >= to_walls;
+}
+
+void Wanderers::place(const WanderSpec& spec, const Scenario& scenario, const FreeGrid& grid, std::uint64_t seed,
+                      Random& random) {
+  const auto& [low, high] = walls_.bounds();
+  const auto id = static_cast<std::uint32_t>(movers_.size() + 1);
+  for (int k = 0; k < kPlacements; ++k) {
+    const double x = random.uniform(low.x, high.x), y = random.uniform(low.y, high.y);
+    if (!has_room({x, y}, spec.radius_m, scenario, grid)) continue;
+    const double heading = random.uniform(-kPi, kPi);
+    movers_.push_back(
+        {.id = id, .position = {x, y}, .heading = heading, .radius_m = spec.radius_m, .on_legs = spec.legs});
+    minds_.push_back({.speed_mps = spec.speed_mps,
+                      .turn_rate_radps = spec.turn_rate_radps,
+                      .spontaneous_turns_hz = spec.spontaneous_turns_hz,
+                      .random = Random(seed, Purpose::kWanderer, id)});
+    return;
+  }
+  throw StartupError(scenario.map_file.string() + ": no room for mover " + std::to_string(id),
+                     "ask for fewer or smaller movers");
+}
+
+Wanderers::Blocker Wanderers::ahead(std::size_t self, double heading, const Surroundings& near) const noexcept {
+  const MoverTruth& mover = movers_[self];
+  const Zone zone{mover.position, direction(heading), mover.radius_m + kWanderZone};
+  bool wall = false;
+  walls_.for_each_near(zone.apex, zone.reach_m, [&](const auto& shape) { wall = wall || zone.meets(shape); });
+  if (wall) return Blocker::kOther;
+  const auto in_zone = [&](const MoverTruth& other) {
+    return other.id != mover.id && zone.meets(Disc{other.position, other.radius_m});
+  };
+  if (std::any_of(movers_.begin(), movers_.end(), in_zone)) return Blocker::kOther;
+  if (std::any_of(near.others.begin(), near.others.end(), in_zone)) return Blocker::kOther;
+  return near.robot.in(zone) ? Blocker::kRobot : Blocker::kNothing;
+}
+
+/// Whom the mover would run into from the side, where its zone does not look; walls cannot be met so
+/// (see docs/reference/scenarios.md). Only coming nearer counts, so that two that touch can part.
+Wanderers::Blocker Wanderers::touched(std::size_t self, Vec2 next, const Surroundings& near) const noexcept {
+  const MoverTruth& mover = movers_[self];
+  const auto runs_into = [&](const MoverTruth& other) {
+    const double after = distance(next, other.position);
+    return other.id != mover.id && after < mover.radius_m + other.radius_m + kTouch &&
+           after < distance(mover.position, other.position);
+  };
+  if (std::any_of(movers_.begin(), movers_.end(), runs_into)) return Blocker::kOther;
+  if (std::any_of(near.others.begin(), near.others.end(), runs_into)) return Blocker::kOther;
+  const double gap = near.robot.gap({next, mover.radius_m});
+  const bool into_robot = gap <= 0.0 && distance(next, near.robot.map_from_robot.position()) <
+                                            distance(mover.position, near.robot.map_from_robot.position());
+  return into_robot ? Blocker::kRobot : Blocker::kNothing;
+}
+
+void Wanderers::halt(std::size_t self, Blocker blocker) noexcept {
+  MoverTruth& mover = movers_[self];
+  mover.velocity = {};
+  minds_[self].activity = Activity::kChoosing;
+  if (blocker == Blocker::kRobot && !mover.forced) {
+    mover.forced = true;
+    ++forced_;
+  }
+}
+
+void Wanderers::walk(std::size_t self, double step_s, const Surroundings& near) noexcept {
+  MoverTruth& mover = movers_[self];
+  Mind& mind = minds_[self];
+  const bool whim = mind.random.uniform() < mind.spontaneous_turns_hz * step_s;
+  const Blocker in_zone = ahead(self, mover.heading, near);
+  if (whim || in_zone != Blocker::kNothing) return halt(self, in_zone);
+  const Vec2 velocity = direction(mover.heading) * mind.speed_mps;
+  const Vec2 next = mover.position + velocity * step_s;
+  const Blocker beside = touched(self, next, near);
+  if (beside == Blocker::kRobot) bumped_robot_ = true;
+  if (beside != Blocker::kNothing) return halt(self, beside);
+  mover.position = next;
+  mover.velocity = velocity;
+  mover.forced = false;
+}
+
+void Wanderers::choose(std::size_t self, const Surroundings& near) noexcept {
+  Mind& mind = minds_[self];
+  for (int k = 0; k < kHeadingsAStep; ++k) {
+    const double heading = mind.random.uniform(-kPi, kPi);
+    if (ahead(self, heading, near) != Blocker::kNothing) continue;
+    mind.new_heading = heading;
+    mind.activity = Activity::kTurning;
+    return;
+  }
+}
+
+void Wanderers::turn(std::size_t self, double step_s) noexcept {
+  MoverTruth& mover = movers_[self];
+  Mind& mind = minds_[self];
+  const double left = wrap_angle(mind.new_heading - mover.heading);
+  const double most = mind.turn_rate_radps * step_s;
+  if (std::fabs(left) <= most) {
+    mover.heading = mind.new_heading;
+    mind.activity = Activity::kWalking;
+  } else {
+    mover.heading = wrap_angle(mover.heading + (left > 0.0 ? most : -most));
+  }
+}
+
+void Wanderers::step(double step_s, const RobotBody& robot, std::span<const MoverTruth> others) noexcept {
+  bumped_robot_ = false;
+  const Surroundings near{robot, others};
+  for (std::size_t self = 0; self < movers_.size(); ++self) {
+    switch (minds_[self].activity) {
+      case Activity::kWalking: walk(self, step_s, near); break;
+      case Activity::kChoosing: choose(self, near); break;
+      case Activity::kTurning: turn(self, step_s); break;
+    }
+  }
+}
+
+RecordedMovers::RecordedMovers(std::span<const RecordedSpec> specs, std::uint32_t last_id)
+    : specs_(specs.begin(), specs.end()) {
+  for (const RecordedSpec& spec : specs_) load(spec);
+  for (Person& person : people_) person.truth.id = ++last_id;
+  present_.reserve(people_.size());
+}
+
+void RecordedMovers::load(const RecordedSpec& spec) {
+  std::map<double, std::vector<Sample>> by_id;
+  double begin = 1e9, end = -1e9;
+  for (const Row& row : read_rows(spec.file)) {
+    by_id[row.id].push_back({row.t_s, Vec2{row.x_m, row.y_m} + spec.offset});
+    begin = std::min(begin, row.t_s);
+    end = std::max(end, row.t_s);
+  }
+  for (auto& [id, samples] : by_id) {
+    std::stable_sort(samples.begin(), samples.end(), [](const Sample& a, const Sample& b) { return a.t_s < b.t_s; });
+    const MoverTruth truth{.position = samples.front().position, .radius_m = spec.radius_m, .on_legs = spec.legs};
+    people_.push_back({std::move(samples), 1, &spec, begin, end - begin, truth});
+  }
+}
+
+/// Sets the person's truth; false when not there at this time.
+bool RecordedMovers::move(Person& person, double now_s) noexcept {
+  double t = person.begin_s + now_s - person.spec->start_at_s;
+  if (person.spec->loop && person.period_s > 0.0 && t >= person.begin_s)
+    t = person.begin_s + std::fmod(t - person.begin_s, person.period_s);
+  const auto& samples = person.samples;
+  if (samples.size() < 2 || t < samples.front().t_s || t >= samples.back().t_s) return false;
+  if (samples[person.next - 1].t_s > t) person.next = 1;  // the recording began anew
+  while (samples[person.next].t_s <= t) ++person.next;
+  const Sample& before = samples[person.next - 1];
+  const Sample& after = samples[person.next];
+  const Vec2 velocity = (after.position - before.position) * (1.0 / (after.t_s - before.t_s));
+  person.truth.position = before.position + velocity * (t - before.t_s);
+  person.truth.velocity = velocity;
+  if (dot(velocity, velocity) > 0.0) person.truth.heading = atan2(velocity.y, velocity.x);
+  return true;
+}
+
+void RecordedMovers::place(double now_s, const RobotBody& robot) noexcept {
+  present_.clear();  // room for all was taken at construction
+  for (Person& person : people_) {
+    MoverTruth& truth = person.truth;
+    const bool was_forced = truth.forced;
+    truth.forced = false;
+    if (!move(person, now_s)) continue;
+    truth.forced = robot.in({truth.position, direction(truth.heading), truth.radius_m + kRecordedZone});
+    if (truth.forced && !was_forced) ++forced_;
+    present_.push_back(truth);
+  }
+}
+
+}  // namespace jaywalk::sim
