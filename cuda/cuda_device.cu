@@ -102,14 +102,10 @@ bool CudaDevice::is_back() noexcept {
 
 const char* CudaDevice::failure() const noexcept {
   switch (failure_) {
-    case DeviceFailure::kNone:
-      return "";
-    case DeviceFailure::kRefused:
-      return "a launch was refused";
-    case DeviceFailure::kBroken:
-      return "the device failed";
-    case DeviceFailure::kSilent:
-      return "a kernel did not end in time";
+    case DeviceFailure::kNone: return "";
+    case DeviceFailure::kRefused: return "a launch was refused";
+    case DeviceFailure::kBroken: return "the device failed";
+    case DeviceFailure::kSilent: return "a kernel did not end in time";
   }
   return "";
 }

@@ -82,6 +82,7 @@ void latch_at_start(OperatorDesk& desk) {
 std::vector<std::string> entered_realtime(const RealtimeWishes& wishes, RobotLoop& loop) {
   std::vector<std::string> not_permitted;
   if (wishes.lock_memory) not_permitted = lock_memory();
+  if (wishes.priority > 0) keep_processors_awake();
   for (const std::string& line : loop.prepare(wishes)) not_permitted.push_back(line);
   require_realtime(wishes, not_permitted);
   return not_permitted;

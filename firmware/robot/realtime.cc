@@ -1,11 +1,13 @@
 #include "firmware/robot/realtime.h"
 
+#include <fcntl.h>
 #include <malloc.h>
 #include <pthread.h>
 #include <sched.h>
 #include <sys/mman.h>
 #include <sys/resource.h>
 #include <time.h>
+#include <unistd.h>
 
 #include <array>
 #include <cerrno>
@@ -36,6 +38,12 @@ std::vector<std::string> lock_memory() {
   ::mallopt(M_MMAP_MAX, 0);
   if (::mlockall(MCL_CURRENT | MCL_FUTURE) == 0) return {};
   return {refusal("memory is not locked", errno, "run as root, or raise memlock: ulimit -l unlimited")};
+}
+
+void keep_processors_awake() noexcept {
+  const int file = ::open("/dev/cpu_dma_latency", O_WRONLY | O_CLOEXEC);  // holds for as long as it is open
+  const std::int32_t latency_us = 0;
+  if (file >= 0 && ::write(file, &latency_us, sizeof latency_us) != sizeof latency_us) ::close(file);
 }
 
 std::vector<std::string> enter_realtime(const RealtimeWishes& wishes) {

@@ -31,6 +31,10 @@ struct RealtimeWishes {
 /// Returns what was not permitted and what would permit it, a line each; empty: all is well.
 std::vector<std::string> lock_memory();
 
+/// Keeps processors from deep sleep, out of which they wake late, as long as the process lives (the kernel's PM QoS).
+/// Where that is not permitted nothing changes. Start-up only.
+void keep_processors_awake() noexcept;
+
 /// Asks the kernel for what the calling thread wishes, except memory, and touches its stack. The same answer.
 std::vector<std::string> enter_realtime(const RealtimeWishes& wishes);
 

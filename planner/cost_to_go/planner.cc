@@ -38,18 +38,12 @@ namespace jaywalk {
 
 const char* name_of(PlanStatus status) {
   switch (status) {
-    case PlanStatus::kNone:
-      return "none";
-    case PlanStatus::kOk:
-      return "ok";
-    case PlanStatus::kNoPath:
-      return "no_path";
-    case PlanStatus::kRobotBlocked:
-      return "robot_blocked";
-    case PlanStatus::kBadRequest:
-      return "bad_request";
-    case PlanStatus::kBackendFailed:
-      return "backend_failed";
+    case PlanStatus::kNone: return "none";
+    case PlanStatus::kOk: return "ok";
+    case PlanStatus::kNoPath: return "no_path";
+    case PlanStatus::kRobotBlocked: return "robot_blocked";
+    case PlanStatus::kBadRequest: return "bad_request";
+    case PlanStatus::kBackendFailed: return "backend_failed";
   }
   return "unknown";
 }

@@ -23,8 +23,8 @@ struct BackMoves {
         const PoseMove& move = moves.from[static_cast<std::size_t>(from)][static_cast<std::size_t>(m)];
         const std::int32_t heading = PoseLattice::wrapped(from + move.turn);
         if (count[heading] == kMost) continue;
-        to[heading][count[heading]++] = {
-            PoseLattice::offset(-move.di, -move.dj, from - heading), move.cost, price::unseen_weight(move.gear, move.turn)};
+        to[heading][count[heading]++] = {PoseLattice::offset(-move.di, -move.dj, from - heading), move.cost,
+                                         price::unseen_weight(move.gear, move.turn)};
       }
     }
   }

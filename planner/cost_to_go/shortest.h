@@ -1,5 +1,6 @@
 #pragma once
-// Shortest ways in integer costs by near and far piles (Davidson and others 2014), and their repair where steps have become dearer, cheaper or none.
+// Shortest ways in integer costs by near and far piles (Davidson and others 2014), and their repair where steps have
+// become dearer, cheaper or none.
 //
 // Costs are the fixed point of cost[n] = min(cost[c] + step(c, n)) over the cells c whose cost is below a limit. No
 // step is free, so the fixed point is unique: what a repair leaves are the costs of a computation from nothing, to the
@@ -174,8 +175,8 @@ class Shortest {
 
   std::vector<Entry> near_, far_;
   std::size_t near_count_ = 0, far_count_ = 0;
-  std::uint32_t end_ = 0;          ///< of the near pile's span
-  std::uint32_t least_ = kNoWay;   ///< of the far pile
+  std::uint32_t end_ = 0;         ///< of the near pile's span
+  std::uint32_t least_ = kNoWay;  ///< of the far pile
   bool full_ = false;
 
   std::vector<std::uint32_t> seen_;  ///< in which round a cell was looked at last

@@ -7,7 +7,7 @@ namespace {
 
 constexpr double kJustBelow = 1.0 - 1e-6;                 ///< single precision must not round a limit up
 constexpr float kMostTurn = 1.2F, kMostTurnAccel = 2.0F;  ///< comfort: a passenger's
-constexpr float kSlowing = 0.8F;
+constexpr float kSlowing = 0.65F;
 constexpr float kMostJerk = 0.75F;       ///< SAFETY's 0.9 m/s3, measured behind the wheels' lag, over 0.1 s
 constexpr float kBackMps = 0.3F;         ///< SAFETY: where the scanner does not look
 constexpr double kNearlyRound_m = 0.15;  ///< between inscribed and circumscribed circle: one disc among movers

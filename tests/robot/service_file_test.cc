@@ -30,7 +30,8 @@ TEST_CASE("the service may open the devices of GPUs, serial scanners and joystic
   for (const char* name :
        {"char-nvidia-frontend", "char-nvidia", "char-nvidiactl", "char-nvidia-uvm", "char-nvidia-caps",
         "char-nvidia-modeset", "char-nvhost-ctrl-gpu", "char-nvhost", "char-nvgpu", "char-nvgpu-ctrl", "char-host1x",
-        "char-drm", "/dev/nvmap", "/dev/host1x-fence", "char-ttyUSB", "char-ttyACM", "char-ttyTHS", "char-input"}) {
+        "char-drm", "/dev/nvmap", "/dev/host1x-fence", "/dev/cpu_dma_latency", "char-ttyUSB", "char-ttyACM",
+        "char-ttyTHS", "char-input"}) {
     CAPTURE(name);
     CHECK(std::ranges::any_of(patterns, [name](const std::string& p) { return fnmatch(p.c_str(), name, 0) == 0; }));
   }
