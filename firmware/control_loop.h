@@ -14,7 +14,7 @@
 #include "hal/hal.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/motion/motion.h"
-#include "planner/motion/speed_zones.h"
+#include "planner/motion/robot_body.h"
 #include "planner/motion/twist_ramp.h"
 
 namespace jaywalk {

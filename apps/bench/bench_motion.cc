@@ -6,7 +6,7 @@
 #include "firmware/backends.h"
 #include "firmware/control_loop.h"
 #include "firmware/recording/recorded_hal.h"
-#include "hal/sim/laser_sim.h"
+#include "hal/sim/sensors.h"
 #include "hal/types/robot_model.h"
 #include "planner/motion/motion.h"
 

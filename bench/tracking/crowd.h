@@ -1,6 +1,6 @@
 #pragma once
 // The busiest place that seeing is built for: as many walkers round the robot as there may be tracks.
-#include "hal/sim/laser_sim.h"
+#include "hal/sim/sensors.h"
 #include "hal/types/wheels.h"
 #include "planner/localization/localizer.h"
 #include "planner/tracking/tracker.h"

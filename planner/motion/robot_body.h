@@ -1,7 +1,11 @@
 #pragma once
+// The robot's body and bounds as roll-outs take them, and zones of slower speed.
 #include <array>
 #include <cmath>
+#include <span>
+#include <vector>
 
+#include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
 #include "planner/cell/circle.h"
 #include "planner/cost_to_go/guide.h"
@@ -128,5 +132,23 @@ struct RobotBody {
 
 /// No faster than `most_mps` either way, nor than robot_body() has it.
 void limit_speed_of(MotionBounds& bounds, const MotionLimits& limits, double most_mps) noexcept;
+
+/// The fastest that speed zones let the robot drive, m/s; infinity where none says anything.
+struct ZoneSpeed {
+  double here_mps;   ///< now: the least of the zones that the circle about the body touches
+  double ahead_mps;  ///< so that half of the comfortable deceleration slows down before the next zone begins
+};
+
+/// Zones in which the robot drives slowly. Memory in the constructor. Thread: any.
+class SpeedZones {
+ public:
+  SpeedZones(std::span<const MapZone> zones, const RobotModel& model);
+  [[nodiscard]] ZoneSpeed at(Vec2 robot_in_map) const noexcept;
+
+ private:
+  std::vector<MapZone> zones_;  ///< speed zones alone
+  double reach_m_;              ///< of the body, and what its pose may be off by
+  double max_accel_mps2_;
+};
 
 }  // namespace jaywalk::motion

@@ -6,7 +6,7 @@
 #include "hal/types/laser_scan.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/prediction/occluded_movers.h"
+#include "planner/prediction/futures.h"
 #include "planner/prediction/pedestrian_model.h"
 #include "planner/scan/line_of_sight.h"
 #include "planner/tracking/standing.h"

@@ -4,7 +4,6 @@
 
 #include "planner/cost_to_go/guide_field.h"
 #include "planner/motion/robot_body.h"
-#include "planner/motion/speed_zones.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"
 

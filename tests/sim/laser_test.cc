@@ -2,7 +2,7 @@
 #include <limits>
 #include <memory>
 
-#include "hal/sim/laser_sim.h"
+#include "hal/sim/sensors.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"
 
