@@ -5,7 +5,7 @@
 #include <set>
 #include <vector>
 
-#include "apps/report/csv_rows.h"
+#include "apps/report/csv_file.h"
 #include "hal/shown_text.h"
 
 namespace jaywalk::campaign {

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "firmware/safety/trust.h"
+#include "firmware/safety/latency.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

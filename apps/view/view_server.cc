@@ -7,23 +7,18 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <boost/asio/steady_timer.hpp>
 #include <list>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include "apps/view/certificate.h"
 #include "apps/view/secret.h"
 #include "apps/view/view_client.h"
-#include "firmware/robot/signal_thread.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::view {
 namespace {
-
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using Error = boost::system::error_code;

@@ -6,7 +6,7 @@
 #include "firmware/robot/known_map_file.h"
 #include "firmware/robot/plausible_robot.h"
 #include "firmware/robot/robot_file_keys.h"
-#include "firmware/safety/zone_check.h"
+#include "firmware/safety/stop_zone.h"
 #include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"

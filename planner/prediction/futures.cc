@@ -5,7 +5,6 @@
 
 namespace jaywalk::motion {
 namespace {
-
 constexpr std::uint32_t kPurpose = 1;  ///< of the draws; a decision's other draws have others
 
 /// Whether a body of radius `reach - react` is in the quarter circle before a walker.

@@ -5,7 +5,6 @@
 
 namespace jaywalk::motion {
 namespace {
-
 constexpr std::uint32_t kOccludedPurpose = 2;
 constexpr int kFewest = 4;             ///< of kFutures left: it is somewhere else
 constexpr float kSureWithinM = 12.0F;  ///< beams farther off pass beside a leg

@@ -6,11 +6,9 @@
 #include "hal/types/geometry.h"
 #include "hal/types/scanners.h"
 #include "planner/prediction/futures.h"
-#include "planner/prediction/pedestrian_model.h"
 #include "planner/scan/line_of_sight.h"
 
 namespace jaywalk::motion {
-
 /// Movers out of sight: where each may be by now, as kFutures walkers that walk on, less those whose place has been
 /// seen to be empty. Gone when hardly one is left, or after kRememberedForS. Thread: the loop's.
 class OccludedMovers {
