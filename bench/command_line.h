@@ -2,12 +2,10 @@
 #include <CLI/CLI.hpp>
 #include <cstdio>
 #include <optional>
-#include <string>
 
 #include "firmware/program/program.h"
 
 namespace jaywalk::bench {
-
 /// Reads the command line. Where it is of no use says so in a line; where the program is to end, with which exit code:
 /// 2 then, 0 after --help.
 inline std::optional<int> ended_by_command_line(CLI::App& app, int argc, char** argv) {

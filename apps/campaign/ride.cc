@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "apps/report/csv_rows.h"
+#include "apps/report/csv_file.h"
 #include "apps/report/distribution.h"
 #include "hal/shown_text.h"
 

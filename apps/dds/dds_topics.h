@@ -1,12 +1,72 @@
 #pragma once
-// ROS 2's topics on DDS, by Cyclone DDS.
+// ROS 2's topics on DDS, by Cyclone DDS, and the entities that both jobs of jaywalk_dds make of it.
+#include <dds/dds.h>
+
+#include <cstdint>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
+#include <type_traits>
 
-#include "apps/dds/dds_entities.h"
+#include "apps/formats/ros_robot.h"
 
 namespace jaywalk::dds {
+/// Of what DDS returns: throws StartupError for its errors, which are negative.
+dds_entity_t checked(dds_entity_t entity, const std::string& what);
+
+using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
+/// Keeps the last `depth`; volatile.
+[[nodiscard]] Qos qos_keeping(std::int32_t depth, bool reliable);
+
+/// `topic` as ROS 2 shows it, "/scan"; on DDS it is rt/scan. Throw StartupError.
+[[nodiscard]] dds_entity_t make_writer(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       const std::string& topic, const Qos& qos);
+[[nodiscard]] dds_entity_t make_reader(dds_entity_t participant, const dds_topic_descriptor_t& type,
+                                       const std::string& topic, const Qos& qos);
+
+/// Time of the wall clock, which stamps of ROS 2 and DDS are of.
+[[nodiscard]] Time wall_time();
+[[nodiscard]] inline Time written(const dds_sample_info_t& about) { return Time(Duration(about.source_timestamp)); }
+
+/// `use(sample)`, or `use(sample, about)`, for each that waits at a reader of the type T.
+template <class T, class Use>
+void take_all(dds_entity_t reader, Use use) {
+  void* sample = nullptr;
+  dds_sample_info_t about;
+  while (dds_take(reader, &sample, &about, 1, 1) > 0) {
+    if constexpr (std::is_invocable_v<Use, const T&, const dds_sample_info_t&>) {
+      if (about.valid_data) use(*static_cast<const T*>(sample), about);
+    } else {
+      if (about.valid_data) use(*static_cast<const T*>(sample));
+    }
+    dds_return_loan(reader, &sample, 1);
+    sample = nullptr;
+  }
+}
+
+/// A pose that came, in CDR: a goal of /goal_pose, or of /initialpose the place where the robot is.
+struct PoseOrder {
+  bool is_place = false;
+  std::string message;
+};
+/// As a person says it to a run, "goto X Y H" or "here X Y H"; empty where it is no pose in the frame map.
+[[nodiscard]] std::string words_of(const PoseOrder& order);
+
+/// Reads /goal_pose and /initialpose; of what is repeated or late nothing is an order (exchange::GoalOrders).
+class PoseReader {
+ public:
+  explicit PoseReader(dds_entity_t participant);
+  /// The newest order that came, a place before a goal.
+  [[nodiscard]] std::optional<PoseOrder> take();
+
+ private:
+  template <class Message>
+  std::optional<PoseOrder> newest(dds_entity_t reader);
+
+  dds_entity_t goals_, places_;
+  exchange::GoalOrders orders_;
+};
 
 /// A participant with a writer for each topic that is passed on ("/scan" is rt/scan, as ROS 2 names it), and, where it
 /// takes goals, readers of rt/goal_pose and rt/initialpose. Reliable, the last ten; /map is kept for newcomers. Thread:

@@ -4,12 +4,11 @@
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "apps/view/certificate.h"
+#include "apps/view/secret.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::dds {
 namespace {
-
 namespace asio = boost::asio;
 namespace websocket = boost::beast::websocket;
 using Json = nlohmann::json;

@@ -11,11 +11,10 @@
 #include <string>
 #include <string_view>
 
-#include "apps/dds/dds_entities.h"
+#include "apps/dds/dds_topics.h"
 #include "apps/view/door_stream.h"
 
 namespace jaywalk::dds {
-
 struct FoxgloveMessage {
   std::string topic;
   std::string bytes;  ///< CDR, behind its encapsulation header

@@ -15,7 +15,6 @@
 #include "hal/types/errors.h"
 
 namespace {
-
 using namespace jaywalk;
 
 constexpr auto kWait = std::chrono::milliseconds(10);  // longest that a goal waits for its turn

@@ -12,7 +12,6 @@
 
 namespace jaywalk::dds {
 namespace {
-
 constexpr Duration kSilence = std::chrono::milliseconds(100);  // SAFETY 4
 constexpr Duration kStopping = std::chrono::seconds(1), kStopPeriod = std::chrono::milliseconds(50);
 

@@ -1,18 +1,38 @@
 #pragma once
-// The devices of a ROS 2 robot, between DDS and the shared rings of the robot's program.
-#include <array>
-#include <atomic>
+// Bridge between a ROS 2 robot's devices on DDS and the shared rings of the robot's program.
+#include <filesystem>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 
-#include "apps/dds/dds_entities.h"
-#include "apps/dds/ring_holder.h"
+#include "apps/dds/dds_topics.h"
 #include "apps/formats/ros_robot.h"
+#include "drivers/ros/shared_ring.h"
 #include "firmware/robot/realtime.h"
 #include "firmware/robot/robot_file.h"
 
 namespace jaywalk::dds {
+/// The ring that a robot's program made under a path, found again when another run has made it anew. Thread: one.
+class RingHolder {
+ public:
+  RingHolder(std::filesystem::path path, const ros::SharedRing::Shape& shape) : path_(std::move(path)), shape_(shape) {}
+
+  /// Null while no program has one there. Looks at the path every 50 ms.
+  [[nodiscard]] ros::SharedRing* at(Time now) {
+    constexpr Duration kLook = std::chrono::milliseconds(50);
+    if (looked_ != kNever && now - looked_ < kLook) return ring_.get();
+    looked_ = now;
+    if (!ring_ || !ring_->is_current()) ring_ = ros::SharedRing::find(path_, shape_);
+    return ring_.get();
+  }
+
+ private:
+  std::filesystem::path path_;
+  ros::SharedRing::Shape shape_;
+  std::unique_ptr<ros::SharedRing> ring_;
+  Time looked_ = kNever;
+};
 
 /// Passes on what the robot file's [laser] and [drive] of kind dds name. Two publishers of one topic, and a message
 /// that holds no sense, are told and not passed on: the robot's program sees a device that says nothing, and stops.

@@ -9,10 +9,10 @@
 #include "apps/jaywalk/progress.h"
 #include "apps/report/run_observer.h"
 #include "apps/rivals/paper_mode.h"
-#include "apps/view/sim_view.h"
+#include "apps/view/live_view.h"
 #include "firmware/loop_runner.h"
 #include "firmware/recording/map_files.h"
-#include "firmware/safety/zone_check.h"
+#include "firmware/safety/stop_zone.h"
 #include "hal/shown_text.h"
 #include "hal/sim/simulation.h"
 #include "hal/types/errors.h"
@@ -134,19 +134,11 @@ ControlSetup setup_for(const sim::Scenario& scenario, const SimOptions& options)
   return setup;
 }
 
-/// `Wall`: the report's WallLine or the page's WallPiece.
-template <class Wall>
-std::vector<Wall> walls_of(const sim::Simulation& simulation) {
-  std::vector<Wall> walls;
-  for (const sim::WallSegment& wall : simulation.walls()) walls.push_back({wall.from, wall.to});
-  return walls;
-}
-
 std::unique_ptr<SimView> view_for(const SimOptions& options, const ControlSetup& setup, const sim::Scenario& scenario,
                                   sim::Simulation& simulation) {
   if (!options.view) return nullptr;
   auto view = std::make_unique<SimView>(*options.view, setup, simulation.hal().panel);
-  view->begin(scenario.name, walls_of<view::WallPiece>(simulation));
+  view->begin(scenario.name, simulation.walls());
   return view;
 }
 
@@ -231,7 +223,7 @@ int run_sim(SimOptions options) {
   if (!setup.keeps_speed()) require_zone_in_reach(setup.model, setup.tick(), options.scenario.string());
   const std::unique_ptr<SimView> view = view_for(options, setup, scenario, simulation);
   RunObserver observer(options.mcap);
-  observer.show_walls(walls_of<WallLine>(simulation));
+  observer.show_walls({simulation.walls().begin(), simulation.walls().end()});
   LoopRunner runner(setup, hal_for(simulation, view.get()), {options.out, options.parts}, observer);
   Progress progress;
   TruthForReport truth_for_report;

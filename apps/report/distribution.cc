@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace jaywalk {
-
 void Distribution::add(double value) {
   if (many_) return many_->add(value);
   values_.push_back(value);

@@ -5,7 +5,6 @@
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
-
 /// Measurements of one kind: the first kMostKept as they are (22 minutes of ticks at 50 Hz), and where there are more,
 /// all of them in a histogram, whose quantiles are too great by 1.6 % at most. The greatest is exact.
 class Distribution {

@@ -2,7 +2,6 @@
 #include <string>
 
 namespace jaywalk {
-
 /// A character as HTML and XML have it in texts and attributes.
 inline std::string as_markup(char c) {
   switch (c) {

@@ -7,7 +7,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kFor_m = 3.0;  ///< a body farther off is no reason
 constexpr double kWalks_mps = 0.2;
 constexpr std::size_t kMostLines = 10;

@@ -6,7 +6,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
-
 /// Moments of a run, each with the body that came nearest meanwhile.
 class Moments {
  public:

@@ -1,13 +1,41 @@
 #pragma once
+// Observer of a run: its report, tables and pictures.
+#include <filesystem>
 #include <optional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "apps/formats/run_exporter.h"
-#include "apps/report/run_picture.h"
+#include "apps/report/picture/scene.h"
 #include "apps/report/run_report.h"
+#include "firmware/control_loop.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
+/// What of a run its picture shows.
+struct ShownRun {
+  const ControlSetup& setup;
+  const RunReport& figures;
+  const EvidenceMap& map;
+  const char* planner;
+  const OperatorInput& wanted;
+  std::span<const sim::WallSegment> walls;  ///< the real ones; without them the picture shows what the robot saw
+};
+
+/// Gathers what run.png and run.svg show while a run goes on. Works outside the tick.
+class RunPicture {
+ public:
+  /// Keeps the plan of the busiest moment.
+  void consider(const ControlLoop& loop, const Planner& planner, const Pose2& map_from_robot);
+  /// Writes run.png and run.svg into `folder`; run.svg alone where pictures cannot be drawn. Returns the one to look
+  /// at.
+  std::filesystem::path save(const std::filesystem::path& folder, const std::string& title, const ShownRun& run) const;
+
+ private:
+  BusiestMoment busiest_;
+  std::uint32_t plan_seen_ = 0;
+};
 
 /// What a run leaves in its folder beside the recording: tables, summary, pictures, and run.mcap where that is wanted.
 class RunObserver : public TickObserver {
@@ -16,7 +44,7 @@ class RunObserver : public TickObserver {
   /// thread.
   explicit RunObserver(bool mcap = false) : wants_mcap_(mcap) {}
   /// The real walls, for the picture; without them it shows what the robot saw.
-  void show_walls(std::vector<WallLine> walls) { walls_ = std::move(walls); }
+  void show_walls(std::vector<sim::WallSegment> walls) { walls_ = std::move(walls); }
 
   void begin(const std::filesystem::path& out, const std::filesystem::path& tables, const ControlSetup& setup) override;
   void report(const RunSample& sample) override;
@@ -35,7 +63,7 @@ class RunObserver : public TickObserver {
   std::optional<RunReport> report_;
   std::optional<RunExporter> exporter_;
   RunPicture picture_;
-  std::vector<WallLine> walls_;
+  std::vector<sim::WallSegment> walls_;
   OperatorInput wanted_;  ///< the last tick's, as its pose
   Pose2 map_from_robot_;
 };

@@ -11,7 +11,6 @@
 
 namespace jaywalk {
 namespace {
-
 using Json = nlohmann::ordered_json;
 
 std::unique_ptr<RunTables> open_tables(const std::filesystem::path& folder, const std::filesystem::path& tables) {

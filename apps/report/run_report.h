@@ -6,18 +6,13 @@
 #include <string>
 #include <vector>
 
-#include "apps/report/detour_count.h"
-#include "apps/report/disk_reserve.h"
 #include "apps/report/distribution.h"
 #include "apps/report/drive_metrics.h"
-#include "apps/report/granted_share.h"
-#include "apps/report/loop_count.h"
+#include "apps/report/picture/scene.h"
 #include "apps/report/run_tables.h"
-#include "apps/report/trails.h"
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
-
 /// Works outside the tick: it allocates and writes. Its memory has bounds, however long the run. Not thread-safe.
 ///
 /// Lengths, turns and speeds are the world's where truth is given, else the controller's estimate

@@ -1,10 +1,18 @@
 #include "apps/report/run_tables.h"
 
+#include <fcntl.h>
+#include <unistd.h>
+
+#include <cerrno>
 #include <cmath>
+#include <cstring>
 #include <limits>
+
+#include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
+constexpr off_t kBytes = 64 * 1024;  // a summary.json and a devices.json have 2 to 5 kB
 
 constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
 
@@ -12,6 +20,20 @@ void add_pose(CsvFile& table, const Pose2& pose) { table.number(pose.x).number(p
 void add_vector(CsvFile& table, Vec2 v) { table.number(v.x).number(v.y); }
 
 }  // namespace
+
+DiskReserve::DiskReserve(const std::filesystem::path& folder) : file_(folder / ".reserve") {
+  const int descriptor = ::open(file_.c_str(), O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0666);
+  const int error = descriptor < 0 ? errno : ::posix_fallocate(descriptor, 0, kBytes);
+  if (descriptor >= 0) ::close(descriptor);
+  if (error != ENOSPC && error != EDQUOT) return;
+  release();
+  throw StartupError(folder.string() + ": " + std::strerror(error), "free some space, or choose another --out folder");
+}
+
+void DiskReserve::release() noexcept {
+  std::error_code gone;
+  std::filesystem::remove(file_, gone);
+}
 
 RunTables::RunTables(const std::filesystem::path& folder)
     : robot_((folder / "robot.csv").string(),

@@ -1,4 +1,5 @@
 #pragma once
+// Tables of a run on its disk, and the room that is held there for its summary.
 #include <filesystem>
 #include <string>
 #include <vector>
@@ -7,6 +8,21 @@
 #include "firmware/run_sample.h"
 
 namespace jaywalk {
+/// 64 KiB that a run holds in its folder until its end, so that a disk that other files have filled meanwhile still
+/// takes its summary.
+class DiskReserve {
+ public:
+  /// Throws StartupError where the disk has no room for it. A file system that cannot hold room is passed over.
+  explicit DiskReserve(const std::filesystem::path& folder);
+  ~DiskReserve() { release(); }
+  DiskReserve(const DiskReserve&) = delete;
+  DiskReserve& operator=(const DiskReserve&) = delete;
+
+  void release() noexcept;
+
+ private:
+  std::filesystem::path file_;
+};
 
 /// robot.csv, movers.csv and tracks.csv (columns: docs/reference/outputs.md), a tick at a time; on the disk within
 /// kLongestWait of the ticks' time. A table that the disk does not take ends with its last whole row; the others go on.

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "apps/report/csv_rows.h"
-#include "apps/report/loop_count.h"
+#include "apps/report/csv_file.h"
+#include "apps/report/drive_metrics.h"
 #include "apps/report/moments.h"
 #include "firmware/recording/run_folders.h"
 #include "firmware/safety/reasons.h"
@@ -18,7 +18,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kStands_mps = 0.05;  ///< as contacts that the robot causes (CONTRACT.md)
 
 struct RunRow {

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "firmware/safety/trust.h"
+#include "firmware/safety/latency.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -6,7 +6,6 @@
 #include <utility>
 
 namespace jaywalk::view {
-
 /// A connection, with TLS over it once it is begun: one type for Beast's HTTP and WebSocket.
 class DoorStream {
  public:

@@ -14,5 +14,5 @@ endforeach()
 put("{{page.css}}" "${css}")
 put("{{scripts}}" "${scripts}")
 string(REGEX REPLACE "([0-9a-f][0-9a-f])" "'\\\\x\\1'," bytes "${page}")
-file(WRITE "${OUT}" "#include \"apps/view/live_page.h\"\n\nnamespace jaywalk::view {\nnamespace {\nconstexpr char kPage[] = {${bytes}};\n}\n"
+file(WRITE "${OUT}" "#include \"apps/view/view_server.h\"\n\nnamespace jaywalk::view {\nnamespace {\nconstexpr char kPage[] = {${bytes}};\n}\n"
   "std::string_view live_page() noexcept { return {kPage, sizeof kPage}; }\n}  // namespace jaywalk::view\n")

@@ -1,15 +1,13 @@
 #include "apps/view/foxglove_session.h"
 
 #include <algorithm>
-#include <cmath>
 #include <cstring>
 #include <nlohmann/json.hpp>
 
-#include "apps/view/goal_message.h"
+#include "apps/view/view_orders.h"
 
 namespace jaywalk::view {
 namespace {
-
 using Json = nlohmann::json;
 
 constexpr char kMessageData = 1;  ///< opcode of binary frames, either way
@@ -138,7 +136,7 @@ FoxgloveSession::Outcome FoxgloveSession::take_binary(std::string_view payload) 
             .status = warning(topic.substr(0, kMostShown) + " is not taken: publish /goal_pose or /initialpose")};
   const auto pose = encoding == "json" ? goal_from_json(payload.substr(kHead)) : goal_from_cdr(payload.substr(kHead));
   if (!pose) return {.order = "", .status = warning(topic + ": no pose in the plane of the frame map")};
-  return {.order = words_of(*pose, is_place ? "here" : "goal"), .status = ""};
+  return {.order = to_json(*pose, is_place ? "here" : "goal"), .status = ""};
 }
 
 std::optional<std::uint32_t> FoxgloveSession::subscription(std::size_t channel) const {

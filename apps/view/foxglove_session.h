@@ -12,7 +12,6 @@
 #include "hal/types/time.h"
 
 namespace jaywalk::view {
-
 /// A topic that is served: messages in CDR.
 struct FoxgloveChannel {
   std::string topic;   ///< "/scan"

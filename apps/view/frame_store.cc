@@ -5,7 +5,6 @@
 #include <algorithm>
 
 namespace jaywalk::view {
-
 FrameStore::Piece FrameStore::put(std::string_view text) {
   const Piece piece{.at = size_, .size = static_cast<std::uint32_t>(text.size())};
   while (!full_ && !text.empty()) {

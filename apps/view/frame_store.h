@@ -12,7 +12,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk::view {
-
 /// What of a tick the page's strip shows.
 struct StripTick {
   double t_s = 0.0, wanted_mps = 0.0, permitted_mps = 0.0, speed_mps = 0.0;

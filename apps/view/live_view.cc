@@ -1,5 +1,6 @@
 #include "apps/view/live_view.h"
 
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 #include <thread>
@@ -9,7 +10,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr auto kPushEvery = std::chrono::milliseconds(40);        // smooth to the eye
 constexpr Duration kFieldEvery = std::chrono::milliseconds(500);  // 22 kB, and it changes slowly
 constexpr auto kGone = std::chrono::seconds(3);                   // a page that is loaded anew is back before
@@ -21,6 +21,9 @@ std::vector<view::FoxgloveChannel> channels_of(const RobotModel& model) {
   for (const auto& [name, type] : exchange::topics_of(model)) all.push_back({name, type, exchange::ros_schema(type)});
   return all;
 }
+
+constexpr auto kPausedLook = std::chrono::milliseconds(5);  // at the page's orders while paused
+constexpr int kLooksUntilTold = 20;
 
 }  // namespace
 
@@ -127,6 +130,50 @@ void LiveView::stay(bool until_told, const Interruption& interruption) {
                until_told ? "" : "it is closed, or ");
   server_->push(view::MessageKind::kHello, hello_.substr(0, hello_.size() - 1) + R"(,"over":true})");
   while (!interruption.came() && (until_told || is_watched())) std::this_thread::sleep_for(kLookEvery);
+}
+
+SimView::SimView(const view::ViewAddress& where, const ControlSetup& setup, OperatorPanel& panel)
+    : panel_(panel),
+      takes_goals_(!setup.keeps_speed()),
+      tick_(setup.tick()),
+      live_(where, setup.model, true,
+            [this](const view::ViewOrder& order, const view::Reply& reply) { take(order, reply); }) {}
+
+void SimView::take(const view::ViewOrder& order, const view::Reply& reply) {
+  orders_.add(order);
+  if (order.stop) reply(takes_goals_ ? "stopping\n" : "a run that keeps its speed does not stop\n");
+  if (order.reset) reply(stands_ ? "reset\n" : "refused: the robot still moves; try again when it stands\n");
+  if (order.here) reply("refused: a simulated robot stands where it is\n");
+  if (order.goal && is_stopped_) reply("refused: stopped by this page; press Reset first\n");
+}
+
+void SimView::begin(const std::string& title, std::span<const sim::WallSegment> walls) {
+  live_.begin({.title = title, .walls = walls, .takes_goals = takes_goals_}, tick_);
+}
+
+void SimView::follow(const LoopRunner& runner, const std::string& ended, const Interruption& interruption) {
+  live_.follow(runner, ended, paused_);
+  stands_ = runner.last().verdict.permitted == Twist2{};
+  keep_pace();
+  if (ended.empty()) obey_while_paused(interruption);
+}
+
+/// A run that was held up does not hurry to make up for it.
+void SimView::keep_pace() {
+  const auto now = std::chrono::steady_clock::now();
+  due_ = std::max(due_ + std::chrono::duration_cast<std::chrono::steady_clock::duration>(tick_), now);
+  std::this_thread::sleep_until(due_);
+}
+
+void SimView::obey_while_paused(const Interruption& interruption) {
+  for (int looks = 0; !interruption.came(); ++looks, std::this_thread::sleep_for(kPausedLook)) {
+    const view::ViewOrder order = orders_.take();
+    if (order.pause) paused_ = *order.pause;
+    if (takes_goals_) panel_.obey(order, stands_);
+    is_stopped_ = panel_.is_pressed();
+    if (!paused_ || order.step) return;
+    if (looks % kLooksUntilTold == 0) live_.tell_paused();
+  }
 }
 
 }  // namespace jaywalk

@@ -4,13 +4,10 @@
 #include <thread>
 
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/goal_order.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
-
 namespace {
-
 view::ViewAddress with_token(view::ViewAddress where) {
   where.wants_token = true;
   return where;
@@ -56,11 +53,8 @@ std::filesystem::path RunView::finish(const RunEnd& end, const ControlLoop& loop
 void RunView::obey(const view::ViewOrder& order, const view::Reply& reply) {
   if (order.stop) return stop(reply);
   if (order.reset) return go("reset", reply);
-  const auto words = [](const view::GoalOrder& pose) {
-    return words_of(GoalOrder{pose.goal_in_map, pose.heading_rad});
-  };
-  if (order.goal) go("goto " + words(*order.goal), reply);
-  if (order.here) go("here " + words(*order.here), reply);
+  if (order.goal) go("goto " + words_of(*order.goal), reply);
+  if (order.here) go("here " + words_of(*order.here), reply);
 }
 
 std::string RunView::said_to(const std::string& line) const {

@@ -2,16 +2,14 @@
 #include <atomic>
 #include <boost/asio/thread_pool.hpp>
 #include <filesystem>
-#include <optional>
 #include <string>
 
 #include "apps/report/run_observer.h"
 #include "apps/view/live_view.h"
-#include "apps/view/planner_tap.h"
 #include "apps/view/secret.h"
+#include "apps/view/view_snapshot.h"
 
 namespace jaywalk {
-
 /// The live page of a run on a robot: 25 ticks a second through a ring, goals, stops and resets through the run's
 /// control socket, as those of any client; and what a run leaves in its folder. No page delays a tick. To look and to
 /// set goals wants a token, on this machine too: the socket is not everybody's either. The address with the token lies

@@ -4,11 +4,8 @@
 #include <array>
 #include <boost/beast/core/detect_ssl.hpp>
 
-#include "apps/view/live_page.h"
-
 namespace jaywalk::view {
 namespace {
-
 namespace asio = boost::asio;
 namespace beast = boost::beast;
 namespace http = beast::http;

@@ -6,17 +6,13 @@
 #include <memory>
 #include <optional>
 #include <string>
-#include <string_view>
 
-#include "apps/view/client_places.h"
 #include "apps/view/door_stream.h"
 #include "apps/view/foxglove_session.h"
-#include "apps/view/outbox.h"
-#include "apps/view/view_door.h"
 #include "apps/view/view_rules.h"
+#include "apps/view/view_server.h"
 
 namespace jaywalk::view {
-
 class ViewClient;
 
 /// What a client is served by.

@@ -1,17 +1,18 @@
 #include "apps/view/view_orders.h"
 
+#include <array>
 #include <cmath>
+#include <cstdio>
 #include <nlohmann/json.hpp>
-#include <utility>
-#include <vector>
+
+#include "apps/formats/wire_reader.h"
+#include "hal/types/trig.h"
 
 namespace jaywalk::view {
 namespace {
-
 using Json = nlohmann::json;
 
 constexpr double kFarthest_m = 1e6;
-constexpr double kPi = 3.14159265358979323846;
 
 std::optional<GoalOrder> goal_of(const Json& json) {
   if (!json.is_array() || json.size() < 2 || json.size() > 3) return std::nullopt;
@@ -22,7 +23,25 @@ std::optional<GoalOrder> goal_of(const Json& json) {
   const double heading = has_heading ? json[2].get<double>() : 0.0;
   if (!(std::fabs(goal.x) <= kFarthest_m && std::fabs(goal.y) <= kFarthest_m && std::fabs(heading) <= kPi))
     return std::nullopt;
-  return GoalOrder{.goal_in_map = goal, .heading_rad = has_heading ? heading : kAnyHeading};
+  return GoalOrder{.position_in_map = goal, .heading_rad = has_heading ? heading : kAnyHeading};
+}
+
+constexpr double kUnit = 1e-3;  ///< how far a rotation's length may be from 1
+
+/// `z` and `w` of a rotation about the vertical, `x` and `y` near 0.
+std::optional<GoalOrder> goal_at(Vec2 place, const std::array<double, 4>& xyzw) {
+  const auto [x, y, z, w] = xyzw;
+  const double length = x * x + y * y + z * z + w * w;
+  if (length == 0.0) return GoalOrder{.position_in_map = place};
+  if (!(std::fabs(length - 1.0) < kUnit && x * x + y * y < kUnit)) return std::nullopt;
+  return GoalOrder{.position_in_map = place, .heading_rad = wrap_angle(2.0 * atan2(z, w))};
+}
+
+bool is_map(std::string_view frame) { return frame.empty() || frame == "map" || frame == "/map"; }
+
+double number_in(const Json& json, const char* key) {
+  const auto found = json.find(key);
+  return found != json.end() && found->is_number() ? found->get<double>() : 0.0;
 }
 
 }  // namespace
@@ -56,6 +75,43 @@ void ViewOrders::add(const ViewOrder& order) {
 ViewOrder ViewOrders::take() {
   const std::scoped_lock lock(mutex_);
   return std::exchange(waiting_, {});
+}
+
+std::optional<GoalOrder> goal_from_cdr(std::string_view message) {
+  exchange::WireReader reader(message, exchange::Wire::kCdr);
+  constexpr std::size_t kStamp = 8;
+  reader.skip(kStamp);
+  const std::string_view frame = reader.text();
+  std::array<double, 7> n{};  // position x y z, rotation x y z w
+  for (double& number : n) number = reader.f64();
+  if (!reader.ok() || !is_map(frame)) return std::nullopt;
+  return goal_at({n[0], n[1]}, {n[3], n[4], n[5], n[6]});
+}
+
+std::optional<GoalOrder> goal_from_json(std::string_view message) {
+  const Json json = Json::parse(message, nullptr, false);
+  if (!json.is_object() || !json.contains("pose")) return std::nullopt;
+  const Json empty = Json::object(), &stamped = json["pose"];
+  const Json& pose = stamped.contains("pose") ? stamped["pose"] : stamped;
+  const auto part = [&empty](const Json& of, const char* key) -> const Json& {
+    const auto found = of.find(key);
+    return found != of.end() && found->is_object() ? *found : empty;
+  };
+  if (!pose.is_object() || !pose.contains("position")) return std::nullopt;
+  const Json& header = part(json, "header");
+  if (header.contains("frame_id") && !(header["frame_id"].is_string() && is_map(header["frame_id"].get<std::string>())))
+    return std::nullopt;
+  const Json &place = part(pose, "position"), &turn = part(pose, "orientation");
+  return goal_at({number_in(place, "x"), number_in(place, "y")},
+                 {number_in(turn, "x"), number_in(turn, "y"), number_in(turn, "z"), number_in(turn, "w")});
+}
+
+std::string to_json(const GoalOrder& goal, const char* name) {
+  char text[160], heading[40] = "";
+  if (!std::isnan(goal.heading_rad)) std::snprintf(heading, sizeof heading, ",%.9g", goal.heading_rad);
+  std::snprintf(text, sizeof text, R"({"%s":[%.9g,%.9g%s]})", name, goal.position_in_map.x, goal.position_in_map.y,
+                heading);
+  return text;
 }
 
 }  // namespace jaywalk::view

@@ -1,19 +1,15 @@
 #pragma once
-// What a person does on the live page, on its way to whatever drives.
+// Orders of a person on the live page, or of other programs' goal messages, on their way to whatever drives.
 #include <mutex>
 #include <optional>
+#include <string>
 #include <string_view>
+#include <utility>
 
-#include "hal/types/geometry.h"
-#include "hal/types/operator_input.h"
+#include "firmware/robot/goal_order.h"
+#include "hal/hal.h"
 
 namespace jaywalk::view {
-
-struct GoalOrder {
-  Vec2 goal_in_map;                  ///< m
-  double heading_rad = kAnyHeading;  ///< wanted there; NaN: any
-};
-
 /// One order; fields that are empty were not asked for.
 struct ViewOrder {
   std::optional<GoalOrder> goal;
@@ -39,6 +35,50 @@ class ViewOrders {
  private:
   std::mutex mutex_;
   ViewOrder waiting_;
+};
+
+/// In CDR. Nothing where it is none, its frame is neither "map" nor empty, or its rotation no turn in
+/// the plane. A rotation of four zeros wishes no heading.
+[[nodiscard]] std::optional<GoalOrder> goal_from_cdr(std::string_view message);
+/// The same as JSON: {"header":{"frame_id":"map"},"pose":{"position":{"x":..},"orientation":{"z":..,"w":..}}}.
+[[nodiscard]] std::optional<GoalOrder> goal_from_json(std::string_view message);
+
+/// As the live page says it: {"goal":[x,y]} or {"goal":[x,y,heading]}; `name`: "goal" or "here".
+[[nodiscard]] std::string to_json(const GoalOrder& goal, const char* name = "goal");
+
+/// Operator panel with the live page's goals in place of its own.
+///
+/// The page's Stop is an emergency stop. It stays pressed until the page's Reset at rest, and voids the panel's own
+/// goal. Without an order the input is the other panel's, bit for bit. Thread: the loop's.
+class SteeredPanel final : public OperatorPanel {
+ public:
+  explicit SteeredPanel(OperatorPanel& inner) : inner_(inner) {}
+  [[nodiscard]] OperatorInput latest() noexcept override {
+    OperatorInput input = inner_.latest();
+    input.stop_orders += stops_;
+    input.emergency_stop = input.emergency_stop || pressed_;
+    input.reset = input.reset || std::exchange(resets_, false);
+    if (stops_ > 0 || has_goal_) input.steers = false, input.stick = {};
+    if (stops_ > 0) input.has_goal = false;
+    if (!has_goal_) return input;
+    input.has_goal = true;
+    input.goal_in_map = goal_.position_in_map;
+    input.goal_heading_rad = goal_.heading_rad;
+    return input;
+  }
+  /// Between ticks.
+  void obey(const ViewOrder& order, bool at_rest) noexcept {
+    if (order.stop) has_goal_ = false, pressed_ = true, ++stops_;
+    if (order.reset && !order.stop && at_rest) resets_ = std::exchange(pressed_, false);
+    if (order.goal && !pressed_) goal_ = *order.goal, has_goal_ = true;
+  }
+  [[nodiscard]] bool is_pressed() const noexcept { return pressed_; }
+
+ private:
+  OperatorPanel& inner_;
+  GoalOrder goal_{};
+  bool has_goal_ = false, pressed_ = false, resets_ = false;
+  std::uint32_t stops_ = 0;
 };
 
 }  // namespace jaywalk::view

@@ -1,28 +1,44 @@
 #pragma once
-// What the live page is told, as JSON: metres, seconds and radians in the map; numbers that are none are null.
+// Messages to the live page, JSON: metres, seconds and radians in the map; numbers that are none are null.
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
 #include <string_view>
 
-#include "apps/view/field_picture.h"
-#include "apps/view/shown_stop_zone.h"
 #include "apps/view/view_snapshot.h"
+#include "firmware/recording/tick_record.h"
+#include "firmware/safety/stop_zone.h"
+#include "hal/maps/wall_map.h"
+#include "hal/types/fixed_vector.h"
 #include "hal/types/robot_model.h"
 #include "planner/mapping/known_map.h"
 
 namespace jaywalk::view {
+/// The body's corners in the map, grown by the stop zone's margin.
+using Corners = std::array<Vec2, 4>;
 
-struct WallPiece {
-  Vec2 from, to;
+/// The supervisor's stop zone as a picture: where the body comes until it stands, from the twist that was permitted,
+/// after the reaction time that the supervisor reckons with, along its arc.
+class ShownStopZone {
+ public:
+  ShownStopZone(const RobotModel& model, Duration tick);
+
+  using Outlines = FixedVector<Corners, 4>;  ///< the last one is where the body stands
+  [[nodiscard]] Outlines at(const TickRecord& record) const noexcept;
+
+ private:
+  RobotModel model_;
+  Duration tick_;
+  StopZone zone_;
 };
 
 /// What does not change in a run.
 struct HelloScene {
   std::string title;
   RobotModel model = {};
-  std::span<const WallPiece> walls = {};  ///< the world's, where there is one
-  const KnownMap* known = nullptr;        ///< the robot's, where it was given one
+  std::span<const sim::WallSegment> walls = {};  ///< the world's, where there is one
+  const KnownMap* known = nullptr;               ///< the robot's, where it was given one
   double tick_s = 0.02;
   bool takes_goals = true;   ///< and the Stop button
   bool takes_pauses = true;  ///< Pause and Step hold the program, not only the page

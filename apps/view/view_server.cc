@@ -7,14 +7,11 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <boost/asio/steady_timer.hpp>
 #include <list>
 #include <thread>
 #include <utility>
-#include <vector>
 
-#include "apps/view/certificate.h"
 #include "apps/view/secret.h"
 #include "apps/view/view_client.h"
 #include "firmware/robot/service_manager.h"
@@ -23,7 +20,6 @@
 
 namespace jaywalk::view {
 namespace {
-
 namespace asio = boost::asio;
 using Tcp = asio::ip::tcp;
 using Error = boost::system::error_code;

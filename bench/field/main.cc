@@ -10,7 +10,6 @@
 using namespace jaywalk;
 
 namespace {
-
 /// No limit: whoever runs this has time.
 constexpr double kAnyNumber = 1e300;
 constexpr std::int32_t kLeastJoined = 500;  ///< a goal in a smaller pocket tells nothing

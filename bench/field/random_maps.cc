@@ -5,7 +5,6 @@
 
 namespace jaywalk {
 namespace {
-
 using paper::CellMap;
 
 CellMap filled(std::int32_t side, std::uint8_t value) {

@@ -5,7 +5,6 @@
 #include "planner/paper/map_field.h"
 
 namespace jaywalk {
-
 enum class MapKind : std::uint8_t {
   kRooms,  ///< rooms within rooms, walls two cells thick, one or two doors 8 to 17 cells wide each
   kCave,   ///< rock with ragged passages of any width

@@ -6,7 +6,6 @@
 
 namespace jaywalk::bench {
 namespace {
-
 constexpr double kRate = 15.0;                       // scans a second
 constexpr double kCircle = 0.3, kTurn = 0.5;         // m, rad/s: the robot's circle, at 0.15 m/s
 constexpr double kSpeed = 0.7, kWalk = 1.5;          // m/s, m: to and fro

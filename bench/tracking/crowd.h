@@ -6,7 +6,6 @@
 #include "planner/tracking/tracker.h"
 
 namespace jaywalk::bench {
-
 /// A hall of 24 m x 20 m with pillars. A robot drives a small circle in its middle; round it kMaxTracks people walk to
 /// and fro, each on a ray of its own, so that nobody ever hides another.
 class Crowd {

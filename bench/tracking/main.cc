@@ -5,15 +5,12 @@
 #include <cstdio>
 
 #include "bench/command_line.h"
-#include "bench/tracking/innovations.h"
-#include "bench/tracking/reference_poses.h"
 #include "bench/tracking/run_folder.h"
 #include "bench/tracking/track_score.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::bench {
 namespace {
-
 struct Options {
   std::string folder, labels, reference;
   std::vector<double> laser_mount{0.0, 0.0, 0.0};

@@ -6,7 +6,6 @@
 
 namespace jaywalk::bench {
 namespace {
-
 constexpr double kStepM = 0.05;
 
 /// Metres driven until each pair.

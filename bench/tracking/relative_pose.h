@@ -5,7 +5,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk::bench {
-
 /// Two beliefs of where the robot was at the same moment, each in a frame of its own.
 struct PosePair {
   Pose2 estimate, truth;

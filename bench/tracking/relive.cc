@@ -1,10 +1,17 @@
-#include "bench/tracking/relive.h"
-
+// jaywalk_relive: a recording seen again by this build's localizer and tracker alone: no plan, no command, twenty times
+// as quick. bench/tracking/recordings.py uses it.
+#include <CLI/CLI.hpp>
 #include <cctype>
+#include <cstdio>
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
 
 #include "apps/formats/logs/line_file.h"
 #include "apps/formats/logs/log_replay.h"
 #include "apps/report/run_tables.h"
+#include "bench/command_line.h"
 #include "bench/tracking/run_folder.h"
 #include "firmware/estimator.h"
 #include "firmware/recording/recorder.h"
@@ -12,6 +19,12 @@
 
 namespace jaywalk::bench {
 namespace {
+struct ReliveOptions {
+  std::string recording;                ///< recording.jwr, or scans as `jaywalk replay` takes them
+  std::optional<std::string> odometry;  ///< beside scans
+  Pose2 robot_from_laser{};             ///< of scans; a recording.jwr has its own
+  std::filesystem::path out;            ///< gets robot.csv, tracks.csv and, of a simulation, movers.csv
+};
 
 constexpr Duration kTick = std::chrono::milliseconds(20);
 
@@ -81,8 +94,8 @@ void relive_log(const ReliveOptions& options) {
   watcher.close();
 }
 
-}  // namespace
-
+/// Ticks 50 times a second, as the control loop does. The folder of a simulation's recording says where its robot and
+/// movers really were. Throws StartupError.
 void relive(const ReliveOptions& options) {
   std::filesystem::create_directories(options.out);
   if (std::filesystem::equivalent(options.out, std::filesystem::absolute(options.recording).parent_path())) {
@@ -92,4 +105,26 @@ void relive(const ReliveOptions& options) {
   is_recording(options.recording) ? relive_simulation(options) : relive_log(options);
 }
 
+}  // namespace
 }  // namespace jaywalk::bench
+
+int main(int argc, char** argv) {
+  jaywalk::bench::ReliveOptions options;
+  std::vector<double> mount{0.0, 0.0, 0.0};
+  CLI::App app("Lives through a recording with localizer and tracker alone", "jaywalk_relive");
+  app.add_option("RECORDING", options.recording, "recording.jwr of a simulation, or SCAN.txt")
+      ->required()
+      ->check(CLI::ExistingFile);
+  app.add_option("ODOMETRY", options.odometry, "beside SCAN.txt")->check(CLI::ExistingFile);
+  app.add_option("--out", options.out, "folder for robot.csv and tracks.csv")->required();
+  app.add_option("--laser-mount", mount, "X,Y,YAW: m and rad, in the robot's frame")->delimiter(',')->expected(3);
+  if (const auto ended = jaywalk::bench::ended_by_command_line(app, argc, argv)) return *ended;
+  options.robot_from_laser = {mount[0], mount[1], mount[2]};
+  try {
+    jaywalk::bench::relive(options);
+  } catch (const jaywalk::StartupError& error) {
+    std::fprintf(stderr, "jaywalk_relive: %s\n", error.what());
+    return 2;
+  }
+  return 0;
+}

@@ -1,15 +1,47 @@
 #pragma once
-// What a run left in its folder (docs/reference/outputs.md), as frames to score.
+// Run folder (docs/reference/outputs.md) and its tables, as frames to score, and poses to compare it with.
+#include <cstdint>
 #include <filesystem>
 #include <functional>
 #include <map>
 #include <optional>
+#include <string>
+#include <string_view>
 #include <vector>
 
 #include "bench/tracking/relative_pose.h"
 #include "bench/tracking/track_score.h"
 
 namespace jaywalk::bench {
+/// A comma-separated table, plain or .gz, with names of columns in the first line. Columns are looked at when asked
+/// for: others may hold words. Everything throws StartupError "FILE:LINE: cause; remedy".
+class NumberTable {
+ public:
+  /// Throws for what cannot be read, has no first line, or has a row of more or fewer cells than that.
+  explicit NumberTable(const std::filesystem::path& file);
+
+  [[nodiscard]] std::size_t rows() const { return rows_.size(); }
+  [[nodiscard]] bool has(std::string_view column) const;
+  /// Throws where there is no such column, and for a cell that is no number of a place, time or speed.
+  [[nodiscard]] std::vector<double> column(std::string_view name) const;
+  /// The same; NaN for cells that are empty or "nan": what nobody knows.
+  [[nodiscard]] std::vector<double> column_where_known(std::string_view name) const;
+  /// Whole numbers from 0 on that fit into 32 bits.
+  [[nodiscard]] std::vector<std::uint32_t> names(std::string_view column) const;
+
+ private:
+  struct Row {
+    std::size_t line = 0;
+    std::string text;
+  };
+  [[nodiscard]] std::size_t place_of(std::string_view column) const;
+  [[nodiscard]] double number_in(const Row& row, std::string_view cell, std::string_view column) const;
+  [[noreturn]] void refuse(std::size_t line, const std::string& cause, const std::string& remedy) const;
+
+  std::string file_;
+  std::vector<std::string> columns_;
+  std::vector<Row> rows_;
+};
 
 /// The tracks and poses of `jaywalk sim` or `jaywalk replay`. Errors: StartupError.
 class RunFolder {
@@ -69,5 +101,14 @@ struct LabelRule {
 /// wrong (Target::in_view). Velocities are not known.
 void labelled_frames(const std::filesystem::path& file, const RunFolder& run, const LabelRule& rule,
                      const FrameSink& frame);
+
+/// A recording's poses as others corrected them, against the run's and against the wheels' alone.
+struct ReferencePoses {
+  std::vector<PosePair> of_run, of_wheels;
+};
+
+/// From the FLASER lines of a corrected CARMEN log that the run replayed, or from a table `t,x,y,h` (.csv, .csv.gz; s,
+/// m, rad), which knows no wheels. Throws StartupError when there are none.
+[[nodiscard]] ReferencePoses reference_poses(const std::filesystem::path& log, const RunFolder& run);
 
 }  // namespace jaywalk::bench

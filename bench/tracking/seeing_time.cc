@@ -11,7 +11,6 @@
 
 namespace jaywalk::bench {
 namespace {
-
 constexpr std::uint32_t kSettled = 150;  // scans until the crowd is known
 
 double thread_ms() {

@@ -13,7 +13,6 @@
 
 namespace jaywalk::bench {
 namespace {
-
 struct Options {
   std::filesystem::path scenario = "tools/rig/drive/hall.toml", robot = "tools/rig/drive/robot.toml";
   std::filesystem::path out = "out/wire_time";

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include "firmware/safety/reaction.h"
+#include "firmware/safety/latency.h"
 #include "firmware/safety/reasons.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"

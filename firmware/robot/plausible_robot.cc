@@ -10,7 +10,6 @@
 #include "firmware/robot/robot_file.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"
-#include "firmware/safety/zone_check.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {

@@ -5,7 +5,7 @@
 
 #include "firmware/recording/map_files.h"
 #include "firmware/robot/robot_file_keys.h"
-#include "firmware/safety/zone_check.h"
+#include "firmware/safety/stop_zone.h"
 #include "hal/map_zones_file.h"
 #include "hal/robot_model_file.h"
 #include "hal/toml_file.h"

@@ -6,7 +6,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kWhole_m = 0.07;        ///< a cylinder that every scan is to show (SAFETY 8)
 constexpr double kSlim_m = 0.02;         ///< width of a body that is believed at once; half of its beams may be lost
 constexpr double kSameBody_m = 0.07;     ///< ranges of one body differ by so much, and

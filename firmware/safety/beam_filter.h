@@ -9,7 +9,6 @@
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
-
 /// Raindrops, snow, dust: returns that neither neighbours nor earlier scans repeat, and which are therefore no
 /// obstacle.
 ///

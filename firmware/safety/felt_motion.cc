@@ -5,7 +5,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// A loop that is silent for longer may have its drives' watchdogs stop them.
 constexpr Duration kSilent = std::chrono::milliseconds(75);
 /// An older reading is another fault's, of any drive.

@@ -6,7 +6,6 @@
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
-
 /// Compares each wheel's feedback with what it was commanded, through a model of the drive (SAFETY 18 and 33).
 ///
 /// A sound drive has obeyed a command after at most DriveTimes::obeyed_within_s(), and changes its speed by at least

@@ -6,7 +6,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// Width that a walking pedestrian may uncover between two scans: a fast walk's way, and noise, edges and legs.
 constexpr double kWalk_mps = 2.0, kEdges_m = 0.15;
 /// Fewer beams are flicker of an edge or of a dark surface.

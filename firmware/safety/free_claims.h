@@ -7,7 +7,6 @@
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk {
-
 /// Filter of a scanner's claim that nothing is within reach (SAFETY 29): a free beam counts as unknown where it
 /// contradicts the scans before.
 ///

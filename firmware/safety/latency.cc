@@ -1,13 +1,14 @@
 #include "firmware/safety/latency.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "firmware/safety/reaction.h"
-#include "firmware/safety/trust.h"
 
 namespace jaywalk {
 namespace {
+constexpr Duration kMostAhead = std::chrono::milliseconds(100);
+
+bool has_directions(const LaserScan& scan) {
+  return std::isfinite(scan.first_angle_rad) && std::isfinite(scan.angle_step_rad) && scan.angle_step_rad != 0.0F;
+}
 
 constexpr double kMemory_s = 2.0;                      // of time in which commands changed
 constexpr double kEnough_s = 0.3;                      // of it, before anything is said
@@ -20,6 +21,24 @@ double squares(const WheelState& felt, const WheelCommand& wanted) {
 }
 
 }  // namespace
+
+bool is_trustworthy(const LaserScan& scan, const LaserModel& laser) noexcept {
+  if (scan.beam_count != laser.beams || scan.beam_count > kMaxBeams || !has_directions(scan)) return false;
+  std::size_t measured = 0;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam)
+    measured += scan.state(beam) != BeamState::kUnknown ? 1U : 0U;
+  return measured >= kLeastBeams;
+}
+
+bool is_trustworthy(const WheelState& wheels) noexcept {
+  return std::isfinite(wheels.left_rad) && std::isfinite(wheels.right_rad) && std::isfinite(wheels.left_radps) &&
+         std::isfinite(wheels.right_radps);
+}
+
+bool is_older(Time stamp, Time now, Duration limit) noexcept {
+  const Duration old = age(stamp, now);
+  return old > limit || old < -kMostAhead;
+}
 
 DriveResponse::DriveResponse(const DriveModel& drive)
     : telling_radps_(kTelling_mps / drive.wheel_radius_m),

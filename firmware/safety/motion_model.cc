@@ -3,13 +3,11 @@
 #include <Eigen/LU>
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <numeric>
 #include <utility>
 
 namespace jaywalk {
 namespace {
-
 /// Of what a wheel rolls. A wheel that slips moves the robot by less (to 0.4 on ice, docs), and none by more than
 /// worn or pumped-up tyres do.
 constexpr double kLeastGain = 0.35, kMostGain = 1.12;

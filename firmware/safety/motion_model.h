@@ -1,5 +1,4 @@
 #pragma once
-#include <array>
 #include <cstddef>
 #include <cstdint>
 
@@ -10,7 +9,6 @@
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
-
 /// One model of seen, felt and commanded motion (SAFETY 18 and 23): how far the wheels go by what the scans show,
 /// against what the robot file says, and how the scanner is turned in its mount, are states with bounds.
 ///

@@ -1,7 +1,6 @@
 #include "firmware/safety/reasons.h"
 
 namespace jaywalk {
-
 Reason reason_named(std::string_view name) noexcept {
   Reason named = Reason::kNone;
   for (const ReasonRow& row : kReasons)

@@ -8,7 +8,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
-
 /// Why the supervisor permits less than was wanted, or nothing is wanted. A set of bits.
 enum class Reason : std::uint32_t {
   kNone = 0,

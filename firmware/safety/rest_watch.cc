@@ -5,7 +5,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// A wheel's rim at rest: a Hall sensor's count of a VESC is 2 mm.
 constexpr double kRolls_m = 0.005;
 /// Time from the last reading that rolled to the first scan of the rest: a body sways after a stop.

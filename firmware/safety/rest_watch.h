@@ -6,7 +6,6 @@
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
-
 /// Scans of a robot at rest against the one that its rest began with: whether it stands where its wheels stopped.
 ///
 /// Wheels that stand say nothing of a robot that is lifted, pushed aside or turned by hand (SAFETY 30). Each scan since

@@ -3,13 +3,11 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <numeric>
 
 namespace jaywalk {
 namespace {
-
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 constexpr double kMostError_m = 0.15;               ///< whatever is farther off is something else
 constexpr double kChord_m = 0.10;                   ///< to either side: with less a range's noise turns the surface

@@ -10,7 +10,6 @@
 #include "hal/types/laser_scan.h"
 
 namespace jaywalk {
-
 /// Matches a newer raw scan against hits kept of an older one, point to line (Censi 2008), with neither map nor
 /// planner: what each motion of the robot between them leaves as an error, and the motion that leaves the least.
 ///

@@ -1,16 +1,17 @@
 #pragma once
+// Stop zone: how far the robot can go along a twist, and whether its lasers reach as far as it needs to stop.
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <cstddef>
 #include <span>
+#include <string>
 
 #include "hal/types/geometry.h"
 #include "hal/types/laser_scan.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/time.h"
 
 namespace jaywalk {
-
 /// Poses of the robot along a constant twist, one for every 4 cm that the fastest-moving part of its footprint goes.
 class SweptPath {
  public:
@@ -108,5 +109,20 @@ class StopZone {
   StopZoneConfig config_;
   double rim_radius_m_;
 };
+
+/// Speed (m/s) of the fastest-moving part of the footprint at the limits of speed and turn rate, both at once.
+[[nodiscard]] double fastest_rim_mps(const RobotModel& model) noexcept;
+
+/// How far that part goes until the robot stands, m: from its fastest, with the oldest scan that is accepted and the
+/// slowest loop and drives that are reckoned with. The stop zone looks so far ahead.
+[[nodiscard]] double longest_stop_m(const RobotModel& model, Duration tick) noexcept;
+
+/// The supervisor's stop zone for a robot: it looks ahead as far as longest_stop_m().
+[[nodiscard]] StopZoneConfig stop_zone_for(const RobotModel& model, Duration tick) noexcept;
+
+/// No robot outruns its stop zone (SAFETY 8 and 19): before the loop. Throws StartupError, which begins with `place`,
+/// where its longest stop does not fit into a laser's range, or so far out a cylinder of 70 mm fits between two of its
+/// beams.
+void require_zone_in_reach(const RobotModel& model, Duration tick, const std::string& place);
 
 }  // namespace jaywalk

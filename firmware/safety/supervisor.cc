@@ -1,14 +1,9 @@
 #include "firmware/safety/supervisor.h"
 
-#include <algorithm>
 #include <cmath>
-
-#include "firmware/safety/trust.h"
-#include "firmware/safety/zone_check.h"
 
 namespace jaywalk {
 namespace {
-
 Reason reason_for(DriveTrouble trouble) {
   if (trouble == DriveTrouble::kNone) return Reason::kNone;
   if (trouble == DriveTrouble::kForeignMaster) return Reason::kForeignMaster;

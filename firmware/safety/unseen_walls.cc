@@ -1,12 +1,10 @@
 #include "firmware/safety/unseen_walls.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace jaywalk {
 namespace {
-
 constexpr double kOff_m = 0.03;       // three standard deviations of a range: farther from the line is another surface
 constexpr double kApart_m = 0.3;      // between two hits of a wall
 constexpr double kSeed_m = 0.10;      // so much of it tells its direction from noise

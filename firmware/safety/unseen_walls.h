@@ -8,7 +8,6 @@
 #include "hal/types/robot_model.h"
 
 namespace jaywalk {
-
 /// What the loop's map knows of the ground near the robot, in its frame.
 class KnownGround {
  public:

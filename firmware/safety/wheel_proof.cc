@@ -2,14 +2,12 @@
 
 #include <Eigen/LU>
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 
 namespace jaywalk {
 namespace {
-
 constexpr Duration kMostBeyond = std::chrono::milliseconds(200);
 
 Rolled between(const Rolled& a, const Rolled& b, double share) noexcept {

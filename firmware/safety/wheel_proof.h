@@ -9,7 +9,6 @@
 #include "hal/types/wheels.h"
 
 namespace jaywalk {
-
 /// Way of each wheel's rim, m, positive forwards.
 struct Rolled {
   double left_m = 0.0, right_m = 0.0;

@@ -8,7 +8,7 @@
 
 #include "planner/cost_to_go/shortest.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/mapping/nearest_cell.h"
+#include "planner/mapping/window.h"
 
 namespace jaywalk::field {
 

@@ -6,7 +6,7 @@
 #include <span>
 
 #include "planner/cell/cell.h"
-#include "planner/mapping/keep_out.h"
+#include "planner/mapping/known_map.h"
 
 namespace jaywalk {
 

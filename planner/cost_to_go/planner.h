@@ -13,9 +13,8 @@
 #include "planner/cost_to_go/guide.h"
 #include "planner/cost_to_go/pose_guide.h"
 #include "planner/mapping/evidence_map.h"
-#include "planner/mapping/keep_out.h"
 #include "planner/mapping/known_map.h"
-#include "planner/tracking/standing.h"
+#include "planner/tracking/occlusion.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {

@@ -6,7 +6,7 @@
 #include "planner/cost_to_go/fallback_planner.h"
 #include "planner/cost_to_go/guide_field.h"
 #include "planner/cost_to_go/pose_field.h"
-#include "planner/mapping/nearest_cell.h"
+#include "planner/mapping/window.h"
 
 namespace jaywalk::field {
 

@@ -1,12 +1,10 @@
 #include "planner/localization/correlative_search.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 namespace jaywalk {
 namespace {
-
 constexpr double kCoarseRad = 0.035;      // two degrees: a cell at 3 m; then half of it
 constexpr std::size_t kCoarseStride = 3;  // of the points that are asked there
 constexpr int kMostCells = 4;             // to each side; then half a cell
@@ -109,6 +107,11 @@ int steps(double variance, double most, double step) {
   return static_cast<int>(std::ceil(std::min(kWindowSigmas * std::sqrt(variance), most) / step));
 }
 
+constexpr std::int32_t kSideCells = 512;
+constexpr double kCellM = 0.1;
+constexpr double kKeyframeM = 0.4, kKeyframeRad = 0.3;
+constexpr int kPointEvidence = 48;  // a wall to the search; two points are a certain one
+
 }  // namespace
 
 Pose2 correlative_search(const PoseBelief& predicted, const Eigen::Matrix3d& information, const MatchSample& sample,
@@ -121,6 +124,56 @@ Pose2 correlative_search(const PoseBelief& predicted, const Eigen::Matrix3d& inf
   const Eigen::Vector3d valley = best_cell(window, sample, reference, predicted.map_from_robot, information);
   return moved(predicted.map_from_robot,
                best_half_step(valley, sample, reference, predicted.map_from_robot, information));
+}
+
+Submap::Submap() : map_(kSideCells, kCellM, {}), sum_at_(static_cast<std::size_t>(kSideCells) * kSideCells, 0) {}
+
+void Submap::add(const MatchSample& in_robot, const Pose2& map_from_robot) noexcept {
+  if (count_ > 0) {
+    const Pose2& last = keyframes_[(count_ - 1) % kKeyframes].map_from_robot;
+    const bool near = distance(last.position(), map_from_robot.position()) < kKeyframeM;
+    if (near && std::fabs(wrap_angle(map_from_robot.heading - last.heading)) < kKeyframeRad) return;
+  }
+  keyframes_[count_++ % kKeyframes] = {map_from_robot, in_robot};
+}
+
+Submap::CellSum* Submap::sum_of(CellIndex cell) noexcept {
+  if (!map_.contains(cell)) return nullptr;
+  std::uint16_t& at = sum_at_[map_.slot(cell)];
+  if (at == 0) {
+    if (!sums_.push_back({.cell = cell})) return nullptr;  // there is room for all points of all keyframes
+    at = static_cast<std::uint16_t>(sums_.size());
+  }
+  return &sums_[at - 1U];
+}
+
+void Submap::add_up(const Keyframe& keyframe) noexcept {
+  const Vec2 laser = keyframe.map_from_robot.position();
+  const Transform2 to_map(keyframe.map_from_robot);
+  for (const Vec2& p : keyframe.in_robot) {
+    const Vec2 at = to_map * p;
+    CellSum* sum = sum_of(map_.cell_at(at));
+    if (sum == nullptr) continue;
+    sum->count += 1;
+    sum->from_centre = sum->from_centre + (at - map_.centre_of(sum->cell));
+    sum->to_laser = sum->to_laser + (laser - at) * (1.0 / std::max(kCellM, distance(laser, at)));
+  }
+}
+
+const EvidenceMap& Submap::about(Vec2 centre) noexcept {
+  for (const CellSum& sum : sums_) {
+    sum_at_[map_.slot(sum.cell)] = 0;
+    map_.forget(sum.cell);
+  }
+  sums_.clear();
+  map_.roll_to(centre);
+  for (std::size_t k = 0; k < std::min(count_, kKeyframes); ++k) add_up(keyframes_[k]);
+  for (const CellSum& sum : sums_) {
+    const double share = 1.0 / sum.count;
+    map_.add_hit(map_.centre_of(sum.cell) + sum.from_centre * share, sum.count * kPointEvidence, 0.0,
+                 sum.to_laser * share);
+  }
+  return map_;
 }
 
 }  // namespace jaywalk

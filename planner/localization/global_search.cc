@@ -5,11 +5,10 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/localization/place_lattice.h"
+#include "planner/localization/place_search.h"
 
 namespace jaywalk {
 namespace {
-
 constexpr std::size_t kCoarsePoints = 60;              ///< of the sample
 constexpr int kFineSteps = 6;                          ///< of 5 cm to each side
 constexpr int kFineTurns = 5;                          ///< of a degree

@@ -5,7 +5,6 @@
 #include "planner/mapping/known_map.h"
 
 namespace jaywalk {
-
 /// Where on a map a scan was taken, and how surely.
 struct GlobalMatch {
   Pose2 map_from_robot;

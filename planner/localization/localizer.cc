@@ -4,19 +4,15 @@
 #include <cmath>
 #include <vector>
 
-#include "planner/localization/coasting.h"
-#include "planner/localization/fix_update.h"
+#include "planner/localization/correlative_search.h"
 #include "planner/localization/odometry.h"
 #include "planner/localization/odometry_noise.h"
 #include "planner/localization/pose_belief.h"
 #include "planner/localization/scan_matcher.h"
-#include "planner/localization/slip_detector.h"
-#include "planner/localization/submap.h"
 #include "planner/scan/scan_points.h"
 
 namespace jaywalk {
 namespace {
-
 // Added after each match: the map's own errors are the same from scan to scan, so that many do not make a sure one.
 constexpr double kMatchPositionVar = 0.0009 * 0.0009;
 constexpr double kMatchHeadingVar = 0.00035 * 0.00035;

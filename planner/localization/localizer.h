@@ -11,7 +11,6 @@
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
-
 struct LocalizationConfig {
   Pose2 map_from_robot_at_start;
   DriveModel drive;

@@ -1,14 +1,9 @@
 #include "planner/localization/place_search.h"
 
-#include <algorithm>
 #include <array>
-#include <cmath>
-
-#include "planner/localization/place_lattice.h"
 
 namespace jaywalk {
 namespace {
-
 constexpr std::size_t kLatticePoints = 80;  ///< of the sample
 constexpr std::int32_t kRowsDrawn = 64;
 constexpr double kLattice_m = 0.15, kLattice_rad = 0.06;  ///< standard deviations of a coarse pose

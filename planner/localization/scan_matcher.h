@@ -1,21 +1,27 @@
 #pragma once
-// Where the robot must stand for its scan to lie on the walls that the map holds.
-//
-// Two steps. A search over a small window of poses (correlative_search.h) counts how much of the scan falls on occupied
-// cells: it finds the right valley. Then Gauss and Newton, from there: each point is drawn to the straight piece of
-// wall nearest to it, across the wall only, together with the prediction by its own covariance. What the walls do not
-// tell, as where along a corridor the robot is, stays as predicted. Points where the map knows free space (people) draw
-// nothing.
+// Scan matching: the pose at which a scan lies on the walls of a map, with its covariance.
 #include <span>
 
+#include "hal/types/geometry.h"
 #include "planner/localization/correlative_search.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/scan/scan_points.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
+/// Straight piece of wall: a point on it, m in the map, and its unit normal, which may point either way.
+struct LineFeature {
+  Vec2 point, normal;
+  double variance = 0.0;  ///< across, m^2: of its points, and of the laser's
+  bool stands = false;    ///< its surface nearest to the scan's point has been seen for a second (EvidenceMap::stands)
+};
 
-// Which of a scan's points tell nothing of walls: they lie on a track that moves.
+/// Fits a line to the surface points within 0.25 m of the one nearest to `p_in_map`, all of the side that is seen from
+/// `laser_in_map`: a thin wall's other face lies no farther off, and taken for this one it would pull the robot
+/// through. False where no such surface is near, or where they lie along no line. One hit is enough to be matched
+/// against: at the start, and where walls come into view, there is no more.
+[[nodiscard]] bool line_feature_near(const EvidenceMap& still, Vec2 p_in_map, Vec2 viewer_in_map,
+                                     LineFeature& out) noexcept;
 
 /// Drops the points within a hand of where each of `moving` should be at `stamp`, as seen from `map_from_robot`. Ground
 /// that people walk on is free in the map: among many of them a scan would seem to contradict it, though the few walls
@@ -35,7 +41,11 @@ struct MatchResult {
 /// Every n-th of the scan's points, kMostMatchPoints at most.
 void sample_of(const ScanPoints& scan, MatchSample& out) noexcept;
 
-/// Matches points in the robot's frame; the work of ScanMatcher.
+/// Matches points in the robot's frame, in two steps. A search over a small window of poses (correlative_search) counts
+/// how much of the scan falls on occupied cells: it finds the right valley. Then Gauss and Newton, from there: each
+/// point is drawn to the straight piece of wall nearest to it, across the wall only, together with the prediction by
+/// its own covariance. What the walls do not tell, as where along a corridor the robot is, stays as predicted. Points
+/// where the map knows free space (people) draw nothing.
 [[nodiscard]] MatchResult match_sample(const MatchSample& sample, const ScanReference& reference,
                                        const PoseBelief& predicted) noexcept;
 

@@ -5,7 +5,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// Moves an offset an eighth of the way to `target`, or all the way where there was none yet.
 std::int8_t moved_offset(std::int8_t old, double target, bool fresh) {
   const double next = fresh ? target : old + (target - old) / 8.0;

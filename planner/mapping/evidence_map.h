@@ -6,7 +6,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
-
 /// Index of a world cell: cell (i, j) covers [i, i+1) x [j, j+1) times the cell size, in the map.
 struct CellIndex {
   std::int32_t i = 0;

@@ -1,11 +1,9 @@
 #include "planner/mapping/window.h"
 
-#include <algorithm>
 #include <cmath>
 
 namespace jaywalk::field {
 namespace {
-
 /// Points farther out than this would overflow cell numbers; they are as good as at infinity.
 constexpr double kFarthestCells = 5e8;
 

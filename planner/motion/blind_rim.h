@@ -9,7 +9,7 @@
 namespace jaywalk::motion {
 
 /// The parts of the body's outline beside which no laser ever looks. The supervisor lets such a part move outward at
-/// 0.3 m/s at most (firmware/safety/watch.cc); a roll-out that counts on more would be braked.
+/// 0.3 m/s at most (firmware/safety/blind_gaps.cc); a roll-out that counts on more would be braked.
 ///
 /// Memory in the constructor. Thread: any.
 class BlindRim {

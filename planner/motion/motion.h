@@ -8,7 +8,7 @@
 #include "hal/types/operator_input.h"
 #include "hal/types/robot_model.h"
 #include "planner/cost_to_go/planner.h"
-#include "planner/mapping/keep_out.h"
+#include "planner/mapping/known_map.h"
 #include "planner/scan/line_of_sight.h"
 
 namespace jaywalk::motion {

@@ -4,7 +4,6 @@
 #include "planner/paper/potential_stages.h"
 
 namespace jaywalk::paper {
-
 /// Arrays of blocks beside a level's equations.
 struct BlockArrays {
   float *low_weight, *high_weight;  ///< of the block's (0, 0) and (1, 1) cells in its right-hand side

@@ -1,14 +1,12 @@
 #include "planner/paper/exact_field.h"
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 
 #include "hal/types/trig.h"
 
 namespace jaywalk::paper {
 namespace {
-
 constexpr std::int32_t kUnseen = -1;
 constexpr double kInfinite = std::numeric_limits<double>::infinity();
 

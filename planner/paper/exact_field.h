@@ -6,7 +6,6 @@
 #include "planner/paper/executor.h"
 
 namespace jaywalk::paper {
-
 /// psi = -ln u of every cell that `goal` can be reached from through `free` cells (by rows, non-zero: free); infinity
 /// elsewhere. u is 1 at the goal, the mean of its four neighbours in free cells, and 0 in all others and outside.
 /// Cells are eliminated from the farthest to the nearest as an electrical network's nodes are (star to mesh): sums,

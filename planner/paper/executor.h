@@ -20,7 +20,7 @@
 #include <vector>
 
 #include "planner/cell/cell.h"
-#include "planner/mapping/nearest_cell.h"
+#include "planner/mapping/window.h"
 
 // Tells the compiler what holds for every stage: visits do not depend on one another, so they may go side by side.
 #if defined(__GNUC__) && !defined(__clang__)
@@ -30,7 +30,6 @@
 #endif
 
 namespace jaywalk::paper {
-
 using field::Grid;
 
 /// An executor's memory for a grid's values by rows, with a spare row and a cell at either end: a stage may fetch

@@ -8,7 +8,6 @@
 #include "planner/mapping/window.h"
 
 namespace jaywalk::paper {
-
 /// A map in cells, row by row from the lowest y; 1: wall. What lies outside is not free and does not inflate.
 struct CellMap {
   std::int32_t width = 0, height = 0;

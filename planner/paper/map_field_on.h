@@ -8,7 +8,6 @@
 #include "planner/paper/path.h"
 
 namespace jaywalk::paper {
-
 /// Side of the grid that holds a map.
 inline std::int32_t side_for(const CellMap& map) {
   std::int32_t side = 64;

@@ -7,7 +7,6 @@
 #include "planner/paper/executor.h"
 
 namespace jaywalk::paper {
-
 /// The Gaussian mark exp(-d^2 / 2 s^2) counts as occupied above exp(-1/2): one standard deviation.
 /// A higher reach closes doorways that movers leave open; measured by success, not by principle.
 inline constexpr float kMarkDeviations = 1.0F;

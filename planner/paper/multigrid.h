@@ -3,7 +3,6 @@
 #include "planner/paper/coarse_stages.h"
 
 namespace jaywalk::paper {
-
 inline constexpr std::int32_t kCoarsestSide = 4;
 inline constexpr std::int32_t kMostLevels = 11;  ///< 4 to 4096 cells a side
 

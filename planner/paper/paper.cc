@@ -1,11 +1,201 @@
 #include "planner/paper/paper.h"
 
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+
 #include "planner/paper/executor.h"
 #include "planner/paper/map_field_on.h"
 #include "planner/paper/paper_planner.h"
-#include "planner/paper/path_motion.h"
 
 namespace jaywalk::paper {
+namespace {
+constexpr double kLookAhead_m = 0.35;          // at rest; half a robot's length
+constexpr double kLookAhead_s = 0.7;           // plus so much travel
+constexpr double kTurnInPlaceAbove_rad = 1.0;  // looking further away than this, turn before driving
+constexpr double kTurnGain_per_s = 2.0;        // turn in place at this rate a radian of error
+
+constexpr double kFarthest_m = 1e6;  // m, m/s, and their squares: what single precision can hold
+
+cell::AxisState axis(double position, double velocity, const AxisCovariance& p, double cell_m) {
+  const auto scaled = [&](double value, double unit) { return static_cast<float>(value / unit); };
+  const double square = cell_m * cell_m;
+  return {static_cast<float>(position), scaled(velocity, cell_m), scaled(p.pp, square), scaled(p.pv, square),
+          scaled(p.vv, square)};
+}
+
+/// Whether single precision can hold a track: no NaN, nothing beyond a million.
+bool is_plausible(const Track& t) {
+  const double values[] = {t.position_in_map.x, t.position_in_map.y, t.velocity_in_map.x, t.velocity_in_map.y,
+                           t.covariance.pp,     t.covariance.pv,     t.covariance.vv,     t.radius_m};
+  return std::all_of(std::begin(values), std::end(values), [](double v) { return std::fabs(v) <= kFarthest_m; });
+}
+
+bool is_plausible(const StandingPedestrian& s) {
+  return std::fabs(s.position_in_map.x) <= kFarthest_m && std::fabs(s.position_in_map.y) <= kFarthest_m &&
+         std::fabs(s.radius_m) <= kFarthest_m;
+}
+
+}  // namespace
+
+std::size_t nearest_point(const Path& path, Vec2 place) noexcept {
+  std::size_t nearest = 0;
+  for (std::size_t i = 1; i < path.size(); ++i) {
+    if (distance(path[i], place) < distance(path[nearest], place)) nearest = i;
+  }
+  return nearest;
+}
+
+Vec2 look_ahead(const Path& path, Vec2 robot, double ahead_m) noexcept {
+  for (std::size_t i = nearest_point(path, robot); i + 1 < path.size(); ++i) {
+    const double piece = distance(path[i], path[i + 1]);
+    if (piece > ahead_m) return path[i] + (path[i + 1] - path[i]) * (ahead_m / piece);
+    ahead_m -= piece;
+  }
+  return path.back();
+}
+
+bool Steering::turns_first() const noexcept { return std::fabs(bearing) > kTurnInPlaceAbove_rad; }
+
+double Steering::turn_radps(double most_radps) const noexcept {
+  return std::clamp(kTurnGain_per_s * bearing, -most_radps, most_radps);
+}
+
+double Steering::circle_radps(double v_mps, double most_radps) const noexcept {
+  return std::clamp(curvature_per_m * v_mps, -most_radps, most_radps);
+}
+
+Steering pursue(const Path& path, const Pose2& map_from_robot, double v_mps) noexcept {
+  const Vec2 target =
+      inverse(map_from_robot) * look_ahead(path, map_from_robot.position(), kLookAhead_m + kLookAhead_s * v_mps);
+  // The circle through here and the target that is tangent to the heading has curvature 2 y / d^2.
+  return {atan2(target.y, target.x), 2.0 * target.y / std::max(dot(target, target), 1e-6)};
+}
+
+PathMotion::PathMotion(const motion::MotionSetup& setup)
+    : limits_(setup.model.limits), tick_s_(setup.tick_s), ramp_(setup.model.limits) {}
+
+void PathMotion::observe(const motion::World& world, const motion::Intent&) noexcept {
+  status_.rests_on = world.plan.status == PlanStatus::kOk ? world.plan.stamp : kNever;  // else it would go straight on
+}
+
+Twist2 PathMotion::command(const motion::World& world, const motion::Intent& intent) noexcept {
+  ramp_.follow(world.driven);
+  return ramp_.toward(target(world, intent), tick_s_);
+}
+
+Twist2 PathMotion::target(const motion::World& world, const motion::Intent& intent) const noexcept {
+  if (intent.kind != motion::Intent::Kind::kGoal) return {};
+  const double cruise = limits_.max_speed_mps;
+  if (world.plan.path.empty()) return {cruise, 0.0};
+  const double v_now = std::max(world.driven.v_mps, 0.0);
+  const Steering steering = pursue(world.plan.path, world.map_from_robot, v_now);
+  if (steering.turns_first()) return {cruise, steering.turn_radps(limits_.max_turn_radps)};
+  return {cruise, steering.circle_radps(std::max(cruise, v_now), limits_.max_turn_radps)};
+}
+
+PlanRequest PathMotion::request(const motion::World& world) const noexcept {
+  return {.stamp = world.scan.stamp,
+          .map_from_robot = world.map_from_robot,
+          .goal_in_map = world.input.goal_in_map,
+          .speed_mps = limits_.max_speed_mps,
+          .still = &world.perceived.still,
+          .moving = world.perceived.moving,
+          .standing = world.perceived.standing};
+}
+
+void check(const PaperConfig& config) {
+  field::check(config);
+  if (!(config.inflation_m >= 0.0 && config.inflation_m <= 5.0))
+    field::refuse("inflation_m", config.inflation_m, "choose 0 to 5 m");
+  if (!(config.mover_margin_m >= 0.0 && config.mover_margin_m <= 5.0))
+    field::refuse("mover_margin_m", config.mover_margin_m, "choose 0 to 5 m");
+  if (!(config.horizon_cap_s > 0.0 && config.horizon_cap_s <= 60.0))
+    field::refuse("horizon_cap_s", config.horizon_cap_s, "choose up to 60 s");
+}
+
+Warping warping_for(const PaperConfig& config, const Window& window, const PlanRequest& request) noexcept {
+  const Vec2 robot = window.in_cells(request.map_from_robot.position());
+  const Vec2 ahead = direction(request.map_from_robot.heading);
+  const auto in_cells = [&](double metres) { return static_cast<float>(metres / window.cell_m); };
+  return {.robot_x = static_cast<float>(robot.x),
+          .robot_y = static_cast<float>(robot.y),
+          .cos_heading = static_cast<float>(ahead.x),
+          .sin_heading = static_cast<float>(ahead.y),
+          .cap_s = static_cast<float>(config.horizon_cap_s),
+          .safety = in_cells(config.mover_margin_m),
+          .most_spread = in_cells(kMostSpread_m),
+          .process_noise = static_cast<float>(kProcessNoise_m2ps3 / (window.cell_m * window.cell_m))};
+}
+
+std::int32_t fetch_movers(const Window& window, std::span<const Track> tracks, Mover* movers,
+                          std::array<std::uint32_t, kMaxTracks>& ids) noexcept {
+  std::size_t count = 0;
+  for (const Track& track : tracks) {
+    if (!is_plausible(track)) continue;
+    if (count == kMaxTracks) break;
+    const Vec2 p = window.in_cells(track.position_in_map);
+    const Vec2 v = track.velocity_in_map;
+    movers[count] = {.x = axis(p.x, v.x, track.covariance, window.cell_m),
+                     .y = axis(p.y, v.y, track.covariance, window.cell_m),
+                     .radius = static_cast<float>(track.radius_m / window.cell_m),
+                     .speed = static_cast<float>(norm(v) / window.cell_m)};
+    ids[count++] = track.id;
+  }
+  return static_cast<std::int32_t>(count);
+}
+
+void fetch_walls(const Window& window, const EvidenceMap* still, std::uint8_t* occupants) noexcept {
+  if (still == nullptr) {
+    std::fill_n(occupants, window.grid().cells(), std::uint8_t{0});
+    return;
+  }
+  constexpr std::int32_t kPiece = 64;  // divides every window's side
+  std::array<std::int8_t, kPiece> evidence;
+  for (std::int32_t j = 0; j < window.side; ++j) {
+    for (std::int32_t i = 0; i < window.side; i += kPiece) {
+      still->copy_row({window.low.i + i, window.low.j + j}, kPiece, evidence.data());
+      std::uint8_t* piece = occupants + window.grid().at(i, j);
+      for (std::size_t k = 0; k < evidence.size(); ++k) {
+        piece[k] = evidence[k] > EvidenceMap::kOccupied ? std::uint8_t{kWall} : std::uint8_t{0};
+      }
+    }
+  }
+}
+
+void fetch_keep_out(const Window& window, const KeepOut& keep_out, Vec2 robot, std::uint8_t* occupants) noexcept {
+  if (!keep_out.known()) return;
+  const auto distance_at = [&keep_out](Vec2 p) {
+    return static_cast<double>(keep_out.distance(static_cast<float>(p.x), static_cast<float>(p.y)));
+  };
+  const double deep_m = -distance_at(robot);
+  const double open_m = deep_m > 0.0 ? deep_m + kWayOut_m : 0.0;
+  const Vec2 first{static_cast<double>(keep_out.low_x), static_cast<double>(keep_out.low_y)};
+  const double node_m = static_cast<double>(keep_out.node_m);
+  const CellIndex low = window.cell_at(first),
+                  high = window.cell_at(first + Vec2{keep_out.width * node_m, keep_out.height * node_m});
+  for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+    for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
+      const Vec2 middle = window.in_map({i + 0.5, j + 0.5});
+      if (distance_at(middle) < 0.0 && distance(middle, robot) >= open_m) occupants[window.grid().at(i, j)] |= kWall;
+    }
+  }
+}
+
+void fetch_standing(const Window& window, std::span<const StandingPedestrian> standing,
+                    std::uint8_t* occupants) noexcept {
+  for (const StandingPedestrian& stander : standing) {
+    const Vec2 middle = stander.position_in_map, half{stander.radius_m, stander.radius_m};
+    if (!is_plausible(stander)) continue;
+    const CellIndex low = window.cell_at(middle - half), high = window.cell_at(middle + half);
+    for (std::int32_t j = std::max(low.j, 0); j <= std::min(high.j, window.side - 1); ++j) {
+      for (std::int32_t i = std::max(low.i, 0); i <= std::min(high.i, window.side - 1); ++i) {
+        const bool his = distance(window.in_map({i + 0.5, j + 0.5}), middle) <= stander.radius_m;
+        if (his) occupants[window.grid().at(i, j)] |= kMover;
+      }
+    }
+  }
+}
 
 std::unique_ptr<Planner> make_cpu_paper_planner(const PaperConfig& config) {
   check(config);

@@ -7,12 +7,11 @@
 #include <vector>
 
 #include "planner/cost_to_go/time_to_go_planner.h"
-#include "planner/paper/paper_request.h"
+#include "planner/paper/paper.h"
 #include "planner/paper/pass.h"
 #include "planner/paper/path.h"
 
 namespace jaywalk::paper {
-
 template <class Executor>
 class PaperPlanner final : public AnsweringPlanner {
  public:

@@ -3,15 +3,13 @@
 // start.
 #include <optional>
 
-#include "planner/mapping/nearest_cell.h"
-#include "planner/paper/clearance_stages.h"
+#include "planner/mapping/window.h"
 #include "planner/paper/mark_stages.h"
 #include "planner/paper/multigrid.h"
 #include "planner/paper/start_field.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::paper {
-
 using field::kNoCell;
 using field::nearest_cell;
 

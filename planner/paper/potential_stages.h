@@ -10,7 +10,6 @@
 #include "planner/paper/executor.h"
 
 namespace jaywalk::paper {
-
 /// Share that a cell takes of each neighbour.
 struct Couplings {
   float east, west, north, south;

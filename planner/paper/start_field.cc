@@ -1,13 +1,10 @@
 #include "planner/paper/start_field.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "hal/types/trig.h"
-#include "planner/paper/clearance_stages.h"
 
 namespace jaywalk::paper {
-
 std::vector<std::uint16_t> rate_table(std::int32_t max_side) {
   std::vector<std::uint16_t> table(static_cast<std::size_t>(4 * (max_side + 4)));
   for (std::size_t quarter = 0; quarter < table.size(); ++quarter) {

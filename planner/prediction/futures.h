@@ -1,54 +1,158 @@
 #pragma once
-// Samples of where movers will be, those that nothing shows yet among them.
+// Pedestrian model and the futures that it predicts for tracks.
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <vector>
 
-#include "hal/types/fixed_vector.h"
-#include "hal/types/geometry.h"
-#include "hal/types/laser_scan.h"
-#include "planner/prediction/pedestrian_model.h"
-#include "planner/scan/line_of_sight.h"
-#include "planner/tracking/track.h"
+#include "planner/cell/circle.h"
+#include "planner/cell/draws.h"
+#include "planner/cost_to_go/guide.h"
+#include "planner/tracking/tuning.h"
 
 namespace jaywalk::motion {
+// How often walkers turn or stop where nothing makes them, and how many newcomers that stand walk off: learned while
+// driving.
 
-inline constexpr int kFutures = 32;             ///< a bit of a word each
+/// Rates with a prior worth half a minute of looking at one walker: cautious until something else is seen.
+struct TurningModel {
+  static constexpr float kPriorS = 30.0F, kPriorTurnsHz = 0.01F, kPriorStopsHz = 0.03F;
+  float watched_s = 0.0F, turns = 0.0F, stops = 0.0F;
+  float usual_mps = 0.6F;  ///< of walkers; the mean of those watched
 
-/// Movers out of sight: where each may be by now, as kFutures walkers that walk on, less those whose place has been
-/// seen to be empty. Gone when hardly one is left, or after kRememberedForS. Thread: the loop's.
-class OccludedMovers {
- public:
-  static constexpr std::size_t kMost = 16;  ///< when full, newcomers are left out
-  static constexpr float kRememberedForS = 8.0F;
+  /// What is new, stands and is as wide as a body: a prior worth five of them. Among posts it is soon known for posts.
+  static constexpr float kPriorNewcomers = 5.0F, kPriorWalkOff = 0.2F, kNewForS = 4.0F;
+  float newcomers = 0.0F, walked_off = 0.0F;
 
-  /// Out of sight from now on.
-  void add(const MoverBelief& belief, const TurningModel& turning, const Guide& guide) noexcept;
-  /// Seen again under its own name.
-  void remove(std::uint32_t id) noexcept;
-  /// Whether one of them may have come out at a place; it is no longer occluded then, and `usual_mps` is its.
-  bool take(Vec2 place, double& usual_mps) noexcept;
-  /// `dt` seconds later, with what the scans pass through.
-  void update(float dt, const OfEach<SeenFrom>& scans, const TurningModel& turning, const Guide& guide) noexcept;
-
-  /// kFutures of each, one mover after the other.
-  [[nodiscard]] std::span<const PedestrianSample> walkers() const {
-    return {walkers_.data(), movers_.size() * kFutures};
+  [[nodiscard]] float turns_hz() const { return (turns + kPriorTurnsHz * kPriorS) / (watched_s + kPriorS); }
+  [[nodiscard]] float stops_hz() const { return (stops + kPriorStopsHz * kPriorS) / (watched_s + kPriorS); }
+  /// Of one newcomer, within kNewForS.
+  [[nodiscard]] float walks_off_hz() const {
+    return (walked_off + kPriorWalkOff * kPriorNewcomers) / ((newcomers + kPriorNewcomers) * kNewForS);
   }
-
- private:
-  struct Mover {
-    std::uint32_t id = 0;
-    float age_s = 0.0F, usual_mps = 0.0F;
-  };
-  void drop(std::size_t k) noexcept;
-  [[nodiscard]] PedestrianSample* of(std::size_t k) { return walkers_.data() + k * kFutures; }
-
-  FixedVector<Mover, kMost> movers_;
-  std::array<PedestrianSample, kMost * kFutures> walkers_{};
 };
 
+/// What is believed of one mover, when the decision is made. Each estimate is a field: more than a struct has
+/// elsewhere.
+struct MoverBelief {
+  std::uint32_t id = 0;
+  float x = 0.0F, y = 0.0F, vx = 0.0F, vy = 0.0F;  ///< at its last sight
+  float position_std = 0.0F, velocity_std = 0.0F;
+  float correlation = 0.0F;  ///< of position and velocity along an axis
+  float late_s = 0.0F;       ///< since that sight
+  float radius_m = 0.0F;
+  float usual_mps = 0.0F;  ///< its own when it walks, or that of others
+  bool has_walked = false;
+  bool newcomer = false;  ///< neither seen to walk nor to have legs: furniture, most likely
+  float stood_s = 0.0F;   ///< in one place
+};
+
+/// A drawn speed below half the usual one, or this if that is less, is no walking speed: it walks at its usual one.
+inline constexpr float kLeastWalkMps = static_cast<float>(kWalksMps);
+/// No faster than this it stands; faster, it is starting to walk.
+inline constexpr float kStandsMps = static_cast<float>(kStartsMps);
+inline constexpr float kTurnsAtRadps = 1.5F;  ///< before it goes on in another direction
+inline constexpr float kLookAheadM = 0.5F;    ///< what lies nearer than this before a mover makes it turn
+inline constexpr float kPausesForS = 2.0F;    ///< at most, a pedestrian that walked and stands now
+inline constexpr float kLongPauseS = 4.0F;    ///< one that has stood for longer may stand for any time:
+inline constexpr float kStandsForS = 6.0F;    ///< on average, or as long again as it has stood
+
+/// Whether a surface lies in the quarter circle of `reach` m ahead of a place: looked for in four discs that fill it.
+JAYWALK_ANYWHERE bool faces_surface(const Guide& guide, float x, float y, const cell::Heading& along, float reach) {
+  if (guide.distance(x, y) > reach) return false;
+  const auto near = [&](float ahead, float left, float radius) {
+    const float px = x + reach * (ahead * along.x - left * along.y);
+    const float py = y + reach * (ahead * along.y + left * along.x);
+    return guide.distance(px, py) < reach * radius;
+  };
+  return near(0.35F, 0.0F, 0.25F) || near(0.7F, 0.0F, 0.3F) || near(0.64F, 0.32F, 0.25F) || near(0.64F, -0.32F, 0.25F);
+}
+
+/// A mover in one future. Each drawn quantity is a field: more than a struct has elsewhere.
+struct PedestrianSample {
+  float x = 0.0F, y = 0.0F, heading = 0.0F;
+  cell::Heading along;
+  bool walks = false;
+  float wait_s = 0.0F, next_heading = 0.0F;  ///< until it sets out, and where to, when it does not walk
+  float speed = 0.0F, radius = 0.0F;
+  float react_m = 0.0F;  ///< from its middle: what it turns away from
+  float until_turn_s = 0.0F, until_stop_s = 0.0F;
+  cell::Draws draws{{}};
+
+  JAYWALK_ANYWHERE void face(float rad) {
+    heading = rad;
+    along = cell::heading_at(rad);
+  }
+
+  /// A direction free of walls, if three draws find one; returns how far it has turned by then.
+  JAYWALK_ANYWHERE float look_for_way(const Guide& guide) {
+    float turned = 0.0F, from = heading;
+    for (int trial = 0; trial < 4; ++trial) {
+      next_heading = cell::kPiF * draws.either_way();
+      turned += std::fabs(cell::wrapped(next_heading - from));
+      from = next_heading;
+      if (!faces_surface(guide, x, y, cell::heading_at(next_heading), react_m)) break;
+    }
+    return turned;
+  }
+
+  JAYWALK_ANYWHERE void turn_away(const Guide& guide) {
+    walks = false;
+    wait_s = look_for_way(guide) / kTurnsAtRadps;
+  }
+
+  JAYWALK_ANYWHERE static PedestrianSample drawn(const MoverBelief& b, const TurningModel& turning, const Guide& guide,
+                                                 const cell::Draws& draws) {
+    PedestrianSample w;
+    w.draws = draws;
+    const float rest = std::sqrt(1.0F - b.correlation * b.correlation);
+    const float ex = w.draws.normal(), ey = w.draws.normal();
+    const float vx = b.vx + b.velocity_std * (b.correlation * ex + rest * w.draws.normal());
+    const float vy = b.vy + b.velocity_std * (b.correlation * ey + rest * w.draws.normal());
+    w.x = b.x + b.position_std * ex + vx * b.late_s;
+    w.y = b.y + b.position_std * ey + vy * b.late_s;
+    w.radius = b.radius_m;
+    w.react_m = b.radius_m + kLookAheadM * (0.3F + 0.7F * w.draws.uniform());
+    w.until_turn_s = w.draws.waiting_s(turning.turns_hz());
+    w.until_stop_s = w.draws.waiting_s(turning.stops_hz());
+    w.face(cell::angle_of(vx, vy));
+    const float speed = std::sqrt(vx * vx + vy * vy), half = 0.5F * b.usual_mps;
+    w.walks = speed > kStandsMps && (b.has_walked || speed > 2.0F * b.velocity_std);
+    w.speed = speed > (half < kLeastWalkMps ? half : kLeastWalkMps) ? speed : b.usual_mps;
+    if (w.walks) return w;
+    w.face(cell::kPiF * w.draws.either_way());
+    (void)w.look_for_way(guide);
+    const bool for_long = !b.has_walked || b.stood_s > kLongPauseS;
+    const float least = b.has_walked ? kStandsForS : 1.0F / turning.walks_off_hz();
+    const float expected = b.stood_s > least ? b.stood_s : least;
+    w.wait_s = for_long ? w.draws.waiting_s(1.0F / expected) : kPausesForS * w.draws.uniform();
+    return w;
+  }
+
+  /// `dt` seconds on; `blocked`: another mover stands in its way.
+  JAYWALK_ANYWHERE void step(const Guide& guide, const TurningModel& turning, bool blocked, float dt) {
+    if (!walks) {
+      wait_s -= dt;
+      if (wait_s > 0.0F) return;
+      walks = true;
+      face(next_heading);
+      return;
+    }
+    until_turn_s -= dt, until_stop_s -= dt;
+    if (blocked || until_stop_s <= 0.0F || faces_surface(guide, x, y, along, react_m)) {
+      if (until_stop_s <= 0.0F) until_stop_s = draws.waiting_s(turning.stops_hz());
+      return turn_away(guide);
+    }
+    if (until_turn_s <= 0.0F) {
+      until_turn_s = draws.waiting_s(turning.turns_hz());
+      face(cell::kPiF * draws.either_way());
+    }
+    x += along.x * speed * dt;
+    y += along.y * speed * dt;
+  }
+};
+
+inline constexpr int kFutures = 32;             ///< a bit of a word each
 inline constexpr std::size_t kMostMovers = 64;  ///< nearest first
 inline constexpr float kFutureStepS = 0.2F;
 inline constexpr int kFutureSteps = 31;  ///< 0 to 6 s

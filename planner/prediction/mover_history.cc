@@ -7,7 +7,6 @@
 
 namespace jaywalk::motion {
 namespace {
-
 constexpr double kWithinM = 9.0;   ///< of the robot: more than both come in 6 s
 constexpr double kLastingS = 5.0;  ///< a track that has stood for longer is in the way for now
 constexpr double kUnknownForS = static_cast<double>(TurningModel::kNewForS);  ///< a body that is new may walk off

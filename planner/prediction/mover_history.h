@@ -1,19 +1,17 @@
 #pragma once
 #include <span>
-#include <vector>
 
 #include "hal/types/fixed_vector.h"
 #include "hal/types/laser_scan.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/prediction/futures.h"
-#include "planner/prediction/pedestrian_model.h"
+#include "planner/prediction/occluded_movers.h"
 #include "planner/scan/line_of_sight.h"
-#include "planner/tracking/standing.h"
+#include "planner/tracking/occlusion.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk::motion {
-
 /// What a new scan has shown.
 struct Seen {
   Time now{};

@@ -7,7 +7,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// Ranges beyond are no laser's: whatever a scan claims, cell indices stay small.
 constexpr double kFarthestBelievedM = 1000.0;
 
@@ -43,6 +42,10 @@ bool joined(const ScanPoints& points, std::size_t k, const Sweep& sweep) {
   const bool at_an_end = !sweep.all_round && (k == 0 || k + 2 >= n);
   return !at_an_end && goes_on_as(step_from(points, k + n - 1), jump) && goes_on_as(step_from(points, k + 1), jump);
 }
+
+constexpr int kFirst = 4;
+constexpr double kJumpMps = 0.25, kJumpRadps = 0.3;           // 2 m/s^2 from one scan to the next at 8 Hz
+constexpr Duration kSettlesWithin = std::chrono::seconds(1);  // by trial; 1.5 s is no better
 
 }  // namespace
 
@@ -122,6 +125,16 @@ void cut_at_jumps(const ScanPoints& points, const Sweep& sweep, Segments& out) n
       (void)out.push_back({k, k});  // never full
     }
   }
+}
+
+bool FirstScans::are_unreliable(const Twist2& twist, Time now) noexcept {
+  if (scans_ < kFirst && ++scans_ > 1) {
+    const bool jumped =
+        std::fabs(twist.v_mps - last_.v_mps) > kJumpMps || std::fabs(twist.w_radps - last_.w_radps) > kJumpRadps;
+    if (jumped) jumped_ = now;
+  }
+  last_ = twist;
+  return jumped_ != kNever && now >= jumped_ && now - jumped_ < kSettlesWithin;
 }
 
 }  // namespace jaywalk

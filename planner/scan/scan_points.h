@@ -1,5 +1,5 @@
 #pragma once
-// From beams to points.
+// Points and segments of a scan, order of several scanners, unreliable first scans.
 #include <array>
 #include <chrono>
 #include <cstdint>
@@ -11,7 +11,6 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
-
 struct ScanPoint {
   Vec2 in_robot;         ///< m, in the robot's frame at the scan's stamp
   double range_m = 0.0;  ///< along the beam, from the laser
@@ -141,5 +140,20 @@ void begin_at_a_jump(const Sweep& sweep, ScanPoints& points) noexcept;
 /// Cuts the scan where neighbouring points are farther apart than a surface explains: by the range, and by the steps
 /// beside theirs, since a wall seen at a slant goes on in long ones.
 void cut_at_jumps(const ScanPoints& points, const Sweep& sweep, Segments& out) noexcept;
+
+/// Unreliable first scans: taken from a robot that drove and was thought to stand, since scans alone know no speed
+/// before the third. Their sweeps were not put right and their poses are off, so that for a second everything seems to
+/// walk a little.
+class FirstScans {
+ public:
+  /// Once a scan, with the robot's speed as it is thought to be at `now`. True while nothing can be said to walk: for a
+  /// second after the speed jumped by more than a robot gains from one scan to the next.
+  [[nodiscard]] bool are_unreliable(const Twist2& twist, Time now) noexcept;
+
+ private:
+  int scans_ = 0;
+  Twist2 last_;
+  Time jumped_ = kNever;
+};
 
 }  // namespace jaywalk

@@ -9,7 +9,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kGate2 = 11.8;     // chi-squared, two degrees of freedom, 99.7 %
 constexpr double kBelongsM = 0.45;  // a detection this near a target is part of it
 constexpr double kGateStdM = 0.18;  // whatever part of a target is seen: a gate of 0.62 m, a stride, at the least

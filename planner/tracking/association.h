@@ -5,7 +5,6 @@
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
-
 /// Gives every detection to the likeliest target within its gate (Detection::track_id), of two as near by their own
 /// doubt to the surer one; several may share one. Order of targets and detections does not matter except between exact
 /// equals.

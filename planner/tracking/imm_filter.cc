@@ -7,7 +7,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kLeastVariance = 1e-8;  // of a speed, m^2/s^2: what rounding leaves is none
 
 /// How a mode moves on: white acceleration of `accel` m^2/s^3 an axis (what speed's variance gains a second), given

@@ -6,7 +6,6 @@
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
-
 // The Kalman filter of the paper (its equations 12 to 16) for something that moves at constant velocity.
 //
 // State (position, velocity), A = [1 dt; 0 1], H = [1 0], no input. x and y are alike and independent, so one

@@ -8,7 +8,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kMostlySeen = 0.6;  // of the scans; what flickers is clutter
 constexpr double kGoneSigmas = 3.0;
 constexpr double kSpeedSigmas = 2.5;

@@ -4,11 +4,9 @@
 
 #include "hal/types/geometry.h"
 #include "planner/scan/line_of_sight.h"
-#include "planner/scan/past_scans.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
-
 // What a body is judged by besides its own path.
 
 /// As a scan has it; neither is kept beyond it.

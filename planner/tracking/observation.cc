@@ -8,7 +8,6 @@
 
 namespace jaywalk {
 namespace {
-
 // Standard deviations of where the body's centre is, an axis. One leg lies up to a quarter of a stride off the middle,
 // and does so for several scans, for which it counts double: by trial (at 0.17 twice as many things move where
 // nobody is, at 0.25 fewer walkers are found); two together have innovations of 2 of real people. An arc's ends lie

@@ -3,7 +3,6 @@
 #include "planner/tracking/detection.h"
 
 namespace jaywalk {
-
 /// What one scan says of a body: one detection, or a person's two legs. A field a measurement, so more of them than a
 /// struct has elsewhere.
 struct Observation {

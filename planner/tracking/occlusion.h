@@ -1,10 +1,13 @@
 #pragma once
-// Targets that are not seen: how long they stay tracks, and which newcomer is one of them come out again.
+// Targets that are not seen, and standing pedestrians, as wide as a pedestrian though the map holds only shins.
+#include "hal/types/fixed_vector.h"
+#include "hal/types/geometry.h"
+#include "hal/types/time.h"
+#include "planner/mapping/evidence_map.h"
 #include "planner/scan/line_of_sight.h"
 #include "planner/tracking/target.h"
 
 namespace jaywalk {
-
 /// Whether a target that is not seen is no track any more: beams have passed through where it should be, or it has been
 /// unseen for longer than one that moves, stands or is not confirmed yet may be.
 [[nodiscard]] bool is_gone(const Track& track, const Existence& existence, Time now) noexcept;
@@ -45,5 +48,23 @@ class OccludedTracks {
   };
   FixedVector<Occluded, kMaxOccludedTracks> tracks_;
 };
+
+/// A pedestrian that stands, for all that is known: the disc is its body, though a laser at the height of shins sees
+/// but those.
+struct StandingPedestrian {
+  Vec2 position_in_map;
+  double radius_m = 0.0;
+  Time last_seen = kNever;  ///< it, or something that stood in its place
+  Time since = kNever;      ///< known to stand there
+};
+
+using StandingPedestrians = FixedVector<StandingPedestrian, kMaxTracks>;
+
+/// A target that may be a pedestrian (Existence::maybe_pedestrian) and does not move stands where it was seen last. A
+/// pedestrian noted before that is no target any more stands there for as long as the map has something as near to its
+/// middle as legs are, or a target stands so near, however little of it is seen; or while it may be hidden there, for
+/// kRememberedS. Targets come first; of the others as many as there is room for, the latest first.
+void update_standing(const Targets& targets, const EvidenceMap& still, const LineOfSight& sight, Time now,
+                     StandingPedestrians& standing) noexcept;
 
 }  // namespace jaywalk

@@ -8,7 +8,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kWalkMps = 1.5;
 constexpr double kLongestGapS = 0.13;                 // a target unseen for longer may be another
 constexpr double kNoiseM = 0.01, kNoiseWeighs = 4.0;  // of a position an axis, as if known from so many

@@ -8,7 +8,6 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
-
 struct MotionEvidence;
 
 /// How well some of a target's last positions lie on one straight walk of constant speed.

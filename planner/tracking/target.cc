@@ -3,12 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
-#include "planner/tracking/imm_filter.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {
 namespace {
-
 constexpr double kFirstSpeedStd = 1.0;  // m/s an axis: people walk at 1.3 m/s
 
 /// Whether `a` is to go rather than `b` where there is no room for both.
@@ -50,6 +48,35 @@ void correct_track(Estimate& estimate, double& noise, const Observation& seen) {
   track.nis = gate_distance2(track, seen.position_in_map, std_m, late_s);
   learn_noise(noise, track.nis);
   estimate.filter.correct(track, seen.position_in_map, std_m, late_s);
+}
+
+constexpr double kLeastStdM = 1e-3;  // a filter that is told of no noise divides by none
+constexpr double kMostStdM = 1e3;    // a system that knows no more knows nothing
+constexpr double kWidestM = 1.0;     // by its radius
+
+/// False for NaN.
+bool usable(const ObservedMover& mover) {
+  const Vec2 p = mover.position_in_map;
+  return std::fabs(p.x) <= kFarthestFixM && std::fabs(p.y) <= kFarthestFixM && mover.radius_m > 0.0 &&
+         mover.radius_m <= kWidestM;
+}
+
+Target first_report(const ObservedMover& mover, double std_m, Time stamp, std::uint32_t id) {
+  Target target = born_at(mover.position_in_map, std_m, mover.radius_m, stamp, id);
+  target.existence.given = true;
+  target.existence.given_id = mover.id;
+  target.estimate.track.moving = true;
+  return target;
+}
+
+void report_again(Target& target, const ObservedMover& mover, double std_m, Time stamp) {
+  predict_to(target.estimate, true, stamp);
+  Track& track = target.estimate.track;
+  const double late_s = to_seconds(track.stamp - stamp);  // it has walked on since
+  const Vec2 place = mover.position_in_map + track.velocity_in_map * late_s;
+  correct(track.position_in_map, track.velocity_in_map, track.covariance, place, std_m * std_m);
+  target.estimate.track.hits += 1;
+  target.estimate.track.last_seen = stamp;
 }
 
 }  // namespace
@@ -149,6 +176,22 @@ void update_with(Target& target, const Observation& seen, const Pose2& map_from_
     anchor_here(onset, track.position_in_map, appearance, map_from_laser, now);
   onset.free_share += std::max(kFreeGain, 1.0 / track.hits) * ((seen.in_free_space ? 1.0 : 0.0) - onset.free_share);
   estimate.as_seen = track;
+}
+
+void take_given(const OutsideFix& fix, Vec2 robot_in_map, Targets& targets, std::uint32_t& last_id) noexcept {
+  if (!(fix.mover_std_m <= kMostStdM) || fix.stamp == kNever) return;  // NaN too
+  const double std_m = std::max(fix.mover_std_m, kLeastStdM);
+  for (const ObservedMover& mover : fix.movers) {
+    if (!usable(mover)) continue;
+    const auto known = std::find_if(targets.begin(), targets.end(), [&](const Target& b) {
+      return b.existence.given && b.existence.given_id == mover.id;
+    });
+    if (known == targets.end()) {
+      admit(targets, first_report(mover, std_m, fix.stamp, ++last_id), robot_in_map);
+    } else {
+      report_again(*known, mover, std_m, fix.stamp);
+    }
+  }
 }
 
 }  // namespace jaywalk

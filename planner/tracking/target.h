@@ -1,7 +1,9 @@
 #pragma once
+// Targets of the tracker: what is known of each, from one scan or outside report to the next.
 #include <cstdint>
 
 #include "hal/types/fixed_vector.h"
+#include "hal/types/outside_fix.h"
 #include "planner/tracking/detection.h"
 #include "planner/tracking/imm_filter.h"
 #include "planner/tracking/observation.h"
@@ -9,7 +11,6 @@
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
-
 // What the tracker knows of a target, in four parts: a rule is given only those that it reads.
 
 /// Where the target is and how fast it moves.
@@ -144,5 +145,10 @@ void update_with(Target& target, const Observation& seen, const Pose2& map_from_
 
 /// What is kept of how a target was seen last, and nothing else.
 void note_seen(Estimate& estimate, Appearance& appearance, const Observation& seen) noexcept;
+
+/// Corrects the bodies that `fix` names, a Kalman filter each, and adds those it names first: `last_id` is the newest
+/// track's. Where there is no room, the one farthest from the robot goes. What is no number, or wider than 2 m, is
+/// passed over.
+void take_given(const OutsideFix& fix, Vec2 robot_in_map, Targets& targets, std::uint32_t& last_id) noexcept;
 
 }  // namespace jaywalk

@@ -6,7 +6,6 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
-
 /// Most tracks kept at once. When full, the newcomer or the farthest from the robot goes; what is wall as well, first.
 inline constexpr std::size_t kMaxTracks = 64;
 

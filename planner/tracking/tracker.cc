@@ -6,21 +6,16 @@
 #include <vector>
 
 #include "planner/mapping/map_entry.h"
-#include "planner/scan/first_scans.h"
 #include "planner/scan/scan_points.h"
 #include "planner/tracking/association.h"
-#include "planner/tracking/given_movers.h"
-#include "planner/tracking/isolated_obstacles.h"
+#include "planner/tracking/detection.h"
 #include "planner/tracking/motion_onset.h"
-#include "planner/tracking/occlusion.h"
 #include "planner/tracking/scene.h"
-#include "planner/tracking/standing.h"
 #include "planner/tracking/target.h"
 #include "planner/tracking/tuning.h"
 
 namespace jaywalk {
 namespace {
-
 void rename(Detections& detections, std::uint32_t from, std::uint32_t to) {
   for (Detection& c : detections) {
     if (c.track_id == from) c.track_id = to;

@@ -8,11 +8,10 @@
 #include "hal/types/robot_model.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/mapping/known_map.h"
-#include "planner/tracking/standing.h"
+#include "planner/tracking/occlusion.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
-
 struct PerceptionConfig {
   Pose2 robot_from_laser;
   double cell_m = 0.1;

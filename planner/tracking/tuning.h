@@ -3,7 +3,6 @@
 #include "hal/types/time.h"
 
 namespace jaywalk {
-
 /// Beams that all pass over so much of a target's place pass through it, m, and for so long, s: it is gone.
 inline constexpr double kEmptyWithinM = 0.1, kLookedThroughForS = 0.3;
 /// Gain of running means over detections, a scan: the last three make half of one.

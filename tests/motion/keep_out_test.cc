@@ -1,8 +1,7 @@
-#include "planner/mapping/keep_out.h"
-
 #include <memory>
 
 #include "planner/cost_to_go/guide_field.h"
+#include "planner/mapping/known_map.h"
 #include "planner/motion/robot_body.h"
 #include "tests/motion/ground.h"
 #include "tests/support/catch.h"

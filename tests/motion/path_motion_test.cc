@@ -1,5 +1,4 @@
-#include "planner/paper/path_motion.h"
-
+#include "planner/paper/paper.h"
 #include "tests/motion/ground.h"
 #include "tests/motion/moment.h"
 #include "tests/support/catch.h"

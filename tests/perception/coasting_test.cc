@@ -1,5 +1,4 @@
-#include "planner/localization/coasting.h"
-
+#include "planner/localization/odometry.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,5 +1,4 @@
-#include "planner/scan/first_scans.h"
-
+#include "planner/scan/scan_points.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,7 +1,6 @@
-#include "bench/tracking/innovations.h"
-
 #include <cmath>
 
+#include "bench/tracking/track_score.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,7 +1,6 @@
-#include "planner/localization/line_feature.h"
-
 #include <cmath>
 
+#include "planner/localization/scan_matcher.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -6,8 +6,6 @@
 #include <cmath>
 #include <fstream>
 
-#include "bench/tracking/number_table.h"
-#include "bench/tracking/reference_poses.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 

@@ -1,7 +1,7 @@
 #include <memory>
 #include <utility>
 
-#include "planner/mapping/ground.h"
+#include "planner/mapping/map_entry.h"
 #include "planner/scan/scan_points.h"
 #include "planner/tracking/detection.h"
 #include "tests/perception/room.h"

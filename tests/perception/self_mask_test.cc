@@ -1,7 +1,6 @@
-#include "planner/scan/self_mask.h"
-
 #include <memory>
 
+#include "planner/tracking/scene.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

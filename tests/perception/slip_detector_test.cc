@@ -1,8 +1,7 @@
-#include "planner/localization/slip_detector.h"
-
 #include <cmath>
 #include <memory>
 
+#include "planner/localization/odometry_noise.h"
 #include "planner/tracking/tracker.h"
 #include "tests/perception/room.h"
 #include "tests/support/catch.h"

@@ -1,8 +1,7 @@
 // Whoever stands is as wide as he is, though a laser sees his shins.
-#include "planner/tracking/standing.h"
-
 #include <memory>
 
+#include "planner/tracking/occlusion.h"
 #include "tests/perception/watch.h"
 #include "tests/support/catch.h"
 

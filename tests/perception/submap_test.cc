@@ -1,8 +1,7 @@
-#include "planner/localization/submap.h"
-
 #include <memory>
 
-#include "planner/localization/line_feature.h"
+#include "planner/localization/correlative_search.h"
+#include "planner/localization/scan_matcher.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "planner/mapping/nearest_cell.h"
+#include "planner/mapping/window.h"
 #include "tests/planner/field_rig.h"
 #include "tests/support/catch.h"
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "bench/field/random_maps.h"
-#include "planner/mapping/nearest_cell.h"
+#include "planner/mapping/window.h"
 #include "planner/paper/exact_field.h"
 #include "planner/paper/path.h"
 #include "tests/planner/field_rig.h"

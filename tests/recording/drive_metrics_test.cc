@@ -4,10 +4,8 @@
 #include <limits>
 
 #include "apps/report/csv_file.h"
-#include "apps/report/detour_count.h"
-#include "apps/report/loop_count.h"
 #include "apps/report/moments.h"
-#include "apps/report/trails.h"
+#include "apps/report/picture/scene.h"
 #include "tests/recording/scratch.h"
 #include "tests/support/catch.h"
 

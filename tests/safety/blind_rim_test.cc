@@ -1,6 +1,7 @@
 // What roll-outs count on and what the supervisor permits where nothing watches: one rule in two rooms.
-#include "firmware/safety/watch.h"
 #include "planner/motion/blind_rim.h"
+
+#include "firmware/safety/blind_gaps.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

@@ -1,5 +1,4 @@
-#include "firmware/safety/modes.h"
-
+#include "firmware/safety/supervisor.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

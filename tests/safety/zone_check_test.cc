@@ -1,7 +1,6 @@
-#include "firmware/safety/zone_check.h"
-
 #include <string>
 
+#include "firmware/safety/stop_zone.h"
 #include "hal/types/errors.h"
 #include "tests/support/catch.h"
 

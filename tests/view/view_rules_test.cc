@@ -3,8 +3,6 @@
 
 #include <vector>
 
-#include "apps/view/client_places.h"
-#include "apps/view/outbox.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk::view;

@@ -5,8 +5,6 @@
 
 #include "apps/view/foxglove_session.h"
 #include "apps/view/frame_store.h"
-#include "apps/view/goal_message.h"
-#include "apps/view/steered_panel.h"
 #include "apps/view/view_orders.h"
 #include "apps/view/view_scene.h"
 #include "tests/support/catch.h"
@@ -17,7 +15,7 @@ using namespace jaywalk::view;
 TEST_CASE("orders are a goal with or without a heading, stop, reset, pause or step") {
   const auto goal = parse_order(R"({"goal":[1.5,-2,0.5]})");
   REQUIRE(goal);
-  CHECK(goal->goal->goal_in_map == Vec2{1.5, -2.0});
+  CHECK(goal->goal->position_in_map == Vec2{1.5, -2.0});
   CHECK(goal->goal->heading_rad == 0.5);
   CHECK(std::isnan(parse_order(R"({"goal":[1,2]})")->goal->heading_rad));
   CHECK(parse_order(R"({"here":[1,2,0.5]})")->here->heading_rad == 0.5);
@@ -159,11 +157,11 @@ TEST_CASE("a PoseStamped in JSON is a goal where it turns in the plane of the ma
   const auto goal = goal_from_json(
       R"({"header":{"frame_id":"map"},"pose":{"position":{"x":1,"y":2,"z":0},"orientation":{"x":0,"y":0,"z":1,"w":0}}})");
   REQUIRE(goal);
-  CHECK(goal->goal_in_map == Vec2{1.0, 2.0});
+  CHECK(goal->position_in_map == Vec2{1.0, 2.0});
   CHECK(std::fabs(goal->heading_rad - 3.14159265358979) < 1e-12);
-  CHECK(words_of({.goal_in_map = {1.5, -2.0}}) == R"({"goal":[1.5,-2]})");
-  CHECK(words_of({.goal_in_map = {1.5, -2.0}, .heading_rad = 0.5}, "here") == R"({"here":[1.5,-2,0.5]})");
-  CHECK(goal_from_json(R"({"pose":{"pose":{"position":{"x":1,"y":2}},"covariance":[]}})")->goal_in_map ==
+  CHECK(to_json(GoalOrder{.position_in_map = {1.5, -2.0}}) == R"({"goal":[1.5,-2]})");
+  CHECK(to_json(GoalOrder{.position_in_map = {1.5, -2.0}, .heading_rad = 0.5}, "here") == R"({"here":[1.5,-2,0.5]})");
+  CHECK(goal_from_json(R"({"pose":{"pose":{"position":{"x":1,"y":2}},"covariance":[]}})")->position_in_map ==
         Vec2{1.0, 2.0});
   CHECK(std::isnan(goal_from_json(R"({"pose":{"position":{"x":1,"y":2}}})")->heading_rad));
   for (const char* text : {"", "{}", "[]", R"({"pose":{}})", R"({"pose":1})",
@@ -180,11 +178,11 @@ TEST_CASE("a PoseStamped in CDR that is cut anywhere is no goal") {
   std::string whole("\0\1\0\0\0\0\0\0\0\0\0\0\4\0\0\0map\0", 20);  // its numbers begin at 16 of the body
   whole.append(reinterpret_cast<const char*>(numbers), sizeof numbers);
   REQUIRE(goal_from_cdr(whole));
-  CHECK(goal_from_cdr(whole)->goal_in_map == Vec2{3.0, 4.0});
+  CHECK(goal_from_cdr(whole)->position_in_map == Vec2{3.0, 4.0});
   CHECK(goal_from_cdr(whole)->heading_rad == 0.0);
   for (std::size_t size = 0; size < whole.size(); ++size) CHECK_FALSE(goal_from_cdr(whole.substr(0, size)));
   const std::string with_covariance = whole + std::string(36 * sizeof(double), '\0');
-  CHECK(goal_from_cdr(with_covariance)->goal_in_map == Vec2{3.0, 4.0});
+  CHECK(goal_from_cdr(with_covariance)->position_in_map == Vec2{3.0, 4.0});
   whole[12] = '\xFF';  // a frame of 255 letters
   CHECK_FALSE(goal_from_cdr(whole));
 }

@@ -6,7 +6,6 @@
 
 namespace jaywalk {
 namespace {
-
 /// False where the library has no such function.
 template <typename Function>
 bool find(void* library, const char* name, Function& function) {

@@ -49,7 +49,6 @@
   X(translate)
 
 namespace jaywalk {
-
 /// Cairo's functions by address.
 struct CairoLibrary {
 #define JAYWALK_CAIRO_MEMBER(name) decltype(&::cairo_##name) name = nullptr;

@@ -14,7 +14,6 @@ extern "C" const char* __lsan_default_suppressions() { return "leak:libfontconfi
 
 namespace jaywalk {
 namespace {
-
 /// Throws StartupError where cairo is not installed.
 const CairoLibrary& cairo() {
   if (cairo_library() == nullptr)

@@ -8,7 +8,6 @@
 #include "hal/types/geometry.h"
 
 namespace jaywalk {
-
 /// Each in [0, 1].
 struct Colour {
   double red = 0.0, green = 0.0, blue = 0.0, opacity = 1.0;

@@ -1,13 +1,13 @@
 #include "apps/report/picture/field_layer.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 
+#include "apps/report/picture/run_layers.h"
+
 namespace jaywalk {
 namespace {
-
 /// From the goal outwards: light and warm to darker and cool, calm enough to draw upon.
 constexpr std::array<Colour, 4> kRamp{colour(0xFFFBE8), colour(0xE4F0DC), colour(0xC3DCE6), colour(0xA9B6D8)};
 constexpr Colour kContourColour = colour(0x5C7A99);
@@ -127,6 +127,16 @@ void draw_field(Canvas& canvas, const MapFrame& to_sheet, const FieldRaster& fie
           {kContourColour.faded(0.5), 1.0});
     }
   }
+}
+
+void draw_decision(Canvas& canvas, const MapFrame& to_sheet, const DecisionScene& decision) {
+  const double weight = weight_of(to_sheet);
+  for (const FuturePlace& place : decision.futures) {
+    canvas.fill_disc(to_sheet(place.at), 2.2 * weight, kFutureColour.faded(0.5 * (1.0 - 0.8 * place.horizon_share)));
+  }
+  for (std::size_t k = std::min(decision.ways.size(), kWayColours.size()); k-- > 0;)
+    canvas.stroke(on_sheet(decision.ways[k].places, to_sheet), {kWayColours[k], 2.0 * weight, 8.0 * weight});
+  canvas.stroke(on_sheet(decision.chosen, to_sheet), {ink::kBand, 3.6 * weight});
 }
 
 }  // namespace jaywalk

@@ -4,15 +4,12 @@
 
 #include "apps/report/picture/cairo_library.h"
 #include "apps/report/picture/canvas.h"
-#include "apps/report/picture/decision_layer.h"
 #include "apps/report/picture/field_layer.h"
-#include "apps/report/picture/map_frame.h"
 #include "apps/report/picture/run_layers.h"
 #include "apps/report/picture/sheet.h"
 
 namespace jaywalk {
 namespace {
-
 // The sheet: a margin for the axes on the left, the title above, the panel on the right.
 constexpr Vec2 kMapCorner{92.0, 104.0}, kMapMost{1400.0, 1300.0};
 constexpr double kPanelGap = 44.0, kPanelWidth = 330.0, kRightMargin = 36.0, kFoot = 76.0, kLeastHeight = 640.0;
@@ -41,7 +38,7 @@ Time shown_time(const PictureScene& scene) {
 Extent field_extent(const PictureScene& scene, const Extent& shown) {
   if (scene.walls.empty()) return shown;
   Extent inside{scene.walls.front().from, scene.walls.front().from};
-  for (const WallLine& wall : scene.walls) {
+  for (const sim::WallSegment& wall : scene.walls) {
     for (const Vec2 p : {wall.from, wall.to}) {
       inside.low = {std::min(inside.low.x, p.x), std::min(inside.low.y, p.y)};
       inside.high = {std::max(inside.high.x, p.x), std::max(inside.high.y, p.y)};

@@ -4,7 +4,6 @@
 #include "apps/report/picture/scene.h"
 
 namespace jaywalk {
-
 /// Whether pictures can be drawn: cairo is loaded when first asked for. Not for the loop.
 [[nodiscard]] bool can_draw_pictures();
 

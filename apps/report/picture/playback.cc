@@ -7,7 +7,6 @@
 
 namespace jaywalk {
 namespace {
-
 constexpr double kStepS = 0.4;       ///< 0.24 m at 0.6 m/s: what a straight line between two positions hides
 constexpr double kGoneAfterS = 1.0;  ///< a body without a point for this long has left
 

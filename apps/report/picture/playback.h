@@ -6,7 +6,6 @@
 #include "apps/report/picture/scene.h"
 
 namespace jaywalk {
-
 /// A run at equal steps of time, for the moving picture. Allocates; works outside the tick.
 class Playback {
  public:

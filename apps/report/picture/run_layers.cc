@@ -2,14 +2,12 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 #include <limits>
 
 #include "apps/report/picture/playback.h"
 
 namespace jaywalk {
 namespace {
-
 constexpr double kTrailFadeS = 12.0;        ///< a trail is e times fainter after this
 constexpr double kStepM = 0.7;              ///< a track that stays within this went nowhere
 constexpr double kOutlineEveryM = 1.5;      ///< travel between two outlines of the robot
@@ -20,7 +18,7 @@ constexpr double kBodyM = 0.15;      ///< a body is at least this far across fro
 
 double gap_to_walls(const PictureScene& scene, Vec2 p) {
   double gap = std::numeric_limits<double>::infinity();
-  for (const WallLine& wall : scene.walls) {
+  for (const sim::WallSegment& wall : scene.walls) {
     const Vec2 along = wall.to - wall.from;
     const double squared = dot(along, along);
     const double share = squared > 0.0 ? std::clamp(dot(p - wall.from, along) / squared, 0.0, 1.0) : 0.0;
@@ -132,7 +130,7 @@ void draw_zones(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& sc
 void draw_walls(Canvas& canvas, const MapFrame& to_sheet, const PictureScene& scene) {
   const double seen = to_sheet.pixels(scene.cell_m);
   const double drawn = seen + 0.6;  // neighbours overlap, else light shines through between them
-  for (const WallLine& wall : scene.walls) {
+  for (const sim::WallSegment& wall : scene.walls) {
     canvas.stroke({to_sheet(wall.from), to_sheet(wall.to)}, {ink::kWall, std::max(2.0, 0.8 * seen)});
   }
   for (const Vec2 cell : scene.occupied) {

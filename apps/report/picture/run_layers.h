@@ -1,14 +1,11 @@
 #pragma once
 // What lies on the map, one function a layer, drawn from the bottom up.
-#include <string>
 #include <vector>
 
 #include "apps/report/picture/canvas.h"
-#include "apps/report/picture/map_frame.h"
 #include "apps/report/picture/scene.h"
 
 namespace jaywalk {
-
 namespace ink {
 inline constexpr Colour kText = colour(0x2B2F36);
 inline constexpr Colour kFaint = colour(0x8A919C);

@@ -6,18 +6,13 @@
 #include <fstream>
 #include <set>
 
-#include "apps/report/picture/map_frame.h"
+#include "apps/report/markup.h"
 #include "apps/report/picture/playback.h"
 #include "apps/report/picture/run_layers.h"
-#include "apps/report/picture/svg_text.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
 namespace {
-
-using svg::pair;
-using svg::whole;
-
 constexpr Vec2 kDrawingCorner{20.0, 80.0},
     kDrawingMost{1600.0, 1400.0};  // units of the drawing; 1600 across 25 m: 1.6 cm each
 constexpr double kDrawingFoot = 60.0;
@@ -26,6 +21,45 @@ constexpr std::size_t kMostPositions = 4'000;  ///< at about 10 bytes each
 constexpr std::size_t kMostPieces = 1'500;     ///< of walls and rows of cells, at about 18 bytes each
 constexpr std::size_t kMostBodies = 80;        ///< each has about 300 bytes beside its positions
 constexpr double kRadiansPerDegree = 0.017453292519943295;
+
+/// Nearest whole number, as text: whole units keep the file small.
+std::string whole(double value) { return std::to_string(std::lround(value)); }
+
+std::string pair(Vec2 p) { return whole(p.x) + " " + whole(p.y); }
+
+/// `text` as XML's characters: '?' for each byte outside printable ASCII.
+std::string escaped(std::string_view text) {
+  std::string out;
+  for (const char c : text) out += c < ' ' || c > '~' ? "?" : as_markup(c);
+  return out;
+}
+
+/// "#rrggbb"; opacity is left out.
+std::string hex(const Colour& colour) {
+  constexpr std::string_view kDigits = "0123456789abcdef";
+  std::string out = "#";
+  for (const double part : {colour.red, colour.green, colour.blue}) {
+    const auto byte = static_cast<unsigned>(std::lround(part * 255.0));
+    out += kDigits[byte / 16U];
+    out += kDigits[byte % 16U];
+  }
+  return out;
+}
+
+/// Values of an animation, separated by ';'.
+template <class Values, class Word>
+std::string joined(const Values& values, const Word& word) {
+  std::string out;
+  for (const auto& value : values) out += (out.empty() ? "" : ";") + word(value);
+  return out;
+}
+
+/// A line through all points.
+std::string path_of(const std::vector<Vec2>& points, const MapFrame& to_sheet) {
+  std::string out;
+  for (const Vec2 p : points) out += (out.empty() ? "M" : " ") + pair(to_sheet(p));
+  return out;
+}
 
 class Drawing {
  public:
@@ -76,15 +110,15 @@ class Drawing {
     const std::string width = whole(size.x + 2.0 * kDrawingCorner.x),
                       height = whole(kDrawingCorner.y + size.y + kDrawingFoot);
     out_ = "<svg xmlns=\"http://www.w3.org/2000/svg\" viewBox=\"0 0 " + width + " " + height +
-           "\" font-family=\"DejaVu Sans,sans-serif\" font-size=\"30\" fill=\"" + svg::hex(ink::kText) + "\">\n" +
+           "\" font-family=\"DejaVu Sans,sans-serif\" font-size=\"30\" fill=\"" + hex(ink::kText) + "\">\n" +
            "<rect width=\"" + width + "\" height=\"" + height + "\" fill=\"#fff\"/>\n<text x=\"20\" y=\"50\">" +
-           svg::escaped(scene_.title) + "</text>\n";
+           escaped(scene_.title) + "</text>\n";
   }
 
   void zones() {
     for (const MapZone& zone : scene_.zones) {
-      const std::string colour = svg::hex(colour_of(zone.kind));
-      out_ += "<path class=\"zone\" d=\"" + svg::path_of(zone.corners, to_sheet_) + "Z\" fill=\"" + colour +
+      const std::string colour = hex(colour_of(zone.kind));
+      out_ += "<path class=\"zone\" d=\"" + path_of(zone.corners, to_sheet_) + "Z\" fill=\"" + colour +
               "\" fill-opacity=\".18\" stroke=\"" + colour + "\" stroke-width=\"3\" stroke-dasharray=\"12\"/>\n";
     }
   }
@@ -119,7 +153,7 @@ class Drawing {
   }
 
   [[nodiscard]] static std::string stroke(const std::string& path, const Colour& colour, double width) {
-    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + svg::hex(colour) + "\" stroke-width=\"" + whole(width) +
+    return "<path d=\"" + path + "\" fill=\"none\" stroke=\"" + hex(colour) + "\" stroke-width=\"" + whole(width) +
            "\"/>\n";
   }
 
@@ -127,8 +161,8 @@ class Drawing {
     if (!scene_.goal) return;
     const Vec2 at = to_sheet_(*scene_.goal);
     out_ += "<circle id=\"goal\" cx=\"" + whole(at.x) + "\" cy=\"" + whole(at.y) + "\" r=\"" +
-            whole(std::max(to_sheet_.pixels(scene_.goal_tolerance_m), 8.0)) + "\" fill=\"" + svg::hex(ink::kGoal) +
-            "\" fill-opacity=\".3\" stroke=\"" + svg::hex(ink::kGoal) + "\" stroke-width=\"5\"/>\n";
+            whole(std::max(to_sheet_.pixels(scene_.goal_tolerance_m), 8.0)) + "\" fill=\"" + hex(ink::kGoal) +
+            "\" fill-opacity=\".3\" stroke=\"" + hex(ink::kGoal) + "\" stroke-width=\"5\"/>\n";
   }
 
   /// Grows with the robot: each step uncovers the share of the way that was driven by then.
@@ -143,10 +177,10 @@ class Drawing {
     }
     if (!(driven.back() > 0.0)) return;
     const auto left = [&](double d) { return whole(1000.0 * (1.0 - d / driven.back())); };
-    out_ += "<path d=\"" + svg::path_of(line, to_sheet_) + "\" fill=\"none\" stroke=\"" + svg::hex(ink::kRobot) +
+    out_ += "<path d=\"" + path_of(line, to_sheet_) + "\" fill=\"none\" stroke=\"" + hex(ink::kRobot) +
             "\" stroke-width=\"6\" pathLength=\"1000\" stroke-dasharray=\"1000\"><animate "
             "attributeName=\"stroke-dashoffset\" values=\"" +
-            svg::joined(driven, left) + "\"" + dur() + "</path>\n";
+            joined(driven, left) + "\"" + dur() + "</path>\n";
   }
 
   void robot() {
@@ -158,16 +192,16 @@ class Drawing {
     const auto u = [&](double metres) { return whole(to_sheet_.pixels(metres)); };
     out_ += "<g id=\"robot\" transform=\"translate(" + place(poses.back()) + ")\">" + moved(poses, place) +
             "<g transform=\"rotate(" + turn(poses.back()) + ")\"><animateTransform attributeName=\"transform\" " +
-            "type=\"rotate\" values=\"" + svg::joined(poses, turn) + "\"" + dur() + "<path d=\"M" + u(f.front_m) + " " +
+            "type=\"rotate\" values=\"" + joined(poses, turn) + "\"" + dur() + "<path d=\"M" + u(f.front_m) + " " +
             u(-f.half_width_m) + "V" + u(f.half_width_m) + "H" + u(-f.rear_m) + "V" + u(-f.half_width_m) + "ZM0 0H" +
-            u(f.front_m) + "\" fill=\"" + svg::hex(ink::kRobot) +
+            u(f.front_m) + "\" fill=\"" + hex(ink::kRobot) +
             "\" fill-opacity=\".6\" stroke=\"#fff\" stroke-width=\"3\"/></g></g>\n";
   }
 
   template <class Places, class Place>
   [[nodiscard]] std::string moved(const Places& places, const Place& place) const {
-    return "<animateTransform attributeName=\"transform\" type=\"translate\" values=\"" + svg::joined(places, place) +
-           "\"" + dur();
+    return "<animateTransform attributeName=\"transform\" type=\"translate\" values=\"" + joined(places, place) + "\"" +
+           dur();
   }
 
   void body(const Trail& trail) {
@@ -175,9 +209,8 @@ class Drawing {
     const auto place = [&](Vec2 p) { return pair(to_sheet_(p)); };
     const std::string radius = whole(to_sheet_.pixels(std::max(trail.radius_m, 0.1)));
     out_ += "<g transform=\"translate(" + place(way.back()) + ")\">" + moved(way, place) +
-            shown_while(playback_.stay(trail)) + "<circle r=\"" + radius + "\" fill=\"" +
-            svg::hex(colour_of(trail.id)) + "\"/><text font-size=\"22\" x=\"" + radius + "\">" +
-            std::to_string(trail.id) + "</text></g>\n";
+            shown_while(playback_.stay(trail)) + "<circle r=\"" + radius + "\" fill=\"" + hex(colour_of(trail.id)) +
+            "\"/><text font-size=\"22\" x=\"" + radius + "\">" + std::to_string(trail.id) + "</text></g>\n";
   }
 
   /// Bodies that come and go are invisible before and after.
@@ -199,7 +232,7 @@ class Drawing {
     std::snprintf(words, sizeof words, faster > 1.0 ? "%.1f s, shown %.1f times faster" : "%.1f s", playback_.lasts_s(),
                   faster);
     out_ += "<rect x=\"20\" y=\"" + whole(y + 8.0) + "\" width=\"" + whole(wide) + "\" height=\"8\" fill=\"" +
-            svg::hex(ink::kFaint) + "\"><animate attributeName=\"width\" values=\"0;" + whole(wide) + "\"" + dur() +
+            hex(ink::kFaint) + "\"><animate attributeName=\"width\" values=\"0;" + whole(wide) + "\"" + dur() +
             "</rect>\n<text x=\"20\" y=\"" + whole(y + 48.0) + "\">" + words + "</text>\n";
     for (const double share : {0.5, 0.75, 1.0})
       out_ += "<text x=\"" + whole(20.0 + share * wide) + "\" y=\"" + whole(y + 48.0) + "\" text-anchor=\"end\">" +

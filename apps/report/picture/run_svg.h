@@ -4,7 +4,6 @@
 #include "apps/report/picture/scene.h"
 
 namespace jaywalk {
-
 /// An animated SVG has at most about this many bytes, however long the run.
 inline constexpr std::size_t kMostSvgBytes = 100'000;
 

@@ -1,28 +1,79 @@
 #pragma once
-// What a picture of a run shows. Everything is in the map's frame, metres and radians.
+// Scene of a run's picture, in the map's frame, metres and radians, its trails, and its frame on the sheet.
+#include <algorithm>
+#include <cstddef>
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
 #include <utility>
 #include <vector>
 
-#include "apps/report/trails.h"
-#include "hal/types/geometry.h"
+#include "hal/maps/wall_map.h"
 #include "hal/types/map_zones.h"
 #include "hal/types/robot_model.h"
+#include "hal/types/time.h"
 #include "planner/cost_to_go/planner.h"
 #include "planner/mapping/evidence_map.h"
 #include "planner/tracking/track.h"
 
 namespace jaywalk {
+struct TrailPoint {
+  Time t = kNever;
+  Vec2 position;
+};
+
+/// Where the robot stood.
+struct DrivenPose {
+  Time t = kNever;
+  Pose2 pose;
+};
+
+/// The robot's own way: a pose every 0.2 s; where there would be more than kMostPoses (an hour), twice as long, and so
+/// on.
+class DrivenWay {
+ public:
+  static constexpr Duration kSpacing{200'000'000};
+  static constexpr std::size_t kMostPoses = 18'000;
+
+  void add(Time t, const Pose2& pose);
+  [[nodiscard]] const std::vector<DrivenPose>& poses() const { return poses_; }
+
+ private:
+  Duration spacing_ = kSpacing;
+  std::vector<DrivenPose> poses_;
+};
+
+/// One thing's way through the run.
+struct Trail {
+  std::uint32_t id = 0;
+  double radius_m = 0.0;
+  bool flagged = false;  ///< of a mover: was forced at some time; of a track: was moving at some time
+  std::vector<TrailPoint> points;
+};
+
+/// Trails by id; a point is kept when its forerunner is 0.2 s old or older. Where there would be more than kMostPoints,
+/// that time doubles, and so on; where there would be more than kMostTrails, the half that ended first is forgotten.
+class TrailBook {
+ public:
+  static constexpr std::size_t kMostPoints = 200'000, kMostTrails = 4'000;
+
+  void add(std::uint32_t id, Time t, Vec2 position, double radius_m, bool flag);
+  /// In the order of their ids.
+  [[nodiscard]] std::vector<Trail> trails() const;
+
+ private:
+  void thin_out();
+  void forget_oldest();
+
+  Duration spacing_ = DrivenWay::kSpacing;
+  std::size_t points_ = 0;
+  std::map<std::uint32_t, Trail> trails_;
+};
 
 struct Extent {
   Vec2 low, high;
-};
-
-struct WallLine {
-  Vec2 from, to;
 };
 
 /// A plan's field with its numbers: rows from the lowest y, NaN where not free, inf where unreachable.
@@ -70,7 +121,7 @@ struct PictureScene {
   std::string title;
   std::vector<std::pair<std::string, std::string>> facts;  ///< shown beside the map: "path", "46.2 m"
   Extent extent;                                           ///< what is shown; see extent_of
-  std::vector<WallLine> walls;                             ///< as they really are
+  std::vector<sim::WallSegment> walls;                     ///< as they really are
   std::vector<Vec2> occupied;                              ///< centres of cells that the robot saw occupied
   double cell_m = 0.1;
   std::vector<MapZone> zones;  ///< that a person drew
@@ -110,6 +161,29 @@ class BusiestMoment {
   double busiest_ = -1.0;
   std::size_t longest_path_ = 0;  ///< points
   std::optional<PlanMoment> moment_;
+};
+
+/// From metres in the map to pixels on the sheet.
+class MapFrame {
+ public:
+  /// The extent's upper left corner lies at `upper_left`; it is as large as `most` allows.
+  MapFrame(const Extent& extent, Vec2 upper_left, Vec2 most)
+      : extent_(extent), upper_left_(upper_left), pixels_per_m_(std::min(most.x / width_m(), most.y / height_m())) {}
+
+  [[nodiscard]] double width_m() const { return extent_.high.x - extent_.low.x; }
+  [[nodiscard]] double height_m() const { return extent_.high.y - extent_.low.y; }
+  [[nodiscard]] double pixels(double metres) const { return metres * pixels_per_m_; }
+  [[nodiscard]] Vec2 upper_left() const { return upper_left_; }
+  [[nodiscard]] Vec2 size() const { return {pixels(width_m()), pixels(height_m())}; }
+  [[nodiscard]] const Extent& extent() const { return extent_; }
+  [[nodiscard]] Vec2 operator()(Vec2 p_in_map) const {
+    return {upper_left_.x + pixels(p_in_map.x - extent_.low.x), upper_left_.y + pixels(extent_.high.y - p_in_map.y)};
+  }
+
+ private:
+  Extent extent_;
+  Vec2 upper_left_;
+  double pixels_per_m_;
 };
 
 }  // namespace jaywalk

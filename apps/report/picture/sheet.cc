@@ -1,19 +1,16 @@
 #include "apps/report/picture/sheet.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdio>
 #include <functional>
 #include <string>
 
-#include "apps/report/picture/decision_layer.h"
 #include "apps/report/picture/field_layer.h"
 #include "apps/report/picture/run_layers.h"
 
 namespace jaywalk {
 namespace {
-
 constexpr double kFactSize = 20.0, kFactLine = 30.0, kLegendLine = 36.0, kSwatch = 52.0;
 
 /// The round length (1, 2 or 5 times a power of ten) next above `at_least`.

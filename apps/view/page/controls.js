@@ -14,19 +14,11 @@ element('step').onclick = () => {
   if (!paused) set_paused(true);
   order({step: true});
 };
-element('stop').onclick = ask_stop;
-element('reset').onclick = ask_reset;
-element('undo').onclick = undo;
-element('go').onclick = accept;
-element('leave').onclick = cancel_proposal;
-element('live').onclick = () => { plays = false; shown = newest; follows = true; axis(); draw_soon(); };
 element('time').oninput = event => { plays = false; choose(Number(event.target.value)); };
-element('nearer').onclick = () => zoom(1.3);
-element('farther').onclick = () => zoom(1 / 1.3);
-element('whole').onclick = () => aim_at('whole');
-element('along').onclick = () => aim_at('along');
-element('key').onclick = () => show_card('legend');
-element('help').onclick = () => show_card('keys');
+const kButtons = {stop: ask_stop, reset: ask_reset, undo, go: accept, leave: cancel_proposal, nearer: () => zoom(1.3), farther: () => zoom(1 / 1.3),
+  whole: () => aim_at('whole'), along: () => aim_at('along'), key: () => show_card('legend'), help: () => show_card('keys'),
+  live: () => { plays = false; shown = newest; follows = true; axis(); draw_soon(); }};
+for (const id in kButtons) element(id).onclick = kButtons[id];
 onkeydown = event => {
   if (event.ctrlKey || event.metaKey || event.altKey) return event.key === 'z' && undo();
   const key = event.key === ' ' ? 'Space' : event.key.length === 1 ? event.key.toLowerCase() : event.key, found = kKeys.find(row => row[0] === key);
