@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "hal/sim/free_grid.h"
 #include "hal/sim/random.h"
 #include "hal/sim/simulation.h"
 #include "hal/sim/walls.h"

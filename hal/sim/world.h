@@ -6,10 +6,10 @@
 #include <vector>
 
 #include "hal/maps/wall_map.h"
+#include "hal/sim/free_grid.h"
 #include "hal/sim/movers.h"
 #include "hal/sim/plant.h"
 #include "hal/sim/simulation.h"
-#include "hal/sim/walls.h"
 
 namespace jaywalk::sim {
 

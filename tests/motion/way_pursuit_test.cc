@@ -1,7 +1,8 @@
 // A wheelchair along the way that its pose guide has.
+#include "planner/motion/way_pursuit.h"
+
 #include <memory>
 
-#include "planner/motion/proposals.h"
 #include "tests/motion/chair.h"
 #include "tests/support/catch.h"
 

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "hal/sim/free_grid.h"
 #include "hal/sim/random.h"
 #include "tests/sim/made_worlds.h"
 #include "tests/support/catch.h"

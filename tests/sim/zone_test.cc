@@ -1,4 +1,4 @@
-#include "hal/sim/walls.h"
+#include "hal/sim/free_grid.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;
