@@ -45,8 +45,7 @@ struct BenchMap {
 /// start near its upper right corner. Throws StartupError.
 [[nodiscard]] BenchMap scaled_map(const std::filesystem::path& file, std::int32_t side);
 
-// What a user would pick instead, written plainly: each on the free cells alone, inflated beforehand at no cost.
-
+/// Shortest ways and harmonic potentials as textbooks have them, on free cells that are inflated beforehand at no cost.
 class BenchRivals {
  public:
   /// `free`: width x height, 1 where a robot may be. Takes all memory.

@@ -10,8 +10,7 @@
 
 namespace jaywalk::campaign {
 
-// What came of one run: its mark, run.json.
-
+/// Result of one run, as its run.json has it. Where that is, the run is over.
 struct RunResult {
   std::string outcome;    ///< summary.json's; "crashed" or "refused" where the program did not get so far
   bool success = false;   ///< by the strict rule
@@ -29,7 +28,7 @@ struct RunResult {
   [[nodiscard]] double figure(const std::string& name) const;
 };
 
-/// What the process that ended with `status` (waitpid's) left in `folder`: its tables, and what it said in said.txt.
+/// Result of a process that ended with `status` (waitpid's), by its tables and its output (said.txt) in `folder`.
 /// Throws StartupError where a table that must be there is not ours.
 [[nodiscard]] RunResult result_of(const PlannedRun& run, const std::filesystem::path& folder, int status);
 

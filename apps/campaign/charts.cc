@@ -20,7 +20,7 @@ double number_of(const std::string& word) {
   return value;
 }
 
-/// What a line is called: the experiment, and the values of the other axes that vary.
+/// Name of a line: its experiment, and the values of the other axes that vary.
 std::string line_name(const ReportedTables& tables, const ReportedRow& row, std::size_t movers) {
   std::string name;
   for (std::size_t k = 0; k < row.values.size(); ++k) {

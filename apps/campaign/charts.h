@@ -22,7 +22,7 @@ struct SuccessLine {
   std::vector<SuccessPoint> points;
 };
 
-/// What the paper reports, on its own maps.
+/// Success that the paper reports on its own maps.
 struct PaperPoint {
   double movers, percent;
 };

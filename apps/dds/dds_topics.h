@@ -12,7 +12,8 @@
 #include "apps/formats/ros_robot.h"
 
 namespace jaywalk::dds {
-/// Of what DDS returns: throws StartupError for its errors, which are negative.
+/// Handle that a call of DDS returned. Throws StartupError for a negative one, which is an error; `what` names the
+/// call.
 dds_entity_t checked(dds_entity_t entity, const std::string& what);
 
 using Qos = std::unique_ptr<dds_qos_t, decltype(&dds_delete_qos)>;
@@ -50,7 +51,7 @@ struct PoseOrder {
   bool is_place = false;
   std::string message;
 };
-/// As a person says it to a run, "goto X Y H" or "here X Y H"; empty where it is no pose in the frame map.
+/// Order as the control socket takes it, "goto X Y H" or "here X Y H"; empty where the pose is not in the frame map.
 [[nodiscard]] std::string words_of(const PoseOrder& order);
 
 /// Reads /goal_pose and /initialpose; of what is repeated or late nothing is an order (exchange::GoalOrders).

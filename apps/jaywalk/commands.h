@@ -126,8 +126,8 @@ struct SimOptions {
 };
 
 /// The whole controller on the simulated robot; the scenario may be the name of one that comes with the program.
-/// Returns the process's exit code: 0 when the run succeeded by the strict rule (goal reached, nobody touched, nobody
-/// made to turn), 1 when not. Throws StartupError for bad input.
+/// Returns the process's exit code: 0 when the robot reached the goal, touched nothing and made no mover turn (the
+/// strict rule), 1 when not. Throws StartupError for bad input.
 [[nodiscard]] int run_sim(SimOptions options);
 
 }  // namespace jaywalk

@@ -155,7 +155,7 @@ OperatorInput with_goal(const OperatorInput& input) {
 }
 
 /// Outcome of a run, empty while it goes on; its time to arrive counts from `set_out`. A forced mover does not end the
-/// run. A latched stop ends it, since a simulation has nobody who resets.
+/// run. A latched stop ends it, since no person resets a simulated robot.
 std::string outcome(const sim::Scenario& scenario, const sim::Truth& truth, const TickRecord& t, bool applied,
                     Time set_out) {
   if (truth.contacts > 0) return "collision";

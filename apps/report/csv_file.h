@@ -1,5 +1,5 @@
 #pragma once
-// Tables whose bytes depend on their numbers alone, written and read.
+// CSV tables, written and read. Equal numbers give equal bytes, on every machine.
 #include <cstdint>
 #include <filesystem>
 #include <fstream>

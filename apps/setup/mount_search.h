@@ -13,7 +13,7 @@ namespace jaywalk {
 [[nodiscard]] std::optional<double> found_mount_yaw(const sim::RecordedLog& log);
 
 /// Does the laser look where the wheels drive? A differential drive cannot slip sideways for long: when the poses that
-/// scans and wheels agree upon keep sliding to one side, the laser is mounted turned and nobody said so.
+/// scans and wheels agree upon keep sliding to one side, the laser's yaw is not the one in the robot file.
 class MountCheck {
  public:
   /// The estimated pose at each tick, in order.

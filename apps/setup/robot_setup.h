@@ -36,7 +36,8 @@ struct FoundScanner {
 /// Everything a person may have meant by that line of a network or a cable.
 [[nodiscard]] std::vector<ScannerKind> kinds_on_network();
 [[nodiscard]] std::vector<ScannerKind> kinds_on_line();
-/// What is tried on a serial line that nobody named, by its adapter's name: words go only to what is a scanner by name.
+/// Kinds that are tried on a serial line of which the person named no kind, by its adapter's name. Only to a scanner's
+/// adapter anything is sent.
 [[nodiscard]] std::vector<ScannerKind> kinds_by_adapter(const std::string& line);
 
 /// Opens all places at once, makes each send by one kind's words, and listens: kind by kind, at most three seconds

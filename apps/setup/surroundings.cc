@@ -140,7 +140,7 @@ std::unique_ptr<Trial> try_kind(const ScannerPlace& place, std::size_t round, Cl
   if (round >= place.kinds.size()) return nullptr;
   try {
     return std::make_unique<Trial>(place, place.kinds[round], clock);
-  } catch (const StartupError&) {  // a name that nobody knows, a rate that no line has
+  } catch (const StartupError&) {  // no such host, or a baud rate that the line cannot take
     return nullptr;
   }
 }

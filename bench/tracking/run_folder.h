@@ -24,7 +24,7 @@ class NumberTable {
   [[nodiscard]] bool has(std::string_view column) const;
   /// Throws where there is no such column, and for a cell that is no number of a place, time or speed.
   [[nodiscard]] std::vector<double> column(std::string_view name) const;
-  /// The same; NaN for cells that are empty or "nan": what nobody knows.
+  /// The same; NaN (unknown) for cells that are empty or "nan".
   [[nodiscard]] std::vector<double> column_where_known(std::string_view name) const;
   /// Whole numbers from 0 on that fit into 32 bits.
   [[nodiscard]] std::vector<std::uint32_t> names(std::string_view column) const;

@@ -29,7 +29,7 @@ Frames labels_in_map(const std::filesystem::path& file, const RunFolder& run, co
   return frames;
 }
 
-/// Adds whoever has labels before and after the frame, at most `between_s` apart, and none in it.
+/// Adds to each frame the targets that have labels before and after it, at most `between_s` apart, and none in it.
 void add_those_between(Frames& frames, double between_s) {
   Trails trails;
   for (const auto& [t, targets] : frames) {
