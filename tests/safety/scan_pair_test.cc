@@ -1,0 +1,75 @@
+// Two scans of bare walls, matched: the errors that a motion leaves, and what the match claims to know.
+#include "firmware/safety/scan_pair.h"
+
+#include <Eigen/LU>
+#include <random>
+
+#include "tests/support/catch.h"
+
+using namespace jaywalk;
+
+namespace {
+
+/// An LMS200's view, a beam a degree over 180, of a wall x = `ahead_m`; with `left_m` of another, y = left_m, which
+/// hides the first one from where they meet.
+LaserScan walls(double ahead_m, double left_m, double noise_m, std::mt19937_64& engine) {
+  std::normal_distribution<double> noise(0.0, noise_m);
+  LaserScan scan;
+  scan.sequence = 1;
+  scan.beam_count = 181;
+  scan.first_angle_rad = static_cast<float>(-0.5 * kPi);
+  scan.angle_step_rad = static_cast<float>(kPi / 180.0);
+  scan.range_min_m = 0.05F;
+  scan.range_max_m = 8.0F;
+  for (std::size_t beam = 0; beam < scan.beam_count; ++beam) {
+    const Vec2 along = direction(scan.angle_rad(beam));
+    const double ahead = along.x > 1e-3 ? ahead_m / along.x : 100.0, left = along.y > 1e-3 ? left_m / along.y : 100.0;
+    scan.range_m[beam] = static_cast<float>(std::min({ahead, left, 20.0}) + (noise_m > 0.0 ? noise(engine) : 0.0));
+  }
+  return scan;
+}
+
+/// Standard deviations of the match of two scans, the newer from 5 cm nearer to the wall ahead: ahead and aside, m.
+Vec2 claimed_std_m(double left_m, std::uint64_t seed) {
+  std::mt19937_64 engine(seed);
+  const LaserScan kept = walls(1.5, left_m, 0.01, engine), now = walls(1.45, left_m, 0.01, engine);
+  ScanPair pair{Pose2{}};
+  REQUIRE(pair.usable(kept));
+  pair.keep(kept);
+  const Eigen::Matrix3d covariance = pair.fit(now, {}).information.inverse();
+  return {std::sqrt(covariance(0, 0)), std::sqrt(covariance(1, 1))};
+}
+
+}  // namespace
+
+TEST_CASE("a scan from 3 cm nearer to a wall leaves 3 cm at each point of it, wherever along the wall it was taken") {
+  std::mt19937_64 engine(1);
+  const LaserScan kept = walls(2.0, 100.0, 0.0, engine), now = walls(1.97, 100.0, 0.0, engine);
+  ScanPair pair{Pose2{}};
+  REQUIRE(pair.usable(kept));
+  pair.keep(kept);
+  int compared = 0;
+  for (const double aside_m : {0.0, 0.1}) {
+    const ScanPair::Errors still = pair.errors(now, {0.0, aside_m, 0.0}),
+                           moved = pair.errors(now, {0.03, aside_m, 0.0});
+    for (std::size_t k = 15; k < 60; ++k) {  // well within the wall: of every other beam that hits, 75 in all
+      if (std::isnan(still[k]) || std::isnan(moved[k])) continue;
+      ++compared;
+      CHECK(std::fabs(still[k]) == Approx(0.03).margin(0.001));
+      CHECK(moved[k] == Approx(0.0).margin(0.001));
+    }
+  }
+  CHECK(compared == 90);
+}
+
+TEST_CASE("a match knows nothing of the way along a bare wall, and both ways in a corner") {
+  // 1 cm of noise, a hundred points: a millimetre across the wall.
+  for (std::uint64_t seed = 1; seed <= 20; ++seed) {
+    CAPTURE(seed);
+    const Vec2 bare = claimed_std_m(100.0, seed), corner = claimed_std_m(1.2, seed);
+    CHECK(bare.x < 0.005);
+    CHECK(bare.y > 0.05);  // it claimed 0.01 m: the prior of its own step, and normals that noise had turned
+    CHECK(corner.x < 0.005);
+    CHECK(corner.y < 0.005);
+  }
+}
