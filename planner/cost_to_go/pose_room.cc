@@ -34,10 +34,8 @@ std::int32_t place_of_node(const Offset& at) {
 
 }  // namespace
 
-PoseRoom::PoseRoom(const Footprint& body, CostSettler* settler)
-    : settler_(settler),
-      nodes_(static_cast<std::size_t>(kNodes) * kNodes),
-      unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
+PoseRoom::PoseRoom(const Footprint& body)
+    : nodes_(static_cast<std::size_t>(kNodes) * kNodes), unseen_(static_cast<std::size_t>(kNodes) * kNodes) {
   const auto front = static_cast<float>(body.front_m), rear = static_cast<float>(-body.rear_m),
              half = static_cast<float>(body.half_width_m), middle = 0.5F * (front + rear);
   rim_ = {{{front, half},
@@ -122,22 +120,22 @@ void PoseRoom::add_wall(Place at) noexcept {
   }
 }
 
-void PoseRoom::find(const Guide& guide, Place low, std::span<const Vec2> walls, std::uint8_t* room,
-                    std::int8_t* shift) noexcept {
+void PoseRoom::take_surfaces(const Guide& guide, Place low, std::span<const Vec2> walls) noexcept {
   take_nodes(guide, low);
   for (const Vec2 wall : walls) add_wall({static_cast<float>(wall.x) - low.x, static_cast<float>(wall.y) - low.y});
-  const auto points = static_cast<std::int32_t>(radius_.size());
-  if (settler_ != nullptr && settler_->find({nodes_.data(), places_.data(), radius_.data(), points, room, shift}))
-    return;
+}
+
+void PoseRoom::find(const PoseLook& look) const noexcept {
   for (std::int32_t j = 0; j < kSide; ++j) {
     for (std::int32_t heading = 0; heading < PoseLattice::kHeadings; ++heading) {
       std::uint8_t least[PoseLook::kSides][kSide];
       for (std::int32_t side = 0; side < PoseLook::kSides; ++side)
-        look_along(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * points)], j, least[side]);
+        look_along(&places_[static_cast<std::size_t>((heading * PoseLook::kSides + side) * look.points)], j,
+                   least[side]);
       for (std::int32_t i = 0; i < kSide; ++i) {
         const std::int32_t pose = PoseLattice::at(i, j, heading);
         const std::int32_t aside = least[2][i] > least[1][i] ? 2 : 1, side = least[aside][i] > least[0][i] ? aside : 0;
-        room[pose] = least[side][i], shift[pose] = PoseLook::shift_of(side);
+        look.room[pose] = least[side][i], look.shift[pose] = PoseLook::shift_of(side);
       }
     }
   }
