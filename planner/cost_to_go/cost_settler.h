@@ -71,11 +71,13 @@ struct PoseRates {
   using Lattice = PoseLattice;
 
   [[nodiscard]] JAYWALK_CELL bool is_by_robot(std::int32_t pose, std::int32_t cells, std::int32_t turns) const {
+    const std::int32_t rows = Lattice::offset(0, cells + 1, 0);  // nearly all poses are farther off
+    if (robot < 0 || pose < robot - rows || pose > robot + rows) return false;
     const std::int32_t i = Lattice::i_of(pose), j = Lattice::j_of(pose), di = i - Lattice::i_of(robot),
                        dj = j - Lattice::j_of(robot),
                        turn = Lattice::wrapped(Lattice::heading_of(pose) - Lattice::heading_of(robot) + turns);
-    return robot >= 0 && di >= -cells && di <= cells && dj >= -cells && dj <= cells && turn <= 2 * turns && i >= 0 &&
-           j >= 0 && i < Lattice::kSide && j < Lattice::kSide;
+    return di >= -cells && di <= cells && dj >= -cells && dj <= cells && turn <= 2 * turns && i >= 0 && j >= 0 &&
+           i < Lattice::kSide && j < Lattice::kSide;
   }
   [[nodiscard]] JAYWALK_CELL std::uint32_t price_to_leave(std::int32_t pose) const {
     std::int32_t most = 0;

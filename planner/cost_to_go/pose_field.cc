@@ -167,11 +167,12 @@ void PoseField::settle_costs(bool anybody_stands, Memory& memory) noexcept {
 
 bool PoseField::settle_here(const PoseCosts& poses) noexcept {
   room_.find(poses.look);
-  for (std::int32_t pose = 0; pose < Lattice::kPoses; ++pose) poses.rates(pose);
+  const PoseRates rates = poses.rates;  // a copy, which what is written cannot change
+  for (std::int32_t pose = 0; pose < Lattice::kPoses; ++pose) rates(pose);
   queue_.clear();
   for (const std::int32_t pose : seeds_) {
     const std::uint32_t given = std::exchange(poses.cost[pose], PoseGuide::kNoWay);
-    if (poses.rates.rate[pose] != 0) queue_.offer(graph_, pose, given);
+    if (rates.rate[pose] != 0) queue_.offer(graph_, pose, given);
   }
   return queue_.settle(graph_);
 }
