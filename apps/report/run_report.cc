@@ -145,6 +145,7 @@ void RunReport::add_truth(const TrueState& truth, Time now) {
   contacts_ = truth.contacts;
   contacts_caused_ = truth.contacts_caused;
   forced_movers_ = truth.forced_movers;
+  social_ = truth.social;
   for (const TrueMover& mover : truth.movers) {
     movers_.add(mover.id, now, mover.position_in_map, mover.radius_m, mover.forced);
   }
@@ -189,6 +190,10 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["forced_movers"] = known(has_truth_, forced_movers_);
   j["contacts"] = known(has_truth_, contacts_);
   j["contacts_caused"] = known(has_truth_, contacts_caused_);
+  j["intimate_s"] = known(has_truth_, social_.intimate_s);
+  j["personal_s"] = known(has_truth_, social_.personal_s);
+  j["slowed_m"] = known(has_truth_, social_.slowed_m);
+  j["turned_rad"] = known(has_truth_, social_.turned_rad);
   j["max_turn_deg"] = shape_.max_turn_deg();
   j["turn_histogram"] = shape_.turn_histogram();
   j["turn_bin_deg"] = kTurnBinDeg;

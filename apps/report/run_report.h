@@ -75,6 +75,7 @@ class RunReport {
   bool has_truth_ = false;
   double min_clearance_m_, min_mover_clearance_m_;
   std::uint32_t contacts_ = 0, contacts_caused_ = 0, forced_movers_ = 0;
+  SocialMeasures social_;
 };
 
 }  // namespace jaywalk

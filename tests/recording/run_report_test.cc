@@ -38,6 +38,7 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     truth.contacts = 2;
     truth.contacts_caused = 1;
     truth.forced_movers = i < 50 ? 0 : 1;
+    truth.social = {0.02 * i, 0.01 * i, 0.5, 0.25};
     RunSample sample{*record, tracks};
     if (with_truth) sample.truth = &truth;
     sample.tick_took = Duration{i == 100 ? 3'000'000 : 1'000'000};
@@ -97,6 +98,10 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["min_clearance_m"].get<double>() == Approx(1.0));
   CHECK(j["min_mover_clearance_m"] == 0.75);
   CHECK(j["forced_movers"] == 1);
+  CHECK(j["intimate_s"] == 2.0);
+  CHECK(j["personal_s"] == 1.0);
+  CHECK(j["slowed_m"] == 0.5);
+  CHECK(j["turned_rad"] == 0.25);
   CHECK(j["contacts"] == 2);
   CHECK(j["contacts_caused"] == 1);
   CHECK(j["max_turn_deg"].get<double>() == Approx(0.0).margin(1e-9));
@@ -122,7 +127,7 @@ TEST_CASE("what only a world can know is null in a replay") {
   const Json j = Json::parse(drive(scratch.folder(), false));
   for (const char* key :
        {"success", "min_clearance_m", "min_mover_clearance_m", "forced_movers", "contacts", "contacts_caused",
-        "accel_max_mps2", "jerk_p99_mps3", "jerk_max_mps3", "mover_rule", "detour_m"}) {
+        "slowed_m", "accel_max_mps2", "jerk_p99_mps3", "jerk_max_mps3", "mover_rule", "detour_m"}) {
     INFO(key);
     CHECK(j.at(key).is_null());
   }
