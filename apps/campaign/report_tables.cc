@@ -84,14 +84,16 @@ std::vector<std::string> success_row(const ReportedRow& row) {
           std::to_string(clear),
           std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("contacts_caused") > 0.0; })),
           fixed(sum_of(values_of(runs, plain("forced_movers"))), 0),
+          fixed(sum_of(values_of(runs, plain("faults"))), 0),
           std::to_string(count_if(runs, [](const RunResult& r) { return r.figure("loops") > 0.0; }))};
 }
 
 ReportTable success_table(const ReportedTables& tables) {
-  ReportTable table{"Success",
-                    {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run",
-                     "contact-free", "touched while driving", "movers made to turn", "runs with a loop"},
-                    {}};
+  ReportTable table{
+      "Success",
+      {"", "success", "share (95 %)", "forced a mover", "collision", "timeout", "fault", "did not run", "contact-free",
+       "touched while driving", "movers made to turn", "stops by faults", "runs with a loop"},
+      {}};
   for (const ReportedRow& row : tables.rows) table.rows.push_back(success_row(row));
   return table;
 }

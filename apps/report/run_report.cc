@@ -116,7 +116,15 @@ void RunReport::add(const RunSample& sample) {
   add_way(pose, sample);
   if (sample.truth != nullptr) add_truth(*sample.truth, now);
   granted_.add(sample.record);
+  add_faults(sample.record.verdict.reasons);
   add_tracks(sample);
+}
+
+void RunReport::add_faults(Reason reasons) {
+  constexpr Reason kStoppedBy = of_kind(ReasonKind::kFault) | kAlwaysLatched;
+  const bool is_faulty = has(reasons, kStoppedBy) && !has(reasons, Reason::kEmergencyStop);
+  if (is_faulty && !is_faulty_) ++faults_;
+  is_faulty_ = is_faulty;
 }
 
 void RunReport::add_plan(const PlanTook& took) {
@@ -207,6 +215,7 @@ std::string RunReport::summary(const RunEnd& end) const {
   j["granted_share"] = granted_.mean();
   j["steered_s"] = granted_.steered_s();
   j["ticks"] = ticks_;
+  j["faults"] = faults_;
   j["missed_ticks"] = end.missed_ticks;
   j["dropped_records"] = end.dropped_records;
   j["not_recorded"] = all_complaints(complaints(), end.not_recorded);

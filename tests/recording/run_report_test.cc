@@ -28,7 +28,11 @@ std::string drive(const std::filesystem::path& folder, bool with_truth) {
     record->scan.sequence = static_cast<std::uint32_t>(1 + i / 5);
     record->scan.stamp = Time{Duration{100'000'000LL * (i / 5)}};
     record->pose.map_from_robot = {0.02 * i, 0.5, 0};
-    record->verdict.reasons = i == 0 ? Reason::kStopZone | Reason::kNoGoal : Reason::kNone;
+    record->verdict.reasons = i == 0             ? Reason::kStopZone | Reason::kNoGoal
+                              : i / 10 == 4      ? Reason::kMotionMismatch | Reason::kUnwatched
+                              : i == 70          ? Reason::kScanStale
+                              : i > 90 && i < 95 ? Reason::kEmergencyStop | Reason::kLatched
+                                                 : Reason::kNone;
     tracks[0].stamp = tracks[0].last_seen = record->scan.stamp;
     tracks[0].position_in_map = {1, 0.1 * i};
     const std::array<TrueMover, 1> movers{{{4, {1, 2}, {0, -0.4}, 0.25, i == 50}}};
@@ -110,6 +114,7 @@ TEST_CASE("the summary has every figure of the run") {
   CHECK(j["jerk_max_mps3"] == 0.0);
   CHECK(j["ticks"] == 101);
   CHECK(j["missed_ticks"] == 0);
+  CHECK(j["faults"] == 2);  // an emergency stop is none
   CHECK(j["not_recorded"].empty());
   CHECK(j["tick_ms"]["p50"] == 1.0);
   CHECK(j["tick_ms"]["max"] == 3.0);
