@@ -5,6 +5,8 @@
 #include <set>
 
 #include "apps/setup/robot_setup.h"
+#include "drivers/arcos/arcos.h"
+#include "drivers/can/byte_bus.h"
 #include "drivers/canopen/sdo_client.h"
 #include "drivers/motor/odrive.h"
 #include "drivers/motor/vesc.h"
@@ -16,6 +18,7 @@ namespace {
 constexpr Duration kListen = std::chrono::seconds(1);  ///< ODrives and VESCs speak ten times a second at least
 constexpr Duration kAnswerLimit = std::chrono::milliseconds(300);
 constexpr Duration kStep = std::chrono::milliseconds(2);  ///< two frames fit into it at 125 kbit/s
+constexpr int kPulses = 2;                                ///< to a Pioneer, at each rate
 constexpr std::uint8_t kLastNode = 127;
 constexpr std::uint32_t kDriveProfile = 402;
 
@@ -139,6 +142,22 @@ FoundDrives find_drives(CanBus& bus, Clock& clock) {
   if (odrives.empty() && vescs.empty()) return ask_canopen(bus, clock);
   if (vescs.empty()) return {DriveKind::kOdrive, odrives, ""};
   return {DriveKind::kVesc, vescs, odrives.empty() ? "" : "ODrives are there as well: " + listed(odrives)};
+}
+
+std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock) {
+  for (const std::uint32_t baud : {9600U, 115200U, 57600U, 38400U, 19200U}) {  // the factory's first
+    ByteBus line(wire::make_byte_link("", 0, device, baud), clock);
+    arcos::PacketReader reader;
+    const arcos::Packet pulse = arcos::packet_of({arcos::Command::kPulse});
+    for (int k = 0; k < kPulses; ++k) {
+      in_frames(pulse.on_line(), [&line](const CanFrame& frame) { static_cast<void>(line.send(frame)); });
+      clock.sleep_until(clock.now() + kAnswerLimit);
+      ReceivedFrame received;
+      while (line.receive(received)) reader.append(received.frame.payload());
+      if (!reader.next().empty()) return baud;
+    }
+  }
+  return {};
 }
 
 }  // namespace jaywalk

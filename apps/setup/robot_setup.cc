@@ -15,6 +15,7 @@ namespace jaywalk {
 namespace {
 
 constexpr const char* kFound = "found";
+constexpr const char* kPioneer = "pioneer";
 constexpr const char* kMeasured = "measured";  ///< for the name of a model file: its measures are asked for
 
 /// In the order of DriveKind: its name, and the key that says how much a turn of a wheel is.
@@ -129,6 +130,23 @@ class Setup {
     text += "mount = [0.0, 0.0, 0.0]\n";
     draft_.set_model(text);
   }
+  /// Looks on the line that the answers name, else on each without a scanner: only where a person spoke of a Pioneer.
+  void draft_pioneer() {
+    answers_.take_kind(kPioneer);
+    answers_.settle(draft_, "drive", "ticks_per_mm", "128", "a P3-DX's; jaywalk check compares it");
+    if (answers_.given("drive", "host")) return;
+    const std::string named = answers_.given_text("drive", "device");
+    for (const std::string& line : named.empty() ? machine_.serial_lines() : std::vector{named}) {
+      const auto has_line = [&line](const FoundScanner& scanner) { return place_of(scanner) == line; };
+      const auto baud = std::ranges::any_of(scanners_, has_line) ? std::nullopt : find_pioneer(line, clock_);
+      if (!baud) continue;
+      answers_.say("Found: a Pioneer's board at " + line);
+      draft_.set("drive", "device", literal(line), kFound);
+      return draft_.set("drive", "baud", std::to_string(*baud), kFound);
+    }
+    draft_.remark("No Pioneer answered.");
+    answers_.settle(draft_, "drive", "device");
+  }
   void draft_drives() {
     if (drives_.empty()) return draft_absent_drives();
     std::vector<std::string> words;
@@ -140,12 +158,13 @@ class Setup {
     if (!answers_.asks() && answers_.given_text("drive", "kind").empty())
       throw StartupError("setup: no drives were found" + (seen_.empty() ? ": no CAN interface" : ": " + seen_),
                          "see to power, wires and bit rate, or answer drive.kind, can, left_node and right_node");
-    draft_.remark("No drive answered" + (seen_.empty() ? ": no CAN interface." : ": " + seen_));
     answers_.settle(draft_, "drive", "kind", literal(kDriveKinds[0].kind));
     const std::string kind = draft_.value("drive", "kind");
+    if (kind == literal(kPioneer)) return draft_pioneer();
+    draft_.remark("No drive answered" + (seen_.empty() ? ": no CAN interface." : ": " + seen_));
     const auto keys = std::ranges::find_if(kDriveKinds, [&](const auto& each) { return literal(each.kind) == kind; });
     if (keys == kDriveKinds.end())
-      throw StartupError("setup: drive.kind is answered as " + kind, "choose cia402, odrive or vesc");
+      throw StartupError("setup: drive.kind is answered as " + kind, "choose cia402, odrive, vesc or pioneer");
     answers_.take_kind(keys->kind);
     answers_.settle(draft_, "drive", "can", literal("can0"), "a guess");
     draft_wheels(*keys, "", "");
@@ -307,6 +326,7 @@ class Setup {
   std::vector<BusFinding> drives_;
   std::string seen_;  ///< on interfaces without drives
   std::vector<FoundScanner> scanners_;
+  ByteWiring pioneer_;           ///< without a device: none
   std::set<std::string> taken_;  ///< places of the scanners in the draft
   bool others_answer_ = false;   ///< a scanner was found that the draft does not have
 };

@@ -67,6 +67,10 @@ struct FoundDrives {
 /// they are (1000h, 1018h); not beside ODrives, to which these questions could be orders (600h + node is axis 48 and
 /// up). Nothing is written and nothing moves. Takes about two seconds. Start-up only.
 [[nodiscard]] FoundDrives find_drives(CanBus& bus, Clock& clock);
+/// Says PULSE, which moves nothing and is SYNC 0 before a connection, at each rate that a Pioneer's board may have.
+/// Returns the one at which a whole packet comes back; none: no Pioneer answers. Takes up to three seconds. Start-up
+/// only.
+[[nodiscard]] std::optional<std::uint32_t> find_pioneer(const std::string& device, Clock& clock);
 
 // What a machine has that a robot's devices may hang on, as `jaywalk setup` sees it.
 

@@ -76,7 +76,7 @@ TEST_CASE("shards in folders of their own come to the report of one") {
   const std::string page = markdown_of(whole.page());
   CHECK(holds(page, "| A | 1 of 2 |"));
   CHECK(holds(page, "| the paper, on its own maps | 92.5 % |"));
-  CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 1 | 0 | 1 |"));
+  CHECK(holds(page, "| movers.count 4 | 1 of 2 | 50.0 % (9-91) | 1 | 0 | 0 | 0 | 0 | 2 | 1 | 0 | 0 | 1 |"));
   CHECK(holds(page, "1.20 / 1.20 / 1.20 | 5.0 / 5.0 / 5.0"));  // 12 m over 10 m; 25 s less 10 m at 0.5 m/s
   CHECK(holds(page, "| 0.35 / 0.20 / 0.20 |"));                // 5th percentile and least of two runs are the lesser
   CHECK(holds(page, "Success by scenario"));

@@ -1,21 +1,13 @@
 // `jaywalk setup` on a machine to which nothing is connected: what a person knows.
-#include <unistd.h>
-
 #include <filesystem>
 #include <fstream>
 #include <sstream>
 
-#include "apps/setup/robot_setup.h"
-#include "firmware/robot/robot_file.h"
-#include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
-#include "tests/support/catch.h"
+#include "tests/robot/emulated_machine.h"
 
 using namespace jaywalk;
 
 namespace {
-
-bool says(const std::string& text, const std::string& words) { return text.find(words) != std::string::npos; }
 
 /// Nothing is connected, and there is no CAN.
 class BareMachine final : public Surroundings {
@@ -84,4 +76,19 @@ TEST_CASE("a model file that the answers name is found beside them, wherever the
   std::ofstream(folder / "other" / "robot.toml") << draft_robot(machine, answers, clock).text();
   CHECK(load_robot_file(folder / "other" / "robot.toml").setup.model.name == "jackal");
   std::filesystem::remove_all(folder);
+}
+
+TEST_CASE("setup finds a Pioneer's board and an LMS200 on serial lines, and the file arms") {
+  EmulatedMachine machine("pioneer_lms200");
+  const RobotFile file = machine.drafted(
+      "model = \"p3dx\"\nstart = [2.0, 3.0, 1.2]\n[laser]\nkind = \"lms200\"\nrange_m = 8\n[drive]\nkind = "
+      "\"pioneer\"\n");
+  CAPTURE(machine.file_text);
+  CHECK(file.drive.kind == DriveKind::kPioneer);
+  CHECK(file.drive.line.device == machine.folder / "board");
+  CHECK(file.laser.device == machine.folder / "scanner");
+  CHECK(machine.robot->rim_speed() == 0.0);
+  const auto bus = make_bus(file.drive, machine.clock);
+  const auto drive = make_drive(file.drive, *bus, machine.clock);
+  CHECK(says(drive->arm()[0], ": Pioneer p3dx-sh"));
 }

@@ -78,8 +78,7 @@ struct PioneerBench {
 }  // namespace
 
 TEST_CASE("a Pioneer with an LMS200 drives from start to goal over a pseudo terminal and over TCP, at 50 and 20 Hz") {
-  for (const bool over_tcp : {false, true}) {
-    const int rate_hz = over_tcp ? 20 : 50;
+  for (const auto& [over_tcp, rate_hz] : {std::pair{false, 50}, {false, 20}, {true, 50}, {true, 20}}) {
     CAPTURE(over_tcp, rate_hz);
     PioneerBench bench(over_tcp, rate_hz);
     const std::vector<std::string> report = bench.arm();
