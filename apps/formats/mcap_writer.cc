@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cstring>
 
-#include "apps/formats/byte_file.h"
+#include "apps/formats/bag_file.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk::exchange {

@@ -7,8 +7,8 @@
 #include <thread>
 #include <vector>
 
-#include "apps/campaign/plan_text.h"
-#include "apps/campaign/run_pool.h"
+#include "apps/campaign/campaign.h"
+#include "apps/campaign/campaign_folder.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/progress.h"
 #include "hal/shown_text.h"

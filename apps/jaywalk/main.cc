@@ -6,8 +6,9 @@
 #include "apps/bench/bench.h"
 #include "apps/jaywalk/commands.h"
 #include "apps/jaywalk/man_page.h"
-#include "apps/jaywalk/run_observers.h"
+#include "apps/view/run_view.h"
 #include "apps/why/why.h"
+#include "firmware/backends.h"
 #include "firmware/program/program.h"
 #include "hal/robot_model_file.h"
 #include "hal/setting_keys.h"
@@ -37,6 +38,42 @@ constexpr std::array<Footer, 13> kFooters{{
     {"config", "config --explain laser.rate_hz", "explained", "-"},
 }};
 
+std::uint16_t port_of(const std::string& word) {
+  std::uint16_t port = 0;
+  const auto [end, error] = std::from_chars(word.data(), word.data() + word.size(), port);
+  if (error == std::errc() && end == word.data() + word.size()) return port;
+  throw StartupError("--view: " + shown(word) + " is no port",
+                     "give a whole number from 0 to 65535 (0: any that is free)");
+}
+
+/// --view [PORT], --view-address, --view-certificate and --view-origin. Parsing throws StartupError for what is no
+/// port.
+void add_view(CLI::App& command, std::optional<view::ViewAddress>& chosen) {
+  const auto here = [&chosen]() -> view::ViewAddress& { return chosen ? *chosen : chosen.emplace(); };
+  command
+      .add_option_function<std::string>(
+          "--view", [here](const std::string& word) { here().port = word.empty() ? std::uint16_t{0} : port_of(word); },
+          "Serve the live page; its address is printed (default port: any that is free)")
+      ->expected(0, 1)
+      ->type_name("PORT");
+  command
+      .add_option_function<std::string>(
+          "--view-address", [here](const std::string& word) { here().address = word; },
+          "Serve it on this IPv4 address, by TLS and with a token (default: 127.0.0.1, this machine alone)")
+      ->type_name("ADDRESS");
+  command
+      .add_option_function<std::string>(
+          "--view-certificate", [here](const std::string& word) { here().certificate = word; },
+          "Certificate and key for TLS, in PEM (default: self-signed)")
+      ->type_name("FILE");
+  command
+      .add_option_function<std::string>(
+          "--view-origin", [here](const std::string& word) { here().origin = word; },
+          "Pages of this site may look and steer too, such as a Foxglove that is served from there")
+      ->type_name("https://SITE");
+}
+
+std::optional<view::ViewAddress> run_page;
 SimOptions sim_options;
 ReplayOptions replay_options;
 FieldOptions field_options;
@@ -219,6 +256,14 @@ void add_campaign(CLI::App& app, int& exit_code) {
   command->callback([&exit_code] { exit_code = run_campaign(campaign_options); });
 }
 
+/// Tables and pictures, and the live page where it was asked for.
+std::unique_ptr<TickObserver> observe_run(const RunOptions& options, const RobotFile& file,
+                                          const std::filesystem::path& control_socket) {
+  if (!run_page) return std::make_unique<RunObserver>();
+  return std::make_unique<RunView>(*run_page, control_socket, options.robot.filename().string(), file.setup,
+                                   map_for(file.setup));
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -230,7 +275,7 @@ int main(int argc, char** argv) {
          {add_sim, add_replay, add_field, add_bench, add_faults, add_export, add_why, add_campaign, add_report})
       add(to, exit_code);
     add_robot_commands(to, exit_code, observe);
-    add_run_view(to);
+    add_view(*to.get_subcommand("run"), run_page);
     for (const auto add : {add_commission, add_calibrate, add_setup, add_config}) add(to, exit_code);
     add_footers(to, kFooters);
     add_manual_options(to);

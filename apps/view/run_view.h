@@ -7,7 +7,7 @@
 #include "apps/report/run_observer.h"
 #include "apps/view/live_view.h"
 #include "apps/view/secret.h"
-#include "apps/view/view_snapshot.h"
+#include "apps/view/view_scene.h"
 
 namespace jaywalk {
 /// The live page of a run on a robot: 25 ticks a second through a ring, goals, stops and resets through the run's

@@ -11,19 +11,13 @@ namespace {
 
 constexpr Duration kArmingStep = std::chrono::milliseconds(1);
 
-WheelAxis checked_axis(const DriveBaseSetup& setup, std::size_t side) {
-  const AxisSetup& axis = setup.axes[side];
-  const bool node_fits = axis.node >= 1 && axis.node <= 127 && axis.node != setup.settings.controller_node;
-  if (!node_fits || !std::isfinite(axis.counts_per_rad) || axis.counts_per_rad == 0.0) {
-    throw StartupError(std::string(side == 0 ? "left" : "right") + " drive: cannot be set up so",
-                       "give it a node from 1 to 127 other than the controller's, and its counts per radian");
-  }
-  return WheelAxis(axis);
+WheelAxis axis_of(const DriveBaseSetup& setup, std::size_t side) {
+  return {setup.axes[side], std::chrono::milliseconds(setup.settings.heartbeat_ms)};
 }
 
 DriveProof proof_for(CanBus& bus, const DriveBaseSetup& setup, std::size_t side) {
   DriveProofSetup proof{setup.settings, setup.answer_timeout, setup.starting, setup.allow_unproved};
-  const double counts = setup.stop.tolerance_radps * std::fabs(setup.axes[side].counts_per_rad);
+  const double counts = setup.stop.tolerance_radps * std::fabs(setup.axes[side].per_rad);
   proof.settings.standstill = static_cast<std::uint32_t>(std::fmin(counts, 2147483647.0));
   return {bus, setup.axes[side].node, proof};
 }
@@ -34,12 +28,11 @@ CanopenDriveBase::CanopenDriveBase(CanBus& bus, Clock& clock, const DriveBaseSet
     : bus_(bus),
       clock_(clock),
       setup_(setup),
-      axes_{checked_axis(setup, 0), checked_axis(setup, 1)},
+      axes_{axis_of(setup, 0), axis_of(setup, 1)},
       proofs_{proof_for(bus, setup, 0), proof_for(bus, setup, 1)},
       masters_(masters_identifiers(setup.settings.controller_node, {setup.axes[0].node, setup.axes[1].node})),
       ladder_(setup.stop) {
-  if (setup.axes[0].node == setup.axes[1].node)
-    throw StartupError("drives: both have node " + std::to_string(setup.axes[0].node), "give each a node of its own");
+  require_axes(setup.axes, {"node", 1, 127, setup.settings.controller_node});
 }
 
 std::vector<std::string> CanopenDriveBase::arm() {

@@ -13,7 +13,7 @@
 namespace jaywalk::canopen {
 
 struct DriveBaseSetup {
-  std::array<AxisSetup, 2> axes;  ///< left, right
+  std::array<CanAxis, 2> axes;  ///< left, right: counts a radian of the wheel
   DriveSettings settings;
   StopLimits stop;
   Duration listening = std::chrono::milliseconds(300);       ///< for another master, before anything is sent

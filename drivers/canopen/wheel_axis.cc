@@ -8,9 +8,9 @@
 namespace jaywalk::canopen {
 namespace {
 
-std::int32_t to_counts(double speed_radps, double counts_per_rad) noexcept {
+std::int32_t to_counts(double speed_radps, double per_rad) noexcept {
   constexpr double kMost = 2147483647.0;
-  const double counts = std::clamp(speed_radps * counts_per_rad, -kMost, kMost);
+  const double counts = std::clamp(speed_radps * per_rad, -kMost, kMost);
   return static_cast<std::int32_t>(counts < 0.0 ? counts - 0.5 : counts + 0.5);
 }
 
@@ -33,8 +33,9 @@ std::string kind_of(std::uint32_t id) {
 
 }  // namespace
 
-WheelAxis::WheelAxis(const AxisSetup& setup) noexcept
+WheelAxis::WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept
     : setup_(setup),
+      heartbeat_(heartbeat),
       command_mapping_(command_pdo(setup.node).mapping),
       status_mapping_(status_pdo(setup.node).mapping),
       position_mapping_(position_pdo(setup.node).mapping) {}
@@ -50,7 +51,7 @@ void WheelAxis::take(const ReceivedFrame& received) noexcept {
 
 // A boot-up may be followed by "operational" at once, from a drive that starts itself: it is kept.
 void WheelAxis::take_heartbeat(NmtState state, Time stamp) noexcept {
-  has_twin_ = !heartbeats_.take_at(stamp, setup_.heartbeat) || has_twin_;
+  has_twin_ = !heartbeats_.take_at(stamp, heartbeat_) || has_twin_;
   network_ = state;
   heard_ = stamp;
   restarted_ = restarted_ || state == NmtState::kBootUp;
@@ -65,7 +66,7 @@ void WheelAxis::take_status(const ReceivedFrame& received) noexcept {
   if (!values) return;
   state_ = state_of(static_cast<std::uint16_t>((*values)[0]));
   const auto counts = static_cast<double>(static_cast<std::int32_t>((*values)[1]));
-  feedback_ = {counts / setup_.counts_per_rad, received.stamp};
+  feedback_ = {counts / setup_.per_rad, received.stamp};
   mode_ = static_cast<std::uint8_t>((*values)[2]);
   fresh_status_ = true;
   unanswered_since_ = kNever;
@@ -78,7 +79,7 @@ void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
   if (!values) return;
   const std::uint32_t raw = (*values)[0];
   const std::int32_t counted = has_position_ ? static_cast<std::int32_t>(raw - raw_position_) : 0;
-  if (jumps(counted / setup_.counts_per_rad, feedback_.speed_radps, to_seconds(age(placed_, received.stamp)))) {
+  if (jumps(counted / setup_.per_rad, feedback_.speed_radps, to_seconds(age(placed_, received.stamp)))) {
     restarted_ = true;
     left_network_ = DriveTrouble::kDriveRestarted;
   } else {
@@ -90,7 +91,7 @@ void WheelAxis::take_position(const ReceivedFrame& received) noexcept {
   fresh_position_ = true;
 }
 
-double WheelAxis::turned_rad() const noexcept { return static_cast<double>(counts_) / setup_.counts_per_rad; }
+double WheelAxis::turned_rad() const noexcept { return static_cast<double>(counts_) / setup_.per_rad; }
 
 // A drive that restarted, or may have, counts from where it likes: its position goes on from the next that comes.
 bool WheelAxis::begin(Time heard, Time settled, bool heard_all) noexcept {
@@ -143,7 +144,7 @@ CanFrame WheelAxis::target(DriveGoal goal, double wanted_radps) noexcept {
   const std::uint16_t controlword = controlword_towards(goal, state_, resets_fault_);
   if (state_ != DriveState::kUnknown) resets_fault_ = false;
   goal_ = goal;
-  const std::int32_t target = to_counts(wanted_radps, setup_.counts_per_rad);
+  const std::int32_t target = to_counts(wanted_radps, setup_.per_rad);
   const std::array<std::uint32_t, 2> values{controlword, static_cast<std::uint32_t>(target)};
   return pack(command_mapping_, 0x200U + setup_.node, values).value_or(CanFrame{});
 }

@@ -6,20 +6,12 @@
 
 #include "drivers/can/can_bus.h"
 #include "drivers/canopen/cia402.h"
-#include "drivers/canopen/pdo.h"
 #include "drivers/stop_ladder.h"
 #include "drivers/wired_drive.h"
 #include "hal/types/fixed_vector.h"
 #include "hal/types/wheels.h"
 
 namespace jaywalk::canopen {
-
-/// One wheel's drive. Its velocity counts are counts a second, its position counts are counts.
-struct AxisSetup {
-  std::uint8_t node = 0;
-  double counts_per_rad = 0.0;  ///< of the wheel; negative where the motor is mounted the other way round
-  Duration heartbeat = std::chrono::milliseconds(50);  ///< 1017h
-};
 
 /// When a drive that was proved counts as lost.
 struct AxisLimits {
@@ -33,7 +25,8 @@ struct AxisLimits {
 class WheelAxis {
  public:
   WheelAxis() = default;
-  explicit WheelAxis(const AxisSetup& setup) noexcept;
+  /// `heartbeat`: period of the drive's own, 1017h.
+  WheelAxis(const CanAxis& setup, Duration heartbeat) noexcept;
 
   /// Any frame of the bus; those that are not this drive's are passed over.
   void take(const ReceivedFrame& received) noexcept;
@@ -56,7 +49,7 @@ class WheelAxis {
   /// The quick stop as an SDO request, which a drive takes that takes no process data (Pre-operational).
   [[nodiscard]] CanFrame quick_stop_request() const noexcept;
 
-  [[nodiscard]] const AxisSetup& setup() const noexcept { return setup_; }
+  [[nodiscard]] const CanAxis& setup() const noexcept { return setup_; }
   [[nodiscard]] bool is_enabled() const noexcept { return state_ == DriveState::kOperationEnabled; }
   /// Enabled, and in the mode that takes speeds. Many drives show their mode (6061h) only once enabled, and late.
   [[nodiscard]] bool follows_speeds() const noexcept { return is_enabled() && mode_ == kProfileVelocityMode; }
@@ -76,7 +69,8 @@ class WheelAxis {
   void take_position(const ReceivedFrame& received) noexcept;
   [[nodiscard]] DriveTrouble mode_trouble(Time now, Duration showing, bool was_enabled) noexcept;
 
-  AxisSetup setup_;
+  CanAxis setup_;
+  Duration heartbeat_{};
   PdoMapping command_mapping_, status_mapping_, position_mapping_;
   // What it says.
   NmtState network_ = NmtState::kBootUp;

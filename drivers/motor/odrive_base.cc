@@ -10,15 +10,7 @@ OdriveBase::OdriveBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock,
                 {setup.silence_limit, setup.settling, std::chrono::seconds(1), setup.stop, setup.allow_unproved}),
       setup_(setup) {
-  for (std::size_t k = 0; k < setup.axes.size(); ++k) {
-    const AxisSetup& axis = setup.axes[k];
-    if (axis.node > 62 || !std::isfinite(axis.turns_per_rad) || axis.turns_per_rad == 0.0)
-      throw StartupError(who(k) + "cannot be set up so", "give it a node from 0 to 62 and its turns per radian");
-  }
-  if (setup.axes[0].node == setup.axes[1].node) {
-    throw StartupError("ODrive axes: both have node " + std::to_string(setup.axes[0].node),
-                       "give each a node of its own");
-  }
+  require_axes(setup.axes, {"ODrive node", 0, 62});
 }
 
 std::string OdriveBase::who(std::size_t index) const {
@@ -54,7 +46,7 @@ std::string OdriveBase::proof_line(std::size_t index) const { return who(index) 
 std::string OdriveBase::proof_remedy(std::size_t index) const { return proofs_[index].remedy(); }
 
 void OdriveBase::take(const ReceivedFrame& received) noexcept {
-  for (const AxisSetup& axis_setup : setup_.axes)
+  for (const CanAxis& axis_setup : setup_.axes)
     if (is_order(received.frame, axis_setup.node)) return note_foreign(received.frame);
   const auto message = decode(received.frame);
   if (!message) return;
@@ -86,7 +78,7 @@ void OdriveBase::take_heartbeat(std::size_t index, const Heartbeat& heartbeat, T
 
 void OdriveBase::take_estimates(std::size_t index, const EncoderEstimates& estimates, Time stamp) noexcept {
   Seen& seen = seen_[index];
-  const double turns_per_rad = setup_.axes[index].turns_per_rad;
+  const double turns_per_rad = setup_.axes[index].per_rad;
   const double turned = static_cast<double>(estimates.position_turns) - static_cast<double>(seen.position_turns);
   seen.position_turns = estimates.position_turns;
   note_turned(index, stamp, turned / turns_per_rad);
@@ -102,18 +94,13 @@ void OdriveBase::send_order(std::size_t index, MotorOrder order, double speed_ra
     send(set_velocity_mode(node, true));
     send(set_axis_state(node, AxisState::kClosedLoop));
   }
-  send(set_velocity(node, static_cast<float>(speed_radps * setup_.axes[index].turns_per_rad)));
+  send(set_velocity(node, static_cast<float>(speed_radps * setup_.axes[index].per_rad)));
 }
 
 void OdriveBase::send_reset(std::size_t index) noexcept {
   send(set_velocity_mode(setup_.axes[index].node, true));
   send(set_velocity(setup_.axes[index].node, 0.0F));
   send(clear_errors(setup_.axes[index].node));
-}
-
-// Whether a frame is taken changes nothing: there is no third way, and it is said again as long as it has to be.
-void Stopper::brake() noexcept {
-  for (const std::uint8_t node : nodes_) static_cast<void>(bus_.send(set_velocity(node, 0.0F)));
 }
 
 }  // namespace jaywalk::odrive

@@ -9,13 +9,8 @@
 
 namespace jaywalk::odrive {
 
-struct AxisSetup {
-  std::uint8_t node = 0;       ///< 0 to 62
-  double turns_per_rad = 0.0;  ///< of the motor to the wheel's; negative where it is mounted the other way round
-};
-
 struct BaseSetup {
-  std::array<AxisSetup, 2> axes;  ///< left, right
+  std::array<CanAxis, 2> axes;  ///< left, right: turns of the motor a radian of the wheel
   /// A watchdog that did not show itself so long after the last command is not proved. The heartbeat that shows it adds
   /// to what the watchdog takes: heartbeat_msg_rate_ms of 10 and watchdog_timeout of 0.06 fit.
   Duration watchdog_limit = std::chrono::milliseconds(100);
@@ -63,18 +58,6 @@ class OdriveBase final : public MotorPair {
   BaseSetup setup_;
   std::array<Seen, 2> seen_;
   std::array<WatchdogProof, 2> proofs_;
-};
-
-/// Tells two axes to stand still, over a place of its own on their bus.
-class Stopper final : public EmergencyBrake {
- public:
-  /// `bus` outlives it and belongs to the thread that brakes.
-  Stopper(CanBus& bus, std::array<std::uint8_t, 2> nodes) noexcept : bus_(bus), nodes_(nodes) {}
-  void brake() noexcept override;
-
- private:
-  CanBus& bus_;
-  std::array<std::uint8_t, 2> nodes_;
 };
 
 }  // namespace jaywalk::odrive

@@ -29,23 +29,10 @@ std::int32_t to_erpm(double speed_radps, double electrical_turns_per_rad) noexce
 VescBase::VescBase(CanBus& bus, Clock& clock, const BaseSetup& setup)
     : MotorPair(bus, clock, {setup.silence_limit, setup.settling, kAnswerLimit, setup.stop, setup.allow_unproved}),
       setup_(setup) {
-  for (std::size_t k = 0; k < setup.axes.size(); ++k) {
-    const AxisSetup& axis = setup.axes[k];
-    const double turns = axis.electrical_turns_per_rad;
-    if (axis.controller > 253 || axis.controller == setup.own || !std::isfinite(turns) || turns == 0.0) {
-      throw StartupError(who(k) + "cannot be set up so",
-                         "give it a number from 0 to 253 other than ours, and its electrical turns per radian");
-    }
-  }
-  if (setup.axes[0].controller == setup.axes[1].controller) {
-    throw StartupError("VESCs: both have number " + std::to_string(setup.axes[0].controller),
-                       "give each a number of its own");
-  }
+  require_axes(setup.axes, {"VESC", 0, 253, setup.own});
 }
 
-std::string VescBase::who(std::size_t index) const {
-  return "VESC " + std::to_string(setup_.axes[index].controller) + ": ";
-}
+std::string VescBase::who(std::size_t index) const { return "VESC " + std::to_string(setup_.axes[index].node) + ": "; }
 
 StartupError VescBase::absence(std::size_t index) const {
   return {who(index) + (axis(index).heard == kNever ? "no status message 1" : "no status message 5"),
@@ -58,7 +45,7 @@ void VescBase::begin_proof(std::size_t index) noexcept {
   seen.settings.reset();
   seen.answered = seen.torque_on = false;
   seen.asked = clock().now();
-  send(ask_settings(setup_.axes[index].controller, setup_.own));
+  send(ask_settings(setup_.axes[index].node, setup_.own));
 }
 
 ProofResult VescBase::continue_proof(std::size_t index) noexcept {
@@ -102,15 +89,15 @@ void VescBase::take(const ReceivedFrame& received) noexcept {
     if (!message || !take_answer(*message, received.stamp)) note_foreign(frame);
     return;
   }
-  for (const AxisSetup& axis_setup : setup_.axes)
-    if (is_order(frame, axis_setup.controller)) return note_foreign(frame);
+  for (const CanAxis& axis_setup : setup_.axes)
+    if (is_order(frame, axis_setup.node)) return note_foreign(frame);
   for (std::size_t k = 0; message && k < setup_.axes.size(); ++k)
-    if (message->controller == setup_.axes[k].controller) take_own(k, *message, received.stamp);
+    if (message->controller == setup_.axes[k].node) take_own(k, *message, received.stamp);
 }
 
 void VescBase::take_own(std::size_t index, const Message& message, Time stamp) noexcept {
   Seen& seen = seen_[index];
-  const double turns = setup_.axes[index].electrical_turns_per_rad;
+  const double turns = setup_.axes[index].per_rad;
   if (const auto* travel = std::get_if<Travel>(&message.content)) {
     const auto raw = static_cast<std::uint32_t>(travel->sixths_of_electrical_turn);
     note_turned(index, stamp, counted(seen.travel, raw) / (6.0 * turns));
@@ -135,7 +122,7 @@ bool VescBase::take_answer(const Message& message, Time stamp) noexcept {
   }
   const auto* end = std::get_if<PiecesEnd>(&message.content);
   for (std::size_t k = 0; end != nullptr && k < setup_.axes.size(); ++k) {
-    if (end->from != setup_.axes[k].controller || !is_awaited(k, stamp)) continue;
+    if (end->from != setup_.axes[k].node || !is_awaited(k, stamp)) continue;
     seen_[k].settings = reader_.finish(*end);
     seen_[k].answered = true;
     reader_.begin();
@@ -146,7 +133,7 @@ bool VescBase::take_answer(const Message& message, Time stamp) noexcept {
 
 bool VescBase::take_fault(const Fault& fault) noexcept {
   for (std::size_t k = 0; k < setup_.axes.size(); ++k) {
-    if (fault.from != setup_.axes[k].controller || seen_[k].open_asks == 0) continue;
+    if (fault.from != setup_.axes[k].node || seen_[k].open_asks == 0) continue;
     --seen_[k].open_asks;
     seen_[k].fault = fault.code;
     if (fault.code != 0) report_fault(DriveTrouble::kDriveFault, {DriveFaultKind::kVesc, fault.from, fault.code});
@@ -156,26 +143,26 @@ bool VescBase::take_fault(const Fault& fault) noexcept {
 }
 
 void VescBase::send_order(std::size_t index, MotorOrder order, double speed_radps) noexcept {
-  const AxisSetup& axis_setup = setup_.axes[index];
+  const CanAxis& axis_setup = setup_.axes[index];
   Seen& seen = seen_[index];
   seen.torque_on = order == MotorOrder::kHold || order == MotorOrder::kRun;
   const double brake_a = seen.settings ? std::clamp(seen.settings->brake_current_a, 0.0, kMostBrake_a) : 0.0;
   if (order == MotorOrder::kOff) {
     note_obeys(index, false);  // being told is enough: it cannot say that it let go
-    send(set_current(axis_setup.controller, 0));
+    send(set_current(axis_setup.node, 0));
   } else if (order == MotorOrder::kNetworkStop && brake_a > 0.0) {
-    send(set_brake_current(axis_setup.controller, static_cast<std::int32_t>(1000.0 * brake_a)));
+    send(set_brake_current(axis_setup.node, static_cast<std::int32_t>(1000.0 * brake_a)));
   } else {
-    const std::int32_t erpm = to_erpm(speed_radps, axis_setup.electrical_turns_per_rad);
+    const std::int32_t erpm = to_erpm(speed_radps, axis_setup.per_rad);
     hold_to_speed(index, order == MotorOrder::kRun, erpm);
-    send(set_erpm(axis_setup.controller, erpm));
+    send(set_erpm(axis_setup.node, erpm));
   }
   ask_for_fault(index);
 }
 
 void VescBase::hold_to_speed(std::size_t index, bool runs, std::int32_t erpm) noexcept {
   Seen& seen = seen_[index];
-  const std::uint8_t controller = setup_.axes[index].controller;
+  const std::uint8_t controller = setup_.axes[index].node;
   const Time now = clock().now();
   const double erpm_told = std::fabs(static_cast<double>(erpm));
   if (seen.travel != std::exchange(seen.stood_at, seen.travel)) {
@@ -193,12 +180,7 @@ void VescBase::ask_for_fault(std::size_t index) noexcept {
   constexpr std::uint32_t kMostOpen = 5;  // answers may be late or lost, and one that nobody asked for must stand out
   Seen& seen = seen_[index];
   seen.open_asks = std::min(seen.open_asks + 1, kMostOpen);
-  send(ask_fault(setup_.axes[index].controller, setup_.own));
-}
-
-// Whether a frame is taken changes nothing: there is no third way, and it is said again as long as it has to be.
-void Stopper::brake() noexcept {
-  for (const std::uint8_t controller : controllers_) static_cast<void>(bus_.send(set_erpm(controller, 0)));
+  send(ask_fault(setup_.axes[index].node, setup_.own));
 }
 
 }  // namespace jaywalk::vesc

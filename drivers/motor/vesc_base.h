@@ -9,16 +9,9 @@
 
 namespace jaywalk::vesc {
 
-struct AxisSetup {
-  std::uint8_t controller = 0;
-  /// Electrical turns of the motor to a radian of the wheel: pole pairs times gear ratio over 2 pi; negative where it
-  /// is mounted the other way round.
-  double electrical_turns_per_rad = 0.0;
-};
-
 struct BaseSetup {
-  std::array<AxisSetup, 2> axes;  ///< left, right
-  std::uint8_t own = 254;         ///< whom the controllers answer
+  std::array<CanAxis, 2> axes;  ///< left, right: electrical turns a radian of the wheel
+  std::uint8_t own = 254;       ///< whom the controllers answer
   /// Shortest and longest timeout that a controller may be set to: it must outlast two commands, and a controller looks
   /// at its timeout every 10 ms.
   Duration timeout_least = std::chrono::milliseconds(40), timeout_most = std::chrono::milliseconds(90);
@@ -80,18 +73,6 @@ class VescBase final : public MotorPair {
   BaseSetup setup_;
   std::array<Seen, 2> seen_;
   SettingsReader reader_;
-};
-
-/// Tells two controllers to stand still, over a place of its own on their bus.
-class Stopper final : public EmergencyBrake {
- public:
-  /// `bus` outlives it and belongs to the thread that brakes.
-  Stopper(CanBus& bus, std::array<std::uint8_t, 2> controllers) noexcept : bus_(bus), controllers_(controllers) {}
-  void brake() noexcept override;
-
- private:
-  CanBus& bus_;
-  std::array<std::uint8_t, 2> controllers_;
 };
 
 }  // namespace jaywalk::vesc

@@ -14,7 +14,7 @@
 #include "drivers/panel/joystick.h"
 #include "firmware/backends.h"
 #include "firmware/robot/control_socket.h"
-#include "firmware/robot/operator_controls.h"
+#include "firmware/robot/operator_desk.h"
 #include "firmware/robot/robot_devices.h"
 #include "firmware/safety/blind_gaps.h"
 #include "firmware/safety/stop_zone.h"

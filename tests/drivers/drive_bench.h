@@ -134,7 +134,7 @@ struct Odrive {
   static constexpr double kPerRad = 2.0;  ///< turns
   static Setup setup() {
     Setup setup;
-    setup.axes = {odrive::AxisSetup{3, kPerRad}, odrive::AxisSetup{4, -kPerRad}};
+    setup.axes = {CanAxis{3, kPerRad}, CanAxis{4, -kPerRad}};
     setup.stop = {.brake_radps2 = 8.0, .tolerance_radps = 0.5};
     return setup;
   }
@@ -150,7 +150,7 @@ struct Vesc {
   static constexpr double kPerRad = 25.0;  ///< electrical turns
   static Setup setup() {
     Setup setup;
-    setup.axes = {vesc::AxisSetup{23, kPerRad}, vesc::AxisSetup{24, -kPerRad}};
+    setup.axes = {CanAxis{23, kPerRad}, CanAxis{24, -kPerRad}};
     setup.stop = {.brake_radps2 = 15.0, .tolerance_radps = 0.5};
     return setup;
   }

@@ -2,8 +2,8 @@
 
 #include <regex>
 
-#include "apps/report/picture/playback.h"
 #include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
 #include "tests/recording/made_scene.h"
 #include "tests/recording/scratch.h"

@@ -12,7 +12,7 @@
 #include "hal/types/errors.h"
 #include "hil/emulators/byte_server.h"
 #include "hil/emulators/sick_server.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

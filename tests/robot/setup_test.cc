@@ -9,7 +9,7 @@
 #include "firmware/robot/robot_devices.h"
 #include "hal/robot_model_file.h"
 #include "hal/types/errors.h"
-#include "hil/far_end/in_process_robot.h"
+#include "hil/far_end/simulated_robot.h"
 #include "tests/support/catch.h"
 
 using namespace jaywalk;

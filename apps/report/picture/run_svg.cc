@@ -7,8 +7,8 @@
 #include <set>
 
 #include "apps/report/markup.h"
-#include "apps/report/picture/playback.h"
 #include "apps/report/picture/run_layers.h"
+#include "apps/report/picture/scene.h"
 #include "hal/types/errors.h"
 
 namespace jaywalk {
