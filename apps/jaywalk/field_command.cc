@@ -7,7 +7,6 @@
 
 #include "apps/bench/bench.h"
 #include "apps/jaywalk/commands.h"
-#include "apps/jaywalk/map_cells.h"
 #include "apps/rivals/paper_mode.h"
 #include "hal/shown_text.h"
 #include "hal/types/errors.h"

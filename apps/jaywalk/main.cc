@@ -5,7 +5,6 @@
 
 #include "apps/bench/bench.h"
 #include "apps/jaywalk/commands.h"
-#include "apps/jaywalk/man_page.h"
 #include "apps/view/run_view.h"
 #include "apps/why/why.h"
 #include "firmware/backends.h"
